@@ -5,34 +5,36 @@ from __future__ import annotations
 import math
 from bisect import bisect_right
 from collections.abc import Callable
-from functools import cache
 
 from geneva_cli.numerics.tolerances import ROUNDED
+
+# Rounded numbers of all decades of sizes, 10 to 90 times each power of ten.
+_TENS = (10, 11, 12, 14, 16, 18, 20, 22, 25, 28, 30, 35, 40, 45, 50, 55, 60, 70, 80, 90)
+_ROUNDED = tuple(float(f"{n}e{power}") for power in range(-20, 16) for n in _TENS)
+# Bores of radial bearings by ISO 15, mm.
+_SMALL = (1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 12.0, 15.0, 17.0)
+_LARGE = map(float, (*range(20, 110, 5), *range(110, 200, 10), *range(200, 501, 20)))
+_BORES = (*_SMALL, *_LARGE)
 
 
 def rounded_below(most: float) -> float:
     """Return the greatest rounded number up to ``most``, of the series R''20 of ISO 497; or 0."""
-    numbers = _rounded()
-    i = bisect_right(numbers, most * (1.0 + ROUNDED))
-    return numbers[i - 1] if i else 0.0
+    i = bisect_right(_ROUNDED, most * (1.0 + ROUNDED))
+    return _ROUNDED[i - 1] if i else 0.0
 
 
-def rounded_from(least: float, most: float) -> list[float]:
-    """Return ``least``, and after it the rounded numbers up to ``most``."""
-    return _from(_rounded(), least, most)
+def sizes_from(least: float, most: float, bores: bool = False) -> list[float]:
+    """Return ``least``, and after it the rounded numbers up to ``most``.
 
-
-def bores_from(least: float, most: float) -> list[float]:
-    """Return ``least``, and after it the bores of standard bearings up to ``most`` mm."""
-    bores = _bores()
-    return _from(bores if bores[0] <= least <= most <= bores[-1] else _rounded(), least, most)
-
-
-def _from(numbers: tuple[float, ...], least: float, most: float) -> list[float]:
+    Of ``bores`` those of standard bearings, where both are in their range, mm.
+    """
+    numbers = _ROUNDED
+    if bores and _BORES[0] <= least <= most <= _BORES[-1]:
+        numbers = _BORES
     if not 0.0 < least < most:
         return [least]
-    first, end = (bisect_right(numbers, x * (1.0 + ROUNDED)) for x in (least, most))
-    return [least, *numbers[first:end]]
+    first = bisect_right(numbers, least * (1.0 + ROUNDED))
+    return [least, *numbers[first : bisect_right(numbers, most * (1.0 + ROUNDED))]]
 
 
 def rounded_radius(most: float) -> float:
@@ -42,25 +44,10 @@ def rounded_radius(most: float) -> float:
 
 def bore_radius(most: float) -> float:
     """Return the radius up to ``most`` mm of a standard bearing's bore; or 0."""
-    bores, widest = _bores(), 2.0 * most
-    if not bores[0] <= widest <= bores[-1]:
-        return rounded_radius(most)
-    return 0.5 * bores[bisect_right(bores, widest * (1.0 + ROUNDED)) - 1]
-
-
-@cache
-def _rounded() -> tuple[float, ...]:
-    """Return the rounded numbers of all decades of sizes, 10 to 90 times each power of ten."""
-    tens = (10, 11, 12, 14, 16, 18, 20, 22, 25, 28, 30, 35, 40, 45, 50, 55, 60, 70, 80, 90)
-    return tuple(float(f"{n}e{power}") for power in range(-20, 16) for n in tens)
-
-
-@cache
-def _bores() -> tuple[float, ...]:
-    """Return the bores of radial bearings by ISO 15, mm, from 1 to 500."""
-    small = (1, 1.5, 2, 2.5, 3, 4, 5, 6, 7, 8, 9, 10, 12, 15, 17)
-    large = (*range(20, 110, 5), *range(110, 200, 10), *range(200, 501, 20))
-    return tuple(float(d) for d in (*small, *large))
+    widest = 2.0 * most
+    if not _BORES[0] <= widest <= _BORES[-1]:
+        return 0.5 * rounded_below(widest)
+    return 0.5 * _BORES[bisect_right(_BORES, widest * (1.0 + ROUNDED)) - 1]
 
 
 def to_digits(value: float, digits: int, way: Callable[[float], int]) -> float:

@@ -56,19 +56,23 @@ class ByLoad(NamedTuple):
     @property
     def words(self) -> str:
         """The sizes in words, as "crank shaft 12, pin 7"; empty without any."""
-        texts = (NAMES[key].format(self.sizes[key].value) for key in NAMES if key in self.sizes)
-        return ", ".join(dict.fromkeys(text for text in texts if not text.endswith(" 0")))
+        texts = dict[str, None]()  # once, in this order
+        for key, name in NAMES.items():
+            if key in self.sizes and self.sizes[key].value:
+                texts[name.format(self.sizes[key].value)] = None
+        return ", ".join(texts)
 
     @property
     def changes(self) -> str:
         """The sizes that were chosen anew, as "crank shaft 12 → 17 mm"; empty if none was."""
-        texts = []
+        texts = dict[str, None]()
         for key, name in NAMES.items():
-            now, was = (sizes[key].value if key in sizes else 0.0 for sizes in self)
-            # a bore of 0 ends the shaft in the arm, whose bore is a key of its own
-            if now and was and now != was:
-                texts.append(name.format(was).replace(f"{was:g}", f"{was:g} → {now:g} mm"))
-        return ", ".join(dict.fromkeys(texts))
+            if key in self.sizes and key in self.before:
+                now, was = self.sizes[key].value, self.before[key].value
+                # a bore of 0 ends the shaft in the arm, whose bore is a key of its own
+                if now and was and now != was:
+                    texts[name.format(was).replace(f"{was:g}", f"{was:g} → {now:g} mm")] = None
+        return ", ".join(texts)
 
     @property
     def record(self) -> dict[str, dict[str, float | str | None]]:
@@ -93,7 +97,7 @@ def chosen(
     Chosen(value=5.0, why='default L/20')
     """
     size, out = mechanism.spec.size, {}
-    values = {**key_sizes(mechanism).values, **details}
+    values = {**key_sizes(mechanism)[0], **details}
     loaded, meanings = by_load(mechanism), {field.key: field.meaning for field in fields(Size)}
     for key, own in size.as_dict().items():
         if own is not None or key not in values or not _is_written(mechanism, key, values):
@@ -120,12 +124,9 @@ def by_load(mechanism: Mechanism) -> dict[str, Chosen]:
     """
     if not mechanism.spec.is_loaded:
         return {}
-    values, keys = key_sizes(mechanism)
-    armed = "arm_bore_mm" in values
-    own = [key for key in keys if key in values and (armed or key != "arm_thickness_mm")]
-    held = [key for key in own if _is_written(mechanism, key, values)]
-    if not held:
-        return {}
+    (values, keys), out = key_sizes(mechanism), dict[str, Chosen]()
+    if not keys:
+        return out
     from geneva_cli.loads.strength.part_loads import single_loads
 
     loads = single_loads(mechanism)
@@ -139,7 +140,12 @@ def by_load(mechanism: Mechanism) -> dict[str, Chosen]:
         "wheel_thickness_mm": f"{loads.pin_N:.4g} N on the horns",
         "link_thickness_mm": f"{loads.crank_Nm:.4g} N m on the first wheel",
     }
-    return {f"size.{key}": Chosen(values[key], f"by load: {whys[key]}") for key in held}
+    armed = "arm_bore_mm" in values
+    for key in keys:
+        drawn = key in values and (armed or key != "arm_thickness_mm")
+        if drawn and _is_written(mechanism, key, values):
+            out[f"size.{key}"] = Chosen(values[key], f"by load: {whys[key]}")
+    return out
 
 
 def _is_written(mechanism: Mechanism, key: str, values: Mapping[str, float | str]) -> bool:

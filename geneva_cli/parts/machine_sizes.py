@@ -15,7 +15,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.records import thing
-from geneva_cli.numerics.preferred import bore_radius
+from geneva_cli.numerics.preferred import bore_radius, rounded_below
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.outlines.crank_outline import arc_floor
@@ -24,16 +24,14 @@ from geneva_cli.parts.sizes import (
     KeySizes,
     Sizes,
     arm_bore,
-    drawn_thicknesses,
-    hole_radius,
     pin_radius,
     reach_and_hub,
+    refuse_pin_and_edges,
     refuse_thin_hub,
-    refuse_wide_pin,
     wheel_bore,
     within_hub,
 )
-from geneva_cli.parts.slots.roller_paths import RollerPaths, mouth, roller_paths, roller_reaches
+from geneva_cli.parts.slots.roller_paths import mouth, roller_paths, roller_reaches
 from geneva_cli.parts.stressed import Unloaded
 from geneva_cli.spec.default_sizes import value_or
 from geneva_cli.spec.least_wall import wall_min
@@ -43,6 +41,10 @@ if TYPE_CHECKING:
     from geneva_cli.loads.strength.part_loads import PartLoads
 
 Layout: TypeAlias = tuple[Assembly, Sizes]  # of one machine
+OF_AXLE = (
+    *("wheel_bore_mm", "wheel_hub_mm", "wheel_hub_length_mm"),
+    *("wheel_shaft_low_mm", "wheel_shaft_high_mm"),
+)
 
 
 def sized(mechanism: Mechanism, loads: PartLoads | None = None) -> Layout | None:
@@ -69,24 +71,28 @@ def machine_sizes(mechanism: Mechanism) -> Layout:
     return where, loaded(unloaded(where), single_loads(mechanism))
 
 
-def sizes(assembly: Assembly, known: RollerPaths | None = None) -> Sizes:
+def sizes(assembly: Assembly) -> Sizes:
     """Return the sizes without a load; raises GenevaError where they leave no wheel or no lock."""
-    usual, _ = _usual_sizes(assembly, known or roller_paths(assembly))
+    usual, _ = _usual_sizes(assembly)
     _refuse(assembly, usual)
     return usual
 
 
 def unloaded(assembly: Assembly) -> Unloaded:
     """Return the parts of a machine without its load; raises as ``sizes`` does."""
-    usual, space = _usual_sizes(assembly, roller_paths(assembly))
+    usual, space = _usual_sizes(assembly)
     return Unloaded(assembly, usual, space, cut_lock(assembly, usual) if usual.lock else None)
 
 
 def loaded(of: Unloaded, loads: PartLoads, horn_MPa: float | None = None) -> Sizes:
     """Return the sizes of a machine under its loads, as ``load_sizes``; raises as ``sizes``."""
-    from geneva_cli.parts.sized_by_load import first_sizes, load_sizes
+    from geneva_cli.parts.sized_by_load import load_sizes
 
-    first = first_sizes(of.assembly.full, sized) if of.assembly.full.first_wheel else None
+    first = None
+    if of.assembly.full.first_wheel:
+        from geneva_cli.parts.first_wheel import first_sizes
+
+        first = first_sizes(of.assembly.full, sized)
     out = load_sizes(of, loads, horn_MPa, first)._replace(first=first)
     _refuse(of.assembly, out)
     return out
@@ -97,35 +103,46 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
 
     Without parts there are only centre distance, roller and clearances.
     """
-    size = mechanism.spec.size
-    allowed = ("slot_clearance", "lock_clearance", "press_fit", "shaft_fit", "pin_gap")
+    allowed = mechanism.spec.size.allowances
     known: dict[str, float] = {
         "center_distance_mm": mechanism.center_distance_mm,
         "roller_radius_mm": mechanism.roller_radius_mm,
-        **{f"{name}_mm": getattr(size.allowances, f"{name}_mm") for name in allowed},
+        "slot_clearance_mm": allowed.slot_clearance_mm,
+        "lock_clearance_mm": allowed.lock_clearance_mm,
+        "press_fit_mm": allowed.press_fit_mm,
+        "shaft_fit_mm": allowed.shaft_fit_mm,
+        "pin_gap_mm": allowed.pin_gap_mm,
     }
     of_kind: Callable[[Mechanism], KeySizes] | None
     of_kind = thing(mechanism.spec.wheel.NAME, "sizes") if mechanism.spec.has_parts else None
     if of_kind:
         values, by_load = of_kind(mechanism)
-        return KeySizes(known | values, by_load)
+        return known | values, by_load
     flat = sized(mechanism)
     if not flat:
-        return KeySizes(known, ())
+        return known, ()
     own = flat[1]
-    radii = ("wheel_bore", "wheel_hub", "crank_bore", "crank_hub", "pin")
-    thick = ("wheel_thickness", "lock_thickness", "arm_thickness", "link_thickness")
     known |= {
         "wheel_radius_mm": own.rim,
         "slot_bottom_clearance_mm": own.slot_bottom,
         "lock_radius_mm": own.lock,
         "relief_clearance_mm": own.relief,
-        **{f"{name}_mm": getattr(own, name) for name in ("wall_min", *thick)},
-        **{f"{name}_mm": 2.0 * getattr(own, name) for name in radii},
+        "wall_min_mm": own.wall_min,
+        "wheel_thickness_mm": own.wheel_thickness,
+        "lock_thickness_mm": own.lock_thickness,
+        "arm_thickness_mm": own.arm_thickness,
+        "link_thickness_mm": own.link_thickness,
+        "wheel_bore_mm": 2.0 * own.wheel_bore,
+        "wheel_hub_mm": 2.0 * own.wheel_hub,
+        "crank_bore_mm": 2.0 * own.crank_bore,
+        "crank_hub_mm": 2.0 * own.crank_hub,
+        "pin_mm": 2.0 * own.pin,
     }
-    known |= {"wheel_outer_radius_mm": own.outer} if own.outer else {}
-    known |= {"arm_bore_mm": 2.0 * own.arm_bore} if own.arm_bore else {}
-    return KeySizes(known, keys_by_load(mechanism, bool(own.lock)))
+    if own.outer:
+        known["wheel_outer_radius_mm"] = own.outer
+    if own.arm_bore:
+        known["arm_bore_mm"] = 2.0 * own.arm_bore
+    return known, keys_by_load(mechanism, bool(own.lock))
 
 
 def built(mechanism: Mechanism) -> Size:
@@ -133,7 +150,7 @@ def built(mechanism: Mechanism) -> Size:
 
     Without parts only centre distance, roller and clearances are added.
     """
-    known, values = key_sizes(mechanism).values, mechanism.spec.size.as_dict()
+    known, values = key_sizes(mechanism)[0], mechanism.spec.size.as_dict()
     return mechanism.spec.size.replace(**{k: x for k, x in known.items() if values[k] is None})
 
 
@@ -142,25 +159,27 @@ def keys_by_load(mechanism: Mechanism, locked: bool) -> tuple[str, ...]:
 
     ``locked`` is True for a wheel with recesses for a lock. A load without a bound chooses none.
     """
-    spec, size = mechanism.spec, mechanism.spec.size
+    spec, size, keys = mechanism.spec, mechanism.spec.size, list[str]()
     if not spec.is_loaded:
         return ()
     from geneva_cli.loads.strength.part_loads import single_loads
 
     if not all(map(math.isfinite, single_loads(mechanism))):
         return ()
-    crank = size.crank_bore_mm is size.arm_bore_mm is spec.shaft.crank_diameter_mm is None
-    rubbed = spec.load.friction and not spec.load.rubs_in_slot  # loads depend on the usual pin
-    free = {
-        "crank_bore_mm": crank,
-        "arm_bore_mm": crank,
-        "wheel_bore_mm": size.wheel_bore_mm is spec.shaft.wheel_diameter_mm is None,
-        "pin_mm": size.pin_mm is None and not rubbed,
-        "arm_thickness_mm": size.arm_thickness_mm is None,
-        "wheel_thickness_mm": locked and size.wheel_thickness_mm is size.face_width_mm is None,
-        "link_thickness_mm": bool(mechanism.first_wheel) and size.link_thickness_mm is None,
-    }
-    return tuple(key for key, is_free in free.items() if is_free)
+    if size.crank_bore_mm is size.arm_bore_mm is spec.shaft.crank_diameter_mm is None:
+        keys += ["crank_bore_mm", "arm_bore_mm"]
+    if size.wheel_bore_mm is spec.shaft.wheel_diameter_mm is None:
+        keys.append("wheel_bore_mm")
+    # loads with friction on the pin depend on the usual one
+    if size.pin_mm is None and not (spec.load.friction and not spec.load.rubs_in_slot):
+        keys.append("pin_mm")
+    if size.arm_thickness_mm is None:
+        keys.append("arm_thickness_mm")
+    if locked and size.wheel_thickness_mm is size.face_width_mm is None:
+        keys.append("wheel_thickness_mm")
+    if size.link_thickness_mm is None and mechanism.first_wheel:
+        keys.append("link_thickness_mm")
+    return tuple(keys)
 
 
 def drawn_pin_radius(mechanism: Mechanism) -> float:
@@ -170,27 +189,29 @@ def drawn_pin_radius(mechanism: Mechanism) -> float:
     return pin_radius(mechanism.spec.size, mechanism.roller_radius_mm, parts)
 
 
-def _usual_sizes(assembly: Assembly, path: RollerPaths) -> tuple[Sizes, float]:
+def _usual_sizes(assembly: Assembly) -> tuple[Sizes, float]:
     """Return the sizes without a load, and the radius about the crank's axis inside the relief."""
-    spec, full, L, kinds = assembly.mechanism.spec, assembly.full.spec, assembly.L, assembly.kinds
-    size, r, sign = spec.size, assembly.mechanism.roller_radius_mm, assembly.sign
+    spec, full, L, sign = assembly.mechanism.spec, assembly.full.spec, assembly.L, assembly.sign
+    size, r, path = spec.size, assembly.mechanism.roller_radius_mm, roller_paths(assembly)
     allowed, outside = size.allowances, sign > 0.0
     w = r + allowed.slot_clearance_mm
-    rim = value_or(size.wheel_radius_mm, max(mouth(assembly, s, r) for s in kinds))
     bottom = value_or(size.slot_bottom_clearance_mm, max(allowed.slot_clearance_mm, r / 20.0))
-    ends = []
-    for s, deepest in zip(kinds, path.ends, strict=True):
+    mouths, ends, apart = list[float](), list[float](), False
+    for s, deepest in zip(assembly.kinds, path.ends, strict=True):
+        mouths.append(mouth(assembly, s, r))
         # the gap below the deepest roller is along the slot, whose axis may miss the wheel's
         offset = L * s.through.slot.offset
         along = math.sqrt(max(deepest * deepest - offset * offset, 0.0))
         along -= 0.0 if s.slot.curved else sign * bottom
         # beyond the wheel's axis the distance is negative
         ends.append(sign * math.copysign(math.hypot(along, offset), along))
+        apart = apart or s.apart
+    rim = value_or(size.wheel_radius_mm, max(mouths))
     end, arm, depth = (min(ends) - w) * sign, path.arm, abs(L - rim)
     lock = _lock(assembly, arm, w, rim)
     relief = value_or(size.relief_clearance_mm, min(L / 200.0, depth / 4.0))
     space = (lock or rim) / arm * (L - math.sqrt(max(rim * rim - r * r, 0.0))) if outside else 0.0
-    if any(s.apart for s in kinds):  # gears between rollers widen the relief
+    if apart:  # gears between rollers widen the relief
         floor = arc_floor(assembly, lock)
         space = min(space, floor) if floor else math.inf
     within = min(space, depth - relief)
@@ -199,10 +220,11 @@ def _usual_sizes(assembly: Assembly, path: RollerPaths) -> tuple[Sizes, float]:
     axle = wheel_bore(full, end, wall, L) if outside or size.wheel_bore_mm else 0.0
     wheel_reach, wheel_hub = reach_and_hub(size, "wheel", axle, wall, end)
     crank_reach, crank_hub = reach_and_hub(size, "crank", bore, wall)
-    thick, pin, reaches = drawn_thicknesses(size, L), pin_radius(size, r), roller_reaches(assembly)
-    armed = 0.0
+    thick, pin = size.thicknesses(L, rounded_below), 0.5 * size.pin_diameter(r, rounded_below)
+    reaches, armed = roller_reaches(assembly), 0.0
     if full.drive.ONE_ARM and pin:  # without pins there is no arm
-        armed = arm_bore(full, bore, L, min(reaches) - hole_radius(size, pin))
+        hole = pin - 0.5 * allowed.press_fit_mm
+        armed = arm_bore(full, bore, L, min(reaches) - hole)
     usual = Sizes(
         roller=r,
         half_width=w,
@@ -324,32 +346,31 @@ def _refuse(assembly: Assembly, sizes: Sizes) -> None:
             f"{2.0 * sizes.lock:.6g}",
             ("size", "crank_bore_mm"),
         )
-    refuse_edges(size, min(sizes.wheel_thickness, sizes.lock_thickness, sizes.arm_thickness))
-    refuse_wide_pin(size, sizes.pin, sizes.roller)
-    _refuse_slot_ends(assembly, sizes)
-    _refuse_axles(assembly, sizes)
+    thin = min(sizes.wheel_thickness, sizes.lock_thickness, sizes.arm_thickness)
+    refuse_pin_and_edges(size, sizes.pin, sizes.roller, thin)
+    _refuse_keys(assembly, sizes)
+    refuse_thin_hub("wheel", sizes.wheel_hub, sizes.wheel_reach, sizes.wheel_bore)
+    refuse_thin_hub("crank", sizes.crank_hub, sizes.crank_reach, sizes.crank_bore)
 
 
-def _refuse_slot_ends(assembly: Assembly, sizes: Sizes) -> None:
-    """Raise GenevaError, naming the key, for slots whose mouths or horns are not cut."""
-    key = "mouth_radius_mm" if sizes.mouth_radius else "horn_tip_mm"
-    cut = bool(sizes.mouth_radius or sizes.horn_tip)
-    if cut and any(kind.slot.curved or kind.apart for kind in assembly.kinds):
-        raise GenevaError(
-            f"{key} is for straight slots, each of which a roller enters and leaves: remove it",
-            ("size", key),
-        )
+def _refuse_keys(assembly: Assembly, sizes: Sizes) -> None:
+    """Raise GenevaError for keys of mouths, horns, outer radii and axles that a wheel lacks."""
+    size, outside = assembly.mechanism.spec.size, assembly.sign > 0.0
+    if sizes.mouth_radius or sizes.horn_tip:
+        key = "mouth_radius_mm" if sizes.mouth_radius else "horn_tip_mm"
+        for kind in assembly.kinds:
+            if kind.slot.curved or kind.apart:
+                raise GenevaError(
+                    f"{key} is for straight slots, each of which a roller enters and leaves: "
+                    "remove it",
+                    ("size", key),
+                )
     if sizes.horn_tip and not sizes.lock:
         raise GenevaError(
             "horn_tip_mm blunts the horns between slots and recesses, and without a locking disc "
             "there are none: remove it",
             ("size", "horn_tip_mm"),
         )
-
-
-def _refuse_axles(assembly: Assembly, sizes: Sizes) -> None:
-    """Raise GenevaError for a wheel that ends within its slots, and for hubs cut through."""
-    size, outside = assembly.mechanism.spec.size, assembly.sign > 0.0
     if not outside and sizes.outer <= max(sizes.slot_end, assembly.L + sizes.recess):
         raise GenevaError(
             f"wheel_outer_radius_mm = {sizes.outer:g}: it must be larger: the slots reach "
@@ -361,31 +382,8 @@ def _refuse_axles(assembly: Assembly, sizes: Sizes) -> None:
             "wheel_outer_radius_mm is for internal wheels only; here set wheel_radius_mm",
             ("size", "wheel_outer_radius_mm"),
         )
-    shaft = "wheel_shaft_low_mm", "wheel_shaft_high_mm"
-    axle = "wheel_bore_mm", "wheel_hub_mm", "wheel_hub_length_mm", *shaft
-    on_axis = [key for key in axle if vars(size)[key]]
-    if sizes.outer and on_axis:
-        raise GenevaError(
-            f"{on_axis[0]}: an internal wheel is open in the middle; remove it",
-            ("size", on_axis[0]),
-        )
-    refuse_thin_hub("wheel", sizes.wheel_hub, sizes.wheel_reach, sizes.wheel_bore)
-    refuse_thin_hub("crank", sizes.crank_hub, sizes.crank_reach, sizes.crank_bore)
-
-
-def refuse_edges(size: Size, thin: float) -> None:
-    """Raise GenevaError, naming the key, for edges that leave nothing of a plate so thin, mm."""
-    chamfer = size.edge_chamfer_mm is not None
-    if chamfer and size.edge_fillet_mm is not None:
-        raise GenevaError(
-            "edge_fillet_mm: edges are either chamfered or rounded; remove one of edge_chamfer_mm "
-            "and edge_fillet_mm",
-            ("size", "edge_fillet_mm"),
-        )
-    if 2.0 * size.edge_mm >= thin:
-        key = "edge_chamfer_mm" if chamfer else "edge_fillet_mm"
-        raise GenevaError(
-            f"{key} = {size.edge_mm:g}: it must be below {0.5 * thin:.6g}, half of the thinnest "
-            "plate",
-            ("size", key),
-        )
+    for key in OF_AXLE if sizes.outer else ():
+        if vars(size)[key]:
+            raise GenevaError(
+                f"{key}: an internal wheel is open in the middle; remove it", ("size", key)
+            )

@@ -9,14 +9,9 @@ fails. The first of two wheels in series bears the greatest torque in the second
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
-from functools import lru_cache
-from typing import TypeVar
 
 import numpy as np
 
-from geneva_cli.drives.crank import Crank
-from geneva_cli.errors import GenevaError
 from geneva_cli.loads.impacts.shock_force import forces_N
 from geneva_cli.loads.load_case import centrifugal_N
 from geneva_cli.loads.strength import lock
@@ -26,44 +21,26 @@ from geneva_cli.loads.strength.arm_and_key import (
     key_stress,
     shear_allowed_MPa,
 )
-from geneva_cli.loads.strength.horn import horns
-from geneva_cli.loads.strength.horn_search import HornStress, greatest_stress, single_stress
-from geneva_cli.loads.strength.part_loads import PartLoads, shear_MPa, single_loads
-from geneva_cli.loads.strength.pin import PinSize, pin
+from geneva_cli.loads.strength.horn import HornStress, greatest_stress, horns, single_stress
+from geneva_cli.loads.strength.part_loads import PartLoads, shear_MPa
+from geneva_cli.loads.strength.pin import PinSize, pin_stress_MPa
 from geneva_cli.loads.tolerance.locking import Lock
-from geneva_cli.motion.drive import FirstWheel
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.motion.wheels.external import External
+from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.numerics.preferred import bores_from, rounded_from
+from geneva_cli.numerics.preferred import rounded_below, sizes_from
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.assembly import Assembly, links_at
 from geneva_cli.parts.sizes import (
+    LARGEST_HUB,
     FirstSizes,
     Sizes,
-    drawn_thicknesses,
-    hole_radius,
-    largest_hub,
     reach_and_hub,
     within_hub,
 )
-from geneva_cli.parts.stressed import ShaftSize, Stressed, Unloaded, stressed
+from geneva_cli.parts.stressed import Stressed, Unloaded, stressed
 from geneva_cli.spec.default_sizes import value_or
 from geneva_cli.spec.materials import roller_material, wheel_material
-from geneva_cli.spec.tables import Load, Size
-
-T = TypeVar("T")
-
-
-def first_that(trials: Iterable[T], holds: Callable[[T], bool], usual: T | None = None) -> T:
-    """Return the first trial that holds, or the last one; without trials the usual."""
-    trial = usual
-    for trial in trials:
-        if holds(trial):
-            break
-    assert trial is not None
-    return trial
 
 
 def load_sizes(
@@ -74,11 +51,12 @@ def load_sizes(
     ``bent_MPa`` is the stress of ``horn_MPa``, if computed already; ``first`` is what the loads
     need of a first wheel. A load without a bound leaves all sizes.
     """
-    assembly, usual, space, by = of
+    assembly, sizes, space, by = of
     machine, spec = assembly.full, assembly.full.spec
     if not all(map(math.isfinite, loads)):
-        return usual
-    sizes = usual._replace(link_thickness=first.thickness) if first else usual
+        return sizes
+    if first:
+        sizes = sizes._replace(link_thickness=first.thickness)
     # the force between disc and wheel in the dwell loads both shafts
     torque = lock.dwell_torque_Nm(machine)
     held = float(lock.held_force_N(torque, by).item()) if by and torque.any() else 0.0
@@ -87,54 +65,38 @@ def load_sizes(
         wheel_shaft_N=max(loads.wheel_shaft_N, held + carried), crank_N=max(loads.crank_N, held)
     )
     if by and spec.size.wheel_thickness_mm is None and spec.size.face_width_mm is None:
-        bent = bent_MPa
-        if bent is None:
-            bent = float(horn_MPa(machine, sizes.half_width, by)[0])
+        if bent_MPa is None:
+            bent_MPa = float(horn_MPa(machine, sizes.half_width, by)[0])
+        usual, allowed = sizes.wheel_thickness, wheel_material(spec).allowed_MPa
         # a thicker wheel bends its pins more than its horns
-        trials = rounded_from(sizes.wheel_thickness, 2.0 * sizes.wheel_thickness)
-        allowed = wheel_material(spec).allowed_MPa
-        wheel = first_that(trials, lambda b: keeps(bent / b, "at most", allowed))
-        sizes = _thick(assembly, sizes, wheel=wheel)
-    eye = math.inf
+        for wide in sizes_from(usual, 2.0 * usual):
+            if keeps(bent_MPa / wide, "at most", allowed):
+                break
+        sizes = _thick(assembly, sizes, wheel=wide)
+    wide, eye = sizes.wheel_thickness, math.inf
     if assembly.sign > 0.0 and sizes.arm_bore:  # about the pin, where it passes the largest hub
-        hub = max(sizes.wheel_hub, largest_hub(sizes.slot_end))
+        hub = max(sizes.wheel_hub, LARGEST_HUB * sizes.slot_end)
         eye = assembly.L - sizes.reaches[1] - hub - sizes.wall_min
-    wide = sizes.wheel_thickness
     sizes = sizes._replace(pin=pin_that_holds(machine, sizes.pin, wide, sizes.roller, eye, loads))
+    if not (sizes.arm_bore and sizes.pin) or spec.size.arm_thickness_mm is not None:
+        sizes = _wheel_bored(assembly, sizes, loads)
+        return _crank_bored(assembly, sizes, loads, space, keyed=True)
+    # a thicker arm, up to twice the wheel, is better for a key than a thicker shaft
+    for keyed in (False, True) if spec.size.crank_keyway else (True,):
+        for thick in sizes_from(wide, 2.0 * wide):
+            trial = _wheel_bored(assembly, _thick(assembly, sizes, arm=thick), loads)
+            trial = _crank_bored(assembly, trial, loads, space, keyed)
+            if arm_holds(spec, stressed(assembly, trial), loads):
+                return trial
+    return trial
 
-    def trial(keyed: bool, arm: float | None) -> Sizes:
-        thick = _thick(assembly, sizes, arm=arm) if arm else sizes
-        bored = _wheel_bored(assembly, thick, loads)
-        return _crank_bored(assembly, bored, loads, space, keyed)
 
-    has_arm = sizes.arm_bore > 0.0 and sizes.pin > 0.0
-    if not has_arm or spec.size.arm_thickness_mm is not None:
-        return trial(True, None)
-    return arm_that_holds(spec, wide, trial, lambda one: stressed(assembly, one), loads)
-
-
-def arm_that_holds(
-    spec: Spec,
-    wheel: float,
-    trial: Callable[[bool, float], T],
-    dimensions: Callable[[T], Stressed],
-    loads: PartLoads,
-) -> T:
-    """Return the first trial whose arm and its key hold, from an arm as thick as the wheel on.
-
-    A trial is asked whether the crank's bore is sized by its key, and for the arm's thickness: a
-    thicker arm, up to twice the wheel, is better for a key than a thicker shaft.
-    """
-
-    def holds(one: T) -> bool:
-        parts = dimensions(one)
-        stress = float(arm_stress_MPa(parts.arm, loads.wheel_N))
-        key = key_holds(spec, parts.crank_key, loads.crank_Nm)
-        return key and keeps(stress, "at most", wheel_material(spec).allowed_MPa)
-
-    thick = rounded_from(wheel, 2.0 * wheel)
-    keyed = (False, True) if spec.size.crank_keyway else (True,)
-    return first_that((trial(key, one) for key in keyed for one in thick), holds)
+def arm_holds(spec: Spec, parts: Stressed, loads: PartLoads) -> bool:
+    """Return True if the arm holds its load, and its key on the shaft, if it has one."""
+    if not key_holds(spec, parts.crank_key, loads.crank_Nm):
+        return False
+    stress = float(arm_stress_MPa(parts.arm, loads.wheel_N))
+    return keeps(stress, "at most", wheel_material(spec).allowed_MPa)
 
 
 def _thick(
@@ -145,7 +107,7 @@ def _thick(
         wheel_thickness_mm=wheel or sizes.wheel_thickness,
         **({"arm_thickness_mm": arm} if arm else {}),
     )
-    thick = drawn_thicknesses(size, assembly.L)
+    thick = size.thicknesses(assembly.L, rounded_below)
     out = sizes._replace(
         wheel_thickness=thick.wheel, lock_thickness=thick.lock, arm_thickness=thick.arm
     )
@@ -173,19 +135,18 @@ def _wheel_bored(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> Sizes:
     fixed = spec.size.wheel_bore_mm is not None or spec.shaft.wheel_diameter_mm is not None
     if fixed or not sizes.wheel_bore:
         return sizes
-
-    def bored(d: float) -> Sizes:
-        reach, hub = reach_and_hub(spec.size, "wheel", 0.5 * d, wall, end)
-        return sizes._replace(wheel_bore=0.5 * d, wheel_reach=reach, wheel_hub=hub)
-
-    def holds(trial: Sizes) -> bool:
-        parts, force, torque = stressed(assembly, trial), loads.wheel_shaft_N, loads.wheel_Nm
-        shaft = shaft_holds_both(spec, "wheel", parts.wheel_shaft, force, torque)
-        return shaft and key_holds(spec, parts.wheel_key, torque)
-
     # a third of the wheel up to its slots is left as a wall
     most = min(end * 2.0 / 3.0, end - wall, within_hub(spec.size, "wheel"))
-    return first_that(map(bored, bores_from(2.0 * sizes.wheel_bore, 2.0 * most)), holds)
+    for d in sizes_from(2.0 * sizes.wheel_bore, 2.0 * most, bores=True):
+        reach, hub = reach_and_hub(spec.size, "wheel", 0.5 * d, wall, end)
+        sizes = sizes._replace(wheel_bore=0.5 * d, wheel_reach=reach, wheel_hub=hub)
+        parts, torque = stressed(assembly, sizes), loads.wheel_Nm
+        shaft = parts.wheel_shaft
+        moment = equivalent_Nm(spec, loads.wheel_shaft_N, shaft.overhang, torque)
+        holds = shaft_holds(spec, "wheel", shaft.diameter, moment)
+        if holds and key_holds(spec, parts.wheel_key, torque):
+            break
+    return sizes
 
 
 def _crank_bored(
@@ -200,31 +161,30 @@ def _crank_bored(
     size = spec.size
     if not (size.crank_bore_mm is size.arm_bore_mm is spec.shaft.crank_diameter_mm is None):
         return sizes
-
-    def bored(bore: float) -> Sizes:
-        reach, hub = reach_and_hub(size, "crank", bore, sizes.wall_min)
-        arm = bore if sizes.arm_bore else 0.0
-        return sizes._replace(crank_bore=bore, crank_reach=reach, crank_hub=hub, arm_bore=arm)
-
-    def holds(trial: Sizes) -> bool:
-        parts = stressed(assembly, trial)
-        shaft = shaft_holds_both(spec, "crank", parts.crank_shaft, loads.crank_N, loads.crank_Nm)
-        return shaft and (not keyed or key_holds(spec, parts.crank_key, loads.crank_Nm))
-
-    trial = sizes
+    # diameters, and whether they are bored through the disc
+    trials, usual = list[tuple[float, bool]](), sizes
     if sizes.crank_bore:
         # a larger bore leaves no space for its default hub, of 1.5 bores
         most = min(0.6 * space, within_hub(size, "crank"))
-        for d in bores_from(2.0 * sizes.crank_bore, 2.0 * most):
-            trial = bored(0.5 * d)
-            if holds(trial):
-                return trial
+        for d in sizes_from(2.0 * sizes.crank_bore, 2.0 * most, bores=True):
+            trials.append((d, True))
     # past links and gears the shaft may have no other way out
-    if not sizes.arm_bore or links_at(assembly.full, np.zeros(1)) or spec.gears:
-        return trial
-    left = sizes.reaches[0] - hole_radius(size, sizes.pin)
-    ending = bores_from(2.0 * sizes.arm_bore, left)  # half of it is left as a wall
-    return first_that((bored(0.0)._replace(arm_bore=0.5 * d) for d in ending), holds)
+    if sizes.arm_bore and not (links_at(assembly.full, np.zeros(1)) or spec.gears):
+        left = sizes.reaches[0] - (sizes.pin - 0.5 * size.allowances.press_fit_mm)
+        for d in sizes_from(2.0 * sizes.arm_bore, left, bores=True):  # half of it is left as a wall
+            trials.append((d, False))
+    for d, through in trials:
+        bore = 0.5 * d if through else 0.0
+        reach, hub = reach_and_hub(size, "crank", bore, sizes.wall_min)
+        arm = 0.5 * d if usual.arm_bore else 0.0
+        sizes = usual._replace(crank_bore=bore, crank_reach=reach, crank_hub=hub, arm_bore=arm)
+        parts = stressed(assembly, sizes)
+        shaft = parts.crank_shaft
+        moment = equivalent_Nm(spec, loads.crank_N, shaft.overhang, loads.crank_Nm)
+        holds = shaft_holds(spec, "crank", shaft.diameter, moment)
+        if holds and (not keyed or key_holds(spec, parts.crank_key, loads.crank_Nm)):
+            break
+    return sizes
 
 
 def pin_that_holds(
@@ -245,24 +205,19 @@ def pin_that_holds(
     most = min(0.7 * roller - 0.5 * size.allowances.shaft_fit_mm, eye)
     allowed = roller_material(spec).allowed_MPa
     rubbed, jump = math.hypot(1.0, spec.load.friction), np.array([[loads.pin_jump]])
-
-    def holds(d: float) -> bool:
+    for d in sizes_from(2.0 * usual, 2.0 * most):
         struck_N = forces_N(mechanism, jump, PinSize(d, contact)).item() if jump else 0.0
         whole_N = max(loads.pin_N, struck_N) * rubbed  # with friction along the wall
-        stress = float(pin(size, contact, d).under(whole_N).equivalent)
-        return keeps(stress, "at most", allowed)
+        stress = float(pin_stress_MPa(size, contact, d, whole_N)[2])
+        if keeps(stress, "at most", allowed):
+            break
+    return 0.5 * d
 
-    return 0.5 * first_that(rounded_from(2.0 * usual, 2.0 * most), holds)
 
-
-def shaft_holds_both(
-    spec: Spec, part: str, shaft: ShaftSize, force_N: float, torque_Nm: float
-) -> bool:
-    """Return True if the shaft of wheel or crank holds force and torque, greatest at once."""
-    factors = spec.shaft
-    bending = factors.bending_factor * force_N * shaft.overhang / 1000.0
-    moment = math.hypot(bending, factors.torsion_factor * torque_Nm)
-    return shaft_holds(spec, part, shaft.diameter, moment)
+def equivalent_Nm(spec: Spec, force_N: float, overhang_mm: float, torque_Nm: float) -> float:
+    """Return the equivalent torque of a shaft whose force and torque are greatest at once."""
+    bending = spec.shaft.bending_factor * force_N * overhang_mm / 1000.0
+    return math.hypot(bending, spec.shaft.torsion_factor * torque_Nm)
 
 
 def shaft_holds(spec: Spec, part: str, diameter: float, moment_Nm: float) -> bool:
@@ -274,71 +229,8 @@ def shaft_holds(spec: Spec, part: str, diameter: float, moment_Nm: float) -> boo
 
 def key_holds(spec: Spec, key: KeyDimensions, torque_Nm: float) -> bool:
     """Return True if a key holds a torque, or where there is none."""
+    if math.isnan(float(key.length)):
+        return True
     sides, shear = wheel_material(spec).allowed_MPa, shear_allowed_MPa(spec.shaft)
     torque = spec.shaft.torsion_factor * torque_Nm
-    least = float(key_stress(key, torque, sides, shear)[2])
-    return math.isnan(least) or keeps(float(key.length), "at least", least)
-
-
-def first_spec(mechanism: Mechanism, first: FirstWheel) -> Spec:
-    """Return the spec of the first wheel and its crank, with the sizes that it shares."""
-    spec, size = mechanism.spec, mechanism.spec.size
-    shared = ("process", "slot_clearance_mm", "lock_clearance_mm", "press_fit_mm", "shaft_fit_mm")
-    own = Size(
-        center_distance_mm=first.distance_mm,
-        roller_radius_mm=mechanism.roller_radius_mm,
-        wheel_thickness_mm=size.link_thickness_mm,
-        arm_thickness_mm=size.link_thickness_mm,
-        arm_bore_mm=size.link_bore_mm,
-        lock_bolts=0,  # the link below its disc has no holes for them
-        **{key: vars(size)[key] for key in (*shared, "pin_gap_mm", "pin_mm")},
-    )
-    torque = single_loads(mechanism).crank_Nm if spec.is_loaded else 0.0
-    return Spec(
-        External(first.z),
-        Crank(n_rpm=spec.drive.n_rpm),
-        size=own,
-        load=Load(torque_Nm=torque if math.isfinite(torque) else 0.0),
-        shaft=spec.shaft.replace(wheel_diameter_mm=None, crank_diameter_mm=None),
-        material_wheel=spec.material_wheel,
-        material_roller=spec.material_roller,
-    )
-
-
-@lru_cache(maxsize=16)
-def first_sizes(
-    mechanism: Mechanism, sized: Callable[[Mechanism, PartLoads], tuple[Assembly, Sizes] | None]
-) -> FirstSizes | None:
-    """Return what the load needs of a first wheel and its crank; None without either."""
-    first = mechanism.first_wheel
-    spec = None if first is None else first_spec(mechanism, first)
-    if spec is None or not spec.is_loaded:
-        return None
-    try:
-        loads = single_loads(build(spec))  # which no bore changes
-    except GenevaError:
-        return None  # the check of the parts reports the error
-
-    def dimensions(size: Size) -> Stressed | None:
-        try:
-            flat = sized(build(spec.replace(size=size)), loads)
-        except GenevaError:
-            return None  # the check of the parts reports the error
-        return stressed(*flat) if flat else None
-
-    def holds(parts: Stressed) -> bool:
-        shaft = parts.crank_shaft
-        fixed = spec.size.arm_bore_mm is not None
-        return fixed or shaft_holds_both(spec, "crank", shaft, loads.crank_N, loads.crank_Nm)
-
-    size = spec.size.replace(crank_bore_mm=0.0)
-    usual = dimensions(size)
-    if usual is None or math.isnan(usual.arm.length):  # a crank without a pin has no arm
-        return None
-    reach = float(usual.arm.length - usual.arm.hole)
-    size = size.replace(wheel_thickness_mm=usual.contact)  # no bore changes it either
-    bores = bores_from(usual.crank_shaft.diameter, reach)  # half of it is left as a wall
-    each = (dimensions(size.replace(arm_bore_mm=size.arm_bore_mm or d)) for d in bores)
-    parts = first_that((one for one in each if one), holds, usual)
-    thick = max(parts.contact, float(parts.arm.thickness))
-    return FirstSizes(thick, 0.5 * parts.pin, 0.5 * parts.crank_shaft.diameter)
+    return keeps(float(key.length), "at least", float(key_stress(key, torque, sides, shear)[2]))

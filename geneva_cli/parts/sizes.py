@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
@@ -15,6 +15,7 @@ from geneva_cli.spec.least_wall import eye_about
 from geneva_cli.spec.tables import Size
 
 HUB = 1.6  # outside diameter of a hub, as a multiple of its bore
+LARGEST_HUB = 0.75  # of the slots' ends: a quarter of the wheel up to them stays free
 
 
 class FirstSizes(NamedTuple):
@@ -75,14 +76,9 @@ class Sizes(NamedTuple):
         return self._replace(**none, first=None)  # type: ignore[arg-type]
 
 
-class KeySizes(NamedTuple):
-    """The sizes of a machine's parts by keys of ``[size]``: mm, and diameters as the keys say."""
-
-    values: dict[str, float]
-    by_load: tuple[str, ...]  # keys that the spec leaves out, and the load chooses
-
-
-NO_SIZES = KeySizes({}, ())
+# The sizes of a machine's parts by keys of ``[size]``, mm and diameters as the keys say; and those
+# of the keys that the spec leaves out and the load chooses.
+KeySizes: TypeAlias = tuple[dict[str, float], tuple[str, ...]]
 
 
 def drawn_thicknesses(size: Size, L: float, parts: Sizes | None = None) -> Thicknesses:
@@ -144,14 +140,10 @@ def arm_hub(size: Size, bored: float, bore: float, wall: float, standing: float 
     return half_or(size.arm_hub_mm, max(rounded_radius(HUB * bore), bored + wall, standing))
 
 
-def hole_radius(size: Size, pin: float) -> float:
-    """Return the radius of the hole of a pin, 0 or less where the fit leaves none."""
-    return pin - 0.5 * size.allowances.press_fit_mm
-
-
 def pin_hole(size: Size, pin: float) -> float:
     """Return the radius of the hole that holds a pin. Raises GenevaError where none is left."""
-    fit, hole = size.allowances.press_fit_mm, hole_radius(size, pin)
+    fit = size.allowances.press_fit_mm
+    hole = pin - 0.5 * fit
     if hole <= 0.0:
         raise GenevaError(
             f"there is no hole for a pin of pin_mm = {2.0 * pin:g} with press_fit_mm = {fit:g}; "
@@ -161,14 +153,30 @@ def pin_hole(size: Size, pin: float) -> float:
     return hole
 
 
-def refuse_wide_pin(size: Size, pin: float, roller: float) -> None:
-    """Raise GenevaError for a pin whose hole leaves nothing of a roller with its least radius."""
-    loose = size.allowances.shaft_fit_mm
+def refuse_pin_and_edges(size: Size, pin: float, roller: float, thin: float) -> None:
+    """Raise GenevaError for a pin and for edges that leave nothing of a part.
+
+    The pin's hole is in a roller with its least radius; the thinnest plate is ``thin`` mm thick.
+    """
+    loose, chamfer = size.allowances.shaft_fit_mm, size.edge_chamfer_mm is not None
     if pin and 2.0 * pin + loose >= 2.0 * roller:
         raise GenevaError(
             f"pin_mm = {2.0 * pin:g}: it must be below {2.0 * roller - loose:.6g}, the roller's "
             "least diameter less shaft_fit_mm",
             ("size", "pin_mm"),
+        )
+    if chamfer and size.edge_fillet_mm is not None:
+        raise GenevaError(
+            "edge_fillet_mm: edges are either chamfered or rounded; remove one of edge_chamfer_mm "
+            "and edge_fillet_mm",
+            ("size", "edge_fillet_mm"),
+        )
+    if 2.0 * size.edge_mm >= thin:
+        key = "edge_chamfer_mm" if chamfer else "edge_fillet_mm"
+        raise GenevaError(
+            f"{key} = {size.edge_mm:g}: it must be below {0.5 * thin:.6g}, half of the thinnest "
+            "plate",
+            ("size", key),
         )
 
 
@@ -211,11 +219,6 @@ def refuse_thin_hub(part: str, hub: float, bored: float, bore: float) -> None:
         )
 
 
-def largest_hub(end: float) -> float:
-    """Return the radius of a wheel's largest default hub, for slots that end at ``end``, mm."""
-    return 0.75 * end  # a quarter of the wheel up to its slots stays free
-
-
 def reach_and_hub(
     size: Size, part: str, bore: float, wall: float, end: float = 0.0
 ) -> tuple[float, float]:
@@ -224,7 +227,7 @@ def reach_and_hub(
     ``end`` is the distance of a wheel's slots' ends from the axis. By default the hub has the usual
     radius, or a wall around the bore's keyway.
     """
-    usual = min(HUB * bore, largest_hub(end)) if part == "wheel" else 1.5 * bore
+    usual = min(HUB * bore, LARGEST_HUB * end) if part == "wheel" else 1.5 * bore
     reach, usual = reach_or_bore(size, part, bore), rounded_radius(usual)
     default = max(usual, reach + wall) if reach > bore else usual
     return reach, half_or(vars(size)[f"{part}_hub_mm"], default)
@@ -240,11 +243,11 @@ def lock_bolt_directions(sectors: Iterable[tuple[float, float]], count: int) -> 
 
     Each sector is its start and width, radians; its ``count`` bolts are evenly spaced.
     """
-    directions = [
-        [start + width * (k + 0.5) / count for k in range(count)] for start, width in sectors
-    ]
+    directions = []
+    for start, width in sectors if count else ():
+        directions.append([start + width * (k + 0.5) / count for k in range(count)])
     if count and not directions:
         raise GenevaError(
             "lock_bolts: there is no locking disc to fix; remove it", ("size", "lock_bolts")
         )
-    return directions if count else []
+    return directions

@@ -1,8 +1,4 @@
-"""The dimensions of the parts that their strength depends on: pin, shafts, arm and keys.
-
-A shaft's bearing is in the middle of the frame, or of a bridge above the crank. Its overhang is the
-distance from there to the middle of the wheel's thickness, unless the spec has one.
-"""
+"""The dimensions of the parts that their strength depends on: pin, shafts, arm and keys."""
 
 from __future__ import annotations
 
@@ -19,7 +15,7 @@ from geneva_cli.parts.assembly import Assembly, gear_plane, is_bridged, links_at
 from geneva_cli.parts.outlines.crank_outline import is_whole
 from geneva_cli.parts.outlines.outlines import wheel_hub_length
 from geneva_cli.parts.shafts.bores import reach_or_bore
-from geneva_cli.parts.sizes import Sizes, arm_hub, bridge_low, hole_radius, plane_span
+from geneva_cli.parts.sizes import Sizes, arm_hub, bridge_low, plane_span
 from geneva_cli.spec.default_sizes import half_or, value_or
 from geneva_cli.spec.keyways import key
 from geneva_cli.spec.least_wall import eye_about
@@ -35,7 +31,11 @@ class Unloaded(NamedTuple):
 
 
 class ShaftSize(NamedTuple):
-    """Diameter and overhang of a shaft, mm; NaN for none."""
+    """Diameter and overhang of a shaft, mm; NaN for none.
+
+    The bearing is in the middle of the frame, or of a bridge above the crank, and the overhang is
+    from there to the middle of the wheel's thickness, unless the spec has one.
+    """
 
     diameter: float
     overhang: float
@@ -55,39 +55,37 @@ class Stressed(NamedTuple):
 
 def stressed(assembly: Assembly, sizes: Sizes) -> Stressed:
     """Return the dimensions of a machine's parts, for parts of these sizes."""
-    spec, L = assembly.full.spec, assembly.L
-    size, thick, wide = spec.size, sizes.arm_thickness, sizes.wheel_thickness
-    contact = value_or(size.face_width_mm, wide)
-    hub_mm = 0.0  # length of the wheel's hub
+    spec, machine, size = assembly.full.spec, assembly.full, assembly.full.spec.size
+    thick, wide, gap = sizes.arm_thickness, sizes.wheel_thickness, size.allowances.pin_gap_mm
+    contact, hub_mm = value_or(size.face_width_mm, wide), 0.0
     if size.has_hub("wheel") and sizes.wheel_hub > sizes.wheel_bore:
         hub_mm = wheel_hub_length(size, sizes)
-    gap, washer, machine = size.allowances.pin_gap_mm, size.washer_mm, assembly.full
-    first = thick if spec.drive.ONE_ARM else sizes.link_thickness
-
-    def low(plane: int) -> float:
-        return plane_span(plane, gap, first, sizes.link_thickness, washer)[0]
-
-    lows = [-hub_mm, -gap - (thick if sizes.arm_bore else 0.0)]
-    lows += [low(link.plane) for link in links_at(machine, np.zeros(1))]
+    # the lowest face of what is below the wheel; a groove's plate has its base below the groove
+    lowest, planes = min(-hub_mm, -gap - (thick if sizes.arm_bore else 0.0)), []
+    for link in links_at(machine, np.zeros(1)):
+        planes.append((link.plane, 0.0))
     if spec.gears:
-        lows.append(low(gear_plane(machine)))
-    if machine.engagements[0].groove is not None:  # as ``groove_plate`` has its base
-        lows.append(low(3) if spec.drive_before else low(2) - thick)
+        planes.append((gear_plane(machine), 0.0))
+    if machine.engagements[0].groove is not None:
+        planes.append((3, 0.0) if spec.drive_before else (2, thick))
+    first = thick if spec.drive.ONE_ARM else sizes.link_thickness
+    for plane, base in planes:
+        low, _ = plane_span(plane, gap, first, sizes.link_thickness, size.washer_mm)
+        lowest = min(lowest, low - base)
     # from the middle of the wheel's thickness to the frame's upper face
-    on_wheel = on_crank = 0.5 * wide - min(lows) + washer, thick
+    on_wheel = on_crank = 0.5 * wide - lowest + size.washer_mm, thick
     if sizes.crank_bore and is_bridged(machine):
         on_crank = bridge_low(size, sizes) - 0.5 * wide, thick
     arm = NO_ARM
     if sizes.arm_bore and sizes.pin:
         _, long = sizes.reaches
-        standing = 0.0 if is_whole(assembly, sizes) else sizes.lock
-        hole = hole_radius(size, sizes.pin)
+        hole = sizes.pin - 0.5 * size.allowances.press_fit_mm
         bored = reach_or_bore(size, "crank", sizes.arm_bore)
+        standing = 0.0 if is_whole(assembly, sizes) else sizes.lock
         hub = arm_hub(size, bored, sizes.arm_bore, sizes.wall_min, standing)
-        passing = sizes.passing_eye(L - long)
+        passing = sizes.passing_eye(assembly.L - long)
         eye = half_or(size.arm_eye_mm, eye_about(hole, sizes.wall_min, passing))
-        offset = 0.5 * (contact + thick) + gap
-        arm = ArmDimensions(long, hub, eye, bored, hole, thick, offset)
+        arm = ArmDimensions(long, hub, eye, bored, hole, thick, 0.5 * (contact + thick) + gap)
     return Stressed(
         contact,
         2.0 * sizes.pin,
@@ -114,10 +112,9 @@ def shaft_of(spec: Spec, part: str, bore: float, to_frame: float, thick: float) 
 def key_of(standard: str | None, bore: float, length: float) -> KeyDimensions:
     """Return the dimensions of a key in a bore; NaN without one."""
     try:
-        fitted = key(standard, bore) if bore else None
+        fitted = key(standard, bore) if bore and standard else None
     except GenevaError:  # reported where the part is cut
         fitted = None
     if fitted is None:
         return NO_KEY
-    bearing = fitted.height - fitted.in_shaft
-    return KeyDimensions(2.0 * bore, fitted.width, bearing, length)
+    return KeyDimensions(2.0 * bore, fitted.width, fitted.height - fitted.in_shaft, length)

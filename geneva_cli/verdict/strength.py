@@ -12,10 +12,10 @@ import numpy as np
 from geneva_cli.errors import Notice
 from geneva_cli.kept import cached_property
 from geneva_cli.loads.strength.horn import STOUT
-from geneva_cli.loads.strength.lock import held_torque_Nm
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Number
 from geneva_cli.parts.machine_sizes import sized
+from geneva_cli.spec.default_sizes import value_or
 from geneva_cli.verdict.quantities import part_strength
 from geneva_cli.verdict.quantities.batch_designs import Columns, Designs, only, single
 from geneva_cli.verdict.quantities.under_load import under_load
@@ -171,7 +171,7 @@ class Strength:
         if not (drawn if locked else load.has_horns):
             return None
         needs = [] if load.contact_mm is not None else [_WIDTH]
-        if locked and not held_torque_Nm(self.mechanism):
+        if locked and not value_or(self.spec.load.dwell_torque_Nm, self.spec.load.torque_Nm):
             needs.append("dwell_torque_Nm in [load]")
         if not locked and not math.isfinite(load.force_N[0]):
             needs.append(BOUND)

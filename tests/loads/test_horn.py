@@ -12,8 +12,7 @@ from plane_stress import horn as in_plane_stress
 from words import Spec, Wheel
 
 from geneva_cli import load as read
-from geneva_cli.loads.strength.horn import horns, product
-from geneva_cli.loads.strength.horn_search import greatest_stress
+from geneva_cli.loads.strength.horn import greatest_stress, horns
 from geneva_cli.motion.mechanism import build
 from geneva_cli.parts.machine_sizes import sized
 from geneva_cli.spec.tables import Load, Size
@@ -99,10 +98,10 @@ def test_plane_stress_agrees_on_curved_walls(name, fine):
     design = read(str(repo.DESIGNS / f"{name}.toml"))
     _, sizes = sized(design.mechanism)
     side = horns(design.mechanism, sizes.half_width, sizes.recess)[0]
-    wall = side.wall(side.at.mouth_deg * np.linspace(1.0, 1e-3, 1500))[0][:, 0]
+    wall = side.sections(side.at.mouth_deg * np.linspace(1.0, 1e-3, 1500))[0][:, 0]
     h = float(side.stoutness[0]) * sizes.recess
     assert h < sizes.recess / 6.0
-    middle = [-product(side.centre, axis).item() for axis in (side.inwards, side.across)]
+    middle = -(side.axes * side.centre).sum(axis=1).ravel()
     opening = 2.0 * math.atan2(*middle)
     turn = np.arctan2(*wall)
     wall = wall[:, : int(np.argmax(np.minimum(turn, 0.5 * opening)))]  # to where it turns back

@@ -24,8 +24,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.moments import moments
 from geneva_cli.geometry.shapes import Arc, Line
 from geneva_cli.loads.impacts.entry import mouth_contacts
-from geneva_cli.loads.strength.horn import horns
-from geneva_cli.loads.strength.horn_search import single_stress
+from geneva_cli.loads.strength.horn import horns, single_stress
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.parts.slots.roller_paths import wall_lost
 from geneva_cli.verdict.checks import checks, single_check

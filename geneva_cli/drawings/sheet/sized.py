@@ -65,8 +65,10 @@ def screw_hole(radius: float, tapped: bool = False) -> str:
     """
     hole = plain(2.0 * radius, "Ø ")
     if tapped:
-        thread = next((s.thread for s in SCREWS if abs(s.core - 2.0 * radius) < SAME_ON_SHEET), 0.0)
-        return f"{hole}, tapped M{thread:g}" if thread else hole
+        for one in SCREWS:
+            if abs(one.thread - one.pitch - 2.0 * radius) < SAME_ON_SHEET:
+                return f"{hole}, tapped M{one.thread:g}"
+        return hole
     screw = screw_through(2.0 * radius)
     return f"{hole} for M{screw.thread:g}" if screw else hole
 

@@ -20,7 +20,6 @@ from geneva_cli.parts.machine_sizes import lock_between, require_lock_between
 from geneva_cli.parts.shafts.bores import bore_of
 from geneva_cli.parts.shafts.screws import bolt_radius, refuse_no_screw, tapped
 from geneva_cli.parts.sizes import (
-    NO_SIZES,
     KeySizes,
     arm_bore,
     drawn_thicknesses,
@@ -119,7 +118,7 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
         sizes, bore = rack_sizes(mechanism), rack_bore(mechanism)
         arm = crank_arm(mechanism) if bore else None
     except GenevaError:  # reported by the check of the parts
-        return NO_SIZES
+        return {}, ()
     thick = drawn_thicknesses(size, sizes.arm)
     known = {
         "wheel_radius_mm": sizes.edge,
@@ -134,7 +133,7 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
     if arm:
         wide = {"bore": bore, "hub": arm.hub, "eye": arm.eye}
         known |= {f"arm_{name}_mm": 2.0 * radius for name, radius in wide.items()}
-    return KeySizes(known, ())
+    return known, ()
 
 
 def rack_contour(sizes: RackSizes, count: int) -> Contour:

@@ -15,14 +15,13 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.rollers import places
-from geneva_cli.parts.machine_sizes import lock_between, refuse_edges, require_lock_between
+from geneva_cli.parts.machine_sizes import lock_between, require_lock_between
 from geneva_cli.parts.sizes import (
     arm_bore,
     drawn_thicknesses,
-    hole_radius,
     pin_radius,
     reach_and_hub,
-    refuse_wide_pin,
+    refuse_pin_and_edges,
     wheel_bore,
 )
 from geneva_cli.spec.default_sizes import value_or
@@ -171,8 +170,8 @@ def usual_ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
                 ("size", key),
             )
     pin = pin_radius(size, radius_mm)
-    refuse_wide_pin(size, pin, inside * math.sin(roller))
-    refuse_edges(size, min(thick.wheel, thick.lock, thick.arm))
+    thin = min(thick.wheel, thick.lock, thick.arm)
+    refuse_pin_and_edges(size, pin, inside * math.sin(roller), thin)
     # the locking sectors' edge is between the wheel's rim and the rollers
     limit, least = arm - w - allowed.lock_clearance_mm / L, abs(deepest + arm - rim)
     lock_mm = _lock_mm(spec, L, least, limit, roller) if spec.has_lock else 0.0
@@ -181,7 +180,7 @@ def usual_ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
     turns = [first.crank_deg, *(p.crank_deg for p in others)] if others else even
     bored = 0.0
     if spec.drive.crank and pin:
-        bored = arm_bore(spec, 0.0, L, L * arm - hole_radius(size, pin))
+        bored = arm_bore(spec, 0.0, L, L * arm - (pin - 0.5 * allowed.press_fit_mm))
     ball = Ball(
         radius_mm=L,
         z=z,

@@ -21,7 +21,7 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.loads.strength.arm_and_key import torsion_MPa
-from geneva_cli.loads.strength.horn_search import SlotEnd, slot_ends, squeezed
+from geneva_cli.loads.strength.horn import SlotEnd, slot_ends
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Number, parameter
 from geneva_cli.numerics.jet import Array
@@ -50,7 +50,7 @@ class SphereHorn(NamedTuple):
     def unit_stress(
         self, roller: Array, rub: Array, sections: Array, width_mm: float
     ) -> tuple[Array, Array, Array]:
-        """Von Mises stress at sections under 1 N, as ``horn_search.HornSide`` describes."""
+        """Von Mises stress at sections under 1 N, as ``horn.HornSide`` describes."""
         t0, t = self.polar(roller)[..., None], self.polar(sections)
         thick = self.thickness(t)
         every = self.radius_mm, self.half_width, width_mm
@@ -89,7 +89,10 @@ class SphereHorn(NamedTuple):
 
     def polar(self, input_deg: Number) -> Array:
         """The polar angles of the roller at input angles, (m, k) both."""
-        return np.atleast_2d(self.at.engagement.slot(squeezed(input_deg), 0)[0].c[0])
+        at_deg = np.atleast_2d(input_deg)
+        # one row as (k,) takes half the time
+        t, _ = self.at.engagement.slot(at_deg[0] if len(at_deg) == 1 else at_deg, 0)
+        return np.atleast_2d(t.c[0])
 
 
 def _axes(t: Array, x: Array | float) -> tuple[Array, Array, Array]:

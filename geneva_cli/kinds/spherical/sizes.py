@@ -7,8 +7,7 @@ from __future__ import annotations
 
 import math
 from contextlib import suppress
-from functools import lru_cache, partial
-from itertools import takewhile
+from functools import lru_cache
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.sphere import Region
@@ -16,37 +15,26 @@ from geneva_cli.kinds.spherical.ball import Ball, PartDoesNotFit, flat_radius, h
 from geneva_cli.kinds.spherical.horn import sphere_horns
 from geneva_cli.kinds.spherical.regions import sectors
 from geneva_cli.loads.strength.arm_and_key import NO_ARM, ArmDimensions
-from geneva_cli.loads.strength.horn_search import single_stress
+from geneva_cli.loads.strength.horn import single_stress
 from geneva_cli.loads.strength.lock import dwell_torque_Nm
 from geneva_cli.loads.strength.part_loads import (
     LoadedShaft,
-    ShaftForces,
-    crank_forces,
     shafts_under_load,
     single_loads,
-    wheel_forces,
 )
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.preferred import bores_from, rounded_from, to_digits
+from geneva_cli.numerics.preferred import sizes_from, to_digits
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.machine_sizes import keys_by_load
 from geneva_cli.parts.shafts.bores import reach_or_bore
-from geneva_cli.parts.sized_by_load import (
-    arm_that_holds,
-    first_that,
-    key_holds,
-    pin_that_holds,
-    shaft_holds,
-)
+from geneva_cli.parts.sized_by_load import arm_holds, key_holds, pin_that_holds, shaft_holds
 from geneva_cli.parts.sizes import (
-    NO_SIZES,
+    LARGEST_HUB,
     KeySizes,
     arm_hub,
-    hole_radius,
     hub_and_eye,
-    largest_hub,
     within_hub,
 )
 from geneva_cli.parts.stressed import Stressed, key_of, shaft_of
@@ -103,7 +91,7 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
     """Return the sizes of a spherical machine by the keys of the spec; none without parts."""
     sizes, size = sized_ball(mechanism), mechanism.spec.size
     if sizes is None:
-        return NO_SIZES
+        return {}, ()
     known = {
         "slot_bottom_clearance_mm": sizes.bottom_mm,
         "lock_radius_mm": sizes.lock_mm,
@@ -113,7 +101,8 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
     if sizes.arm_bore_mm:
         known["arm_bore_mm"] = 2.0 * sizes.arm_bore_mm
         with suppress(GenevaError):  # reported by the check of the parts
-            pin, passing = hole_radius(size, sizes.pin_mm), sizes.passing_mm(sizes.opening_mm)
+            pin = sizes.pin_mm - 0.5 * size.allowances.press_fit_mm
+            passing = sizes.passing_mm(sizes.opening_mm)
             wall = wall_min(size, sizes.radius_mm)
             hub, eye = hub_and_eye(size, wall, pin, sizes.arm_bore_mm, passing)
             known |= {"arm_hub_mm": 2.0 * hub, "arm_eye_mm": 2.0 * eye}
@@ -121,7 +110,7 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
     for part, (inside, outside) in spans.items():
         # the digits beyond the twelfth are rounding of the faces' radii
         known[f"{part}_thickness_mm"] = float(f"{outside - inside:.12g}")
-    return KeySizes(known, keys_by_load(mechanism, bool(sizes.recess)))
+    return known, keys_by_load(mechanism, bool(sizes.recess))
 
 
 def ball(mechanism: Mechanism) -> Ball:
@@ -138,19 +127,22 @@ def ball(mechanism: Mechanism) -> Ball:
         usual = usual_ball(mechanism, _horn_thickness_mm(mechanism, usual))
     loads, L, (inside, outside) = single_loads(mechanism), usual.radius_mm, usual.span_mm
     # the arm's eye about the pin passes the largest hub, and covers less than half of the sphere
-    hub = max(usual.opening_mm, largest_hub(usual.slot_end_mm))
+    hub = max(usual.opening_mm, LARGEST_HUB * usual.slot_end_mm)
     eye = min(usual.passing_mm(hub), 0.99 * L * (0.5 * math.pi - usual.arm))
     roller, clear = inside * math.sin(usual.roller), eye - wall_min(size, L)
     pin = pin_that_holds(mechanism, usual.pin_mm, outside - inside, roller, clear, loads)
     sizes, under = usual._replace(pin_mm=pin), usual.arm_span_mm[0]
 
-    def trial(keyed: bool, arm: float | None) -> Ball:
-        one = sizes._replace(arm_span_mm=(under, under + arm)) if arm else sizes
-        return _crank_bored(mechanism, _wheel_bored(mechanism, one), keyed)
-
     if not sizes.arm_bore_mm or size.arm_thickness_mm is not None:
-        return trial(True, None)
-    return arm_that_holds(spec, outside - inside, trial, partial(sphere_stressed, spec), loads)
+        return _crank_bored(mechanism, _wheel_bored(mechanism, sizes), True)
+    # a thicker arm, up to twice the wheel, is better for a key than a thicker shaft
+    for keyed in (False, True) if size.crank_keyway else (True,):
+        for thick in sizes_from(outside - inside, 2.0 * (outside - inside)):
+            trial = sizes._replace(arm_span_mm=(under, under + thick))
+            trial = _crank_bored(mechanism, _wheel_bored(mechanism, trial), keyed)
+            if arm_holds(spec, sphere_stressed(spec, trial), loads):
+                return trial
+    return trial
 
 
 def _horn_thickness_mm(mechanism: Mechanism, usual: Ball) -> float:
@@ -158,13 +150,12 @@ def _horn_thickness_mm(mechanism: Mechanism, usual: Ball) -> float:
     allowed = wheel_material(mechanism.spec).allowed_MPa
     angles = usual.half_width, usual.recess, usual.axes
     least = usual.span_mm[1] - usual.span_mm[0]
-
-    def holds(thick: float) -> bool:
-        horn = single_stress(sphere_horns, mechanism, angles, thick).single
-        return keeps(horn.stress_MPa if horn else 0.0, "at most", allowed)
-
     # a thicker wheel bends its pins more than its horns
-    return first_that(rounded_from(least, 2.0 * least), holds)
+    for thick in sizes_from(least, 2.0 * least):
+        horn = single_stress(sphere_horns, mechanism, angles, thick).single
+        if keeps(horn.stress_MPa if horn else 0.0, "at most", allowed):
+            break
+    return thick
 
 
 def _wheel_bored(mechanism: Mechanism, ball: Ball) -> Ball:
@@ -175,20 +166,19 @@ def _wheel_bored(mechanism: Mechanism, ball: Ball) -> Ball:
         return ball
     held = spec.shaft.torsion_factor * dwell_torque_Nm(mechanism).item()
 
-    def holds(trial: Ball) -> bool:
-        parts = sphere_stressed(spec, trial)
-        moment = _moment_Nm(mechanism, wheel_forces(mechanism), parts.wheel_shaft.overhang)
-        shaft = shaft_holds(spec, "wheel", parts.wheel_shaft.diameter, max(moment, held))
-        return shaft and key_holds(spec, parts.wheel_key, single_loads(mechanism).wheel_Nm)
-
     # a hub with flat faces stays in its shell, a hundredth short of the outer sphere
     widest = min(end - wall_min(size, L), 0.99 * flat_radius(*ball.span_mm))
     most = min(end * 2.0 / 3.0, within_hub(size, "wheel"))
-    each = (
-        ball._replace(bore_mm=0.5 * d, hub_mm=hub_about(size, L, 0.5 * d, end))
-        for d in bores_from(2.0 * ball.bore_mm, 2.0 * most)
-    )
-    return first_that(takewhile(lambda one: one.hub_mm <= widest, each), holds, ball)
+    for d in sizes_from(2.0 * ball.bore_mm, 2.0 * most, bores=True):
+        trial = ball._replace(bore_mm=0.5 * d, hub_mm=hub_about(size, L, 0.5 * d, end))
+        if trial.hub_mm > widest:
+            break
+        ball, parts = trial, sphere_stressed(spec, trial)
+        moment = _moment_Nm(mechanism, "wheel", parts.wheel_shaft.overhang)
+        shaft = shaft_holds(spec, "wheel", parts.wheel_shaft.diameter, max(moment, held))
+        if shaft and key_holds(spec, parts.wheel_key, single_loads(mechanism).wheel_Nm):
+            break
+    return ball
 
 
 def _crank_bored(mechanism: Mechanism, ball: Ball, keyed: bool) -> Ball:
@@ -210,27 +200,31 @@ def _crank_bored(mechanism: Mechanism, ball: Ball, keyed: bool) -> Ball:
         # the arm's hub fits: about its bore, in the arm, and past pins and wheel
         bored = reach_or_bore(size, "crank", trial.arm_bore_mm)
         hub = arm_hub(size, bored, trial.arm_bore_mm, wall)
-        hole = math.asin(min(1.0, hole_radius(size, trial.pin_mm) / under))
+        pin = trial.pin_mm - 0.5 * size.allowances.press_fit_mm
+        hole = math.asin(min(1.0, pin / under))
         to_pins = under * math.sin(max(0.0, trial.arm - hole - wall / under))
         passing = trial.arm + trial.passing_mm(trial.opening_mm) / trial.radius_mm
         within = bored + wall <= hub <= min(to_pins, 0.99 * flat_radius(under, over))
         return within and trial.cap(hub, bored, wall) <= passing
 
-    def holds(trial: Ball) -> bool:
-        parts = sphere_stressed(spec, trial)
-        moment = _moment_Nm(mechanism, crank_forces(spec), parts.crank_shaft.overhang)
+    sizes = ball
+    for d in sizes_from(2.0 * ball.arm_bore_mm, over, bores=True):
+        trial = ball._replace(arm_bore_mm=0.5 * d)
+        if not fits(trial):
+            break
+        sizes, parts = trial, sphere_stressed(spec, trial)
+        moment = _moment_Nm(mechanism, "crank", parts.crank_shaft.overhang)
         shaft = shaft_holds(spec, "crank", parts.crank_shaft.diameter, moment)
         key = not keyed or key_holds(spec, parts.crank_key, single_loads(mechanism).crank_Nm)
-        return shaft and key
-
-    each = (ball._replace(arm_bore_mm=0.5 * d) for d in bores_from(2.0 * ball.arm_bore_mm, over))
-    return first_that(takewhile(fits, each), holds)
+        if shaft and key:
+            break
+    return sizes
 
 
 @lru_cache(maxsize=64)
-def _moment_Nm(mechanism: Mechanism, forces: ShaftForces, overhang_mm: float) -> float:
+def _moment_Nm(mechanism: Mechanism, part: str, overhang_mm: float) -> float:
     """Return the greatest equivalent torque of a shaft; it needs a search of the whole cycle."""
-    (one,) = shafts_under_load(mechanism, [LoadedShaft(forces, overhang_mm)])
+    (one,) = shafts_under_load(mechanism, [LoadedShaft(part, overhang_mm)])
     return one["moment_Nm"].item() if one else 0.0
 
 
@@ -240,7 +234,8 @@ def sphere_stressed(spec: Spec, ball: Ball) -> Stressed:
     thick, arm, bore = over - under, NO_ARM, ball.arm_bore_mm
     end = ball.shafts_end_mm(size) - L, thick
     if bore:
-        middle, wall, hole = 0.5 * (under + over), wall_min(size, L), hole_radius(size, ball.pin_mm)
+        middle, wall = 0.5 * (under + over), wall_min(size, L)
+        hole = ball.pin_mm - 0.5 * size.allowances.press_fit_mm
         bored = reach_or_bore(size, "crank", bore)
         cap = ball.cap(arm_hub(size, bored, bore, wall), bored, wall)
         eye = half_or(size.arm_eye_mm, eye_about(hole, wall, ball.passing_mm(ball.opening_mm)))

@@ -16,7 +16,7 @@ import numpy as np
 
 from geneva_cli.loads.carried import MM, inertia_kgm2
 from geneva_cli.loads.load_case import contact_modulus_GPa
-from geneva_cli.loads.strength.pin import Pin, PinSize, stiffness_N_mm
+from geneva_cli.loads.strength.pin import PinSize, stiffness_N_mm
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import omega
@@ -95,15 +95,20 @@ def forces_N(mechanism: Mechanism, jump: Array, pin: PinSize) -> Array:
 
 
 def least_pin_mm(
-    mechanism: Mechanism, jump: Array, contact_mm: Number, pin: Pin, allowed_MPa: Number
+    mechanism: Mechanism,
+    jump: Array,
+    pin: PinSize,
+    stress_MPa: tuple[Number, Number],
+    allowed_MPa: Number,
 ) -> Array:
     """Diameters at which pins hold impacts, for jumps (m, 1); NaN without one: (m,).
 
-    ``pin`` has the stresses at its diameter. A thicker pin is struck harder, but the force that it
-    allows grows as d³, or d² in shear, and the energy that it stores: one diameter just holds.
+    ``stress_MPa`` are bending and shear of the ``pin`` under 1 N on the wall. A thicker pin is
+    struck harder, but the force that it allows grows as d³, or d² in shear, and the energy that it
+    stores: one diameter just holds.
     """
-    work, press, bend = _struck(mechanism, jump, PinSize(pin.diameter_mm, contact_mm))
-    rows = pin.bending, math.sqrt(3.0) * pin.shear, allowed_MPa, pin.diameter_mm
+    work, press, bend = _struck(mechanism, jump, pin)
+    rows = stress_MPa[0], math.sqrt(3.0) * stress_MPa[1], allowed_MPa, pin.diameter_mm
     bending, shear, allowed, usual = (np.broadcast_to(np.ravel(row), len(work)) for row in rows)
 
     def over(d: Array, live: Whole) -> tuple[Array, Array]:

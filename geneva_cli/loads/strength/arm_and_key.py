@@ -44,24 +44,18 @@ def arm_stress_MPa(dimensions: ArmDimensions, force_N: Number) -> Array:
 
     It is infinite where a hole leaves nothing of the width.
     """
-    force_N, *own = np.broadcast_arrays(force_N, *dimensions)
-    arm = ArmDimensions(*own)
-    taper = (arm.hub - arm.eye) / arm.length
+    force_N, length, hub, eye, bored, pin, h, offset = np.broadcast_arrays(force_N, *dimensions)
+    taper, none = (hub - eye) / length, 0.0 * length
     with np.errstate(divide="ignore"):
-        twice = np.minimum(arm.length, arm.eye / np.maximum(taper, 0.0))
-    # place of each section, its half width, and half the hole in its middle
-    sections = (
-        *((x, arm.eye + taper * x, 0.0 * x) for x in (arm.hole, twice, arm.length - arm.bored)),
-        (arm.hole, arm.eye, arm.hole),
-        (arm.length, arm.hub, arm.bored),
-    )
-    x, half, bore = (np.stack(each) for each in zip(*sections, strict=True))
-    h, twist = arm.thickness, force_N * arm.offset
+        twice = np.minimum(length, eye / np.maximum(taper, 0.0))
+    # place of each section, its width, and the hole in its middle
+    x = np.stack((pin, twice, length - bored, pin, length))
+    width = 2.0 * np.stack((*(eye + taper * x[:3]), eye, hub))
+    hole = 2.0 * np.stack((none, none, none, pin, bored))
+    twist, left = force_N * offset, width - hole
     with np.errstate(divide="ignore", invalid="ignore"):  # nothing left; a force without a bound
-        width, hole = 2.0 * half, 2.0 * bore
-        left = width - hole
         in_plane = 6.0 * force_N * x * width / (h * (width**3 - hole**3))
-        out_of_plane = 6.0 * force_N * arm.offset / (left * h * h) + force_N / (left * h)
+        out_of_plane = 6.0 * force_N * offset / (left * h * h) + force_N / (left * h)
         # at a hole 3/2 V/(left/2 h), V being half the twist over the walls' distance
         couple = 1.5 * twist / (0.5 * (width + hole) * left * h)
         shear = np.where(hole > 0.0, couple, torsion_MPa(twist, left, h))
@@ -96,11 +90,6 @@ def least_thickness_mm(arm: ArmDimensions, force_N: Array, allowed_MPa: Array) -
     return np.where(holds(most), least, np.inf)
 
 
-# Parallel keys (DIN 6892, method C): the torque T acts on the shaft's circle of diameter d, so that
-# the side in the hub bears 2 T/(d (h - t1) l), and the section 2 T/(d b l) of shear. Rounded ends
-# and the fit between hub and shaft are neglected.
-
-
 class KeyDimensions(NamedTuple):
     """A parallel key as long as its bore, mm; (m,) for m designs, NaN for those without."""
 
@@ -118,7 +107,9 @@ def key_stress(
 ) -> tuple[Number, Number, Number]:
     """The pressure on keys and their shear under a torque, MPa, and the least length, mm.
 
-    That length keeps the allowable ``pressure`` and ``shear``.
+    That length keeps the allowable ``pressure`` and ``shear``. By DIN 6892, method C, the torque T
+    acts on the shaft's circle of diameter d: the side in the hub bears 2 T/(d (h - t1) l), and the
+    section 2 T/(d b l) of shear. Rounded ends and the fit between hub and shaft are neglected.
     """
     force = 2e3 * torque_Nm / key.shaft
     sides, section = key.bearing * key.length, key.width * key.length

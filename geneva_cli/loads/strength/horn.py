@@ -15,18 +15,98 @@ sections are neglected. Against plane stress by finite elements straight slots a
 
 from __future__ import annotations
 
-from typing import NamedTuple
+import math
+from collections.abc import Callable, Sequence
+from functools import lru_cache
+from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
-from geneva_cli.loads.strength.horn_search import SlotEnd, slot_ends, squeezed
+from geneva_cli.loads.contact import NEAR_CUSP, contact, contact_values
+from geneva_cli.loads.instant import bounded_loads
+from geneva_cli.loads.load_case import load_case
+from geneva_cli.motion.batch import taken
+from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pitch_curve import pitch
-from geneva_cli.numerics.arrays import Number, parameter
+from geneva_cli.numerics.arrays import Number, array, blocks, joined, parameter
 from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.tolerances import TIE
 
 STOUT = 0.5  # thickness at the mouth over the recess's radius, beyond which a horn is no beam
-SHEAR = 1.2  # of a rectangular section: energy of its shear stress over that of the mean stress
+
+
+class HornStress(NamedTuple):
+    """The greatest stress in a horn, with the roller's place and the section.
+
+    (m,) each for m designs, NaN for those without a horn or a load.
+    """
+
+    stress_MPa: float
+    at_deg: float  # input angle from the engagement's mid-motion
+    inwards_mm: float  # of the section, from the mouth
+    thickness_mm: float
+
+    @property
+    def single(self) -> HornStress | None:
+        """The stress of a single design as numbers; None without a horn or a load."""
+        one = HornStress(*(float(array(row)[0]) for row in self))
+        return None if math.isnan(one.stress_MPa) else one
+
+
+class SlotEnd(NamedTuple):
+    """An end of a slot, entry or exit, and so the horn beside it that bears on that side.
+
+    ``engagement`` is that of the roller in its slot. ``whole`` is the engagement of the motion,
+    which has the load, at an input angle smaller by ``ahead_deg``.
+    """
+
+    engagement: Engagement
+    end: float  # -1: between the slot and where the crank's axis is before the motion; 1: after it
+    mouth_deg: float  # input angle at which the roller is at this end's mouth
+    whole: Engagement
+    ahead_deg: float
+
+
+def slot_ends(mechanism: Mechanism) -> list[SlotEnd]:
+    """Both ends of each kind of slot under its load."""
+    ends = []
+    for whole in mechanism.under_load.engagements:
+        for end, (own, ahead) in ((-1.0, whole.passages[0]), (1.0, whole.passages[-1])):
+            ends.append(SlotEnd(own, end, own.end_deg(end), whole, ahead))
+    return ends
+
+
+if TYPE_CHECKING:
+
+    class HornSide(Protocol):
+        """A horn: the wall on one side of a slot."""
+
+        @property
+        def at(self) -> SlotEnd:
+            """The end of the slot where this horn bears."""
+
+        @property
+        def recess_mm(self) -> Number:
+            """The recess's radius, (m, 1) of a batch."""
+
+        @property
+        def stoutness(self) -> Array:
+            """Thickness at the mouth over the recess's radius, (m,)."""
+
+        def unit_stress(
+            self, roller: Array, rub: Array, sections: Array, width_mm: float
+        ) -> tuple[Array, Array, Array]:
+            """Stresses under 1 N, MPa (m, places, sections), and of sections place and thickness.
+
+            The roller's places and the sections are input angles (m, k). ``rub`` is the friction on
+            the wall under 1 N across it, positive towards the mouth. A section's place is its
+            distance from the mouth, mm; its thickness, mm, is infinite beyond the horn.
+            """
+
+
+Sides: TypeAlias = "Callable[..., Sequence[HornSide]]"  # horns of a mechanism and its sizes
+Sizes: TypeAlias = "tuple[float, ...]"  # half the slot's width, the recess, and what else differs
 
 
 class Horn(NamedTuple):
@@ -40,93 +120,65 @@ class Horn(NamedTuple):
     half_width: float
     recess_mm: float
     centre: Array  # position of the recess's centre
-    inwards: Array  # direction along the slot at its mouth
-    across: Array  # direction perpendicular to that, from the recess's centre to the slot
-    outwards: Array  # direction out of the wheel at the recess's centre, between two horns
+    # directions (2, 2, m, 1): along the slot at its mouth; square to it, towards the slot
+    axes: Array
+    half: Array  # half the angle between this horn's mouth and the next one's, at that centre
     tip_mm: Number = 0.0  # width of the flat to which a thinner tip is cut back
 
-    def wall(self, input_deg: Number) -> tuple[Array, Array]:
-        """Points of the slot's wall, and its normals towards the recess, in the horn's frame.
+    def sections(self, input_deg: Number) -> tuple[Array, Array, Array, Array]:
+        """Sections where the roller is at input angles (m, k), in the axes of the horn.
 
-        At angles (m, k) both are (2, m, k). The origin is the recess's centre.
+        They are points of the slot's wall and its normals towards the recess, (2, m, k) from the
+        recess's centre; thicknesses up to the recess, mm; and the angles about that centre, in
+        radians, from the sections' feet to the next horn's. These are (m, k).
         """
-
-        def turned(of: Array) -> Array:
-            axes = product(of, self.inwards), product(of, self.across)
-            return np.stack(np.broadcast_arrays(*axes))
-
-        x, y = self.at.engagement.slot(squeezed(input_deg), 1)
-        place = turned(self.L * vector(x.c[0], y.c[0]) - self.centre)
-        normal = turned(vector(-np.asarray(y.c[1]), x.c[1]))
+        at_deg = np.atleast_2d(input_deg)
+        # one row as (k,) takes half the time
+        x, y = self.at.engagement.slot(at_deg[0] if len(at_deg) == 1 else at_deg, 1)
+        rows = np.broadcast_arrays(*map(np.atleast_2d, (*x.c[:2], *y.c[:2])))
+        place, normal = np.stack((rows[0], rows[2])), np.stack((-rows[3], rows[1]))
+        wall = (self.axes * (self.L * place - self.centre)).sum(axis=1)
+        normal = (self.axes * normal).sum(axis=1)
         normal *= np.where(normal[1] > 0.0, -1.0, 1.0) / np.hypot(*normal)
-        return place + self.half_width * normal, normal
-
-    def thickness(self, wall: Array, normal: Array) -> Array:
-        """Thickness at points of the wall, mm; infinite where another horn begins."""
-        thick, turned = self.feet(wall, normal)
-        return np.where(turned < self.middle, thick, np.inf)
-
-    def feet(self, wall: Array, normal: Array) -> tuple[Array, Array]:
-        """Thickness at points of the wall up to the recess, and directions of the sections' feet.
-
-        Directions are seen from the recess's centre: radians from the mouth's.
-        """
-        along = -product(wall, normal)
+        wall = wall + self.half_width * normal
+        along = -(wall * normal).sum(axis=0)
         with np.errstate(invalid="ignore"):
-            thick = along - np.sqrt(along * along - product(wall, wall) + self.recess_mm**2)
-            return thick, np.arctan2(*(wall + thick * normal))
-
-    @property
-    def middle(self) -> Array:
-        """Half the angle between this horn's mouth and the next one's, at the recess's centre."""
-        away, up = product(self.outwards, self.inwards), product(self.outwards, self.across)
-        sense = np.where(away > 0.0, 1.0, -1.0)
-        half: Array = np.arctan2(sense * away, sense * up)
-        return half
+            square = along * along - (wall * wall).sum(axis=0) + self.recess_mm**2
+            thick = along - np.sqrt(square)
+            return wall, normal, thick, self.half - np.arctan2(*(wall + thick * normal))
 
     def unit_stress(
         self, roller: Array, rub: Array, sections: Array, width_mm: float
     ) -> tuple[Array, Array, Array]:
-        """Bending and tension at sections under 1 N, as ``horn_search.HornSide`` describes."""
-        places, normals = self.wall(np.hstack((roller, sections)))
+        """Bending and tension at sections under 1 N, as ``HornSide`` describes."""
         count = roller.shape[1]
-        (contact, wall), (push, normal) = (
-            np.split(of, [count], axis=2) for of in (places, normals)
-        )
-        thick = self.thickness(wall, normal)
+        places, normals, thick, left = self.sections(np.hstack((roller, sections)))
+        contact, push = places[..., :count, None], normals[..., :count, None]
+        wall, normal = places[..., None, count:], normals[..., None, count:]
+        # where another horn begins there are no sections
+        thick = np.where(left[:, count:] > 0.0, thick[:, count:], np.inf)
         # places of the wall that a tip which is cut back has left
-        depth = contact[1] - self.tip_mm
+        depth = places[1, :, :count] - self.tip_mm
         inner = np.sqrt(np.maximum(np.square(self.recess_mm) - depth * depth, 0.0))
-        left = (depth >= self.recess_mm) | (contact[0] >= inner) | np.equal(self.tip_mm, 0.0)
-        contact, push = contact[..., None], push[..., None]
+        begun = (depth >= self.recess_mm) | (places[0, :, :count] >= inner)
+        begun = begun | np.equal(self.tip_mm, 0.0)
         # friction along the wall towards the mouth, where the first axis is negative
         push = push + rub[..., None] * np.stack((push[1], -push[0]))
         with np.errstate(all="ignore"):
             # from the contact to the middle of the section, (2, m, places, sections)
-            arm = (wall + 0.5 * thick * normal)[:, :, None] - contact
+            deep = thick[:, None]
+            arm = (wall + 0.5 * deep * normal) - contact
             moment = arm[1] * push[0] - arm[0] * push[1]
-            along, deep = normal[:, :, None], thick[:, None]
-            pull = push[1] * along[0] - push[0] * along[1]  # along the beam
+            pull = push[1] * normal[0] - push[0] * normal[1]  # along the beam
             bent = (moment * (6.0 / deep**2) - pull / deep) / np.asarray(width_mm)[..., None]
-            further = (wall[0][:, None] > contact[0]) & left[:, :, None]
+            further = (wall[0] > contact[0]) & begun[:, :, None]
             stress = np.where(further & np.isfinite(bent), bent, 0.0)
-        return stress, wall[0], thick
+        return stress, places[0, :, count:], thick
 
     @property
     def stoutness(self) -> Array:
         """Thickness at the mouth over the recess's radius, (m,)."""
-        return np.ravel(self.thickness(*self.wall(self.at.mouth_deg)) / self.recess_mm)
-
-
-def vector(x: Number, y: Number) -> Array:
-    """Vectors of a batch: (2, m, k)."""
-    return np.stack(np.broadcast_arrays(np.atleast_2d(x), np.atleast_2d(y)))
-
-
-def product(a: Array, b: Array) -> Array:
-    """Scalar products of vectors."""
-    products: Array = a[0] * b[0] + a[1] * b[1]
-    return products
+        return np.ravel(self.sections(self.at.mouth_deg)[2] / self.recess_mm)
 
 
 def horns(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> list[Horn]:
@@ -135,15 +187,89 @@ def horns(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> list[
     moving = mechanism.spec.wheel.plane_motion(parameter(np.ravel(L)))
     for at in slot_ends(mechanism):
         turn = np.ravel(at.end * at.engagement.half_step)  # of the wheel at rest
-        axes = np.column_stack(np.broadcast_arrays(np.ravel(L), 0.0, turn))
-        centre = moving.into(axes[:, :2], axes[:, 2])
-        outwards = moving.outwards(centre).T[:, :, None]
+        places = np.column_stack(np.broadcast_arrays(np.ravel(L), 0.0, turn))
+        centre = moving.into(places[:, :2], places[:, 2])
+        outwards = moving.outwards(centre).T[:, :, None]  # at the recess's centre, between horns
         centre = centre.T[:, :, None]
         mouth = pitch(at.engagement, at.mouth_deg)
-        inwards = -at.end * vector(mouth.tangent_x, mouth.tangent_y)
-        across = vector(-inwards[1], inwards[0])
-        towards = L * vector(mouth.x, mouth.y) - centre
-        across = across * np.copysign(1.0, product(across, towards))
+        rows = mouth.tangent_x, mouth.tangent_y, mouth.x, mouth.y
+        x, y, *place = np.broadcast_arrays(*map(np.atleast_2d, rows))
+        inwards = -at.end * np.stack((x, y))
+        across = np.stack((-inwards[1], inwards[0]))
+        across = across * np.copysign(1.0, (across * (L * np.stack(place) - centre)).sum(axis=0))
+        axes = np.stack(np.broadcast_arrays(inwards, across))
+        away, up = (axes * outwards).sum(axis=1)
+        sense = np.where(away > 0.0, 1.0, -1.0)
+        half = np.arctan2(sense * away, sense * up)
         tip = mechanism.spec.size.horn_tip_mm
-        sides.append(Horn(at, L, half_width_mm, recess_mm, centre, inwards, across, outwards, tip))
+        sides.append(Horn(at, L, half_width_mm, recess_mm, centre, axes, half, tip))
     return sides
+
+
+def greatest_stress(
+    sides: Sides, mechanism: Mechanism, sizes: Sizes, width: float = 1.0
+) -> HornStress:
+    """Greatest stress of m designs, for a width of the contact, mm; sizes may be (m, 1).
+
+    NaN for a recess of 0, or without a load.
+    """
+    every, m = (mechanism, sizes, width), mechanism.designs
+    if m > 16:  # the stresses of 16 designs stay in the cache
+        return joined([greatest_stress(sides, *taken(every, some)) for some in blocks(m, 16)])
+    best = np.full((4, m), np.nan)
+    for side in sides(mechanism, *sizes):
+        # the roller runs along this horn's wall from its own end; in a straight slot from both
+        slot = side.at.engagement
+        flat = side.at.whole.slot.walls_flat
+        for start in (slot.entry_deg, slot.exit_deg) if flat else (side.at.mouth_deg,):
+            own = _over_a_half(mechanism, side, start, width)
+            own[1] += np.ravel(side.at.whole.mid_deg - side.at.ahead_deg)
+            better = ~(own[0] <= best[0] * (1.0 + TIE)) & ~np.isnan(own[0])
+            best = np.where(better, own, best)
+    at_deg = np.ravel(mechanism.under_load.shown_deg(parameter(best[1][:, None])))
+    return HornStress(*map(parameter, (best[0], at_deg, *best[2:])))
+
+
+# Of a single design, cached for its sizes and its checks.
+single_stress = lru_cache(maxsize=64)(greatest_stress)
+
+
+def _over_a_half(mechanism: Mechanism, side: HornSide, start: float, width: float) -> Array:
+    """The rows of ``HornStress``, (4, m), for the roller from ``start`` to mid-motion."""
+    case, best = load_case(mechanism), np.full((4, mechanism.designs), np.nan)
+    grid, finer = np.linspace(1.0, NEAR_CUSP, 61), np.linspace(0.0, 1.0, 33)
+    places, sections = np.atleast_2d(start) * grid, np.atleast_2d(side.at.mouth_deg) * grid
+    for _ in range(4):  # then between the neighbours of the best sample so far
+        x = places - side.at.ahead_deg
+        x = x[0] if len(x) == 1 else x  # as (k,) in half the time
+        at = contact_values(contact(side.at.whole, x, reactions=False))
+        loads = bounded_loads(case, at)
+        bears = np.asarray(loads.wheel_torque_Nm) * side.at.end < 0.0  # or else the other horn
+        force = np.where(bears, np.abs(loads.pin_force_N), 0.0)
+        own = np.flatnonzero(bears.any(axis=0) if bears.ndim > 1 else bears)  # elsewhere it is 0
+        # a mouth is away from the axis, but for internal wheels
+        rub = case.friction * mechanism.spec.wheel.SIGN * loads.slides * at.touches
+        # designs may have the same force and rub in different ways, and the reverse
+        force, rub = map(np.atleast_2d, np.broadcast_arrays(force, rub))
+        unit, inwards, thick = side.unit_stress(places[:, own], rub[:, own], sections, width)
+        m, count = max(len(force), len(unit)), sections.shape[1]
+        stress = np.zeros((m, places.shape[1], count))
+        with np.errstate(invalid="ignore"):  # of a force without a bound
+            loaded = force[:, own, None] * unit
+        stress[:, own] = np.where(np.isfinite(loaded), loaded, 0.0)
+        # designs may differ in their loads or sizes alone, and share their slots
+        sections, inwards, thick, _ = np.broadcast_arrays(sections, inwards, thick, stress[:, 0])
+        places, every = np.broadcast_to(places, (m, places.shape[1])), np.arange(m)
+        stress = stress.reshape(m, -1)
+        most = stress.max(axis=1)
+        first = np.argmax(stress >= most[:, None] * (1.0 - TIE), axis=1)
+        i, j = np.divmod(first, count)
+        rows = stress[every, first], places[every, i], inwards[every, j], thick[every, j]
+        best = np.where(most > 0.0, rows, best)
+        low, high = np.maximum(i - 1, 0), np.minimum(i + 1, places.shape[1] - 1)
+        before, after = places[every, low, None], places[every, high, None]
+        places = before + (after - before) * finer
+        low, high = np.maximum(j - 1, 0), np.minimum(j + 1, count - 1)
+        before, after = sections[every, low, None], sections[every, high, None]
+        sections = before + (after - before) * finer
+    return best

@@ -30,7 +30,10 @@ from geneva_cli.motion.batch import taken
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import all_true, blocks, parameter
 from geneva_cli.numerics.jet import Array, Number
+from geneva_cli.spec.default_sizes import value_or
 from geneva_cli.spec.materials import wheel_material
+
+SHEAR = 1.2  # of a rectangular section: energy of its shear stress over that of the mean stress
 
 
 class LockUnderTorque(NamedTuple):
@@ -45,17 +48,7 @@ class LockUnderTorque(NamedTuple):
     play_deg: float
     approach_deg: float
     bending_deg: float
-
-    @property
-    def deflection_deg(self) -> float:
-        """Sum of all three parts; NaN if the approach is not known."""
-        return self.play_deg + self.approach_deg + self.bending_deg
-
-
-def held_torque_Nm(mechanism: Mechanism) -> float:
-    """Torque that the lock holds during the dwell."""
-    load = mechanism.spec.load
-    return load.torque_Nm if load.dwell_torque_Nm is None else load.dwell_torque_Nm
+    deflection_deg: float  # sum of all three parts; NaN if the approach is not known
 
 
 def dwell_torque_Nm(mechanism: Mechanism) -> Array:
@@ -80,44 +73,41 @@ def loaded_locks(
 
     None if all are without a torque.
     """
-    torque, width = held_torque_Nm(mechanism), width_mm
+    load, width = mechanism.spec.load, width_mm
+    torque = value_or(load.dwell_torque_Nm, load.torque_Nm)
     if all_true(torque == 0.0):
         return None
     touch, known = by.contact(), np.atleast_2d(np.where(torque == 0.0, np.nan, torque))
-    sine, force = np.sin(touch.phi), held_force_N(known, by)
+    sine, lock = np.sin(touch.phi), by.lock
     lever, worn = by.L * sine, touch.phi - sine * np.cos(touch.phi)
-    pressure = 2e3 * known * sine / (width * by.lock * by.L * worn)
+    force = 1e3 * known / lever
+    pressure = 2e3 * known * sine / (width * lock * by.L * worn)
     arcs = np.equal(touch.on, "recess")  # no horn is bent
-    give, stress, thick = still = list(map(np.atleast_2d, (0.0, 0.0, by.recess)))
+    give, bent_MPa, thick = map(np.atleast_2d, (0.0, 0.0, by.recess))
     if not arcs.all():
         bent = bending(mechanism, half_width_mm, by.recess, touch.phi)
-        give, stress, thick = (np.where(arcs, *both) for both in zip(still, bent, strict=True))
+        give, bent_MPa = np.where(arcs, 0.0, bent[0]), np.where(arcs, 0.0, bent[1])
+        thick = np.where(arcs, thick, bent[2])
     line = force / width
-    contact, approach = _contact(mechanism, line, touch.radius, by.lock, thick, pressure)
-    angles = (np.degrees(x) for x in (touch.play, approach / lever, give * line / lever))
-    rows = np.broadcast_arrays(known, force, contact, pressure, stress * line, *angles)
-    every = np.reshape(rows, (len(rows), -1))
-    every[:, np.isnan(every[1])] = np.nan  # without a force nothing is known
-    return LockUnderTorque(touch.on, *map(parameter, every))
-
-
-def _contact(
-    mechanism: Mechanism, line: Array, radius: float, lock: float, thick: Array, pressure: Array
-) -> tuple[Array, Array]:
-    """Hertz's stress, MPa, and the approach, mm, for a force per mm; NaN for a sharp edge."""
-    material = wheel_material(mechanism.spec)
+    # Hertz's stress, and the approach; both NaN for a sharp edge, the stress without clearance
+    material, radius = wheel_material(mechanism.spec), touch.radius
     nu, modulus = material.poisson_ratio, contact_modulus_GPa(material, material)
     gives = 0.5 / (1e3 * modulus)  # (1 - nu²)/E of each body, mm²/N
     sharp, loose = np.equal(radius, 0.0), np.isfinite(radius)
     with np.errstate(all="ignore"):
-        stress = hertz_MPa(modulus, line, radius)
+        stress = np.where(loose & ~sharp, hertz_MPa(modulus, line, radius), np.nan)
         half = np.sqrt(8.0 * gives * line * radius / math.pi)
         round_ = 2.0 * np.log(4.0 * lock / half) - 1.0
         flat = 2.0 * np.log(2.0 * thick / half) - nu / (1.0 - nu)
         local = gives * line / math.pi * (round_ + flat)
         columns = gives * pressure * (lock + thick)
-    approach = np.where(half > 0.25 * thick, columns, local)
-    return np.where(loose & ~sharp, stress, np.nan), np.where(sharp, np.nan, approach)
+    approach = np.where(sharp, np.nan, np.where(half > 0.25 * thick, columns, local))
+    play, near = np.degrees(touch.play), np.degrees(approach / lever)
+    turned = np.degrees(give * line / lever)
+    rows = known, force, stress, pressure, bent_MPa * line, play, near, turned, play + near + turned
+    every = np.reshape(np.broadcast_arrays(*rows), (len(rows), -1))
+    every[:, np.isnan(every[1])] = np.nan  # without a force nothing is known
+    return LockUnderTorque(touch.on, *map(parameter, every))
 
 
 def bending(mechanism: Mechanism, half_width: float, recess: float, phi: float) -> Array:
@@ -125,29 +115,21 @@ def bending(mechanism: Mechanism, half_width: float, recess: float, phi: float) 
 
     The rows are the deflection of its end, mm, its stress, MPa, and its thickness, mm.
     """
-    every = (mechanism, half_width, recess, phi)
-    groups = []
-    for block in blocks(mechanism.designs, 8):  # the sections of 8 designs stay in the cache
-        own = _weakest(*(taken(every, block) if mechanism.designs > 1 else every))
-        # what does not differ, as where loads alone do, is one row for all of them
-        groups.append(np.broadcast_to(own, (3, block.stop - block.start, 1)))
-    return np.concatenate(groups, axis=1)
+    from geneva_cli.loads.strength.horn import horns
 
-
-def _weakest(mechanism: Mechanism, half_width: float, recess: float, phi: float) -> Array:
-    """The weakest horn of designs that are computed together, as ``bending``."""
-    from geneva_cli.loads.strength.horn import SHEAR, horns, product
-
+    every, m = (mechanism, half_width, recess, phi), mechanism.designs
+    if m > 8:  # the sections of 8 designs stay in the cache
+        return np.concatenate([bending(*taken(every, some)) for some in blocks(m, 8)], axis=1)
     material = wheel_material(mechanism.spec)
     E = 1e3 * material.youngs_modulus_GPa
     G = E / (2.0 * (1.0 + material.poisson_ratio))
     weakest: Array | None = None
     for side in horns(mechanism, half_width, recess):
         # sums by trapezoids over 2001 sections have an error of a ten-thousandth at worst
-        wall, normal = side.wall(side.at.mouth_deg * np.linspace(1.0, NEAR_CUSP, 2001))
-        thick, turned = side.feet(wall, normal)
+        places = side.at.mouth_deg * np.linspace(1.0, NEAR_CUSP, 2001)
+        wall, normal, thick, own = side.sections(places)
         middle = wall + 0.5 * thick * normal
-        towards = abs(product(side.centre, side.across)) / np.hypot(*side.centre)
+        towards = abs((side.centre * side.axes[1]).sum(axis=0)) / np.hypot(*side.centre)
         ahead = np.arccos(np.minimum(1.0, towards))  # direction of the wheel's axis
         tilt = phi - ahead  # angle of the force from the mouth's direction
         x, y = -np.sin(tilt), np.cos(tilt)
@@ -156,25 +138,25 @@ def _weakest(mechanism: Mechanism, half_width: float, recess: float, phi: float)
         push = abs(x * normal[1] - y * normal[0])
         give = 12.0 * moment**2 / (E * thick**3) + SHEAR * across**2 / (G * thick)
         stress = 6.0 * abs(moment) / thick**2 + push / thick
-        past, own = wall[0] - recess * x, side.middle - turned
         # where another horn has begun, or without a foot, nothing belongs to this one
         own = np.where(np.logical_and.accumulate(own > 0.0, axis=1), own, np.fmin(own, 0.0))
-        begins, ends = _rises(past), _rises(-own)
+        begins, ends = _rises(wall[0] - recess * x), _rises(-own)
         length = np.hypot(*np.diff(wall)) * np.maximum(ends - begins, 0.0)
-        (low, high), stresses = (
-            [of[:, :-1] + np.diff(of) * part for part in (begins, ends)]
-            for of in (np.where(np.isfinite(row), row, 0.0) for row in (give, stress))
-        )
+        both = np.stack(np.broadcast_arrays(give, stress))
+        both = np.where(np.isfinite(both), both, 0.0)
+        low = both[..., :-1] + np.diff(both) * begins
+        high = both[..., :-1] + np.diff(both) * ends
         rows = np.broadcast_arrays(
-            np.where(length > 0.0, 0.5 * (low + high) * length, 0.0).sum(axis=1),
-            np.where(length > 0.0, np.fmax(*stresses), 0.0).max(axis=1),
+            np.where(length > 0.0, 0.5 * (low[0] + high[0]) * length, 0.0).sum(axis=1),
+            np.where(length > 0.0, np.fmax(low[1], high[1]), 0.0).max(axis=1),
             np.where(own > 0.0, thick, np.inf).min(axis=1),
         )
         horn = np.stack(rows)[:, :, None]
         # the greater deflection counts
         weakest = horn if weakest is None else np.where(horn[0] > weakest[0], horn, weakest)
     assert weakest is not None
-    return weakest
+    # what does not differ, as where loads alone do, is one row for all of them
+    return np.broadcast_to(weakest, (3, m, 1))
 
 
 def _rises(of: Array) -> Array:

@@ -19,8 +19,8 @@ velocity, -c e x u at the crank's rate c. The roller is thin: its cone presses o
 from __future__ import annotations
 
 import math
-from collections.abc import Hashable, Sequence
-from typing import NamedTuple, Protocol
+from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -32,7 +32,6 @@ from geneva_cli.loads.impacts.reversal import reversal_impacts
 from geneva_cli.loads.instant import Instant, LoadQuantity
 from geneva_cli.loads.load_peaks import load_peaks
 from geneva_cli.loads.strength.lock import dwell_torque_Nm
-from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import PeakArray, greater
 from geneva_cli.numerics.angles import omega
@@ -40,17 +39,10 @@ from geneva_cli.numerics.arrays import N, parameter
 from geneva_cli.numerics.jet import Array, Jet, Number, sqrt
 
 
-class ShaftForces(Hashable, Protocol):
-    """The loads of a shaft at an instant: a function, or a tuple that is called as one."""
-
-    def __call__(self, i: Instant[Jet], overhang: Number, /) -> tuple[Jet, Jet]:
-        """Squared bending moment, (N m)², for an overhang in metres; and torque."""
-
-
 class LoadedShaft(NamedTuple):
-    """The loads on a shaft and its dimensions, floats or (m, 1); None for unknown ones."""
+    """A shaft and its dimensions, floats or (m, 1); None for unknown ones."""
 
-    forces: ShaftForces
+    part: str  # on it: "wheel" or "crank"
     overhang_mm: float | None
     diameter_mm: float | None = None
     span_mm: float | None = None
@@ -59,120 +51,63 @@ class LoadedShaft(NamedTuple):
     held_Nm: Array | float = 0.0
 
 
+class ShaftLoad(NamedTuple):
+    """A row for ``load_peaks``, which the grip bounds: the square (Kb M)² + (Kt T)² of a shaft.
+
+    Of the torque alone without an overhang.
+    """
+
+    part: str
+    on_sphere: bool
+    orbiting_N: Number  # m L w² of the bodies of a wheel on a carrier, which load its shaft too
+    overhang_m: Number | None = None  # on a sphere beyond L
+    bending: float = 1.0  # Kb
+    torsion: float = 1.0  # Kt
+
+    def __call__(self, i: Instant[Jet]) -> QuantityValue[Jet]:
+        """The square, at an instant."""
+        at, rate = i.at, None
+        on_wheel = self.part == "wheel"
+        if self.on_sphere and not on_wheel:
+            away = at.velocity * at.lever
+            spin = at.spin + at.velocity * at.arm  # of the crank about the roller's axis
+            rate = sqrt(at.along * at.along + away * away + spin * spin)
+            torque = i.input_torque_Nm / rate
+        else:
+            torque = i.wheel_torque_Nm if on_wheel else i.crank_torque_Nm
+        turned = torque * self.torsion
+        if self.overhang_m is None:
+            return QuantityValue(turned * turned, i.grip)
+        if self.on_sphere:
+            # the moment that bends a shaft whose axis has these cosines along u, m, y
+            axis = at.arm, at.lever * -1.0, at.lever * 0.0
+            if rate is not None:
+                axis = spin / rate * -1.0, away / rate, at.along / rate * -1.0
+            L, b = i.case.L, i.case.L + self.overhang_m
+            rub = i.case.friction * i.slides
+            lever, turn = axis[0] * -b + L, axis[1] - axis[2] * (i.drives * rub)
+            bent = lever * lever * (1.0 + rub * rub) + turn * turn * ((b - L) * (b + L))
+            square = i.force_N * i.force_N * bent
+        else:
+            square = i.crank_bearing_squared
+            if on_wheel:  # what orbits is added as if in one plane: an upper bound
+                force = i.wheel_bearing_N + self.orbiting_N
+                square = force * force
+            square = square * (self.overhang_m * self.overhang_m)
+        return QuantityValue(square * (self.bending * self.bending) + turned * turned, i.grip)
+
+
 def shear_MPa(moment_Nm: N, diameter_mm: N) -> N:
     """Shear stress of a round shaft under an equivalent torque: 16 T/(pi d³)."""
     return 16e3 * moment_Nm / (math.pi * diameter_mm**3)
 
 
-def on_wheel(i: Instant[Jet], overhang: Number) -> tuple[Jet, Jet]:
-    """Squared bending moment of the wheel's shaft, and torque: the loads from slot and wheel."""
-    return i.wheel_bearing_N * i.wheel_bearing_N * (overhang * overhang), i.wheel_torque_Nm
-
-
-class OnCarrier(NamedTuple):
-    """The loads of the shaft of a wheel on a carrier, which also bears its bodies' m L w².
-
-    That is added to the roller's force as if both had one direction and one plane: an upper bound.
-    """
-
-    orbiting_N: float  # m L w²
-
-    def force_N(self, i: Instant[Jet]) -> Jet:
-        """The force on the shaft."""
-        return i.wheel_bearing_N + self.orbiting_N
-
-    def __call__(self, i: Instant[Jet], overhang: Number, /) -> tuple[Jet, Jet]:
-        """Squared bending moment of the wheel's shaft, and torque."""
-        force = self.force_N(i)
-        return force * force * (overhang * overhang), i.wheel_torque_Nm
-
-
-def on_crank(i: Instant[Jet], overhang: Number) -> tuple[Jet, Jet]:
-    """Squared bending moment of the crank's shaft, and its torque."""
-    return i.crank_bearing_squared * (overhang * overhang), i.crank_torque_Nm
-
-
-def on_sphere_wheel(i: Instant[Jet], overhang: Number) -> tuple[Jet, Jet]:
-    """Squared bending moment of the wheel's shaft, and torque; the overhang beyond L in metres."""
-    axis = i.at.arm, i.at.lever * -1.0, i.at.lever * 0.0
-    return _bending_squared(i, axis, overhang), i.wheel_torque_Nm
-
-
-def on_sphere_crank(i: Instant[Jet], overhang: Number) -> tuple[Jet, Jet]:
-    """Squared bending moment of the crank's shaft, and torque; the overhang beyond L in metres."""
-    at = i.at
-    away = at.velocity * at.lever
-    spin = at.spin + at.velocity * at.arm  # of the crank about the roller's axis
-    rate = sqrt(at.along * at.along + away * away + spin * spin)
-    axis = spin / rate * -1.0, away / rate, at.along / rate * -1.0
-    return _bending_squared(i, axis, overhang), i.input_torque_Nm / rate
-
-
-def _bending_squared(i: Instant[Jet], axis: tuple[Jet, Jet, Jet], overhang: Number) -> Jet:
-    """The square of the moment that bends a shaft whose axis has these cosines along u, m, y."""
-    L, (up, away, across) = i.case.L, axis
-    b, rub = L + overhang, i.case.friction * i.slides
-    lever = up * -b + L
-    turn = away - across * (i.drives * rub)
-    bent = lever * lever * (1.0 + rub * rub) + turn * turn * ((b - L) * (b + L))
-    return i.force_N * i.force_N * bent
-
-
-def wheel_forces(mechanism: Mechanism) -> ShaftForces:
-    """The loads of the wheel's shaft."""
-    if mechanism.spec.drive.wheels_on_carrier:
-        return on_carrier(mechanism)
-    return on_wheel if mechanism.axes else on_sphere_wheel
-
-
-def on_carrier(mechanism: Mechanism) -> OnCarrier:
-    """The loads of the shaft of a wheel on a carrier."""
-    spec, L = mechanism.spec, mechanism.center_distance_mm * MM
-    return OnCarrier(carried_kg(spec) * omega(spec.drive.n_rpm) ** 2 * L)
-
-
-def crank_forces(spec: Spec) -> ShaftForces:
-    """The loads of the crank's shaft."""
-    return on_crank if spec.wheel.axes(spec.given_distance_mm) else on_sphere_crank
-
-
-# Rows for ``load_peaks``, which the grip bounds.
-
-
-class OnShaft(NamedTuple):
-    """The force on the shaft of a wheel on a carrier."""
-
-    loaded: OnCarrier
-
-    def __call__(self, i: Instant[Jet]) -> QuantityValue[Jet]:
-        """The force."""
-        return QuantityValue(self.loaded.force_N(i), i.grip)
-
-
-class Torque(NamedTuple):
-    """The squared torque."""
-
-    loaded: ShaftForces
-
-    def __call__(self, i: Instant[Jet]) -> QuantityValue[Jet]:
-        """The square."""
-        _, torque = self.loaded(i, 0.0)
-        return QuantityValue(torque * torque, i.grip)
-
-
-class Moment(NamedTuple):
-    """The square (Kb M)² + (Kt T)²; overhang in metres."""
-
-    loaded: ShaftForces
-    overhang: float
-    bending: float
-    torsion: float
-
-    def __call__(self, i: Instant[Jet]) -> QuantityValue[Jet]:
-        """The square."""
-        square, torque = self.loaded(i, self.overhang)
-        turned = torque * self.torsion
-        return QuantityValue(square * (self.bending * self.bending) + turned * turned, i.grip)
+def orbiting_N(mechanism: Mechanism) -> Number:
+    """The force m L w² of the bodies of a wheel on a carrier; 0 for another."""
+    spec = mechanism.spec
+    if not spec.drive.wheels_on_carrier:
+        return 0.0
+    return carried_kg(spec) * omega(spec.drive.n_rpm) ** 2 * (mechanism.center_distance_mm * MM)
 
 
 def shafts_under_load(
@@ -185,44 +120,40 @@ def shafts_under_load(
     overhang or a load. What is held loads a shaft in the dwell, from the first motion's end on.
     """
     table, own = mechanism.spec.shaft, dict[str, LoadQuantity]()
-    for i, one in enumerate(shafts):
+    orbiting, on_sphere = orbiting_N(mechanism), not mechanism.axes
+    for one in shafts:
         if mechanism.spec.is_loaded and one.overhang_mm is not None:
+            torque = ShaftLoad(one.part, on_sphere, orbiting)
             factors = table.bending_factor, table.torsion_factor
-            own[f"moment {i}"] = Moment(one.forces, one.overhang_mm / 1000.0, *factors)
-            own[f"torque {i}"] = Torque(one.forces)
-    peaks = load_peaks(mechanism, tuple(own), own) if own else {}
-    return [
-        _columns(mechanism, one, one.overhang_mm, peaks[f"moment {i}"], peaks[f"torque {i}"])
-        if one.overhang_mm is not None and peaks
-        else {}
-        for i, one in enumerate(shafts)
-    ]
-
-
-def _columns(
-    mechanism: Mechanism, shaft: LoadedShaft, overhang_mm: float, both: PeakArray, turned: PeakArray
-) -> dict[str, Array]:
-    """Results from the greatest squares of moment and torque in motion."""
-    table, d, span = mechanism.spec.shaft, shaft.diameter_mm, shaft.span_mm
-    if np.any(np.asarray(shaft.held_N) > 0.0) or np.any(np.asarray(shaft.held_Nm) != 0.0):
-        bent = np.ravel(table.bending_factor) * shaft.held_N * np.ravel(overhang_mm / 1000.0)
-        square = bent**2 + (np.ravel(table.torsion_factor) * shaft.held_Nm) ** 2
-        first = mechanism.under_load.engagements[0]
-        exit_deg = np.ravel(mechanism.shown_deg(first.mid_deg + first.exit_deg))
-        both = greater(both, PeakArray(square, np.broadcast_to(exit_deg, square.shape)))
-        turned = turned._replace(max=np.maximum(turned.max, np.square(shaft.held_Nm)))
-    most = np.sqrt(both.max)
-    out = {"moment_Nm": most, "at_deg": both.at_deg}
-    if d is not None:
-        out["stress_MPa"] = shear_MPa(most, np.ravel(d))
-    if shaft.allowed_MPa is not None:
-        out["least_diameter_mm"] = np.cbrt(16e3 * most / (math.pi * np.ravel(shaft.allowed_MPa)))
-    if d is not None and span is not None:
-        polar = math.pi * d**4 / 32.0  # N m mm / (GPa mm^4) is 1
-        rate = np.ravel((overhang_mm + span) / (table.shear_modulus_GPa * polar))
-        torque = np.where(np.isfinite(turned.max), np.sqrt(turned.max), np.nan)
-        out["twist_deg"] = np.degrees(torque * rate)
-    return out
+            moment = ShaftLoad(*torque[:3], one.overhang_mm / 1000.0, *factors)
+            own |= {f"{one.part} moment": moment, f"{one.part} torque": torque}
+    peaks, each = load_peaks(mechanism, tuple(own), own) if own else {}, []
+    for one in shafts:
+        out = dict[str, Array]()
+        each.append(out)
+        d, span, overhang_mm = one.diameter_mm, one.span_mm, one.overhang_mm
+        if not peaks or overhang_mm is None:
+            continue
+        both, turned = peaks[f"{one.part} moment"], peaks[f"{one.part} torque"]
+        if np.any(np.asarray(one.held_N) > 0.0) or np.any(np.asarray(one.held_Nm) != 0.0):
+            bent = np.ravel(table.bending_factor) * one.held_N * np.ravel(overhang_mm / 1000.0)
+            square = bent**2 + (np.ravel(table.torsion_factor) * one.held_Nm) ** 2
+            first = mechanism.under_load.engagements[0]
+            exit_deg = np.ravel(mechanism.shown_deg(first.mid_deg + first.exit_deg))
+            both = greater(both, PeakArray(square, np.broadcast_to(exit_deg, square.shape)))
+            turned = turned._replace(max=np.maximum(turned.max, np.square(one.held_Nm)))
+        most = np.sqrt(both.max)
+        out |= {"moment_Nm": most, "at_deg": both.at_deg}
+        if d is not None:
+            out["stress_MPa"] = shear_MPa(most, np.ravel(d))
+        if one.allowed_MPa is not None:
+            out["least_diameter_mm"] = np.cbrt(16e3 * most / (math.pi * np.ravel(one.allowed_MPa)))
+        if d is not None and span is not None:
+            polar = math.pi * d**4 / 32.0  # N m mm / (GPa mm^4) is 1
+            rate = np.ravel((overhang_mm + span) / (table.shear_modulus_GPa * polar))
+            torque_Nm = np.where(np.isfinite(turned.max), np.sqrt(turned.max), np.nan)
+            out["twist_deg"] = np.degrees(torque_Nm * rate)
+    return each
 
 
 class PartLoads(NamedTuple):
@@ -238,26 +169,25 @@ class PartLoads(NamedTuple):
 
     def of(self, i: int) -> PartLoads:
         """The loads of one design of a batch, as numbers."""
-        return PartLoads(*(float(np.ravel(row)[i]) for row in self))
-
-
-@Known
-def single_loads(mechanism: Mechanism) -> PartLoads:
-    """The loads for which a machine is sized as numbers, cached for its sizes and their checks."""
-    return part_loads(mechanism).of(0)
+        return PartLoads(*np.reshape(self, (len(self), -1))[:, i].tolist())
 
 
 def part_loads(mechanism: Mechanism) -> PartLoads:
-    """The greatest loads of m designs."""
-    spec = mechanism.spec
-    turned = {"wheel_Nm": Torque(wheel_forces(mechanism)), "crank_Nm": Torque(crank_forces(spec))}
-    shaft, own = "wheel_bearing_N", dict[str, LoadQuantity](turned)
-    if spec.drive.wheels_on_carrier:
-        shaft, own["wheel_shaft_N"] = "wheel_shaft_N", OnShaft(on_carrier(mechanism))
-    names = FORCE, "wheel_bearing_N", shaft, "crank_bearing_N", *turned
-    peaks = load_peaks(mechanism, tuple(dict.fromkeys(names)), own)
-    force, wheel, on_shaft, crank = (peaks[name].max for name in names[:4])
-    wheel_Nm, crank_Nm = (np.sqrt(peaks[name].max) for name in turned)
+    """The greatest loads of m designs, or as numbers of a single one."""
+    orbiting, on_sphere = orbiting_N(mechanism), not mechanism.axes
+    own: dict[str, LoadQuantity] = {
+        "wheel_Nm": ShaftLoad("wheel", on_sphere, orbiting),
+        "crank_Nm": ShaftLoad("crank", on_sphere, orbiting),
+    }
+    peaks = load_peaks(mechanism, (FORCE, "wheel_bearing_N", "crank_bearing_N", *own), own)
+    force, wheel = peaks[FORCE].max, peaks["wheel_bearing_N"].max
     jump = np.nan_to_num(reversal_impacts(mechanism).jump) + np.zeros(np.shape(force))
-    held = np.maximum(wheel_Nm, dwell_torque_Nm(mechanism))
-    return PartLoads(*map(parameter, (force, jump, wheel, on_shaft, held, crank, crank_Nm)))
+    held = np.maximum(np.sqrt(peaks["wheel_Nm"].max), dwell_torque_Nm(mechanism))
+    crank, crank_Nm = peaks["crank_bearing_N"].max, np.sqrt(peaks["crank_Nm"].max)
+    rows = force, jump, wheel, wheel + np.ravel(orbiting), held, crank, crank_Nm
+    out = PartLoads(*map(parameter, rows))
+    return out.of(0) if isinstance(mechanism.design, int) else out
+
+
+# The loads for which a machine is sized, cached for its sizes and their checks.
+single_loads = Known(part_loads)

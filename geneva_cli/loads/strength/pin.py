@@ -22,44 +22,31 @@ class PinSize(NamedTuple):
     contact_mm: Number
 
 
-class Pin(NamedTuple):
-    """A round pin's stresses per newton, MPa, and its diameter."""
+def pin_stress_MPa(
+    size: Size, width: Number, d: Number, force_N: Number
+) -> tuple[Number, Number, Number]:
+    """Bending, shear and equivalent stress of a roller's pin of diameter d, MPa.
 
-    diameter_mm: Number
-    bending: Number
-    shear: Number
+    The force is spread evenly over the contact line, of the length b = ``width``, with the free
+    length g between it and a plate. The greatest moment per newton is g + b/2 at a ``cantilever``'s
+    plate; b/8 + g/2 in the middle of a ``supported`` pin, which turns in two plates; and
+    (3 s² - b²)/(24 s) at the plates of a ``fixed`` one, s = b + 2 g apart. The bending stress is
+    32 M/(pi d³), the shear stress 4/3 V/(pi d²/4) in the neutral axis.
 
-    def under(self, force_N: Number) -> Pin:
-        """Stresses under a force, MPa."""
-        return Pin(self.diameter_mm, self.bending * force_N, self.shear * force_N)
-
-    @property
-    def equivalent(self) -> Number:
-        """Greatest von Mises stress of the section.
-
-        At the height u over the axis, over the radius, it is sigma² u² + 3 tau² (1 - u²)², which is
-        convex in u²: greatest at the outer fibre or at the neutral axis.
-        """
-        return cast("Number", np.maximum(self.bending, math.sqrt(3.0) * self.shear))
-
-
-def moment_mm(support: str, width: Number, gap: Number) -> Number:
-    """Greatest bending moment per newton, N mm, spread evenly over the contact line.
-
-    ``width`` is the line's length b and ``gap`` the free length g between it and a plate, mm. At a
-    ``cantilever``'s plate it is g + b/2. In the middle of a ``supported`` pin, which turns in two
-    plates, it is b/8 + g/2. At the plates of a ``fixed`` one, s = b + 2 g apart, it is
-    (3 s² - b²)/(24 s).
-
-    >>> moment_mm("cantilever", 24.0, 0.0), moment_mm("fixed", 24.0, 0.0)
-    (12.0, 2.0)
+    The equivalent stress is von Mises' greatest. At the height u over the axis, over the radius, it
+    is sigma² u² + 3 tau² (1 - u²)², convex in u²: greatest at the outer fibre or at the axis.
     """
-    if support == "cantilever":
-        return gap + width / 2.0
-    if support == "supported":
-        return width / 8.0 + gap / 2.0
-    s = width + 2.0 * gap
-    return (3.0 * s * s - width * width) / (24.0 * s)
+    gap, plates = size.allowances.pin_gap_mm, 2.0  # that share the force
+    if size.pin_held == "cantilever":
+        moment, plates = gap + width / 2.0, 1.0
+    elif size.pin_held == "supported":
+        moment = width / 8.0 + gap / 2.0
+    else:
+        s = width + 2.0 * gap
+        moment = (3.0 * s * s - width * width) / (24.0 * s)
+    bending = 32.0 * moment / (math.pi * d**3) * force_N
+    shear = 16.0 / (3.0 * math.pi * d * d) / plates * force_N
+    return bending, shear, cast("Number", np.maximum(bending, math.sqrt(3.0) * shear))
 
 
 def stiffness_N_mm(size: Size, width: Number, d: Number, modulus_GPa: Number) -> Number:
@@ -88,19 +75,7 @@ def pin_diameter_mm(mechanism: Mechanism) -> float:
     return diameter
 
 
-def pin(size: Size, width: Number, d: Number) -> Pin:
-    """A roller's pin of diameter d; ``width`` is the length of the contact line, mm.
-
-    Bending 32 M/(pi d³) at the plate or in the middle, shear 4/3 V/(pi d²/4) in the neutral axis.
-    """
-    moment = moment_mm(size.pin_held, width, size.allowances.pin_gap_mm)
-    plates = 1.0 if size.pin_held == "cantilever" else 2.0  # that share the force
-    shear = 16.0 / (3.0 * math.pi * d * d) / plates
-    return Pin(d, 32.0 * moment / (math.pi * d**3), shear)
-
-
-def least_diameter_mm(of: Pin, force_N: Number, allowed_MPa: Number) -> Number:
-    """Diameter at which the equivalent stress equals the allowable one."""
-    bent = np.cbrt(of.bending * force_N / allowed_MPa)
-    sheared = np.sqrt(math.sqrt(3.0) * of.shear * force_N / allowed_MPa)
-    return cast("Number", of.diameter_mm * np.maximum(bent, sheared))
+def least_diameter_mm(bending: Number, shear: Number, d: Number, allowed_MPa: Number) -> Number:
+    """Diameter at which a pin just holds a force under which it has these stresses at d, MPa."""
+    sheared = np.sqrt(math.sqrt(3.0) * shear / allowed_MPa)
+    return cast("Number", d * np.maximum(np.cbrt(bending / allowed_MPa), sheared))

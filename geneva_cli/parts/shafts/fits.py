@@ -30,7 +30,10 @@ ISO_286 = [
 
 def _range_of(nominal_mm: float) -> tuple[int, ...]:
     """Return the standard's numbers for a size; empty beyond its 3150 mm."""
-    return next((row[1:] for row in ISO_286 if 0.0 < nominal_mm <= row[0]), ())
+    for row in ISO_286:
+        if 0.0 < nominal_mm <= row[0]:
+            return row[1:]
+    return ()
 
 
 def limits(nominal_mm: float, fit: str) -> tuple[int, int] | None:

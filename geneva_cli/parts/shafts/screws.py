@@ -6,6 +6,7 @@ A screw passes the part that it fixes, and its thread is in the part below.
 from __future__ import annotations
 
 import math
+from itertools import starmap
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
@@ -22,34 +23,24 @@ class Screw(NamedTuple):
     pitch: float
     through: float
 
-    @property
-    def core(self) -> float:
-        """Diameter of the hole before its thread is cut: thread minus pitch (ISO 2306)."""
-        return self.thread - self.pitch
-
 
 # Sizes by ISO 262, coarse pitches by ISO 261, clearance holes by ISO 273 (medium).
 # fmt: off
-SCREWS = [Screw(*row) for row in (
+SCREWS = [*starmap(Screw, (
     (1.6, 0.35, 1.8), (2, 0.4, 2.4), (2.5, 0.45, 2.9), (3, 0.5, 3.4), (4, 0.7, 4.5), (5, 0.8, 5.5),
     (6, 1.0, 6.6), (8, 1.25, 9.0), (10, 1.5, 11.0), (12, 1.75, 13.5), (16, 2.0, 17.5),
     (20, 2.5, 22.0), (24, 3.0, 26.0), (30, 3.5, 33.0), (36, 4.0, 39.0), (42, 4.5, 45.0),
     (48, 5.0, 52.0), (56, 5.5, 62.0), (64, 6.0, 70.0),
-)]
+))]
 # fmt: on
 
 
 class BoltCircle(NamedTuple):
-    """Holes evenly on a circle about an axis: both radii, mm, and the holes' directions."""
+    """Holes evenly on a circle about an axis: both radii, mm, and the holes in a plate."""
 
     radius: float
     hole: float
-    turns: tuple[float, ...]
-
-    @property
-    def holes(self) -> list[Circle]:
-        """The holes in a plate about the axis."""
-        return [Circle("BORE", polar(ORIGIN, self.radius, turn), self.hole) for turn in self.turns]
+    holes: tuple[Circle, ...]
 
 
 class Screws(NamedTuple):
@@ -83,17 +74,20 @@ def screw_through(hole_mm: float) -> Screw | None:
     >>> screw_through(6.25).thread, screw_through(1.7)
     (5, None)
     """
-    fitting = [one for one in SCREWS if one.through <= hole_mm * (1.0 + ROUNDED)]
-    return fitting[-1] if fitting else None
+    for one in reversed(SCREWS):
+        if one.through <= hole_mm * (1.0 + ROUNDED):
+            return one
+    return None
 
 
 def tapped(hole: Circle) -> Circle:
     """Return the hole before the thread is cut for the screw that passes another hole.
 
-    It is as wide as that one where no screw is so thin.
+    By ISO 2306 its diameter is thread minus pitch. It is as wide as the other hole where no screw
+    is so thin.
     """
     one = screw_through(2.0 * hole.radius)
-    return hole._replace(radius=0.5 * one.core) if one else hole
+    return hole._replace(radius=0.5 * (one.thread - one.pitch)) if one else hole
 
 
 def bolt_radius(diameter_mm: float | None, L: float, half_width: float) -> float:
@@ -135,5 +129,8 @@ def bolt_circle(
     hole = bolt_radius(values[f"{part}_bolt_mm"], L, 0.5 * (high - low))
     if part == "dial":
         refuse_no_screw("dial_bolt", count, hole)
-    count = count if hole else 0
-    return BoltCircle(radius, hole, tuple(start + math.tau * k / count for k in range(count)))
+    holes = []
+    for k in range(count if hole else 0):
+        at = polar(ORIGIN, radius, start + math.tau * k / count)
+        holes.append(Circle("BORE", at, hole))
+    return BoltCircle(radius, hole, tuple(holes))

@@ -119,11 +119,10 @@ def wheel_shaft_radius(parts: Outlines) -> float:
 def wheel_shaft_ends(parts: Outlines, lowest: float) -> tuple[float, float]:
     """Return the ends of the wheel's shaft along the axis."""
     sizes, near = parts.sizes, SAME_LENGTH * parts.assembly.L
-    geared = any(
-        link.radius_mm and math.hypot(float(x[0]), float(y[0])) < near
-        for link in links_at(parts.assembly.full, np.zeros(1))
-        for x, y in link.joints
-    )
+    geared = False
+    for link in links_at(parts.assembly.full, np.zeros(1)):
+        for x, y in link.joints if link.radius_mm else ():
+            geared = geared or math.hypot(float(x[0]), float(y[0])) < near
     low = lowest if sizes.wheel_hub or geared else 0.0
     return shaft_ends(parts.assembly.mechanism.spec.size, "wheel", low, sizes.wheel_thickness)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 
@@ -10,14 +11,10 @@ from geneva_cli.loads.impacts.shock_force import least_pin_mm
 from geneva_cli.loads.load_case import centrifugal_N
 from geneva_cli.loads.strength import arm_and_key as arms
 from geneva_cli.loads.strength import pin as pins
-from geneva_cli.loads.strength import roller
-from geneva_cli.loads.strength.arm_and_key import KeyDimensions, key_stress, shear_allowed_MPa
+from geneva_cli.loads.strength.arm_and_key import key_stress, shear_allowed_MPa
 from geneva_cli.loads.strength.part_loads import (
     LoadedShaft,
-    ShaftForces,
-    crank_forces,
     shafts_under_load,
-    wheel_forces,
 )
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.arrays import Array, Number, array, parameter
@@ -50,22 +47,24 @@ def pin(of: Designs) -> Columns:
     width, out = load.contact_mm, {"allowed_MPa": allowed}
     if width is None:
         return out
-    section = pins.pin(of.spec.size, width, load.pin_mm)
-    under = section.under(load.pin_N(pins.PinSize(load.pin_mm, width)))
-    stress = np.ravel(under.equivalent)
+    size, d = of.spec.size, load.pin_mm
+    own = pins.PinSize(d, width)
+    bending, shear, equivalent = pins.pin_stress_MPa(size, width, d, load.pin_N(own))
+    stress = np.ravel(equivalent)
     out |= {
-        "diameter_mm": section.diameter_mm,
-        "bending_MPa": under.bending,
-        "shear_MPa": under.shear,
+        "diameter_mm": d,
+        "bending_MPa": bending,
+        "shear_MPa": shear,
         "stress_MPa": stress,
         "margin": margin(stress, allowed),
     }
     if allowed is not None:
-        least = np.ravel(pins.least_diameter_mm(section, load.roller_N, allowed))
-        jump = load.reversals.jump[:, None]
-        rubbed = section.under(load.rubbed)
-        struck = least_pin_mm(of.machine, jump, width, rubbed, allowed)
-        least = np.maximum(least, np.nan_to_num(struck))
+        bending, shear, _ = pins.pin_stress_MPa(size, width, d, load.roller_N)
+        least = np.ravel(pins.least_diameter_mm(bending, shear, d, allowed))
+        jump, rubbed = load.reversals.jump, pins.pin_stress_MPa(size, width, d, load.rubbed)[:2]
+        if not np.isnan(jump).all():
+            struck = least_pin_mm(of.machine, jump[:, None], own, rubbed, allowed)
+            least = np.maximum(least, np.nan_to_num(struck))
         out["least_diameter_mm"] = np.where(np.isfinite(np.ravel(allowed)), least, np.inf)
     return out
 
@@ -85,10 +84,11 @@ def horn(of: Designs) -> Columns:
     force = load.force_N
     if not np.isfinite(force).any():
         return out | dict.fromkeys(("stress_MPa", "at_deg", "inwards_mm", "thickness_mm"), force)
-    rows = {name: _known(row) for name, row in load.horn_stress(width)._asdict().items()}
-    stress = np.where(np.isfinite(force), rows["stress_MPa"], force)
-    out["margin"] = margin(stress, allowed)
-    return out | {name: np.where(np.isfinite(force), row, force) for name, row in rows.items()}
+    for name, row in load.horn_stress(width)._asdict().items():
+        out[name] = np.where(np.isfinite(force), _known(row), force)
+        if name == "stress_MPa":
+            out["margin"] = margin(out[name], allowed)
+    return out
 
 
 def lock(of: Designs) -> Columns:
@@ -97,18 +97,16 @@ def lock(of: Designs) -> Columns:
     ``greatest_MPa`` is the stress between disc and recess, on an end or between the arcs.
     """
     state, allowed = under_load(of).lock, of.spec.limits.lock_stress_max_MPa
+    out: dict[str, Number | None] = {"allowed_MPa": allowed}
     if state is None:
-        return {"allowed_MPa": allowed}
-    _, *names = state._fields  # the first is a word
-    out: dict[str, Number | None] = {name: _known(state._asdict()[name]) for name in names}
-    contact, approach = (np.asarray(row) for row in (state.contact_stress_MPa, state.approach_deg))
-    most = np.where(np.isnan(approach), np.inf, np.fmax(contact, state.pressure_MPa))
-    return out | {
-        "deflection_deg": _known(state.deflection_deg),
-        "greatest_MPa": _known(most),
-        "allowed_MPa": allowed,
-        "margin": margin(_known(most), allowed),
-    }
+        return out
+    for name, row in state._asdict().items():
+        if name != "on":
+            out[name] = _known(row)
+    most = np.fmax(state.contact_stress_MPa, state.pressure_MPa)
+    out["greatest_MPa"] = most = _known(np.where(np.isnan(state.approach_deg), np.inf, most))
+    out["margin"] = margin(most, allowed)
+    return out
 
 
 def _known(row: Number | None) -> Array:
@@ -117,67 +115,58 @@ def _known(row: Number | None) -> Array:
     return np.where(np.isnan(values), np.inf, values)
 
 
-def wheel_shaft(of: Designs) -> Columns:
-    """The wheel's shaft."""
-    return of.once(_shafts)[0]
+def _shaft(of: Designs, part: str) -> Columns:
+    """The shaft of wheel or crank."""
+    return of.once(_shafts)[part]
 
 
-def crank_shaft(of: Designs) -> Columns:
-    """The crank's shaft."""
-    return of.once(_shafts)[1]
+wheel_shaft, crank_shaft = partial(_shaft, part="wheel"), partial(_shaft, part="crank")
 
 
-def _shafts(of: Designs) -> list[Columns]:
+def _shafts(of: Designs) -> dict[str, Columns]:
     """The columns of the shafts of wheel and crank, which are searched together."""
-    wheel = _drawn(of, "wheel", wheel_forces(of.machine))
-    crank = _drawn(of, "crank", crank_forces(of.spec))
+    wheel, crank = _drawn(of, "wheel"), _drawn(of, "crank")
     if held := under_load(of).held:
         carried = np.ravel(centrifugal_N(of.machine)) if of.machine.frame else 0.0
         wheel = wheel._replace(held_N=held[0] + carried, held_Nm=held[1])
         crank = crank._replace(held_N=held[0])  # the force passes through the crank's axis
-    each = shafts_under_load(of.machine, (wheel, crank))
-    return [_shaft(of, one, rows) for one, rows in zip((wheel, crank), each, strict=True)]
+    both, each = (wheel, crank), dict[str, Columns]()
+    for shaft, rows in zip(both, shafts_under_load(of.machine, both), strict=True):
+        out: dict[str, Number | None] = {"diameter_mm": shaft.diameter_mm}
+        each[shaft.part] = out
+        if not rows:
+            continue
+        moment = rows["moment_Nm"] * of.loaded
+        if shaft.allowed_MPa is not None:
+            allowed = np.ravel(shaft.allowed_MPa)
+            least = rows["least_diameter_mm"]
+            rows["allowed_MPa"] = allowed
+            rows["least_diameter_mm"] = np.where(np.isfinite(allowed), least, np.inf)
+            relative = margin(rows["stress_MPa"], allowed) if "stress_MPa" in rows else None
+            if relative is not None:
+                rows["margin"] = relative
+        for name, row in rows.items():
+            out[name] = np.where(np.isfinite(moment), row, moment)
+    return each
 
 
-def _drawn(of: Designs, part: str, forces: ShaftForces) -> LoadedShaft:
+def _drawn(of: Designs, part: str) -> LoadedShaft:
     """The shaft of wheel or crank, with the dimensions of its parts where the spec has none."""
     table = vars(of.spec.shaft)
-    overhang, diameter, span = (
-        table[f"{part}_{name}_mm"] for name in ("overhang", "diameter", "span")
-    )
-    own = LoadedShaft(forces, overhang, diameter, span, table["shear_stress_max_MPa"])
-    if not of.spec.is_loaded:
-        return own
-    keyway = vars(of.spec.size)[f"{part}_keyway"] is not None
-    own = own._replace(allowed_MPa=parameter(shear_allowed_MPa(of.spec.shaft, keyway)))
-    complete = own.diameter_mm is not None and own.overhang_mm is not None
-    parts = None if complete else under_load(of).parts
-    if parts is None:
-        return own
-    diameter, overhang = parts.wheel_shaft if part == "wheel" else parts.crank_shaft
-    if own.diameter_mm is None and not np.isnan(diameter).all():
-        own = own._replace(diameter_mm=as_numbers(np.asarray(diameter)))
-    if own.overhang_mm is None and not np.isnan(overhang).all():
-        # a design without parts has no diameter either, and so no stress
-        own = own._replace(overhang_mm=as_numbers(np.nan_to_num(overhang)))
-    return own
-
-
-def _shaft(of: Designs, shaft: LoadedShaft, rows: dict[str, Array]) -> Columns:
-    """The columns of a shaft under its load."""
-    out: dict[str, Number | None] = {"diameter_mm": shaft.diameter_mm}
-    if not rows:
-        return out
-    moment = rows["moment_Nm"] * of.loaded
-    if shaft.allowed_MPa is not None:
-        allowed = np.ravel(shaft.allowed_MPa)
-        rows |= {
-            "allowed_MPa": allowed,
-            "least_diameter_mm": np.where(np.isfinite(allowed), rows["least_diameter_mm"], np.inf),
-        }
-        if "stress_MPa" in rows and (relative := margin(rows["stress_MPa"], allowed)) is not None:
-            rows["margin"] = relative
-    return out | {name: np.where(np.isfinite(moment), row, moment) for name, row in rows.items()}
+    overhang, diameter = table[f"{part}_overhang_mm"], table[f"{part}_diameter_mm"]
+    allowed = table["shear_stress_max_MPa"]
+    if of.spec.is_loaded:
+        keyway = vars(of.spec.size)[f"{part}_keyway"] is not None
+        allowed = parameter(shear_allowed_MPa(of.spec.shaft, keyway))
+        parts = under_load(of).parts if diameter is None or overhang is None else None
+        if parts is not None:
+            own = parts.wheel_shaft if part == "wheel" else parts.crank_shaft
+            if diameter is None and not np.isnan(own.diameter).all():
+                diameter = as_numbers(np.asarray(own.diameter))
+            if overhang is None and not np.isnan(own.overhang).all():
+                # a design without parts has no diameter either, and so no stress
+                overhang = as_numbers(np.nan_to_num(own.overhang))
+    return LoadedShaft(part, overhang, diameter, table[f"{part}_span_mm"], allowed)
 
 
 def arm(of: Designs) -> Columns:
@@ -205,23 +194,16 @@ def arm_thickness(of: Designs) -> Columns:
     return {"least_thickness_mm": _known(np.where(np.isfinite(force), least, force))}
 
 
-def wheel_key(of: Designs) -> Columns:
-    """The key in the wheel's bore."""
+def _key(of: Designs, part: str) -> Columns:
+    """The key of wheel or arm under a shaft's torque; the pressure allowed keeps the shear, too."""
     parts = under_load(of).parts
-    return _key(of, parts and parts.wheel_key, "wheel_Nm")
-
-
-def crank_key(of: Designs) -> Columns:
-    """The key in the arm's bore."""
-    parts = under_load(of).parts
-    return _key(of, parts and parts.crank_key, "crank_Nm")
-
-
-def _key(of: Designs, key: KeyDimensions | None, torque: str) -> Columns:
-    """A key under a shaft's greatest torque; the pressure allowed keeps the shear, too."""
-    if key is None or np.isnan(key.shaft).all():
+    if parts is None:
         return {}
-    most = getattr(under_load(of).part_loads, torque) * of.loaded
+    key = parts.wheel_key if part == "wheel" else parts.crank_key
+    if np.isnan(key.shaft).all():
+        return {}
+    loads = under_load(of).part_loads
+    most = (loads.wheel_Nm if part == "wheel" else loads.crank_Nm) * of.loaded
     most = most * np.ravel(of.spec.shaft.torsion_factor)
     sides = np.ravel(wheel_material(of.spec).allowed_MPa)
     shear = np.ravel(shear_allowed_MPa(of.spec.shaft))
@@ -238,6 +220,9 @@ def _key(of: Designs, key: KeyDimensions | None, torque: str) -> Columns:
     }
 
 
+wheel_key, crank_key = partial(_key, part="wheel"), partial(_key, part="crank")
+
+
 def pressure_speed(of: Designs) -> Columns:
     """The greatest contact pressure times sliding speed; it needs a face width."""
     return {} if of.spec.size.face_width_mm is None else {"pv_max_W_m2": under_load(of).pv_W_m2}
@@ -251,6 +236,8 @@ def bending(of: Designs) -> Columns:
 
 def wear(of: Designs) -> Columns:
     """The roller as a bearing, and the work of friction."""
+    from geneva_cli.loads.strength import roller
+
     friction = np.ravel(of.load_case.friction)
     passages = roller.passages(of.machine)
     paired = any(one.paired for one in of.machine.engagements)

@@ -16,8 +16,7 @@ from geneva_cli.loads.impacts.shock_force import Impacts, forces_N
 from geneva_cli.loads.load_peaks import load_peaks
 from geneva_cli.loads.strength import lock
 from geneva_cli.loads.strength import pin as pins
-from geneva_cli.loads.strength.horn import horns
-from geneva_cli.loads.strength.horn_search import greatest_stress, single_stress
+from geneva_cli.loads.strength.horn import greatest_stress, horns, single_stress
 from geneva_cli.loads.strength.part_loads import PartLoads, part_loads, single_loads
 from geneva_cli.loads.strength.pin import PinSize
 from geneva_cli.loads.tolerance.locking import Lock
@@ -35,7 +34,7 @@ from geneva_cli.spec.materials import roller_material
 from geneva_cli.verdict.quantities.batch_designs import Designs
 
 if TYPE_CHECKING:
-    from geneva_cli.loads.strength.horn_search import HornStress, Sides, Sizes
+    from geneva_cli.loads.strength.horn import HornStress, Sides, Sizes
     from geneva_cli.loads.strength.lock import LockUnderTorque
     from geneva_cli.motion.mechanism import Mechanism
 
@@ -226,7 +225,7 @@ class UnderLoad:
         if size.pin_mm is not None or width is None:
             return usual
         force = self.pin_N(PinSize(usual, width))
-        stress = pins.pin(size, width, usual).under(force).equivalent
+        stress = pins.pin_stress_MPa(size, width, usual, force)[2]
         # where the usual pin holds, it is drawn
         holds = ~(stress > roller_material(self.machine.spec).allowed_MPa)
         parts = None if np.all(holds) else self.parts

@@ -9,8 +9,7 @@ from shell_stress import horn as in_the_shell
 
 from geneva_cli import External, Spherical
 from geneva_cli.kinds.spherical.horn import sphere_horns
-from geneva_cli.loads.strength.horn import horns
-from geneva_cli.loads.strength.horn_search import greatest_stress
+from geneva_cli.loads.strength.horn import greatest_stress, horns
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.spec.tables import Load, Size
