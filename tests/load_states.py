@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.loads.contact import contact, contact_values
-from geneva_cli.loads.instant import Instant, bounded_loads
+from geneva_cli.loads.instant import Instant, bounded
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_peaks import load_peaks
 from geneva_cli.motion.engagement import Peak
@@ -32,7 +32,8 @@ def state(mechanism, engagement, input_deg):
     """
     x = np.atleast_1d(input_deg)
     at = contact_values(contact(engagement, x, reactions=False))
-    loads = bounded_loads(load_case(mechanism), at)
+    with np.errstate(all="ignore"):
+        loads = bounded(Instant(load_case(mechanism), at))
     squared = loads.stress_squared
     pressure = np.degrees(np.arctan2(np.abs(at.offset), at.lever)) + 0.0 * x
     stress = None if squared is None else np.sqrt(squared)

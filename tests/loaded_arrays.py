@@ -4,7 +4,7 @@ import numpy as np
 from design_arrays import MACHINES, drawn
 
 from geneva_cli.loads.contact import NEAR_CUSP
-from geneva_cli.loads.cycle_quantities import NEVER_NEGATIVE, QUANTITIES, SQUARED
+from geneva_cli.loads.cycle_quantities import NEVER_NEGATIVE, SQUARED
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_functions import LoadFunctions
 from geneva_cli.loads.load_peaks import LoadSummary, load_summaries
@@ -131,7 +131,7 @@ def beyond(batch, places, seed, names=NAMES, ends=None):
 
 
 def _passed(here, name, one, shape):
-    row = QUANTITIES[name](here)
+    row = here.quantity(name)
     value = np.broadcast_to(row.value.c[0], shape)
     lost = False if row.margin is None else row.margin.c[0] <= 0.0
     there = np.isfinite(value) & ~np.asarray(lost)

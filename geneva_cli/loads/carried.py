@@ -47,7 +47,10 @@ def inertia_kgm2(spec: Spec) -> float:
 
 def carried_kg(spec: Spec) -> float:
     """The mass of all bodies on the table, kg."""
-    return sum(mass.count * weight_kg(mass) for mass in spec.mass)
+    total = 0.0
+    for mass in spec.mass:
+        total += mass.count * weight_kg(mass)
+    return total
 
 
 def farthest_mm(spec: Spec) -> float:
@@ -59,18 +62,12 @@ def farthest_mm(spec: Spec) -> float:
     return max(reaches)
 
 
-def support_torque_Nm(spec: Spec) -> float:
-    """Friction of the table's support at the wheel's shaft: mu (m g + F) r, through the gears."""
-    support = spec.support
+def resisting_torques_Nm(spec: Spec) -> tuple[float, float]:
+    """Torques that resist at the wheel's shaft while it turns, N m: of the work and of the support.
+
+    The support's friction is mu (m g + F) r, through the gears.
+    """
+    load, support = spec.load, spec.support
     pressed = carried_kg(spec) * G + support.force_N
-    return support.gear_ratio * support.friction * pressed * support.radius_mm * MM
-
-
-def working_torque_Nm(spec: Spec) -> float:
-    """Torque of the work at the wheel's shaft, N m."""
-    return spec.load.torque_Nm + spec.load.force_N * (spec.given_distance_mm * MM)
-
-
-def resisting_torque_Nm(spec: Spec) -> float:
-    """Torque that resists while the wheel turns: the load's plus the support's friction, N m."""
-    return working_torque_Nm(spec) + support_torque_Nm(spec)
+    rubbed = support.gear_ratio * support.friction * pressed * support.radius_mm * MM
+    return load.torque_Nm + load.force_N * (spec.given_distance_mm * MM), rubbed

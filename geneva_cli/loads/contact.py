@@ -7,12 +7,13 @@ The slot's tangent t points away from the wheel's axis: M . t > 0, M being the r
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import Any, Generic, NamedTuple
 
 import numpy as np
 
 from geneva_cli.motion.engagement import Engagement, Vector
-from geneva_cli.numerics.arrays import Mask, Whole, all_true, choose, library
+from geneva_cli.numerics.arrays import Mask, Truth, Whole, all_true, choose, library
 from geneva_cli.numerics.jet import Array, Jet, Number, V, sqrt
 
 NEGLIGIBLE = 1e-12  # fraction of a torque, of a motion, or of a lever over L that is rounding
@@ -41,7 +42,7 @@ def contact_values(at: Contact[Jet]) -> Contact[Array]:
     """The values of a contact's jets."""
     *jets, joints = at
     reactions = joints and [[(x.c[0], y.c[0]) for x, y in pair] for pair in joints]
-    return Contact._make([*[jet.c[0] for jet in jets], reactions])
+    return Contact._make([*map(value, jets), reactions])
 
 
 class LoadCase(NamedTuple):
@@ -60,16 +61,15 @@ class LoadCase(NamedTuple):
     frame: float = 0.0
     guide: Any = None  # in which the output slides: a rack's, with its friction and drag
     design: int | Whole = 0  # the design's number in its batch: (m, 1) in a batch
+    rubs: bool = False  # True if there is friction along the wall in any of the designs
+    guided: bool = False  # True if there is friction in the output's guide in any of them
+    # A number that is above 0 for a design with any friction, which may hold the wheel
+    all_friction: float = 0.0
 
     @property
     def designs(self) -> int:
         """The number of designs in the load case."""
         return 1 if isinstance(self.design, int) else len(self.design)
-
-    @property
-    def rubs(self) -> bool:
-        """True if there is friction along the wall in any of the designs."""
-        return not all_true(self.friction == 0.0)
 
     def is_loaded(self, engagement: Engagement, torque: Number) -> Mask:
         """True where a torque at the wheel is more than rounding."""
@@ -77,15 +77,16 @@ class LoadCase(NamedTuple):
         loaded: Mask = np.abs(torque) > NEGLIGIBLE * usual
         return loaded
 
-    @property
-    def guided(self) -> bool:
-        """True if there is friction in the output's guide in any of the designs."""
-        return self.guide is not None and not all_true(self.guide.friction == 0.0)
-
-    @property
-    def all_friction(self) -> float:
-        """A number that is above 0 for a design with any friction, which may hold the wheel."""
-        return self.friction + self.guide.friction if self.guide else self.friction
+    def with_friction(self, friction: float, guided: LoadCase | None = None) -> LoadCase:
+        """The load case with friction along the wall, and in the guide of another load case."""
+        guide = guided.guide if guided else None
+        return self._replace(
+            friction=friction,
+            guide=guide,
+            rubs=not all_true(friction == 0.0),
+            guided=guide is not None and not all_true(guide.friction == 0.0),
+            all_friction=friction + guide.friction if guide else friction,
+        )
 
 
 class QuantityValue(NamedTuple, Generic[V]):
@@ -103,11 +104,11 @@ def value(quantity: V) -> Number:
 
 def lesser(a: V, b: V) -> V:
     """The lesser of two jets, or of their values, element by element."""
-    first = value(a) < value(b)
+    first: Truth = value(a) < value(b)
     if not isinstance(a, Jet) or not isinstance(b, Jet):
         out: V = choose(first, a, b)
         return out
-    return type(a)([choose(first, c, d) for c, d in zip(a.c, b.c, strict=True)])
+    return type(a)([*map(partial(choose, first), a.c, b.c)])
 
 
 def contact(
@@ -118,36 +119,38 @@ def contact(
     At mid-motion of a curved slot only the values have a limit, that of entry: ``order`` must be 0.
     """
     if not engagement.slot.curved or all_true(input_deg != 0.0):
-        return _moving(engagement, input_deg, order, reactions)
+        return moving_contact(engagement, input_deg, order, reactions)
     assert order == 0
     middle = input_deg == 0.0
     near = choose(middle, NEAR_CUSP * engagement.entry_deg, input_deg)
-    both = zip(_middle(engagement), _moving(engagement, near, 0, False)[:-1], strict=True)
+    both = zip(_middle(engagement), moving_contact(engagement, near, 0, False)[:-1], strict=True)
     jets = [Jet((choose(middle, own, jet.c[0]),)) for own, jet in both]
     joints = _reactions(engagement, input_deg, jets[2], jets[3]) if reactions else None
     return Contact._make([*jets, joints])
 
 
-def _moving(engagement: Engagement, x: Number, order: int, reactions: bool) -> Contact[Jet]:
+def moving_contact(
+    engagement: Engagement, x: Number, order: int = 0, reactions: bool = True
+) -> Contact[Jet]:
     """The contact where the pin moves in its slot, or where the slot is straight."""
     rates = engagement.motion.rate(x, order + 1)
-    velocity, acceleration = _to_order(rates, order), rates.derivative()
+    velocity, acceleration = rates.lower, rates.derivative()
     constant = Jet((velocity.c[0] * 0.0, *[0.0] * order))
-    straight_axis = engagement.slot.axis(x, order)
+    slot = engagement.slot
+    straight_axis = slot.axis(x, order)
     if straight_axis:
         lever, along = straight_axis
-        offset, curvature = constant + engagement.slot.offset, constant
+        offset, curvature = constant + slot.offset, constant
     else:
         lever, offset, along, curvature = _curved(engagement, x, order, rates)
-    upright = engagement.slot.upright(x, order)
-    touches = constant + engagement.slot.touches(x)
+    upright, touches = slot.upright(x, order), constant + slot.touches(x)
     body = engagement.carrier(x, order)
     spin = (body - velocity * upright) * touches
     crank = constant + (body if engagement.on_arm else engagement.shaft_rate(x, order))
     arm = (constant + upright) * touches
     joints = _reactions(engagement, x, lever, offset) if reactions else None
-    slot = lever, offset, along, curvature
-    return Contact(velocity, acceleration, *slot, spin, arm, touches, crank, joints)
+    wall = lever, offset, along, curvature
+    return Contact(velocity, acceleration, *wall, spin, arm, touches, crank, joints)
 
 
 def _curved(engagement: Engagement, x: Number, order: int, rates: Jet) -> tuple[Jet, Jet, Jet, Jet]:
@@ -208,7 +211,7 @@ def _crossing(engagement: Engagement) -> list[Number]:
     The lever is 0 there, so the sign of the tangent is rounding; next to it, the sign is known.
     """
     here, before = (
-        contact_values(_moving(engagement, x, 0, False))
+        contact_values(moving_contact(engagement, x, 0, False))
         for x in (0.0, NEAR_CUSP * engagement.entry_deg)
     )
     sense = choose(here.along * before.along < 0.0, -1.0, 1.0)
@@ -233,7 +236,7 @@ def _cusp(engagement: Engagement) -> list[Number]:
     curvature = choose(
         at.turning * at.turning > 1e-9 * 1e-9,
         m.copysign(math.inf, sense * at.turning),
-        _moving(engagement, NEAR_CUSP * engagement.entry_deg, 0, False).curvature.c[0],
+        moving_contact(engagement, NEAR_CUSP * engagement.entry_deg, 0, False).curvature.c[0],
     )
     return [v, a, sense * lever, offset, 0.0, curvature, body - v, 1.0, 1.0, crank]
 

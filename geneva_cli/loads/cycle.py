@@ -9,22 +9,21 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import lru_cache
 from itertools import pairwise
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from geneva_cli.kept import cached_property
 from geneva_cli.loads.contact import LoadCase, contact, contact_values
-from geneva_cli.loads.cycle_quantities import FORCE, QUANTITIES, WALL_FORCE, multiples, plain_values
-from geneva_cli.loads.instant import INSTANT_QUANTITIES, Instant, bounded, bounded_loads
-from geneva_cli.loads.load_case import load_case
+from geneva_cli.loads.cycle_quantities import FORCE, PV, WALL_FORCE, plain_values
+from geneva_cli.loads.instant import STATES, Instant, States, bounded
+from geneva_cli.loads.load_case import load_case, multiples
 from geneva_cli.loads.load_functions import LoadFunctions, on_breaks, refuse_noise
 from geneva_cli.loads.load_peaks import LoadSummary, reported_peaks, single_summaries
 from geneva_cli.loads.mid_motion import at_crossing
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import PeakArray
-from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.jet import Array
 
 
@@ -50,54 +49,59 @@ class Cycle:
         """True if an inertia or a resisting torque is known."""
         return self.mechanism.spec.is_loaded
 
-    def states(self, input_deg: Array) -> Instant[Array]:
-        """Arrays at ascending input angles of a period from the first entry; 0 in the dwells."""
+    def states(self, input_deg: Array) -> States:
+        """The loads at ascending input angles of a period from the first entry; 0 in the dwells."""
         from geneva_cli.motion.motion_table import spans
 
-        out: dict[str, Array | None] = {
-            name: np.zeros(len(input_deg)) for name in INSTANT_QUANTITIES
-        }
+        out: dict[str, Any] = {}
         for span in spans(self.mechanism, input_deg):
             if not len(span.local):
                 continue
-            for name, row in self.moving(span.engagement, span.local).quantities().items():
-                total = out[name]
-                if row is None or total is None:
-                    out[name] = None
-                else:
+            for name, row in self.moving(span.engagement, span.local)._asdict().items():
+                total = out.setdefault(name, None if row is None else np.zeros(len(input_deg)))
+                if total is not None:
                     total[span.moves] = row
-        return Instant.known(out)
+        still = np.zeros(len(input_deg))
+        return States(**{name: out.get(name, still) for name in States._fields})
 
-    def moving(self, engagement: Engagement, input_deg: Array) -> Instant[Array]:
-        """Arrays (n,) at input angles of an engagement, degrees from its own mid-motion."""
-        at = contact_values(contact(engagement, input_deg))
-        torque = array(Instant(self.case, at).wheel_torque_Nm)
-        drives = np.copysign(1.0, torque)
-        none = np.flatnonzero(~self.case.is_loaded(engagement, torque))
+    def moving(self, engagement: Engagement, input_deg: Array) -> States:
+        """The loads at input angles (n,) of an engagement, degrees from its own mid-motion."""
+        with np.errstate(all="ignore"):
+            here = Instant(self.case, contact_values(contact(engagement, input_deg)))
+        drives = np.array(here.drives)
+        none = np.flatnonzero(~self.case.is_loaded(engagement, here.wheel_torque_Nm))
         if len(none):  # where the torque is 0, its sign is that before, or at entry that after
             x, step = input_deg[none], 1e-6 * engagement.motion_deg
             near = np.where(x - step < engagement.entry_deg, x + step, x - step)
-            beside = Instant(self.case, contact(engagement, near, reactions=False))
-            drives[none] = np.copysign(1.0, beside.wheel_torque_Nm.c[0])
-        out = bounded_loads(self.case, at, drives)
-        middle = input_deg == 0.0
+            beside = contact(engagement, near, reactions=False)
+            drives = np.broadcast_to(drives, input_deg.shape).copy()
+            drives[none] = Instant(self.case, beside, feeds=1.0).drives
+            with np.errstate(all="ignore"):
+                here = Instant(self.case, here.at, drives)
+        out, middle = bounded(here), input_deg == 0.0
         limits = at_crossing(engagement, self.case) if middle.any() else None
         for name, limit in (limits or {}).items():
-            vars(out)[name] = np.where(middle, limit, getattr(out, name))
+            out = out._replace(**{name: np.where(middle, limit, getattr(out, name))})
         return out
 
-    def along(self, engagement: Engagement, stretch: Stretch, input_deg: Array) -> Instant[Array]:
-        """Arrays (n,) at input angles of a stretch from mid-motion, with the stretch's signs."""
+    def along(self, engagement: Engagement, stretch: Stretch, input_deg: Array) -> States:
+        """The loads at input angles (n,) of a stretch from mid-motion, with the stretch's signs."""
         with np.errstate(all="ignore"):
             at = contact_values(contact(engagement, input_deg))
-        return bounded(Instant(self.case, at, stretch.drives, stretch.slides, stretch.feeds))
+            return bounded(Instant(self.case, at, *stretch[2:]))
 
-    def plain(self, states: Instant[Array], name: str) -> Array:
+    def plain(self, states: States, name: str) -> Array:
         """A quantity of ``known``, or a multiple of one, at states of the cycle."""
         source, factor, _ = multiples(self.mechanism).get(name, (name, 1.0, ""))
         assert factor is not None  # known quantities have a factor
-        signed = WALL_FORCE if source == FORCE else source
-        return plain_values(QUANTITIES[signed](states).value, source) * factor
+        if source == PV:
+            assert states.stress_squared is not None  # it is known
+            values = states.stress_squared * (states.sliding_m_s * states.sliding_m_s * 1e12)
+        else:
+            signed = WALL_FORCE if source == FORCE else source
+            state = next(key for key, own in STATES.items() if own == signed)
+            values = getattr(states, state)
+        return plain_values(values, source) * factor
 
     @cached_property
     def known(self) -> Mapping[str, LoadSummary[Array]]:

@@ -11,7 +11,7 @@ from geneva_cli.figure import Axis, Curve, Figure, Panel
 from geneva_cli.loads import load_tables
 from geneva_cli.loads.cycle import Cycle
 from geneva_cli.loads.cycle_curves import MOTION_QUANTITIES, Drawn, drawn, rests
-from geneva_cli.loads.cycle_quantities import sources
+from geneva_cli.loads.load_case import sources
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.motion_table import first_entry_deg
 

@@ -11,28 +11,21 @@ roller, fixed to its body, rubs along the wall.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Generic, Protocol, Self
+from typing import Any, Generic, NamedTuple, Protocol, cast
 
 import numpy as np
 
 from geneva_cli.kept import cached_property
-from geneva_cli.loads.contact import Contact, LoadCase, QuantityValue, contact_values, value
+from geneva_cli.loads.contact import Contact, LoadCase, QuantityValue, lesser, value
+from geneva_cli.loads.cycle_quantities import FORCE, PRESSED, PV, STRESS, TORQUE, WALL_FORCE
 from geneva_cli.numerics.arrays import all_true
 from geneva_cli.numerics.jet import Array, Jet, Number, V
 
-# Names of an instant's quantities.
-INSTANT_QUANTITIES = (
-    *("omega_rad_s", "alpha_rad_s2", "wheel_torque_Nm", "pin_force_N", "stress_squared"),
-    *("sliding_m_s", "input_torque_Nm", "rubbed_Nm", "wheel_bearing_N", "crank_bearing_squared"),
-    *("guide_squared", "drives", "slides", "feeds", "grip", "friction_margin", "edge"),
-)
-
 
 class Instant(Generic[V]):
-    """Motion and loads for known signs of wheel torque, sliding and input torque.
+    """Motion and loads for the signs of wheel torque, sliding and input torque.
 
-    Quantities are jets by the input angle in radians, or values; they are computed at first use. A
+    Quantities are jets by the input angle in radians, or values; most are computed at first use. A
     torque that drives the wheel, and a pin force on the wall that drives it, are positive; so is a
     sliding speed away from the wheel's axis, and the input's torque where the input drives.
 
@@ -41,109 +34,35 @@ class Instant(Generic[V]):
     """
 
     at: Contact[V]
+    wheel_torque_Nm: V  # that the wheel needs for inertia and resistance, N m
+    slip: V  # speed at which the roller rubs along the wall, over L, per input radian
+    slot_grip: V  # the grip without friction in a guide
+    drag: V  # friction in a guide over the pin's force
+    grip: V  # torque on the wheel over L times the pin force, the margin of all forces
 
     def __init__(
         self,
         case: LoadCase,
         at: Contact[V],
-        drives: Number = 1.0,
-        slides: Number = 1.0,
-        feeds: Number = 1.0,
+        drives: Number | None = None,
+        slides: Number | None = None,
+        feeds: Number | None = None,
     ) -> None:
+        """The signs that are None, or NaN in arrays, are those of the values here."""
         self.case, self.at = case, at
-        self.drives = drives  # sign of the wheel's torque
-        self.slides = slides  # sign of the sliding
-        self.feeds = feeds  # sign of the input's torque
-
-    @classmethod
-    def known(cls, quantities: Mapping[str, object]) -> Instant[Array]:
-        """An instant whose quantities ``INSTANT_QUANTITIES`` are known already."""
-        known: Instant[Array] = cls.__new__(Instant)
-        vars(known).update(quantities)
-        return known
-
-    def quantities(self) -> dict[str, Number | V | None]:
-        """Each of ``INSTANT_QUANTITIES``; None for a quantity that the machine lacks."""
-        return {name: getattr(self, name) for name in INSTANT_QUANTITIES}
-
-    def signed(self, drives: Array | None = None) -> Self:
-        """Set the signs to those of the values; ``drives`` is that of the torque, if known."""
-        self.drives = np.copysign(1.0, value(self.wheel_torque_Nm)) if drives is None else drives
-        self.slides = np.copysign(1.0, value(self.slip))
-        self.feeds = np.copysign(1.0, value(self.feeding))
-        return self
-
-    def values(self: Instant[Jet]) -> Instant[Array]:
-        """The instant with values in place of jets."""
-        signs = self.drives, self.slides, self.feeds
-        return Instant(self.case, contact_values(self.at), *signs)
-
-    @cached_property
-    def omega_rad_s(self) -> V:
-        """The wheel's speed, rad/s."""
-        return self.at.velocity * self.case.speed_rad_s
-
-    @cached_property
-    def alpha_rad_s2(self) -> V:
-        """The wheel's acceleration, rad/s²."""
-        w = self.case.speed_rad_s
-        return self.at.acceleration * (w * w)
-
-    @cached_property
-    def wheel_torque_Nm(self) -> V:
-        """The torque that the wheel needs for inertia and resistance, N m."""
-        return self.at.acceleration * self.case.inertia_Nm + self.case.resists_Nm
-
-    @cached_property
-    def frame_torque_Nm(self) -> V:
-        """The torque on the carrier that speeds the wheel up against the ground, N m."""
-        return self.at.acceleration * (self.case.inertia_Nm * self.case.frame)
-
-    @cached_property
-    def slip(self) -> V:
-        """Speed at which the roller rubs along the wall, over L, per input radian."""
-        return self.at.along - self.at.spin * (self.drives * self.case.radius)
-
-    @cached_property
-    def sliding_m_s(self) -> V:
-        """Sliding speed along the wall of a roller that is fixed to its pin, m/s."""
-        return self.slip * (self.case.L * self.case.speed_rad_s) * self.at.touches
-
-    @cached_property
-    def _slot_grip(self) -> V:
-        """The grip without friction in a guide."""
-        at, case = self.at, self.case
-        if not case.rubs:
-            return at.lever
-        rub = at.touches * (case.friction * self.slides)
-        return at.lever + rub * (at.offset * self.drives - at.arm * case.radius)
-
-    @cached_property
-    def _drag(self) -> V:
-        """Friction in the guide over the pin's force."""
-        drag: V = self.case.guide.drag(self.case, self.at, self.drives, self.slides)
-        return drag
-
-    @cached_property
-    def grip(self) -> V:
-        """Torque on the wheel over L times the pin force, the margin of all forces."""
-        return self._slot_grip - self._drag * self.drives if self.case.guided else self._slot_grip
-
-    @property
-    def leaning(self) -> V | None:
-        """A value at whose changes of sign the friction in a guide has a corner."""
-        if self.case.guide is None:
-            return None
-        leaning: V = self.case.guide.leaning(self.case, self.at, self.drives, self.slides)
-        return leaning
-
-    @cached_property
-    def friction_margin(self) -> V | None:
-        """Margin of quantities that only friction makes unbounded; None without friction."""
-        if not (self.case.rubs or self.case.guided):
-            return None
-        free = self.case.all_friction == 0.0  # designs of the batch, whose margin is infinite
-        return self.grip + np.where(free, np.inf, 0.0) if np.any(free) else self.grip
+        self.wheel_torque_Nm = at.acceleration * case.inertia_Nm + case.resists_Nm
+        self.drives = sign_of(self.wheel_torque_Nm, drives)
+        self.slip = at.along - at.spin * (self.drives * case.radius)
+        self.slides = sign_of(self.slip, slides)
+        self.slot_grip = at.lever
+        if case.rubs:
+            rub = at.touches * (case.friction * self.slides)
+            self.slot_grip = at.lever + rub * (at.offset * self.drives - at.arm * case.radius)
+        self.grip = self.slot_grip
+        if case.guided:
+            self.drag = case.guide.drag(case, at, self.drives, self.slides)
+            self.grip = self.slot_grip - self.drag * self.drives
+        self.feeds = feeds if isinstance(feeds, float) else sign_of(self.feeding, feeds)
 
     @cached_property
     def feeding(self) -> V:
@@ -151,11 +70,36 @@ class Instant(Generic[V]):
 
         It is the ratio of the input's torque to the wheel's, times ``grip``.
         """
-        lost = self.slip * self.at.touches * (self.case.friction * self.slides * self.drives)
-        gain = self.at.velocity * self._slot_grip + lost
-        if all_true(self.case.frame == 0.0):
+        at, case = self.at, self.case
+        lost = self.slip * at.touches * (case.friction * self.slides * self.drives)
+        gain = at.velocity * self.slot_grip + lost
+        if all_true(case.frame == 0.0):
             return gain * self.drives
         return self.wheel_torque_Nm * gain + self.frame_torque_Nm * self.grip
+
+    @property
+    def frame_torque_Nm(self) -> V:
+        """The torque on the carrier that speeds the wheel up against the ground, N m."""
+        return self.at.acceleration * (self.case.inertia_Nm * self.case.frame)
+
+    @property
+    def leaning(self) -> V:
+        """A value at whose changes of sign the friction in a guide has a corner."""
+        leaning: V = self.case.guide.leaning(self.case, self.at, self.drives, self.slides)
+        return leaning
+
+    @cached_property
+    def edge(self) -> V:
+        """1 - curvature of the bearing wall's pitch curve times the roller's radius."""
+        return 1.0 - self.at.curvature * (self.drives * self.case.radius)
+
+    @cached_property
+    def friction_margin(self) -> V | None:
+        """Margin of quantities that only friction makes unbounded; None without friction."""
+        free = self.case.all_friction == 0.0  # designs of the batch, whose margin is infinite
+        if all_true(free):
+            return None
+        return self.grip + np.where(free, np.inf, 0.0) if np.any(free) else self.grip
 
     @cached_property
     def force_N(self) -> V:
@@ -163,33 +107,14 @@ class Instant(Generic[V]):
         return self.wheel_torque_Nm * self.drives / (self.grip * self.case.L)
 
     @cached_property
-    def pin_force_N(self) -> V:
-        """Pin force on the wall that bears, N, with its sign."""
-        return self.force_N * self.drives
-
-    @cached_property
-    def edge(self) -> V | None:
-        """1 - curvature of the bearing wall's pitch curve times the roller's radius, or None."""
-        if self.case.hertz is None:
-            return None
-        return 1.0 - self.at.curvature * (self.drives * self.case.radius)
-
-    @cached_property
-    def stress_squared(self) -> V | None:
-        """The square of the contact stress, MPa²; None without a face width."""
-        if self.case.hertz is None or self.edge is None:
-            return None
-        return self.force_N * self.at.touches * self.case.hertz / self.edge
-
-    @cached_property
     def rubbed_Nm(self) -> V:
         """The part of the input's torque that friction takes, in the slot and in a guide, N m."""
-        rub = self.at.touches * (self.case.friction * self.slides)
-        torque = self.force_N * rub * self.slip * self.case.L
-        if self.case.guided:
-            torque = torque + self.force_N * self._drag * self.at.velocity * self.case.L
+        at, case = self.at, self.case
+        torque = self.force_N * (at.touches * (case.friction * self.slides)) * self.slip * case.L
+        if case.guided:
+            torque = torque + self.force_N * self.drag * at.velocity * case.L
         # designs of the batch without friction, whose force may be infinite
-        free = self.case.all_friction == 0.0
+        free = case.all_friction == 0.0
         if not np.any(free):
             return torque
         if isinstance(torque, Jet):
@@ -204,7 +129,7 @@ class Instant(Generic[V]):
         return slot + self.rubbed_Nm if self.case.rubs or self.case.guided else slot
 
     @property
-    def _losses(self) -> Number:
+    def losses(self) -> Number:
         """Ratio of the input's torque to that without losses: 1 where the wheel drives."""
         return 0.5 * (1.0 + self.feeds) / self.case.efficiency + 0.5 * (1.0 - self.feeds)
 
@@ -214,22 +139,18 @@ class Instant(Generic[V]):
         lossless = self.slot_torque_Nm
         if not all_true(self.case.frame == 0.0):
             lossless = lossless + self.frame_torque_Nm
-        return lossless * self._losses
+        return lossless * self.losses
 
     @property
     def crank_torque_Nm(self) -> V:
         """Torque of the shaft that carries the crank, N m: that of the power through the slot."""
-        return self.slot_torque_Nm * self._losses / self.at.crank
-
-    @property
-    def _rub(self) -> Number:
-        """Ratio of the force along the wall to the force on it."""
-        return self.case.friction * value(self.at.touches)
+        return self.slot_torque_Nm * self.losses / self.at.crank
 
     @cached_property
     def wheel_bearing_N(self) -> V:
         """Size of the force on the wheel, and so of its shaft's reaction, N."""
-        return self.force_N * (1.0 + self._rub * self._rub) ** 0.5
+        rub = self.case.friction * value(self.at.touches)
+        return self.force_N * (1.0 + rub * rub) ** 0.5
 
     @cached_property
     def crank_bearing_squared(self) -> V:
@@ -238,16 +159,11 @@ class Instant(Generic[V]):
             return self.wheel_bearing_N * self.wheel_bearing_N
         return self._reaction(0)
 
-    @cached_property
-    def guide_squared(self) -> V | None:
-        """The square of the guide's reaction (rocker, slider, groove, fixed gear), N²; or None."""
-        return None if self.at.reactions is None else self._reaction(1)
-
     def _reaction(self, joint: int) -> V:
-        """The square of the reaction of a joint that holds the roller's body."""
+        """The square of the reaction of a joint that holds the roller's body, N²."""
         assert self.at.reactions is not None
         normal, tangent, couple = self.at.reactions
-        rub = self._rub * self.slides
+        rub = self.case.friction * value(self.at.touches) * self.slides
         turn = rub * self.drives * self.case.radius
         x, y = (
             normal[joint][i] * self.drives + tangent[joint][i] * rub - couple[joint][i] * turn
@@ -255,31 +171,97 @@ class Instant(Generic[V]):
         )
         return self.force_N * self.force_N * (x * x + y * y)
 
+    def quantity(self, name: str | LoadQuantity) -> QuantityValue[V]:
+        """A quantity of the cycle, squared if it is one of ``SQUARED``, or a function's."""
+        at, case, w = self.at, self.case, self.case.speed_rad_s
+        if not isinstance(name, str):
+            known: QuantityValue[Any] = name(cast("Instant[Any]", self))
+            return known
+        if name == "omega_rad_s":
+            return QuantityValue(at.velocity * w)
+        if name == "alpha_rad_s2":
+            return QuantityValue(at.acceleration * (w * w))
+        if name == "wheel_torque_Nm":
+            return QuantityValue(self.wheel_torque_Nm)
+        if name == TORQUE:
+            return QuantityValue(self.input_torque_Nm, self.friction_margin)
+        if name == FORCE:
+            return QuantityValue(self.force_N, self.grip)
+        if name == WALL_FORCE:
+            return QuantityValue(self.force_N * self.drives, self.grip, self.drives)
+        if name == "wheel_bearing_N":
+            return QuantityValue(self.wheel_bearing_N, self.grip)
+        if name == "crank_bearing_N":
+            return QuantityValue(self.crank_bearing_squared, self.grip)
+        if name == "guide_force_N":  # of rocker, slider, groove or fixed gear
+            return QuantityValue(self._reaction(1), self.grip)
+        # of a roller that is fixed to its pin, m/s
+        sliding = self.slip * (case.L * w) * at.touches
+        if name not in PRESSED:
+            return QuantityValue(sliding)
+        assert case.hertz is not None  # there is a face width
+        square = self.force_N * at.touches * case.hertz / self.edge
+        friction = self.friction_margin
+        margin = self.edge if friction is None else lesser(friction, self.edge)
+        if name == PV:  # W²/m⁴
+            square = square * (sliding * sliding * 1e12)
+        return QuantityValue(square, margin)
 
-def bounded(here: Instant[Array]) -> Instant[Array]:
+
+def sign_of(jet: V, known: Number | None) -> Number:
+    """The sign of a jet's value, or the known one; NaN in an array of signs is not known."""
+    if isinstance(known, float):
+        return known
+    own = np.copysign(1.0, value(jet))
+    return own if known is None else np.where(np.isnan(known), own, known)
+
+
+class States(NamedTuple):
+    """The loads at input angles, (k,) each; None for what a machine lacks."""
+
+    omega_rad_s: Array
+    alpha_rad_s2: Array
+    wheel_torque_Nm: Array
+    pin_force_N: Array  # with the sign of the wall that bears
+    stress_squared: Array | None  # MPa²
+    sliding_m_s: Array
+    input_torque_Nm: Array
+    wheel_bearing_N: Array
+    crank_bearing_squared: Array  # N²
+    guide_squared: Array | None
+
+
+# each state's quantity
+STATES = {name: name for name in States._fields} | {
+    "pin_force_N": WALL_FORCE,
+    "stress_squared": STRESS,
+    "crank_bearing_squared": "crank_bearing_N",
+    "guide_squared": "guide_force_N",
+}
+
+
+def lacks(case: LoadCase, at: Contact[V]) -> list[str]:
+    """The names of the states that a machine does not have."""
+    stress, guide = ["stress_squared"], ["guide_squared"]
+    return stress * (case.hertz is None) + guide * (at.reactions is None)
+
+
+def bounded(here: Instant[Array]) -> States:
     """Values with infinity where a force is unbounded, and 0 where no force is needed there."""
+    without = lacks(here.case, here.at)
+    out: dict[str, Any] = {}
     with np.errstate(all="ignore"):
-        out, is_held = here.quantities(), here.grip > 0.0
+        is_held = here.grip > 0.0
         bound = np.where(here.wheel_torque_Nm == 0.0, 0.0, np.inf)
-        endless = ["wheel_bearing_N", "crank_bearing_squared"]
-        endless += [] if here.guide_squared is None else ["guide_squared"]
-        if here.friction_margin is not None:
-            endless += ["input_torque_Nm", "rubbed_Nm"]
-        for name in endless:
-            out[name] = np.where(is_held, getattr(here, name), bound)
-        out["pin_force_N"] = np.where(is_held, here.pin_force_N, bound * here.drives)
-        if here.edge is not None and here.stress_squared is not None:
-            is_pressed = is_held & (here.edge > 0.0)
-            out["stress_squared"] = np.where(is_pressed, here.stress_squared, bound)
-    return Instant.known(out)
-
-
-def bounded_loads(
-    case: LoadCase, at: Contact[Array], drives: Array | None = None
-) -> Instant[Array]:
-    """The values at a contact with the signs that they have there, as ``bounded`` has them."""
-    with np.errstate(all="ignore"):
-        return bounded(Instant(case, at).signed(drives))
+        for state, name in STATES.items():
+            if state in without:
+                out[state] = None
+                continue
+            own, margin, sign = here.quantity(name)
+            if margin is not None:
+                own = np.where(is_held & (margin > 0.0), own, bound * sign)
+            out[state] = own
+    return States(**out)
 
 
 class LoadQuantity(Protocol):

@@ -1,4 +1,4 @@
-"""The load case of a machine, from its spec; pressures of contacts."""
+"""The load case of a machine, from its spec, and the loads that are known of it."""
 
 from __future__ import annotations
 
@@ -7,8 +7,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-from geneva_cli.loads.carried import carried_kg, inertia_kgm2, resisting_torque_Nm
+from geneva_cli.loads.carried import carried_kg, inertia_kgm2, resisting_torques_Nm
 from geneva_cli.loads.contact import LoadCase
+from geneva_cli.loads.cycle_quantities import PRESSED, QUANTITIES, TORQUE, WALL_FORCE
 from geneva_cli.loads.strength.pin import pin_diameter_mm
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.records import thing
@@ -17,11 +18,15 @@ from geneva_cli.numerics.arrays import Array, N, all_true, choose, library
 from geneva_cli.spec.materials import roller_material, wheel_material
 from geneva_cli.spec.workshops import Stock
 
+PARALLEL_SHAFTS = (
+    "parallel shafts; on a sphere the force moves along them, and pushes along them too"
+)
+
 
 def contact_modulus_GPa(one: Stock, other: Stock) -> float:
     """E* of two materials in contact, 1/E* = (1 - nu1²)/E1 + (1 - nu2²)/E2."""
-    each = ((1.0 - m.poisson_ratio**2) / m.youngs_modulus_GPa for m in (one, other))
-    return 1.0 / sum(each)
+    soft = (1.0 - one.poisson_ratio**2) / one.youngs_modulus_GPa
+    return 1.0 / (soft + (1.0 - other.poisson_ratio**2) / other.youngs_modulus_GPa)
 
 
 def hertz_MPa(modulus_GPa: float, line_N_mm: N, radius_mm: float) -> N:
@@ -32,53 +37,91 @@ def hertz_MPa(modulus_GPa: float, line_N_mm: N, radius_mm: float) -> N:
 
 
 def load_case(mechanism: Mechanism) -> LoadCase:
-    """The load case of a machine's spec."""
-    spec = mechanism.spec
-    load, size = spec.load, spec.size
-    w = omega(spec.drive.n_rpm)
+    """The load case of a machine's spec.
+
+    Its friction is the ratio of the force along the wall to the force on it, for a roller that
+    moves along the wall. A roller fixed to its pin rubs in the slot, with the coefficient itself.
+    One that turns on its pin rolls, held back by the pin: the load passes a circle with the pin's
+    radius times sin rho, tan rho being the coefficient. So its angle to the wall's normal has the
+    sine: sin rho times pin over roller. In either case the friction work is N times the speed along
+    the wall times this ratio.
+    """
+    spec, L, r = mechanism.spec, mechanism.center_distance_mm, mechanism.roller_radius_mm
+    load, size, w = spec.load, spec.size, omega(spec.drive.n_rpm)
     hertz = None
     if size.face_width_mm is not None:
         # p0² = N E* / (pi b R_e)
         modulus = contact_modulus_GPa(wheel_material(spec), roller_material(spec)) * 1e3
-        hertz = modulus / (math.pi * size.face_width_mm * mechanism.roller_radius_mm)
+        hertz = modulus / (math.pi * size.face_width_mm * r)
+    friction = load.friction
+    if not (all_true(load.friction == 0.0) or load.rubs_in_slot):
+        thickness = 0.5 * pin_diameter_mm(mechanism) / r
+        m = library(thickness, load.friction)
+        sine = thickness * load.friction / m.hypot(1.0, load.friction)
+        turning = sine / m.sqrt((1.0 - sine) * (1.0 + sine))
+        friction = choose(thickness == 1.0, load.friction, turning)
+    inertia, resists = inertia_kgm2(spec) * w * w, sum(resisting_torques_Nm(spec))
     case = LoadCase(
-        w,
-        inertia_kgm2(spec) * w * w,
-        resisting_torque_Nm(spec),
-        mechanism.center_distance_mm / 1000.0,
-        mechanism.roller_radius_mm / mechanism.center_distance_mm,
-        rubbing(mechanism),
-        load.efficiency,
-        hertz,
-        mechanism.frame,
+        *(w, inertia, resists, L / 1000.0, r / L, friction, load.efficiency, hertz),
+        frame=mechanism.frame,
         design=mechanism.design,
     )
     complete: Callable[[Mechanism, LoadCase], LoadCase] | None
     complete = thing(spec.wheel.NAME, "load_case")
-    return complete(mechanism, case) if complete else case
-
-
-def rubbing(mechanism: Mechanism) -> float:
-    """Ratio of the force along the wall to the force on it, for a roller that moves along it.
-
-    A roller fixed to its pin rubs in the slot, with the coefficient itself. One that turns on its
-    pin rolls, held back by the pin: the load passes a circle with the pin's radius times sin rho,
-    tan rho being the coefficient. So its angle to the wall's normal has the sine: sin rho times pin
-    over roller. In either case the friction work is N times the speed along the wall times this
-    ratio.
-    """
-    load = mechanism.spec.load
-    if all_true(load.friction == 0.0) or load.rubs_in_slot:
-        return load.friction
-    thickness = 0.5 * pin_diameter_mm(mechanism) / mechanism.roller_radius_mm
-    m = library(thickness, load.friction)
-    sine = thickness * load.friction / m.hypot(1.0, load.friction)
-    turning = sine / m.sqrt((1.0 - sine) * (1.0 + sine))
-    coefficient: float = choose(thickness == 1.0, load.friction, turning)
-    return coefficient
+    return case.with_friction(friction, complete(mechanism, case) if complete else None)
 
 
 def centrifugal_N(mechanism: Mechanism) -> Array:
     """The centrifugal force of all bodies on a wheel on a carrier, N, (m, 1)."""
     spec, L = mechanism.spec, mechanism.center_distance_mm / 1000.0
     return np.atleast_2d(carried_kg(spec) * omega(spec.drive.n_rpm) ** 2 * L)
+
+
+def known_quantities(mechanism: Mechanism) -> list[str]:
+    """The names of the quantities that have a value for this machine and load."""
+    if not mechanism.spec.is_loaded:
+        return ["omega_rad_s", "alpha_rad_s2", "sliding_m_s"]
+    missing = {WALL_FORCE}
+    if load_case(mechanism).hertz is None:
+        missing |= set(PRESSED)
+    # the axes of all engagements are alike
+    if not mechanism.engagements[0].reactions:
+        missing.add("guide_force_N")
+    return [name for name in QUANTITIES if name not in missing]
+
+
+def multiples(mechanism: Mechanism) -> dict[str, tuple[str, float | None, str]]:
+    """Quantities that are multiples of others: the other's name, the factor, and the keys it needs.
+
+    Of two bearings with the overhang a and the distance s, the nearer bears (a + s)/s, the other
+    a/s.
+    """
+    shaft, output = mechanism.spec.shaft, mechanism.output
+    flat = mechanism.spec.wheel.FLAT or not output.turns
+    out: dict[str, tuple[str, float | None, str]] = {
+        "power_W": (TORQUE, load_case(mechanism).speed_rad_s, "")
+    }
+    for name, (source, factor) in output.loads.items():
+        out[name] = source, factor, ""
+    crank = ("crank", shaft.crank_overhang_mm, shaft.crank_span_mm)
+    wheel = ("wheel", shaft.wheel_overhang_mm, shaft.wheel_span_mm)
+    for name, a, s in (wheel, crank) if output.turns else (crank,):
+        needs = f"{name}_overhang_mm and {name}_span_mm in [shaft]" if flat else PARALLEL_SHAFTS
+        far = a / s if flat and a is not None and s is not None else None
+        near = None if far is None else 1.0 + far
+        out[f"{name}_near_bearing_N"] = (f"{name}_bearing_N", near, needs)
+        out[f"{name}_far_bearing_N"] = (f"{name}_bearing_N", far, needs)
+    return out
+
+
+def sources(mechanism: Mechanism) -> dict[str, tuple[str, float]]:
+    """Each known quantity by name: the one that is searched for it, and its ratio to that."""
+    known, out = known_quantities(mechanism), dict[str, tuple[str, float]]()
+    for name in known:
+        out[name] = name, 1.0
+    for name, (source, factor, _) in multiples(mechanism).items():
+        if factor is not None and source in known:
+            out[name] = source, factor
+    for name in mechanism.output.lacks:
+        out.pop(name, None)
+    return out

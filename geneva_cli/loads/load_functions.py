@@ -6,16 +6,21 @@ They have a kink or a jump where a sign changes, and at breaks of the motion its
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from itertools import pairwise
+from operator import attrgetter
 
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.kept import cached_property
-from geneva_cli.loads.contact import NEAR_CUSP, NEGLIGIBLE, LoadCase, QuantityValue, contact
-from geneva_cli.loads.cycle_quantities import PV, QUANTITIES
-from geneva_cli.loads.instant import Instant, LoadQuantity
+from geneva_cli.loads.contact import (
+    NEAR_CUSP,
+    NEGLIGIBLE,
+    LoadCase,
+    moving_contact,
+)
+from geneva_cli.loads.cycle_quantities import PV
+from geneva_cli.loads.instant import Instant, LoadQuantity, sign_of
 from geneva_cli.loads.mid_motion import at_mid_motion
 from geneva_cli.motion.batch import selection
 from geneva_cli.motion.engagement import Engagement
@@ -23,17 +28,17 @@ from geneva_cli.motion.peak_search import breaks, pole_deg, spans
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Mask, Which, all_true, array
 from geneva_cli.numerics.extremes import SearchResult, Stretches, cuts, search
-from geneva_cli.numerics.jet import Array, Jet
+from geneva_cli.numerics.jet import Array, Jet, Number
 
 # The functions whose signs matter, in order: each is smooth while those before it keep their signs.
-SIGN_FUNCTIONS: dict[str, Callable[[Instant[Jet]], Jet | None]] = {
-    "drives": lambda i: i.wheel_torque_Nm,
-    "slides": lambda i: i.slip,
-    "feeds": lambda i: i.feeding,
-    "grip": lambda i: i.grip,
-    "leans": lambda i: i.leaning,
-    "edge": lambda i: i.edge,
-    "along": lambda i: i.at.along,
+SIGN_FUNCTIONS = {
+    "drives": attrgetter("wheel_torque_Nm"),
+    "slides": attrgetter("slip"),
+    "feeds": attrgetter("feeding"),
+    "grip": attrgetter("grip"),
+    "leans": attrgetter("leaning"),
+    "edge": attrgetter("edge"),
+    "along": attrgetter("at.along"),
 }
 MARGINS = ("grip", "edge")  # where one of them is not above 0, a quantity is unbounded
 
@@ -50,8 +55,6 @@ class LoadFunctions:
         more: Sequence[str] = (),
     ) -> None:
         self.engagement, self.case, self.names, self.n = engagement, case, names, case.designs
-        each: Mapping[str, LoadQuantity] = {**QUANTITIES, **(own or {})}
-        self.quantities = [each[name] for name in names]
         matters = {
             "drives": not all_true(case.inertia_Nm == 0.0),
             # p v is 0 where the sliding is, in a notch that may be near a pole
@@ -63,47 +66,42 @@ class LoadFunctions:
         }
         self.kinds = [k for k in (*SIGN_FUNCTIONS, "wanted") if matters.get(k) or k in more]
         self.signs, self.wanted = len(self.kinds), len(names)
-        self.poled: Sequence[int] = [i for i, kind in enumerate(self.kinds) if kind == "edge"]
+        self.poled: Sequence[int] = (self.kinds.index("edge"),) if "edge" in self.kinds else ()
         # where links carry the roller, bearings and guide need the reactions of joints
         joints = bool(own) or "crank_bearing_N" in names or "guide_force_N" in names
         self.reactions = joints and engagement.reactions is not None
+        # names, or functions of their own, which may hold numbers of each design
+        self.quantities: list[str | LoadQuantity] = [*map((own or {}).get, names, names)]
         self._some = selection((engagement, case, self.quantities))
 
-    @cached_property
-    def spread(self) -> Array:
-        """Approximate distance from mid-motion of the nearest pole of the loads, degrees: (n, 1).
-
-        Near mid-motion a velocity is as v / (1 + x²/w²), a wall's lever as l sqrt(1 + x²/w²). Where
-        friction holds a lever that vanishes there, w is the distance at which it no longer does.
-        """
-        engagement = self.engagement
-        # not at mid-motion itself, where a curved slot may have no slopes
-        x = 0.01 * array(engagement.exit_deg)
-        _, _, lever, offset, *_ = at = contact(engagement, x, 2, reactions=False)
-        with np.errstate(all="ignore"):
-            w = np.fmin(pole_deg(at.velocity), math.sqrt(0.5) * pole_deg(lever))
-            if self.case.rubs:
-                grip = np.abs(lever.c[0]) + self.case.friction * np.abs(offset.c[0])
-                w = np.fmin(w, array(grip) / np.abs(lever.c[1]) / DEGREE)
-        # ten half motions: samples of a function without poles are not spread
-        w = np.fmin(np.where(w > 0.0, w, np.inf), 10.0 * engagement.exit_deg)
-        return np.broadcast_to(w, (self.n, 1))
-
-    @property
-    def spans(self) -> list[tuple[Array, Array]]:
-        """Ends of the smooth parts of the motion, one after the other: (n, 1) each."""
-        engagement, out = self.engagement, []
-        motion, n = engagement.motion, self.n
-        for (a, b), (start, end) in zip(pairwise(breaks(motion, n)), spans(motion, n), strict=True):
+        # Ends of the smooth parts of the motion, one after the other: (n, 1) each
+        motion = engagement.motion
+        self.spans: list[tuple[Array, Array]] = []
+        ends = pairwise(breaks(motion, self.n))
+        for (a, b), (start, end) in zip(ends, spans(motion, self.n), strict=True):
             if engagement.slot.curved:
                 start = np.where(a == 0.0, NEAR_CUSP * engagement.exit_deg, start)
                 end = np.where(b == 0.0, NEAR_CUSP * engagement.entry_deg, end)
-            out.append((start, end))
-        return out
+            self.spans.append((start, end))
+
+        # Approximate distance from mid-motion of the nearest pole of the loads, degrees: (n, 1).
+        # Near mid-motion a velocity is as v / (1 + x²/w²), a wall's lever as l sqrt(1 + x²/w²).
+        # Where friction holds a lever that vanishes there, w is the distance at which it no longer
+        # does. Not at mid-motion itself, where a curved slot may have no slopes:
+        x = 0.01 * array(engagement.exit_deg)
+        _, _, lever, offset, *_ = at = moving_contact(engagement, x, 2, reactions=False)
+        with np.errstate(all="ignore"):
+            w = np.fmin(pole_deg(at.velocity), math.sqrt(0.5) * pole_deg(lever))
+            if case.rubs:
+                grip = np.abs(lever.c[0]) + case.friction * np.abs(offset.c[0])
+                w = np.fmin(w, array(grip) / np.abs(lever.c[1]) / DEGREE)
+        # ten half motions: samples of a function without poles are not spread
+        w = np.fmin(np.where(w > 0.0, w, np.inf), 10.0 * engagement.exit_deg)
+        self.spread: Array = np.broadcast_to(w, (self.n, 1))
 
     def search(self, sized: bool = False) -> SearchResult:
         """The extremes of the quantities over the motion, and its stretches."""
-        spans, known, case, engagement = self.spans, [], self.case, self.engagement
+        parts, known, case, engagement = self.spans, [], self.case, self.engagement
         is_curved = engagement.slot.curved
         # Without friction, for an inertia or a torque alone, the second half of the motion has no
         # greater sizes than the first. In a curved slot a torque alone presses on one wall
@@ -113,10 +111,10 @@ class LoadFunctions:
         alone = alone and not (case.rubs or case.guided or self.reactions)
         radial = all_true(engagement.slot.offset == 0.0)
         if sized and alone and radial and engagement.mirrored:
-            spans = spans[: len(spans) // 2]
+            parts = parts[: len(parts) // 2]
         if is_curved:  # no span reaches mid-motion
             known = at_mid_motion(engagement, case, self.quantities, self.n)
-        return search(self, spans, sized, known, self.spread)
+        return search(self, parts, sized, known, self.spread)
 
     def stretches(self, result: SearchResult | None = None) -> Stretches:
         """The motion, divided where signs change: as in a search, or without one."""
@@ -131,24 +129,26 @@ class LoadFunctions:
 
     def at(
         self, x: Array, which: Which, order: int = 0, held: Array | None = None
-    ) -> tuple[Instant[Jet], list[LoadQuantity], list[tuple[Array, Jet]]]:
-        """The instants of some designs at places (m, k), degrees, and the quantities there."""
+    ) -> tuple[Instant[Jet], list[str | LoadQuantity], list[tuple[Array, Jet]]]:
+        """The instants of some designs at places (m, k), degrees, and the quantities there.
+
+        With them the signs that matter, known ones as ``held``, and the functions that have them.
+        """
         engagement, case, quantities = self._some(which)
-        instant = Instant(case, contact(engagement, x, order, self.reactions))
-        signs = []
-        if "drives" not in self.kinds:
-            instant.drives = np.copysign(1.0, instant.wheel_torque_Nm.c[0])
-        for i, kind in enumerate(self.kinds):
-            known = SIGN_FUNCTIONS.get(kind)
-            jet = known(instant) if known else quantities[0](instant).value
-            assert jet is not None  # the kind is not among those that matter
-            sign = np.copysign(1.0, jet.c[0])
-            if held is not None:
-                sign = np.where(np.isnan(held[i]), sign, held[i])
+        known: dict[str, Array] = {} if held is None else dict(zip(self.kinds, held, strict=True))
+        signs: list[Number | None] = [known.get("drives")]
+        for kind in ("slides", "feeds"):  # 1 where it does not matter
+            signs.append(known.get(kind) if kind in self.kinds else 1.0)
+        instant = Instant(case, moving_contact(engagement, x, order, self.reactions), *signs)
+        found: list[tuple[Array, Jet]] = []
+        for kind in self.kinds:
+            of = SIGN_FUNCTIONS.get(kind)
+            jet: Jet = of(instant) if of else instant.quantity(quantities[0]).value
             if kind in ("drives", "slides", "feeds"):
-                setattr(instant, kind, sign)
-            signs.append((sign, jet))
-        return instant, quantities, signs
+                found.append((getattr(instant, kind), jet))
+            else:
+                found.append((array(sign_of(jet, known.get(kind))), jet))
+        return instant, quantities, found
 
     def __call__(
         self,
@@ -157,37 +157,39 @@ class LoadFunctions:
         order: int,
         held: Array | None = None,
         requested: Sequence[int] | None = None,
-    ) -> tuple[Mask, list[Array]]:
+    ) -> tuple[Mask, Array]:
         """Signs, and Taylor coefficients of the functions that have them and of the quantities."""
         instant, every, signs = self.at(x, which, order, held)
-        rows = [QuantityValue(jet) for _, jet in signs]
-        rows += [every[k](instant) for k in (range(len(every)) if requested is None else requested)]
+        numbers = range(len(every)) if requested is None else requested
+        count = self.signs + len(numbers)
         # designs lie side by side in memory
-        shape = (len(rows), *x.shape[::-1])
-        values = [np.empty(shape).swapaxes(1, 2) for _ in range(order + 1)]
-        for i, (jet, margin, sign) in enumerate(rows):
-            for k, own in enumerate(values):
-                own[i] = jet.c[k] * DEGREE**k if k else jet.c[0]
+        shape = (order + 1, count, *x.shape[::-1])
+        values = np.empty(shape).swapaxes(2, 3)
+        positive = np.empty((self.signs, *x.shape[::-1]), dtype=bool).swapaxes(1, 2)
+        for i in range(count):
+            if i < self.signs:
+                known, jet = signs[i]
+                positive[i], margin = known > 0.0, None
+            else:
+                jet, margin, sign = instant.quantity(every[numbers[i - self.signs]])
+            for k, c in enumerate(jet.c):
+                values[k, i] = c * DEGREE**k if k else c
             if margin is None:
                 continue
-            value = array(margin.c[0])
-            unbounded: Mask = value <= NEGLIGIBLE
+            bar = array(margin.c[0])
+            unbounded: Mask = bar <= NEGLIGIBLE
             if margin is instant.grip:
                 # without friction a lever has all its digits, however short
                 free = instant.case.all_friction == 0.0
-                unbounded = value <= np.where(free, 0.0, NEGLIGIBLE)
+                unbounded = bar <= np.where(free, 0.0, NEGLIGIBLE)
             # a margin that is known to be negative may have a rounding error above 0
             for kind, (known, other) in zip(self.kinds, signs, strict=True):
                 if kind in MARGINS:
-                    unbounded = unbounded | ((known < 0.0) & (value == other.c[0]))
+                    unbounded = unbounded | ((known < 0.0) & (bar == other.c[0]))
             if unbounded.any():
                 unbounded = np.broadcast_to(unbounded, x.shape)
-                values[0][i] = np.where(unbounded, np.inf * sign, values[0][i])
-                for own in values[1:]:
-                    own[i][unbounded] = 0.0
-        positive = np.empty((self.signs, *x.shape[::-1]), dtype=bool).swapaxes(1, 2)
-        for i, (known, _) in enumerate(signs):
-            positive[i] = known > 0.0
+                values[0, i] = np.where(unbounded, np.inf * sign, values[0, i])
+                values[1:, i, unbounded] = 0.0
         return positive, values
 
 

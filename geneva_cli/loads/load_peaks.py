@@ -16,12 +16,10 @@ from geneva_cli.loads.cycle_quantities import (
     REPORTED_PEAKS,
     SQUARED,
     STRESS,
-    multiples,
     plain_values,
-    sources,
 )
 from geneva_cli.loads.instant import Instant, LoadQuantity
-from geneva_cli.loads.load_case import load_case
+from geneva_cli.loads.load_case import load_case, multiples, sources
 from geneva_cli.loads.load_functions import LoadFunctions, on_breaks
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
@@ -95,8 +93,8 @@ def greatest_pressure(mechanism: Mechanism) -> PeakArray:
             known = np.full(mechanism.designs, 0.0 if np.all(crosses) else np.nan)
             return PeakArray(90.0 + known, at_deg + known)
     own: dict[str, LoadQuantity] = {"slope": _slope_squared}
-    case = load_case(mechanism)._replace(inertia_Nm=0.0, hertz=None, efficiency=1.0)
-    case = case._replace(friction=0.0, guide=None)
+    case = load_case(mechanism).with_friction(0.0)
+    case = case._replace(inertia_Nm=0.0, hertz=None, efficiency=1.0)
     peak = load_peaks(mechanism, tuple(own), own, case)["slope"]
     angle = np.degrees(np.arctan(np.sqrt(peak.max)))
     return PeakArray(angle, np.where(angle > 0.0, peak.at_deg, 0.0))  # 0 throughout a radial slot
@@ -264,8 +262,8 @@ def _powers(load: LoadFunctions, x: Array, which: Which, signs: Array | None) ->
     here, wanted, _ = load.at(x, which, 0, signs)
     count = len(load.names)
     out = np.empty((2 * count, *x.shape[::-1])).swapaxes(1, 2)
-    for i, (name, quantity) in enumerate(zip(load.names, wanted, strict=True)):
-        value = array(quantity(here).value.c[0])
+    for i, name in enumerate(load.names):
+        value = array(here.quantity(wanted[i]).value.c[0])
         out[i] = value if name in SQUARED else value * value
         out[count + i] = plain_values(value, name)
     return out

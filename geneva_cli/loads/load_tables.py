@@ -11,14 +11,8 @@ import numpy as np
 
 from geneva_cli.errors import Notice
 from geneva_cli.loads.cycle import Cycle
-from geneva_cli.loads.cycle_quantities import (
-    PRESSED,
-    PV,
-    STRESS,
-    known_quantities,
-    multiples,
-    sources,
-)
+from geneva_cli.loads.cycle_quantities import PRESSED, PV, STRESS
+from geneva_cli.loads.load_case import known_quantities, multiples, sources
 from geneva_cli.loads.load_peaks import LoadSummary
 from geneva_cli.table import Reading, Table, computed_table, record_table, rows_table
 

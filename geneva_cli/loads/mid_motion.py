@@ -9,8 +9,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from geneva_cli.loads.contact import NEAR_CUSP, NEGLIGIBLE, LoadCase, contact, value
-from geneva_cli.loads.instant import Instant, LoadQuantity, bounded
+from geneva_cli.loads.contact import NEAR_CUSP, NEGLIGIBLE, LoadCase, contact, contact_values, value
+from geneva_cli.loads.instant import STATES, Instant, LoadQuantity, bounded, lacks
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.pitch_curve import retraces
 from geneva_cli.numerics.arrays import Mask, Number, array
@@ -18,7 +18,7 @@ from geneva_cli.numerics.jet import Array, Jet
 
 
 def at_mid_motion(
-    engagement: Engagement, case: LoadCase, quantities: Sequence[LoadQuantity], n: int
+    engagement: Engagement, case: LoadCase, quantities: Sequence[str | LoadQuantity], n: int
 ) -> list[tuple[int, Array, Array]]:
     """The quantities of n designs at mid-motion, which no stretch reaches.
 
@@ -45,8 +45,9 @@ def at_mid_motion(
         jumps = np.abs(after - before) > 1e-6 * (np.abs(after) + engagement.usual_acceleration)
         limits = []
         for x in (near, -near):  # the limits of 0/0, from values near mid-motion
-            instant = Instant(case, contact(engagement, x, 2)).signed()
-            limits.append([_limit(of(instant).value, np.radians(x)) for of in quantities])
+            instant = Instant(case, contact(engagement, x, 2))
+            each = [instant.quantity(of).value for of in quantities]
+            limits.append([_limit(jet, np.radians(x)) for jet in each])
         # The tangent points away from the axis at entry and exit; at a cusp both are one.
         crosses = ~np.asarray(retraces(engagement))
         for sense, acceleration in ((1.0, at.acceleration), (-1.0, Jet([after]))):
@@ -56,11 +57,11 @@ def at_mid_motion(
                 offset=at.offset * sense,
                 curvature=at.curvature * sense,
             )
-            instant = Instant(case, here).signed()
+            instant = Instant(case, here)
             torque = value(instant.wheel_torque_Nm)
             loaded = case.is_loaded(engagement, torque)
             for k, of in enumerate(quantities):
-                row, margin, sign = of(instant)
+                row, margin, sign = instant.quantity(of)
                 known, bar = value(row), np.inf if margin is None else value(margin)
                 finite = np.isfinite(known)
                 add(k, known, np.isinf(bar) & finite)
@@ -74,25 +75,25 @@ def at_mid_motion(
 
 
 def at_crossing(engagement: Engagement, case: LoadCase) -> dict[str, Array] | None:
-    """The quantities of ``Instant`` where the pin crosses the slot without a torque; else None."""
+    """The ``States`` where the pin crosses the slot without a torque; None elsewhere."""
     if not engagement.slot.curved or retraces(engagement):
         return None
     with np.errstate(all="ignore"):
         middle, near = np.zeros(1), np.array([NEAR_CUSP * engagement.entry_deg])
-        jets = Instant(case, contact(engagement, near, 2)).signed()
+        jets = Instant(case, contact(engagement, near, 2))
         # the torque's own sign is rounding, and where friction leaves no lever its force is 0/0
         signs = jets.drives, jets.slides, jets.feeds
-        here = Instant(case, contact(engagement, middle), *signs)
-        if np.any(case.is_loaded(engagement, value(here.wheel_torque_Nm))):
+        here = Instant(case, contact_values(contact(engagement, middle)), *signs)
+        if np.any(case.is_loaded(engagement, here.wheel_torque_Nm)):
             return None
-        open_ = np.abs(value(here.grip)) <= NEGLIGIBLE
-        known, near_values = bounded(here.values()), bounded(jets.values())
-        out = {}
-        for name, jet in jets.quantities().items():
-            if isinstance(jet, Jet):
-                one, other = getattr(known, name), getattr(near_values, name)
-                limit = np.where(np.isfinite(other), _limit(jet, np.radians(near)), other)
-                out[name] = np.where(open_ & ~np.isfinite(one), limit, one)
+        open_ = np.abs(here.grip) <= NEGLIGIBLE
+        beside = Instant(case, contact_values(jets.at), *signs)
+        known, near_values, out = bounded(here), bounded(beside), {}
+        for state in STATES.keys() - {*lacks(case, jets.at)}:
+            one, other = getattr(known, state), getattr(near_values, state)
+            limit = _limit(jets.quantity(STATES[state]).value, np.radians(near))
+            limit = np.where(np.isfinite(other), limit, other)
+            out[state] = np.where(open_ & ~np.isfinite(one), limit, one)
         return out
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.loads.carried import inertia_kgm2, support_torque_Nm, working_torque_Nm
+from geneva_cli.loads.carried import inertia_kgm2, resisting_torques_Nm
 from geneva_cli.loads.contact import QuantityValue
 from geneva_cli.loads.cycle_quantities import TORQUE
 from geneva_cli.loads.instant import Instant, LoadQuantity
@@ -155,8 +155,8 @@ def indexer_formula(
 def _by_formula(mechanism: Mechanism) -> dict[str, Number]:
     """The cam-indexer formula, for the engagement with the greatest torque at the input."""
     spec, fc, best = mechanism.spec, mechanism.spec.motor.service_factor, None
-    friction = support_torque_Nm(spec)
-    load = inertia_kgm2(spec), friction, working_torque_Nm(spec)
+    work, friction = resisting_torques_Nm(spec)
+    load = inertia_kgm2(spec), friction, work
     for number, engagement in enumerate(mechanism.engagements):
         step, motion = mechanism.index_deg(number), engagement.motion_deg
         velocity, acceleration, power = _peaks(engagement, "velocity", "acceleration", "power")
@@ -258,7 +258,8 @@ def _works(load: LoadFunctions, bounded: Mask) -> tuple[Array, Array]:
     def rows(x: Array, which: Whole) -> Array:
         here, (uneven,), _ = load.at(x, design[which], 0, signs[:, which, None])
         back = 0.5 * (1.0 - here.feeds) * here.input_torque_Nm.c[0]
-        return np.stack(np.broadcast_arrays(uneven(here).value.c[0], back * back))
+        each = here.quantity(uneven).value.c[0], back * back
+        return np.stack(np.broadcast_arrays(*each))
 
     needed = np.stack((bounded, bounded))
     with np.errstate(all="ignore"):
@@ -276,7 +277,7 @@ def kinetic_power_W(mechanism: Mechanism, power_invariant: float) -> float:
     spec, w = mechanism.spec, omega(mechanism.spec.drive.n_rpm)
     if not mechanism.frame:
         return inertia_kgm2(spec) * power_invariant * w**3 / spec.load.efficiency
-    case = load_case(mechanism)._replace(resists_Nm=0.0, efficiency=1.0, friction=0.0, guide=None)
+    case = load_case(mechanism).with_friction(0.0)._replace(resists_Nm=0.0, efficiency=1.0)
     torque = load_peaks(mechanism, (TORQUE,), case=case)[TORQUE].max
     one = isinstance(power_invariant, float)
     return (float(torque[0]) if one else parameter(torque[:, None])) * w / spec.load.efficiency

@@ -43,7 +43,7 @@ class Functions(Protocol):
         order: int,
         held: Array | None = None,
         requested: Sequence[int] | None = None,
-    ) -> tuple[Mask, list[Array]]: ...
+    ) -> tuple[Mask, Array]: ...
 
 
 class Rows(NamedTuple):

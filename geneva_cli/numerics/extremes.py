@@ -80,14 +80,14 @@ class Smooth:
         order: int,
         held: Array | None = None,
         requested: Sequence[int] | None = None,
-    ) -> tuple[Mask, list[Array]]:
+    ) -> tuple[Mask, Array]:
         """Masks of positive signs, and Taylor coefficients."""
         numbers = range(self.wanted) if requested is None else requested
         every = [*range(self.signs), *(self.signs + i for i in numbers)]
-        out = [np.empty((len(every), *x.shape[::-1])).swapaxes(1, 2) for _ in range(order + 1)]
+        out = np.empty((order + 1, len(every), *x.shape[::-1])).swapaxes(2, 3)
         for i, row in enumerate(self.derivatives(np.asfortranarray(x), which, order, every)):
-            for k, values in enumerate(out):
-                values[i] = row[k] * (self.unit**k / factorial(k)) if k else row[k]
+            for k in range(order + 1):
+                out[k, i] = row[k] * (self.unit**k / factorial(k)) if k else row[k]
         return out[0][: self.signs] > 0.0, out
 
 

@@ -127,7 +127,7 @@ def back_driven_deg(cycle: Cycle) -> list[tuple[float, float]]:
         driven = stretch.feeds < 0.0 and b - a > 1e-4 * engagement.motion_deg
         if driven:  # where friction alone holds the wheel, it drives nothing
             at = contact(engagement, 0.5 * (stretch.start + stretch.end), 1, reactions=False)
-            grip = Instant(cycle.case, at, stretch.drives, stretch.slides).grip
+            grip = Instant(cycle.case, at, *stretch[2:]).grip
             driven = grip.scalars()[0] > 0.0
         if driven and last == a:
             out[-1] = out[-1][0], shown(b)

@@ -8,7 +8,7 @@ import repo
 from load_states import greatest
 
 from geneva_cli import Design, design
-from geneva_cli.loads.cycle_quantities import known_quantities
+from geneva_cli.loads.load_case import known_quantities
 from geneva_cli.table import Table
 
 pytestmark = pytest.mark.usefixtures("made_once", "read_once")

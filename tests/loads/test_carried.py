@@ -6,7 +6,12 @@ import pytest
 from geneva_cli import External, Mass, Support
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
-from geneva_cli.loads.carried import inertia_kgm2, mass_inertia_kgm2, support_torque_Nm, weight_kg
+from geneva_cli.loads.carried import (
+    inertia_kgm2,
+    mass_inertia_kgm2,
+    resisting_torques_Nm,
+    weight_kg,
+)
 from geneva_cli.motion.machine_spec import Spec
 
 
@@ -21,7 +26,7 @@ def test_the_published_turret():
     whole = Spec(External(6), mass=(plate, fixtures, parts), support=support)
     assert round(inertia_kgm2(whole), 3) == 0.319
     # 0.15 (11.026 + 18 + 1.5) 9.80665 0.1, by hand
-    assert support_torque_Nm(whole) == pytest.approx(4.4903669685, rel=1e-12)
+    assert resisting_torques_Nm(whole)[1] == pytest.approx(4.4903669685, rel=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -53,7 +58,8 @@ def test_gears_to_the_table_count_twice_for_inertia_and_once_for_friction():
     straight = Spec(External(6), mass=mass, support=Support(friction=0.2, radius_mm=50.0))
     geared = straight.with_("support.gear_ratio", 0.5)
     assert inertia_kgm2(geared) == pytest.approx(0.25 * inertia_kgm2(straight), rel=1e-15)
-    assert support_torque_Nm(geared) == pytest.approx(0.5 * support_torque_Nm(straight), rel=1e-15)
+    half = pytest.approx(0.5 * resisting_torques_Nm(straight)[1], rel=1e-15)
+    assert resisting_torques_Nm(geared)[1] == half
 
 
 def test_a_support_s_own_friction_is_a_load():

@@ -61,10 +61,10 @@ def test_a_load_that_changes_walls():
     assert first == pytest.approx(10.3447585591609, rel=1e-13)
     force = summaries(still)["pin_force_N"]
     assert force.max == pytest.approx(324.50370415267853, rel=1e-14)
-    size = integrals(still, lambda i: i.pin_force_N * i.drives * i.sliding_m_s * i.slides)
+    size = integrals(still, lambda i: i.force_N * i.quantity("sliding_m_s").value * i.slides)
     per_second = still.case.speed_rad_s
     assert size[0] / per_second == pytest.approx(16.229000563314397, rel=1e-13)
-    turns = integrals(still, lambda i: i.sliding_m_s * i.slides)[0] / per_second
+    turns = integrals(still, lambda i: i.quantity("sliding_m_s").value * i.slides)[0] / per_second
     assert turns / (2.0 * math.pi * 0.008) == pytest.approx(2.6551484499207021, rel=1e-13)
 
 
@@ -82,9 +82,9 @@ def test_the_work_closes(path):
     paid, moved, rubbed, taken = integrals(
         cycle,
         lambda i: i.input_torque_Nm,
-        lambda i: i.wheel_torque_Nm * i.omega_rad_s / w,
+        lambda i: i.wheel_torque_Nm * i.at.velocity,
         lambda i: i.rubbed_Nm,
-        lambda i: i.alpha_rad_s2 * i.omega_rad_s / w,
+        lambda i: i.at.acceleration * i.at.velocity * (w * w),
     )
     step = sum(2.0 * engagement.half_step for engagement in mechanism.engagements)
     assert moved == pytest.approx(cycle.case.resists_Nm * step, rel=1e-12)

@@ -7,7 +7,7 @@ import pytest
 from words import Spec, Wheel
 
 from geneva_cli import Design
-from geneva_cli.loads.load_case import rubbing
+from geneva_cli.loads.load_case import load_case
 from geneva_cli.motion.mechanism import build
 from geneva_cli.spec.tables import Load, Size
 
@@ -31,7 +31,7 @@ def test_the_roller_is_in_balance(friction, pin):
     """
     r = 8.0
     size = SIZE.replace(pin_mm=pin)
-    along = rubbing(build(SPEC.replace(size=size, load=LOAD.replace(friction=friction))))
+    along = load_case(build(SPEC.replace(size=size, load=LOAD.replace(friction=friction)))).friction
     wall, at = complex(-along, 1.0), complex(0.0, -r)  # from below, against rolling to the right
     rho = math.atan(friction)
     moments = []
@@ -55,7 +55,7 @@ def test_work_of_theory():
 
 def test_the_cycle_is_that_of_less_friction():
     turning = design(0.1)
-    along = rubbing(turning.mechanism)
+    along = load_case(turning.mechanism).friction
     rubs = design(along, at="slot")
     assert 0.0499 > along > 0.0497  # half of 0.1, less its square's share
     for name, one in turning.loads.items():

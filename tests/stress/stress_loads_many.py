@@ -18,7 +18,7 @@ import numpy as np
 from loaded_arrays import beyond, loaded
 from many_options import options
 
-from geneva_cli.loads.cycle_quantities import known_quantities
+from geneva_cli.loads.load_case import known_quantities
 from geneva_cli.loads.load_peaks import load_peaks, load_summaries
 
 CHUNK = 4_096  # designs built together

@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias, cast
 from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.loads.contact import contact
 from geneva_cli.loads.cycle_quantities import FORCE, TORQUE
-from geneva_cli.loads.cycle_quantities import QUANTITIES as LOAD_QUANTITIES
 from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.motion.engagement import Engagement
@@ -212,11 +211,12 @@ def _load(mechanism: Mechanism, engagement: Engagement, quantity: str) -> Formul
         own = enclosed(input_deg, case)
         found: list[Jet] = []
         # the signs that are possible; those that no quantity depends on are 1
-        for drives in signs_of(Instant(own, at).wheel_torque_Nm):
-            for slides in signs_of(Instant(own, at, drives).slip) if own.rubs else (1.0,):
-                here = Instant(own, at, drives, slides)
+        for drives in signs_of(Instant(own, at, 1.0, 1.0, 1.0).wheel_torque_Nm):
+            slip = Instant(own, at, drives, 1.0, 1.0).slip
+            for slides in signs_of(slip) if own.rubs else (1.0,):
+                here = Instant(own, at, drives, slides, 1.0)
                 for fed in (1.0,) if own.efficiency == 1.0 else signs_of(here.feeding):
-                    one = LOAD_QUANTITIES[quantity](Instant(own, at, drives, slides, fed))
+                    one = Instant(own, at, drives, slides, fed).quantity(quantity)
                     if one.margin is not None and not one.margin.c[0] > 0.0:
                         raise Undecided("friction alone may hold the wheel: no bound of the force")
                     found.append(one.value)

@@ -16,7 +16,7 @@ from geneva_cli.design import Design, load
 from geneva_cli.drives.crank import Crank
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.extras.servo.s_curve import SCurve
-from geneva_cli.loads.carried import inertia_kgm2, resisting_torque_Nm
+from geneva_cli.loads.carried import inertia_kgm2, resisting_torques_Nm
 from geneva_cli.motion.laws.law import Law
 from geneva_cli.motion.laws.standard import ModifiedSine
 from geneva_cli.motion.machine_spec import Spec
@@ -95,7 +95,7 @@ def alternative(design: Design, name: str, rotor: bool = False) -> Mechanism:
     z = round(360.0 / steps[0])  # equal steps fill a turn
     spec, own = design.spec, design.spec.motor
     n_rpm = 60.0 / first.cycle_s
-    inertia, torque = inertia_kgm2(spec), resisting_torque_Nm(spec)
+    inertia, torque = inertia_kgm2(spec), sum(resisting_torques_Nm(spec))
     # A cam's reducer lets the motor turn as fast as before.
     motor = own.replace(gear_ratio=own.ratio * spec.drive.n_rpm / n_rpm)
     efficiency = spec.load.efficiency
@@ -140,7 +140,7 @@ def _servo_rms_Nm(design: Design) -> float:
     """The root mean square of a servo's motor torque over a cycle."""
     motor, first, law = design.spec.motor, design.timings[0], LAWS["servo"]
     unit = math.radians(first.index_deg or 0.0) / first.motion_s**2
-    inertia, resisting = inertia_kgm2(design.spec), resisting_torque_Nm(design.spec)
+    inertia, resisting = inertia_kgm2(design.spec), sum(resisting_torques_Nm(design.spec))
     turns = -resisting / inertia if inertia else 0.0  # where the load begins to drive
     mean = 0.0
     for low, high in pairwise((0.0, *law.breaks, 1.0)):

@@ -14,7 +14,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from geneva_cli.loads.carried import inertia_kgm2, resisting_torque_Nm
+from geneva_cli.loads.carried import inertia_kgm2, resisting_torques_Nm
 from geneva_cli.loads.contact import contact
 from geneva_cli.loads.impacts.shock_force import Impacts, harder, shown, with_force
 from geneva_cli.loads.load_case import load_case
@@ -154,7 +154,7 @@ def drag_over(mechanism: Mechanism) -> float:
     """M_r / (I w²) of the spec's load; infinite without an inertia, as then nothing coasts."""
     inertia, w = inertia_kgm2(mechanism.spec), omega(mechanism.spec.drive.n_rpm)
     heavy = inertia > 0.0
-    drag = resisting_torque_Nm(mechanism.spec) / (choose(heavy, inertia, 1.0) * w * w)
+    drag = sum(resisting_torques_Nm(mechanism.spec)) / (choose(heavy, inertia, 1.0) * w * w)
     out: float = choose(heavy, drag, math.inf)
     return out
 
@@ -163,7 +163,7 @@ def lasting_drag_Nm(mechanism: Mechanism) -> float:
     """Torque to add for the roller to stay on one wall: I w² max(-psi2) - M_r."""
     inertia, w = inertia_kgm2(mechanism.spec), omega(mechanism.spec.drive.n_rpm)
     most = reduce(larger, map(braking, mechanism.engagements))
-    return larger(inertia * w * w * most - resisting_torque_Nm(mechanism.spec), 0.0)
+    return larger(inertia * w * w * most - sum(resisting_torques_Nm(mechanism.spec)), 0.0)
 
 
 def reversal_impacts(mechanism: Mechanism, pin: PinSize | None = None) -> Impacts:
@@ -239,7 +239,7 @@ def arrival(mechanism: Mechanism) -> tuple[float, float, Lag | None] | None:
     if not engagement.paired or not spec.is_loaded:
         return None
     w, motion = omega(spec.drive.n_rpm), engagement.motion
-    unit, torque = inertia_kgm2(spec) * w * w, resisting_torque_Nm(spec)
+    unit, torque = inertia_kgm2(spec) * w * w, sum(resisting_torques_Nm(spec))
     begin, exit_deg = motion.breaks_deg[-2], engagement.exit_deg
     start, u = motion(begin, 1).scalars()[:2]
     end, _, last = motion(exit_deg, 2).scalars()[:3]

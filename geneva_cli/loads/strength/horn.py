@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
 import numpy as np
 
 from geneva_cli.loads.contact import NEAR_CUSP, contact, contact_values
-from geneva_cli.loads.instant import bounded_loads
+from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.motion.batch import taken
 from geneva_cli.motion.engagement import Engagement
@@ -243,9 +243,10 @@ def _over_a_half(mechanism: Mechanism, side: HornSide, start: float, width: floa
         x = places - side.at.ahead_deg
         x = x[0] if len(x) == 1 else x  # as (k,) in half the time
         at = contact_values(contact(side.at.whole, x, reactions=False))
-        loads = bounded_loads(case, at)
-        bears = np.asarray(loads.wheel_torque_Nm) * side.at.end < 0.0  # or else the other horn
-        force = np.where(bears, np.abs(loads.pin_force_N), 0.0)
+        with np.errstate(all="ignore"):
+            loads = Instant(case, at, feeds=1.0)
+            bears = np.asarray(loads.wheel_torque_Nm) * side.at.end < 0.0  # or else the other horn
+            force = np.where(bears & (loads.grip > 0.0), np.abs(loads.force_N), 0.0)
         own = np.flatnonzero(bears.any(axis=0) if bears.ndim > 1 else bears)  # elsewhere it is 0
         # a mouth is away from the axis, but for internal wheels
         rub = case.friction * mechanism.spec.wheel.SIGN * loads.slides * at.touches

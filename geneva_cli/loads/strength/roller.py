@@ -84,7 +84,7 @@ def passage(engagement: Engagement, case: LoadCase, half: float = 0.0) -> SlotPa
         drives, slides = (
             signs[kind][which] if kind in signs else 1.0 for kind in ("drives", "slides")
         )
-        here = Instant(of, contact(some, x, reactions=False), drives, slides)
+        here = Instant(of, contact(some, x, reactions=False), drives, slides, 1.0)
         touches, rubs = here.at.touches.c[0], abs(here.slip.arrays()[0]) * of.L
         # near the torque's change of sign the force may be slightly negative by rounding
         force = np.maximum(here.force_N.c[0], 0.0)
