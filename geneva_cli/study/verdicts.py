@@ -50,15 +50,17 @@ def verdict(
             from geneva_cli.loads.cycle import cycle_of
             from geneva_cli.loads.load_tables import summaries
             from geneva_cli.loads.strength.part_loads import single_loads
+            from geneva_cli.verdict.quantities.batch_designs import single
+            from geneva_cli.verdict.quantities.part_strength import shafts
             from geneva_cli.verdict.strength import strength
 
             # loads, the parts that they size, their strength: what checks and warnings read
             with suppress(GenevaError):  # a check says why
                 single_loads(design.mechanism)
-                summaries(cycle_of(design.mechanism))
-                _ = design.parts.built
-                of = strength(design.mechanism)
-                _ = of["strength.wheel_shaft.stress_MPa"], of["strength.horn.stress_MPa"]
+                cycle = cycle_of(design.mechanism)
+                _ = cycle.known, summaries(cycle), design.parts.built
+                single(design.mechanism).once(shafts)
+                _ = strength(design.mechanism)["strength.horn.stress_MPa"]
         checks = design.checks if to_mm is None else design.proved_to(to_mm)
         return Verdict(
             path=design.spec.path,

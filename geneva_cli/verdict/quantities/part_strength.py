@@ -117,13 +117,13 @@ def _known(row: Number | None) -> Array:
 
 def _shaft(of: Designs, part: str) -> Columns:
     """The shaft of wheel or crank."""
-    return of.once(_shafts)[part]
+    return of.once(shafts)[part]
 
 
 wheel_shaft, crank_shaft = partial(_shaft, part="wheel"), partial(_shaft, part="crank")
 
 
-def _shafts(of: Designs) -> dict[str, Columns]:
+def shafts(of: Designs) -> dict[str, Columns]:
     """The columns of the shafts of wheel and crank, which are searched together."""
     wheel, crank = _drawn(of, "wheel"), _drawn(of, "crank")
     if held := under_load(of).held:
