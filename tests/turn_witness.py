@@ -9,10 +9,12 @@ from drawing_witness import polygon
 from sampling import some
 from shapely import affinity
 
-from geneva_cli.parts.turn.play import windows
+from geneva_cli.parts.turn.play import search_deg, wheel_stops, windows
 from geneva_cli.parts.turn.turn_certificate import certificate, intervals
 
 TO_MM = 1e-3
+PAST = 1e-5  # radians: what grazes at 100 mm overlaps by some 1e-7 mm more, as much as counts
+OF_GAPS = 1e-10  # mm: rounding of gaps of some hundred mm
 ROUNDING = 1e-9  # mm: a hundred times the rounding of a distance here
 DENSE = some(20_000, 4_000)  # positions of a turn
 
@@ -22,6 +24,32 @@ def least_gap(parts, at):
     pose = parts.gaps.pose(at)
     locking = parts.gaps.locking(pose).min() if parts.locked else math.inf
     return float(min(parts.gaps.rollers(pose).min(), locking))
+
+
+def smallest_clearance(parts, pose, lead):
+    """The smallest clearance of all parts in each pose, mm, the wheel turned on, radians."""
+    gaps = parts.gaps
+    return np.minimum(gaps.locking(pose, lead), gaps.rollers(pose, lead).min(axis=1))
+
+
+def check_first_contacts(parts, at_deg, looks=50):
+    """No parts overlap before the stops at input angles, and some do behind them.
+
+    By gaps that are distances of points, not contacts, at some turns of the wheel up to each stop.
+    """
+    pose, most = parts.gaps.pose(at_deg), math.radians(search_deg(parts))
+    apart = smallest_clearance(parts, pose, np.zeros(len(at_deg))) + parts.close >= 0.0
+    many, share = parts.gaps.pose(np.tile(at_deg, looks)), np.linspace(0.0, 1.0, looks)[:, None]
+    for way, free in zip((-1.0, 1.0), wheel_stops(parts, at_deg)[0], strict=True):
+        assert ((free >= 0.0) & (free <= most)).all()
+        assert (free[~apart] == 0.0).all()
+        turned = np.where(apart, share * free, 0.0)
+        gap = smallest_clearance(parts, many, way * turned.ravel()).reshape(turned.shape)
+        assert (gap[:, apart] >= -parts.close - OF_GAPS).all(), "a stop is missed"
+        stopped = apart & (free < most)
+        behind = smallest_clearance(parts, pose, way * (free + PAST))
+        assert (behind[stopped] < -parts.close).all(), "nothing is behind a stop"
+        yield apart, stopped
 
 
 def check_proof(parts, gap_mm, to_mm=TO_MM):

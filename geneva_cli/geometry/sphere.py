@@ -36,12 +36,8 @@ class SphereArc(NamedTuple):
         """Angle about its axis, radians, above 0 and at most a whole turn."""
         if self.start == self.end:
             return math.tau
-        return self.turn_to(self.end)
-
-    def turn_to(self, point: Vector) -> float:
-        """Angle about its axis from the start to a point, radians, from 0 to a whole turn."""
         x, y = self._frame()
-        return math.atan2(dot(point, y), dot(point, x)) % math.tau
+        return math.atan2(dot(self.end, y), dot(self.end, x)) % math.tau
 
     def at(self, turn: Array) -> tuple[Array, Array]:
         """Points and their derivatives, (n, 3), at angles about the axis from the start."""

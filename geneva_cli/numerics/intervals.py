@@ -281,11 +281,6 @@ def _passes(low: Bound, high: Bound, at: float) -> Truth:
 Interval.library = cast("Library", _Intervals())
 
 
-def size_of(x: Number) -> Array | float:
-    """The greatest sizes of a formula's numbers: intervals, or a double that needs none."""
-    return x.size if isinstance(x, Interval) else abs(cast("float", x))
-
-
 def curve_rates(curve: Curve, start: Array, end: Array) -> Array:
     """Return the greatest sizes of a curve's derivatives on n cells (2, n); infinite if unknown.
 
@@ -315,7 +310,9 @@ def curve_rates(curve: Curve, start: Array, end: Array) -> Array:
             left.append((np.tile(cell, 2), np.append(low, half), np.append(half, high)))
         else:
             for k, total in enumerate(rates, start=1):
-                np.maximum.at(total, cell, k * np.hypot(size_of(x.c[k]), size_of(y.c[k])))
+                both = (x.c[k], y.c[k])  # intervals, or doubles that need none
+                sizes = [one.size if isinstance(one, Interval) else abs(one) for one in both]
+                np.maximum.at(total, cell, k * np.hypot(*sizes))
         np.add.at(tries, cell, 1)
     rates[:, tries >= 400] = math.inf
     return rates

@@ -18,7 +18,7 @@ from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.numerics.preferred import sizes_from
 from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.sized_by_load import equivalent_Nm, shaft_holds
+from geneva_cli.parts.sized_by_load import shaft_holds
 from geneva_cli.parts.sizes import FirstSizes, Sizes
 from geneva_cli.parts.stressed import Stressed, stressed
 from geneva_cli.spec.tables import Load, Size
@@ -81,9 +81,10 @@ def first_sizes(
         one = dimensions(size.replace(arm_bore_mm=size.arm_bore_mm or d))
         if one:
             parts, shaft = one, one.crank_shaft
-            moment = equivalent_Nm(spec, loads.crank_N, shaft.overhang, loads.crank_Nm)
+            bent = spec.shaft.bending_factor * loads.crank_N * shaft.overhang / 1000.0
+            turned = spec.shaft.torsion_factor * loads.crank_Nm
             fixed = spec.size.arm_bore_mm is not None
-            if fixed or shaft_holds(spec, "crank", shaft.diameter, moment):
+            if fixed or shaft_holds(spec, "crank", shaft.diameter, bent, turned):
                 break
     assert parts is not None
     thick = max(parts.contact, float(parts.arm.thickness))

@@ -142,8 +142,9 @@ def _wheel_bored(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> Sizes:
         sizes = sizes._replace(wheel_bore=0.5 * d, wheel_reach=reach, wheel_hub=hub)
         parts, torque = stressed(assembly, sizes), loads.wheel_Nm
         shaft = parts.wheel_shaft
-        moment = equivalent_Nm(spec, loads.wheel_shaft_N, shaft.overhang, torque)
-        holds = shaft_holds(spec, "wheel", shaft.diameter, moment)
+        bent = spec.shaft.bending_factor * loads.wheel_shaft_N * shaft.overhang / 1000.0
+        turned = spec.shaft.torsion_factor * torque
+        holds = shaft_holds(spec, "wheel", shaft.diameter, bent, turned)
         if holds and key_holds(spec, parts.wheel_key, torque):
             break
     return sizes
@@ -180,8 +181,9 @@ def _crank_bored(
         sizes = usual._replace(crank_bore=bore, crank_reach=reach, crank_hub=hub, arm_bore=arm)
         parts = stressed(assembly, sizes)
         shaft = parts.crank_shaft
-        moment = equivalent_Nm(spec, loads.crank_N, shaft.overhang, loads.crank_Nm)
-        holds = shaft_holds(spec, "crank", shaft.diameter, moment)
+        bent = spec.shaft.bending_factor * loads.crank_N * shaft.overhang / 1000.0
+        turned = spec.shaft.torsion_factor * loads.crank_Nm
+        holds = shaft_holds(spec, "crank", shaft.diameter, bent, turned)
         if holds and (not keyed or key_holds(spec, parts.crank_key, loads.crank_Nm)):
             break
     return sizes
@@ -214,17 +216,16 @@ def pin_that_holds(
     return 0.5 * d
 
 
-def equivalent_Nm(spec: Spec, force_N: float, overhang_mm: float, torque_Nm: float) -> float:
-    """Return the equivalent torque of a shaft whose force and torque are greatest at once."""
-    bending = spec.shaft.bending_factor * force_N * overhang_mm / 1000.0
-    return math.hypot(bending, spec.shaft.torsion_factor * torque_Nm)
+def shaft_holds(
+    spec: Spec, part: str, diameter: float, bent_Nm: float, turned_Nm: float = 0.0
+) -> bool:
+    """Return True if the shaft of wheel or crank holds a moment and a torque, greatest at once.
 
-
-def shaft_holds(spec: Spec, part: str, diameter: float, moment_Nm: float) -> bool:
-    """Return True if the shaft of wheel or crank holds an equivalent torque."""
+    They have the factors of ``[shaft]`` already.
+    """
     keyway = vars(spec.size)[f"{part}_keyway"] is not None
     allowed = float(shear_allowed_MPa(spec.shaft, keyway))
-    return keeps(shear_MPa(moment_Nm, diameter), "at most", allowed)
+    return keeps(shear_MPa(math.hypot(bent_Nm, turned_Nm), diameter), "at most", allowed)
 
 
 def key_holds(spec: Spec, key: KeyDimensions, torque_Nm: float) -> bool:

@@ -92,8 +92,8 @@ def stressed(assembly: Assembly, sizes: Sizes) -> Stressed:
         shaft_of(spec, "wheel", sizes.wheel_bore, *on_wheel),
         shaft_of(spec, "crank", sizes.arm_bore or sizes.crank_bore, *on_crank),
         arm,
-        key_of(size.wheel_keyway, sizes.wheel_bore, wide + hub_mm),
-        key_of(size.crank_keyway, sizes.arm_bore, thick),
+        key_of(size.wheel_keyway, sizes.wheel_bore, wide + hub_mm) if size.wheel_keyway else NO_KEY,
+        key_of(size.crank_keyway, sizes.arm_bore, thick) if size.crank_keyway else NO_KEY,
     )
 
 

@@ -74,7 +74,7 @@ FORMATS = "table", "csv", "json", "md"
 FAILING = "check", "report", "pdf", "profile", "assembly", "export"  # status 1 of a failing design
 
 
-@pytest.mark.sampled(20)
+@pytest.mark.sampled(30)
 @every
 def test_every_command(design, under, tmp_path):
     """It ends with the right status and prints finite numbers; a table has equal rows."""
@@ -98,7 +98,7 @@ def test_every_command(design, under, tmp_path):
             assert len(rows) > 1 and {len(row) for row in rows} == {len(rows[0])}, name
 
 
-@pytest.mark.sampled(20)
+@pytest.mark.sampled(40)
 @every
 def test_every_key(design, under):
     """Varied in a sweep or a comparison it gives the values of each design alone."""

@@ -206,7 +206,7 @@ def test_every_command_has_a_row():
 
 
 @repo.posix("fork, without which each run takes a second; the imports are the same everywhere")
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row.line)
 def test_heavy_modules(forks, row):
     may = set(row.may.split())

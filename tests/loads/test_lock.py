@@ -10,7 +10,7 @@ from plane_stress import horn as in_plane_stress
 from words import Spec, Wheel
 
 from geneva_cli import load
-from geneva_cli.loads.strength.lock import LockUnderTorque, _rises, bending, loaded_locks
+from geneva_cli.loads.strength.lock import LockUnderTorque, bending, loaded_locks
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.motion.mechanism import build
 from geneva_cli.parts.parts import parts_of
@@ -147,9 +147,3 @@ def test_the_horn_gives_more_in_plane_stress(z, L, r, h):
     give, _, thick = bending(mechanism, r, wall - h, square)
     assert thick == pytest.approx(h, rel=1e-9)
     assert 1.05 < moved / give < 1.31
-
-
-def test_a_strip_without_a_foot_bends_nothing():
-    """Where a horn has no foot the clearance to the next is 0, as it is where the next begins."""
-    found = _rises(np.array([[-1.0, 3.0, 0.0, 0.0, -2.0, -1.0]]))
-    assert found.tolist() == [[0.25, 0.0, 0.0, 0.0, 1.0]]

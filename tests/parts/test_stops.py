@@ -7,6 +7,7 @@ import pytest
 import repo
 from other_shape import with_shape
 from test_outline import made
+from turn_witness import check_first_contacts
 from words import load
 
 from geneva_cli.geometry.measure import at
@@ -14,7 +15,7 @@ from geneva_cli.geometry.shapes import Arc, Line
 from geneva_cli.motion.mechanism import build
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.turn.gaps import Gaps
-from geneva_cli.parts.turn.play import search_deg, smallest_clearance, wheel_stops, windows
+from geneva_cli.parts.turn.play import wheel_stops, windows
 
 BARE = ("turret", "internal-z6", "four-bar-z4", "press-curved", "three-rollers-z4", "spherical-z6")
 LOOSE = (
@@ -25,9 +26,6 @@ LOOSE = (
     "press-345",
     "spherical-60deg",
 )
-LOOKS = 50  # turns of the wheel, short of a stop
-PAST = 1e-5  # radians: what grazes at 100 mm overlaps by some 1e-7 mm more, as much as counts
-ROUNDING = 1e-10  # mm: of gaps of some hundred mm
 
 
 def named(name):
@@ -50,27 +48,9 @@ def places(parts):
 def test_a_stop_is_the_first_place_where_parts_overlap(name):
     """By gaps that are distances of points, not contacts: none before the stop, one behind it."""
     parts = named(name)
-    at = places(parts)
-    pose, most = parts.gaps.pose(at), math.radians(search_deg(parts))
-    apart = (
-        smallest_clearance(parts.gaps, pose, np.zeros(len(at)), parts.gaps.near) + parts.close
-        >= 0.0
-    )
-    assert apart.mean() > 0.9
-    for way, free in zip((-1.0, 1.0), wheel_stops(parts, at)[0], strict=True):
-        assert ((free >= 0.0) & (free <= most)).all()
-        assert (free[~apart] == 0.0).all()
-        share = np.linspace(0.0, 1.0, LOOKS)[:, None]
-        turned = np.where(apart, share * free, 0.0)
-        many = parts.gaps.pose(np.tile(at, LOOKS))
-        gap = smallest_clearance(parts.gaps, many, way * turned.ravel(), parts.gaps.near).reshape(
-            turned.shape
-        )
-        assert (gap[:, apart] >= -parts.close - ROUNDING).all()
-        stopped = apart & (free < most)
+    for apart, stopped in check_first_contacts(parts, places(parts)):
+        assert apart.mean() > 0.9
         assert stopped.any()
-        behind = smallest_clearance(parts.gaps, pose, way * (free + PAST), parts.gaps.near)
-        assert (behind[stopped] < -parts.close).all()
 
 
 def bent(contour, sagitta):

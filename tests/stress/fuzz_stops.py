@@ -11,35 +11,18 @@ from unittest import mock
 
 import numpy as np
 from test_outline import made
+from turn_witness import check_first_contacts
 from words import Motion
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.turn.full_turn import full_turn
-from geneva_cli.parts.turn.play import search_deg, smallest_clearance, wheel_stops, windows
+from geneva_cli.parts.turn.play import wheel_stops, windows
 
 LAWS = ("modified-sine", "cycloidal", "modified-trapezoid", "3-4-5", "harmonic")
 PLACES, DENSE = 80, 1500  # positions of the wheel in each motion and dwell
 TURNS = 40  # angles of the wheel that are tried before a stop
-ROUNDING = 1e-10  # mm: of gaps of some hundred mm
-PAST = 1e-5  # radians: what grazes at 100 mm overlaps by some 1e-7 mm more, as much as counts
 SCAN = 1.002  # times the play: a peak lies between two positions of the search
 WALLS = 50.0  # times the tolerance of the walls over the rim: smaller plays are the walls' own
-
-
-def require_first_contacts(parts, at_deg):
-    """No overlap before the stops at input angles, and an overlap behind them."""
-    gaps, pose = parts.gaps, parts.gaps.pose(at_deg)
-    apart = smallest_clearance(gaps, pose, np.zeros(len(at_deg)), gaps.near) + parts.close >= 0.0
-    most = math.radians(search_deg(parts))
-    many = gaps.pose(np.tile(at_deg, TURNS))
-    share = np.linspace(0.0, 1.0, TURNS)[:, None]
-    for way, free in zip((-1.0, 1.0), wheel_stops(parts, at_deg)[0], strict=True):
-        turned = np.where(apart, share * free, 0.0)
-        gap = smallest_clearance(gaps, many, way * turned.ravel(), gaps.near).reshape(turned.shape)
-        assert (gap[:, apart] >= -parts.close - ROUNDING).all(), "a stop is missed"
-        stopped = apart & (free < most)
-        behind = smallest_clearance(gaps, pose, way * (free + PAST), gaps.near)
-        assert (behind[stopped] < -parts.close).all(), "nothing is behind a stop"
 
 
 def require_largest_plays(parts):
@@ -65,7 +48,8 @@ def stops(arguments):
             return "refused"
         share = np.sort(np.random.default_rng(seed).random(PLACES))
         ends = [(w.start, w.end) for w in windows(parts)]
-        require_first_contacts(parts, np.concatenate([a + (b - a) * share for a, b in ends]))
+        at_deg = np.concatenate([a + (b - a) * share for a, b in ends])
+        assert len(list(check_first_contacts(parts, at_deg, TURNS))) == 2  # ways
         require_largest_plays(parts)
         return "machine"
 

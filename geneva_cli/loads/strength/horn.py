@@ -261,11 +261,11 @@ def _over_a_half(mechanism: Mechanism, side: HornSide, start: float, width: floa
         # designs may differ in their loads or sizes alone, and share their slots
         sections, inwards, thick, _ = np.broadcast_arrays(sections, inwards, thick, stress[:, 0])
         places, every = np.broadcast_to(places, (m, places.shape[1])), np.arange(m)
-        stress = stress.reshape(m, -1)
-        most = stress.max(axis=1)
-        first = np.argmax(stress >= most[:, None] * (1.0 - TIE), axis=1)
+        flat = stress.reshape(m, -1)
+        most = flat.max(axis=1)
+        first = np.argmax(flat >= most[:, None] * (1.0 - TIE), axis=1)
         i, j = np.divmod(first, count)
-        rows = stress[every, first], places[every, i], inwards[every, j], thick[every, j]
+        rows = flat[every, first], places[every, i], inwards[every, j], thick[every, j]
         best = np.where(most > 0.0, rows, best)
         low, high = np.maximum(i - 1, 0), np.minimum(i + 1, places.shape[1] - 1)
         before, after = places[every, low, None], places[every, high, None]

@@ -140,7 +140,12 @@ def bending(mechanism: Mechanism, half_width: float, recess: float, phi: float) 
         stress = 6.0 * abs(moment) / thick**2 + push / thick
         # where another horn has begun, or without a foot, nothing belongs to this one
         own = np.where(np.logical_and.accumulate(own > 0.0, axis=1), own, np.fmin(own, 0.0))
-        begins, ends = _rises(wall[0] - recess * x), _rises(-own)
+        # fractions of each strip between two sections before it is past the force, or of another
+        edges = np.stack(np.broadcast_arrays(wall[0] - recess * x, -own))
+        first, last = edges[..., :-1], edges[..., 1:]
+        with np.errstate(all="ignore"):
+            part = np.where(last > 0.0, -first / (last - first), 1.0)
+        begins, ends = np.where(first >= 0.0, 0.0, part)
         length = np.hypot(*np.diff(wall)) * np.maximum(ends - begins, 0.0)
         both = np.stack(np.broadcast_arrays(give, stress))
         both = np.where(np.isfinite(both), both, 0.0)
@@ -157,11 +162,3 @@ def bending(mechanism: Mechanism, half_width: float, recess: float, phi: float) 
     assert weakest is not None
     # what does not differ, as where loads alone do, is one row for all of them
     return np.broadcast_to(weakest, (3, m, 1))
-
-
-def _rises(of: Array) -> Array:
-    """Fraction of each strip before a quantity is 0 or more: 1 if it stays below."""
-    low, high = of[:, :-1], of[:, 1:]
-    with np.errstate(all="ignore"):
-        fraction = np.where(high > 0.0, -low / (high - low), 1.0)
-    return np.where(low >= 0.0, 0.0, fraction)

@@ -8,17 +8,13 @@ from __future__ import annotations
 
 import math
 from operator import attrgetter
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.numerics.arrays import Array, Mask, Whole, joined, record_taken, rising
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
 from geneva_cli.parts.turn.turned_parts import TurnedParts, Window
-
-if TYPE_CHECKING:
-    from geneva_cli.parts.turn.stops import Pose
-    from geneva_cli.parts.turn.turned_parts import Clearances
 
 AROUND = 5  # parts into which an interval is divided about a peak
 SMALL = 1e-3  # degrees: the interval over which a roller's speed is computed
@@ -189,13 +185,10 @@ def wheel_stops(parts: TurnedParts, at: Array, fits: bool = False) -> tuple[Arra
     gaps, close = parts.gaps, parts.close
     pose, held = gaps.pose(at), parts.assembly.geared(at)
     if not fits:  # parts that overlap from the start leave no play
-        held |= smallest_clearance(gaps, pose, np.zeros(len(at)), close) < -close
+        clear = np.minimum(
+            gaps.locking(pose, near=close), gaps.rollers(pose, near=close).min(axis=1)
+        )
+        held |= clear < -close
     leads, pressures = gaps.stops.first(pose, math.radians(search_deg(parts)), close)
     leads[:, held] = pressures[:, held] = 0.0
     return leads, pressures
-
-
-def smallest_clearance(gaps: Clearances, pose: Pose, lead: Array, near: float) -> Array:
-    """Return the smallest clearance of all parts in each pose, mm (n,); see ``Clearances``."""
-    rolling = gaps.rollers(pose, lead, near).min(axis=1)
-    return np.minimum(gaps.locking(pose, lead, near), rolling)

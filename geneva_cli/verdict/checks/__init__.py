@@ -321,7 +321,10 @@ def pushed_round(mechanism: Mechanism) -> list[Check]:
 
 
 def proofs(parts: Parts, to_mm: float | None = None) -> list[Check]:
-    """The proof that no parts collide in a whole turn; none if they cannot be made or turned."""
+    """The proof that no parts collide in a whole turn; none if they cannot be made or turned.
+
+    ``to_mm`` is the tolerance of the proof, by default that of ``turn_checks.proof``.
+    """
     if not parts.mechanism.spec.is_turned or parts.mechanism.no_turn:
         return []
     try:
