@@ -7,6 +7,7 @@ from contextlib import suppress
 from functools import partial
 from typing import NamedTuple
 
+from geneva_cli import output
 from geneva_cli.answer import FAILS, PASSES, WARNS, Answer, Summary, SummaryLine
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError, Notice, open_warnings
@@ -135,8 +136,11 @@ def of_checks(verdicts: Sequence[Verdict], page: bool, as_json: bool) -> Answer:
     The proof and the tightest check are shown for a single spec only; ``page`` shows all checks
     below.
     """
-    table = checks_table(verdicts)
-    data = checks_record(verdicts) if as_json else table
+    # a page for people has the table only where it or some of its columns are asked for
+    is_shown = page or output.choice.columns
+    data = table = checks_table(verdicts) if is_shown else Table((), ())
+    if as_json:
+        data = checks_record(verdicts)
     is_single = len(verdicts) == 1
     heads, details, sized = list[Summary](), list[Summary](), 0
     for v in verdicts:
