@@ -22,7 +22,6 @@ from geneva_cli.numerics.preferred import bore_radius, rounded_radius
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.assembly import is_bridged, links_at, same, turn_deg
-from geneva_cli.parts.links.link_shafts import carried, crank_stop, outside_links
 from geneva_cli.parts.links.link_sizes import places
 from geneva_cli.parts.links.links import Links, placed_holes
 from geneva_cli.parts.outlines.outlines import Outlines, wheel_hub
@@ -95,9 +94,13 @@ def framed(
         # a frame contains every axis, drilled or not
         within = [*holes, *(Circle("BORE", at, 0.0) for at in (ORIGIN, *standing))]
         plate = mounted_plate(holes, within, eye, (top - thick, top))
+    if bars.cut:
+        from geneva_cli.parts.links.link_shafts import outside_links
+
+        axles = [*outside_links(axles, bars, L)]
     return FrameAndShafts(
         plate,
-        tuple(outside_links(axles, bars, L)),
+        tuple(axles),
         tuple(spacers),
         tuple((hole, part.name) for hole, part in screwed),
         Member(bridge, (L, 0.0)) if bridge else None,
@@ -224,7 +227,10 @@ def _all_shafts(
     L, stop, out = mechanism.center_distance_mm, None, list[Shaft]()
     known: list[Point] = []  # axes whose shafts carry wheel or crank
     if outlines:
-        stop = crank_stop(outlines, bars)
+        if bars.sizes is not None:
+            from geneva_cli.parts.links.link_shafts import crank_stop
+
+            stop = crank_stop(outlines, bars)
         known += [(L, 0.0)] if crank_shaft_radius(outlines) > 0.0 else []
         known += [ORIGIN] if wheel_shaft_radius(outlines) > 0.0 else []
         half = mechanism.engagements[0].half_step
@@ -262,6 +268,8 @@ def _link_shafts(
 
     ``ends`` has the frame's lower face, and where links stop the crank's shaft, if they do.
     """
+    from geneva_cli.parts.links.link_shafts import carried
+
     size, L, (lowest, stop) = mechanism.spec.size, mechanism.center_distance_mm, ends
     wheel = drawn_thicknesses(size, L, outlines.sizes if outlines else None).wheel
     for axis in bars.axes:

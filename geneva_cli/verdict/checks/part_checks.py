@@ -19,7 +19,6 @@ from geneva_cli.motion.pitch_curve import opposites
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.arm import walls as arm_walls
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.links.link_shafts import planes
 from geneva_cli.parts.outlines.crank_outline import is_whole, rollers_gap
 from geneva_cli.parts.outlines.outlines import Outlines, wheel_holes, wheel_hub
 from geneva_cli.parts.parts import EdgedParts
@@ -181,6 +180,10 @@ def _links_gap(name: str, parts: FlatParts) -> Iterator[Check]:
     """The gap in a whole turn between links and hub, shaft and pins through their planes."""
     mechanism = parts.mechanism
     try:
+        if parts.links.sizes is None:
+            return
+        from geneva_cli.parts.links.link_shafts import planes
+
         spacers = parts.spacers if mechanism.spec.drive_before else ()
         near, blocked = planes(parts.outlines, parts.links, spacers)
     except GenevaError as error:
