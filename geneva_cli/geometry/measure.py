@@ -154,7 +154,10 @@ def turned(shape: S, radians: float, centre: Point = (0.0, 0.0)) -> S:
         for px, py in one[:2] if isinstance(one, Arc) else one:
             u, v = px - x, py - y
             moved.append((x + c * u - s * v, y + s * u + c * v))
-        pieces.append(Arc(*moved, one.bulge) if isinstance(one, Arc) else type(one)(*moved))
+        if isinstance(one, Arc):
+            pieces.append(Arc(moved[0], moved[1], one.bulge))
+        else:
+            pieces.append(type(one)(*moved))
     return shape._replace(segments=tuple(pieces))
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from functools import reduce
-from typing import TYPE_CHECKING, ClassVar, NoReturn, Self, TypeAlias, cast
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self, TypeAlias, cast
 
 import numpy as np
 
@@ -310,7 +310,7 @@ def curve_rates(curve: Curve, start: Array, end: Array) -> Array:
             left.append((np.tile(cell, 2), np.append(low, half), np.append(half, high)))
         else:
             for k, total in enumerate(rates, start=1):
-                both = (x.c[k], y.c[k])  # intervals, or doubles that need none
+                both: tuple[Any, ...] = (x.c[k], y.c[k])  # intervals, or doubles that need none
                 sizes = [one.size if isinstance(one, Interval) else abs(one) for one in both]
                 np.maximum.at(total, cell, k * np.hypot(*sizes))
         np.add.at(tries, cell, 1)

@@ -74,7 +74,7 @@ def _links(parts: Outlines) -> Values:
     """Return pins and width of links, and the screws of gears that stand still."""
     links, out = drawn_links(parts.assembly.full, parts), Values()
     for gear in links.gears:
-        if gear.screws and gear.screws.turns:
+        if gear.screws and gear.screws.holes:
             out["gear_bolt_mm"] = 2.0 * gear.screws.hole
             out["gear_bolt_circle_mm"] = 2.0 * gear.screws.radius
     if links.sizes and any(links.plates):

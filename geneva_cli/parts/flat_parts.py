@@ -334,7 +334,7 @@ class FlatParts(EdgedParts):
             return framed
         holes = {"dial": (dial_circle(drawn.assembly, drawn.sizes).holes, "the dial")}
         if self.locking:
-            holes[self.locking[0].name] = bolts(drawn), "the arm"
+            holes[self.locking[0].name] = tuple(bolts(drawn)), "the arm"
         own = (
             Screws(fixed, len(some), 2.0 * some[0].radius, thread)
             for fixed, (some, thread) in holes.items()

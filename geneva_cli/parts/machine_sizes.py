@@ -205,7 +205,7 @@ def _usual_sizes(assembly: Assembly) -> tuple[Sizes, float]:
         along -= 0.0 if s.slot.curved else sign * bottom
         # beyond the wheel's axis the distance is negative
         ends.append(sign * math.copysign(math.hypot(along, offset), along))
-        apart = apart or s.apart
+        apart = apart or bool(s.apart)
     rim = value_or(size.wheel_radius_mm, max(mouths))
     end, arm, depth = (min(ends) - w) * sign, path.arm, abs(L - rim)
     lock = _lock(assembly, arm, w, rim)

@@ -85,9 +85,10 @@ def horn(of: Designs) -> Columns:
     if not np.isfinite(force).any():
         return out | dict.fromkeys(("stress_MPa", "at_deg", "inwards_mm", "thickness_mm"), force)
     for name, row in load.horn_stress(width)._asdict().items():
-        out[name] = np.where(np.isfinite(force), _known(row), force)
+        column = np.where(np.isfinite(force), _known(row), force)
+        out[name] = column
         if name == "stress_MPa":
-            out["margin"] = margin(out[name], allowed)
+            out["margin"] = margin(column, allowed)
     return out
 
 
