@@ -49,7 +49,6 @@ def verdict(
         design = load(path, settings, reverse)
         if design.spec.is_loaded and not design.is_drawn:
             from geneva_cli.loads.cycle import cycle_of
-            from geneva_cli.loads.load_tables import summaries
             from geneva_cli.loads.strength.part_loads import single_loads
             from geneva_cli.verdict.quantities.batch_designs import single
             from geneva_cli.verdict.quantities.part_strength import shafts
@@ -59,7 +58,7 @@ def verdict(
             with suppress(GenevaError):  # a check says why
                 single_loads(design.mechanism)
                 cycle = cycle_of(design.mechanism)
-                _ = cycle.known, summaries(cycle), design.parts.built
+                _ = cycle.known, design.parts.built
                 single(design.mechanism).once(shafts)
                 _ = strength(design.mechanism)["strength.horn.stress_MPa"]
         checks = design.checks if to_mm is None else design.proved_to(to_mm)

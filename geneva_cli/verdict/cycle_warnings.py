@@ -12,7 +12,6 @@ from geneva_cli.loads.cycle import Cycle, cycle_of
 from geneva_cli.loads.cycle_quantities import FORCE, STRESS
 from geneva_cli.loads.impacts.reversal import arrival
 from geneva_cli.loads.instant import Instant
-from geneva_cli.loads.load_tables import summaries
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import braking
 from geneva_cli.motion.peaks import worst
@@ -56,14 +55,15 @@ def _unbounded(cycle: Cycle) -> Iterator[Notice]:
 
 def _driven(cycle: Cycle) -> Iterator[Notice]:
     """Warnings about a wheel that drives the motor, or lags behind its roller."""
-    mechanism, sums = cycle.mechanism, summaries(cycle)
-    torque, noun, stop = sums["input_torque_Nm"], mechanism.output.noun, arrival(mechanism)
+    mechanism, torque = cycle.mechanism, cycle.extremes["input_torque_Nm"]
+    noun, stop, least = mechanism.output.noun, arrival(mechanism), torque.min
+    largest = max(abs(torque.max), abs(least))
     # a torque without a bound is no measure of the rounding of another
-    largest = sums["wheel_torque_Nm"].max if torque.max is None else torque.max
-    least = torque.min
-    fed = least is not None and least < -ROUNDED * abs(largest or least)
+    if math.isinf(largest) and "wheel_torque_Nm" in cycle.extremes:
+        largest = abs(cycle.extremes["wheel_torque_Nm"].max)
+    fed = math.isfinite(least) and least < -ROUNDED * (largest or abs(least))
     driven = back_driven_deg(cycle) if fed else []
-    if least is not None and driven:
+    if driven:
         each = [f"{round(a, 9):.4g} to {round(b, 9):.4g}" for a, b in driven]
         more = len(each) - 6  # a line or two; a carousel may have many
         where = ", ".join(each if more <= 0 else each[:6])
@@ -98,10 +98,10 @@ def _driven(cycle: Cycle) -> Iterator[Notice]:
 
 def _unbalanced(cycle: Cycle) -> Iterator[Notice]:
     """A warning about single bodies off the wheel's axis, whose force its shaft bears."""
-    spec, bearing = cycle.mechanism.spec, summaries(cycle)["wheel_bearing_N"].max
+    spec, bearing = cycle.mechanism.spec, cycle.extremes["wheel_bearing_N"].max
     bodies = [one for one in spec.mass if one.to_one_side]
     # on a carrier the loads count that force; behind gears another shaft bears it
-    if bearing is not None and not cycle.case.frame and spec.support.gear_ratio == 1.0:
+    if math.isfinite(bearing) and not cycle.case.frame and spec.support.gear_ratio == 1.0:
         peaks = worst(cycle.mechanism)
         # at most: the peaks need not coincide, nor the bodies stand on one side
         most = math.hypot(peaks.velocity.max**2, peaks.acceleration.max)
