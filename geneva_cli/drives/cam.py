@@ -6,9 +6,10 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, ClassVar
 
+from geneva_cli.drives.pin_path import PinPath
 from geneva_cli.errors import GenevaError, refuse_text
-from geneva_cli.motion.drive import PinPath, Plan
-from geneva_cli.motion.engagement import ConstantRate, Engagement, Load, Vector, cross
+from geneva_cli.motion.drive import Plan
+from geneva_cli.motion.engagement import Engagement, Load, Vector, cross
 from geneva_cli.motion.path_and_motion import LawMotion, refuse_alpha0
 from geneva_cli.motion.slot_and_motion import SolvedPath, SolvedPathSlot
 from geneva_cli.numerics.angles import radians
@@ -61,7 +62,7 @@ class Cam(PinPath, kw_only=True):
         text += "increase alpha0_deg to shorten it"
         outside = (wide <= 0.0) | (wide >= math.pi)
         refuse_text(outside, ("motion", "alpha0_deg"), text, deg=turned.exit_deg - turned.entry_deg)
-        body = ConstantRate(-wheel.SIGN)  # the roller slides along the crank and turns with it
+        body = -wheel.SIGN  # the roller slides along the crank and turns with it
         slot = SolvedPathSlot(path)
         engagement = Engagement(0.0, path, slot, turned, body, _slide, groove=path)
         ratio = parameter(path.crossing)

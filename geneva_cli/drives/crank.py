@@ -6,9 +6,8 @@ Whole steps apart they move the wheel alike, in turn: as by one crank with that 
 import math
 from typing import Annotated, ClassVar, Self
 
-from geneva_cli.drives.transmission import Direct
+from geneva_cli.drives.transmission import Direct, places
 from geneva_cli.motion.drive import Plan
-from geneva_cli.motion.rollers import alike
 from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.spec.rules import Z_MAX, Range
 
@@ -33,12 +32,13 @@ class Crank(Direct, kw_only=True):
         "places of cranks with one roller each about the wheel, in steps from the first",
     ] = None
 
-    @property
-    def cranks(self) -> tuple[float, ...]:
-        return self.crank_steps or super().cranks
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.crank_steps:
+            vars(self)["cranks"] = self.crank_steps
 
     def as_built(self, wheel: Gearing, place: RollerPlace, L: float) -> Plan:
-        return self.straight(wheel, alike(wheel, self, place), L)
+        return self.straight(wheel, places(wheel, self, L, place), L)
 
     def backwards(self, plan: Plan) -> Self:
         out = super().backwards(plan)

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
-from geneva_cli.motion.engagement import Displacement, Engagement, Load, Vector, cross
+from geneva_cli.motion.engagement import Engagement, Load, Vector, cross
 from geneva_cli.motion.path_and_slot import cuts
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Batchable, choose, library, narrowed
@@ -19,6 +19,7 @@ from geneva_cli.numerics.jet import Jet, Number, atan2, composed, piecewise, sin
 if TYPE_CHECKING:
     from geneva_cli.drives.pushed import PushedCrank
     from geneva_cli.drives.transmission import Transmission
+    from geneva_cli.numerics.jet_functions import Displacement
 
 
 def angle_of(advance: Displacement, tau: Number, order: int) -> Jet:
@@ -41,16 +42,16 @@ class Timing(Batchable):
         self.rest_deg = mid - 360.0 * turns  # ``about`` covers one turn of the shaft
         self.ends_deg = (own.entry_deg, 0.0, own.exit_deg)  # of the own shaft
         local = [before.about(self.rest_deg + end) for end in self.ends_deg]
-        self.within_deg = local[1].input_deg  # input angle of mid-motion in that turn
+        self.within_deg = local[1][0]  # input angle of mid-motion in that turn
         self.mid_deg = 360.0 * before.turns * turns + self.within_deg
-        self.at_deg = tuple(one.input_deg - self.within_deg for one in local)
-        self.advances = tuple(one.advance for one in local)
+        self.at_deg = tuple(at_deg - self.within_deg for at_deg, _ in local)
+        self.advances = tuple(advance for _, advance in local)
         # input angles at which the formula about another place takes over
         self.cuts = cuts(self.at_deg)
 
     def input_deg(self, own_deg: float) -> float:
         """Machine's input angle at an angle of the driven shaft, both from mid-motion, degrees."""
-        return self.before.about(self.rest_deg + own_deg).input_deg - self.within_deg
+        return self.before.about(self.rest_deg + own_deg)[0] - self.within_deg
 
     def __call__(self, input_deg: Number, order: int) -> Jet:
         """Angle of the driven shaft in radians from mid-motion, at input angles in degrees."""

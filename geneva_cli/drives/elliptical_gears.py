@@ -4,13 +4,14 @@ With the driver at phi the driven gear is at f: tan(f/2) = (1-e)/(1+e) tan(phi/2
 anomaly; the directions of the half angles are (cos phi/2, sin phi/2), ((1+e) cos .., (1-e) sin ..).
 """
 
-from typing import Annotated, ClassVar, NamedTuple
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
 from geneva_cli.drives.pushed import Mesh, PushedCrank
 from geneva_cli.drives.transmission import LocalTransmission, Transmission
 from geneva_cli.errors import refuse_text
 from geneva_cli.motion.drive import Gears, Plan
-from geneva_cli.motion.engagement import Path
 from geneva_cli.motion.pivots import Dimension, Layout, Pivot, ShaftPlace
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import sin_cos_deg
@@ -18,6 +19,9 @@ from geneva_cli.numerics.arrays import enclosed, library
 from geneva_cli.numerics.jet import Jet, Number, cosines_after, sine_versine_of
 from geneva_cli.spec.rules import POSITIVE, OneOf, Range
 from geneva_cli.spec.schema import Example
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet_functions import Path
 
 
 class EllipticalGears(Transmission, kw_only=True):
@@ -49,7 +53,7 @@ class EllipticalGears(Transmission, kw_only=True):
 
     @property
     def gears(self) -> Gears:
-        return Gears(self.gear_distance_mm, self.about(0.0).advance)
+        return Gears(self.gear_distance_mm, self.about(0.0)[1])
 
     def input_shaft(self, plan: Plan, sign: float, sense: float) -> ShaftPlace:
         return ShaftPlace(plan.center_distance_mm + self.gear_distance_mm, -sense)
@@ -75,7 +79,7 @@ class EllipticalGears(Transmission, kw_only=True):
         size, phi = m.hypot(a, b), 2.0 * m.degrees(m.atan2(a, b))
         turns = (crank_deg - phi) / 720.0  # half angles repeat after two turns
         phi = phi + 720.0 * (round(turns) if isinstance(turns, float) else m.rint(turns))
-        return LocalTransmission(phi, Focal(e, sin_h, cos_h, a / size, b / size, size))
+        return phi, Focal(e, sin_h, cos_h, a / size, b / size, size)
 
 
 class Focal(NamedTuple):

@@ -10,13 +10,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, cast
 
+from geneva_cli.drives.pin_path import PinPath
 from geneva_cli.errors import refuse_text
-from geneva_cli.motion.drive import PinPath, Plan
-from geneva_cli.motion.engagement import Anchor, ConstantRate, Engagement, Load, Vector, cross
+from geneva_cli.motion.drive import Plan
+from geneva_cli.motion.engagement import Anchor, Engagement, Load, Vector, cross
 from geneva_cli.motion.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot, Teeth
-from geneva_cli.motion.wheels.classic import gap
-from geneva_cli.motion.wheels.poses import PinPose, middle
+from geneva_cli.motion.wheels.classic import PinPose, gap, middle
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Array, choose, library
 from geneva_cli.numerics.jet import Jet, Number, sin_cos, sine_versine
@@ -81,7 +81,7 @@ class Epicyclic(PinPath, kw_only=True):
             Anchor(pose.crank_deg, pose.wheel, pose.along, _Arms(pose, R0, planet, c))
             for pose, planet in (
                 (PinPose(-half, -step.b, cos_b, (-1.0, 0.0), (0.0, 1.0)), -rp),
-                (middle(1.0, 1.0, gap(1.0, *step) - 2.0 * rp), rp),
+                (middle(1.0, 1.0, gap(1.0, step.p, step.q) - 2.0 * rp), rp),
                 (PinPose(half, step.b, cos_b, (1.0, 0.0), (0.0, -1.0)), -rp),
             )
         )
@@ -89,7 +89,7 @@ class Epicyclic(PinPath, kw_only=True):
         followed = StraightSlotMotion(path, step.b)
         # The roller sits on the planet, which turns c times as fast as the carrier.
         reactions = PlanetReactions(R0, rp, c)
-        slot, body = RadialSlot(path), ConstantRate(-c)
+        slot, body = RadialSlot(path), -c
         engagement = Engagement(0.0, path, slot, followed, body, reactions, 1.0)
         return self.planned(engagement, R0 + rp, L)
 

@@ -4,17 +4,19 @@ side-crank.
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar
+from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from geneva_cli.drives import whitworth
 from geneva_cli.drives.pushed import Mesh, PushedCrank
 from geneva_cli.drives.transmission import LocalTransmission, Transmission
 from geneva_cli.motion.drive import Gears, Plan
-from geneva_cli.motion.engagement import Path
 from geneva_cli.motion.pivots import Dimension, Layout, Pivot, ShaftPlace
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.spec.rules import POSITIVE, Range
 from geneva_cli.spec.schema import Example
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet_functions import Path
 
 
 class NoncircularGears(Transmission, kw_only=True):
@@ -40,7 +42,7 @@ class NoncircularGears(Transmission, kw_only=True):
 
     @property
     def gears(self) -> Gears:
-        return Gears(self.gear_distance_mm, self.about(0.0).advance)
+        return Gears(self.gear_distance_mm, self.about(0.0)[1])
 
     def input_shaft(self, plan: Plan, sign: float, sense: float) -> ShaftPlace:
         return ShaftPlace(plan.center_distance_mm + self.gear_distance_mm, -sense)

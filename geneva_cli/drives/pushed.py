@@ -4,10 +4,26 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
+from typing import TYPE_CHECKING, NamedTuple
 
-from geneva_cli.motion.engagement import Load, Path, Vector, cross
+from geneva_cli.motion.engagement import Load, Vector, cross
 from geneva_cli.numerics.arrays import Batchable, library
 from geneva_cli.numerics.jet import Jet, Number, turning
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet_functions import Displacement, Path
+
+
+class CrankRate(NamedTuple):
+    """Rate of the crank about its roller's axis: a factor times that of its rotation."""
+
+    advance: Displacement
+    factor: float
+
+    def __call__(self, tau: Number, order: int) -> Jet:
+        sine, versine = self.advance(tau, order + 1)
+        rate: Jet = turning(1.0 - versine, sine) * self.factor
+        return rate
 
 
 class PushedCrank(Batchable, ABC):

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, ClassVar, NamedTuple, cast
 from geneva_cli.drives.driven_shaft import DrivenShaft, ShaftPath, Timing, angle_of
 from geneva_cli.motion import engagement as base
 from geneva_cli.motion.drive import Drive, Plan
-from geneva_cli.motion.engagement import Anchor, Displacement, Path, Vector
+from geneva_cli.motion.engagement import Vector
 from geneva_cli.numerics.arrays import Array, Batchable, array
 from geneva_cli.numerics.jet import Jet, Number, composed
 from geneva_cli.numerics.roots import boundary
@@ -19,6 +19,7 @@ from geneva_cli.numerics.roots import boundary
 if TYPE_CHECKING:
     from geneva_cli.drives.transmission import Transmission
     from geneva_cli.motion.machine_spec import Spec
+    from geneva_cli.numerics.jet_functions import Displacement, Path, Reactions
 
 
 def retimed(plan: Plan, spec: Spec, in_front: Drive) -> Plan:
@@ -76,18 +77,13 @@ class _Motion(base.WheelMotion):
     def __init__(self, own: base.WheelMotion, timing: Timing) -> None:
         super().__init__(timing.at_deg[0], timing.at_deg[-1], own.half_step)
         self.own, self.timing = own, timing
+        if own.entry is not None:
+            displacement = _Displacement(own.entry.displacement, timing.advances[0])
+            self.entry = own.entry._replace(input_deg=self.entry_deg, displacement=displacement)
 
     @property
     def symmetric(self) -> bool:
         return self.own.symmetric and super().symmetric
-
-    @property
-    def entry(self) -> Anchor | None:
-        own = self.own.entry
-        if own is None:
-            return None
-        displacement = _Displacement(own.displacement, self.timing.advances[0])
-        return Anchor(self.entry_deg, own.wheel, own.along, displacement)
 
     @property
     def breaks_deg(self) -> tuple[float, ...]:
@@ -118,6 +114,7 @@ class _Slot(_Path, base.Slot):
     def __init__(self, own: base.Slot, timing: Timing) -> None:
         super().__init__(own, timing)
         self.curved, self.relieved, self.offset = own.curved, own.relieved, own.offset
+        self.walls_flat = own.walls_flat
         if own.height is not None:
             turn = _Displacement(own.height.turn, timing.advances[1])
             self.height = own.height._replace(turn=turn)
@@ -131,7 +128,7 @@ class _Slot(_Path, base.Slot):
         axis = self.own.axis(at, order)
         if axis is None:
             return None
-        return base.SlotAxis(composed(axis.lever, turned.lower), _of_rate(axis.along, turned))
+        return composed(axis[0], turned.lower), _of_rate(axis[1], turned)
 
     def upright(self, input_deg: Number, order: int = 0) -> Jet | float:
         at, turned = self.timing.at(input_deg, order)
@@ -149,8 +146,14 @@ class Engagement(base.Engagement):
     """An engagement of a drive's own, behind another drive."""
 
     def __init__(
-        self, own: base.Engagement, timing: Timing, reactions: base.Reactions | None = None
+        self, own: base.Engagement, timing: Timing, reactions: Reactions | None = None
     ) -> None:
+        pair: list[tuple[base.Engagement, float]] = []
+        for passage, ahead_deg in own.pair:  # in its own phase of the drive before
+            late_deg = timing.shaft_deg - ahead_deg - passage.mid_deg
+            early = Timing(timing.before, passage, late_deg)
+            # as far ahead in angles of the input
+            pair.append((Engagement(passage, early), timing.mid_deg - early.mid_deg))
         super().__init__(
             timing.mid_deg,
             _Path(own.path, timing),
@@ -160,6 +163,7 @@ class Engagement(base.Engagement):
             crank_sense=own.crank_sense,
             groove=own.groove,
             hub=own.hub,
+            pair=tuple(pair),
         )
         self._own, self.timing = own, timing
 
@@ -176,19 +180,6 @@ class Engagement(base.Engagement):
     def inputs_deg(self, own_deg: Array) -> Array:
         first, last = (array(self.timing.at_deg[k]) + 0.0 * own_deg for k in (0, -1))
         return boundary(lambda x: array(self.timing.at(x, 0)[0]) <= own_deg, first, last)
-
-    @property
-    def passages(self) -> tuple[tuple[base.Engagement, float], ...]:
-        """Each is in its own phase of the drive before, as far ahead in angles of the input."""
-        out: list[tuple[base.Engagement, float]] = []
-        for own, ahead_deg in self._own.passages:
-            if own is self._own:
-                out.append((self, 0.0))
-            else:
-                late_deg = self.timing.shaft_deg - ahead_deg - own.mid_deg
-                timing = Timing(self.timing.before, own, late_deg)
-                out.append((Engagement(own, timing), self.mid_deg - timing.mid_deg))
-        return tuple(out)
 
     @property
     def own(self) -> base.Engagement:

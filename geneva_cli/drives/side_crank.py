@@ -3,21 +3,24 @@
 A and f follow Polyudov and Kandyak, "Kinematics of the Maltese cross mechanism with a side-crank".
 """
 
-from typing import Annotated, ClassVar
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from geneva_cli.drives import whitworth
 from geneva_cli.drives.pushed import PushedCrank
-from geneva_cli.drives.transmission import LocalTransmission, Transmission
+from geneva_cli.drives.transmission import LocalTransmission, Transmission, places
 from geneva_cli.motion.drive import Plan
-from geneva_cli.motion.engagement import Path
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot, ShaftPlace
-from geneva_cli.motion.rollers import alike
 from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import library
 from geneva_cli.numerics.jet import Array
 from geneva_cli.spec.rules import POSITIVE, Range
 from geneva_cli.spec.schema import Example
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet_functions import Path
 
 
 class SideCrank(Transmission, kw_only=True):
@@ -51,7 +54,7 @@ class SideCrank(Transmission, kw_only=True):
         return whitworth.about(self.A, crank_deg)
 
     def as_built(self, wheel: Gearing, place: RollerPlace, L: float) -> Plan:
-        return self.straight(wheel, alike(wheel, self, place), L)
+        return self.straight(wheel, places(wheel, self, L, place), L)
 
     @property
     def missing_length(self) -> str:

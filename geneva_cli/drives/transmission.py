@@ -2,63 +2,40 @@
 
 from __future__ import annotations
 
+import math
 from abc import abstractmethod
-from typing import TYPE_CHECKING, ClassVar, NamedTuple
+from itertools import pairwise
+from typing import TYPE_CHECKING, ClassVar, TypeAlias, cast
 
-from geneva_cli.errors import refuse_text
+from geneva_cli.errors import GenevaError, refuse_text
 from geneva_cli.motion import registry
 from geneva_cli.motion.drive import Drive, Plan
-from geneva_cli.motion.engagement import (
-    Anchor,
-    ConstantRate,
-    Displacement,
-    Engagement,
-    Path,
-    Vector,
-)
-from geneva_cli.motion.path_and_slot import AnchoredPath, ClassicMotion, SideCrankMotion
-from geneva_cli.motion.rollers import places
-from geneva_cli.motion.wheels.classic import refuse_jam, rollers_max
+from geneva_cli.motion.engagement import Anchor, Engagement
+from geneva_cli.motion.path_and_slot import AnchoredPath, StraightSlotMotion
+from geneva_cli.motion.wheels.classic import HalfStep, PinTravel, middle, refuse_jam, rollers_max
 from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
-from geneva_cli.motion.wheels.poses import PinPose, PinTravel, middle
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import Array, parameter
-from geneva_cli.numerics.jet import Jet, Number, sine_versine, turning
+from geneva_cli.numerics.arrays import Array, larger, parameter
+from geneva_cli.numerics.jet import Jet, Number, sine_versine
 
 if TYPE_CHECKING:
     from geneva_cli.drives.pushed import PushedCrank
     from geneva_cli.motion.laws.law import Law
     from geneva_cli.motion.motion import Motion
+    from geneva_cli.numerics.jet_functions import Displacement, Path
 
 
-class LocalTransmission(NamedTuple):
-    """A transmission written about one crank angle, so that nothing cancels near it."""
-
-    input_deg: float  # input angle there
-    # sin d and 1 - cos d of the crank's rotation d since then, by the input's rotation since then
-    advance: Displacement
-
-    def anchor(self, pose: PinPose, middle_deg: float) -> Anchor:
-        """A pose at this crank angle as an anchor; mid-motion is at the input ``middle_deg``."""
-        travel = PinTravel(pose, self.advance)
-        return Anchor(self.input_deg - middle_deg, pose.wheel, pose.along, travel)
+ANGLES_KEY = ("drive", "roller_angles_deg")
 
 
-def same(tau: Number, order: int) -> Vector:
+# A transmission written about one crank angle, so that nothing cancels near it: the input angle
+# there; and sin d and 1 - cos d of the crank's rotation d since then, by the input's rotation.
+LocalTransmission: TypeAlias = "tuple[float, Displacement]"
+
+
+def same(tau: Number, order: int) -> tuple[Jet, Jet]:
     """sin d and 1 - cos d of a crank that turns as the input does."""
     return sine_versine(Jet.variable(tau, order))
-
-
-class _CrankRate(NamedTuple):
-    """Rate of the crank about its roller's axis: a factor times that of its rotation."""
-
-    advance: Displacement
-    factor: float
-
-    def __call__(self, tau: Number, order: int) -> Jet:
-        sine, versine = self.advance(tau, order + 1)
-        rate: Jet = turning(1.0 - versine, sine) * self.factor
-        return rate
 
 
 class Transmission(Drive, kw_only=True):
@@ -76,31 +53,22 @@ class Transmission(Drive, kw_only=True):
         return plain(n_rpm=self.n_rpm, rollers=self.rollers, roller_angles_deg=angles)
 
     @property
-    def motions(self) -> int:
-        return self.rollers
-
-    @property
-    def reach_deg(self) -> float:
-        """Greatest crank angle from mid-motion at which the crank may move the wheel, degrees."""
-        return 180.0
-
-    @property
     def side_crank(self) -> float | None:
         """A of the side-crank whose ratio it has; None for another ratio."""
         return None
 
     def crank_rate(self, crank_deg: Array) -> Array | float:
-        return self.about(parameter(crank_deg)).advance(0.0, 1)[0].c[1]
+        return self.about(parameter(crank_deg))[1](0.0, 1)[0].c[1]
 
     def input_deg(self, crank_deg: float) -> float:
-        whole = 2.0 * self.reach_deg
+        whole = 360.0 / self.turns  # angle of the crank in which the transmission repeats
         turns = round(crank_deg / whole)
-        return 360.0 * turns + float(self.about(crank_deg - whole * turns).input_deg)
+        return 360.0 * turns + float(self.about(crank_deg - whole * turns)[0])
 
     def distance_mm(self, wheel: Gearing, motion: Motion | None, radius_mm: float) -> float:
         if motion is None:
             return wheel.distance_mm(radius_mm)
-        motion_deg = 2.0 * self.about(wheel.half_motion_deg(wheel.step)).input_deg
+        motion_deg = 2.0 * self.about(wheel.half_motion_deg(wheel.step))[0]
         return radius_mm / self._ratio(wheel, motion, motion_deg - motion.alpha0_deg)
 
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
@@ -110,12 +78,35 @@ class Transmission(Drive, kw_only=True):
 
     def straight(self, wheel: Gearing, rollers: list[RollerPlace], L: float) -> Plan:
         """Plan of straight slots for the places of the rollers on the crank."""
-        self._refuse_reach(wheel, rollers[0].reach_deg)
-        engagements = tuple(self.follows(wheel, place, L) for place in rollers)
+        if not self.direct:
+            entry, _, exit_ = rollers[0].poses
+            self._refuse_reach(wheel, larger(-entry.crank_deg, exit_.crank_deg))
+        engagements, side_crank = [], None if self.direct else self.side_crank
+        for place in rollers:
+            (middle_deg, turned), anchors = self.about(place.crank_deg), []
+            for pose in place.poses:
+                at_deg, advance = self.about(place.crank_deg + pose.crank_deg)
+                travel = PinTravel(pose, advance)
+                anchors.append(Anchor(at_deg - middle_deg, pose.wheel, pose.along, travel))
+            path = AnchoredPath(tuple(anchors))
+            slot, motion = wheel.follow(path, place, turned)
+            first = isinstance(place.crank_deg, float) and place.crank_deg == 0.0
+            single = isinstance(side_crank, float) and isinstance(place.ratio, float)
+            if place.closed and self.direct:
+                motion = StraightSlotMotion(path, place.step.b, closed=place.closed)
+            elif place.closed and first and side_crank is not None and not (single or wheel.steps):
+                from geneva_cli.motion.wheels.side_crank_arrays import SideCrankMotion
+
+                motion = SideCrankMotion(path, place.step.b, side_crank, place.closed)
+            own = Engagement(middle_deg, path, slot, motion, -wheel.SIGN * place.cone)
+            if not self.direct:
+                self._behind(wheel, own, turned, L)
+            own.hub, own.built = place.hub, place.built
+            engagements.append(own)
         turn = 360.0 * self.turns
         period = turn / self.rollers if len(rollers) == 1 else turn
         most = rollers_max(2.0 * rollers[0].half_motion_deg)
-        return Plan(engagements, period, rollers[0].ratio, most, L)
+        return Plan(tuple(engagements), period, rollers[0].ratio, most, L)
 
     def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> PushedCrank | None:
         """Reactions on crank and transmission; None if a length is not known.
@@ -124,34 +115,13 @@ class Transmission(Drive, kw_only=True):
         """
         return None
 
-    def follows(self, wheel: Gearing, place: RollerPlace, L: float) -> Engagement:
-        """The engagement of a straight slot with one of the rollers."""
-        here = self.about(place.crank_deg)
-        anchors = tuple(
-            self.about(place.crank_deg + pose.crank_deg).anchor(pose, here.input_deg)
-            for pose in place.poses
-        )
-        path = AnchoredPath(anchors)
-        slot, motion = wheel.follow(path, place, here.advance)
-        first = isinstance(place.crank_deg, float) and place.crank_deg == 0.0 and not wheel.steps
-        if place.closed and self.direct:
-            motion = ClassicMotion(path, place.step.b, *place.closed)
-        elif place.closed and self.side_crank is not None and first:
-            motion = SideCrankMotion(path, place.step.b, self.side_crank, *place.closed)
-        rate = -wheel.SIGN * place.cone
-        body = ConstantRate(rate) if self.direct else _CrankRate(here.advance, rate)
-        reactions = self.reactions(wheel, path, here.input_deg, L) if wheel.FLAT else None
-        return Engagement(
-            here.input_deg, path, slot, motion, body, reactions, hub=place.hub, built=place.built
-        )
-
     def _curved(self, wheel: Gearing, motion: Motion, L: float) -> Plan:
         """Plan of curved slots, solved for from a law and the crank's circle."""
         from geneva_cli.motion import path_and_motion as solved
 
         half = wheel.half_motion_deg(wheel.step)
         self._refuse_reach(wheel, half)
-        natural = 2.0 * self.about(half).input_deg
+        natural = 2.0 * self.about(half)[0]
         motion_deg = natural - motion.alpha0_deg
         solved.refuse_alpha0(motion.alpha0_deg, natural)
         refuse_jam(self.rollers, motion_deg, wheel.SIGN < 0.0)
@@ -159,14 +129,16 @@ class Transmission(Drive, kw_only=True):
         text = 'ratio = "matched": at mid-motion the wheel turns back, or too fast for any R/L '
         text += "below 1; set a number, or change alpha0_deg or the law"
         refuse_text(ratio != ratio, ("motion", "ratio"), text)
-        here = self.about(0.0)
+        at_deg, advance = self.about(0.0)
         pose = middle(wheel.SIGN, ratio, wheel.rest(ratio))
-        path = solved.MiddlePath(here.anchor(pose, here.input_deg))
+        travel = PinTravel(pose, advance)
+        path = solved.MiddlePath(Anchor(0.0 * at_deg, pose.wheel, pose.along, travel))
         end_deg, b = 0.5 * motion_deg, wheel.step.b
         turned = solved.LawMotion(-end_deg, end_deg, b, motion.law)
-        reactions = self.reactions(wheel, path, 0.0, L) if wheel.FLAT else None
-        body = ConstantRate(-wheel.SIGN) if self.direct else _CrankRate(here.advance, -wheel.SIGN)
-        engagement = Engagement(0.0, path, solved.SolvedSlot(path, turned), turned, body, reactions)
+        slot = solved.SolvedSlot(path, turned)
+        engagement = Engagement(0.0, path, slot, turned, -wheel.SIGN)
+        if not self.direct:
+            self._behind(wheel, engagement, advance, L)
         period = 360.0 * self.turns / self.rollers
         return Plan((engagement,), period, ratio, rollers_max(motion_deg), L)
 
@@ -177,16 +149,24 @@ class Transmission(Drive, kw_only=True):
         return wheel.step.sin_cos[0] if motion.ratio is None else motion.ratio
 
     def matched_ratio(self, wheel: Gearing, law: Law, motion_deg: float) -> float:
-        crank = self.about(0.0).advance(0.0, 1)[0].c[1]
+        crank = self.about(0.0)[1](0.0, 1)[0].c[1]
         turned = law(0.5, 1).c[1] * 2.0 * wheel.step.b / radians(motion_deg)
         return wheel.matched_ratio(parameter(turned / crank))
+
+    def _behind(self, wheel: Gearing, own: Engagement, advance: Displacement, L: float) -> None:
+        """Complete an engagement whose crank is behind the transmission: its rate and reactions."""
+        from geneva_cli.drives.pushed import CrankRate
+
+        own.body = CrankRate(advance, cast(float, own.body))
+        own.reactions = self.reactions(wheel, own.path, own.mid_deg, L) if wheel.FLAT else None
 
     def _refuse_reach(self, wheel: Gearing, farthest_deg: float) -> None:
         """Raise GenevaError if the transmission does not cover the whole motion."""
         text = "z = {z}: the crank must turn {far:.6g} deg to either side, but kind = "
         text += '"{name}" turns it only {most:.6g}: reduce z or first_z'
-        values = {"z": wheel.z, "far": farthest_deg, "name": self.NAME, "most": self.reach_deg}
-        refuse_text(farthest_deg > self.reach_deg * (1.0 + 1e-12), ("wheel", "z"), text, **values)
+        most = 180.0 / self.turns  # crank angle from mid-motion in a turn of the input
+        values = {"z": wheel.z, "far": farthest_deg, "name": self.NAME, "most": most}
+        refuse_text(farthest_deg > most * (1.0 + 1e-12), ("wheel", "z"), text, **values)
 
 
 class Direct(Transmission, kw_only=True):
@@ -195,9 +175,62 @@ class Direct(Transmission, kw_only=True):
     direct: ClassVar[bool] = True
     turned_at_crank: ClassVar[bool] = True
 
-    @property
-    def motions(self) -> int:
-        return 1
-
     def about(self, crank_deg: float) -> LocalTransmission:
-        return LocalTransmission(crank_deg, same)
+        return crank_deg, same
+
+
+def places(
+    wheel: Gearing, drive: Drive, L: float, passing: RollerPlace | None = None
+) -> list[RollerPlace]:
+    """Rollers of a machine with straight slots, in the order in which they move the wheel.
+
+    With unequal steps they are on different arms, else all pass the slots as ``passing`` does.
+    Rollers that move the wheel alike are returned as one. Raises GenevaError if rollers would jam.
+    """
+    angles, m = drive.roller_angles_deg, drive.rollers
+    if passing is None and wheel.steps:  # R_i = L sin b_i
+        rollers = [wheel.place(HalfStep.of_deg(0.5 * step), L) for step in wheel.steps]
+        _refuse_no_dwell(rollers, ("wheel", "steps_deg"))
+        if angles:
+            return _at_angles(angles, rollers)
+        # placed so that the dwells between their motions are equal
+        total = math.fsum(2.0 * one.half_motion_deg for one in rollers)
+        dwell, at, out = (360.0 - total) / len(rollers), 0.0, rollers[:1]
+        for before, one in pairwise(rollers):
+            at += before.half_motion_deg + dwell + one.half_motion_deg
+            out.append(one._replace(crank_deg=at))
+        return out
+    one = wheel.place(wheel.step, L) if passing is None else passing
+    if angles:
+        return _at_angles(angles, [one] * len(angles))
+    refuse_jam(m, 2.0 * one.half_motion_deg, wheel.SIGN < 0.0)
+    out = [one]  # behind a transmission the crank's angle decides how each moves the wheel
+    for j in range(1, 1 if drive.direct else m):
+        out.append(one._replace(crank_deg=360.0 * j / m))
+    return out
+
+
+def _at_angles(angles: tuple[float, ...], rollers: list[RollerPlace]) -> list[RollerPlace]:
+    """Rollers at the angles of the spec, each gap wide enough for half of both adjacent motions."""
+    if list(angles) != sorted(set(angles)) or angles[0] != 0.0 or angles[-1] >= 360.0:
+        raise GenevaError("roller_angles_deg must rise from 0 to below 360", ANGLES_KEY)
+    text = (
+        "the rollers at {a:g} and {b:g} deg jam: half of both motions takes {motions:.6g} deg, and "
+        "they are {apart:.6g} deg apart"
+    )
+
+    following = (*angles[1:], 360.0), (*rollers[1:], rollers[0])
+    for a, one, b, after in zip(angles, rollers, *following, strict=True):
+        motions = one.half_motion_deg + after.half_motion_deg
+        values = {"a": a, "b": b % 360.0, "motions": motions, "apart": b - a}
+        refuse_text(b - a < motions, ANGLES_KEY, text, **values)
+    _refuse_no_dwell(rollers, ANGLES_KEY)
+    return [one._replace(crank_deg=a) for a, one in zip(angles, rollers, strict=True)]
+
+
+def _refuse_no_dwell(rollers: list[RollerPlace], key: tuple[str, str]) -> None:
+    """Raise GenevaError if the motions of all rollers take a whole turn."""
+    total = sum(2.0 * one.half_motion_deg for one in rollers)
+    text = "the {count} motions together take {total:.6g} deg of a turn and leave no dwell: use "
+    text += "fewer rollers, or a shorter pattern of steps"
+    refuse_text(total >= 360.0, key, text, count=len(rollers), total=total)

@@ -90,4 +90,4 @@ def about(A: float, crank_deg: float) -> LocalTransmission:
     own = whole + m.degrees(m.atan2(up, length * c - A))
     phi = choose(A < 0.0, own, added)
     grows = (A * c < 0.0) & level
-    return LocalTransmission(phi, Coulisse(A, s, c, sin_h, cos_h, length, rest, grows))
+    return phi, Coulisse(A, s, c, sin_h, cos_h, length, rest, grows)

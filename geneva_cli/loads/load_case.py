@@ -101,7 +101,7 @@ def multiples(mechanism: Mechanism) -> dict[str, tuple[str, float | None, str]]:
     out: dict[str, tuple[str, float | None, str]] = {
         "power_W": (TORQUE, load_case(mechanism).speed_rad_s, "")
     }
-    for name, (source, factor) in output.loads.items():
+    for name, source, factor in output.loads:
         out[name] = source, factor, ""
     crank = ("crank", shaft.crank_overhang_mm, shaft.crank_span_mm)
     wheel = ("wheel", shaft.wheel_overhang_mm, shaft.wheel_span_mm)

@@ -1,65 +1,107 @@
-"""Which kinds make no machine together: each names its rules; here are those of sizes, and more."""
+"""What makes no machine: kinds, keys, sizes and tolerances that a spec cannot combine.
+
+Each kind names its own rules; here are those of sizes and tolerances, whatever the kind.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+import math
+from collections.abc import Iterator
 from functools import partial, reduce
 from operator import and_, or_
-from typing import NamedTuple
+from typing import TypeAlias
 
-from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.errors import GenevaError, refuse, refuse_text
 from geneva_cli.motion.drive import Drive
 from geneva_cli.motion.kind import Kind
-from geneva_cli.motion.machine_spec import Spec, attribute
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.records import KINDS
+from geneva_cli.numerics.arrays import choose, smaller
 from geneva_cli.spec.load_named import load_named
 from geneva_cli.spec.rules import is_array
 from geneva_cli.spec.schema import SpecTable, fields
 
+SAME_RATIO = 1e-6  # values of R/L that differ by less are the same, written with few digits
+# keys below twice the centre distance, and below twice the crank's arm
+_IN_WHEEL = (
+    *("wheel_bore_mm", "wheel_hub_mm", "arm_hub_mm", "arm_eye_mm", "dial_bolt_mm"),
+    *("gear_bolt_mm", "link_pin_mm", "link_bore_mm", "link_width_mm"),
+)
+_IN_CRANK = (
+    *("crank_bore_mm", "crank_hub_mm", "arm_bore_mm", "lock_bolt_mm", "lock_bolt_circle_mm"),
+)
 
-class Conflict(NamedTuple):
-    """A combination that makes no machine, if ``when`` is true."""
 
-    when: object  # a truth value, or an array of them for a batch
-    key: tuple[str, ...]  # to blame
-    text: str  # with values of the spec, as in ``{spec.wheel.z}``
-
-
-# The rules of a drive come first, then those of its wheel, then those of what adds to it.
-_KINDS = [
-    *[kind for kind in KINDS if kind.refuses and kind.drive],
-    *[kind for kind in KINDS if kind.refuses and kind.wheel],
-    *[kind for kind in KINDS if kind.refuses and not (kind.drive or kind.wheel)],
-]
+# A combination that makes no machine if the first member is true (in a batch an array); the key to
+# blame; and a text with values of the spec, as in ``{spec.wheel.z}``.
+Conflict: TypeAlias = tuple[object, tuple[str, ...], str]
 
 
 def refuse_conflicts(spec: Spec) -> None:
-    """Raise GenevaError if the spec combines kinds that make no machine together."""
-    rules: list[Callable[[Spec], Iterator[Conflict]]] = [_of_drive_before]
-    for kind in _KINDS:
-        if concerns(kind, spec):
-            rules.append(load_named(kind.refuses))
-    for rule in (*rules, _of_sizes):
-        for when, key, text in rule(spec):
-            if is_array(when):
-                refuse(when, partial(GenevaError, text))
-            elif when:
-                raise GenevaError(text.format(spec=spec), key)
+    """Raise GenevaError if the spec combines kinds or keys that make no machine together."""
+    for when, key, text in _conflicts(spec):
+        if is_array(when):
+            refuse(when, partial(GenevaError, text))
+        elif when:
+            raise GenevaError(text.format(spec=spec), key)
+
+
+def _conflicts(spec: Spec) -> Iterator[Conflict]:
+    """The rules of a drive before another, of the kinds in the spec, and of sizes and a limit."""
+    if spec.drive_before is not None:
+        yield from _of_drive_before(spec, spec.drive_before)
+    # the rules of the drive come first, then those of its wheel, then those of what adds to it
+    for field in ("drive", "wheel", ""):
+        for kind in KINDS:
+            own = "drive" if kind.drive else "wheel" if kind.wheel else ""
+            if kind.refuses and field == own and concerns(kind, spec):
+                yield from load_named(kind.refuses)(spec)
+    size, wheel = spec.size, spec.wheel
+    for key in ("mouth_radius_mm", "horn_tip_mm"):
+        is_cut = getattr(size, key) > 0.0
+        text = f"{key} is for external and internal wheels, not gearing = "
+        text += '"{spec.wheel.NAME}": remove it'
+        yield (is_cut & (not (wheel.FLAT and spec.output.turns)), ("size", key), text)
+        text = f"{key} is for wheels with a recess behind every slot: remove it, or stop"
+        yield (is_cut & wheel.stopped, ("size", key), text)
+    if spec.limits.dwell_position_max_deg is not None:
+        sizes = [key for key in spec.tolerance.as_dict() if key != "distribution"]
+        exact = reduce(and_, (getattr(spec.tolerance, key) == 0.0 for key in sizes))
+        text = "dwell_position_max_deg limits the error of a wheel within its tolerances: set one "
+        text += f"or more of {', '.join(sizes)} in [tolerance]"
+        yield (exact, ("limits", "dwell_position_max_deg"), text)
 
 
 def concerns(kind: Kind, spec: Spec) -> bool:
     """True if the spec has the kind, or sets a key of the kind's own."""
-    if (kind.drive and kind.name == spec.drive.NAME) or (
-        kind.wheel and kind.name == spec.wheel.NAME
-    ):
+    if kind.name == (spec.drive.NAME if kind.drive else spec.wheel.NAME if kind.wheel else ""):
         return True
     for key in kind.keys:
         table, _, name = key.partition(".")
-        of = vars(spec)[attribute(table)]
+        of = vars(spec)[table.replace(".", "_")]
         value, default = vars(of).get(name), getattr(type(of), name, None)
         if value is not default and (is_array(value) or value != default):
             return True
     return False
+
+
+def _of_drive_before(spec: Spec, before: Drive) -> Iterator[Conflict]:
+    """Rules on a drive that turns the shaft of another."""
+    drive, key = spec.drive, ("drive", "before")
+    text = 'kind = "{spec.drive_before.NAME}" cannot turn the shaft of another drive: remove '
+    yield (not before.IN_FRONT, (*key, "kind"), text + "[drive.before]")
+    text = 'kind = "{spec.drive_before.NAME}" cannot stand before kind = "{spec.drive.NAME}": '
+    yield (drive.FIRST, key, text + "{spec.drive.FIRST}")
+    text = (
+        "n_rpm, rollers and roller_angles_deg belong to the machine: set them in "
+        "[drive], not in [drive.before]"
+    )
+    yield (is_set(before, Drive), key, text)
+    text = (
+        'the crank of kind = "{spec.drive.NAME}" is on the shaft: set kind = '
+        '"{spec.drive_before.NAME}" in [drive] instead'
+    )
+    yield (drive.direct and not (spec.motion or len(drive.cranks) > 1), key, text)
 
 
 def is_set(table: SpecTable, kind: type[SpecTable] | None = None) -> object:
@@ -74,42 +116,97 @@ def is_geared(spec: Spec) -> bool:
     return any(drive.gears or drive.round_gears for drive in drives)
 
 
-def _of_drive_before(spec: Spec) -> Iterator[Conflict]:
-    """Rules on a drive that turns the shaft of another."""
-    drive, before, key = spec.drive, spec.drive_before, ("drive", "before")
-    if before is None:
-        return
-    text = 'kind = "{spec.drive_before.NAME}" cannot turn the shaft of another drive: remove '
-    yield Conflict(not before.IN_FRONT, (*key, "kind"), text + "[drive.before]")
-    text = 'kind = "{spec.drive_before.NAME}" cannot stand before kind = "{spec.drive.NAME}": '
-    yield Conflict(drive.FIRST, key, text + "{spec.drive.FIRST}")
-    text = (
-        "n_rpm, rollers and roller_angles_deg belong to the machine: set them in "
-        "[drive], not in [drive.before]"
-    )
-    yield Conflict(is_set(before, Drive), key, text)
-    text = (
-        'the crank of kind = "{spec.drive.NAME}" is on the shaft: set kind = '
-        '"{spec.drive_before.NAME}" in [drive] instead'
-    )
-    yield Conflict(drive.direct and not (spec.motion or len(drive.cranks) > 1), key, text)
+def refuse_sizes(spec: Spec, L: float, ratio: float) -> None:
+    """Raise GenevaError, naming the key, for a size that makes no machine with this R/L."""
+    size, r, distance = spec.size, spec.size.roller_radius(L), f"the {spec.wheel.DISTANCE}"
+    radius, given = size.crank_radius_mm, size.center_distance_mm
+    if radius is not None and given is not None:  # a crank as built, of a kind that needs its R/L
+        text = (
+            "{key} = {radius:.9g} and center_distance_mm = {L:.9g} have R/L = {given:.6g}, but "
+            "this machine needs {ratio:.6g}; straight slots of an external or internal wheel on a "
+            "crank or a side-crank are taken as built: {key} = {own:.9g}, or center_distance_mm = "
+            "{fitting_mm:.9g}, or leave one of them out"
+        )
+        if spec.motion is not None:
+            text += "; or set ratio = {given:.9g} in [motion]"
+        values = {"radius": radius, "L": L, "given": radius / L, "ratio": ratio, "own": ratio * L}
+        values["fitting_mm"] = spec.drive.distance_mm(spec.wheel, spec.motion, radius)
+        off = abs(radius / L - ratio) > SAME_RATIO
+        refuse_text(off, ("size", "crank_radius_mm"), text, key="crank_radius_mm", **values)
+    farthest = "the roller's greatest distance from the wheel's axis"
+    if not spec.output.turns:  # a rack has no axis: where its roller is farthest from the deepest
+        farthest = f"twice {distance}"
+    ratios = [ratio]
+    if spec.wheel.steps:
+        ratios = [math.sin(math.radians(0.5 * step)) for step in spec.wheel.steps]
+    short, long = L * min(ratios), L * max(ratios)
+    narrow, what = short, "the crank's arm"
+    if not spec.drive.ONE_ARM:
+        short = long = narrow = L  # a roller whose arm changes has no fixed arm length
+        what = distance
+    elif spec.wheel.FLAT and spec.wheel.SIGN > 0.0:
+        narrow = smaller(short, L - long)
+        what = "the smaller of the crank radius R and the rest of the centre distance, L - R"
+    allowed = size.allowances._asdict()  # from the process, where a key is left out
+    for below, meaning, keys in (
+        (narrow, what, ("roller_radius_mm", "slot_clearance_mm")),
+        (short, "the crank's arm", ("lock_radius_mm", "lock_clearance_mm")),
+        (L, distance, ("slot_bottom_clearance_mm", "relief_clearance_mm")),
+        (L + long, farthest, ("wheel_radius_mm",)),
+        (2.0 * L, f"twice {distance}", _IN_WHEEL),
+        (2.0 * short, "twice the crank's arm", _IN_CRANK),
+        (2.0 * r, "the roller's diameter", ("pin_mm", "press_fit_mm", "shaft_fit_mm")),
+        (4.0 * L, f"four times {distance}", ("dial_bolt_circle_mm", "gear_bolt_circle_mm")),
+    ):
+        for key in keys:
+            own = getattr(size, key)
+            value = allowed.get(key, own)
+            if value is not None:
+                by = "" if own is not None else f'; the value comes from process = "{size.process}"'
+                text = "{key} = {value:g}: it must be below {below:.6g}, " + meaning + by
+                wrong, at = value >= below, ("size", key)
+                refuse_text(wrong, at, text, key=key, value=value, below=below)
+    face, thick, edge = size.face_width_mm, size.wheel_thickness_mm, size.edge_mm
+    if face is not None and thick is not None:
+        text = "{key} = {thick:g}: the contact line cannot be longer than the wheel is thick; use "
+        text += "at least face_width_mm = {face:g}"
+        if isinstance(edge, (int, float)) and edge > 0.0:
+            text += " and two edges of {edge:g}"
+        at, values = ("size", "wheel_thickness_mm"), {"thick": thick, "face": face, "edge": edge}
+        refuse_text(face + 2.0 * edge > thick, at, text, key=at[1], **values)
+    for part in ("wheel", "crank"):
+        bore, hub = getattr(size, f"{part}_bore_mm"), getattr(size, f"{part}_hub_mm")
+        if bore is not None and hub is not None:
+            text = "{key} = {hub:g}: a hub must be larger than its bore: at least "
+            text += f"{part}_bore_mm = {{bore:g}}, or 0 for none"
+            inside = (hub > 0.0) & (hub < bore)
+            key = f"{part}_hub_mm"
+            refuse_text(inside, ("size", key), text, key=key, hub=hub, bore=bore)
 
 
-def _of_sizes(spec: Spec) -> Iterator[Conflict]:
-    """Rules on the keys of the slots' mouths and of the horns, and on a limit."""
-    size, wheel = spec.size, spec.wheel
-    for key in ("mouth_radius_mm", "horn_tip_mm"):
-        is_cut = getattr(size, key) > 0.0
-        text = f"{key} is for external and internal wheels, not gearing = "
-        text += '"{spec.wheel.NAME}": remove it'
-        yield Conflict(is_cut & (not (wheel.FLAT and spec.output.turns)), ("size", key), text)
-        text = f"{key} is for wheels with a recess behind every slot: remove it, or stop"
-        yield Conflict(is_cut & wheel.stopped, ("size", key), text)
-    sizes = [key for key in spec.tolerance.as_dict() if key != "distribution"]
-    exact = reduce(and_, (getattr(spec.tolerance, key) == 0.0 for key in sizes))
-    text = (
-        "dwell_position_max_deg limits the error of a wheel within its tolerances: set one or more "
-        f"of {', '.join(sizes)} in [tolerance]"
-    )
-    limited = spec.limits.dwell_position_max_deg is not None
-    yield Conflict(limited and exact, ("limits", "dwell_position_max_deg"), text)
+def refuse_tolerances(spec: Spec, L: float, ratio: float) -> None:
+    """Raise GenevaError, naming the key, for a tolerance that is too large or has no dimension."""
+    given, lock = vars(spec.tolerance), spec.size.lock_radius_mm
+    unlocked = (not spec.drive.LOCKS) | (lock == 0.0)
+    steps = spec.wheel.steps
+    arm = L * (math.sin(math.radians(0.5 * min(steps))) if steps else ratio)
+    step = min(steps) if steps else 360.0 / spec.wheel.z
+    roller = 2.0 * spec.size.roller_radius(L)
+    slot = roller + 2.0 * spec.size.allowances.slot_clearance_mm
+    disc = arm if lock is None else choose(lock == 0.0, arm, lock)
+    for key in ("lock_radius_mm", "recess_radius_mm"):
+        text = "{key} = {value:g}: this machine has no locking disc; remove it"
+        wrong, at = unlocked & (given[key] != 0.0), ("tolerance", key)
+        refuse_text(wrong, at, text, key=key, value=given[key])
+    for key, below, what in (
+        ("center_distance_mm", L, "the centre distance"),
+        ("crank_radius_mm", arm, "the crank's radius"),
+        ("roller_diameter_mm", roller, "the roller's diameter"),
+        ("slot_width_mm", slot, "the slot's width"),
+        ("slot_angle_deg", 0.5 * step, "half the wheel's step"),
+        ("lock_radius_mm", disc, "the locking disc's radius, or the crank's"),
+        ("recess_radius_mm", disc, "the locking disc's radius, or the crank's"),
+    ):
+        text = "{key} = ±{value:g} is as large as the dimension itself: it must be below "
+        text, value, at = text + "{below:.6g}, " + what, given[key], ("tolerance", key)
+        refuse_text(value >= below, at, text, key=key, value=value, below=below)

@@ -7,9 +7,8 @@ from abc import abstractmethod
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self
 
 from geneva_cli.errors import GenevaError, refuse_text
-from geneva_cli.motion.engagement import Displacement, Engagement
+from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.pivots import Layout, Link, ShaftPlace
-from geneva_cli.motion.wheels.classic import refuse_jam, rollers_max
 from geneva_cli.numerics.arrays import larger
 from geneva_cli.spec.rules import NOT_NEGATIVE, SPEED, Z_MAX, Range
 from geneva_cli.spec.schema import Example, SpecTable
@@ -19,6 +18,7 @@ if TYPE_CHECKING:
     from geneva_cli.motion.motion import Motion
     from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
     from geneva_cli.numerics.arrays import Array
+    from geneva_cli.numerics.jet_functions import Displacement
 
 
 class Plan(NamedTuple):
@@ -70,6 +70,11 @@ class Drive(SpecTable, kw_only=True):
     turned_at_crank: ClassVar[bool] = True
     # names of its links that are gears with pitch circles
     round_gears: ClassVar[tuple[str, ...]] = ()
+    # A kind whose keys decide these sets them as it is made:
+    turns: ClassVar[int] = 1  # input turns in one turn of the crank
+    wheels_on_carrier: ClassVar[int] = 0  # that orbit on it, as the input turns it; 0 without one
+    # places of the cranks about the wheel, in steps from the first one
+    cranks: ClassVar[tuple[float, ...]] = (0.0,)
     n_rpm: Annotated[
         float,
         SPEED,
@@ -107,11 +112,6 @@ class Drive(SpecTable, kw_only=True):
         """Angles through which the input turns while it brakes, and while it starts, degrees."""
         return 3.0 * self.n_rpm * self.brake_s, 3.0 * self.n_rpm * self.start_s
 
-    @property
-    def turns(self) -> int:
-        """Number of input turns in one turn of the crank."""
-        return 1
-
     def backwards(self, plan: Plan) -> Self:
         """The drive that turns the other way, as seen from its other side.
 
@@ -123,24 +123,9 @@ class Drive(SpecTable, kw_only=True):
         return self.replace(roller_angles_deg=(0.0, *(360.0 - angle for angle in others)))
 
     @property
-    def wheels_on_carrier(self) -> int:
-        """Number of wheels that orbit on a carrier, which the input turns; 0 without a carrier."""
-        return 0
-
-    @property
-    def cranks(self) -> tuple[float, ...]:
-        """Places of the cranks about the wheel, in steps from the first one; (0,) for one crank."""
-        return (0.0,)
-
-    @property
     def crank(self) -> Drive | None:
         """A plain crank with the same rollers; None if no crank carries them."""
         return None
-
-    @property
-    def motions(self) -> int:
-        """Number of different motions of the wheel, by one roller after the other on the crank."""
-        return 1
 
     @property
     def gears(self) -> Gears | None:
@@ -205,18 +190,3 @@ class Drive(SpecTable, kw_only=True):
 
         ``L`` is the centre distance, mm, where the drive does not solve for it.
         """
-
-
-class PinPath(Drive, kw_only=True):
-    """A drive that moves the roller along a path of its own, with straight radial slots."""
-
-    ONE_ARM: ClassVar[bool] = False
-
-    def planned(
-        self, engagement: Engagement, ratio: float, center_distance_mm: float, inside: bool = False
-    ) -> Plan:
-        """The plan with one engagement for each roller."""
-        motion = engagement.motion_deg
-        refuse_jam(self.rollers, motion, inside)
-        period = 360.0 / self.rollers
-        return Plan((engagement,), period, ratio, rollers_max(motion), center_distance_mm)

@@ -10,12 +10,15 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import ClassVar, Generic, NamedTuple, Protocol, TypeAlias, TypeVar
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, ClassVar, Generic, NamedTuple, TypeAlias, TypeVar
 
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Batchable, Truth, all_true, array, blocks, choose, library
 from geneva_cli.numerics.jet import Array, Jet, Number, turning
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet_functions import Displacement, Groove, Path, Rate, Reactions
 
 K = TypeVar("K", float, "Array")
 
@@ -27,57 +30,9 @@ Vector: TypeAlias = tuple[Jet, Jet]
 Load: TypeAlias = tuple[Vector, Jet]
 
 
-class Path(Protocol):
-    """The pin's position (x, y) in the fixed frame, by the input angle in degrees."""
-
-    def __call__(self, input_deg: Number, order: int = 3) -> Vector: ...
-
-
-class Displacement(Protocol):
-    """A pin's displacement since a moment, along a ray and across it, ``tau`` input radians later.
-
-    Or a crank's rotation d since then, as sin d and 1 - cos d.
-    """
-
-    def __call__(self, tau: Number, order: int) -> Vector: ...
-
-
-class Rate(Protocol):
-    """Rate of a body in radians per input radian, ``tau`` after mid-motion, as the wheel turns."""
-
-    def __call__(self, tau: Number, order: int) -> Jet: ...
-
-
-class Reactions(Protocol):
-    """Reactions on the body that carries the roller, held by links without mass or friction.
-
-    They are those of the crank's shaft, and of the body's other guide (a rocker, slider, groove or
-    fixed gear), to each load. ``path`` is the pin's path, one order higher than the loads.
-    """
-
-    def __call__(
-        self, input_deg: Number, path: Vector, loads: Sequence[Load]
-    ) -> list[tuple[Vector, Vector]]: ...
-
-
-class Groove(Protocol):
-    """A fixed groove about the crank's axis, which guides the roller along the crank."""
-
-    sign: float  # 1 for an external wheel, -1 for an internal one
-
-    @property
-    def motion(self) -> WheelMotion:
-        """Motion of the wheel, from which the groove follows."""
-
-    @property
-    def ends(self) -> tuple[Sequence[Number], Sequence[Number]]:
-        """Roller distance from the crank's axis with two derivatives, at entry and exit."""
-
-    def distances(self, input_deg: Number, order: int = 3) -> Vector:
-        """Roller distances from the wheel's axis and from the crank's, in units of L."""
-
-    def groove(self, input_deg: Number, order: int = 3) -> Vector:
-        """Pitch curve (x, y) of the groove about the crank's axis."""
+# A straight slot's axis, over L: the lever of its normal about the wheel's axis, and the speed of
+# the pin along it.
+SlotAxis: TypeAlias = tuple[Jet, Jet]
 
 
 class Height(NamedTuple):
@@ -98,26 +53,9 @@ class Height(NamedTuple):
         return self.top - self.fall
 
 
-class SlotAxis(NamedTuple):
-    """A straight slot's axis, over L."""
-
-    lever: Jet  # of its normal about the wheel's axis
-    along: Jet  # the pin's speed along it
-
-
 def cross(a: Vector, b: Vector) -> Jet:
     """Third component of the vector product of two plane vectors."""
     return a[0] * b[1] - a[1] * b[0]
-
-
-class ConstantRate(NamedTuple):
-    """A body that turns at a constant rate, radians per input radian, positive with the wheel."""
-
-    rate: float
-
-    def __call__(self, tau: Number, order: int) -> Jet:
-        """The rate as a jet."""
-        return Jet((tau * 0.0 + self.rate, *[0.0] * order))
 
 
 class Slot(Batchable, ABC):
@@ -127,15 +65,12 @@ class Slot(Batchable, ABC):
     curved = False
     # True if something other than the roller drives the wheel for part of the motion.
     relieved = False
+    # True if the roller presses on a straight wall throughout: neither of these
+    walls_flat = True
     # e: distance between a straight slot's axis and the wheel's centre, over L.
     offset: float = 0.0
     # The pin's position along the wheel's axis on a sphere, where the path is a projection.
     height: Height | None = None
-
-    @property
-    def walls_flat(self) -> bool:
-        """True if the roller presses on a straight wall throughout."""
-        return not (self.curved or self.relieved)
 
     @abstractmethod
     def __call__(self, input_deg: Number, order: int = 3) -> Vector:
@@ -185,6 +120,8 @@ class WheelMotion(Batchable, ABC):
 
     # False if the two halves of the path differ
     mirrored = True
+    # Pin at entry, about which its path is written if the slot follows the pin
+    entry: Anchor | None = None
     # Greatest error of the breaks within, as a fraction of the motion; 0 for exact ones.
     BREAKS_TO: ClassVar[float] = 0.0
 
@@ -200,11 +137,6 @@ class WheelMotion(Batchable, ABC):
     def rate(self, input_deg: Number, order: int = 2) -> Jet:
         """Wheel speed over input speed, with derivatives, computed without the angle itself."""
         return self(input_deg, order + 1).derivative()
-
-    @property
-    def entry(self) -> Anchor | None:
-        """Pin at entry, about which its path is written if the slot follows the pin; else None."""
-        return None
 
     @property
     def symmetric(self) -> bool:
@@ -273,22 +205,31 @@ class Engagement(Batchable):
     path: Path
     slot: Slot
     motion: WheelMotion
-    body: Rate | None = None
+    body: Rate | float | None = None  # its rate; a number if that is constant
     reactions: Reactions | None = None
     crank_sense: float = 0.0  # of a crank that does not carry it: -1 with the wheel, 1 against it
     groove: Groove | None = None  # the path, if a fixed groove guides the roller along the crank
     hub: float = 1.0  # the arm's centre of rotation on the line of centres; less on a sphere
     built: AsBuilt | None = None  # the wheel's velocity then jumps at entry and exit
+    # of a roller that starts the wheel and of another that stops it, each in its own slot: passage,
+    # and input angle by which it leads
+    pair: tuple[tuple[Engagement, float], ...] = ()
+    entry_deg: float = field(init=False)  # input angle at which the motion begins, from mid-motion
+    exit_deg: float = field(init=False)
+    motion_deg: float = field(init=False)
+    half_step: float = field(init=False)  # of the wheel, radians
+    paired: bool = field(init=False)
+    apart: float = field(init=False)  # half the angle between the slots of a pair, radians
+    on_arm: bool = field(init=False)  # the crank's arm carries the roller, and turns as ``carrier``
 
-    @property
-    def entry_deg(self) -> float:
-        """Input angle at which the motion begins, degrees from mid-motion."""
-        return self.motion.entry_deg
-
-    @property
-    def exit_deg(self) -> float:
-        """Input angle at which the motion ends, degrees from mid-motion."""
-        return self.motion.exit_deg
+    def __post_init__(self) -> None:
+        motion = self.motion
+        self.entry_deg, self.exit_deg = motion.entry_deg, motion.exit_deg
+        self.half_step = motion.half_step
+        self.motion_deg = motion.exit_deg - motion.entry_deg
+        self.paired, own = bool(self.pair), self.pair[0][0] if self.pair else self
+        self.apart = self.half_step - own.half_step
+        self.on_arm = all_true(self.crank_sense == 0.0)
 
     @property
     def jumps(self) -> tuple[Number, Number]:
@@ -312,16 +253,6 @@ class Engagement(Batchable):
         return self.entry_deg if end < 0.0 else self.exit_deg
 
     @property
-    def half_step(self) -> float:
-        """Half the wheel's step, radians."""
-        return self.motion.half_step
-
-    @property
-    def motion_deg(self) -> float:
-        """Input angle of the motion, degrees."""
-        return self.exit_deg - self.entry_deg
-
-    @property
     def usual_acceleration(self) -> float:
         """The step over the square of the motion, of which accelerations are multiples."""
         motion = radians(self.motion_deg)
@@ -339,15 +270,12 @@ class Engagement(Batchable):
 
     def carrier(self, input_deg: Number, order: int = 0) -> Jet:
         """Rate of the body that carries the roller, about its axis, positive with the wheel."""
-        if self.body:
+        if callable(self.body):
             return self.body(radians(input_deg), order)
+        if self.body is not None:
+            return Jet((input_deg * 0.0 + self.body, *[0.0] * order))
         x, y = self.path(input_deg, order + 1)
         return turning(x - 1.0, y)
-
-    @property
-    def on_arm(self) -> bool:
-        """True if the crank's arm carries the roller, and so turns as ``carrier`` does."""
-        return all_true(self.crank_sense == 0.0)
 
     def shaft_rate(self, input_deg: Number, order: int = 0) -> Jet:
         """Rate of the drive's own input shaft, in radians per input radian."""
@@ -369,22 +297,12 @@ class Engagement(Batchable):
     @property
     def passages(self) -> tuple[tuple[Engagement, float], ...]:
         """Passage of each roller through a whole slot, and the input angle by which it leads."""
-        return ((self, 0.0),)
+        return self.pair or ((self, 0.0),)
 
     @property
     def through(self) -> Engagement:
         """Engagement whose roller runs through the whole slot: itself, except for gear sectors."""
-        return self.passages[0][0]
-
-    @property
-    def paired(self) -> bool:
-        """True if one roller starts the wheel and another stops it, each in its own slot."""
-        return len(self.passages) > 1
-
-    @property
-    def apart(self) -> float:
-        """Half the angle between the slots of those rollers in the wheel, radians."""
-        return self.half_step - self.through.half_step
+        return self.pair[0][0] if self.pair else self
 
 
 class Anchor(NamedTuple):
@@ -395,11 +313,7 @@ class Anchor(NamedTuple):
     along: float  # distance from the wheel's axis to the pin there
     displacement: Displacement  # since then, along the ray and across it
 
-    def displacement_at(self, input_deg: Number, order: int) -> Vector:
-        """Pin displacement (along the ray, across it) at an input angle in degrees."""
-        return self.displacement(radians(input_deg - self.input_deg), order)
-
     def place(self, input_deg: Number, order: int) -> Vector:
         """Pin position (along the anchor's ray, across it) at an input angle in degrees."""
-        along, across = self.displacement_at(input_deg, order)
+        along, across = self.displacement(radians(input_deg - self.input_deg), order)
         return along + self.along, across

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.motion.engagement import Groove
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Array, Number, scalar, smaller
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet_functions import Groove
 
 EASED_DEG = 30.0  # of the input: range in which the groove joins its arc in the dwell
 

@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import field
 from functools import partial
-from typing import Any, Self
+from typing import Any, ClassVar, Self
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.motion.drive import Drive, Gears
 from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.records import CRANK, named, thing
 from geneva_cli.motion.wheels.gearing import Gearing, Output
-from geneva_cli.numerics.arrays import all_true
+from geneva_cli.numerics.arrays import Truth, all_true
 from geneva_cli.spec import tables
 from geneva_cli.spec.accept import Accept
 from geneva_cli.spec.load_named import load_named
@@ -64,6 +64,13 @@ class Spec(SpecTable):
     60.0
     """
 
+    # what follows from the tables, for all who read a spec
+    turns: ClassVar[int]  # of the input in one turn of the crank
+    given_distance_mm: ClassVar[float]  # centre distance L, before a drive solves for another one
+    gears: ClassVar[Gears | None]  # of the drive or the one before it, not circular
+    has_lock: ClassVar[bool]  # the crank has a part that locks the wheel in the dwell
+    output: ClassVar[Output]  # what the wheel gives out, with its units
+    unloaded: ClassVar[Truth]  # there is neither inertia nor torque nor friction
     wheel: Gearing
     drive: Drive = field(default_factory=lambda: load_named(CRANK)())
     motion: Motion | None = None
@@ -101,6 +108,17 @@ class Spec(SpecTable):
             L = self.drive.distance_mm(self.wheel, self.motion, radius)
         if L is not size.derived_distance_mm:
             vars(self)["size"] = size.replace(derived_distance_mm=L)
+        turns = self.drive.turns * (self.drive_before.turns if self.drive_before else 1)
+        L, before = self.size.distance_mm, self.drive_before
+        gears = (before and before.gears) or self.drive.gears
+        lock = self.drive.LOCKS and self.size.lock_radius_mm != 0.0
+        own = {"turns": turns, "given_distance_mm": L, "gears": gears, "has_lock": lock}
+        vars(self).update(own, output=self.wheel.output(L))
+        load = self.load
+        nothing = (load.inertia_kgm2 == 0.0) & (load.torque_Nm == 0.0)
+        nothing = nothing & (load.mass_kg == 0.0) & (load.force_N == 0.0)
+        nothing = nothing & (self.support.own_torque_Nm == 0.0) & (not self.mass)
+        vars(self)["unloaded"] = nothing
         limits = vars(self.limits)
         for limit, (key, of, what) in NEEDED.items():
             if limits[limit] is not None and self.table(of)[key] is None:
@@ -114,7 +132,7 @@ class Spec(SpecTable):
         for key in LOADED:
             if limits[key] is not None:
                 text = f"{key} needs a load, and without one there is nothing to limit: set "
-                refuse(self._unloaded, partial(GenevaError, text + self.load_keys, ("limits", key)))
+                refuse(nothing, partial(GenevaError, text + self.load_keys, ("limits", key)))
 
     def table(self, name: str) -> dict[str, Any]:
         """Values of a table by key; those of ``motion`` include the keys of its law.
@@ -136,7 +154,7 @@ class Spec(SpecTable):
             several = vars(self)[table]
             known = number.isdecimal() and int(number) < len(several)
             return several[int(number)] if known else None
-        part = vars(self).get(attribute(name)) if "_" not in name else None
+        part = vars(self).get(name.replace(".", "_")) if "_" not in name else None
         return part if isinstance(part, SpecTable) else None
 
     def with_(self, key: str, value: object) -> Self:
@@ -159,28 +177,11 @@ class Spec(SpecTable):
         several, at = vars(self)[one_of], int(number)
         return self.replace(**{one_of: (*several[:at], changed, *several[at + 1 :])})
 
-    @property
-    def turns(self) -> int:
-        """Number of input turns in one turn of the crank."""
-        before = self.drive_before
-        return self.drive.turns * (1 if before is None else before.turns)
-
-    @property
-    def gears(self) -> Gears | None:
-        """Noncircular gears of the drive, or of the one before it; None without."""
-        before = self.drive_before
-        return (before and before.gears) or self.drive.gears
-
     def input_deg(self, crank_deg: float) -> float:
         """Input angle from mid-motion at a crank angle from mid-motion, degrees."""
         shaft_deg = self.drive.input_deg(crank_deg)
         before = self.drive_before
         return shaft_deg if before is None else before.input_deg(shaft_deg)
-
-    @property
-    def has_lock(self) -> bool:
-        """True if the crank has a part that locks the wheel in the dwell."""
-        return self.drive.LOCKS and self.size.lock_radius_mm != 0.0
 
     @property
     def dwell_holder(self) -> str | None:
@@ -190,24 +191,12 @@ class Spec(SpecTable):
     @property
     def is_loaded(self) -> bool:
         """True if there is an inertia, a torque or friction, so that forces are computed."""
-        return not all_true(self._unloaded)
+        return not all_true(self.unloaded)
 
     @property
     def load_keys(self) -> str:
         """Keys that set a load of this kind of wheel, in words."""
         return self.output.load_keys
-
-    @property
-    def output(self) -> Output:
-        """What the wheel gives out, with its units."""
-        return self.wheel.output(self.given_distance_mm)
-
-    @property
-    def _unloaded(self) -> bool:
-        load = self.load
-        nothing = (load.inertia_kgm2 == 0.0) & (load.torque_Nm == 0.0)
-        nothing = nothing & (load.mass_kg == 0.0) & (load.force_N == 0.0)
-        return nothing & (self.support.own_torque_Nm == 0.0) & (not self.mass)
 
     @property
     def unbalanced(self) -> bool:
@@ -217,7 +206,7 @@ class Spec(SpecTable):
     @property
     def is_flat(self) -> bool:
         """True if wheel and crank are flat outlines that are drawn."""
-        return self.wheel.FLAT and self.has_parts
+        return self.wheel.FLAT and not self.no_parts
 
     @property
     def has_parts(self) -> bool:
@@ -254,10 +243,6 @@ class Spec(SpecTable):
             return f"wheels of more than {Z_DRAWN} slots are not drawn"
         return ""
 
-    def roller_radius_mm(self, center_distance_mm: float) -> float:
-        """Roller radius r in millimetres, by default L/20."""
-        return self.size.roller_radius(center_distance_mm)
-
     @property
     def moving(self) -> tuple[object, ...]:
         """The values from which engagements are made."""
@@ -266,9 +251,4 @@ class Spec(SpecTable):
             # a crank as built enters where its roller crosses the slot's axis inside the rim
             built = (size.crank_radius_mm, size.wheel_radius_mm, size.roller_radius_mm)
         own = self.wheel, self.drive, self.drive_before, self.motion
-        return (*own, *built, self.given_distance_mm)
-
-    @property
-    def given_distance_mm(self) -> float:
-        """Centre distance L, mm, before a drive solves for another one."""
-        return self.size.distance_mm
+        return (*own, *built, self.size.distance_mm)

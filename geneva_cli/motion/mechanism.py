@@ -3,20 +3,24 @@
 from __future__ import annotations
 
 import math
+from operator import attrgetter
 from typing import NamedTuple
 
-from geneva_cli.motion import compatible
+from geneva_cli.motion.compatible import (
+    SAME_RATIO,
+    refuse_conflicts,
+    refuse_sizes,
+    refuse_tolerances,
+)
 from geneva_cli.motion.drive import FirstWheel, Plan
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.laws.law import Law
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.pivots import AxisPlace, Layout, Pivot, ShaftPlace, wheel_places
 from geneva_cli.motion.records import IN_FRONT
-from geneva_cli.motion.size_rules import SAME_RATIO, refuse_sizes, refuse_tolerances
 from geneva_cli.motion.wheels.gearing import Output
 from geneva_cli.numerics.angles import sin_cos_pi
 from geneva_cli.numerics.arrays import (
-    Array,
     Whole,
     all_true,
     choose,
@@ -26,6 +30,11 @@ from geneva_cli.numerics.arrays import (
 )
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
 from geneva_cli.spec.load_named import load_named
+
+_AS_BUILT = (
+    "the crank is taken as built: the wheel is at rest until the roller's centre crosses its "
+    "slot's axis, while real parts touch before"
+)
 
 
 class Mechanism(NamedTuple):
@@ -40,18 +49,21 @@ class Mechanism(NamedTuple):
     rollers_max: int  # most evenly spaced rollers that do not jam
     center_distance_mm: float  # L, from the spec or solved for
     # The numbers of m designs of a batch, (m, 1): it keeps its size if nothing else varies.
-    design: int | Whole = 0
+    design: int | Whole
+    plan: Plan  # of the drive, with engagements by the angle of its own input shaft
+    law: Law | None  # by the angle of the drive's own input shaft; None for straight slots
+    output: Output  # what the wheel gives out, with its unit
+    axes: tuple[Pivot, ...]  # of wheel and crank in the plane of the parts; none if they meet
+    first_wheel: FirstWheel | None  # that turns the crank; None for a crank without one
+    frame: float  # turns of the wheel's frame in a turn of the input: 0 but on a carrier
+    wheel_places: tuple[AxisPlace, ...]  # more than one only on a carrier
+    crank_places: tuple[AxisPlace, ...]  # about the wheel: several with ``crank_steps``
+    no_turn: str  # the reason why the full turn of drawn parts has no meaning; empty if it has one
 
     @property
     def designs(self) -> int:
         """Number of designs in the batch; 1 for a single design."""
         return 1 if isinstance(self.design, int) else len(self.design)
-
-    @property
-    def plan(self) -> Plan:
-        """What the drive planned, with engagements by the angle of its own input shaft."""
-        plan = Plan(*self[1:-1])
-        return plan._replace(engagements=tuple(one.own for one in self.engagements))
 
     @property
     def crank_shaft(self) -> ShaftPlace:
@@ -72,16 +84,6 @@ class Mechanism(NamedTuple):
         return self.own_shaft if before and before.gears else self.crank_shaft
 
     @property
-    def axes(self) -> tuple[Pivot, ...]:
-        """Axes of wheel and crank in the plane of the parts; none if they meet."""
-        return self.spec.wheel.axes(self.center_distance_mm)
-
-    @property
-    def first_wheel(self) -> FirstWheel | None:
-        """The wheel that turns the crank; None for a crank without one."""
-        return self.spec.drive.first_wheel(self.center_distance_mm)
-
-    @property
     def layout(self) -> Layout:
         """Pivots and dimensions of the drives, and the axes of all cranks behind the first.
 
@@ -100,29 +102,15 @@ class Mechanism(NamedTuple):
                 own = (*own, here)
         return own if self.axes else tuple(one for one in own if not isinstance(one, Pivot))
 
-    def own_deg(self, input_deg: Array) -> Array:
-        """Angle of the drive's own input shaft at input angles near mid-motion."""
-        return self.engagements[0].own_deg(input_deg)
-
-    @property
-    def law(self) -> Law | None:
-        """Motion law by the angle of the drive's own input shaft; None for straight slots."""
-        return self.spec.motion.law if self.spec.motion else None
-
     @property
     def input_law(self) -> Law | None:
         """Motion law by the input's own angle; None for straight slots or behind another drive."""
         return None if self.spec.drive_before else self.law
 
     @property
-    def output(self) -> Output:
-        """What the wheel gives out, with its unit."""
-        return self.spec.output
-
-    @property
     def roller_radius_mm(self) -> float:
         """Roller radius r in millimetres, by default L/20."""
-        return self.spec.roller_radius_mm(self.center_distance_mm)
+        return self.spec.size.roller_radius(self.center_distance_mm)
 
     @property
     def matched_ratio(self) -> float | None:
@@ -139,21 +127,17 @@ class Mechanism(NamedTuple):
         return 360.0 * self.spec.turns
 
     @property
-    def stop_deg(self) -> float:
-        """The stop of the input in each dwell, as the angle that it would turn meanwhile."""
-        return 6.0 * self.spec.drive.n_rpm * self.spec.drive.stop_s
-
-    @property
     def lasting_deg(self) -> float:
         """The period with its stops, as the angle that the input would turn meanwhile."""
-        return self.period_deg + len(self.engagements) * self.stop_deg
+        stop_deg = 6.0 * self.spec.drive.n_rpm * self.spec.drive.stop_s  # of one dwell
+        return self.period_deg + len(self.engagements) * stop_deg
 
     def shown_deg(self, input_deg: float) -> float:
         """Input angle for display: between -180 and 180 degrees from mid-motion.
 
         Over a period of several turns it is counted from the first engagement's entry.
         """
-        whole = self.whole_deg
+        whole = 360.0 * self.spec.turns
         m = library(input_deg, whole)
         entry = self.engagements[0].mid_deg + self.engagements[0].entry_deg
         # Rounding may put an angle just before the entry: count it as the entry.
@@ -166,41 +150,10 @@ class Mechanism(NamedTuple):
         return choose(whole == 360.0, near, counted)
 
     @property
-    def frame(self) -> float:
-        """Turns of the wheel's frame in a turn of the input: 0 but for wheels on a carrier."""
-        return self.spec.wheel.SIGN if self.spec.drive.wheels_on_carrier else 0.0
-
-    @property
-    def wheel_places(self) -> tuple[AxisPlace, ...]:
-        """Places of all wheels; more than one only on a carrier."""
-        count = max(1, self.spec.drive.wheels_on_carrier)
-        return wheel_places(count, self.spec.wheel.SIGN, self.center_distance_mm)
-
-    @property
-    def crank_places(self) -> tuple[AxisPlace, ...]:
-        """Places of all cranks about the wheel: several with ``crank_steps``."""
-        L, z, steps, out = self.center_distance_mm, self.spec.wheel.z, self.spec.drive.cranks, []
-        for k, step in enumerate(steps):
-            sine, cosine = sin_cos_pi(2 * int(step), z)
-            turn, behind_deg = math.tau * step / z, 360.0 * k / len(steps)
-            out.append(AxisPlace(k + 1, behind_deg, turn, (L * cosine, L * sine)))
-        return tuple(out)
-
-    @property
     def under_load(self) -> Mechanism:
         """The machine with the period of its loads: up to the entry of the next wheel."""
         wheels = self.spec.drive.wheels_on_carrier
         return self._replace(period_deg=360.0 / wheels) if wheels > 1 else self
-
-    @property
-    def no_turn(self) -> str:
-        """The reason why the full turn of drawn parts has no meaning; empty if it has one."""
-        if self.engagements[0].built is None:
-            return ""
-        return (
-            "the crank is taken as built: the wheel is at rest until the roller's centre crosses "
-            "its slot's axis, while real parts touch before"
-        )
 
     def index_deg(self, i: int) -> float:
         """Wheel step of engagement i, in degrees; unequal steps repeat."""
@@ -223,24 +176,44 @@ def build(spec: Spec, like: Mechanism | None = None) -> Mechanism:
 
     Raises GenevaError, naming the key, if the values do not make a machine together.
     """
-    compatible.refuse_conflicts(spec)
+    refuse_conflicts(spec)
+    radius, L = spec.size.crank_radius_mm, spec.size.center_distance_mm
     if like and spec.moving == like.spec.moving:
-        plan = Plan(*like[1:-1])
+        plan = Plan(*like[1:6])
     else:
-        own = spec.drive.plan
-        plan = _as_built(spec) or own(spec.wheel, spec.motion, spec.given_distance_mm)
+        own = None
+        if radius is not None and L is not None and spec.motion is None:
+            own = _as_built(spec, radius, L)
+        plan = own or spec.drive.plan(spec.wheel, spec.motion, spec.size.distance_mm)
         if spec.drive_before:
             plan = load_named(IN_FRONT)(plan, spec, spec.drive_before)
     refuse_sizes(spec, plan.center_distance_mm, plan.ratio)
     refuse_tolerances(spec, plan.center_distance_mm, plan.ratio)
-    return Mechanism(spec, *plan)
+    L, wheel, wheels = plan.center_distance_mm, spec.wheel, spec.drive.wheels_on_carrier
+    cranks, steps = [], spec.drive.cranks
+    for k, step in enumerate(steps):
+        sine, cosine = sin_cos_pi(2 * int(step), wheel.z)
+        turn, behind_deg = math.tau * step / wheel.z, 360.0 * k / len(steps)
+        cranks.append(AxisPlace(k + 1, behind_deg, turn, (L * cosine, L * sine)))
+    return Mechanism(
+        spec,
+        *plan,
+        design=0,
+        plan=plan._replace(engagements=tuple(map(attrgetter("own"), plan.engagements))),
+        law=spec.motion.law if spec.motion else None,
+        output=spec.output,
+        axes=wheel.axes(L),
+        first_wheel=spec.drive.first_wheel(L),
+        frame=wheel.SIGN if wheels else 0.0,
+        wheel_places=wheel_places(max(1, wheels), wheel.SIGN, L),
+        crank_places=tuple(cranks),
+        no_turn=_AS_BUILT if plan.engagements[0].built else "",
+    )
 
 
-def _as_built(spec: Spec) -> Plan | None:
+def _as_built(spec: Spec, radius: float, L: float) -> Plan | None:
     """The plan of a crank as built, whose R/L is not what the slots need; None for any other."""
-    wheel, radius, L = spec.wheel, spec.size.crank_radius_mm, spec.size.center_distance_mm
-    if radius is None or L is None or spec.motion is not None:
-        return None
+    wheel = spec.wheel
     derived = wheel.place(wheel.step, L)
     off = abs(radius / L - derived.ratio) > SAME_RATIO
     if not all_true(off) and (isinstance(off, bool) or not off.any()):
@@ -249,7 +222,7 @@ def _as_built(spec: Spec) -> Plan | None:
 
     rim = spec.size.wheel_radius_mm
     if rim is None:  # that of a machine as derived
-        away, r = L * wheel.step.sin_cos[1], spec.roller_radius_mm(L)
+        away, r = L * wheel.step.sin_cos[1], spec.size.roller_radius(L)
         rim = library(away, r).hypot(away, r)
     place = wheel.as_built(radius / L, rim / L, L)
     if place is None:

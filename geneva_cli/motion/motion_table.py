@@ -33,7 +33,7 @@ def rates_at_speed(mechanism: Mechanism) -> dict[str, float]:
     output, omega = mechanism.output, mechanism.spec.drive.n_rpm * math.pi / 30.0
     scale = output.rate_per_radian
     rates = {"omega_rad_s": omega * scale, "alpha_rad_s2": omega * omega * scale}
-    of_rack = {of: name for name, (of, _) in output.loads.items()}
+    of_rack = {of: name for name, of, _ in output.loads}
     return {of_rack.get(name, name): rate for name, rate in rates.items()}
 
 

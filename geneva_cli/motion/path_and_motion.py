@@ -26,7 +26,7 @@ class MiddlePath(Batchable):
 class SolvedSlot(Slot):
     """Slot along the pin's path as seen from the turning wheel."""
 
-    curved = True
+    curved, walls_flat = True, False
 
     def __init__(self, path: MiddlePath, motion: WheelMotion) -> None:
         self.path, self.motion = path, motion

@@ -52,7 +52,10 @@ def curves(motion: WheelMotion, quantities: Sequence[str]) -> Smooth:
 
 def breaks(motion: WheelMotion, m: int) -> list[Array]:
     """The breaks of m motions, in degrees: (m, 1) each."""
-    return [np.broadcast_to(np.asarray(x, dtype=float), (m, 1)) for x in motion.breaks_deg]
+    out = []
+    for x in motion.breaks_deg:
+        out.append(np.broadcast_to(np.asarray(x, dtype=float), (m, 1)))
+    return out
 
 
 def spans(motion: WheelMotion, m: int) -> list[tuple[Array, Array]]:
@@ -63,15 +66,16 @@ def spans(motion: WheelMotion, m: int) -> list[tuple[Array, Array]]:
     begins at least one double later.
     """
     places = breaks(motion, m)
-    blur = motion.BREAKS_TO * (places[-1] - places[0])
-    inner = [(x, np.where(x == 0.0, 0.0, blur)) for x in places[1:-1]]
-    # beyond 0 the next double would become 0 again where it is scaled
-    with np.errstate(under="ignore"):  # of 0, which is replaced
-        beyond = [np.where(x == 0.0, 1e-300, np.nextafter(x, np.inf)) for x, _ in inner]
-    begins = [np.maximum(after, x + clear) for after, (x, clear) in zip(beyond, inner, strict=True)]
-    ends = [x - clear for x, clear in inner]
-    pairs = zip([places[0], *begins], [*ends, places[-1]], strict=True)
-    return [(np.minimum(a, places[-1]), np.maximum(a, b)) for a, b in pairs]
+    begin, last = places[0], places[-1]
+    blur, out = motion.BREAKS_TO * (last - begin), []
+    for x in places[1:-1]:
+        clear = np.where(x == 0.0, 0.0, blur)
+        out.append((np.minimum(begin, last), np.maximum(begin, x - clear)))
+        # beyond 0 the next double would become 0 again where it is scaled
+        with np.errstate(under="ignore"):  # of 0, which is replaced
+            beyond = np.where(x == 0.0, 1e-300, np.nextafter(x, np.inf))
+        begin = np.maximum(beyond, x + clear)
+    return [*out, (np.minimum(begin, last), np.maximum(begin, last))]
 
 
 def pole_deg(even: Jet) -> Array:

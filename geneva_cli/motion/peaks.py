@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import NamedTuple, cast
 
 from geneva_cli.motion.engagement import Engagement, Peak, WheelMotion
 from geneva_cli.motion.mechanism import Mechanism
@@ -40,14 +40,14 @@ def peaks_of(motion: WheelMotion, names: Sequence[str]) -> list[Peak[float]]:
 
     Each has the signed input angle of its first occurrence, degrees from mid-motion.
     """
-    found = {name: motion.closed_peak(name) for name in names}
+    found = dict(zip(names, map(motion.closed_peak, names), strict=True))
     if None in found.values():
         from geneva_cli.motion.peak_search import motion_peaks
 
         open_ = [name for name, known in found.items() if known is None]
         for name, (size, at_deg) in motion_peaks(motion, open_).items():
             found[name] = Peak(size.item(), at_deg.item())
-    return [one for one in found.values() if one is not None]
+    return cast("list[Peak[float]]", [*found.values()])
 
 
 def peak(motion: WheelMotion, quantity: str) -> Peak[float]:
@@ -55,24 +55,20 @@ def peak(motion: WheelMotion, quantity: str) -> Peak[float]:
     return peaks_of(motion, [quantity])[0]
 
 
-def peaks(engagement: Engagement) -> Peaks:
-    """All peaks of one engagement."""
+def peaks(engagement: Engagement, mechanism: Mechanism | None = None) -> Peaks:
+    """All peaks of one engagement; at the machine's input angles, if a mechanism is given."""
     motion = engagement.motion
+    out = peaks_of(motion, QUANTITIES)
+    if mechanism is not None:
+        for i, (size, at_deg) in enumerate(out):
+            out[i] = Peak(size, mechanism.shown_deg(engagement.mid_deg + at_deg))
     first, last = motion.end_rates(motion.entry_deg), motion.end_rates(motion.exit_deg)
-    ends = EndSizes(first[0], last[0], first[1], last[1])
-    return Peaks._make((*peaks_of(motion, QUANTITIES), ends))
-
-
-def placed_peaks(mechanism: Mechanism, engagement: Engagement) -> Peaks:
-    """Peaks of an engagement at the machine's input angles."""
-    own, mid = peaks(engagement), engagement.mid_deg
-    placed = [Peak(one.max, mechanism.shown_deg(mid + one.at_deg)) for one in own[:-1]]
-    return Peaks._make((*placed, own.ends))
+    return Peaks._make((*out, EndSizes(first[0], last[0], first[1], last[1])))
 
 
 def worst(mechanism: Mechanism) -> Peaks:
     """Greatest peaks over all engagements; angles are the machine's input angles."""
-    return _greatest([placed_peaks(mechanism, one) for one in mechanism.engagements])
+    return _greatest([peaks(one, mechanism) for one in mechanism.engagements])
 
 
 def _greatest(each: Sequence[Peaks]) -> Peaks:
@@ -92,9 +88,11 @@ def worst_of(mechanism: Mechanism, quantity: str) -> Peak[float]:
 
 def peaks_table(mechanism: Mechanism) -> Table:
     """The greatest peaks, and a table of each engagement's peaks if there are several."""
-    kinds = mechanism.engagements
-    each = [placed_peaks(mechanism, one) for one in kinds]
-    rows = [_record(own, kinds[i : i + 1], mechanism.dwell_deg(i)) for i, own in enumerate(each)]
+    kinds, each, rows = mechanism.engagements, [], []
+    for i, one in enumerate(kinds):
+        own = peaks(one, mechanism)
+        each.append(own)
+        rows.append(_record(own, (one,), mechanism.dwell_deg(i)))
     values: dict[str, object] = {"spec": mechanism.spec.path, "title": mechanism.spec.title}
     stations = None
     if len(rows) > 1:
@@ -108,10 +106,19 @@ def peaks_table(mechanism: Mechanism) -> Table:
 def _record(
     peaks: Peaks, engagements: Sequence[Engagement], dwell_deg: float
 ) -> dict[str, float | None]:
+    """One row of the table: the peaks, and the values at entry and exit where they are shown.
+
+    The wheel's velocity jumps at both ends of a crank as built. Its greatest jumps are shown, or
+    None where a roller's centre never crosses the axis of the slot at rest inside the rim.
+    """
     out: dict[str, float | None] = {}
-    ends = peaks.ends
+    ends, gained = peaks.ends, None
+    jumps: Sequence[float | None] = (0.0, 0.0)
+    if engagements[0].built is not None:
+        jumps = greatest_jumps(engagements)
+        gained = math.degrees(scalar(engagements[0].built.gained))  # all leave the rim alike
     at_ends: dict[str, Sequence[float | None]] = {
-        "velocity": greatest_jumps(engagements),
+        "velocity": jumps,
         "acceleration": (ends.acceleration_entry, ends.acceleration_exit),
         "jerk": (ends.jerk_entry, ends.jerk_exit),
     }
@@ -119,9 +126,8 @@ def _record(
         out[f"{name}.max"], out[f"{name}.at_deg"] = one.max, one.at_deg
         if name in at_ends:
             out[f"{name}.entry"], out[f"{name}.exit"] = at_ends[name]
-    gained = scalar(engagements[0].gained)  # all rollers leave the rim alike
     out |= {"motion_deg": engagements[0].motion_deg, "dwell_deg": dwell_deg}
-    return out | {"index_gained_deg": None if math.isnan(gained) else math.degrees(gained)}
+    return out | {"index_gained_deg": None if gained is None or math.isnan(gained) else gained}
 
 
 def greatest_jumps(engagements: Sequence[Engagement]) -> list[float | None]:

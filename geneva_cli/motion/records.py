@@ -51,7 +51,7 @@ _CORE = (
         families={"wheel": "study.synth.families.straight_slots:offset_slots"},
     ),
     _FLAT._replace(
-        name="internal", synonyms=("inner", "inside"), wheel="motion.wheels.external:Internal"
+        name="internal", synonyms=("inner", "inside"), wheel="motion.wheels.internal:Internal"
     ),
     Kind(
         "spherical",
@@ -76,17 +76,21 @@ _CORE = (
         refuses="drives.refuses:of_cam",
     ),
 )
-KINDS: tuple[Kind, ...] = (
-    *_CORE,
-    *(kind for folder in FOLDERS for kind in load_named(f"kinds.{folder}:KINDS")),
-)
+_kinds = [*_CORE]
+for _folder in FOLDERS:
+    _kinds += load_named(f"kinds.{_folder}:KINDS")
+KINDS: tuple[Kind, ...] = tuple(_kinds)
 # function that puts a drive in front of another, which few machines need
 IN_FRONT = "drives.retimed:retimed"
 
 
 def of_wheel(name: str) -> list[Kind]:
     """The records of a kind of wheel: its own, then those that add to it."""
-    return [kind for kind in KINDS if name in (kind.adds_to, kind.name if kind.wheel else "")]
+    out = []
+    for kind in KINDS:
+        if name == kind.adds_to or (kind.wheel and name == kind.name):
+            out.append(kind)
+    return out
 
 
 def thing(wheel: str, field: str) -> Any:
@@ -98,8 +102,10 @@ def thing(wheel: str, field: str) -> Any:
 @cache  # it is asked for each design of a sweep
 def named(wheel: str, field: str) -> str:
     """Name of that function or class, as ``module:name``; empty without one."""
-    paths = [path for kind in of_wheel(wheel) if (path := kind._asdict()[field])]
-    return paths[-1] if paths else ""
+    path = ""
+    for kind in of_wheel(wheel):
+        path = getattr(kind, field) or path
+    return path
 
 
 def parts_class(wheel: str) -> Any:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError, cut, few, nearest
 from geneva_cli.extras import FOLDERS as EXTRAS
@@ -14,8 +14,13 @@ from geneva_cli.spec.load_named import load_named
 if TYPE_CHECKING:
     from geneva_cli.motion.laws.law import Law
 
-GEARINGS = {kind.name: kind.wheel for kind in KINDS if kind.wheel}
-DRIVES = {kind.name: kind.drive for kind in KINDS if kind.drive}
+GEARINGS: dict[str, str] = {}
+DRIVES: dict[str, str] = {}
+for _kind in KINDS:
+    if _kind.wheel:
+        GEARINGS[_kind.name] = _kind.wheel
+    if _kind.drive:
+        DRIVES[_kind.name] = _kind.drive
 # laws that need no key or file of the user
 _STANDARD = {
     "harmonic": "motion.laws.standard:Harmonic",
@@ -39,13 +44,17 @@ LAWS |= {
 
 def gearing(name: str) -> type[Gearing]:
     """Class of a wheel. Raises GenevaError, naming the key, for an unknown name."""
-    kind: type[Gearing] = _load_kind(GEARINGS, name, ("wheel", "gearing"))
+    if not isinstance(name, str) or name not in GEARINGS:
+        raise _unknown(GEARINGS, name, ("wheel", "gearing"))
+    kind: type[Gearing] = load_named(GEARINGS[name])
     return kind
 
 
 def drive(name: str) -> type[Drive]:
     """Class of a drive. Raises GenevaError, naming the key, for an unknown name."""
-    kind: type[Drive] = _load_kind(DRIVES, name, ("drive", "kind"))
+    if not isinstance(name, str) or name not in DRIVES:
+        raise _unknown(DRIVES, name, ("drive", "kind"))
+    kind: type[Drive] = load_named(DRIVES[name])
     return kind
 
 
@@ -56,15 +65,17 @@ def drives_with(thing: str) -> list[str]:
 
 def law(name: str) -> type[Law]:
     """Class of a motion law. Raises GenevaError, naming the key, for an unknown name."""
-    kind: type[Law] = _load_kind(LAWS, name, ("motion", "law"))
+    if not isinstance(name, str) or name not in LAWS:
+        raise _unknown(LAWS, name, ("motion", "law"))
+    kind: type[Law] = load_named(LAWS[name])
     return kind
 
 
-def _load_kind(kinds: dict[str, str], name: str, key: tuple[str, str]) -> Any:
-    if not isinstance(name, str) or name not in kinds:
-        quoted = f'"{cut(name)}"' if isinstance(name, str) else cut(name)
-        known = few(name, [f'"{kind}"' for kind in kinds])
+def _unknown(kinds: dict[str, str], name: object, key: tuple[str, str]) -> GenevaError:
+    """The error for a name that is none of the kinds."""
+    known = few(name, [f'"{kind}"' for kind in kinds])
+    quoted, hint = cut(str(name)), ""
+    if isinstance(name, str):
         synonyms = {word: kind.name for kind in KINDS for word in kind.synonyms}
-        hint = nearest(synonyms.get(name, name), kinds) if isinstance(name, str) else ""
-        raise GenevaError(f"{key[1]} must be one of {known}, not {quoted}{hint}", key)
-    return load_named(kinds[name])
+        quoted, hint = f'"{cut(name)}"', nearest(synonyms.get(name, name), kinds)
+    return GenevaError(f"{key[1]} must be one of {known}, not {quoted}{hint}", key)

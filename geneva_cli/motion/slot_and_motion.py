@@ -123,7 +123,7 @@ class SolvedPathSlot(Slot):
 
     def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
         rho, _ = self.path.distances(input_deg, order + 1)
-        return SlotAxis(rho.lower, rho.derivative())
+        return rho.lower, rho.derivative()
 
 
 def _polynomial(c: Sequence[Number], x: Number) -> Number:

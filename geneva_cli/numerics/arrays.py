@@ -180,18 +180,19 @@ def picked(index: Whole, records: Sequence[Record]) -> Record:
     """
     import numpy
 
-    def member(*members: object) -> object:
-        first = members[0]
-        if all(one is first for one in members):
-            return first
-        if all(isinstance(one, _PLAIN) for one in members):
-            same = all(one == first for one in members)
-            return first if same else numpy.array(members)[index]
-        columns = numpy.broadcast_arrays(*cast("Sequence[Array]", members))
-        designs = numpy.arange(columns[0].size)[:, None] if columns[0].size > 1 else 0
-        return numpy.concatenate(columns, axis=1)[designs, index]
-
-    return mapped(member, *records)
+    out: list[object] = []
+    for members in zip(*records, strict=True):
+        first, kinds = members[0], {*map(type, members)}
+        if isinstance(first, tuple):
+            out.append(picked(index, members))
+        elif numpy.ndarray in kinds:
+            columns = numpy.broadcast_arrays(*members)
+            designs = numpy.arange(columns[0].size)[:, None] if columns[0].size > 1 else 0
+            out.append(numpy.concatenate(columns, axis=1)[designs, index])
+        else:
+            same = members.count(first) == len(members)
+            out.append(first if same else numpy.array(members)[index])
+    return record_of(records[0], out)
 
 
 def joined(records: Sequence[Record], axis: int = -1) -> Record:

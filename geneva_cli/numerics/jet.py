@@ -5,8 +5,9 @@ The recurrences are those of Griewank and Walther, Evaluating Derivatives, 2nd e
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from math import factorial
+from operator import add, sub
 from typing import TypeVar, cast
 
 from geneva_cli.numerics.arrays import SINGLE, Enclosed, enclosed, library, piece_of, size
@@ -20,14 +21,14 @@ class Jet:
     __slots__ = ("c",)
     __array_ufunc__ = None  # with an array as the other operand, the jet's arithmetic applies
 
-    def __init__(self, coefficients: Sequence[Number]) -> None:
+    def __init__(self, coefficients: Iterable[Number]) -> None:
         self.c = tuple(coefficients)
 
     @staticmethod
     def variable(x: Number, order: int) -> Jet:
         """The independent variable itself at x."""
         one = enclosed(x, (1.0,))
-        return Jet((x, *one, *[0.0] * (order - 1))[: order + 1])
+        return Jet((x, *one, *(0.0,) * (order - 1))[: order + 1])
 
     @property
     def order(self) -> int:
@@ -36,7 +37,10 @@ class Jet:
 
     def derivatives(self) -> tuple[Number, ...]:
         """Value, first derivative, second, ... up to the order."""
-        return tuple(c if k < 2 else c * factorial(k) for k, c in enumerate(self.c))
+        out = list(self.c)
+        for k in range(2, len(out)):
+            out[k] = out[k] * factorial(k)
+        return tuple(out)
 
     def scalars(self) -> tuple[float, ...]:
         """The derivatives of a jet at one number."""
@@ -53,47 +57,57 @@ class Jet:
 
     def derivative(self) -> Jet:
         """The jet of the derivative, one order lower."""
-        return Jet([k * c if k > 1 else c for k, c in enumerate(self.c) if k])
+        out = list(self.c[1:])
+        for k in range(1, len(out)):
+            out[k] = (k + 1) * out[k]
+        return Jet(out)
 
+    # of two jets of different orders the sum has the lower one
     def __add__(self, other: Jet | Number) -> Jet:
         if isinstance(other, Jet):
-            return Jet([a + b for a, b in zip(self.c, other.c, strict=True)])
+            return Jet(map(add, self.c, other.c))
         return Jet((self.c[0] + other, *self.c[1:]))
 
     __radd__ = __add__
 
     def __neg__(self) -> Jet:
-        return Jet([-a for a in self.c])
+        return self * -1
 
     def __sub__(self, other: Jet | Number) -> Jet:
         if isinstance(other, Jet):
-            return Jet([a - b for a, b in zip(self.c, other.c, strict=True)])
+            return Jet(map(sub, self.c, other.c))
         return Jet((self.c[0] - other, *self.c[1:]))
 
     def __rsub__(self, other: Number) -> Jet:
-        return Jet((other - self.c[0], *[-a for a in self.c[1:]]))
+        return self * -1 + other
 
     def __mul__(self, other: Jet | Number) -> Jet:
-        if not isinstance(other, Jet):
-            return Jet(_scaled(self.c, other))
-        a, b = self.c, other.c
-        if _is_constant(b):
-            return Jet(_scaled(a, b[0]))
-        if _is_constant(a):
-            return Jet(_scaled(b, a[0]))
-        return Jet([_convolve(a, b, k, 0) for k in range(len(a))])
+        a, b = self.c, other.c if isinstance(other, Jet) else (other,)
+        if len(b) > 1 and not _is_constant(b):
+            if not _is_constant(a):
+                out = []
+                for k in range(len(a)):
+                    out.append(_convolve(a, b, k, 0))
+                return Jet(out)
+            a, b = b, a
+        factor = b[0]  # coefficients that are the number 0, not an array, stay so
+        out, vanishes = [a[0] * factor], isinstance(factor, float) and not factor
+        for one in a[1:]:
+            zero = vanishes or (isinstance(one, float) and not one)
+            out.append(0.0 if zero else one * factor)
+        return Jet(out)
 
     __rmul__ = __mul__
 
     def __truediv__(self, other: Jet | Number) -> Jet:
-        if not isinstance(other, Jet):
-            return Jet([a / other for a in self.c])
-        b = other.c
-        if _is_constant(b):
-            return Jet([a / b[0] for a in self.c])
-        q: list[Number] = []
-        for k, a in enumerate(self.c):
-            q.append((a - _convolve(q, b, k, 0, k) if k else a) / b[0])
+        b = other.c if isinstance(other, Jet) else (other,)
+        divisor, q = b[0], [self.c[0] / b[0]]
+        if len(b) == 1 or _is_constant(b):
+            for a in self.c[1:]:
+                q.append(a / divisor)
+        else:
+            for k in range(1, len(self.c)):
+                q.append((self.c[k] - _convolve(q, b, k, 0, k)) / divisor)
         return Jet(q)
 
     def __rtruediv__(self, other: Number) -> Jet:
@@ -105,25 +119,13 @@ class Jet:
 V = TypeVar("V", Jet, "Array")
 
 
-def _is_constant(c: Sequence[Number]) -> bool:
-    """Return True if all coefficients but the value are the number 0, not an array."""
-    # most often the first of them says no, before any is copied
-    return len(c) > 1 and isinstance(c[1], float) and _are_zero(c[1:])
-
-
-def _are_zero(c: Sequence[Number]) -> bool:
-    """Return True if all are the number 0, not an array."""
-    for a in c:  # noqa: SIM110 - runs at every product, and a generator takes twice as long
-        if not isinstance(a, float) or a:
+def _is_constant(c: Sequence[Number], first: int = 1) -> bool:
+    """Return True if there are coefficients from ``first`` on, each the number 0, not an array."""
+    for k in range(first, len(c)):
+        one = c[k]
+        if not isinstance(one, float) or one:
             return False
-    return True
-
-
-def _scaled(c: Sequence[Number], factor: Number) -> list[Number]:
-    """Coefficients times a factor; those that are the number 0 stay so."""
-    if isinstance(factor, float) and not factor:
-        return [c[0] * factor, *[0.0] * (len(c) - 1)]
-    return [c[0] * factor, *[0.0 if isinstance(a, float) and not a else a * factor for a in c[1:]]]
+    return len(c) > first
 
 
 def _convolve(
@@ -139,7 +141,7 @@ def _convolve(
 def sin_cos(x: Jet) -> tuple[Jet, Jet]:
     """Sine and cosine of a jet, whose recurrences need each other."""
     m = library(x.c[0])
-    return _circle([k * a for k, a in enumerate(x.c)], m.sin(x.c[0]), m.cos(x.c[0]))
+    return _circle((0.0, *x.derivative().c), m.sin(x.c[0]), m.cos(x.c[0]))
 
 
 def sin(x: Jet) -> Jet:
@@ -150,14 +152,15 @@ def sin(x: Jet) -> Jet:
 def _circle(slope: Sequence[Number], sine: Number, cosine: Number) -> tuple[Jet, Jet]:
     """Sine and cosine of an angle with derivative series ``slope[1:]``, from their values."""
     s, c = [sine], [cosine]
-    if _are_zero(slope[2:]):  # uniform rotation, such as the input's
-        for k in range(1, len(slope)):
-            step = slope[1] / k
-            s, c = [*s, c[-1] * step], [*c, s[-1] * -step]
-        return Jet(s), Jet(c)
+    uniform = len(slope) == 2 or _is_constant(slope, 2)  # such as the input's rotation
     for k in range(1, len(slope)):
-        s.append(_convolve(slope, c, k, 1) / k)
-        c.append(-_convolve(slope, s, k, 1) / k)
+        if uniform:
+            step = slope[1] / k
+            along, across = c[-1] * step, s[-1] * -step
+        else:
+            along, across = _convolve(slope, c, k, 1) / k, -_convolve(slope, s, k, 1) / k
+        s.append(along)
+        c.append(across)
     return Jet(s), Jet(c)
 
 
@@ -173,10 +176,10 @@ def sine_versine(x: Jet) -> tuple[Jet, Jet]:
     """sin x and 1 - cos x, the latter without cancellation."""
     half = library(x.c[0]).sin(0.5 * x.c[0])
     versine = 2.0 * half * half
-    if not x.order:
-        return sin(x), Jet((versine,))
+    if len(x.c) == 1:  # a value alone needs no cosine
+        return Jet((library(x.c[0]).sin(x.c[0]),)), Jet((versine,))
     s, c = sin_cos(x)
-    return s, Jet((versine, *[-a for a in c.c[1:]]))
+    return s, Jet((versine, *(c * -1).c[1:]))
 
 
 def sine_versine_of(rate: Jet, y: Number, x: Number, order: int) -> tuple[Jet, Jet]:
@@ -188,13 +191,13 @@ def sine_versine_of(rate: Jet, y: Number, x: Number, order: int) -> tuple[Jet, J
     if not isinstance(cosine, Enclosed):  # without cancellation where the cosine is positive
         ahead = 0.5 * (1.0 + library(cosine).copysign(1.0, cosine))
         versine = ahead * sine * sine / (1.0 + size(cosine)) + (1.0 - ahead) * versine
-    s, c = _circle([0.0, *rate.c][: order + 1], sine, cosine)
-    return s, Jet((versine, *[-a for a in c.c[1:]]))
+    s, c = _circle((0.0, *rate.c)[: order + 1], sine, cosine)
+    return s, Jet((versine, *(c * -1).c[1:]))
 
 
 def turned_at(rate: Jet, x: Number, y: Number, order: int) -> tuple[Jet, Jet]:
     """A vector of constant length with the value (x, y), from the rate at which it turns."""
-    sine, cosine = _circle([0.0, *rate.c][: order + 1], y, x)
+    sine, cosine = _circle((0.0, *rate.c)[: order + 1], y, x)
     return cosine, sine
 
 
@@ -224,20 +227,19 @@ def integral(slope: Jet, value: Number) -> Jet:
 def atan2(y: Jet, x: Jet) -> Jet:
     """Angle of the vector (x, y), from its rate (x y' - y x') / (x² + y²)."""
     value = library(y.c[0], x.c[0]).atan2(y.c[0], x.c[0])
-    if y.order == 0:
+    if len(y.c) == 1:
         return Jet((value,))
     return integral(turning(x, y), value)
 
 
-def turning(x: Jet, y: Jet) -> Jet:
-    """The rate at which the vector (x, y) turns, one order lower."""
-    low_x, low_y = x.lower, y.lower
-    return moment(x, y) / (low_x * low_x + low_y * low_y)
+def turning(x: Jet, y: Jet, less: Jet | None = None, square: Jet | None = None) -> Jet:
+    """The rate at which the vector (x, y) turns, (x y' - y x') / (x² + y²), one order lower.
 
-
-def moment(x: Jet, y: Jet) -> Jet:
-    """x y' - y x', one order lower."""
+    Or that less the derivative of a jet ``less`` in the numerator, and over another ``square``.
+    """
     a, b, out = x.c, y.c, []
+    if len(a) == 1:
+        return Jet(())
     for k in range(1, len(a)):  # the sum of (k - 2 i) (a[i] b[k - i] - b[i] a[k - i]), i below k/2
         total = a[0] * b[k] - b[0] * a[k]
         if k > 1:
@@ -246,7 +248,9 @@ def moment(x: Jet, y: Jet) -> Jet:
             more = a[i] * b[k - i] - b[i] * a[k - i]
             total = total + (more * (k - 2 * i) if k - 2 * i > 1 else more)
         out.append(total)
-    return Jet(out)
+    moment = Jet(out) if less is None else Jet(out) - less.derivative()
+    low_x, low_y = x.lower, y.lower
+    return moment / (low_x * low_x + low_y * low_y if square is None else square.lower)
 
 
 def piecewise(x: Number, cuts: Sequence[Number], pieces: Sequence[Callable[[Number], Jet]]) -> Jet:

@@ -217,7 +217,8 @@ def links_at(mechanism: Mechanism, input_deg: Array, before: bool = True) -> tup
     They are those of the drive and, for a cam-Geneva, the crank along which its rollers slide; with
     ``before`` also those of the drive before it.
     """
-    spec, sign, own_deg = mechanism.spec, mechanism.spec.wheel.SIGN, mechanism.own_deg(input_deg)
+    spec, sign = mechanism.spec, mechanism.spec.wheel.SIGN
+    own_deg = mechanism.engagements[0].own_deg(input_deg)
     own, L = spec.drive.links(mechanism.plan, sign, own_deg), mechanism.center_distance_mm
     groove = mechanism.engagements[0].groove
     if groove is not None:

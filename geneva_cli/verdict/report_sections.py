@@ -9,7 +9,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.load_tables import reversals_deg
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.peaks import greatest_jumps, placed_peaks
+from geneva_cli.motion.peaks import greatest_jumps, peaks
 from geneva_cli.motion.timing import timings
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import scalar
@@ -62,14 +62,14 @@ def stations(parts: Parts) -> Values:
         values: Numbers = timing._asdict()
         values["k_r"] = motion / (360.0 - motion) if motion < 360.0 else None
         row = {f"timing.{name}": value for name, value in values.items()}
-        peaks = placed_peaks(mechanism, engagement)
+        own = peaks(engagement, mechanism)
         ends = {
             "velocity": greatest_jumps([engagement]),
-            "acceleration": peaks.ends[:2],
-            "jerk": peaks.ends[2:],
+            "acceleration": own.ends[:2],
+            "jerk": own.ends[2:],
         }
         for name in ("velocity", "acceleration", "jerk", "power"):
-            row |= peak_values(name, output, w, getattr(peaks, name), ends.get(name, ()))
+            row |= peak_values(name, output, w, getattr(own, name), ends.get(name, ()))
         each.append(row)
     return {"stations": rows_table(tuple(each[0]), [tuple(e.values()) for e in each])}
 

@@ -23,7 +23,8 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.many import many
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.motion import Motion
-from geneva_cli.motion.wheels.external import External, Internal
+from geneva_cli.motion.wheels.external import External
+from geneva_cli.motion.wheels.internal import Internal
 from geneva_cli.motion.wheels.spherical import Spherical
 from geneva_cli.spec.tables import Size
 

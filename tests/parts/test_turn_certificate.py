@@ -24,7 +24,8 @@ from geneva_cli.motion.laws.standard import Cycloidal, ModifiedSine
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.motion import Motion
-from geneva_cli.motion.wheels.external import External, Internal
+from geneva_cli.motion.wheels.external import External
+from geneva_cli.motion.wheels.internal import Internal
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.turn import turn_certificate as halving
 from geneva_cli.parts.turn.full_turn import full_turn

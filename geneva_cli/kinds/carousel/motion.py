@@ -45,10 +45,9 @@ class Carousel(Direct, kw_only=True):
     FIRST: ClassVar[str] = "its carrier turns at a constant speed"
     wheels: Annotated[int, Range(1, 24), "number of wheels on the carrier, evenly spaced"] = 1
 
-    @property
-    def wheels_on_carrier(self) -> int:
-        """The number of wheels."""
-        return self.wheels
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        vars(self)["wheels_on_carrier"] = self.wheels
 
     def may_vary(self, table: str, key: str) -> bool:
         """False for the number of wheels, which decides over what period the loads repeat."""
@@ -83,36 +82,36 @@ def refuses(spec: Spec) -> Iterator[Conflict]:
     yield other_wheels(spec)
     yield from of_transmission(spec)
     drive = spec.drive
-    yield Conflict(
+    yield (
         drive.stop_s != 0.0,
         ("drive", "stop_s"),
         'kind = "{spec.drive.NAME}" carries its wheels round at a constant speed: remove stop_s',
     )
-    yield Conflict(
+    yield (
         spec.unbalanced,
         ("mass", "radius_mm"),
         'kind = "{spec.drive.NAME}" needs balanced wheels, as a body off the axis would pull in '
         "another direction in each motion: set count to 2 or more, or radius_mm = 0",
     )
     if drive.wheels_on_carrier > 1:
-        yield Conflict(
+        yield (
             drive.rollers > 1 or spec.wheel.steps or drive.roller_angles_deg,
             ("drive", "wheels"),
             "several wheels meet one finger, each in turn: remove rollers, roller_angles_deg and "
             "steps_deg, or set wheels = 1",
         )
-        yield Conflict(
+        yield (
             spec.wheel.SIGN < 0.0,
             ("drive", "wheels"),
             "an internal wheel surrounds the finger, so that one alone fits: set wheels = 1",
         )
-    yield Conflict(
+    yield (
         spec.product.runs_straight,
         ("product", "pitch_mm"),
         'a chain or belt needs a wheel on the ground, not kind = "{spec.drive.NAME}": set '
         "radius_mm instead",
     )
-    yield Conflict(
+    yield (
         spec.support.gear_ratio != 1.0,
         ("support", "gear_ratio"),
         'gear_ratio is for a table on the ground, not for kind = "{spec.drive.NAME}": set it to 1',

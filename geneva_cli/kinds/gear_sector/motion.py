@@ -11,11 +11,12 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, cast
 
+from geneva_cli.drives.pin_path import PinPath
 from geneva_cli.motion import registry
-from geneva_cli.motion.drive import PinPath, Plan
-from geneva_cli.motion.engagement import Engagement, Path, Slot, SlotAxis, Vector, WheelMotion
+from geneva_cli.motion.drive import Plan
+from geneva_cli.motion.engagement import Engagement, Slot, SlotAxis, Vector, WheelMotion
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Teeth
-from geneva_cli.motion.wheels import poses
+from geneva_cli.motion.wheels import classic
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Array, larger, library, size
 from geneva_cli.numerics.jet import Jet, Number, piecewise
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
     from geneva_cli.drives.transmission import Transmission
     from geneva_cli.motion.motion import Motion
     from geneva_cli.motion.wheels.gearing import Gearing
+    from geneva_cli.numerics.jet_functions import Path
 
 
 class GearSector(PinPath, kw_only=True):
@@ -53,9 +55,10 @@ class GearSector(PinPath, kw_only=True):
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
         """The engagement of each roller; the slot's half angle follows from the step."""
         b, u = self._solved(math.pi / wheel.z)
-        place = wheel.place(poses.HalfStep.of_deg(library(b).degrees(b)), L)
+        place = wheel.place(classic.HalfStep.of_deg(library(b).degrees(b)), L)
         crank = cast("Transmission", registry.drive("crank")())
-        engagement = SectorEngagement(crank.follows(wheel, place, L), self.sector_deg, u)
+        (inner,) = crank.straight(wheel, [place], L).engagements
+        engagement = SectorEngagement(inner, self.sector_deg, u)
         return self.planned(engagement, library(b).sin(b), L)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
@@ -154,7 +157,7 @@ class _SectorPath(NamedTuple):
 class _SectorSlot(Slot):
     """The slot, and the gears' pitch circle L/(1+u) while they drive, without sliding."""
 
-    relieved = True
+    relieved, walls_flat = True, False
 
     def __init__(self, inner: Slot, motion: _SectorMotion) -> None:
         self.inner, self.motion = inner, motion
@@ -166,8 +169,8 @@ class _SectorSlot(Slot):
         axis = self.inner.axis(self.motion.slot_deg(input_deg), order)
         assert axis is not None  # it is straight
         slot = self.touches(input_deg)
-        lever = axis.lever * slot + (1.0 - slot) / (1.0 + self.motion.u)
-        return SlotAxis(lever, axis.along * slot)
+        lever = axis[0] * slot + (1.0 - slot) / (1.0 + self.motion.u)
+        return lever, axis[1] * slot
 
     def touches(self, input_deg: Number) -> Number:
         slot = size(input_deg) >= self.motion.half_sector
@@ -179,17 +182,12 @@ class SectorEngagement(Engagement):
 
     def __init__(self, inner: Engagement, sector_deg: float, u: float) -> None:
         motion = _SectorMotion(inner.motion, sector_deg, u)
-        super().__init__(
-            0.0, _SectorPath(inner.path, motion), _SectorSlot(inner.slot, motion), motion
-        )
+        path, slot = _SectorPath(inner.path, motion), _SectorSlot(inner.slot, motion)
+        half = motion.half_sector
+        pair = (inner, half), (inner, -half)  # of the starting roller and the stopping one: D apart
+        super().__init__(0.0, path, slot, motion, pair=pair)
         self._inner, self._sector = inner, motion
 
     def carrier(self, input_deg: Number, order: int = 0) -> Jet:
         """Rate of the plain wheel's crank, on which the roller sits."""
         return self._inner.carrier(self._sector.slot_deg(input_deg), order)
-
-    @property
-    def passages(self) -> tuple[tuple[Engagement, float], ...]:
-        """The plain wheel's, of the starting roller and of the stopping one: D apart."""
-        half = self._sector.half_sector
-        return (self._inner, half), (self._inner, -half)

@@ -11,17 +11,18 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, ClassVar
 
-from geneva_cli.motion.engagement import Displacement, Slot, SlotAxis
+from geneva_cli.motion.engagement import Slot, SlotAxis
 from geneva_cli.motion.path_and_slot import AnchoredPath, StraightSlotMotion
 from geneva_cli.motion.pivots import Pivot
+from geneva_cli.motion.wheels.classic import HalfStep, PinPose, middle
 from geneva_cli.motion.wheels.gearing import Gearing, Output, RollerPlace
-from geneva_cli.motion.wheels.poses import HalfStep, PinPose, middle
 from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.spec.schema import Example
 
 if TYPE_CHECKING:
     from geneva_cli.motion.machine_spec import Spec
     from geneva_cli.motion.plane_motion import PlaneMotion
+    from geneva_cli.numerics.jet_functions import Displacement
 
 
 class Linear(Gearing):
@@ -47,11 +48,11 @@ class Linear(Gearing):
     def output(self, center_distance_mm: float) -> Output:
         """The travel, in millimetres."""
         radius_m = center_distance_mm / 1000.0
-        loads = {
-            "rack_speed_m_s": ("omega_rad_s", radius_m),
-            "rack_acceleration_m_s2": ("alpha_rad_s2", radius_m),
-            "rack_force_N": ("wheel_torque_Nm", 1.0 / radius_m),
-        }
+        loads = (
+            ("rack_speed_m_s", "omega_rad_s", radius_m),
+            ("rack_acceleration_m_s2", "alpha_rad_s2", radius_m),
+            ("rack_force_N", "wheel_torque_Nm", 1.0 / radius_m),
+        )
         lacks = (
             *("omega_rad_s", "alpha_rad_s2", "wheel_torque_Nm", "wheel_bearing_N"),
             *("inertia_kgm2", "acceleration_rad_s2", "inertia_torque_Nm", "friction_torque_Nm"),
@@ -69,6 +70,7 @@ class Linear(Gearing):
             loads=loads,
             lacks=lacks,
             invariants="derivative of its travel over R",
+            turns=False,
         )
 
     @property
@@ -128,7 +130,7 @@ class ParallelSlot(Slot):
     def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
         """Lever of the slot's normal about the pinion's axis, and the pin's speed along it."""
         along = self.path.nearest(input_deg, order + 1)[0].derivative()
-        return SlotAxis(along * 0.0 + 1.0, along)
+        return along * 0.0 + 1.0, along
 
     def play(self, clearance: Number) -> Number:
         """Free travel, for a clearance on either side of the roller."""

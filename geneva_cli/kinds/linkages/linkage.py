@@ -7,9 +7,10 @@ from collections.abc import Mapping
 from functools import reduce
 from typing import TYPE_CHECKING, Annotated, ClassVar, Self, TypeAlias, TypeVar, cast
 
+from geneva_cli.drives.pin_path import PinPath
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.kinds.linkages.link_path import LinkPath, LinkReactions
-from geneva_cli.motion.drive import PinPath, Plan
+from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot
 from geneva_cli.numerics.angles import DEGREE, radians
 from geneva_cli.numerics.arrays import Array, array, larger, library, parameter, smaller

@@ -26,7 +26,7 @@ from geneva_cli.kinds.linkages.tangent_pairs import (
 )
 from geneva_cli.motion.engagement import Anchor, Engagement, Vector
 from geneva_cli.motion.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
-from geneva_cli.motion.wheels.poses import HalfStep
+from geneva_cli.motion.wheels.classic import HalfStep
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Array, Complex, Mask, Whole, library, parameter
 from geneva_cli.numerics.jet import Jet, Number, sine_versine

@@ -5,19 +5,21 @@ from a crank that is itself starting or running. So its jump is the first wheel'
 times tan b. There is none if both motions begin together, as with four slots on four.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Iterator
-from typing import Annotated, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
 from geneva_cli.drives.pushed import PushedCrank
 from geneva_cli.drives.refuses import of_transmission, several_rollers
 from geneva_cli.drives.transmission import LocalTransmission, Transmission
 from geneva_cli.motion.compatible import Conflict
 from geneva_cli.motion.drive import FirstWheel, Plan
-from geneva_cli.motion.engagement import Path, Vector
+from geneva_cli.motion.engagement import Vector
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot, ShaftPlace
-from geneva_cli.motion.wheels import poses
+from geneva_cli.motion.wheels import classic
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import of_each, radians, sin_cos_pi
 from geneva_cli.numerics.arrays import choose, choose_record, library
@@ -32,6 +34,9 @@ from geneva_cli.numerics.jet import (
 )
 from geneva_cli.spec.rules import POSITIVE, Z_MAX, Range
 from geneva_cli.spec.schema import Example
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet_functions import Path
 
 
 class GenevaPair(Transmission, kw_only=True):
@@ -54,15 +59,9 @@ class GenevaPair(Transmission, kw_only=True):
         float | None, POSITIVE, "first centre distance, for its forces (parts use L by default)"
     ] = None
 
-    @property
-    def turns(self) -> int:
-        """Number of input turns in one turn of the second crank."""
-        return self.first_z
-
-    @property
-    def reach_deg(self) -> float:
-        """Greatest angle of the second crank from mid-step while it moves its wheel, degrees."""
-        return 180.0 / self.first_z
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        vars(self)["turns"] = self.first_z
 
     @property
     def missing_length(self) -> str:
@@ -83,13 +82,13 @@ class GenevaPair(Transmission, kw_only=True):
             Dimension("first wheel's slots", self.first_z),
             Dimension("first centre distance", first, "mm"),
             Dimension(
-                "first crank radius", first * poses.HalfStep(1, self.first_z).sin_cos[0], "mm"
+                "first crank radius", first * classic.HalfStep.of(1, self.first_z).sin_cos[0], "mm"
             ),
         )
 
     def links(self, plan: Plan, sign: float, input_deg: Array) -> tuple[Link, ...]:
         """The first crank, and the rim of the first wheel, at input angles."""
-        L, step = plan.center_distance_mm, poses.HalfStep(1, self.first_z)
+        L, step = plan.center_distance_mm, classic.HalfStep.of(1, self.first_z)
         turn, still, first = radians(input_deg), 0.0 * input_deg, self._distance_mm(L)
         m, R, far = library(turn), first * step.sin_cos[0], L + first
         pin = far - R * m.cos(turn), -sign * R * m.sin(turn)
@@ -110,18 +109,18 @@ class GenevaPair(Transmission, kw_only=True):
         """Reactions to the first crank's roller, which pushes across the first wheel's slot."""
         if self.first_distance_mm is None:
             return None
-        l = poses.HalfStep(1, self.first_z).sin_cos[0]
+        l = classic.HalfStep.of(1, self.first_z).sin_cos[0]
         return FirstRoller(l, self.first_distance_mm / L, wheel.SIGN, radians(mid_deg))
 
     def about(self, crank_deg: float) -> LocalTransmission:
         """Transmission about an angle of the second crank (degrees) within the first step."""
-        entry, middle, exit_ = poses.radial(1.0, poses.HalfStep(1, self.first_z))
-        reach = self.reach_deg
+        entry, middle, exit_ = classic.radial(1.0, classic.HalfStep.of(1, self.first_z))
+        reach = 180.0 / self.first_z  # of the second crank from mid-step
         inside = choose(abs(crank_deg) < reach, crank_deg, 0.0)
         running = _running(middle, _crank_at(self.first_z, inside))
         ends = choose_record(crank_deg < 0.0, entry, exit_)
         pose = choose_record(abs(crank_deg) == reach, ends, running)
-        return LocalTransmission(pose.crank_deg, FirstWheelRotation(pose))
+        return pose.crank_deg, FirstWheelRotation(pose)
 
 
 class FirstRoller(PushedCrank):
@@ -144,7 +143,7 @@ class FirstRoller(PushedCrank):
 class FirstWheelRotation(NamedTuple):
     """The first wheel, which carries the second crank, about a pose of its own roller."""
 
-    pose: poses.PinPose
+    pose: classic.PinPose
 
     def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
         """sin d and 1 - cos d of its rotation d since then, ``tau`` input radians later."""
@@ -165,7 +164,7 @@ def _crank_at(first_z: int, wheel_deg: float) -> float:
     if not (isinstance(first_z, int) and isinstance(wheel_deg, float)):
         each: float = of_each(lambda z, deg: (_crank_at(z, deg),), first_z, wheel_deg)[0]
         return each
-    step = poses.HalfStep(1, first_z)
+    step = classic.HalfStep.of(1, first_z)
     n, d = wheel_deg.as_integer_ratio()
     whole = 180 * d * step.q
     here, less = 180 * d * step.p, n * step.q  # b and psi, in fractions of pi
@@ -174,7 +173,7 @@ def _crank_at(first_z: int, wheel_deg: float) -> float:
     return math.atan2(s * step.sin_cos[1] ** 2 / (c + k), k * c + s * s)
 
 
-def _running(middle: poses.PinPose, a: float) -> poses.PinPose:
+def _running(middle: classic.PinPose, a: float) -> classic.PinPose:
     """Pose of the first crank's pin at an angle a (radians) from mid-motion."""
     m = library(a, middle.along)
     l, s, c = middle.bend[0], m.sin(a), m.cos(a)
@@ -183,7 +182,7 @@ def _running(middle: poses.PinPose, a: float) -> poses.PinPose:
     u, v = x / rho, y / rho
     slope = (l * (s * u + c * v), l * (c * u - s * v))
     bend = (l * (c * u - s * v), -l * (s * u + c * v))
-    return poses.PinPose(m.degrees(a), m.atan2(y, x), rho, slope, bend)
+    return classic.PinPose(m.degrees(a), m.atan2(y, x), rho, slope, bend)
 
 
 def refuses(spec: Spec) -> Iterator[Conflict]:

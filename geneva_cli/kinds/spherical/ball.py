@@ -11,10 +11,10 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from geneva_cli.drives.transmission import places
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.rollers import places
 from geneva_cli.parts.machine_sizes import lock_between, require_lock_between
 from geneva_cli.parts.sizes import (
     arm_bore,

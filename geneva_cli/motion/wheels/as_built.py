@@ -18,8 +18,8 @@ from typing import NamedTuple
 
 from geneva_cli.errors import refuse_text
 from geneva_cli.motion.engagement import AsBuilt
+from geneva_cli.motion.wheels.classic import HalfStep, PinPose, Skew, middle
 from geneva_cli.motion.wheels.gearing import RollerPlace
-from geneva_cli.motion.wheels.poses import HalfStep, PinPose, Skew, middle
 from geneva_cli.numerics.arrays import Truth, choose, choose_record, larger, library, smaller
 
 AT_RIM = 1e-6  # of L: a crossing that is not farther outside is at the rim

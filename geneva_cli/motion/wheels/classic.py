@@ -1,12 +1,83 @@
-"""Plain wheels in closed form: b = pi p/q is half the index angle, l = R/L = sin b."""
+"""Plain wheels: the pin on its circle as seen from the wheel, and peaks in closed form.
+
+b = pi p/q is half the index angle, l = R/L = sin b; lengths are over L. A pose is one moment of the
+motion. Its x axis is the ray from the wheel's centre to the pin then. With the crank's angle d
+since then the pin moves by sin(d) slope + (1 - cos(d)) bend, without cancellation. At entry and
+exit the slope across the ray is exactly 0.
+"""
 
 from __future__ import annotations
 
-from typing import cast
+import math
+from collections.abc import Callable
+from typing import NamedTuple, cast
 
 from geneva_cli.errors import GenevaError, cut, refuse
 from geneva_cli.numerics.angles import one_minus_sin_pi, sin_cos_pi
 from geneva_cli.numerics.arrays import choose, larger, library, smaller
+from geneva_cli.numerics.jet import Jet, Number
+
+
+class PinPose(NamedTuple):
+    """One moment of the pin's motion on its circle; vectors are (along the ray, across it)."""
+
+    crank_deg: float
+    wheel: float  # wheel angle, radians
+    along: float  # distance from the wheel's centre to the pin
+    slope: tuple[float, float]  # d(position)/d(crank angle)
+    bend: tuple[float, float]  # second derivative
+
+    def displacement(self, sine: Jet, versine: Jet) -> tuple[Jet, Jet]:
+        """Displacement since the pose, from sin d and 1 - cos d of the crank's rotation d."""
+        (along, across), (bend_along, bend_across) = self.slope, self.bend
+        return sine * along + versine * bend_along, sine * across + versine * bend_across
+
+
+class PinTravel(NamedTuple):
+    """Displacement of a crank's pin from a pose, by the input angle."""
+
+    pose: PinPose
+    advance: Callable[[Number, int], tuple[Jet, Jet]]  # of the crank: sin d and 1 - cos d
+
+    def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
+        """Displacement along the pose's ray and across it, ``tau`` input radians later."""
+        sine, versine = self.advance(tau, order)
+        (along, across), (bend_along, bend_across) = self.pose.slope, self.pose.bend
+        return sine * along + versine * bend_along, sine * across + versine * bend_across
+
+
+class HalfStep(NamedTuple):
+    """Half an index angle b = pi p / q as an exact fraction; equal steps have p/q = 1/z.
+
+    In a batch p or q is an array; p may then be in degrees, with q = 180.
+    """
+
+    p: int
+    q: int
+    b: float  # radians
+    sin_cos: tuple[float, float]  # sin b and cos b
+
+    @classmethod
+    def of(cls, p: int, q: int) -> HalfStep:
+        """Half an index angle pi p / q."""
+        return cls(p, q, math.pi * p / q, sin_cos_pi(p, q))
+
+    @classmethod
+    def of_deg(cls, degrees: float) -> HalfStep:
+        """Half an index angle in degrees."""
+        p, q = degrees.as_integer_ratio() if isinstance(degrees, float) else (degrees, 1)
+        return cls.of(p, 180 * q)
+
+
+class Skew(NamedTuple):
+    """Proportions of an offset slot."""
+
+    e: float
+    tilt: float  # d, radians: the slot against the line of centres, half-way through the step
+    deepest: float  # least coordinate of the pin along the slot's axis: at mid-motion
+    poses: tuple[PinPose, PinPose, PinPose]
+    # The poses at both ends are in the slot's own frame, whose axis is offset by -e from the ray
+    # from the wheel's centre. The pose in the middle is in the frame of the line of centres.
 
 
 def half_motion_deg(sign: float, p: int, q: int) -> float:
@@ -18,6 +89,22 @@ def gap(sign: float, p: int, q: int) -> float:
     """Least distance of the pin from the wheel's centre in units of L: 1 - l, inside 1 + l."""
     out: float = 1.0 + sin_cos_pi(p, q)[0] if sign < 0.0 else one_minus_sin_pi(p, q)
     return out
+
+
+def middle(sign: float, l: float, gap: float) -> PinPose:
+    """Pose of the pin on the line of centres, ``gap`` from the wheel's axis."""
+    return PinPose(0.0, 0.0, gap, (0.0, l), (sign * l, 0.0))
+
+
+def radial(sign: float, step: HalfStep) -> tuple[PinPose, PinPose, PinPose]:
+    """Entry, middle and exit of a straight radial slot entered without shock: l = sin b."""
+    (l, cos_b), half = step.sin_cos, 90.0 * (step.q - 2 * int(sign) * step.p) / step.q
+    least: float = 1.0 + l if sign < 0.0 else one_minus_sin_pi(step.p, step.q)
+    return (
+        PinPose(-half, -step.b, cos_b, (-sign * l, 0.0), (0.0, l)),
+        PinPose(0.0, 0.0, least, (0.0, l), (sign * l, 0.0)),
+        PinPose(half, step.b, cos_b, (sign * l, 0.0), (0.0, -l)),
+    )
 
 
 def rollers_max(motion_deg: float) -> int:

@@ -1,18 +1,23 @@
-"""External wheels, with radial slots, offset slots or unequal steps; and internal wheels."""
+"""External wheels, with radial slots, offset slots or unequal steps."""
+
+from __future__ import annotations
 
 import math
-from typing import Annotated, ClassVar, Self
+from typing import TYPE_CHECKING, Annotated, ClassVar, Self
 
 from geneva_cli.errors import GenevaError, refuse, refuse_text
-from geneva_cli.motion.engagement import Displacement, Slot, WheelMotion
-from geneva_cli.motion.path_and_slot import AnchoredPath
 from geneva_cli.motion.pivots import Dimension, Layout
+from geneva_cli.motion.wheels.classic import HalfStep
 from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
-from geneva_cli.motion.wheels.poses import HalfStep
 from geneva_cli.numerics.angles import sin_cos_pi
 from geneva_cli.numerics.arrays import choose, library
 from geneva_cli.spec.rules import LENGTH, Range
 from geneva_cli.spec.schema import Example
+
+if TYPE_CHECKING:
+    from geneva_cli.motion.engagement import Slot, WheelMotion
+    from geneva_cli.motion.path_and_slot import AnchoredPath
+    from geneva_cli.numerics.jet_functions import Displacement
 
 
 class External(Gearing):
@@ -40,6 +45,7 @@ class External(Gearing):
 
     def __post_init__(self) -> None:
         super().__post_init__()
+        vars(self).update(steps=self.steps_deg or (), stopped=self.stop)
         steps, z, key = self.steps_deg, self.z, ("wheel", "steps_deg")
         if not steps:
             return
@@ -58,14 +64,6 @@ class External(Gearing):
         refuse_text(abs(turn - 360.0) > 1e-9, key, text + "{whole:.12g}", **values)
         if max(steps) >= 180.0:
             raise GenevaError(f"a step of {max(steps):g} deg is too large; below 180", key)
-
-    @property
-    def steps(self) -> tuple[float, ...]:
-        return self.steps_deg or ()
-
-    @property
-    def stopped(self) -> bool:
-        return self.stop
 
     @property
     def skewed(self) -> bool:
@@ -124,24 +122,3 @@ class External(Gearing):
 
         slot = OffsetSlot(path, place.skew)
         return slot, OffsetSlotMotion(path, place.step.b, place.skew)
-
-
-class Internal(Gearing):
-    """The crank turns inside the wheel: more motion than dwell, and no peak inside the motion.
-
-    ``z`` is the number of slots, 3 or more.
-
-    >>> Design(Internal(6)).timing.motion_deg
-    240.0
-    """
-
-    NAME: ClassVar[str] = "internal"
-    EXAMPLE: ClassVar[Example] = Example(
-        "an internal wheel: more motion than dwell", {"wheel": {"z": 6}}
-    )
-    SIGN: ClassVar[float] = -1.0
-
-    def as_built(self, ratio: float, rim: float, L: float) -> RollerPlace:
-        from geneva_cli.motion.wheels.as_built import place
-
-        return place(self.SIGN, self.step, ratio, 0.0, rim)

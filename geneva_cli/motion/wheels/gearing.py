@@ -9,14 +9,16 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self
 from geneva_cli.motion.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
 from geneva_cli.motion.pivots import Layout, Pivot
 from geneva_cli.motion.wheels import classic
-from geneva_cli.motion.wheels.poses import HalfStep, PinPose, Skew, radial
-from geneva_cli.numerics.arrays import choose, larger
+from geneva_cli.motion.wheels.classic import HalfStep, PinPose, Skew, radial
+from geneva_cli.numerics.angles import one_minus_sin_pi, sin_cos_pi
+from geneva_cli.numerics.arrays import choose
 from geneva_cli.spec.rules import Z_MAX, OneOf, Range
 from geneva_cli.spec.schema import Example, SpecTable
 
 if TYPE_CHECKING:
-    from geneva_cli.motion.engagement import AsBuilt, Displacement, Slot, WheelMotion
+    from geneva_cli.motion.engagement import AsBuilt, Slot, WheelMotion
     from geneva_cli.motion.plane_motion import PlaneMotion
+    from geneva_cli.numerics.jet_functions import Displacement
 
 
 class Output(NamedTuple):
@@ -29,14 +31,11 @@ class Output(NamedTuple):
     rate_unit: str
     rate_per_radian: float  # in that unit
     load_keys: str  # what sets a load
-    loads: dict[str, tuple[str, float]]  # each with one of a wheel's shaft and the ratio to it
+    # names of loads, each with that of a load on a wheel's shaft and the ratio to it
+    loads: tuple[tuple[str, str, float], ...] = ()
     lacks: tuple[str, ...] = ()  # quantities that only a wheel with a shaft has
     invariants: str = "relative to the input"  # what velocity, acceleration and jerk are
-
-    @property
-    def turns(self) -> bool:
-        """True if it is an angle."""
-        return self.unit == "deg"
+    turns: bool = True  # it is an angle
 
     def from_deg(self, wheel_deg: float) -> float:
         """Return an angle of the wheel, or of a rack's pinion, in the unit of the output."""
@@ -60,12 +59,6 @@ class RollerPlace(NamedTuple):
     closed: tuple[float, float, float] | None = None  # sign, l and 1 - l for closed forms
     built: AsBuilt | None = None
 
-    @property
-    def reach_deg(self) -> float:
-        """Greatest crank angle from the line of centres at which it moves the wheel, degrees."""
-        farthest: float = larger(-self.poses[0].crank_deg, self.poses[2].crank_deg)
-        return farthest
-
 
 class Gearing(SpecTable):
     """A wheel; its fields are the keys of ``[wheel]``. Raises GenevaError for impossible values."""
@@ -84,6 +77,11 @@ class Gearing(SpecTable):
     DISTANCE: ClassVar[str] = "centre distance"
     # what locks it in the dwell, on a crank
     LOCK: ClassVar[str] = "locking disc"
+    # Half the wheel's step, for equal steps. It is set as the wheel is made; and so are steps and
+    # stop of an external wheel.
+    step: ClassVar[HalfStep]
+    steps: ClassVar[tuple[float, ...]] = ()  # pattern of unequal ones, degrees; empty if all equal
+    stopped: ClassVar[bool] = False  # a convex face in place of a recess stops the crank
     z: Annotated[int, Range(3, Z_MAX), "number of slots"]
     held_by: Annotated[
         str | None,
@@ -91,20 +89,10 @@ class Gearing(SpecTable):
         "device that holds the wheel at rest, if no locking disc does",
     ] = field(default=None, kw_only=True)
 
-    @property
-    def step(self) -> HalfStep:
-        """Half the wheel's step as an exact fraction, for equal steps."""
-        return HalfStep(1, self.z)
-
-    @property
-    def steps(self) -> tuple[float, ...]:
-        """Repeating pattern of unequal steps in degrees; empty if all are equal."""
-        return ()
-
-    @property
-    def stopped(self) -> bool:
-        """True if a convex face in place of a recess stops the crank at both ends."""
-        return False
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        half = HalfStep(1, self.z, math.pi / self.z, sin_cos_pi(1, self.z))
+        vars(self)["step"] = half
 
     @property
     def skewed(self) -> bool:
@@ -142,7 +130,7 @@ class Gearing(SpecTable):
     def output(self, center_distance_mm: float) -> Output:
         """What the wheel gives out: its angle, in degrees."""
         keys = "inertia_kgm2 or torque_Nm in [load], or a [[mass]]"
-        return Output("wheel", "wheel_deg", "deg", 180.0 / math.pi, "rad", 1.0, keys, {})
+        return Output("wheel", "wheel_deg", "deg", 180.0 / math.pi, "rad", 1.0, keys)
 
     def index_deg(self, i: int) -> float:
         """The wheel's step at its i-th engagement, degrees."""
@@ -150,12 +138,12 @@ class Gearing(SpecTable):
 
     def half_motion_deg(self, step: HalfStep) -> float:
         """Crank angle in degrees from entry to the line of centres, for an entry without shock."""
-        return classic.half_motion_deg(self.SIGN, *step)
+        return classic.half_motion_deg(self.SIGN, step.p, step.q)
 
     def place(self, step: HalfStep, center_distance_mm: float) -> RollerPlace:
         """Place of a roller in a straight slot, which is radial in a flat wheel."""
         three, l = radial(self.SIGN, step), step.sin_cos[0]
-        closed = self.SIGN, l, classic.gap(1.0, *step)
+        closed = self.SIGN, l, one_minus_sin_pi(step.p, step.q)
         return RollerPlace(step, three[2].crank_deg, three, l, closed=closed)
 
     def distance_mm(self, crank_radius_mm: float) -> float:

@@ -11,11 +11,10 @@ from functools import partial
 
 from geneva_cli.motion.engagement import Anchor, Slot, SlotAxis
 from geneva_cli.motion.path_and_slot import AnchoredPath, StraightSlotMotion, turned
-from geneva_cli.motion.wheels.classic import gap, half_motion_deg
-from geneva_cli.motion.wheels.poses import HalfStep, PinPose, Skew, middle
-from geneva_cli.numerics.angles import sin_cos_pi
+from geneva_cli.motion.wheels.classic import HalfStep, PinPose, Skew, gap, half_motion_deg, middle
+from geneva_cli.numerics.angles import radians, sin_cos_pi
 from geneva_cli.numerics.arrays import choose, enclosed, library
-from geneva_cli.numerics.jet import Jet, Number, integral, moment, piecewise, sqrt
+from geneva_cli.numerics.jet import Jet, Number, integral, piecewise, sqrt, turning
 
 
 class OffsetSlot(Slot):
@@ -30,11 +29,11 @@ class OffsetSlot(Slot):
 
     def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
         depth = self._depth(input_deg, order + 1)
-        return SlotAxis(depth.lower, depth.derivative())
+        return depth.lower, depth.derivative()
 
     def _depth(self, input_deg: Number, order: int) -> Jet:
         e, deepest = enclosed(input_deg, (self.skew.e, self.skew.deepest))
-        return _depth(e, deepest, self.path.middle.displacement_at(input_deg, order)[0])[0]
+        return _depth(e, deepest, _since(self.path.middle, input_deg, order)[0])[0]
 
 
 class OffsetSlotMotion(StraightSlotMotion):
@@ -69,7 +68,7 @@ class OffsetSlotMotion(StraightSlotMotion):
         square = along * along + more
         s = sqrt(square)
         gain = more / (s + along)
-        rate = _turning(along, across, gain * e, square + e * e)
+        rate = turning(along, across, gain * e, square + e * e)
         if not angle:
             return rate
         a, b, g, s0 = along.c[0], across.c[0], gain.c[0], s.c[0]
@@ -80,10 +79,10 @@ class OffsetSlotMotion(StraightSlotMotion):
         """Wheel angle or rate near mid-motion: the pin's direction minus the slot's angle to it."""
         e, deepest = enclosed(x, (self.skew.e, self.skew.deepest))
         mid = self.path.middle
-        toward, across = mid.displacement_at(x, order)
+        toward, across = _since(mid, x, order)
         s, rho2 = _depth(e, deepest, toward)
         along = toward + mid.along
-        rate = _turning(along, across, s * e, rho2)
+        rate = turning(along, across, s * e, rho2)
         if not angle:
             return rate
         m, u, depth = library(across.c[0], toward.c[0], e), toward.c[0], s.c[0]
@@ -93,6 +92,11 @@ class OffsetSlotMotion(StraightSlotMotion):
         return integral(rate, value)
 
 
+def _since(anchor: Anchor, input_deg: Number, order: int) -> tuple[Jet, Jet]:
+    """Displacement of the pin since an anchor, along its ray and across it."""
+    return anchor.displacement(radians(input_deg - anchor.input_deg), order)
+
+
 def _depth(e: float, deepest: float, toward: Jet) -> tuple[Jet, Jet]:
     """Coordinate s of the pin along its slot's axis, and rho² = s² + e².
 
@@ -100,13 +104,6 @@ def _depth(e: float, deepest: float, toward: Jet) -> tuple[Jet, Jet]:
     """
     square = toward * 2.0 + deepest**2
     return sqrt(square), square + e**2
-
-
-def _turning(x: Jet, y: Jet, lever: Jet, rho2: Jet) -> Jet:
-    """Rate of a wheel, (x y' - y x' - e s') / rho², for ``lever`` = e s; one order lower."""
-    if not x.order:
-        return Jet(())
-    return (moment(x, y) - lever.derivative()) / rho2.lower
 
 
 def skew(step: HalfStep, e: float, spare: float) -> Skew:
@@ -122,9 +119,9 @@ def skew(step: HalfStep, e: float, spare: float) -> Skew:
     near = spare / cos_b * (cos_b + size)  # cos² b - sin² d
     narrow = near / wide  # cos(b + |d|)
     deepest = near / (cos_d + sin_b)  # cos d - sin b
-    least = gap(1.0, *step) + sin_b * size * size / (1.0 + cos_d)  # 1 - l
+    least = gap(1.0, step.p, step.q) + sin_b * size * size / (1.0 + cos_d)  # 1 - l
     l = sin_b * cos_d
-    long = half_motion_deg(1.0, *step) + m.degrees(d)
+    long = half_motion_deg(1.0, step.p, step.q) + m.degrees(d)
     short = m.degrees(m.atan2(narrow, sin_b * cos_d + cos_b * size))
     turn = m.atan2(size * (sin_b - cos_d * less), deepest * cos_d + abs(e) * size)
     mid = middle(1.0, l, least)

@@ -19,10 +19,33 @@ from typing import NamedTuple
 
 import numpy as np
 
+from geneva_cli.motion.engagement import Peak
+from geneva_cli.motion.path_and_slot import AnchoredPath, StraightSlotMotion
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Array, Number, Whole
+from geneva_cli.numerics.arrays import Array, Number, Whole, parameter
 
 SCAN = 10  # intervals over half the motion; 8 miss none of a million designs, 6 miss twelve
+
+
+class SideCrankMotion(StraightSlotMotion):
+    """Motion of a straight radial slot behind a side-crank, with peaks of batches."""
+
+    def __init__(
+        self, path: AnchoredPath, half_step: float, A: float, form: tuple[float, float, float]
+    ) -> None:
+        super().__init__(path, half_step)
+        self.A, self.form = A, form  # as ``closed`` of a plain crank
+
+    def closed_peak(self, quantity: str) -> Peak[float] | None:
+        sign, l, rest = self.form
+        batch = not (isinstance(self.A, float) and isinstance(l, float))
+        if not batch or quantity not in ("velocity", "acceleration"):
+            return None
+        w = wheels(sign, l, rest, self.A)
+        peaks = velocity_peaks(w) if quantity == "velocity" else acceleration_peaks(w)
+        # nearer to 1 the search for arrays may miss a peak
+        sure = abs(w.A) <= 0.999
+        return Peak(*(parameter(np.where(sure, v, np.nan)[:, None]) for v in peaks))
 
 
 class SideCrankWheels(NamedTuple):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -12,7 +12,6 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.geometry import chords, fit
 from geneva_cli.geometry.plates import Plate
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Contour, Layer, closed, polar
-from geneva_cli.motion.engagement import Groove
 from geneva_cli.motion.groove_path import back, distances
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pitch_curve import WALLED
@@ -23,6 +22,9 @@ from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.shafts.screws import screw_through
 from geneva_cli.parts.shafts.shaft import bore_at
 from geneva_cli.table import Table
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet_functions import Groove
 
 NAMES = ("input_deg", "radius_mm", *WALLED)
 GRID = 3600  # positions all round, between which the greatest pressure angle is searched

@@ -16,7 +16,7 @@ import numpy as np
 
 from geneva_cli.geometry.distance import farthest, from_segments, short_pieces
 from geneva_cli.geometry.shapes import Contour
-from geneva_cli.motion.engagement import ConstantRate, Engagement
+from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.plane_motion import turned_points
 from geneva_cli.numerics.arrays import Array, rising
 from geneva_cli.parts.turn.gaps import Gaps
@@ -225,12 +225,12 @@ class FlatPairs:
             return self._travels["path", engagement]
         turn_deg, L = self.gaps.assembly.turn_deg, self.gaps.assembly.L
         body, groove = engagement.body, engagement.groove
-        if engagement.on_arm and groove is None and isinstance(body, ConstantRate):
+        if engagement.on_arm and groove is None and isinstance(body, float):
             # a circle about the crank's axis, at a constant speed
             x, y = engagement.path(0.0, 0)
-            speed = abs(body.rate) * math.hypot(x.c[0] - engagement.hub, y.c[0])
+            speed = abs(body) * math.hypot(x.c[0] - engagement.hub, y.c[0])
             edges = np.array((-0.5, 0.5)) * turn_deg
-            rates = np.array(((speed,), (speed * abs(body.rate),)))
+            rates = np.array(((speed,), (speed * abs(body),)))
         else:
             from geneva_cli.numerics.intervals import curve_rates
 
