@@ -14,7 +14,6 @@ from geneva_cli.loads.impacts.reversal import arrival
 from geneva_cli.loads.instant import Instant
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import braking
-from geneva_cli.motion.peaks import worst
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.tolerances import ROUNDED
 
@@ -102,6 +101,8 @@ def _unbalanced(cycle: Cycle) -> Iterator[Notice]:
     bodies = [one for one in spec.mass if one.to_one_side]
     # on a carrier the loads count that force; behind gears another shaft bears it
     if math.isfinite(bearing) and not cycle.case.frame and spec.support.gear_ratio == 1.0:
+        from geneva_cli.motion.peaks import worst
+
         peaks = worst(cycle.mechanism)
         # at most: the peaks need not coincide, nor the bodies stand on one side
         most = math.hypot(peaks.velocity.max**2, peaks.acceleration.max)
