@@ -58,7 +58,7 @@ def verdict(
             with suppress(GenevaError):  # a check says why
                 single_loads(design.mechanism)
                 cycle = cycle_of(design.mechanism)
-                _ = cycle.known, design.parts.built
+                _ = cycle.known, design.parts.built.required
                 single(design.mechanism).once(shafts)
                 _ = strength(design.mechanism)["strength.horn.stress_MPa"]
         checks = design.checks if to_mm is None else design.proved_to(to_mm)

@@ -21,7 +21,7 @@ from geneva_cli.parts.arm import walls as arm_walls
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.outlines.crank_outline import is_whole, rollers_gap
 from geneva_cli.parts.outlines.outlines import Outlines, wheel_holes, wheel_hub
-from geneva_cli.parts.parts import EdgedParts
+from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.shafts.bores import has_shape
 from geneva_cli.parts.slots.roller_paths import roller_centres
 from geneva_cli.spec.workshops import workshop
@@ -300,8 +300,8 @@ def cuts(mechanism: Mechanism, thickest: float, wide: float, thick: float) -> It
         yield compared("cut_slot_mm", wide, "at least", shop.hole * thick)
 
 
-def built(names: Collection[str], parts: EdgedParts) -> Iterator[Check]:
-    """The check that fails if a plate of a machine cannot be built."""
+def built(names: Collection[str], parts: Parts) -> Iterator[Check]:
+    """The check that fails if a part of a machine cannot be built."""
     try:
         _ = parts.required
     except GenevaError as error:
