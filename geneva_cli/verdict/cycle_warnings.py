@@ -55,7 +55,8 @@ def _unbounded(cycle: Cycle) -> Iterator[Notice]:
 def _driven(cycle: Cycle) -> Iterator[Notice]:
     """Warnings about a wheel that drives the motor, or lags behind its roller."""
     mechanism, torque = cycle.mechanism, cycle.extremes["input_torque_Nm"]
-    noun, stop, least = mechanism.output.noun, arrival(mechanism), torque.min
+    noun, least = mechanism.output.noun, torque.min
+    stop = arrival(mechanism) if mechanism.engagements[0].paired else None
     largest = max(abs(torque.max), abs(least))
     # a torque without a bound is no measure of the rounding of another
     if math.isinf(largest) and "wheel_torque_Nm" in cycle.extremes:

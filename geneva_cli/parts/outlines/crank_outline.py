@@ -10,7 +10,7 @@ import math
 from bisect import bisect_left
 from collections.abc import Callable, Iterable, Mapping
 from functools import cache, partial
-from itertools import chain, combinations
+from itertools import chain
 from operator import attrgetter
 from typing import NamedTuple, TypeAlias
 
@@ -35,7 +35,7 @@ from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.shafts.bores import bore_of
 from geneva_cli.parts.sizes import Sizes, reach_and_hub
-from geneva_cli.parts.slots.roller_paths import horn_corners, roller_centres
+from geneva_cli.parts.slots.roller_paths import horn_corners
 
 # radii of the corners of each kind of slot's mouth at entry and exit, mm
 Mouths: TypeAlias = Mapping[Engagement, tuple[float, float]]
@@ -240,14 +240,6 @@ def crank_bore(assembly: Assembly, sizes: Sizes) -> tuple[Shape, ...]:
         return ()
     own = bore_of(assembly.mechanism.spec.size, "crank", sizes.crank_bore)
     return (own.shape("BORE", keyway_direction(assembly)),)
-
-
-def rollers_gap(assembly: Assembly, sizes: Sizes) -> float | None:
-    """Return the gap of the rollers that start and stop the wheel, mm; None if they are one."""
-    if len(assembly.rollers) == len(assembly.motions):
-        return None
-    pairs = combinations(roller_centres(assembly), 2)
-    return min(math.dist(one, other) for one, other in pairs) - 2.0 * sizes.roller
 
 
 def _rings(assembly: Assembly, sizes: Sizes, swept: Swept, spare: float) -> list[Contour]:

@@ -19,7 +19,7 @@ from geneva_cli.motion.pitch_curve import opposites
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.arm import walls as arm_walls
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.outlines.crank_outline import is_whole, rollers_gap
+from geneva_cli.parts.outlines.crank_outline import is_whole
 from geneva_cli.parts.outlines.outlines import Outlines, wheel_holes, wheel_hub
 from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.shafts.bores import has_shape
@@ -38,9 +38,10 @@ def walls(names: Collection[str], parts: FlatParts) -> Iterator[Check]:
     if outlines.crank:  # between a slot and the recess of the locking disc or sectors
         yield compared("horn_mm", size.horn, "at least", least)
     # the roller that starts the wheel and the one that stops it, on one crank
-    rollers = rollers_gap(assembly, size)
-    if rollers is not None:
-        yield compared("rollers_apart_mm", rollers, "at least", 0.0)
+    if len(assembly.rollers) > len(assembly.motions):
+        pairs = combinations(roller_centres(assembly), 2)
+        apart_mm = min(math.dist(one, other) for one, other in pairs) - 2.0 * size.roller
+        yield compared("rollers_apart_mm", apart_mm, "at least", 0.0)
     if size.wheel_bore:  # to the slots' ends, and around the bore in a drawn hub
         wall = size.slot_end - size.wheel_bore - around_shaft
         if wheel_hub(assembly, size):
