@@ -27,7 +27,7 @@ from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.peak_search import breaks, pole_deg, spans
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Mask, Which, all_true, array
-from geneva_cli.numerics.extremes import SearchResult, Stretches, cuts, search
+from geneva_cli.numerics.extremes import SearchResult, Stretches, cuts
 from geneva_cli.numerics.jet import Array, Jet, Number
 
 # The functions whose signs matter, in order: each is smooth while those before it keep their signs.
@@ -99,9 +99,11 @@ class LoadFunctions:
         w = np.fmin(np.where(w > 0.0, w, np.inf), 10.0 * engagement.exit_deg)
         self.spread: Array = np.broadcast_to(w, (self.n, 1))
 
-    def search(self, sized: bool = False) -> SearchResult:
-        """The extremes of the quantities over the motion, and its stretches."""
-        parts, known, case, engagement = self.spans, [], self.case, self.engagement
+    def to_search(
+        self, sized: bool = False
+    ) -> tuple[list[tuple[Array, Array]], list[tuple[int, Array, Array]]]:
+        """The spans of the motion to be searched, and values that none of them reaches."""
+        parts, case, engagement = self.spans, self.case, self.engagement
         is_curved = engagement.slot.curved
         # Without friction, for an inertia or a torque alone, the second half of the motion has no
         # greater sizes than the first. In a curved slot a torque alone presses on one wall
@@ -113,8 +115,8 @@ class LoadFunctions:
         if sized and alone and radial and engagement.mirrored:
             parts = parts[: len(parts) // 2]
         if is_curved:  # no span reaches mid-motion
-            known = at_mid_motion(engagement, case, self.quantities, self.n)
-        return search(self, parts, sized, known, self.spread)
+            return parts, at_mid_motion(engagement, case, self.quantities, self.n)
+        return parts, []
 
     def stretches(self, result: SearchResult | None = None) -> Stretches:
         """The motion, divided where signs change: as in a search, or without one."""

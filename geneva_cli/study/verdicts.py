@@ -57,8 +57,7 @@ def verdict(
             # loads, the parts that they size, their strength: what checks and warnings read
             with suppress(GenevaError):  # a check says why
                 single_loads(design.mechanism)
-                cycle = cycle_of(design.mechanism)
-                _ = cycle.known, design.parts.built.required
+                _ = cycle_of(design.mechanism).ends, design.parts.built.required
                 single(design.mechanism).once(shafts)
                 _ = strength(design.mechanism)["strength.horn.stress_MPa"]
         checks = design.checks if to_mm is None else design.proved_to(to_mm)

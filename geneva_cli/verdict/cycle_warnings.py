@@ -9,7 +9,7 @@ from geneva_cli.errors import Notice
 from geneva_cli.loads.carried import weight_kg
 from geneva_cli.loads.contact import contact
 from geneva_cli.loads.cycle import Cycle, cycle_of
-from geneva_cli.loads.cycle_quantities import FORCE, STRESS
+from geneva_cli.loads.cycle_quantities import FORCE, STRESS, TORQUE
 from geneva_cli.loads.impacts.reversal import arrival
 from geneva_cli.loads.instant import Instant
 from geneva_cli.motion.mechanism import Mechanism
@@ -27,7 +27,7 @@ def cycle_warnings(mechanism: Mechanism) -> list[Notice]:
 
 def _unbounded(cycle: Cycle) -> Iterator[Notice]:
     """Warnings about loads that nothing bounds."""
-    case, force = cycle.case, cycle.extremes[FORCE]
+    case, force = cycle.case, cycle.ends[FORCE]
     endless_deg = math.inf
     for value, at_deg in ((force.max, force.max_at_deg), (force.min, force.min_at_deg)):
         if math.isinf(value):
@@ -42,7 +42,7 @@ def _unbounded(cycle: Cycle) -> Iterator[Notice]:
             f"friction of {of} holds the {held} at {endless_deg:.4g}°, however hard the roller "
             f"presses: it takes as much {more} gives. Use a smaller roller or less {less}",
         )
-    stress = cycle.extremes.get(STRESS)
+    stress = cycle.ends.get(STRESS)
     if stress is not None and not math.isfinite(stress.max) and endless_deg == math.inf:
         yield Notice(
             "sharp-wall",
@@ -54,13 +54,13 @@ def _unbounded(cycle: Cycle) -> Iterator[Notice]:
 
 def _driven(cycle: Cycle) -> Iterator[Notice]:
     """Warnings about a wheel that drives the motor, or lags behind its roller."""
-    mechanism, torque = cycle.mechanism, cycle.extremes["input_torque_Nm"]
-    noun, least = mechanism.output.noun, torque.min
+    mechanism, ends = cycle.mechanism, cycle.ends
+    torque, noun = ends[TORQUE], mechanism.output.noun
     stop = arrival(mechanism) if mechanism.engagements[0].paired else None
-    largest = max(abs(torque.max), abs(least))
+    least, largest = torque.min, max(abs(torque.max), abs(torque.min))
     # a torque without a bound is no measure of the rounding of another
-    if math.isinf(largest) and "wheel_torque_Nm" in cycle.extremes:
-        largest = abs(cycle.extremes["wheel_torque_Nm"].max)
+    if math.isinf(largest):
+        largest = abs(ends["wheel_torque_Nm"].max) if "wheel_torque_Nm" in ends else 0.0
     fed = math.isfinite(least) and least < -ROUNDED * (largest or abs(least))
     driven = back_driven_deg(cycle) if fed else []
     if driven:
@@ -98,10 +98,11 @@ def _driven(cycle: Cycle) -> Iterator[Notice]:
 
 def _unbalanced(cycle: Cycle) -> Iterator[Notice]:
     """A warning about single bodies off the wheel's axis, whose force its shaft bears."""
-    spec, bearing = cycle.mechanism.spec, cycle.extremes["wheel_bearing_N"].max
+    spec, bearing = cycle.mechanism.spec, cycle.ends.get("wheel_bearing_N")
     bodies = [one for one in spec.mass if one.to_one_side]
     # on a carrier the loads count that force; behind gears another shaft bears it
-    if math.isfinite(bearing) and not cycle.case.frame and spec.support.gear_ratio == 1.0:
+    held = bearing is not None and math.isfinite(bearing.max) and not cycle.case.frame
+    if bearing and held and spec.support.gear_ratio == 1.0:
         from geneva_cli.motion.peaks import worst
 
         peaks = worst(cycle.mechanism)
@@ -110,7 +111,7 @@ def _unbalanced(cycle: Cycle) -> Iterator[Notice]:
         off_kgm = sum(weight_kg(one) * one.radius_mm * 1e-3 for one in bodies)
         force_N = omega(spec.drive.n_rpm) ** 2 * most * off_kgm
         names = " and ".join(one.name or one.shape for one in bodies)
-        if force_N >= 0.01 * bearing:
+        if force_N >= 0.01 * bearing.max:
             yield Notice(
                 "unbalanced",
                 f"{names} stand{'s' * (len(bodies) == 1)} off the wheel's axis. While the wheel "

@@ -10,12 +10,13 @@ first if that reaches farther round; or both arcs meet where their centres are r
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import NamedTuple, Protocol, cast
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import NamedTuple, TypeAlias, cast
 
 import numpy as np
 
-from geneva_cli.loads.tolerance.dimensions import Deviations, deviations
+from geneva_cli.loads.tolerance.dimensions import AS_DRAWN, Deviations
 from geneva_cli.numerics.arrays import (
     Mask,
     Truth,
@@ -38,11 +39,8 @@ class LockPlay(NamedTuple):
     jams: Mask  # True if they do not fit together
 
 
-class CutLock(Protocol):
-    """A lock of parts as they are cut, whose play deviations change."""
-
-    def __call__(self, by: Deviations) -> LockPlay:
-        """Play of the wheel to one side."""
+# A lock of parts as they are cut: the play of the wheel to one side with deviations.
+CutLock: TypeAlias = Callable[[Deviations], LockPlay]
 
 
 class LockContact(NamedTuple):
@@ -116,7 +114,7 @@ class Lock(NamedTuple):
         radius = choose(loose, choose(arcs, between, ended), math.inf)
         on = np.where(arcs, "recess", np.where(corner, "corner", "disc's end"))[()]
         # without clearance rounding may make it negative
-        play = np.maximum(self(deviations([0.0] * len(Deviations._fields))).angle.c[0], 0.0)
+        play = np.maximum(self(AS_DRAWN).angle.c[0], 0.0)
         return LockContact(cast("str", on), phi, parameter(play), radius)
 
 
@@ -137,8 +135,7 @@ def _truth(condition: Truth) -> Truth:
 
 
 def _chosen(condition: Truth, yes: Jet, no: Jet) -> Jet:
-    one = _truth(condition)
-    return Jet([choose(one, a, b) for a, b in zip(yes.c, no.c, strict=True)])
+    return Jet([*map(partial(choose, _truth(condition)), yes.c, no.c)])
 
 
 def loosest(locks: Sequence[Lock]) -> Lock:
