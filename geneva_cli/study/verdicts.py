@@ -51,15 +51,14 @@ def verdict(
             from geneva_cli.loads.cycle import cycle_of
             from geneva_cli.loads.strength.part_loads import single_loads
             from geneva_cli.verdict.quantities.batch_designs import single
-            from geneva_cli.verdict.quantities.part_strength import shafts
-            from geneva_cli.verdict.strength import strength
+            from geneva_cli.verdict.quantities.part_strength import horn, lock, shafts
 
             # loads, the parts that they size, their strength: what checks and warnings read
             with suppress(GenevaError):  # a check says why
                 single_loads(design.mechanism)
                 _ = cycle_of(design.mechanism).ends, design.parts.built.required
-                single(design.mechanism).once(shafts)
-                _ = strength(design.mechanism)["strength.horn.stress_MPa"]
+                of = single(design.mechanism)
+                _ = of.once(shafts), of.columns(horn), of.columns(lock)
         checks = design.checks if to_mm is None else design.proved_to(to_mm)
         return Verdict(
             path=design.spec.path,
