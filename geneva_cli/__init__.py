@@ -43,7 +43,7 @@ if TYPE_CHECKING:  # for a type checker: one line for each name
     from geneva_cli.motion.wheels.external import External as External
     from geneva_cli.motion.wheels.internal import Internal as Internal
     from geneva_cli.motion.wheels.spherical import Spherical as Spherical
-    from geneva_cli.spec.accept import Accept as Accept
+    from geneva_cli.spec.tables import Accept as Accept
     from geneva_cli.spec.tables import Limits as Limits
     from geneva_cli.spec.tables import Load as Load
     from geneva_cli.spec.tables import Mass as Mass

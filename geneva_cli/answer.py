@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+import math
+from typing import NamedTuple, TypeAlias
 
-if TYPE_CHECKING:
-    from geneva_cli.table import Table
+from geneva_cli.errors import clean
+from geneva_cli.table import NO_BOUND, Table, for_people
 
+Value: TypeAlias = float | int | str | bool | None
+NO_BREAK = "\u00a0"  # a space at which no line is broken
+TIMES = f"{NO_BREAK}×{NO_BREAK}"
+RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 PASSES, WARNS, FAILS = "passes", "warns", "fails"  # the state of a design
 
 
@@ -36,3 +41,29 @@ class Answer(NamedTuple):
     summaries: tuple[Summary, ...]
     page: Table | None
     data: Table
+
+
+def value_text(
+    value: Value | tuple[Value, ...], unit: str = "", digits: int = 4, bare: bool = False
+) -> str:
+    """A value, with its unit unless ``bare``. Raises ArithmeticError for NaN, a fault of ours.
+
+    >>> value_text(182.612895, "°"), value_text(53.17, "W/m²"), value_text(None), value_text(True)
+    ('182.6°', '53.17 W/m²', '–', 'yes')
+    """
+    if isinstance(value, tuple):
+        return ", ".join(value_text(one, unit, digits) for one in value) or "none"
+    if value is None:
+        return "–"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, float):
+        if math.isnan(value):
+            raise ArithmeticError("a value of the report is not a number")
+        text, _, power = for_people(value, unit, digits).partition("e")
+        text += f"{TIMES}10{str(int(power)).translate(RAISED)}" if power else ""
+    else:
+        text = clean(str(value))
+    if bare or not unit or isinstance(value, str) or text == NO_BOUND:
+        return text
+    return f"{text}°" if unit == "°" else f"{text} {unit}"

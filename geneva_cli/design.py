@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from contextlib import AbstractContextManager, nullcontext, suppress
+from contextlib import nullcontext, suppress
 from functools import wraps
 from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec, Self, TypeVar
 
@@ -25,11 +25,11 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.wheels.gearing import Gearing
-from geneva_cli.spec.accept import Accept
 from geneva_cli.spec.load_named import load_extra
 from geneva_cli.spec.rules import plain
 from geneva_cli.spec.schema import SHOWN_MAX, refuse_keywords, shortly
 from geneva_cli.spec.tables import (
+    Accept,
     Limits,
     Load,
     Mass,
@@ -104,7 +104,8 @@ class answer(cached_property[T]):
             return self
         kept = vars(design)
         if self.attrname not in kept:
-            with design._located:
+            text = design.text
+            with text.located() if text else nullcontext():
                 kept[self.attrname] = self.func(design)
         return kept[self.attrname]
 
@@ -120,7 +121,8 @@ def question(ask: Callable[Concatenate[Any, P], T]) -> Callable[Concatenate[Any,
     def method(design: Any, /, *values: P.args, **named: P.kwargs) -> T:
         refuse_keywords(f"{ask.__name__}()", named, known)
         keywords = {name: plain(value) for name, value in named.items()}
-        with design._located:
+        text = design.text
+        with text.located() if text else nullcontext():
             return ask(design, *map(plain, values), **keywords)
 
     return method
@@ -139,6 +141,7 @@ class Design:
     """
 
     is_backwards = False  # True of a design made by ``backwards``
+    text: Text | None  # of the file that the design was read from; None for one made in Python
 
     def __new__(cls, *_: object, **named: object) -> Self:
         """Refuse an unknown keyword, with the nearest known one."""
@@ -170,8 +173,7 @@ class Design:
     ) -> None:
         inputs = {name: value for name, value in locals().items() if value is not None}
         del inputs["self"]
-        self.spec = Spec(**inputs)
-        self._text: Text | None = None
+        self.spec, self.text = Spec(**inputs), None
 
     @classmethod
     def of(cls, spec: Spec, text: Text | None = None) -> Design:
@@ -180,13 +182,13 @@ class Design:
         >>> Design.of(Spec(External(6))).spec.wheel.z
         6
         """
-        design = cls.__new__(cls)
-        design.spec, design._text = spec, text
+        design = object.__new__(cls)
+        design.spec, design.text = spec, text
         return design
 
     def __getstate__(self) -> dict[str, object]:
         """The inputs without the answers, which a pickled copy computes again."""
-        inputs = ("spec", "_text", "is_backwards")
+        inputs = ("spec", "text", "is_backwards")
         return {name: value for name, value in vars(self).items() if name in inputs}
 
     def __repr__(self) -> str:
@@ -217,20 +219,6 @@ class Design:
         135.0
         """
         return Design.of(self.spec.with_(key, plain(value)))
-
-    @property
-    def text(self) -> Text | None:
-        """The text of the file that the design was read from; None for one made in Python.
-
-        >>> Design(External(6)).text is None
-        True
-        """
-        return self._text
-
-    @property
-    def _located(self) -> AbstractContextManager[None]:
-        """Context in which errors that name a key get the line of the spec's file."""
-        return self._text.located() if self._text else nullcontext()
 
     @answer
     def mechanism(self) -> Mechanism:
@@ -265,7 +253,7 @@ class Design:
             size=_with_chosen(spec.size, loaded),
             title=", ".join(text for text in (spec.title, "backwards") if text),
         )
-        design = Design.of(turned, self._text)
+        design = Design.of(turned, self.text)
         design.is_backwards = True
         return design
 
@@ -317,18 +305,11 @@ class Design:
         """
         from geneva_cli.parts.chosen import ByLoad, by_load
 
-        return ByLoad(by_load(self.mechanism), self._chosen_as_written())
-
-    def _chosen_as_written(self) -> dict[str, Chosen]:
-        """The sizes that the load chooses for the file alone; empty if no option changes it."""
-        from geneva_cli.parts.chosen import by_load
-
-        if self._text is None or not self._text.set_keys:
-            return {}
-        try:
-            return by_load(build(self._text.alone.spec()))
-        except GenevaError:  # the file is no machine without its options
-            return {}
+        written: dict[str, Chosen] = {}
+        if self.text and self.text.set_keys:
+            with suppress(GenevaError):  # the file may be no machine without its options
+                written = by_load(build(self.text.alone.spec()))
+        return ByLoad(by_load(self.mechanism), written)
 
     @answer
     def timings(self) -> list[Timing]:
@@ -791,7 +772,8 @@ class Design:
         >>> Design(External(6), outline=Outline(wheel="wheel.dxf")).is_drawn
         True
         """
-        return self.spec.outline.is_given
+        outline = self.spec.outline
+        return outline.wheel is not None or outline.crank is not None
 
     def _of_drawing(self, answer: str, *values: object) -> Any:
         """An answer about the drawings that replace the outlines."""
@@ -952,7 +934,7 @@ class Design:
         >>> Design(External(6)).refuse_drawn("the files for a shop are those")
         """
         if self.is_drawn:
-            with self._located:
+            with self.text.located() if self.text else nullcontext():
                 raise GenevaError(
                     f"{what} of our own parts, which the drawings in [outline] replace: leave out "
                     "[outline]",

@@ -61,7 +61,11 @@ def open_warnings(texts: Iterable[str]) -> list[str]:
     >>> open_warnings([Notice("many-slots", "", "agreed"), Notice("turns-back", "back")])
     ['back']
     """
-    return [text for text in texts if not (isinstance(text, Notice) and text.accepted)]
+    left = []
+    for text in texts:
+        if not (isinstance(text, Notice) and text.accepted):
+            left.append(text)
+    return left
 
 
 def is_warning(text: str) -> bool:
@@ -95,7 +99,8 @@ def refuse(where: Any, error: Callable[[], GenevaError]) -> None:
 
 def refuse_text(where: Any, key: tuple[str, str], text: str, /, **values: object) -> None:
     """``refuse`` with a text of a key, in which ``values`` are put when it is raised."""
-    refuse(where, lambda: GenevaError(text.format(**values), key))
+    if where is not False:
+        refuse(where, lambda: GenevaError(text.format(**values), key))
 
 
 @contextmanager

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cached_property as cached_property  # exported
-from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 if not TYPE_CHECKING:  # to a checker of types it is the one of Python
@@ -45,19 +44,23 @@ class Known(Generic[K, T]):
     def __init__(self, compute: Callable[[K], T]) -> None:
         self.compute = compute
         self._later: dict[K, Callable[[], T | None]] = {}
-        self._kept = lru_cache(maxsize=KEPT)(self._result)
+        self._kept: dict[K, T] = {}  # the last used one stands last
 
     def __call__(self, of: K) -> T:
         """The result of the function, computed at the first call."""
-        return self._kept(of)
+        result = self._kept.pop(of, None)
+        if result is None:
+            later = self._later.pop(of, None)
+            result = later() if later else None
+        if result is None:
+            result = self.compute(of)
+        self._kept[of] = result
+        for old in [*self._kept][:-KEPT]:  # another thread may have removed it
+            self._kept.pop(old, None)
+        return result
 
     def put(self, of: K, later: Callable[[], T | None]) -> None:
         """Let ``later`` compute the result of a design; if it returns None, the function does."""
         self._later[of] = later
-        while len(self._later) > KEPT:
-            del self._later[next(iter(self._later))]
-
-    def _result(self, of: K) -> T:
-        later = self._later.pop(of, None)
-        result = later() if later else None
-        return self.compute(of) if result is None else result
+        for old in [*self._later][:-KEPT]:
+            self._later.pop(old, None)

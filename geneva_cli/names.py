@@ -108,9 +108,9 @@ def spoken(name: str) -> tuple[str, str]:
     """
     words, unit = [], ""
     for part in name.split("."):
-        bare, own_unit = _divided(part)
-        words.append(_worded(part, bare, WORDS))
-        unit = own_unit or unit
+        end = unit_end(part)
+        words.append(_worded(part, end, WORDS))
+        unit = UNITS.get(end, unit)
     return " ".join(words), SHORT_UNITS.get(unit, unit)
 
 
@@ -122,28 +122,28 @@ def described(name: str) -> tuple[str, str]:
     >>> described("torque_at_deg")
     ('torque, at the input angle', '°')
     """
-    bare, unit = _divided(name)
+    end = unit_end(name)
+    unit = UNITS.get(end, "")
     unit = "°" if unit == "deg" else SHORT_UNITS.get(unit, unit)
+    bare = name.removesuffix(end)
     if bare.endswith("_at"):
         return f"{described(bare.removesuffix('_at'))[0]}, {LONG_WORDS['at']}", unit
-    return _worded(name, bare, WORDS | LONG_WORDS), unit
-
-
-def _divided(name: str) -> tuple[str, str]:
-    """A name without its unit's ending, and the unit."""
-    end = unit_end(name)
-    return name.removesuffix(end), UNITS.get(end, "")
+    return _worded(name, end, WORDS | LONG_WORDS), unit
 
 
 def unit_end(name: str) -> str:
     """The longest ending of a name that is a unit; empty without one."""
-    _, *parts = name.split("_")
-    ends = ("_" + "_".join(parts[start:]) for start in range(len(parts)))
-    return next((end for end in ends if end in UNITS), "")
+    _, line, rest = name.partition("_")
+    while line:
+        if f"_{rest}" in UNITS:
+            return f"_{rest}"
+        _, line, rest = rest.partition("_")
+    return ""
 
 
-def _worded(name: str, bare: str, words: dict[str, str]) -> str:
+def _worded(name: str, end: str, words: dict[str, str]) -> str:
     """The words of a whole name or of its part without a unit, or else the letters of that part."""
+    bare = name.removesuffix(end)
     is_symbol = len(bare) <= 3  # with its index, such as C_v
     return words.get(name) or words.get(bare) or (bare if is_symbol else bare.replace("_", " "))
 

@@ -119,20 +119,6 @@ class Table(NamedTuple):
         own: dict[str, Any] = dict(zip(self._fields, self, strict=True))
         return Table(**own | fields)
 
-    def changed(self, change: Callable[[Sequence[Any]], Sequence[Any]]) -> Table:
-        """The table with columns that ``change`` makes of its own, of equal length.
-
-        A table that is computed while it is written is changed then, piece by piece.
-        """
-        own = self.columns
-        if not (own and isinstance(own[0], Column)):
-            return self.replaced(columns=change(own))
-
-        def make(start: int, stop: int) -> Sequence[Any]:
-            return change([column[start:stop] for column in own])
-
-        return self.replaced(columns=pieces(len(self), len(own), make))
-
     def to_dict(self) -> dict[str, Any]:
         """Columns by name, numbers as arrays; a record's values by name, tables in it as rows.
 
@@ -257,7 +243,9 @@ def computed_table(
 
 def plain_rows(columns: Sequence[Any]) -> list[tuple[Any, ...]]:
     """The rows of columns, arrays or lists, as plain Python values."""
-    lists = [c if isinstance(c, (list, tuple)) else c.tolist() for c in columns]
+    lists = []
+    for column in columns:
+        lists.append(column if isinstance(column, (list, tuple)) else column.tolist())
     return list(zip(*lists, strict=True))
 
 
@@ -271,7 +259,7 @@ def rows_table(
 
 def record_table(values: dict[str, Any], title: str = "", prose: str = "") -> Table:
     """A table of one row, shown line by line."""
-    return Table(tuple(values), [(v,) for v in values.values()], True, title, prose)
+    return Table(tuple(values), list(zip(values.values(), strict=True)), True, title, prose)
 
 
 def flat(table: Table) -> Table:
@@ -282,7 +270,7 @@ def flat(table: Table) -> Table:
     >>> flat(record_table({"places": ((1.0, 2.0), (3.0, 4.0)), "open": {"from_deg": 5.0}})).names
     ('places.1.1', 'places.1.2', 'places.2.1', 'places.2.2', 'open.from_deg')
     """
-    (row,) = table.rows()
+    (row,) = plain_rows(table.columns)
     values = _single_values("", dict(zip(table.names, row, strict=True)))
     return record_table(dict(values), table.title, table.prose)
 

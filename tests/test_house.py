@@ -170,7 +170,7 @@ def beside_designs(text):
 ASKS = {
     "drives.refuses": ["spec.wheel.NAME not in able"],
     "specfile.template": ["name != Crank.NAME"],
-    "study.synth.reading": ["f.key == 'stop'"],
+    "study.synth.reading": ["'stop' in keys[name]"],
 }
 # Keys and tables of a kind that stand in the core.
 NAMED = {

@@ -75,7 +75,8 @@ class LazyGroup(PlainValues, TyperGroup):
 
     def __init__(self, **settings: Any) -> None:
         super().__init__(**settings)
-        self.commands = {n: TyperCommand(n, help=h, callback=_stub) for n, h in COMMANDS.items()}
+        for name, line in COMMANDS.items():
+            self.commands[name] = TyperCommand(name, help=line, callback=_stub)
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         """Parse the options before the command; a wrong one becomes a line and an exit code."""

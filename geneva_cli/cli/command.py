@@ -1,18 +1,21 @@
-"""A command as Typer runs it: own conversion of values, help with examples, and shared options.
+"""A command as Typer runs it: own conversion of values, help with examples; options of several.
 
 Annotations are objects here and in the commands, for Typer.
 """
 
 import sys
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import partial
-from typing import Annotated, Any, get_args
+from typing import TYPE_CHECKING, Annotated, Any, TypeAlias, get_args
 
 import typer
 from typer.core import TyperCommand
 from typer.main import get_command
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, Notice, clean
+
+if TYPE_CHECKING:
+    from geneva_cli.design import Design
 
 HELP = {"help_option_names": ["-h", "--help"]}
 USAGE: Any = typer.BadParameter.__base__  # Typer's error for arguments that no command takes
@@ -31,8 +34,6 @@ class PlainValues:
         """Options and arguments, each with its own conversion."""
         params: list[Any] = super().get_params(ctx)  # type: ignore[misc]
         for param in params:
-            if param.name == "help":
-                param.callback = _help
             if "process_value" not in vars(param):
                 kind = self.kinds.get(param.name)
                 param.process_value = partial(_value, param, kind, param.process_value)
@@ -42,8 +43,18 @@ class PlainValues:
 def _value(param: Any, kind: Any, refuse: Any, ctx: Any, typed: Any) -> Any:
     """Value of a parameter; what is required and missing is left to Typer, to ``refuse``.
 
-    While a shell completes words, nothing is refused.
+    While a shell completes words, nothing is refused. Long help goes through the pager.
     """
+    if param.name == "help":
+        if typed and not ctx.resilient_parsing:
+            if sys.stdout.isatty():
+                from geneva_cli.output.terminal import pager
+
+                pager.write([ctx.get_help() + "\n"])
+            else:
+                print(ctx.get_help())
+            ctx.exit()
+        return typed
     if param.required and not typed and not ctx.resilient_parsing:
         return refuse(ctx, typed)
     value = () if typed is None and (param.multiple or param.nargs == -1) else typed
@@ -55,18 +66,6 @@ def _value(param: Any, kind: Any, refuse: Any, ctx: Any, typed: Any) -> Any:
                 message = f"{typed!r} is not {meaning}"
                 raise typer.BadParameter(message, ctx=ctx, param=param) from None
     return param.callback(ctx, param, value) if param.callback else value
-
-
-def _help(ctx: Any, param: Any, is_requested: bool) -> None:
-    """Show the help of a command, through the pager if it is long."""
-    if is_requested and not ctx.resilient_parsing:
-        if sys.stdout.isatty():
-            from geneva_cli.output.terminal import pager
-
-            pager.write([ctx.get_help() + "\n"])
-        else:
-            print(ctx.get_help())
-        ctx.exit()
 
 
 class Command(PlainValues, TyperCommand):
@@ -85,7 +84,7 @@ class Command(PlainValues, TyperCommand):
             return rest
         order: list[Any] = [*self.make_parser(ctx).parse_args(typed)[2]]
         for option in dict.fromkeys(order):
-            if not _is_option(option) or option.is_flag:
+            if option.param_type_name != "option" or option.is_flag:
                 continue
             value = ctx.params.get(option.name)
             if "" in value if option.multiple and value else value == "":
@@ -99,10 +98,10 @@ class Command(PlainValues, TyperCommand):
         columns, wide = ctx.params.pop("columns", None), ctx.params.pop("wide", False)
         if not (columns or wide):
             return super().invoke(ctx)
-        from geneva_cli.output import Choice, choosing
+        from geneva_cli.output import choosing
 
         names = [name.strip() for name in (columns or "").split(",")]
-        with choosing(Choice(tuple(filter(None, names)), wide)):
+        with choosing([*filter(None, names)], wide):
             return super().invoke(ctx)
 
     def collect_usage_pieces(self, ctx: Any) -> list[str]:
@@ -171,5 +170,91 @@ def as_command(name: str, run: Any) -> Any:
     one = typer.Typer(add_completion=False, rich_markup_mode=None)
     one.command(name, cls=Command, context_settings=HELP)(run)
     command: Any = get_command(one)
-    command.kinds = {n: get_args(k)[0] for n, k in run.__annotations__.items() if get_args(k)}
+    command.kinds = {}
+    for parameter, annotation in run.__annotations__.items():
+        if get_args(annotation):
+            command.kinds[parameter] = get_args(annotation)[0]
     return command
+
+
+def one_of(names: Iterable[str]) -> str:
+    """The allowed words of an option, for its help."""
+    *others, last = names
+    return f"{', '.join(others)} or {last}."
+
+
+def option(
+    metavar: str,
+    help: str,
+    heading: str | None = None,
+    *,
+    short: str = "",
+    name: str = "",
+    default: str | bool = True,
+) -> Any:
+    """An option with a value, below a heading of the help.
+
+    ``name`` is its name where the parameter's is another, and ``default`` is shown as the default.
+    """
+    return typer.Option(
+        *filter(None, (short, name)),
+        metavar=metavar,
+        help=help,
+        rich_help_panel=heading,
+        show_default=default,
+    )
+
+
+# the option of a file or folder to write
+output_option = partial(option, short="-o", name="--output", default=False)
+
+
+def flag(name: str, help: str, heading: str | None = None) -> Any:
+    """An option without a value, below a heading of the help."""
+    return typer.Option(name, help=help, rich_help_panel=heading)
+
+
+SpecPath: TypeAlias = Annotated[
+    str, typer.Argument(metavar="SPEC", help="The spec, a TOML file; - reads standard input.")
+]
+Settings: TypeAlias = Annotated[
+    list[str] | None,
+    option(
+        "KEY=VALUE",
+        "Set a key over the file's, as drive.n_rpm=90.",
+        name="--set",
+    ),
+]
+Reverse: TypeAlias = Annotated[bool, flag("--reverse", "Turn the input the other way.")]
+AlsoReverse: TypeAlias = Annotated[
+    bool, flag("--reverse", "Also each design turning the other way.")
+]
+Output: TypeAlias = Annotated[str, output_option("FILE", "Write to this file; - prints.")]
+Format: TypeAlias = Annotated[str, option("FORMAT", "table, csv, json or md.", name="--format")]
+
+
+def warn(design: "Design") -> None:
+    """Print the warnings about the motion on standard error."""
+    say(design.spec.path, design.motion_warnings)
+
+
+def say(path: str, warnings: Iterable[str]) -> None:
+    """Print warnings about a spec on standard error, one a line, with names for `explain`."""
+    for text in warnings:
+        named, kind = text, "warning"
+        if isinstance(text, Notice):
+            named = f"{text.plain} [{text.name}]"
+            kind = f"warning, accepted ({text.accepted})" if text.accepted else kind
+        print(clean(f"{path}: {kind}: {named}"), file=sys.stderr)
+
+
+def require_written(design: "Design", verdict: tuple[str, list[str]], force: bool) -> None:
+    """Exit with status 1 for parts that overlap or cannot be built, unless forced; else warn."""
+    path = design.spec.path
+    refused, warned = verdict
+    if refused and not force:
+        text = f"not written: {refused}; --force writes it anyway"
+        print(clean(f"{path}: {text}"), file=sys.stderr)
+        raise typer.Exit(1)
+    for text in [refused, *warned] if refused else warned:
+        print(clean(f"{path}: warning: {text}"), file=sys.stderr)

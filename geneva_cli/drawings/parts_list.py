@@ -25,7 +25,7 @@ from geneva_cli.motion.pivots import Dimension, Pivot
 from geneva_cli.motion.records import thing
 from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.parts.projection import Missing, alike, built_of, or_missing, outlines_of
-from geneva_cli.spec.materials import material_names, roller_material, wheel_material
+from geneva_cli.spec.defaults import material_names, roller_material, wheel_material
 from geneva_cli.spec.schema import Points, fields
 from geneva_cli.table import Reading, Table, rows_table
 

@@ -20,7 +20,7 @@ from geneva_cli.motion.wheels.classic import PinPose, gap, middle
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Array, choose, library
 from geneva_cli.numerics.jet import Jet, Number, sin_cos, sine_versine
-from geneva_cli.spec.rules import OneOf, Range, Words
+from geneva_cli.spec.rules import OneOf, Range
 from geneva_cli.spec.schema import Example
 
 if TYPE_CHECKING:
@@ -52,7 +52,7 @@ class Epicyclic(PinPath, kw_only=True):
     round_gears: ClassVar[tuple[str, ...]] = ("planet", "fixed gear")
     planet_ratio: Annotated[
         float | str,
-        Words(Range(-0.4, 0.4), ("shockless",)),
+        Range(-0.4, 0.4, words=("shockless",)),
         'planet crank rp / L, either sign; "shockless" for no jump at entry',
     ]
     fixed: Annotated[str, OneOf(("sun", "ring")), "fixed gear that the planet rolls on"] = "sun"

@@ -15,7 +15,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.records import thing
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import Array, N, all_true, choose, library
-from geneva_cli.spec.materials import roller_material, wheel_material
+from geneva_cli.spec.defaults import roller_material, wheel_material
 from geneva_cli.spec.workshops import Stock
 
 PARALLEL_SHAFTS = (
@@ -54,7 +54,7 @@ def load_case(mechanism: Mechanism) -> LoadCase:
         modulus = contact_modulus_GPa(wheel_material(spec), roller_material(spec)) * 1e3
         hertz = modulus / (math.pi * size.face_width_mm * r)
     friction = load.friction
-    if not (all_true(load.friction == 0.0) or load.rubs_in_slot):
+    if not (all_true(load.friction == 0.0) or load.friction_at == "slot"):
         thickness = 0.5 * pin_diameter_mm(mechanism) / r
         m = library(thickness, load.friction)
         sine = thickness * load.friction / m.hypot(1.0, load.friction)

@@ -4,20 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import field
-from functools import partial
 from typing import Any, ClassVar, Self
 
-from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.errors import GenevaError, refuse_text
 from geneva_cli.motion.drive import Drive, Gears
 from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.records import CRANK, named, thing
 from geneva_cli.motion.wheels.gearing import Gearing, Output
 from geneva_cli.numerics.arrays import Truth, all_true
 from geneva_cli.spec import tables
-from geneva_cli.spec.accept import Accept
 from geneva_cli.spec.load_named import load_named
 from geneva_cli.spec.schema import SpecTable, refuse_kind
-from geneva_cli.spec.tables import LISTS, PLAIN, Z_DRAWN, Mass
+from geneva_cli.spec.tables import LISTS, PLAIN, Z_DRAWN, Accept, Mass
 
 BEFORE = "drive.before"  # table of the drive that turns the input shaft of [drive]
 # limits that need a load
@@ -96,7 +94,8 @@ class Spec(SpecTable):
     def __post_init__(self) -> None:
         for name, (kind, example) in _TABLE_TYPES.items():
             value = vars(self)[name]
-            if value is not None or name not in ("drive_before", "motion"):
+            is_left_out = value is None and name in ("drive_before", "motion")
+            if not (is_left_out or isinstance(value, kind)):
                 refuse_kind(value, name, kind, example)
         vars(self)["mass"] = tuple(self.mass)
         for one in self.mass:
@@ -114,10 +113,11 @@ class Spec(SpecTable):
         lock = self.drive.LOCKS and self.size.lock_radius_mm != 0.0
         own = {"turns": turns, "given_distance_mm": L, "gears": gears, "has_lock": lock}
         vars(self).update(own, output=self.wheel.output(L))
-        load = self.load
+        load, support = self.load, self.support
         nothing = (load.inertia_kgm2 == 0.0) & (load.torque_Nm == 0.0)
         nothing = nothing & (load.mass_kg == 0.0) & (load.force_N == 0.0)
-        nothing = nothing & (self.support.own_torque_Nm == 0.0) & (not self.mass)
+        support_Nmm = support.friction * support.force_N * support.radius_mm
+        nothing = nothing & (support_Nmm == 0.0) & (not self.mass)
         vars(self)["unloaded"] = nothing
         limits = vars(self.limits)
         for limit, (key, of, what) in NEEDED.items():
@@ -132,7 +132,7 @@ class Spec(SpecTable):
         for key in LOADED:
             if limits[key] is not None:
                 text = f"{key} needs a load, and without one there is nothing to limit: set "
-                refuse(nothing, partial(GenevaError, text + self.load_keys, ("limits", key)))
+                refuse_text(nothing, ("limits", key), text + self.load_keys)
 
     def table(self, name: str) -> dict[str, Any]:
         """Values of a table by key; those of ``motion`` include the keys of its law.

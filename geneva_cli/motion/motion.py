@@ -3,7 +3,7 @@
 from typing import Annotated, ClassVar, Self
 
 from geneva_cli.motion.laws.law import Law
-from geneva_cli.spec.rules import FINITE, Range, Words
+from geneva_cli.spec.rules import FINITE, Range
 from geneva_cli.spec.schema import SpecTable, fields, refuse_kind, unknown
 
 
@@ -24,7 +24,7 @@ class Motion(SpecTable):
     alpha0_deg: Annotated[float, FINITE, "extra dwell angle of the crank"] = 0.0
     ratio: Annotated[
         float | str | None,
-        Words(Range(0.0, 1.0, "()"), ("matched",)),
+        Range(0.0, 1.0, "()", ("matched",)),
         'R/L of curved slots, or "matched" for a finite pressure angle',
     ] = None
 

@@ -34,24 +34,25 @@ T = TypeVar("T")
 Record = TypeVar("Record", bound=tuple[object, ...])
 _PLAIN = (float, int)
 
+if TYPE_CHECKING:
 
-class Library(Protocol):
-    """The functions that ``math`` and ``numpy`` share."""
+    class Library(Protocol):
+        """The functions that ``math`` and ``numpy`` share."""
 
-    @property
-    def pi(self) -> float: ...
-    def sin(self, x: N, /) -> N: ...
-    def cos(self, x: N, /) -> N: ...
-    def asin(self, x: N, /) -> N: ...
-    def acos(self, x: N, /) -> N: ...
-    def atan2(self, y: N, x: N, /) -> N: ...
-    def hypot(self, x: N, y: N, /) -> N: ...
-    def sqrt(self, x: N, /) -> N: ...
-    def exp(self, x: N, /) -> N: ...
-    def floor(self, x: N, /) -> N: ...
-    def ceil(self, x: N, /) -> N: ...
-    def degrees(self, x: N, /) -> N: ...
-    def copysign(self, x: N, y: N, /) -> N: ...
+        @property
+        def pi(self) -> float: ...
+        def sin(self, x: N, /) -> N: ...
+        def cos(self, x: N, /) -> N: ...
+        def asin(self, x: N, /) -> N: ...
+        def acos(self, x: N, /) -> N: ...
+        def atan2(self, y: N, x: N, /) -> N: ...
+        def hypot(self, x: N, y: N, /) -> N: ...
+        def sqrt(self, x: N, /) -> N: ...
+        def exp(self, x: N, /) -> N: ...
+        def floor(self, x: N, /) -> N: ...
+        def ceil(self, x: N, /) -> N: ...
+        def degrees(self, x: N, /) -> N: ...
+        def copysign(self, x: N, y: N, /) -> N: ...
 
 
 class Undecided(ArithmeticError):
@@ -122,8 +123,10 @@ def enclosed(x: Number, numbers: Record) -> Record:
     if not isinstance(x, Enclosed):
         return numbers
     kept = (int, str, tuple, type(None), Enclosed)
-    each = [one if isinstance(one, kept) else x.exact(cast("float", one)) for one in numbers]
-    return record_of(numbers, each)
+    out: list[object] = []
+    for one in numbers:
+        out.append(one if isinstance(one, kept) else x.exact(cast("float", one)))
+    return record_of(numbers, out)
 
 
 def library(x: Number, y: Number = 0.0, z: Number = 0.0) -> Library:
@@ -149,6 +152,16 @@ def choose(condition: Truth, yes: Real, no: Real) -> Real:
     both: object = (yes, no)
     chosen_value: object = numpy.where(condition, *cast("tuple[Array, Array]", both))
     return cast("Real", chosen_value)
+
+
+def value_or(value: float | None, default: float) -> float:
+    """Return a value of the spec, or else the default."""
+    return default if value is None else value
+
+
+def half_or(diameter: float | None, default: float) -> float:
+    """Return half of a diameter, or the default radius if that is None."""
+    return default if diameter is None else 0.5 * diameter
 
 
 def record_of(like: Record, parts: Sequence[object]) -> Record:
@@ -199,7 +212,11 @@ def joined(records: Sequence[Record], axis: int = -1) -> Record:
     """Several records of arrays, or of such records, as one: each array joined along an axis."""
     import numpy
 
-    return mapped(lambda *parts: numpy.concatenate(parts, axis), *records)
+    out: list[object] = []
+    for parts in zip(*records, strict=True):
+        is_record = isinstance(parts[0], tuple)
+        out.append(joined(parts, axis) if is_record else numpy.concatenate(parts, axis))
+    return record_of(records[0], out)
 
 
 def numbers_of(which: Mask | Whole) -> Whole:
@@ -208,18 +225,26 @@ def numbers_of(which: Mask | Whole) -> Whole:
 
 
 def record_taken(record: Record, which: Which) -> Record:
-    """A record of arrays (..., m) with some of their columns."""
+    """A record of arrays (..., m), or of such records, with some of their columns."""
     # NumPy's own indexing puts each column's values side by side in memory; reductions over them
     # then take fifty times as long.
-    if isinstance(which, slice):
-        return mapped(lambda column: column[..., which], record)
-    numbers = numbers_of(which)
-    return mapped(lambda column: column.take(numbers, axis=-1), record)
+    if not isinstance(which, slice) and which.dtype == bool:
+        which = cast("Whole", which.nonzero()[0])
+    out: list[object] = []
+    for column in record:
+        if isinstance(column, tuple):
+            out.append(record_taken(column, which))
+        else:
+            values = cast("Array", column)
+            whole = isinstance(which, slice)
+            out.append(values[..., which] if whole else values.take(cast("Whole", which), axis=-1))
+    return record_of(record, out)
 
 
 def blocks(count: int, size: int) -> list[slice]:
     """Adjacent slices of at most ``size`` numbers that divide ``count`` numbers."""
-    return [slice(i, min(i + size, count)) for i in range(0, count, size)] or [slice(0, 0)]
+    ends = *range(size, count, size), count
+    return [*map(slice, range(0, count, size), ends)] or [slice(0, 0)]
 
 
 def within_half_turn(angle: Array) -> Array:
@@ -281,7 +306,7 @@ def array(x: Number) -> Array:
 def read_only(x: T) -> T:
     """A cached value whose arrays, in records too, are views that cannot be written through."""
     if isinstance(x, tuple):
-        return cast("T", record_of(x, [read_only(member) for member in x]))
+        return cast("T", record_of(x, [*map(read_only, x)]))
     import numpy
 
     if not isinstance(x, numpy.ndarray):

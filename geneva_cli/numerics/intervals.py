@@ -12,9 +12,10 @@ from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self, TypeAlias, cast
 
 import numpy as np
 
-from geneva_cli.numerics.arrays import Array, Enclosed, Library, Number, Truth, Undecided, Whole
+from geneva_cli.numerics.arrays import Array, Enclosed, Number, Truth, Undecided, Whole
 
 if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Library
     from geneva_cli.numerics.jet import Jet
 
     Bound: TypeAlias = Array | float

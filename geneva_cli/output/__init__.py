@@ -10,10 +10,11 @@ from __future__ import annotations
 import importlib
 import os
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from itertools import chain
-from typing import TYPE_CHECKING, Any, NamedTuple
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.output.formats import (
@@ -39,25 +40,20 @@ if TYPE_CHECKING:
     from geneva_cli.output.scene import Scene
 
 
-class Choice(NamedTuple):
-    """The columns that a run shows in its tables: some by name, or all whatever their width."""
-
-    columns: tuple[str, ...] = ()
-    wide: bool = False
-
-
-choice = Choice()  # the options --columns and --wide of this run
+# The options --columns and --wide of this run: the columns that its tables show, some by name, or
+# all whatever their width.
+choice = SimpleNamespace(columns=(), wide=False)
 
 
 @contextmanager
-def choosing(columns: Choice) -> Iterator[None]:
+def choosing(columns: Sequence[str], wide: bool) -> Iterator[None]:
     """Show tables by this choice of columns within the block."""
-    global choice
-    before, choice = choice, columns
+    before = dict(vars(choice))
+    vars(choice).update(columns=columns, wide=wide)
     try:
         yield
     finally:
-        choice = before
+        vars(choice).update(before)
 
 
 def refuse_columns() -> None:
@@ -66,14 +62,9 @@ def refuse_columns() -> None:
         raise GenevaError("--columns is for tables, and this run prints none; leave it out")
 
 
-def _module(name: str) -> Any:
-    return importlib.import_module(f"geneva_cli.output.{name}")
-
-
 def _function(name: str) -> Any:
-    from geneva_cli.spec.load_named import load_named
-
-    return load_named(f"output.{name}")
+    module, _, function = name.partition(":")
+    return vars(importlib.import_module(f"geneva_cli.output.{module}"))[function]
 
 
 def show(table: Table, output: str = "-", format: str = "", inputs: Iterable[str] = ()) -> None:
@@ -85,15 +76,16 @@ def show(table: Table, output: str = "-", format: str = "", inputs: Iterable[str
 def _chunks(table: Table, output: str, name: str) -> Iterator[str]:
     from geneva_cli.output.finite import checked, only
 
-    table = checked(table, is_seen(output))
+    seen = is_seen(output)
+    table = checked(table, seen)
     if choice.columns:
         table = only(table, choice.columns)
-    if name == "table" and is_seen(output):
-        from geneva_cli.output.terminal.layout import window
+    if name == "table" and seen:
+        from geneva_cli.output.terminal.summary import window
         from geneva_cli.output.terminal.terminal_tables import chunks
 
         return chunks(table, window(bool(choice.columns), choice.wide))
-    return _module(FORMATS[name]).chunks(table)
+    return _function(f"{FORMATS[name]}:chunks")(table)
 
 
 def is_seen(output: str) -> bool:
@@ -149,7 +141,7 @@ def draw_sheet(
     name = sheet_as(output, format)
     own = _of_dxf(name, version)
     refuse_columns()
-    _put(_module(name).sheet_chunks(sheet, *own), output, inputs)
+    _put(_function(f"{name}:sheet_chunks")(sheet, *own), output, inputs)
 
 
 def _of_dxf(name: str, version: str) -> tuple[str, ...]:
@@ -176,7 +168,7 @@ def animate(scene: Scene, output: str, inputs: Iterable[str] = ()) -> None:
         raise GenevaError("a page is not for a terminal: give -o FILE.html, or --open to show it")
     if output != "-" and os.path.splitext(output)[1].lower() not in (".html", ".htm"):
         raise GenevaError(f'-o "{cut(output)}": it must end in .html or .htm')
-    _put(_module("page").chunks(scene), output, inputs)
+    _put(_function("page:chunks")(scene), output, inputs)
 
 
 def show_document(
@@ -185,7 +177,7 @@ def show_document(
     """Print the document, or write it to the file ``output``."""
     name = document_as(output, format)
     refuse_columns()
-    _put(_module(f"document.{DOCUMENTS[name]}").chunks(document), output, inputs)
+    _put(_function(f"document.{DOCUMENTS[name]}:chunks")(document), output, inputs)
 
 
 def show_text(text: str, output: str = "-", inputs: Iterable[str] = ()) -> None:
@@ -200,8 +192,8 @@ def show_markdown(text: str) -> None:
     if not is_seen("-"):
         _put([text], "-")
         return
-    from geneva_cli.output.terminal.layout import window
     from geneva_cli.output.terminal.page_reader import chunks
+    from geneva_cli.output.terminal.summary import window
 
     _put(chunks(text, window(False, choice.wide)), "-", (), "table")
 

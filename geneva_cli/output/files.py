@@ -1,4 +1,8 @@
-"""Writing a file as a whole or not at all, under a name that every system takes."""
+"""Writing a file as a whole or not at all, under a name that every system takes.
+
+Locks, which two runs cannot hold at once, are on every system. A file that is renamed or removed
+stays locked until then, except on Windows, which renames and removes no open file.
+"""
 
 from __future__ import annotations
 
@@ -7,20 +11,41 @@ import hashlib
 import ntpath
 import os
 import re
+import signal
 import stat
 import sys
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager, nullcontext, suppress
+from types import FrameType
 from typing import BinaryIO
 
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.output.locks import CAREFUL, POSIX, lock, remove, stopping_cleanly
+
+try:
+    import fcntl
+except ImportError:  # in a browser and on Windows
+    fcntl = None  # type: ignore[assignment]
+try:
+    import msvcrt
+except ImportError:  # elsewhere than on Windows
+    msvcrt = None  # type: ignore[assignment]
+
+POSIX = fcntl is not None
+# The byte that is locked on Windows, where nobody else can read a locked one: past any file's end.
+FAR = 1 << 40
+# How a file is opened that somebody may have replaced by a link or a pipe. Windows lacks both.
+CAREFUL = sum(getattr(os, name, 0) for name in ("O_NOFOLLOW", "O_NONBLOCK"))
+# Windows has no SIGHUP, and only Windows has SIGBREAK: Ctrl-Break, and a closed console.
+NAMES = ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK")
+SIGNALS = [getattr(signal, name) for name in NAMES if hasattr(signal, name)]
 
 # Left behind only by kill -9 or a power failure, until the next run that writes this file.
 TEMPORARY = ".{name}.geneva-{number}.tmp"
 FORBIDDEN = {*'"*:<>?|/\\', *map(chr, range(32))}  # of Windows; after a colon is a hidden stream
 DEVICES = {"CON", "PRN", "AUX", "NUL", "CONIN$", "CONOUT$"}  # whatever the extension
 DEVICES |= {port + number for port in ("COM", "LPT") for number in "123456789¹²³"}
+
+_waiting: list[int] | None = None  # the signals that came while they are held
 
 
 def write(path: str, chunks: Iterable[str] | Iterable[bytes], inputs: Iterable[str] = ()) -> None:
@@ -36,12 +61,49 @@ def write(path: str, chunks: Iterable[str] | Iterable[bytes], inputs: Iterable[s
 
 @contextmanager
 def replacing(path: str, inputs: Iterable[str] = ()) -> Iterator[BinaryIO]:
-    """Open a file that replaces ``path`` if the block ends without an error."""
-    with write_errors(path):
+    """Open a file that replaces ``path`` if the block ends without an error.
+
+    It is a locked file beside ``path``, which takes its name at the end.
+    """
+    with write_errors(path), stopping_cleanly():
         real, old = place(path, inputs)
-        is_file = old is None or stat.S_ISREG(old.st_mode)
-        with _temporary_for(real, old) if is_file else open(real, "wb") as file:
-            yield file
+        if old is not None and not stat.S_ISREG(old.st_mode):
+            with open(real, "wb") as file:
+                yield file
+            return
+        folder, name = os.path.split(real)
+        # The temporary name holds 200 bytes of it: a file system allows 255 in all.
+        name = name.encode(errors="surrogateescape")[:200].decode(errors="replace")
+        _remove_stale(folder, name)
+        own, number = "", os.getpid()
+        while not own or os.path.lexists(own):  # another run's file must not be touched
+            own = os.path.join(folder, TEMPORARY.format(name=name, number=number))
+            number += 1
+        try:
+            with open(own, "xb") as file:
+                lock(file.fileno())
+                if old is not None:
+                    take_after(file.fileno(), old)
+                yield file
+                file.flush()
+                os.fsync(file.fileno())
+                if not POSIX:  # Windows renames no open file
+                    file.close()
+                os.replace(own, real)
+        finally:
+            with suppress(FileNotFoundError):
+                os.unlink(own)
+
+
+def _remove_stale(folder: str, name: str) -> None:
+    """Remove temporary files of killed runs, of which nobody holds the lock."""
+    left = re.compile(rf"\.{re.escape(name)}\.geneva-\d{{1,9}}\.tmp")
+    with suppress(OSError):  # a folder that can be written but not listed
+        for entry in filter(left.fullmatch, os.listdir(folder)):
+            stale = os.path.join(folder, entry)
+            with suppress(OSError), open(os.open(stale, os.O_RDONLY | CAREFUL), "rb") as file:
+                if lock(file.fileno()) and stat.S_ISREG(os.lstat(stale).st_mode):
+                    remove(file, stale)
 
 
 @contextmanager
@@ -134,42 +196,6 @@ def refuse_input(path: str, old: os.stat_result, inputs: Iterable[str]) -> None:
             )
 
 
-@contextmanager
-def _temporary_for(path: str, old: os.stat_result | None) -> Iterator[BinaryIO]:
-    """Open a locked file beside ``path`` that takes its name at the end."""
-    folder, name = os.path.split(path)
-    # The temporary name holds 200 bytes of it: a file system allows 255 in all.
-    name = name.encode(errors="surrogateescape")[:200].decode(errors="replace")
-    # Of the temporary files of killed runs nobody holds the lock.
-    left = re.compile(rf"\.{re.escape(name)}\.geneva-\d{{1,9}}\.tmp")
-    with suppress(OSError):  # a folder that can be written but not listed
-        for entry in filter(left.fullmatch, os.listdir(folder)):
-            stale = os.path.join(folder, entry)
-            with suppress(OSError), open(os.open(stale, os.O_RDONLY | CAREFUL), "rb") as file:
-                lock(file.fileno())
-                if stat.S_ISREG(os.lstat(stale).st_mode):
-                    remove(file, stale)
-    number = os.getpid()
-    while os.path.lexists(own := os.path.join(folder, TEMPORARY.format(name=name, number=number))):
-        number += 1  # another run's file, which must not be touched
-    with stopping_cleanly():
-        try:
-            with open(own, "xb") as file:
-                with suppress(OSError):  # a file system without locks
-                    lock(file.fileno())
-                if old is not None:
-                    take_after(file.fileno(), old)
-                yield file
-                file.flush()
-                os.fsync(file.fileno())
-                if not POSIX:  # Windows renames no open file
-                    file.close()
-                os.replace(own, path)
-        finally:
-            with suppress(FileNotFoundError):
-                os.unlink(own)
-
-
 def take_after(descriptor: int, old: os.stat_result) -> None:
     """Copy owner and permissions of the old file; a user without that right keeps the file.
 
@@ -190,3 +216,77 @@ def digest_of(path: str) -> str:
         return ""
     with open(path, "rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+def lock(descriptor: int, busy: str = "", alone: bool = False) -> bool:
+    """Lock a file for this process and its workers, or for this process alone; True if it is.
+
+    A worker may outlive a killed run for a moment, and would block the next run. It is not locked
+    where there are no locks, or if another process has the lock; with a text ``busy`` that raises
+    GenevaError.
+    """
+    try:
+        if fcntl is not None:
+            (fcntl.lockf if alone else fcntl.flock)(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        elif msvcrt is not None:
+            position = os.lseek(descriptor, 0, os.SEEK_CUR)
+            os.lseek(descriptor, FAR, os.SEEK_SET)
+            try:
+                msvcrt.locking(descriptor, msvcrt.LK_NBLCK, 1)
+            finally:
+                os.lseek(descriptor, position, os.SEEK_SET)
+    except OSError as error:  # any other: a file system without locks
+        if busy and error.errno in (errno.EAGAIN, errno.EACCES):
+            raise GenevaError(busy) from None
+        return False
+    return fcntl is not None or msvcrt is not None
+
+
+def remove(file: BinaryIO, path: str) -> None:
+    """Remove an open, locked file."""
+    if not POSIX:  # Windows removes no open file
+        file.close()
+    with suppress(PermissionError) if not POSIX else nullcontext():  # another run has opened it
+        os.unlink(path)
+
+
+@contextmanager
+def stopping_cleanly() -> Iterator[None]:
+    """Make signals that end a run raise SystemExit, which cleans up; ignored ones stay so.
+
+    A second signal does not interrupt the cleaning up.
+    """
+    handlers = {}
+    for number in SIGNALS:
+        # Only the main thread of a program may set signals.
+        with suppress(ValueError):
+            if signal.getsignal(number) not in (signal.SIG_IGN, _stop):
+                handlers[number] = signal.signal(number, _stop)
+    try:
+        yield
+    finally:
+        for number, handler in handlers.items():
+            signal.signal(number, handler)
+
+
+@contextmanager
+def holding_signals() -> Iterator[None]:
+    """Let these signals wait for the end of a block that must not be left half done."""
+    global _waiting
+    _waiting = []
+    try:
+        yield
+    finally:
+        numbers, _waiting = _waiting, None
+        if numbers:
+            _stop(numbers[0], None)
+
+
+def _stop(number: int, frame: FrameType | None) -> None:
+    if _waiting is not None:
+        _waiting.append(number)
+        return
+    for other in SIGNALS:
+        if signal.getsignal(other) is _stop:
+            signal.signal(other, signal.SIG_IGN)
+    sys.exit(128 + number)

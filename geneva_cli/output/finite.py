@@ -8,7 +8,7 @@ from typing import Any
 
 from geneva_cli.errors import GenevaError, cut, few
 from geneva_cli.progress import Meter
-from geneva_cli.table import Table, rows_table
+from geneva_cli.table import Column, Table, pieces, rows_table
 
 KIND = "row"  # column of a table whose rows are of several kinds, each with columns of its own
 
@@ -19,17 +19,22 @@ def checked(table: Table, is_seen: bool = False) -> Table:
     Its progress is reported, unless the rows are seen as they come. Raises ArithmeticError as
     ``refuse_nonsense`` does.
     """
+    own = table.columns
+    if not (own and isinstance(own[0], Column)):
+        refuse_nonsense(table.names, own)
+        return table
     meter, done = None if is_seen else Meter("rows", len(table)), 0
 
-    def check(columns: Sequence[Any]) -> Sequence[Any]:
+    def make(start: int, stop: int) -> Sequence[Any]:
         nonlocal done
+        columns = [column[start:stop] for column in own]
         refuse_nonsense(table.names, columns)
-        if meter and columns:
+        if meter:
             done += len(columns[0])
             meter.report(done)
         return columns
 
-    return table.changed(check)
+    return table.replaced(columns=pieces(len(table), len(own), make))
 
 
 def refuse_nonsense(names: Iterable[str], columns: Iterable[Any]) -> None:
@@ -42,7 +47,15 @@ def refuse_nonsense(names: Iterable[str], columns: Iterable[Any]) -> None:
         # and valid as motion over dwell without a dwell.
         boundless = name.rpartition(".")[2] in {"curvature_radius_mm", "value", "k"}
         if isinstance(column, (list, tuple)):
-            wrong = any(_wrong(v, boundless) for v in column)
+            wrong, rest = False, [column]
+            while rest:
+                for value in rest.pop():
+                    if isinstance(value, Table):
+                        refuse_nonsense(value.names, value.columns)
+                    elif isinstance(value, (tuple, list)):
+                        rest.append(value)
+                    elif isinstance(value, float) and not math.isfinite(value):
+                        wrong = wrong or value != value or not boundless
         elif boundless:
             wrong = (column != column).any()
         else:
@@ -61,15 +74,6 @@ def refuse_nan(names: Iterable[str], columns: Iterable[Any]) -> None:
             wrong = float in map(type, column) and any(v != v for v in column)
         if wrong:
             raise ArithmeticError(f"{name}: a value is not a number")
-
-
-def _wrong(value: Any, boundless: bool) -> bool:
-    if isinstance(value, Table):
-        refuse_nonsense(value.names, value.columns)
-        return False
-    if isinstance(value, (tuple, list)):
-        return any(_wrong(v, boundless) for v in value)
-    return isinstance(value, float) and (value != value or not (boundless or math.isfinite(value)))
 
 
 def only(table: Table, names: Sequence[str]) -> Table:

@@ -16,17 +16,21 @@ from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, below, cut, few
 from geneva_cli.output.files import (
+    POSIX,
     digest_of,
     fault,
+    holding_signals,
+    lock,
     place,
     real_path,
+    stopping_cleanly,
     take_after,
     write,
     write_errors,
 )
-from geneva_cli.output.locks import folder_locked, holding_signals, stopping_cleanly
 
 LIST = "contents.csv"
+LOCK = ".geneva-export.lock"  # on Windows, which opens no folder
 COLUMNS = ("file", "content", "sha256")
 # In the folder, so that renaming needs no copy even where the folder is a mount point. A run that
 # was killed leaves it; the next one, which has the folder's lock, removes it.
@@ -70,32 +74,14 @@ def filling_folder(
         f"{cut(path, 300)}: another run is writing into this folder; wait until it ends, or give "
         "-o another folder"
     )
-
-    def require_own() -> None:
-        """Raise GenevaError if a file that would be replaced is a person's, or an input."""
-        rows, files = _rows(real), [entry.file for entry in entries]
-        own = _own(real, rows or [])
-        for file in {*files, LIST, *own}:
-            shown = below(path, file)
-            with write_errors(shown):
-                place(shown, inputs)
-        others = [file for file in files if file not in own]
-        if rows is None:
-            others.insert(0, LIST)
-        others = [file for file in others if os.path.lexists(os.path.join(real, file))]
-        if others and not force:
-            raise GenevaError(
-                f"{cut(path, 300)}: not written by `geneva export`, or changed since: "
-                f"{few(others[0], others)}; --force replaces them, or give -o another folder"
-            )
-
-    with write_errors(path), stopping_cleanly(), _made(real), folder_locked(real, says):
-        require_own()  # before the work
+    with write_errors(path), stopping_cleanly(), _locked(real, says):
+        _require_own(path, real, entries, inputs, force)  # before the work
         shutil.rmtree(filling.new, ignore_errors=True)
         try:
             os.mkdir(filling.new)
             yield filling
-            require_own()  # a person may have changed a file meanwhile
+            # a person may have changed a file meanwhile
+            _require_own(path, real, entries, inputs, force)
             with holding_signals():
                 filling.kept.extend(_replace(real, filling.new, entries))
         finally:
@@ -103,17 +89,44 @@ def filling_folder(
 
 
 @contextmanager
-def _made(real: str) -> Iterator[None]:
-    """Make a folder that is missing; it is removed after the block if nothing was written."""
-    is_new = not os.path.isdir(real)
+def _locked(real: str, says: str) -> Iterator[None]:
+    """Make a folder that is missing, and lock it; it is removed if nothing was written."""
+    is_new, path = not os.path.isdir(real), real if POSIX else os.path.join(real, LOCK)
     if is_new:
         os.mkdir(real)
+    descriptor = None
     try:
+        descriptor = os.open(path, os.O_RDONLY if POSIX else os.O_RDWR | os.O_CREAT)
+        lock(descriptor, says)
         yield
     finally:
-        if is_new:
-            with suppress(OSError):  # it has files now
+        if descriptor is not None:
+            os.close(descriptor)
+        with suppress(OSError):  # another run has opened it, and will remove it
+            if not POSIX:
+                os.unlink(path)
+        with suppress(OSError):  # it has files now
+            if is_new:
                 os.rmdir(real)
+
+
+def _require_own(path: str, real: str, entries: list[Row], inputs: list[str], force: bool) -> None:
+    """Raise GenevaError if a file that would be replaced is a person's, or an input."""
+    rows, files = _rows(real), [entry.file for entry in entries]
+    own = _own(real, rows or [])
+    for file in {*files, LIST, *own}:
+        shown = below(path, file)
+        with write_errors(shown):
+            place(shown, inputs)
+    others = [file for file in files if file not in own]
+    if rows is None:
+        others.insert(0, LIST)
+    others = [file for file in others if os.path.lexists(os.path.join(real, file))]
+    if others and not force:
+        raise GenevaError(
+            f"{cut(path, 300)}: not written by `geneva export`, or changed since: "
+            f"{few(others[0], others)}; --force replaces them, or give -o another folder"
+        )
 
 
 def _replace(real: str, new: str, entries: list[Row]) -> list[str]:

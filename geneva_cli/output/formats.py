@@ -20,7 +20,8 @@ PICTURES = ("png", "pdf")  # for figures only
 DOCUMENTS = {"html": "html", "pdf": "document_pdf", "md": "document_markdown"}
 # for figures; the others get their points
 PLOTTED = {"svg": "plot_svg:chunks", "png": "plot_svg:png_chunks", "pdf": "plot_pdf:chunks"}
-EXTENSIONS = {"txt" if name == "table" else name: name for name in (*FORMATS, *DRAWN, *PICTURES)}
+_OWN = ("csv", "json", "md", *DRAWN, *PICTURES)  # extensions that are a format's name
+EXTENSIONS = {"txt": "table", **dict(zip(_OWN, _OWN, strict=True))}
 EXTENSIONS |= {"stp": "step", "html": "html", "htm": "html"}
 # versions that ezdxf writes; R2000 is the first with LWPOLYLINE, SPLINE and a unit, and all read it
 DXF_VERSIONS = ("R12", "R2000", "R2004", "R2007", "R2010", "R2013", "R2018")
@@ -28,7 +29,8 @@ DXF_VERSIONS = ("R12", "R2000", "R2004", "R2007", "R2010", "R2013", "R2018")
 
 def table_as(output: str, format: str) -> str:
     """The format of a table. Raises GenevaError for an unknown one."""
-    return _chosen(output, format, FORMATS, _wrong(format))
+    name = format or ("table" if output == "-" else _named(output, ""))
+    return name if name in FORMATS else _chosen(output, format, FORMATS)
 
 
 def is_for_people(output: str, format: str) -> bool:
@@ -111,11 +113,13 @@ def _chosen(output: str, format: str, formats: Collection[str], remark: str = ""
     name = format or ("table" if output == "-" else _named(output, ""))
     if name in formats:
         return name
+    if formats is FORMATS and name in (*DRAWN, *PICTURES):
+        remark = f"{name} holds a drawing, and this is a table; "
     if format or output == "-":
         raise GenevaError(f"--format {cut(name)}: {remark}it must be one of {', '.join(formats)}")
     known = ", ".join(f".{e}" for e, name in EXTENSIONS.items() if name in formats)
     if name:
-        wrong = _wrong(name) if formats is FORMATS else ""
+        wrong = remark if formats is FORMATS else ""
         raise GenevaError(f'-o "{cut(output)}": {wrong}it must end in {known}')
     raise GenevaError(
         f'-o "{cut(output)}": the extension names no format ({known}); add one, or --format'
@@ -124,7 +128,3 @@ def _chosen(output: str, format: str, formats: Collection[str], remark: str = ""
 
 def _named(output: str, format: str) -> str:
     return format or EXTENSIONS.get(os.path.splitext(output)[1].lower().lstrip("."), "")
-
-
-def _wrong(name: str) -> str:
-    return f"{name} holds a drawing, and this is a table; " if name in (*DRAWN, *PICTURES) else ""

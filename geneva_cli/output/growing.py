@@ -19,9 +19,17 @@ from typing import Any, BinaryIO
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.output import refuse_columns
 from geneva_cli.output.delimited import one_line, text_of
-from geneva_cli.output.files import digest_of, place, refuse_input, replacing, write_errors
+from geneva_cli.output.files import (
+    CAREFUL,
+    digest_of,
+    lock,
+    place,
+    refuse_input,
+    remove,
+    replacing,
+    write_errors,
+)
 from geneva_cli.output.finite import refuse_nan
-from geneva_cli.output.locks import CAREFUL, lock_or_refuse, remove
 from geneva_cli.streams import use_utf8
 
 SUFFIX = ".geneva"
@@ -166,7 +174,7 @@ def _open_locked(path: str, inputs: Iterable[str]) -> BinaryIO:
     # A link or a pipe that somebody puts there now is neither followed nor waited for.
     file = os.fdopen(os.open(path, os.O_RDWR | os.O_CREAT | CAREFUL, 0o666), "r+b")
     try:
-        lock_or_refuse(file.fileno(), busy, alone=True)
+        lock(file.fileno(), busy, alone=True)
         if not os.fstat(file.fileno()).st_nlink:  # the run with the lock has just removed it
             raise GenevaError(busy)
     except BaseException:

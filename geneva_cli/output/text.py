@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from geneva_cli.errors import clean
-from geneva_cli.table import Table, flat, in_digits, record_table
+from geneva_cli.table import Table, flat, in_digits, plain_rows, record_table
 
 WIDTH = 90  # letters of a line in a file or a pipe
 
@@ -96,7 +96,8 @@ def apart(record: Table, plain_names: bool = False) -> Iterator[tuple[str, Table
     With ``plain_names`` a table with dotted names stays in its record.
     """
     values: dict[str, Any] = {}
-    for name, value in zip(record.names, next(record.rows(), ()), strict=True):
+    (row,) = plain_rows(record.columns) or [()]
+    for name, value in zip(record.names, row, strict=True):
         dotted = isinstance(value, Table) and any("." in n for n in value.names)
         if isinstance(value, Table) and not (plain_names and dotted):
             yield "", record_table(values)
@@ -112,12 +113,14 @@ def _lines(table: Table) -> Iterator[str]:
     if not table.names:
         return
     table = flat(table)
-    # A value that does not apply has no line.
-    row = zip(table.names, next(table.rows()), strict=True)
-    shown = [(*name.rpartition("."), value) for name, value in row if value not in (None, "")]
-    width = max((len(name) + (2 if group else 0) for group, _, name, _ in shown), default=0)
+    shown, width = [], 0
+    for name, (value,) in zip(table.names, table.columns, strict=True):
+        if value not in (None, ""):  # a value that does not apply has no line
+            group, _, last = name.rpartition(".")
+            shown.append((group, last, value))
+            width = max(width, len(last) + (2 if group else 0))
     current = ""
-    for group, _, name, value in shown:
+    for group, name, value in shown:
         if group != current:
             yield f"{group}\n" if group else ""
             current = group

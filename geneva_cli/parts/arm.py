@@ -27,7 +27,7 @@ from geneva_cli.parts.shafts.bores import bore_of, has_shape
 from geneva_cli.parts.shafts.screws import bolt_radius, refuse_no_screw, tapped
 from geneva_cli.parts.sizes import hub_and_eye, lock_bolt_directions, pin_hole, wall_of_bolts
 from geneva_cli.parts.slots.roller_paths import roller_centres
-from geneva_cli.spec.least_wall import eye_about
+from geneva_cli.spec.defaults import eye_about
 
 
 class CrankArm(NamedTuple):

@@ -13,7 +13,7 @@ from geneva_cli.parts.links.links import drawn_links
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.projection import titled
 from geneva_cli.parts.shafts.bores import has_shape, round_bore
-from geneva_cli.spec.least_wall import wall_min
+from geneva_cli.spec.defaults import wall_min
 
 
 def first_pair(mechanism: Mechanism, outlines: Outlines | None) -> Mechanism:

@@ -18,6 +18,7 @@ from geneva_cli.geometry.plates import Member, Plate
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Point, as_contour, convex_hull
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Joint
+from geneva_cli.numerics.arrays import half_or
 from geneva_cli.numerics.preferred import bore_radius, rounded_radius
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.arm import crank_arm
@@ -36,8 +37,7 @@ from geneva_cli.parts.shafts.shaft import (
     wheel_shaft_radius,
 )
 from geneva_cli.parts.sizes import HUB, bridge_low, drawn_thicknesses
-from geneva_cli.spec.default_sizes import half_or
-from geneva_cli.spec.least_wall import wall_min
+from geneva_cli.spec.defaults import wall_min
 from geneva_cli.spec.tables import Size
 
 

@@ -15,6 +15,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.records import thing
+from geneva_cli.numerics.arrays import value_or
 from geneva_cli.numerics.preferred import bore_radius, rounded_below
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly, assembly
@@ -33,8 +34,7 @@ from geneva_cli.parts.sizes import (
 )
 from geneva_cli.parts.slots.roller_paths import mouth, roller_paths, roller_reaches
 from geneva_cli.parts.stressed import Unloaded
-from geneva_cli.spec.default_sizes import value_or
-from geneva_cli.spec.least_wall import wall_min
+from geneva_cli.spec.defaults import wall_min
 from geneva_cli.spec.tables import Size
 
 if TYPE_CHECKING:
@@ -171,7 +171,7 @@ def keys_by_load(mechanism: Mechanism, locked: bool) -> tuple[str, ...]:
     if size.wheel_bore_mm is spec.shaft.wheel_diameter_mm is None:
         keys.append("wheel_bore_mm")
     # loads with friction on the pin depend on the usual one
-    if size.pin_mm is None and not (spec.load.friction and not spec.load.rubs_in_slot):
+    if size.pin_mm is None and not (spec.load.friction and spec.load.friction_at == "pin"):
         keys.append("pin_mm")
     if size.arm_thickness_mm is None:
         keys.append("arm_thickness_mm")

@@ -27,7 +27,7 @@ from geneva_cli.loads.strength.pin import PinSize, pin_stress_MPa
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.arrays import Array
+from geneva_cli.numerics.arrays import Array, value_or
 from geneva_cli.numerics.preferred import rounded_below, sizes_from
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.assembly import Assembly, links_at
@@ -39,8 +39,7 @@ from geneva_cli.parts.sizes import (
     within_hub,
 )
 from geneva_cli.parts.stressed import Stressed, Unloaded, stressed
-from geneva_cli.spec.default_sizes import value_or
-from geneva_cli.spec.materials import roller_material, wheel_material
+from geneva_cli.spec.defaults import roller_material, wheel_material
 
 
 def load_sizes(
@@ -199,7 +198,7 @@ def pin_that_holds(
     thick.
     """
     spec, size = mechanism.spec, mechanism.spec.size
-    on_pin = spec.load.friction and not spec.load.rubs_in_slot
+    on_pin = spec.load.friction and spec.load.friction_at == "pin"
     if size.pin_mm is not None or on_pin or not usual:
         return usual
     contact = value_or(size.face_width_mm, wide)

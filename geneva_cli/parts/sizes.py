@@ -8,11 +8,11 @@ from typing import NamedTuple, TypeAlias
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
+from geneva_cli.numerics.arrays import half_or, value_or
 from geneva_cli.numerics.preferred import bore_radius, rounded_below, rounded_radius
 from geneva_cli.parts.shafts.bores import bore_of, has_shape, reach_or_bore
-from geneva_cli.spec.default_sizes import Thicknesses, half_or, value_or
-from geneva_cli.spec.least_wall import eye_about
-from geneva_cli.spec.tables import Size
+from geneva_cli.spec.defaults import eye_about
+from geneva_cli.spec.tables import Size, Thicknesses
 
 HUB = 1.6  # outside diameter of a hub, as a multiple of its bore
 LARGEST_HUB = 0.75  # of the slots' ends: a quarter of the wheel up to them stays free

@@ -11,14 +11,13 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.loads.strength.arm_and_key import NO_ARM, NO_KEY, ArmDimensions, KeyDimensions
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.motion.machine_spec import Spec
+from geneva_cli.numerics.arrays import half_or, value_or
 from geneva_cli.parts.assembly import Assembly, gear_plane, is_bridged, links_at
 from geneva_cli.parts.outlines.crank_outline import is_whole
 from geneva_cli.parts.outlines.outlines import wheel_hub_length
 from geneva_cli.parts.shafts.bores import reach_or_bore
 from geneva_cli.parts.sizes import Sizes, arm_hub, bridge_low, plane_span
-from geneva_cli.spec.default_sizes import half_or, value_or
-from geneva_cli.spec.keyways import key
-from geneva_cli.spec.least_wall import eye_about
+from geneva_cli.spec.defaults import eye_about, key
 
 
 class Unloaded(NamedTuple):

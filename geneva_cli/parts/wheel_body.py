@@ -11,7 +11,7 @@ from geneva_cli.motion.records import thing
 from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.outlines.outlines import wheel_hub, wheel_plate
 from geneva_cli.parts.outlines.wheel_outline import turned_walls, wheel_contour
-from geneva_cli.spec.materials import wheel_material
+from geneva_cli.spec.defaults import wheel_material
 
 
 @lru_cache(maxsize=16)

@@ -14,12 +14,13 @@ TINY = 1e-300
 class Range(NamedTuple):
     """Numbers from ``low`` to ``high``, 0 or at least ``TINY`` in size.
 
-    A round bracket in ``ends`` excludes that end.
+    A round bracket in ``ends`` excludes that end. ``words`` may stand for a computed number.
     """
 
     low: float
     high: float = math.inf
     ends: str = "[]"
+    words: tuple[str, ...] = ()
 
     def __contains__(self, x: object) -> bool:
         return isinstance(x, (int, float)) and bool(self.holds(x))
@@ -31,13 +32,19 @@ class Range(NamedTuple):
         return above & below & ((x == 0) | (abs(x) >= TINY))
 
     def __str__(self) -> str:
-        if math.isinf(self.low) and math.isinf(self.high):
-            return "a finite number"
-        if 0.0 < self.low < 1e-6:  # a bound that only keeps the arithmetic finite
-            return f"above 0 ({self.low:g} to {self.high:g})"
         low = f"{'above' if self.ends[0] == '(' else 'at least'} {self.low:.12g}"
         high = f"{'below' if self.ends[1] == ')' else 'at most'} {self.high:.12g}"
-        return low if math.isinf(self.high) else high if math.isinf(self.low) else f"{low}, {high}"
+        if math.isinf(self.low) and math.isinf(self.high):
+            text = "a finite number"
+        elif 0.0 < self.low < 1e-6:  # a bound that only keeps the arithmetic finite
+            text = f"above 0 ({self.low:g} to {self.high:g})"
+        elif math.isinf(self.low) or math.isinf(self.high):
+            text = low if math.isinf(self.high) else high
+        else:
+            text = f"{low}, {high}"
+        for number, word in enumerate(self.words):
+            text += f'{"" if number else ","} or "{word}"'
+        return text
 
 
 class OneOf(tuple[str, ...]):
@@ -47,23 +54,6 @@ class OneOf(tuple[str, ...]):
 
     def __str__(self) -> str:
         return "one of " + ", ".join(f'"{word}"' for word in self)
-
-
-class Words(NamedTuple):
-    """A number in a range, or a word that stands for a computed number."""
-
-    range: Range
-    words: tuple[str, ...]
-
-    def __contains__(self, x: object) -> bool:
-        return x in self.range
-
-    def holds(self, x: Any) -> Any:
-        """True if a number is in the range; for an array, a truth value for each number."""
-        return self.range.holds(x)
-
-    def __str__(self) -> str:
-        return f"{self.range}, or " + " or ".join(f'"{word}"' for word in self.words)
 
 
 class Csv:
@@ -142,22 +132,14 @@ def is_array(x: object) -> bool:
     return array is not None and isinstance(x, array)
 
 
-class RangeText(NamedTuple):
-    """The ends and the step of a range as they are typed; empty if left out."""
+def range_text(text: str, option: str) -> tuple[str, str, str] | None:
+    """Return both ends and the step of a range; None for a text without ``..``.
 
-    low: str
-    high: str
-    step: str
-
-
-def range_text(text: str, option: str) -> RangeText | None:
-    """Return the parts of a range; None for a text without ``..``.
-
-    ``option``, with its value, begins the text of errors. Raises GenevaError for a step without
-    its range, or without a number.
+    A part that is left out is empty. ``option``, with its value, begins the text of errors. Raises
+    GenevaError for a step without its range, or without a number.
 
     >>> range_text("0..0.9:0.01", "--vary drive.A")
-    RangeText(low='0', high='0.9', step='0.01')
+    ('0', '0.9', '0.01')
     """
     ends, colon, step = text.partition(":")
     low, dots, high = ends.partition("..")
@@ -165,4 +147,4 @@ def range_text(text: str, option: str) -> RangeText | None:
         raise GenevaError(
             f"{option}: a range is LOW..HIGH or LOW..HIGH:STEP, as 3..12 or 0..0.9:0.1"
         )
-    return RangeText(low.strip(), high.strip(), step.strip()) if dots else None
+    return (low.strip(), high.strip(), step.strip()) if dots else None

@@ -28,7 +28,7 @@ from typing import (
 )
 
 from geneva_cli.errors import GenevaError, cut, few, nearest, refuse
-from geneva_cli.spec.rules import TINY, Csv, OneOf, Words, is_array, plain
+from geneva_cli.spec.rules import TINY, Csv, OneOf, Range, is_array, plain
 
 LIST: TypeAlias = tuple[float, ...]
 LIST_MAX = 1000
@@ -64,7 +64,7 @@ class Field(NamedTuple):
     @property
     def words(self) -> tuple[str, ...]:
         """The words that its values may be; none for numbers and free text."""
-        if isinstance(self.rule, Words):
+        if isinstance(self.rule, Range):
             return self.rule.words
         return self.rule if isinstance(self.rule, OneOf) else ()
 
@@ -76,14 +76,12 @@ class _Signature:
     """Signature of a table's class, for ``help`` and editors; it is computed when they ask."""
 
     def __get__(self, table: object, kind: type[SpecTable]) -> inspect.Signature:
-        def parameter(one: dataclasses.Field[object]) -> inspect.Parameter:
-            kinds = inspect.Parameter
+        kinds, parameters = inspect.Parameter, []
+        for one in sorted(kind._parameters.values(), key=lambda one: bool(one.kw_only)):
             place = kinds.KEYWORD_ONLY if one.kw_only else kinds.POSITIONAL_OR_KEYWORD
-            default = inspect.Parameter.empty if one.default is REQUIRED else one.default
-            return inspect.Parameter(one.name, place, default=default, annotation=one.type)
-
-        every = sorted(_parameters(kind), key=lambda one: bool(one.kw_only))
-        return inspect.Signature([parameter(one) for one in every])
+            default = kinds.empty if one.default is REQUIRED else one.default
+            parameters.append(kinds(one.name, place, default=default, annotation=one.type))
+        return inspect.Signature(parameters)
 
 
 @dataclass_transform(frozen_default=True, field_specifiers=(dataclasses.field,))
@@ -97,16 +95,20 @@ class SpecTable:
     TABLE: ClassVar[str] = ""  # its name in the file
     WORDS_APART: ClassVar[str] = "_"  # what stands between the words of its keys
     __signature__ = _Signature()
+    _parameters: ClassVar[dict[str, dataclasses.Field[object]]]  # by name
 
     def __init_subclass__(cls, kw_only: bool = False) -> None:
         dataclasses.dataclass(init=False, eq=False, repr=False, kw_only=kw_only)(cls)
+        cls._parameters = {}
+        for one in dataclasses.fields(cls):  # type: ignore[arg-type]
+            cls._parameters[one.name] = one
 
     def __init__(self, *values: object, **named: object) -> None:
         own, kind = vars(self), type(self)
-        if named:
-            refuse_keywords(kind.__name__, named, _names(kind))
+        if not named.keys() <= kind._parameters.keys():
+            refuse_keywords(kind.__name__, named, [*kind._parameters])
         if values:
-            names = [one.name for one in _parameters(kind) if not one.kw_only]
+            names = [one.name for one in kind._parameters.values() if not one.kw_only]
             if len(values) > len(names):
                 most = f"at most {len(names)} arguments" if names else "no argument"
                 raise TypeError(f"{kind.__name__} takes {most} without a name, not {len(values)}")
@@ -114,13 +116,13 @@ class SpecTable:
             for name in by_place.keys() & named:
                 raise TypeError(f"{kind.__name__} has two values of {name}")
             named |= by_place
-        for one in _parameters(kind):
-            value = named.get(one.name, one.default)
+        for name, one in kind._parameters.items():
+            value = named.get(name, one.default)
             if value is REQUIRED:
                 if one.default_factory is REQUIRED:
-                    raise TypeError(f"{kind.__name__} needs {one.name}")
+                    raise TypeError(f"{kind.__name__} needs {name}")
                 value = one.default_factory()
-            own[one.name] = value
+            own[name] = value
         self.__post_init__()
 
     def __setattr__(self, name: str, value: object) -> None:
@@ -130,27 +132,25 @@ class SpecTable:
         raise dataclasses.FrozenInstanceError(f"cannot delete field {name!r}")
 
     def __post_init__(self) -> None:
-        for field in fields(type(self)):
-            value = getattr(self, field.attribute)
-            if value is not field.default:
-                value = checked(self.TABLE, field, value)
-                vars(self)[field.attribute] = value
-
-    def _values(self) -> dict[str, Any]:
-        """Values by field name."""
         own = vars(self)
-        return {name: own[name] for name in _names(type(self))}
+        for field in fields(type(self)):
+            value = own[field.attribute]
+            if value is not field.default:
+                own[field.attribute] = checked(self.TABLE, field, value)
 
     def __eq__(self, other: object) -> bool:
         if not (isinstance(other, SpecTable) and type(other) is type(self)):
             return NotImplemented
-        return self is other or self._values() == other._values()
+        own, others, names = vars(self), vars(other), type(self)._parameters
+        if self is other:
+            return True
+        return [*map(own.__getitem__, names)] == [*map(others.__getitem__, names)]
 
     def __hash__(self) -> int:
         own, kind = vars(self), type(self)
         if HASH not in own:
             # includes the type, since many laws and drives have equal values
-            own[HASH] = hash((kind, *[own[name] for name in _names(kind)]))
+            own[HASH] = hash((kind, *map(own.__getitem__, kind._parameters)))
         value: int = own[HASH]
         return value
 
@@ -159,8 +159,8 @@ class SpecTable:
         return {name: value for name, value in vars(self).items() if name != HASH}
 
     def __repr__(self) -> str:
-        values = ", ".join(f"{name}={value!r}" for name, value in self._values().items())
-        return f"{type(self).__qualname__}({values})"
+        own, kind = vars(self), type(self)
+        return f"{kind.__qualname__}({', '.join(f'{n}={own[n]!r}' for n in kind._parameters)})"
 
     def as_dict(self) -> dict[str, Any]:
         """Values by key.
@@ -168,7 +168,10 @@ class SpecTable:
         >>> External(6).as_dict()
         {'z': 6, 'held_by': None, 'offset_mm': 0.0, 'steps_deg': None, 'stop': False}
         """
-        return {field.key: getattr(self, field.attribute) for field in fields(type(self))}
+        own, out = vars(self), {}
+        for field in fields(type(self)):
+            out[field.key] = own[field.attribute]
+        return out
 
     def with_key(self, key: str, value: Any) -> Self:
         """Return a copy with one key changed, written as in the file; None sets its default.
@@ -194,11 +197,14 @@ class SpecTable:
         Spherical(z=6, held_by=None, axes_deg=60.0)
         """
         # dataclasses.replace takes twice the time
-        kind, own = type(self), vars(self)
-        names = _names(kind)
-        refuse_keywords(kind.__name__, changes, names)
+        kind = type(self)
+        if not changes.keys() <= kind._parameters.keys():
+            refuse_keywords(kind.__name__, changes, [*kind._parameters])
         new = object.__new__(kind)
-        vars(new).update({name: own[name] for name in names} | changes)
+        own, values = vars(self), vars(new)
+        for name in kind._parameters:
+            values[name] = own[name]
+        values.update(changes)
         new.__post_init__()
         return new
 
@@ -229,21 +235,7 @@ def shortly(record: object) -> str:
 
 
 # by class; mypy takes no class with a hash of its own as an argument of functools.cache
-_parameters_of: dict[type, tuple[dataclasses.Field[object], ...]] = {}
-_names_of: dict[type, list[str]] = {}
 _fields_of: dict[type, tuple[Field, ...]] = {}
-
-
-def _parameters(kind: type) -> tuple[dataclasses.Field[object], ...]:
-    if kind not in _parameters_of:
-        _parameters_of[kind] = dataclasses.fields(kind)
-    return _parameters_of[kind]
-
-
-def _names(kind: type) -> list[str]:
-    if kind not in _names_of:
-        _names_of[kind] = [one.name for one in _parameters(kind)]
-    return _names_of[kind]
 
 
 def fields(table: type[SpecTable]) -> tuple[Field, ...]:
@@ -253,55 +245,54 @@ def fields(table: type[SpecTable]) -> tuple[Field, ...]:
     known: dict[str, Field] = {}
     for base in table.__bases__:
         if issubclass(base, SpecTable) and base is not SpecTable:
-            known |= {field.attribute: field for field in fields(base)}
-    own = inspect.get_annotations(table, eval_str=True)
-    for one in _parameters(table):
-        annotation = own.get(one.name)
+            for field in fields(base):
+                known[field.attribute] = field
+    own, keys = inspect.get_annotations(table, eval_str=True), []
+    for name, one in table._parameters.items():
+        annotation = own.get(name)
         # others are no keys: objects with their own keys, such as a motion's law
         if get_origin(annotation) is Annotated:
             annotated, rule, meaning = get_args(annotation)
             # an alternative (a | b) by its parts, anything else as it is; tuple[...] stays whole
             types = get_args(annotated) if isinstance(annotated, UnionType) else (annotated,)
-            key = one.name.rstrip("_").replace("_", table.WORDS_APART)
+            key = name.rstrip("_").replace("_", table.WORDS_APART)
             key = "file" if isinstance(rule, Csv) else key
-            known[one.name] = Field(key, one.name, types, rule, one.default, meaning)
-    _fields_of[table] = tuple([known[name] for name in _names(table) if name in known])
+            keys.append(Field(key, name, types, rule, one.default, meaning))
+        elif name in known:
+            keys.append(known[name])
+    _fields_of[table] = tuple(keys)
     return _fields_of[table]
 
 
 def checked(table: str, field: Field, value: Any) -> Any:
     """A value of the field's type and in its range, as the table holds it."""
     kind, types, rule = type(value), field.types, field.rule
-    if (kind is float or kind is int) and kind in types and value in rule:
-        return value  # the usual case
+    numeric = int in types or float in types
+    if (kind is float or kind is int) and numeric and rule.holds(value):  # the usual case
+        if kind in types:
+            return value
+        if kind is int and abs(value) < 2**53:
+            return float(value)
     place = (*table.split("."), field.key)
-    value = plain(value)
+    if kind is not str:
+        value = plain(value)
     if type(value) in (NoneType, bool) and type(value) in types:
         return value
     if isinstance(rule, Csv):
         return _points(place, field, value)
-    numeric = int in types or float in types
+    is_word = isinstance(value, str)
     is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
-    if numeric and (is_number or is_array(value)):
+    if numeric and not is_word and (is_number or is_array(value)):
         return _number(place, field, value) if is_number else _numbers(place, field, value)
-    if is_array(value) and LIST in types:
+    if LIST in types and is_array(value):
         value = value.tolist()
     if isinstance(value, (list, tuple)) and LIST in types:
         if not 0 < len(value) <= LIST_MAX:
             raise GenevaError(f"{field.key} must be a list of 1 to {LIST_MAX} numbers", place)
         return tuple(checked(table, field._replace(types=(float,)), one) for one in value)
-    if isinstance(value, str) and str in types:
-        if rule is None:
-            return free_text(field.key, value, place)
-        if isinstance(rule, OneOf) and value not in rule:
-            text = f"{field.key} = {shown(value)} must be {rule}{nearest(value, rule)}"
-            raise GenevaError(text, place)
-        if numeric and value not in field.words:
-            words = " or ".join(f'"{word}"' for word in field.words)
-            text = f"{field.key} must be a number or {words}, not {shown(value)}"
-            raise GenevaError(text, place)
-        return value
-    if isinstance(value, str) and float in types:
+    if is_word and str in types:
+        return _word(place, field, value)
+    if is_word and float in types:
         from geneva_cli.spec.units import in_unit_of
 
         try:
@@ -311,6 +302,22 @@ def checked(table: str, field: Field, value: Any) -> Any:
         return checked(table, field, number)
     expected = " or ".join(_NAMES[t] for t in types if t in _NAMES)
     raise GenevaError(f"{field.key} must be {expected}, not {shown(value)}", place)
+
+
+def _word(place: tuple[str, ...], field: Field, value: str) -> str:
+    """A text, one of a list of words, or a word that stands for a number."""
+    rule = field.rule
+    if rule is None:
+        return free_text(field.key, value, place)
+    if isinstance(rule, OneOf):
+        if value not in rule:
+            text = f"{field.key} = {shown(value)} must be {rule}{nearest(value, rule)}"
+            raise GenevaError(text, place)
+    elif value not in rule.words:
+        words = " or ".join(f'"{word}"' for word in rule.words)
+        text = f"{field.key} must be a number or {words}, not {shown(value)}"
+        raise GenevaError(text, place)
+    return value
 
 
 def _points(place: tuple[str, ...], field: Field, value: Any) -> Points:
@@ -363,8 +370,10 @@ def free_text(key: str, text: str, place: tuple[str, ...]) -> str:
     """The text. Raises GenevaError if it is too long, or has letters that UTF-8 has no code for."""
     if len(text) > TEXT_MAX:
         raise GenevaError(f"{key} has {len(text)} letters; at most {TEXT_MAX}", place)
-    if any("\ud800" <= letter <= "\udfff" for letter in text):
-        raise GenevaError(f"{key} = {shown(text)}: not UTF-8 text", place)
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        raise GenevaError(f"{key} = {shown(text)}: not UTF-8 text", place) from None
     return text
 
 

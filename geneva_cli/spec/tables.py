@@ -4,14 +4,14 @@ The attribute of a key that is a Python keyword ends in an underscore. ``None`` 
 other keys. The annotations are objects, since evaluating text on import would take longer.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import field
-from typing import Annotated, ClassVar
+from operator import attrgetter
+from typing import Annotated, ClassVar, NamedTuple
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.kept import cached_property
-from geneva_cli.spec.accept import Accept
-from geneva_cli.spec.default_sizes import Thicknesses, unrounded, value_or
+from geneva_cli.numerics.arrays import value_or
 from geneva_cli.spec.rules import LENGTH, NOT_NEGATIVE, POSITIVE, OneOf, Range
 from geneva_cli.spec.schema import SpecTable
 from geneva_cli.spec.workshops import PROCESSES, Allowances, workshop
@@ -24,6 +24,20 @@ NotNegative = Annotated[float | None, NOT_NEGATIVE]
 DISTANCE_MM = 100.0  # the centre distance of a spec that gives none
 Z_DRAWN = 360  # slots of a wheel that is drawn: one a degree
 Z_USUAL = 24  # above it the slots leave little of a wheel: a warning
+
+
+class Thicknesses(NamedTuple):
+    """The parts' thicknesses along the axis, mm."""
+
+    wheel: float
+    lock: float
+    arm: float
+    link: float
+
+
+def unrounded(length: float) -> float:
+    """Return a length as it is: a batch has arrays of sizes, which nobody rounds."""
+    return length
 
 
 class Size(SpecTable):
@@ -233,7 +247,9 @@ class Size(SpecTable):
         >>> Size(center_distance_mm=160.0).distance_mm, Size().distance_mm
         (160.0, 100.0)
         """
-        return value_or(self.center_distance_mm, value_or(self.derived_distance_mm, DISTANCE_MM))
+        if self.center_distance_mm is not None:
+            return self.center_distance_mm
+        return DISTANCE_MM if self.derived_distance_mm is None else self.derived_distance_mm
 
     @property
     def edge_mm(self) -> float:
@@ -251,8 +267,8 @@ class Size(SpecTable):
         >>> Size(crank_hub_length_mm=20.0).has_hub("crank"), Size().has_hub("wheel")
         (True, False)
         """
-        keys = f"{part}_hub_mm", f"{part}_hub_length_mm"
-        return any(vars(self)[key] is not None for key in keys)
+        own = vars(self)
+        return own[f"{part}_hub_mm"] is not None or own[f"{part}_hub_length_mm"] is not None
 
     def roller_radius(self, L: float) -> float:
         """Radius of a roller for a centre distance, mm; by default a twentieth of it."""
@@ -280,30 +296,26 @@ class Size(SpecTable):
         >>> Size(process="laser", wheel_thickness_mm=3.0, lock_clearance_mm=0.1).allowances[:3]
         (0.2, 0.1, 0.15)
         """
-        usual = Allowances() if self.process is None else PROCESSES[self.process]
-        if cut_mm := workshop(self.process).cut_mm:
-            usual = self._cut(usual, cut_mm)
-        own = {key: vars(self).get(key) for key in usual._fields}
-        return usual._replace(**{key: v for key, v in own.items() if v is not None})
-
-    def _cut(self, usual: Allowances, cut_mm: Callable[[float, float], float]) -> Allowances:
-        """Return the clearances of parts that are all off by the deviation of their cut.
-
-        The roller is wide and its slot narrow, each by half a side; and so disc and recess, whose
-        diameter is about the centre distance. A hole that is wide still holds its pin, and a
-        narrow bore lets in its shaft. Sizes that are not set have their defaults without a
-        load, before they are rounded down.
-        """
-        L = self.distance_mm
-        roller, thick = self.roller_radius(L), self.thicknesses(L)
-        bore = value_or(self.wheel_bore_mm, L / 6.0)
-        across = L if self.lock_radius_mm is None else 2.0 * self.lock_radius_mm
-        return usual._replace(
-            slot_clearance_mm=cut_mm(thick.wheel, 2.0 * roller),
-            lock_clearance_mm=0.5 * (cut_mm(thick.wheel, across) + cut_mm(thick.lock, across)),
-            press_fit_mm=cut_mm(thick.arm, self.pin_diameter(roller)),
-            shaft_fit_mm=cut_mm(thick.wheel, bore),
-        )
+        own, cut_mm = vars(self), workshop(self.process).cut_mm
+        values = (Allowances() if self.process is None else PROCESSES[self.process])._asdict()
+        if cut_mm:
+            # Parts are all off by the deviation of their cut. The roller is wide and its slot
+            # narrow, each by half a side; and so disc and recess, whose diameter is about the
+            # centre distance. A hole that is wide still holds its pin, and a narrow bore lets in
+            # its shaft. Sizes that are not set have their defaults without a load, before they
+            # are rounded down.
+            L = self.distance_mm
+            roller, thick = self.roller_radius(L), self.thicknesses(L)
+            across = L if self.lock_radius_mm is None else 2.0 * self.lock_radius_mm
+            disc = cut_mm(thick.wheel, across) + cut_mm(thick.lock, across)
+            values["slot_clearance_mm"] = cut_mm(thick.wheel, 2.0 * roller)
+            values["lock_clearance_mm"] = 0.5 * disc
+            values["press_fit_mm"] = cut_mm(thick.arm, self.pin_diameter(roller))
+            values["shaft_fit_mm"] = cut_mm(thick.wheel, value_or(self.wheel_bore_mm, L / 6.0))
+        for key in values:
+            if own.get(key) is not None:
+                values[key] = own[key]
+        return Allowances(**values)
 
 
 class Load(SpecTable):
@@ -335,11 +347,6 @@ class Load(SpecTable):
     guide_friction: Annotated[
         NotNegative, "linear: friction coefficient of the guide; default friction"
     ] = None
-
-    @property
-    def rubs_in_slot(self) -> bool:
-        """True if the roller is fixed to its pin."""
-        return self.friction_at == "slot"
 
 
 class Mass(SpecTable):
@@ -419,15 +426,6 @@ class Support(SpecTable):
     force_N: Annotated[float, NOT_NEGATIVE, "force in addition to the weight of the masses"] = 0.0
     axis: Annotated[str, OneOf(("vertical", "horizontal")), "the wheel's shaft"] = "vertical"
     gear_ratio: Annotated[float, POSITIVE, "turns of table and masses per turn of the wheel"] = 1.0
-
-    @property
-    def own_torque_Nm(self) -> float:
-        """Friction torque of ``force_N`` only, at the table, N m.
-
-        >>> Support(friction=0.15, radius_mm=100.0, force_N=1000.0).own_torque_Nm
-        15.0
-        """
-        return self.friction * self.force_N * self.radius_mm * 1e-3
 
 
 class Motor(SpecTable):
@@ -631,8 +629,8 @@ class TitleBlock(SpecTable):
 class Outline(SpecTable):
     """``[outline]``: drawings of wheel and crank that replace the computed outlines.
 
-    >>> Outline(wheel="wheel.dxf").is_given, Outline().is_given
-    (True, False)
+    >>> Outline(wheel="wheel.dxf").files, Outline().files
+    (('wheel.dxf',), ())
     """
 
     TABLE: ClassVar[str] = "outline"
@@ -655,12 +653,7 @@ class Outline(SpecTable):
     @property
     def files(self) -> tuple[str, ...]:
         """The names of the drawings."""
-        return tuple(name for name in (self.wheel, self.crank) if name is not None)
-
-    @property
-    def is_given(self) -> bool:
-        """True if a drawing replaces an outline."""
-        return self.wheel is not None or self.crank is not None
+        return tuple([name for name in (self.wheel, self.crank) if name is not None])
 
 
 class Limits(SpecTable):
@@ -702,6 +695,118 @@ class Limits(SpecTable):
     dwell_position_max_deg: Annotated[
         Positive, "greatest error of the resting wheel's angle within [tolerance]"
     ] = None
+
+
+# Keys of ``[limits]``, which name their checks too, and what they bound: from below if the key has
+# _min in it.
+LIMITED = {
+    "velocity_max": "velocity.max",
+    "acceleration_max": "acceleration.max",
+    "acceleration_entry_max": "acceleration.entry",
+    "jerk_max": "jerk.max",
+    "pin_force_max_N": "loads.pin_force_N.max",
+    "input_torque_max_Nm": "loads.input_torque_Nm.max",
+    "contact_stress_max_MPa": "loads.contact_stress_MPa.max",
+    "pv_max_W_m2": "life.pv_max_W_m2",
+    "roller_life_min_h": "life.roller_life_h",
+    "dwell_min_s": "timing.dwell_s",
+    "motion_max_s": "timing.motion_s",
+    "cycle_max_s": "timing.cycle_s",
+}
+
+Reason = Annotated[str | None, None, "reason for accepting this warning"]
+
+
+class Accept(SpecTable):
+    """``[accept]``: the reason for each accepted warning, by its name.
+
+    >>> Accept(many_slots="a dial of 30 stations").reasons
+    {'many-slots': 'a dial of 30 stations'}
+    """
+
+    TABLE: ClassVar[str] = "accept"
+    WORDS_APART: ClassVar[str] = "-"  # in the names of warnings
+
+    many_slots: Reason = None
+    no_centre_distance: Reason = None
+    nothing_holds: Reason = None
+    stop_in_motion: Reason = None
+    loose_fit: Reason = None
+    rounded_points: Reason = None
+    turns_back: Reason = None
+    off_mid_condition: Reason = None
+    soft_shock_at_ends: Reason = None
+    soft_shock_at_mid: Reason = None
+    not_positively_driven: Reason = None
+    steep_hand_over: Reason = None
+    undercut: Reason = None
+    friction_holds_the_wheel: Reason = None
+    sharp_wall: Reason = None
+    drives_the_motor: Reason = None
+    heavy_inertia: Reason = None
+    tiny_machine: Reason = None
+    wheel_left_out: Reason = None
+    weight_to_one_side: Reason = None
+    unbalanced: Reason = None
+    unlikely_material: Reason = None
+    nothing_to_act_on: Reason = None
+    driven_by_one_wall: Reason = None
+    lags_behind: Reason = None
+    short_motion: Reason = None
+    stout_horns: Reason = None
+    tolerance_left_out: Reason = None
+    not_every_machine_turns: Reason = None
+    small_hole: Reason = None
+    no_bearing: Reason = None
+    gears_without_teeth: Reason = None
+    taken_as_built: Reason = None
+    outline_units: Reason = None
+    ideal_machine: Reason = None
+    narrow_for_process: Reason = None
+
+    # warnings of `geneva vibration` and `geneva tolerance` alone
+    ELSEWHERE: ClassVar[tuple[str, ...]] = (
+        *("short-motion", "tolerance-left-out", "not-every-machine-turns"),
+    )
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        for name, reason in self.reasons.items():
+            if not reason.strip():
+                raise GenevaError(
+                    f'{name} needs the reason for accepting it, as {name} = "agreed with the '
+                    'customer"',
+                    (self.TABLE, name),
+                )
+
+    @property
+    def reasons(self) -> dict[str, str]:
+        """The reasons by the names of the accepted warnings."""
+        reasons = self.as_dict()
+        for name, reason in [*reasons.items()]:
+            if reason is None:
+                del reasons[name]
+        return reasons
+
+    def applied(self, notices: Iterable[Notice]) -> list[Notice]:
+        """The warnings, the accepted ones with their reason.
+
+        >>> accept = Accept(many_slots="a dial of 30 stations")
+        >>> accept.applied([Notice("many-slots", "z = 30")])
+        ['accepted (a dial of 30 stations): z = 30']
+        """
+        reasons, out = self.reasons, list(notices)
+        for i, one in enumerate(out):
+            if one.name in reasons:
+                out[i] = one.accepted_for(reasons[one.name])
+        return out
+
+    def unused(self, notices: Iterable[Notice]) -> list[str]:
+        """Names of accepted warnings that do not occur among those of ``check``."""
+        unused = self.reasons
+        for name in (*self.ELSEWHERE, *map(attrgetter("name"), notices)):
+            unused.pop(name, None)
+        return list(unused)
 
 
 # The tables of every kind of machine, in the order of a file. Each is a field of ``Spec``, with an

@@ -10,7 +10,7 @@ import math
 import sys
 from typing import Any
 
-from geneva_cli.spec.rules import Csv, OneOf, Range, Words
+from geneva_cli.spec.rules import Csv, OneOf, Range
 from geneva_cli.spec.schema import LIST, LIST_MAX, REQUIRED, TEXT_MAX, Field, fields
 from geneva_cli.spec.tables import LISTS, PLAIN
 from geneva_cli.spec.units import pattern, unit_key
@@ -115,8 +115,7 @@ def _any(kinds: list[Schema]) -> Schema:
     return kinds[0] if len(kinds) == 1 else {"anyOf": kinds}
 
 
-def _number(rule: Range | Words | OneOf, whole: bool) -> Schema:
-    bounds = rule.range if isinstance(rule, Words) else rule
+def _number(bounds: Range | OneOf, whole: bool) -> Schema:
     assert isinstance(bounds, Range)
     bounded: Schema = {"type": "integer" if whole else "number"}
     for word, bound, bracket in (

@@ -1,4 +1,4 @@
-"""Reader of spec files; errors name the file and, if known, the line."""
+"""Reader of spec files and of ``--set KEY=VALUE``; errors name the file and, if known, the line."""
 
 from __future__ import annotations
 
@@ -8,13 +8,12 @@ import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from functools import lru_cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import tomli
 
-from geneva_cli.errors import GenevaError, cut
+from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.specfile.settings import Setting, applied, setting
 from geneva_cli.specfile.tree import spec_of
 
 
@@ -43,6 +42,68 @@ def line_of(text: str, path: tuple[str | int, ...]) -> int:
         if here and len(whole) > most and whole == names[: len(whole)]:
             most, found = len(whole), i
     return found
+
+
+class Setting(NamedTuple):
+    """One key that an option sets: the option as typed, the key's path, and its value."""
+
+    option: str
+    path: tuple[str | int, ...]
+    value: Any
+
+
+def setting(text: str, option: str = "--set") -> Setting:
+    """One ``table.key=value`` setting; a word's quotation marks are optional.
+
+    >>> setting("drive.A=0.6")
+    Setting(option='--set drive.A=0.6', path=('drive', 'A'), value=0.6)
+    """
+    key, sign, value = text.partition("=")
+    typed = f"{option} {cut(text.strip())}"
+    if not sign or not value.strip() or not all(key.strip().split(".")):
+        raise GenevaError(f"{typed}: it must be KEY=VALUE, as in {option} drive.n_rpm=90")
+    parts = whole_key(key.strip(), typed).split(".")
+    path = tuple(int(p) if i and p.isdecimal() else p for i, p in enumerate(parts))
+    return Setting(typed, path, read_value(value, typed))
+
+
+def whole_key(key: str, typed: str) -> str:
+    """Return a key with its table; without one if it is the only table that has the key.
+
+    Raises GenevaError, which begins with ``typed``, for a key that no table or several tables have.
+
+    >>> whole_key("n_rpm", "--set n_rpm=90"), whole_key("drive.A", "--set drive.A=0.6")
+    ('drive.n_rpm', 'drive.A')
+    """
+    if key == "title" or "." in key:
+        return key
+    from geneva_cli.specfile.keys import full_names, tables_with  # loads every kind
+
+    names = [f"{table}.{key}" for table in tables_with(key)]
+    if len(names) == 1:
+        return names[0]
+    if names:
+        raise GenevaError(f"{typed}: several tables have this key; write {' or '.join(names)}")
+    known = {name.rpartition(".")[2] for name in full_names()}
+    hint = nearest(key, sorted(known))
+    raise GenevaError(f"{typed}: no table has this key{hint}; `geneva keys` lists all")
+
+
+def read_value(text: str, option: str) -> Any:
+    """Return the value as TOML reads it, or a number such as .5; anything else is a word.
+
+    Raises GenevaError, which begins with ``option``, if other keys follow the value.
+    """
+    try:
+        tree = tomli.loads(f"x = {text.strip()}")
+    except (tomli.TOMLDecodeError, RecursionError, ValueError):
+        try:
+            return float(text)
+        except ValueError:
+            return text.strip()
+    if len(tree) > 1:
+        raise GenevaError(f"{option}: it sets more than one key; use one option for each")
+    return tree["x"]
 
 
 class Text(NamedTuple):
@@ -89,11 +150,30 @@ class Text(NamedTuple):
         except ValueError as error:  # a whole number of thousands of digits
             raise GenevaError(f"{self.name}: not a spec: {error}") from None
         with self.located():
-            return spec_of(applied(tree, self.set_keys), self.name)
+            for one in self.set_keys:  # later ones over earlier ones
+                tree = _with(tree, one.path, one)
+            return spec_of(tree, self.name)
 
 
 # A sweep reads one text many times with other settings; nothing changes a parsed tree.
 _parsed = lru_cache(maxsize=8)(tomli.loads)
+
+
+def _with(node: Any, path: tuple[str | int, ...], one: Setting) -> Any:
+    if not path:
+        return one.value
+    head, *rest = path
+    if isinstance(head, int):
+        several = list(node) if isinstance(node, list) else []
+        if not head < len(several):
+            name = ".".join(map(str, one.path[: one.path.index(head)]))
+            raise GenevaError(
+                f"{one.option}: the spec has {len(several)} [[{name}]], counted from 0"
+            )
+        several[head] = _with(several[head], tuple(rest), one)
+        return several
+    table = dict(node) if isinstance(node, dict) else {}
+    return table | {head: _with(table.get(head), tuple(rest), one)}
 
 
 def _reason(message: str, line: str) -> str:
@@ -116,21 +196,17 @@ def _reason(message: str, line: str) -> str:
     return f'{reason}; write "{value}" in quotation marks, or a number with a point, as 12.5'
 
 
-def read(path: str, set_keys: Iterable[str] = ()) -> Text:
-    """Text of a spec file; ``-`` is standard input. ``set_keys`` are ``KEY=VALUE`` texts.
-
-    Raises GenevaError, with the message ready to print, if it cannot be read.
-    """
-    name = shown_name(path)
-    return Text(name, _read(path, name), tuple(setting(text) for text in set_keys))
-
-
 def shown_name(path: str) -> str:
     """Name of a spec file in messages."""
     return "<stdin>" if path == "-" else path if path.strip() else repr(path)
 
 
-def _read(path: str, name: str) -> str:
+def read(path: str, set_keys: Iterable[str] = ()) -> Text:
+    """Text of a spec file; ``-`` is standard input. ``set_keys`` are ``KEY=VALUE`` texts.
+
+    Raises GenevaError, with the message ready to print, if it cannot be read.
+    """
+    name = path if path.strip() and path != "-" else shown_name(path)
     bytes_max = 1 << 20  # a spec is a page; a megabyte of it is a mistake
     try:
         if path == "-":
@@ -155,7 +231,7 @@ def _read(path: str, name: str) -> str:
         raise GenevaError(f"{name}: larger than {bytes_max} bytes, too large for a spec")
     try:
         # Some editors put a byte order mark before the text.
-        return data.decode("utf-8-sig").replace("\r\n", "\n")
+        text = data.decode("utf-8-sig").replace("\r\n", "\n")
     except UnicodeDecodeError as error:
         line = data[: error.start].count(b"\n") + 1
         # as PowerShell 5 writes UTF-16 for >
@@ -163,3 +239,4 @@ def _read(path: str, name: str) -> str:
             f"{name}:{line}: not UTF-8 text; save the file as UTF-8, or write it with -o FILE in "
             "place of > FILE"
         ) from None
+    return Text(name, text, tuple(map(setting, set_keys)))

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping
+from functools import partial
 from typing import Any
 
 from geneva_cli.errors import GenevaError, below, clean, cut, few, nearest
@@ -15,6 +16,7 @@ from geneva_cli.motion.motion import Motion
 from geneva_cli.names import unit_end
 from geneva_cli.spec.rules import Csv
 from geneva_cli.spec.schema import (
+    REQUIRED,
     Field,
     Points,
     SpecTable,
@@ -27,28 +29,13 @@ from geneva_cli.spec.schema import (
 from geneva_cli.spec.tables import LISTS, PLAIN
 from geneva_cli.specfile.writer import DRIVES, LAWS, WHEELS, KindTable, drives_before, kind_tables
 
-TABLES = ("wheel", "drive", "motion", *dict.fromkeys(t.partition(".")[0] for t in PLAIN))
-
+TABLES = ["wheel", "drive", "motion"]
+for _name in PLAIN:
+    if _name.partition(".")[0] not in TABLES:
+        TABLES.append(_name.partition(".")[0])
 
 # Other names of a size: here the pin's radius is that of the roller on it.
 ALSO_CALLED = {"pin_radius_mm": "roller_radius_mm", "crank_pin_radius_mm": "roller_radius_mm"}
-
-
-class _Files:
-    """The files that a spec names; ``read`` lists those read so far, the spec first."""
-
-    def __init__(self, spec: str) -> None:
-        self.folder, self.read = os.path.dirname(spec), [spec]
-
-    def points(self, name: Any, rule: Csv, place: tuple[str, str]) -> Points:
-        """Pairs in the file that a key names, relative to the spec."""
-        from geneva_cli.specfile.columns import read_pairs
-
-        if not isinstance(name, str):
-            raise GenevaError(f"file must be text, not {shown(name)}", place)
-        path = below(self.folder, name)
-        self.read.append(path)
-        return Points(tuple(read_pairs(path, rule, place)), name)
 
 
 def spec_of(tree: dict[str, Any], name: str) -> Spec:
@@ -80,12 +67,12 @@ def spec_of(tree: dict[str, Any], name: str) -> Spec:
         raise GenevaError(
             f"{name}: no [wheel] table; the shortest spec is [wheel] and, on the next line, z = 6"
         )
-    files = _Files(name)
+    files = [name]
     drive = dict(tree.get("drive", {}))
     before = drive.pop("before", None)
     plain = _plain(tree, files)
     drawn = plain["outline"].files if "outline" in plain else ()
-    files.read += [below(files.folder, drawing) for drawing in drawn]
+    files.extend(map(partial(below, os.path.dirname(name)), drawn))
     return Spec(
         wheel=_kind(tree["wheel"], WHEELS, files),
         drive=_kind(drive, DRIVES, files),
@@ -94,11 +81,11 @@ def spec_of(tree: dict[str, Any], name: str) -> Spec:
         **plain,
         title=clean(free_text("title", title, ("title",))),
         path=name,
-        files=tuple(files.read),
+        files=tuple(files),
     )
 
 
-def _plain(tree: dict[str, Any], files: _Files) -> dict[str, Any]:
+def _plain(tree: dict[str, Any], files: list[str]) -> dict[str, Any]:
     """The tables that do not depend on the kind of machine, by field of ``Spec``."""
     out: dict[str, Any] = {}
     for name, cls in PLAIN.items():
@@ -129,20 +116,25 @@ def _plain(tree: dict[str, Any], files: _Files) -> dict[str, Any]:
     return out
 
 
-def _kind(values: dict[str, Any], kinds: KindTable, files: _Files) -> Any:
+def _kind(values: dict[str, Any], kinds: KindTable, files: list[str]) -> Any:
     """The object of a table whose keys depend on a word in it, such as ``kind``."""
     values = dict(values)
     name = values.pop(kinds.word.key, kinds.word.default)
     cls, of = kinds.find(name), f'{kinds.word.key} = "{name}"'
-    own = kinds.keys_of(cls)
-    _refuse_foreign(values, own, kinds, of)
-    if strange := [key for key in values if all(key != field.key for field in own)]:
-        own.sort(key=lambda field: field in fields(Drive))  # first those of this kind
-        raise _unknown(strange[0], kinds.table, {field.key: field for field in own})
+    own: dict[str, Field] = {}
+    for field in fields(cls):
+        if field not in kinds.without:
+            own[field.key] = field
+    if not values.keys() <= own.keys():
+        _refuse_foreign(values, own, kinds, of)
+        strange = next(key for key in values if key not in own)
+        shared = fields(Drive)  # they stand behind those of this kind
+        order = sorted(own.items(), key=lambda item: item[1] in shared)
+        raise _unknown(strange, kinds.table, dict(order))
     return cls(**_values(cls, values, files, f" for {of}"))
 
 
-def _before(values: Any, files: _Files) -> Any:
+def _before(values: Any, files: list[str]) -> Any:
     """The drive before another one; an error names its table."""
     place = tuple(BEFORE.split("."))
     if not isinstance(values, dict):
@@ -157,7 +149,7 @@ def _before(values: Any, files: _Files) -> Any:
         raise GenevaError(f"[{BEFORE}]: {error}", (*place, *error.key[1:])) from None
 
 
-def _motion(values: dict[str, Any], files: _Files) -> Motion | None:
+def _motion(values: dict[str, Any], files: list[str]) -> Motion | None:
     """The motion and its law, or None without a law, if the straight slots give the motion."""
     values = dict(values)
     name = values.pop("law", None)
@@ -174,7 +166,7 @@ def _motion(values: dict[str, Any], files: _Files) -> Motion | None:
     cls, of = registry.law(name), f'law = "{name}"'
     own = {field.key for field in fields(cls)}
     params = {key: values.pop(key) for key in own & set(values)}
-    _refuse_foreign(values, LAWS.shared, LAWS, of)
+    _refuse_foreign(values, {field.key: field for field in LAWS.shared}, LAWS, of)
     law = cls(**_values(cls, params, files, f" for {of}"))
     return Motion(law, **_values(Motion, values, files, also=fields(cls)))
 
@@ -230,10 +222,10 @@ def _hint(typed: str, known: Iterable[Field]) -> str:
 
 
 def _refuse_foreign(
-    values: dict[str, Any], own: Sequence[Field], kinds: KindTable, of: str
+    values: dict[str, Any], own: Mapping[str, Field], kinds: KindTable, of: str
 ) -> None:
     """Raise GenevaError for a key of another kind; capitals make no difference to whose it is."""
-    known = {field.key.casefold() for field in own}
+    known = {key.casefold() for key in own}
     foreign = [key for key in values if key.casefold() not in known]
     if not foreign:  # the keys of all kinds are a dozen imports
         return
@@ -255,23 +247,34 @@ def _refuse_foreign(
 def _values(
     cls: type[SpecTable],
     values: dict[str, Any],
-    files: _Files,
+    files: list[str],
     why: str = "",
     also: Iterable[Field] = (),
 ) -> dict[str, Any]:
     """Keys of a table as arguments of its class, which checks their values.
 
+    ``files`` are the spec's and those read so far.
     The table has the keys ``also`` too; they are only for the message about an unknown key.
     """
-    known = {field.key: field for field in fields(cls)}
-    out = {}
+    known: dict[str, Field] = {}
+    is_whole = True
+    for field in fields(cls):
+        known[field.key] = field
+        is_whole = is_whole and (field.default is not REQUIRED or field.key in values)
+    out: dict[str, Any] = {}
     for key, value in values.items():
         if key not in known:
             known |= {field.key: field for field in also}
             raise _unknown(key, cls.TABLE, known)
-        field = known[key]
-        rule = field.rule
-        named = isinstance(rule, Csv)
-        out[field.attribute] = files.points(value, rule, (cls.TABLE, key)) if named else value
-    require(cls, tuple(values), why)
+        field, place = known[key], (cls.TABLE, key)
+        if isinstance(field.rule, Csv):  # the name of a file, relative to the spec
+            from geneva_cli.specfile.columns import read_pairs
+
+            if not isinstance(value, str):
+                raise GenevaError(f"file must be text, not {shown(value)}", place)
+            files.append(below(os.path.dirname(files[0]), value))
+            value = Points(tuple(read_pairs(files[-1], field.rule, place)), value)
+        out[field.attribute] = value
+    if not is_whole:
+        require(cls, tuple(values), why)
     return out

@@ -48,9 +48,7 @@ def batch_machines(specs: Sequence[Spec]) -> Iterator[Batch]:
     for members in shapes.values():
         wide = [each[i][1] for i in members]
         varied = {k: np.array([own[k] for own in wide]) for k in wide[0]}
-        differing = {k: v for k, v in varied.items() if (v != v[0]).any()}
-        own_varied = differing or dict([*varied.items()][:1])
-        yield from _built(specs[members[0]], own_varied, np.array(members))
+        yield from built(specs[members[0]], varied, np.array(members))
 
 
 def batch_rows(
@@ -96,10 +94,21 @@ def batch_rows(
             if spec := first_spec(members):
                 own = rows.taken(members).columns
                 varied = {keys[k]: np.asarray(own[k]) for k in wide}
-                yield from _built(spec, varied, members)
+                yield from _machine(spec, varied, members)
 
 
-def _built(spec: Spec, varied: Mapping[str, Array], members: Whole) -> Iterator[Batch]:
+def built(spec: Spec, varied: Mapping[str, Array], members: Whole) -> Iterator[Batch]:
+    """The machine of a spec with its keys varied (n,), if any of its designs can be built.
+
+    Keys with one value throughout are no arrays in it.
+    """
+    same = {key for key, value in varied.items() if not (value != value[0]).any()}
+    same -= {next(iter(varied))} if len(same) == len(varied) else set()
+    own = {key: v[0].item() if key in same else v for key, v in varied.items()}
+    yield from _machine(spec, own, members)
+
+
+def _machine(spec: Spec, varied: Mapping[str, object], members: Whole) -> Iterator[Batch]:
     batch = many(spec, varied)
     if batch.machine is not None:
         yield members[batch.which], batch.machine

@@ -11,8 +11,7 @@ from geneva_cli.errors import GenevaError, cut
 from geneva_cli.numerics.tolerances import same
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.spec.tables import PLAIN
-from geneva_cli.specfile.reader import Text, read, shown_name
-from geneva_cli.specfile.settings import setting
+from geneva_cli.specfile.reader import Text, read, setting, shown_name
 from geneva_cli.specfile.writer import keys_in, values_of
 from geneva_cli.study.fields import pick, values
 from geneva_cli.study.rows import Cell
@@ -46,7 +45,7 @@ def compare(
     each: list[dict[str, Cell]] = []
     for design in designs.values():
         spec, machine = design.spec, design.mechanism
-        if spec.outline.is_given:
+        if spec.outline.files:
             raise GenevaError(
                 f"{spec.path}: [outline]: a comparison is of formulas, and turns no drawings; "
                 "`geneva check` and `geneva peaks` take each"

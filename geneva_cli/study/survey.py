@@ -6,7 +6,7 @@ from geneva_cli.errors import GenevaError, cut
 from geneva_cli.motion.timing import CamFactors, Timing, cam_factors, timing
 from geneva_cli.motion.wheels import classic
 from geneva_cli.numerics.angles import sin_cos_pi
-from geneva_cli.spec.rules import SPEED, Z_MAX, RangeText, range_text
+from geneva_cli.spec.rules import SPEED, Z_MAX, range_text
 from geneva_cli.table import Reading, Table, rows_table
 
 NAMES = (
@@ -129,9 +129,9 @@ def parse_z(text: str) -> list[int]:
     out: list[int] = []
     option = f"--z {cut(text)}"
     for part in text.split(","):
-        ends = range_text(part, option) or RangeText(part, part, "")
-        low, high = _slots(ends.low, text), _slots(ends.high, text)
-        step = _slots(ends.step, text, 1) if ends.step else 1
+        least, most, by = range_text(part, option) or (part, part, "")
+        low, high = _slots(least, text), _slots(most, text)
+        step = _slots(by, text, 1) if by else 1
         if high < low:
             raise GenevaError(f"{option}: {low}..{high} runs backwards; write {high}..{low}")
         if len(out) + (high - low) // step >= ROWS_MAX:

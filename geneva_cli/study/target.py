@@ -21,7 +21,7 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.path_and_motion import MOTION_MIN
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.tolerances import ROUNDED
-from geneva_cli.spec.load_limits import LIMITED
+from geneva_cli.spec.tables import LIMITED
 from geneva_cli.study.sweep.constraints import Constraint, Objective
 from geneva_cli.verdict.quantities.quantity_names import in_batch
 

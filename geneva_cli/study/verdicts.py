@@ -7,12 +7,11 @@ from contextlib import suppress
 from functools import partial
 from typing import NamedTuple
 
-from geneva_cli import output
-from geneva_cli.answer import FAILS, PASSES, WARNS, Answer, Summary, SummaryLine
+from geneva_cli.answer import FAILS, PASSES, WARNS, Answer, Summary, SummaryLine, value_text
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError, Notice, open_warnings
 from geneva_cli.names import spoken
-from geneva_cli.output.document.blocks import value_text
+from geneva_cli.output import choice
 from geneva_cli.parts.chosen import ByLoad
 from geneva_cli.progress import tracked
 from geneva_cli.study.pool import cores, mapped
@@ -134,7 +133,7 @@ def of_checks(verdicts: Sequence[Verdict], page: bool, as_json: bool) -> Answer:
     below.
     """
     # a page for people has the table only where it or some of its columns are asked for
-    is_shown = page or output.choice.columns
+    is_shown = page or choice.columns
     data = table = checks_table(verdicts) if is_shown else Table((), ())
     if as_json:
         data = checks_record(verdicts)

@@ -13,9 +13,8 @@ from geneva_cli.errors import Notice
 from geneva_cli.kept import cached_property
 from geneva_cli.loads.strength.horn import STOUT
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.arrays import Number
+from geneva_cli.numerics.arrays import Number, value_or
 from geneva_cli.parts.machine_sizes import sized
-from geneva_cli.spec.default_sizes import value_or
 from geneva_cli.verdict.quantities import part_strength
 from geneva_cli.verdict.quantities.batch_designs import Columns, Designs, only, single
 from geneva_cli.verdict.quantities.under_load import under_load

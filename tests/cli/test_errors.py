@@ -53,7 +53,6 @@ def wheel(name, text, *wants):
 NOT_TOML = [
     case("not-toml", "[wheel]\nz = six\n", 2, "not TOML"),
     case("open-string", '[wheel]\nz = 6\ntitle = "six\n', 3, "without its quotation mark"),
-    case("yaml", "wheel:\n  z: 6\n", 1, "not TOML", "write [table], or KEY = VALUE as in z = 6"),
     case("no-value", "[wheel]\nz =\n", 2, "the value is missing; write one behind the sign"),
     case("not-utf-8", b"[wheel]\nz = 6\n# gr\xfc\xdfe\n", 3, "not UTF-8", "save"),
     case("utf-16", "[wheel]\nz = 6\n".encode("utf-16"), 1, "not UTF-8", "-o FILE"),
@@ -74,7 +73,6 @@ HUGE = [
     case("hex", f"[wheel]\nz = {HEX}\n", 2, "z = 0xff", "at most 1000000"),
     wheel("hex-list", f"steps_deg = [{HEX}]\nz = 6", "steps_deg = 0xff", "below 360"),
     key("long-table", f'["{LONG}"]\n', 1, "unknown table", "known: "),
-    key("long-law", f'[motion]\nlaw = "{LONG}"\n', 2, "law must be one of", "and 6 more"),
     key("long-file", TABLE.replace("law.csv", LONG), 3, "cannot read", "too long"),
     key("nul-in-a-file", TABLE.replace("law.csv", r"a\u0000b"), 3, "cannot read", "null byte"),
 ]
@@ -94,7 +92,6 @@ UNKNOWN = [
     key("key-of-another-kind", "[drive]\nA = 0.5\n", 2, "A belongs", '"side-crank"'),
     key("key-of-a-kind", SIDE + "A = 0\nfoo = 1\n", 4, "known: kind, A, input_crank_mm, n_rpm"),
     key("key-before", BEFORE + "foo = 1\n", 4, "foo in [drive.before]; known: kind, A, input_"),
-    key("shared-key-before", BEFORE + "rollers = 1\n", 4, "[drive.before]; it belongs to [drive]"),
 ]
 
 TYPES = [
@@ -108,8 +105,6 @@ VALUES = [
     wheel("z-2", "z = 2", "z = 2", "at least 3"),
     key("speed-negative", "[drive]\nn_rpm = -60\n", 2, "n_rpm = -60", "above 0", "--reverse"),
     key("A-1", SIDE + "A = 1\n", 3, "A = 1", "below 1"),
-    key("alpha0-high", CURVED + "alpha0_deg = 120\n", 3, "alpha0_deg = 120", "below 120"),
-    key("ratio-1", CURVED + "ratio = 1\n", 3, "ratio = 1", "below 1"),
     key("rollers-3", "[drive]\nrollers = 3\n", 2, "rollers = 3", "at most 2"),
     case(
         "rollers-internal",
@@ -234,10 +229,8 @@ def test_messages_carry_no_terminal_escapes(text):
 ROWS = "u,s\n0,0\n0.2,0.1\n0.4,0.3\n0.6,0.7\n0.8,0.9\n1,1\n"
 POINTS = [
     ("text", ROWS.replace("0.4,0.3", "0.4,much"), 4, "two numbers u,s"),
-    ("three-columns", ROWS.replace("0.4,0.3", "0.4,0.3,0"), 4, "two numbers u,s"),
     ("semicolons", ROWS.replace(",", ";"), 1, "two numbers u,s; write a comma between them"),
     ("nan", ROWS.replace("0.4,0.3", "0.4,nan"), 4, "finite"),
-    ("huge", ROWS.replace("0.4,0.3", "0.4,1e308"), 4, "s"),
     ("backwards", ROWS.replace("0.4,0.3", "0.1,0.3"), 4, "exceed the one before"),
     ("empty", "", 0, "0 points", "at least"),
     ("from-elsewhere", ROWS.replace("0,0\n", "0,0.1\n", 1), 0, "from 0,0 to 1,1"),
@@ -273,30 +266,23 @@ OPTIONS = [
         (f"{words} {ZEROS}" + (" spec.toml" if words[0] in "mp" else ""), "100")
         for words in (
             "table --z",
-            "table --format",
             "table -o",
             "motion --samples",
-            "motion --format",
             "profile --samples",
-            "profile --part",
             "profile --curves",
             "synth --tau",
         )
     ],
     (f"synth --rollers -{ZEROS} --tau 1/3", "at least 1"),
     ("table --z 2", "at least 3"),
-    ("table --z 3,,5", "whole number"),
     ("table --z 12..3", "backwards", "3..12"),
     ("table --z " + "9" * 5000, "at most"),
-    ("table --n nan", "above 0"),
     ("table --n", "requires an argument"),
     ("table --rollers 0", "at least 1"),
     ("table --z 6 --internal --rollers 2", "rollers = 2", "one roller"),
     ("table --zz 6", "--z"),
-    ("motion --samples " + "9" * 5000 + " spec.toml",),
     ("profile --tolerance 0 spec.toml", "above 0"),
     ("profile --part wheel spec.toml", "-o FILE.dxf (or .svg, .step, .stl, .3mf)", "--part slot"),
-    ("laws --lambda nan",),
 ]
 
 
@@ -316,7 +302,6 @@ def test_wrong_option(line, wants):
         (["tabel"], ["'tabel'", "'table'"]),
         (["--nix"], ["geneva: no such option: --nix; see geneva -h"]),
         (["peaks"], ["SPEC"]),
-        (["check"], ["SPEC"]),
         (["new"], ["KIND"]),
         (["new", "externel"], ["KIND", "externel", '"external"']),
         (["new", "external", "-o", "gone/spec.toml"], ["gone"]),

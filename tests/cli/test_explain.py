@@ -16,7 +16,7 @@ import repo
 from typer.testing import CliRunner
 
 from geneva_cli.cli.app import app
-from geneva_cli.cli.options import say
+from geneva_cli.cli.command import say
 from geneva_cli.design import load
 from geneva_cli.drawings import parts_list
 from geneva_cli.drawings.catalogue import PARTS
@@ -36,7 +36,7 @@ from geneva_cli.specfile.meanings import meanings, related
 from geneva_cli.specfile.template import EXAMPLES
 from geneva_cli.study import law_values, survey
 from geneva_cli.study.sweep.run import ERROR
-from geneva_cli.study.synth.synth_table import NAMES as SYNTH
+from geneva_cli.study.synth.machine_rows import CELLS as SYNTH
 from geneva_cli.study.verdicts import checks_table
 from geneva_cli.verdict.checks import LIMITS, MOTION, STANDING, TURNING, checks
 from geneva_cli.verdict.checks import PROOFS as PROVED

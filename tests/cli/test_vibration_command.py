@@ -15,18 +15,8 @@ PRESS = str(repo.DESIGNS / "press-straight.toml")
 RACK = str(repo.DESIGNS / "linear.toml")
 UNLOADED = str(repo.DESIGNS / "side-crank-z6.toml")
 NAMES = [
-    "spec",
-    "title",
-    "period_ratio",
-    "damping_ratio",
-    "natural_Hz",
-    "residual_share",
-    "residual_deg",
-    "dynamic_factor",
-    "windup_deg",
-    "speeds_to_avoid_rpm",
-    "avoid",
-    "stations",
+    *("spec", "title", "period_ratio", "damping_ratio", "natural_Hz", "residual_share"),
+    *("residual_deg", "dynamic_factor", "windup_deg", "speeds_to_avoid_rpm", "avoid", "stations"),
     "warnings",
 ]
 
@@ -73,15 +63,9 @@ def test_a_motion_shorter_than_a_natural_period_is_said():
         ([RACK], f"{RACK}:8: a rack has no shaft: use --period-ratio"),
         ([PRESS, "--set", "shaft.stiffness_Nm_rad=-5"], "stiffness_Nm_rad = -5 must be above 0"),
         (
-            [PRESS, "--set", "shaft.damping_ratio=1"],
-            "damping_ratio = 1 must be at least 0, below 1",
-        ),
-        (
             [PRESS, "--period-ratio", "3", "--damping", "1"],
             "--damping 1: must be at least 0, below",
         ),
-        ([PRESS, "--period-ratio", "3", "--damping", "nan"], "--damping nan: must be"),
-        ([PRESS, "--period-ratio", "0"], "--period-ratio 0: must be 1e-06 to 100000"),
         ([PRESS, "--period-ratio", "nan"], "--period-ratio nan: must be"),
         (
             [PRESS, "--set", "shaft.stiffness_Nm_rad=1e12", "--set", "load.inertia_kgm2=1e-9"],
@@ -108,12 +92,7 @@ def test_csv_is_the_spectrum(tmp_path):
     text = file.read_text(encoding="utf-8")
     assert run(PRESS, *words, "--format", "csv").stdout == text
     rows = list(csv.DictReader(io.StringIO(text)))
-    assert list(rows[0]) == [
-        "n_rpm",
-        "period_ratio",
-        "residual_share",
-        "residual_deg",
-    ]
+    assert list(rows[0]) == ["n_rpm", "period_ratio", "residual_share", "residual_deg"]
     # the middle row is the design's own speed, where the record is
     found = record(PRESS, "--period-ratio", "6", "--damping", "0.02")
     for name in rows[0].keys() - {"n_rpm"}:

@@ -18,7 +18,8 @@ from geneva_cli import output
 from geneva_cli.cli.app import COMMANDS, app
 from geneva_cli.cli.pages import page
 from geneva_cli.manual import TOPICS
-from geneva_cli.output.terminal.layout import Window, value
+from geneva_cli.output.terminal.layout import value
+from geneva_cli.output.terminal.summary import Window
 from geneva_cli.output.terminal.terminal_tables import chunks
 from geneva_cli.table import Reading, record_table, rows_table
 
@@ -183,16 +184,13 @@ def test_any_table_fits(seed):
     ("number", "unit", "text"),
     [
         (0.123456789, "", "0.1235"),
-        (-1.23456e-10, "mm", "-1.235e-10 mm"),
         (-0.0, "deg", "0 deg"),
         (1234567, "", "1234567"),
         (393.91305, "mm", "393.913 mm"),
-        (12345.6, "rpm", "12350 rpm"),
         (2.8e8, "h", "practically unlimited"),
         (float("inf"), "mm", "no bound"),
         (None, "mm", "-"),
         (True, "", "yes"),
-        ("external", "", "external"),
     ],
 )
 def test_values_for_people(number, unit, text):

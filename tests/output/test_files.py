@@ -70,14 +70,6 @@ def test_symlink_stays_a_link():
     assert os.listdir("store") == ["real.csv"]
 
 
-@posix("/proc")
-@pytest.mark.long
-def test_folder_with_braces():
-    os.mkdir("{a}{")
-    assert geneva(*SHORT, "-o", "{a}{/peaks.json").returncode == 0
-    assert os.listdir("{a}{") == ["peaks.json"]
-
-
 def test_folder_missing():
     clean_failure(geneva(*SHORT, "-o", "gone/peaks.csv"), "gone", "No such file", "make the folder")
     clean_failure(geneva(*SHORT, "-o", "/proc/peaks.csv"), "the folder /proc takes no files")
@@ -143,19 +135,6 @@ def test_stopped_by_a_signal(name, status):
     assert leftovers() == []
 
 
-@posix("signals that one process sends another")
-@pytest.mark.long
-def test_killed():
-    assert stopped(signal.SIGKILL) == -signal.SIGKILL
-    (left,) = leftovers()
-    assert TEMPORARY.fullmatch(left)
-    # another file's run leaves it alone; the next run of the same file removes it
-    assert geneva("motion", "spec.toml", "-o", "motion.csv.csv").returncode == 0
-    assert leftovers() == [left]
-    assert geneva("motion", "spec.toml", "-o", "motion.csv").returncode == 0
-    assert leftovers() == []
-
-
 # Standard output that does not take what we write
 
 
@@ -194,14 +173,6 @@ def test_a_pipe_of_ascii():
 # What is written
 
 
-def numbers(tree):
-    if isinstance(tree, dict):
-        return [x for value in tree.values() for x in numbers(value)]
-    if isinstance(tree, list):
-        return [x for value in tree for x in numbers(value)]
-    return [tree]
-
-
 def strict(text):
     def refuse(constant):
         raise AssertionError(f"{constant} in json")
@@ -209,16 +180,11 @@ def strict(text):
     return json.loads(text, parse_constant=refuse)
 
 
-def get_lines(*arguments):
-    found = CliRunner().invoke(app, list(arguments))
-    assert found.exit_code == 0, found.output
-    return found.stdout.splitlines()
-
-
 @pytest.mark.parametrize("samples", [2, 361, 8193])
 def test_csv_reads_back_equal(samples):
     put("spec.toml", '[wheel]\nz = 7\n[drive]\nkind = "side-crank"\nA = 0.3\nn_rpm = 47\n')
-    lines = get_lines("motion", "spec.toml", "--samples", str(samples), "--format", "csv")
+    words = ["motion", "spec.toml", "--samples", str(samples), "--format", "csv"]
+    lines = CliRunner().invoke(app, words).stdout.splitlines()
     table = motion_table(load("spec.toml"), samples)
     rows = list(csv.reader(lines))
     assert tuple(rows[0]) == table.names

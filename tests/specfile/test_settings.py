@@ -3,7 +3,7 @@
 import pytest
 
 from geneva_cli import GenevaError, load
-from geneva_cli.specfile.settings import read_value
+from geneva_cli.specfile.reader import read_value
 
 SPEC = """\
 [wheel]

@@ -3,7 +3,7 @@
 import pytest
 
 from geneva_cli import Design, External, GenevaError, Mass, design
-from geneva_cli.spec.materials import roller_material, wheel_material
+from geneva_cli.spec.defaults import roller_material, wheel_material
 from geneva_cli.specfile.writer import spec_lines
 
 TURRET = """\

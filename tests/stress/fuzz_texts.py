@@ -8,7 +8,7 @@ from fuzz_machines import in_range, machine_text
 
 from geneva_cli.motion import registry
 from geneva_cli.motion.registry import DRIVES, GEARINGS, LAWS
-from geneva_cli.spec.rules import OneOf, Words
+from geneva_cli.spec.rules import OneOf
 from geneva_cli.spec.schema import REQUIRED, fields
 from geneva_cli.spec.tables import LISTS
 from geneva_cli.specfile.writer import keys_of
@@ -31,7 +31,6 @@ def value(rng, field, wild):
         return "[" + ", ".join(map(repr, numbers)) + "]"
     if int in types or (float in types and not (str in types and rng.random() < 0.3)):
         whole = int in types
-        rule = rule.range if isinstance(rule, Words) else rule
         return repr(in_range(rng, rule, whole))
     if isinstance(rule, OneOf):
         return f'"{rng.choice(rule)}"'

@@ -44,7 +44,7 @@ def row(draw, folder):
     except GenevaError:
         return "out of reach", ""
     number = draw.randint(1, min(len(ranking.rows), 40))
-    parts = ranking.rows[number - 1].candidate.parts
+    parts = ranking.rows[number - 1].cells["parts"]
     if parts is None:
         return "not drawn", ""
     machine, text = chosen(ranking, number, draw.random() < 0.5)

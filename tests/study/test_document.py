@@ -11,11 +11,12 @@ import pytest
 import repo
 from typer.testing import CliRunner
 
+from geneva_cli.answer import value_text
 from geneva_cli.cli.app import app
 from geneva_cli.design import Design, load
 from geneva_cli.output import jsonfile
 from geneva_cli.output.document import document_pdf, html
-from geneva_cli.output.document.blocks import BAD, Document, Fact, Facts, Grid, Heading, value_text
+from geneva_cli.output.document.blocks import BAD, Document, Fact, Facts, Grid, Heading
 from geneva_cli.study.document import document, short_document
 
 pytestmark = pytest.mark.usefixtures("made_once")

@@ -30,7 +30,7 @@ COSTS = ("velocity_max", "acceleration_max", "acceleration_entry", "jerk_max", "
 
 def candidates(**options):
     """The machines of a wish."""
-    return [row.candidate for row in searched(**options)[1].rows]
+    return [row.cells for row in searched(**options)[1].rows]
 
 
 # joints so near to the crank that there are few four-bars, whose search takes the longest: for what
@@ -40,12 +40,12 @@ NEAR = "0.1"
 
 def plain(found):
     """The plain cranks between parallel shafts, with radial slots."""
-    alike = [w for w in found if w.drive == "crank" and w.law is None and w.axes_deg is None]
-    return [w for w in alike if w.offset_mm is None]
+    keys = ("law", "axes_deg", "offset_mm")
+    return [w for w in found if w["drive"] == "crank" and not any(w[key] for key in keys)]
 
 
 def costs(candidate):
-    return tuple(getattr(candidate, name) for name in COSTS)
+    return tuple(candidate[name] for name in COSTS)
 
 
 def written(target, found, number):
@@ -97,10 +97,12 @@ def test_elliptical_gears_are_found_again(gearing, phase, e):
 @pytest.mark.parametrize(("z", "most"), [(3, 5), (4, 3), (5, 3), (6, 2), (7, 2), (12, 2), (24, 2)])
 def test_rollers_up_to_the_strict_bound(z, most):
     found = candidates(z=str(z), cycle="1", external=True, space=NEAR)
-    assert sorted(w.rollers for w in plain(found)) == list(range(1, most + 1))
+    assert sorted(w["rollers"] for w in plain(found)) == list(range(1, most + 1))
     for candidate in plain(found):
-        assert candidate.tau == pytest.approx(candidate.rollers * (z - 2) / (2 * z), rel=1e-13)
-        assert candidate.n_rpm == pytest.approx(60.0 / candidate.rollers)
+        assert candidate["tau"] == pytest.approx(
+            candidate["rollers"] * (z - 2) / (2 * z), rel=1e-13
+        )
+        assert candidate["n_rpm"] == pytest.approx(60.0 / candidate["rollers"])
     with pytest.raises(GenevaError, match=f"at most {most}"):
         candidates(z=str(z), cycle="1", external=True, rollers=most + 1)
 
@@ -122,18 +124,18 @@ def test_no_drive_nearer_to_the_plain_crank_keeps_the_limit(z, gearing, share):
 
     limit = share * most("side-crank", 0.0)
     some_found = candidates(z=str(z), subject_to=[f"acceleration.max <= {limit!r}"])
-    own = [c for c in some_found if c.gearing == gearing and c.rollers == 1]
+    own = [c for c in some_found if c["gearing"] == gearing and c["rollers"] == 1]
     for kind in ("side-crank", "elliptical-gears"):
-        found = [c for c in own if c.drive == kind]
+        found = [c for c in own if c["drive"] == kind]
         near = [x for x in (i / 50 for i in range(-49, 50)) if most(kind, x) <= limit]
         if not found:
             assert not near
             continue
         (one,) = found
-        x = one.A
+        x = one["A"]
         if x is None:
-            x = one.eccentricity * (1.0 if one.phase == "slow" else -1.0)
-        assert one.acceleration_max <= limit * (1.0 + 1e-15)  # a unit in the last place
+            x = one["eccentricity"] * (1.0 if one["phase"] == "slow" else -1.0)
+        assert one["acceleration_max"] <= limit * (1.0 + 1e-15)  # a unit in the last place
         assert not near or abs(x) <= min(map(abs, near))
         assert most(kind, x * (1.0 - 1e-9)) > limit
 
@@ -159,7 +161,7 @@ def test_every_row_as_a_spec_is_the_row(options, tmp_path):
         machine = load(str(file))
         # the machine is chosen by its motion; the sizes of its parts come after that
         found_checks = checks(machine, parts=False)
-        stands = candidate.parts is None or not candidate.parts.startswith("no")
+        stands = candidate["parts"] is None or not candidate["parts"].startswith("no")
         failing = [c for c in found_checks if not c.passes]
         assert not stands or not failing, (candidate, failing)
         assert {c.name for c in failing} <= {"undercut_mm", "groove_pressure_deg"}, (
@@ -176,20 +178,22 @@ def test_every_row_as_a_spec_is_the_row(options, tmp_path):
         )
         assert costs(candidate) == pytest.approx(wanted, rel=1e-12, abs=1e-15)
         shown = (
-            candidate.ratio,
-            candidate.motion_deg,
-            candidate.dwell_deg,
-            candidate.tau,
-            candidate.k,
+            candidate["ratio"],
+            candidate["motion_deg"],
+            candidate["dwell_deg"],
+            candidate["tau"],
+            candidate["k"],
         )
         times = (machine.ratio, time.motion_deg, time.dwell_deg, time.tau, time.k)
         assert shown == pytest.approx(times, rel=1e-12)
-        assert (spec.wheel.z, spec.wheel.NAME, spec.drive.rollers) == candidate[:3]
+        assert (spec.wheel.z, spec.wheel.NAME, spec.drive.rollers) == tuple(
+            candidate[name] for name in ("z", "gearing", "rollers")
+        )
         if target.timed:
-            assert candidate.n_rpm == spec.drive.n_rpm
-            rad_s = candidate.n_rpm * math.pi / 30.0
-            size = candidate.acceleration_max * rad_s**2
-            assert candidate.acceleration_max_rad_s2 == pytest.approx(size, rel=1e-14)
+            assert candidate["n_rpm"] == spec.drive.n_rpm
+            rad_s = candidate["n_rpm"] * math.pi / 30.0
+            size = candidate["acceleration_max"] * rad_s**2
+            assert candidate["acceleration_max_rad_s2"] == pytest.approx(size, rel=1e-14)
             assert time.cycle_s == pytest.approx(float(options["cycle"]), rel=1e-12)
             if options.get("motion_s"):
                 assert time.motion_s == pytest.approx(float(options["motion_s"]), rel=1e-12)
@@ -283,7 +287,7 @@ def test_the_angle_of_the_shafts_in_50_digits():
 )
 def test_a_row_that_says_yes_passes_check_and_is_cut(options, number, tmp_path):
     found = search(read_target(**options))
-    assert found.rows[number - 1].candidate.parts == "maybe"  # nobody has turned it yet
+    assert found.rows[number - 1].cells["parts"] == "maybe"  # nobody has turned it yet
     made, text = chosen(found, number)
     assert made.trouble == ""
     file, wheel = tmp_path / "spec.toml", tmp_path / "wheel.dxf"

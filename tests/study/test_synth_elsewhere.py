@@ -11,8 +11,8 @@ from geneva_cli.design import load
 from geneva_cli.motion.laws.standard import ModifiedSine
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.motion import Motion
+from geneva_cli.study.synth.machine_rows import rows
 from geneva_cli.study.synth.reading import read_target
-from geneva_cli.study.synth.suiting import with_rollers
 from geneva_cli.study.synth.synth_search import search
 from geneva_cli.study.synth.synth_table import turned
 from geneva_cli.verdict.checks import checks
@@ -23,26 +23,27 @@ CURVED = {"external": True, "rollers": 1}
 
 def curved(found):
     """The rows with curved slots, the gentlest first."""
-    return [row for row in found.rows if row.candidate.law and row.candidate.drive == "crank"]
+    return [row for row in found.rows if row.cells["law"] and row.cells["drive"] == "crank"]
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("z", [6, 8, 11])
 def test_beside_a_row_that_cannot_be_built_is_the_best_that_may_be(z):
     """No motion of a dense sweep between the two has parts that may be built."""
-    first, other, *_ = curved(search(read_target(motion_deg="100..200", z=str(z), **CURVED)))
-    assert first.candidate.parts == "no: island"
-    assert first.candidate.motion_deg == pytest.approx(200.0)
-    assert other.candidate.parts == "maybe"
+    target = read_target(motion_deg="100..200", z=str(z), **CURVED)
+    first, other, *_ = curved(search(target))
+    assert first.cells["parts"] == "no: island"
+    assert first.cells["motion_deg"] == pytest.approx(200.0)
+    assert other.cells["parts"] == "maybe"
     # a 4096th of the range is how near the search goes
-    found = other.candidate.motion_deg + 100.0 / 4096.0
+    found = other.cells["motion_deg"] + 100.0 / 4096.0
     natural, steps = 180.0 - 360.0 / z, some(300, 60)
     for k in range(steps + 1):
         alpha0 = natural - (found + (200.0 - found) * k / steps)
         spec = other.spec.replace(motion=Motion(ModifiedSine(), alpha0_deg=alpha0, ratio="matched"))
         spec = spec.with_("size.roller_radius_mm", None)
-        ((_, entry),) = with_rollers([spec])
-        assert entry.startswith("no"), alpha0
+        (row,) = rows(target, [(spec, None)], [])
+        assert row.trouble, alpha0
 
 
 @pytest.mark.long
@@ -60,22 +61,22 @@ def test_a_row_that_fails_in_its_turn_gives_way_to_the_best_that_passes(tmp_path
     ]
     target = read_target(motion_deg="100..160", z="8", external=True)
     found = search(target)
-    plain = {one.no: one.row for one in turned(found)}
+    plain = {row.cells["no"]: row for row in turned(found)}
     shown = turned(found, buildable=True)
-    peaks = [one.row.candidate.acceleration_max for one in shown]
+    peaks = [row.cells["acceleration_max"] for row in shown]
     assert all(b >= a * (1.0 - 1e-11) for a, b in itertools.pairwise(peaks))  # equal in 12 digits
-    assert len({one.no for one in shown}) == len(shown)
+    assert len({row.cells["no"] for row in shown}) == len(shown)
     assert [found.rank(row) for row in found.rows] == sorted(map(found.rank, found.rows))
-    moved = [one for one in shown if one.row.is_impossible is False and plain[one.no].is_impossible]
-    assert {one.row.candidate.rollers for one in moved} == {1, 2}
-    for no, row in moved:
-        wished = found.rows[no - 1].candidate
-        assert wished.motion_deg == pytest.approx(160.0)
+    moved = [row for row in shown if not row.trouble and plain[row.cells["no"]].trouble]
+    assert {row.cells["rollers"] for row in moved} == {1, 2}
+    for row in moved:
+        wished = found.rows[row.cells["no"] - 1].cells
+        assert wished["motion_deg"] == pytest.approx(160.0)
         # between the gentlest and the plain crank's own motion, which is a row of its own
-        assert 135.0 < row.candidate.motion_deg < wished.motion_deg
+        assert 135.0 < row.cells["motion_deg"] < wished["motion_deg"]
         assert not [c for c in checks(build(row.spec)) if c.passes is False]
-    file, (no, row) = tmp_path / "spec.toml", moved[0]
-    run = CliRunner().invoke(app, [*words, "--buildable", "--write", str(no), "-o", str(file)])
+    file, row, no = tmp_path / "spec.toml", moved[0], str(moved[0].cells["no"])
+    run = CliRunner().invoke(app, [*words, "--buildable", "--write", no, "-o", str(file)])
     assert run.exit_code == 0
     assert "warning: its parts" not in run.stderr
     design = load(str(file))

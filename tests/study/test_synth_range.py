@@ -30,11 +30,11 @@ def rows(**options):
 def test_a_dwell_of_several_turns_is_behind_a_first_wheel():
     """A first wheel of n slots turns the crank by 360/n once a turn, and that is its motion."""
     found = rows(dwell_deg="1000..")
-    assert {row.candidate.drive for row in found} == {"geneva-pair"}
+    assert {row.cells["drive"] for row in found} == {"geneva-pair"}
     assert len(found) == 8  # z = 3 behind 3 to 6 slots, 4 behind 3 and 4, 5 and 6 behind 3
     for row in found:
-        c, turns = row.candidate, 360.0 * row.candidate.first_z
-        assert c.dwell_deg == pytest.approx(turns - c.motion_deg, rel=1e-12)
+        c, turns = row.cells, 360.0 * row.cells["first_z"]
+        assert c["dwell_deg"] == pytest.approx(turns - c["motion_deg"], rel=1e-12)
     with pytest.raises(GenevaError, match="it takes 4 rollers, but straight slots carry"):
         rows(motion_deg="30", dwell_deg="60", z="6")
     with pytest.raises(GenevaError, match="only behind a first wheel"):
@@ -58,21 +58,19 @@ def test_every_row_keeps_every_wish(options):
     for row in found:
         for name, wanted in target.spans.items():
             value = (
-                row.candidate.motion_s + row.candidate.dwell_s
-                if name == "cycle"
-                else getattr(row.candidate, name)
+                row.cells["motion_s"] + row.cells["dwell_s"] if name == "cycle" else row.cells[name]
             )
             assert wanted.low * (1 - 1e-9) <= value <= wanted.high * (1 + 1e-9), (
                 name,
-                row.candidate,
+                row.cells,
             )
         if target.acceleration_max:
-            assert row.candidate.acceleration_max <= target.acceleration_max * (1 + 1e-9)
+            assert row.cells["acceleration_max"] <= target.acceleration_max * (1 + 1e-9)
         design = Design.of(row.spec)
         assert design.peaks.acceleration.max == pytest.approx(
-            row.candidate.acceleration_max, rel=1e-12
+            row.cells["acceleration_max"], rel=1e-12
         )
-        assert design.timing.motion_deg == pytest.approx(row.candidate.motion_deg, rel=1e-12)
+        assert design.timing.motion_deg == pytest.approx(row.cells["motion_deg"], rel=1e-12)
 
 
 def swept(spec, key, values, low, high):
@@ -96,12 +94,12 @@ def test_no_dense_sweep_finds_a_gentler_machine(z, low, high, gearing):
     found = rows(motion_deg=f"{low}..{high}", z=str(z), rollers=1, **{gearing: True})
     ours = {}
     for row in found:
-        candidate = row.candidate
+        candidate = row.cells
         kind = (
-            candidate.drive,
-            candidate.phase or candidate.fixed or (candidate.law and "law") or "",
+            candidate["drive"],
+            candidate["phase"] or candidate["fixed"] or (candidate["law"] and "law") or "",
         )
-        ours[kind] = min(ours.get(kind, math.inf), candidate.acceleration_max)
+        ours[kind] = min(ours.get(kind, math.inf), candidate["acceleration_max"])
     wheel = Wheel(z, gearing)
     fine = np.linspace(-0.9999, 0.9999, 2001)
     theirs = {
@@ -136,15 +134,15 @@ def test_no_dense_sweep_finds_a_gentler_machine(z, low, high, gearing):
 def test_without_a_wish_for_a_motion_the_nearest_to_the_plain_crank_keeps_the_bounds():
     """The velocity of z = 6 is 1; down to 0.8 with the least change of each kind, and no less."""
     found = rows(z="6", external=True, rollers=1, subject_to=["velocity.max <= 0.8"])
-    ours = {r.candidate.drive: r for r in found}
+    ours = {r.cells["drive"]: r for r in found}
     assert {"side-crank", "elliptical-gears", "cam"} <= set(ours)
     for drive in ("side-crank", "elliptical-gears", "cam"):
-        assert ours[drive].candidate.velocity_max == pytest.approx(0.8, rel=1e-8)
+        assert ours[drive].cells["velocity_max"] == pytest.approx(0.8, rel=1e-8)
     # the modified sine's C_v is 4 pi / (4 + pi), over a step of 60 degrees
     C_v = 4.0 * math.pi / (4.0 + math.pi)
-    assert ours["cam"].candidate.motion_deg == pytest.approx(C_v * 60.0 / 0.8, rel=1e-8)
+    assert ours["cam"].cells["motion_deg"] == pytest.approx(C_v * 60.0 / 0.8, rel=1e-8)
     # a side-crank's peak velocity is at mid-motion, where it is the plain crank's 1 over 1 + A
-    assert pytest.approx(0.25, rel=1e-7) == ours["side-crank"].candidate.A
+    assert pytest.approx(0.25, rel=1e-7) == ours["side-crank"].cells["A"]
 
 
 @pytest.mark.long
@@ -155,10 +153,10 @@ def test_of_what_no_array_has_several_machines_of_a_family_are_asked():
     """
     target = {"motion_deg": "100..200", "z": "6", "external": True, "rollers": 1}
     found = rows(**target, subject_to=["sizes.crank_radius_mm >= 48"])
-    (slots,) = [r.candidate for r in found if r.candidate.law and r.candidate.drive == "crank"]
-    V = 4.0 * math.pi / (4.0 + math.pi) * 60.0 / slots.motion_deg
-    assert slots.motion_deg >= 100.0 and V / (1.0 + V) >= 0.48
-    kinds = [(r.candidate.drive, r.candidate.law, r.candidate.fixed) for r in found]
+    (slots,) = [r.cells for r in found if r.cells["law"] and r.cells["drive"] == "crank"]
+    V = 4.0 * math.pi / (4.0 + math.pi) * 60.0 / slots["motion_deg"]
+    assert slots["motion_deg"] >= 100.0 and V / (1.0 + V) >= 0.48
+    kinds = [(r.cells["drive"], r.cells["law"], r.cells["fixed"]) for r in found]
     assert len(set(kinds)) == len(kinds)  # the best of each
 
 
@@ -180,11 +178,11 @@ def test_a_frame_and_an_order():
     assert values == pytest.approx(sorted(values), rel=1e-11)  # those of rounding are equal
     for row in found.rows[:4]:
         assert (row.spec.load, row.spec.wheel.z) == (own.load, own.wheel.z)
-        assert row.spec.drive.n_rpm == own.drive.n_rpm == row.candidate.n_rpm
+        assert row.spec.drive.n_rpm == own.drive.n_rpm == row.cells["n_rpm"]
         rms = Design.of(row.spec).loads["input_torque_Nm"].rms
         assert row.extra[0] == pytest.approx(rms, rel=1e-12)
     turned_round = search(target._replace(sort=Objective(-1.0, "acceleration.max"))).rows
-    peaks = [row.candidate.acceleration_max for row in turned_round]
+    peaks = [row.cells["acceleration_max"] for row in turned_round]
     assert peaks == pytest.approx(sorted(peaks, reverse=True), rel=1e-11)
 
 
@@ -211,20 +209,20 @@ def test_a_frame_s_limits_choose_the_machine_of_a_range(limit, field, most):
         limits=Limits(**{limit: most}),
     )
     found = rows(frame=frame, motion_deg="100..200", external=True, rollers=1)
-    (gears,) = [r for r in found if r.candidate.drive == "elliptical-gears"]
+    (gears,) = [r for r in found if r.cells["drive"] == "elliptical-gears"]
     names = ["acceleration.max", "timing.motion_deg", field]
     places = np.linspace(0.2, 0.4, 4001)
     peak, motion, load_ = dense(gears.spec, "drive.eccentricity", places, names)
     inside = (motion >= 100.0) & (motion <= 200.0)
     gentlest = np.flatnonzero(inside)[peak[inside].argmin()]
     assert load_[gentlest] > most
-    assert gears.candidate.parts == "maybe"
-    assert sum(r.candidate.drive == "four-bar" for r in found) <= 1
+    assert gears.cells["parts"] == "maybe"
+    assert sum(r.cells["drive"] == "four-bar" for r in found) <= 1
     fits = inside & (load_ <= most)
-    assert gears.candidate.acceleration_max <= peak[fits].min() * (1 + 1e-4)
+    assert gears.cells["acceleration_max"] <= peak[fits].min() * (1 + 1e-4)
     # of a plain crank there is no other: it stays, and says what it breaks
-    (plain,) = [r for r in found if r.candidate.drive == "crank" and not r.candidate.law][:1]
-    assert plain.candidate.parts == f"no: {limit}"
+    (plain,) = [r for r in found if r.cells["drive"] == "crank" and not r.cells["law"]][:1]
+    assert plain.cells["parts"] == f"no: {limit}"
 
 
 @pytest.mark.long

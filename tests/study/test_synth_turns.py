@@ -7,8 +7,8 @@ from geneva_cli.drives.crank import Crank
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.wheels.external import External
-from geneva_cli.study.synth.built import built
 from geneva_cli.study.synth.suiting import USUAL, with_roller
+from geneva_cli.study.synth.synth_table import built
 from geneva_cli.verdict.checks import checks
 
 MENDED = [  # what is found to fail with the usual roller, and the roller that mends it, mm

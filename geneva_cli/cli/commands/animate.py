@@ -3,7 +3,7 @@
 import os
 from typing import Annotated
 
-from geneva_cli.cli.options import Reverse, Settings, SpecPath, flag, output_option, warn
+from geneva_cli.cli.command import Reverse, Settings, SpecPath, flag, output_option, warn
 from geneva_cli.errors import GenevaError
 
 EXAMPLES = (

@@ -1,18 +1,18 @@
 """``geneva check``."""
 
+import os
 import sys
 from typing import Annotated
 
 import typer
 
-from geneva_cli.cli.options import (
+from geneva_cli.cli.command import (
     Format,
     Output,
     Reverse,
     Settings,
     flag,
     option,
-    outline_settings,
     say,
 )
 from geneva_cli.errors import clean, open_warnings
@@ -51,20 +51,27 @@ def run(
     from geneva_cli.output.formats import table_as
     from geneva_cli.study.verdicts import of_checks, verdicts
 
-    name = table_as(output, format)
-    drawn = outline_settings(wheel, crank, slack)
-    results = list(verdicts(specs, [*(settings or ()), *drawn], certify, reverse))
-    judged = [v for v in results if not v.error]
-    if judged or name == "json":
+    name, changes = table_as(output, format), list(settings or ())
+    for part, path in (("wheel", wheel), ("crank", crank)):  # files of this folder
+        if path is not None:
+            changes.append(f"outline.{part}={os.path.abspath(path)}")
+    if slack is not None:
+        changes.append(f"outline.slack_mm={slack}")
+    results, files, unread = list(verdicts(specs, changes, certify, reverse)), list[str](), 0
+    for v in results:
+        files += v.files
+        unread += bool(v.error)
+    if unread < len(results) or name == "json":
         answer = of_checks(results, verbose or name != "table", name == "json")
-        show_answer(answer, output, format, [file for v in results for file in v.files])
+        show_answer(answer, output, format, files)
+    fails = False
     for v in results:
         if v.error:
             print(clean(v.error), file=sys.stderr)
         elif output != "-" or name == "csv":
             say(v.path, v.warnings)
-    if len(judged) < len(results):
+        fails = fails or not v.passes or (strict and bool(open_warnings(v.warnings)))
+    if unread:
         raise typer.Exit(2)
-    warned = strict and any(open_warnings(v.warnings) for v in results)
-    if warned or not all(v.passes for v in results):
+    if fails:
         raise typer.Exit(1)

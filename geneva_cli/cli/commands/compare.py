@@ -4,7 +4,7 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.cli.options import AlsoReverse, Format, Output, Settings, flag, option, say
+from geneva_cli.cli.command import AlsoReverse, Format, Output, Settings, flag, option, say
 from geneva_cli.errors import GenevaError
 
 EXAMPLES = (

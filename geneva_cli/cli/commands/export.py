@@ -4,7 +4,7 @@ import os
 import sys
 from typing import Annotated
 
-from geneva_cli.cli.options import (
+from geneva_cli.cli.command import (
     Settings,
     SpecPath,
     flag,

@@ -4,7 +4,7 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.cli.options import Format, Output
+from geneva_cli.cli.command import Format, Output
 
 EXAMPLES = ("geneva keys drive", "geneva keys size.center_distance_mm")
 

@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from geneva_cli.cli.options import Format, Output, option
+from geneva_cli.cli.command import Format, Output, option
 
 EXAMPLES = ("geneva laws", "geneva laws --lambda 0.1 --format csv")
 

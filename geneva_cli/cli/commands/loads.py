@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.cli.options import Format, Output, Reverse, Settings, SpecPath, flag, option, say
+from geneva_cli.cli.command import Format, Output, Reverse, Settings, SpecPath, flag, option, say
 from geneva_cli.errors import clean, is_warning
 
 ROWS = 361

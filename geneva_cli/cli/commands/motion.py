@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.cli.options import Output, Reverse, Settings, SpecPath, one_of, option, warn
+from geneva_cli.cli.command import Output, Reverse, Settings, SpecPath, one_of, option, warn
 from geneva_cli.errors import GenevaError, clean
 from geneva_cli.output.formats import CAMS, CONTROLLERS, FORMATS
 

@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.cli.options import Output, flag, option
+from geneva_cli.cli.command import Output, flag, option
 from geneva_cli.errors import GenevaError, below
 
 EXAMPLES = (

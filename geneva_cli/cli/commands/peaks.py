@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from geneva_cli.cli.options import Format, Output, Reverse, Settings, SpecPath, flag, warn
+from geneva_cli.cli.command import Format, Output, Reverse, Settings, SpecPath, flag, warn
 
 EXAMPLES = (
     "geneva peaks spec.toml",

@@ -4,7 +4,7 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.cli.options import AlsoReverse, Output, Settings, option, say, warn
+from geneva_cli.cli.command import AlsoReverse, Output, Settings, option, say, warn
 from geneva_cli.errors import GenevaError, cut
 
 EXAMPLES = (

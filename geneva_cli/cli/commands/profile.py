@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from geneva_cli.cli.options import (
+from geneva_cli.cli.command import (
     Output,
     Settings,
     SpecPath,

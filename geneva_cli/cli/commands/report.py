@@ -4,7 +4,7 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.cli.options import Output, Settings, SpecPath, flag, one_of, option, say
+from geneva_cli.cli.command import Output, Settings, SpecPath, flag, one_of, option, say
 from geneva_cli.output.formats import DOCUMENTS, FORMATS
 
 EXAMPLES = (

@@ -1,6 +1,6 @@
 """``geneva schema``."""
 
-from geneva_cli.cli.options import Output
+from geneva_cli.cli.command import Output
 
 EXAMPLES = ("geneva schema -o geneva.schema.json",)
 

@@ -4,7 +4,7 @@ import os
 import sys
 from typing import Annotated
 
-from geneva_cli.cli.options import Format, Settings, SpecPath, output_option
+from geneva_cli.cli.command import Format, Settings, SpecPath, output_option
 from geneva_cli.errors import GenevaError, clean, cut
 
 EXAMPLES = (

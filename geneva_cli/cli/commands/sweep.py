@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from contextlib import closing
 from typing import TYPE_CHECKING, Annotated
 
-from geneva_cli.cli.options import Format, Settings, SpecPath, flag, option, output_option
+from geneva_cli.cli.command import Format, Settings, SpecPath, flag, option, output_option
 from geneva_cli.errors import GenevaError, clean, cut
 from geneva_cli.progress import tracked
 

@@ -4,7 +4,7 @@ import sys
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated
 
-from geneva_cli.cli.options import Format, Output, Settings, flag, option, warn
+from geneva_cli.cli.command import Format, Output, Settings, flag, option, warn
 from geneva_cli.errors import GenevaError, clean, cut
 
 if TYPE_CHECKING:

@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from geneva_cli.cli.options import Format, Output, flag, option
+from geneva_cli.cli.command import Format, Output, flag, option
 from geneva_cli.errors import GenevaError
 from geneva_cli.output import show
 

@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from geneva_cli.cli.options import Format, Output, Settings, SpecPath, option, say, warn
+from geneva_cli.cli.command import Format, Output, Settings, SpecPath, option, say, warn
 
 EXAMPLES = ("geneva tolerance spec.toml --set tolerance.slot_angle_deg=0.01",)
 

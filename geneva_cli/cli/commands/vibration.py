@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from geneva_cli.cli.options import Format, Output, Reverse, Settings, SpecPath, option, say
+from geneva_cli.cli.command import Format, Output, Reverse, Settings, SpecPath, option, say
 
 EXAMPLES = ("geneva vibration spec.toml --period-ratio 5.5 --damping 0.02",)
 

@@ -27,7 +27,7 @@ from geneva_cli.geometry.sheet import (
     width,
 )
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.spec.materials import material_names
+from geneva_cli.spec.defaults import material_names
 from geneva_cli.spec.workshops import workshop
 from geneva_cli.spec.written import length, number
 

@@ -14,11 +14,14 @@ import math
 from bisect import bisect_left
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import ClassVar, NoReturn, Self, cast
+from typing import TYPE_CHECKING, ClassVar, NoReturn, Self, cast
 
 from flint import arb, ctx
 
-from geneva_cli.numerics.arrays import Enclosed, Library, Number, Undecided
+from geneva_cli.numerics.arrays import Enclosed, Number, Undecided
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Library
 
 
 def _operator(f: Callable[[arb, arb], arb]) -> Callable[[Ball, Ball | float], Ball]:

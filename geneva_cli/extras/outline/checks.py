@@ -32,7 +32,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.turn.free_ranges import one_sector
-from geneva_cli.spec.least_wall import wall_min
+from geneva_cli.spec.defaults import wall_min
 from geneva_cli.verdict.checks import Check, compared
 from geneva_cli.verdict.checks.motion_checks import entry_velocity_limit
 

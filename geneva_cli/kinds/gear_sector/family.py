@@ -19,12 +19,11 @@ from geneva_cli.study.synth.families.family import (
     allowed_motions,
     closed_span,
     is_compatible,
-    line,
     machine,
     natural_deg,
     speeds,
 )
-from geneva_cli.study.target import AllowedSpan, Target
+from geneva_cli.study.target import Target
 
 
 def sectors(target: Target, wheel: Gearing) -> Iterator[Family]:
@@ -49,13 +48,13 @@ def sectors(target: Target, wheel: Gearing) -> Iterator[Family]:
             return GearSector(sector_deg=90.0, n_rpm=n)
 
         spec = machine(target, wheel, drive, 1, natural_deg(wheel))
-        keys, plain = partial(_sectors, target, z), (wheel.step.b,)
-        yield line(spec, keys, AllowedSpan(low, high), known=plain, plain=plain)
+        keys, plain = partial(_sectors, target, z), wheel.step.b
+        yield Family(spec, keys, low, high, plain, plain)
 
 
 def _sectors(target: Target, z: int, at: Array) -> dict[str, Array]:
     """Gear sectors between slots of half angles b."""
-    half = at[:, 0].tolist()
+    half = at.tolist()
     motions = [sector_motion(z, b) for b in half]
     sectors = np.array([sector_deg(z, b) for b in half])
     return {"drive.sector_deg": sectors, **speeds(target, 1, motions)}

@@ -19,10 +19,10 @@ from geneva_cli.kinds.linear.rack import rack_sizes
 from geneva_cli.loads.contact import QuantityValue
 from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.load_peaks import load_peaks
+from geneva_cli.numerics.arrays import value_or
 from geneva_cli.numerics.jet import Jet
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.sizes import drawn_thicknesses
-from geneva_cli.spec.default_sizes import value_or
 from geneva_cli.verdict.checks import Check, compared
 from geneva_cli.verdict.checks.part_checks import cuts, least_gap
 from geneva_cli.verdict.quantities.batch_designs import Columns, Designs

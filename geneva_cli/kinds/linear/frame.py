@@ -17,6 +17,7 @@ from geneva_cli.geometry.sheet import rectangle
 from geneva_cli.kinds.linear.rack import RackSizes, crank_arm, rack_bore, rack_sizes, slot_places
 from geneva_cli.loads.strength.arm_and_key import NO_ARM, NO_KEY, ArmDimensions
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.numerics.arrays import value_or
 from geneva_cli.parts.frame import (
     corner_radius,
     hole_without_shaft,
@@ -30,7 +31,6 @@ from geneva_cli.parts.shafts.screws import bolt_radius, tapped
 from geneva_cli.parts.shafts.shaft import Shaft, shaft_ends
 from geneva_cli.parts.sizes import drawn_thicknesses, pin_radius
 from geneva_cli.parts.stressed import ShaftSize, Stressed, key_of, shaft_of
-from geneva_cli.spec.default_sizes import value_or
 
 
 class RackFrame(NamedTuple):

@@ -21,10 +21,9 @@ from geneva_cli.kinds.linear.motion import guided
 from geneva_cli.loads.contact import Contact, LoadCase, lesser
 from geneva_cli.loads.strength.pin import pin_diameter_mm
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.arrays import choose, larger
+from geneva_cli.numerics.arrays import choose, larger, value_or
 from geneva_cli.numerics.jet import Number, V
-from geneva_cli.spec.default_sizes import value_or
-from geneva_cli.spec.least_wall import eye_about, wall_min
+from geneva_cli.spec.defaults import eye_about, wall_min
 
 
 class GuidePlace(NamedTuple):

@@ -17,7 +17,7 @@ def rack_horn(names: Collection[str], mechanism: Mechanism) -> Iterator[Check]:
     if mechanism.output.turns:
         return
     from geneva_cli.kinds.linear.rack import rack_sizes
-    from geneva_cli.spec.least_wall import wall_min
+    from geneva_cli.spec.defaults import wall_min
     from geneva_cli.verdict.checks import compared
 
     try:

@@ -36,7 +36,7 @@ from geneva_cli.parts.projection import NamedParts
 from geneva_cli.parts.shafts.screws import Screws
 from geneva_cli.parts.sizes import drawn_thicknesses, pin_radius
 from geneva_cli.parts.turn.turn_certificate import FlatPairs
-from geneva_cli.spec.least_wall import wall_min
+from geneva_cli.spec.defaults import wall_min
 
 
 class RackParts(EdgedParts):

@@ -15,6 +15,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.shapes import Circle, Contour, Line, Segment, about, closed, convex_hull
 from geneva_cli.kinds.linear.guide import GuidePlace, guide_place
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.numerics.arrays import half_or, value_or
 from geneva_cli.parts.arm import CrankArm
 from geneva_cli.parts.machine_sizes import lock_between, require_lock_between
 from geneva_cli.parts.shafts.bores import bore_of
@@ -28,8 +29,7 @@ from geneva_cli.parts.sizes import (
     pin_hole,
     pin_radius,
 )
-from geneva_cli.spec.default_sizes import half_or, value_or
-from geneva_cli.spec.least_wall import wall_min
+from geneva_cli.spec.defaults import wall_min
 
 
 class RackSizes(NamedTuple):

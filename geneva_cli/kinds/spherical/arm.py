@@ -20,7 +20,7 @@ from geneva_cli.kinds.spherical.regions import locked
 from geneva_cli.parts.shafts.bores import Bore, bore_of
 from geneva_cli.parts.shafts.screws import bolt_radius, refuse_no_screw
 from geneva_cli.parts.sizes import hub_and_eye, lock_bolt_directions, pin_hole, wall_of_bolts
-from geneva_cli.spec.least_wall import eye_about, wall_min
+from geneva_cli.spec.defaults import eye_about, wall_min
 from geneva_cli.spec.tables import Size
 
 

@@ -15,6 +15,7 @@ from geneva_cli.drives.transmission import places
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.numerics.arrays import value_or
 from geneva_cli.parts.machine_sizes import lock_between, require_lock_between
 from geneva_cli.parts.sizes import (
     arm_bore,
@@ -24,8 +25,7 @@ from geneva_cli.parts.sizes import (
     refuse_pin_and_edges,
     wheel_bore,
 )
-from geneva_cli.spec.default_sizes import value_or
-from geneva_cli.spec.least_wall import wall_min
+from geneva_cli.spec.defaults import wall_min
 from geneva_cli.spec.tables import Z_DRAWN, Size
 
 

@@ -40,8 +40,7 @@ from geneva_cli.parts.projection import NamedParts
 from geneva_cli.parts.shafts.bores import bore_of, has_shape
 from geneva_cli.parts.shafts.shaft import Shaft, shaft_ends
 from geneva_cli.parts.sizes import refuse_thin_hub
-from geneva_cli.spec.least_wall import wall_min
-from geneva_cli.spec.materials import wheel_material
+from geneva_cli.spec.defaults import wall_min, wheel_material
 from geneva_cli.spec.tables import Size
 
 

@@ -7,7 +7,7 @@ import math
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinds.spherical.sizes import ball
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.spec.least_wall import wall_min
+from geneva_cli.spec.defaults import wall_min
 from geneva_cli.study.synth.suiting import LOCK, SIZES, USUAL, with_roller
 
 

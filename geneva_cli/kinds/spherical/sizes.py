@@ -24,6 +24,7 @@ from geneva_cli.loads.strength.part_loads import (
 )
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.numerics.arrays import half_or, value_or
 from geneva_cli.numerics.preferred import sizes_from, to_digits
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.numerics.tolerances import keeps
@@ -38,9 +39,7 @@ from geneva_cli.parts.sizes import (
     within_hub,
 )
 from geneva_cli.parts.stressed import Stressed, key_of, shaft_of
-from geneva_cli.spec.default_sizes import half_or, value_or
-from geneva_cli.spec.least_wall import eye_about, wall_min
-from geneva_cli.spec.materials import wheel_material
+from geneva_cli.spec.defaults import eye_about, wall_min, wheel_material
 
 
 def fitted(mechanism: Mechanism, advice: bool = True) -> tuple[Ball, list[Region]]:

@@ -25,7 +25,7 @@ from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.turn.gaps import Gaps
-from geneva_cli.spec.materials import wheel_material
+from geneva_cli.spec.defaults import wheel_material
 from geneva_cli.verdict.checks import Check, compared
 from geneva_cli.verdict.quantities.batch_designs import Values
 

@@ -22,7 +22,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import Array, N, Number, Whole, only_of, parameter, size
 from geneva_cli.numerics.roots import find_roots
-from geneva_cli.spec.materials import roller_material, wheel_material
+from geneva_cli.spec.defaults import roller_material, wheel_material
 from geneva_cli.spec.workshops import Stock
 
 POWER, WIDTH = 0.9, 0.8

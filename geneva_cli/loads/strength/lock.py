@@ -28,10 +28,9 @@ from geneva_cli.loads.load_case import contact_modulus_GPa, hertz_MPa
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.motion.batch import taken
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.arrays import all_true, blocks, parameter
+from geneva_cli.numerics.arrays import all_true, blocks, parameter, value_or
 from geneva_cli.numerics.jet import Array, Number
-from geneva_cli.spec.default_sizes import value_or
-from geneva_cli.spec.materials import wheel_material
+from geneva_cli.spec.defaults import wheel_material
 
 SHEAR = 1.2  # of a rectangular section: energy of its shear stress over that of the mean stress
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from geneva_cli.answer import value_text
 from geneva_cli.output.document.blocks import (
     Block,
     Curves,
@@ -16,7 +17,6 @@ from geneva_cli.output.document.blocks import (
     TextList,
     is_number,
     texts,
-    value_text,
 )
 from geneva_cli.output.markdown import escaped
 from geneva_cli.output.notes import span_text

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from geneva_cli.answer import FAILS, PASSES, WARNS
+from geneva_cli.answer import FAILS, NO_BREAK, PASSES, WARNS, value_text
 from geneva_cli.errors import clean
 from geneva_cli.geometry.measure import mapped
 from geneva_cli.geometry.shapes import Point, Shape
 from geneva_cli.geometry.sheet import Annotations, Drawing, extent, prepared
 from geneva_cli.output.document.blocks import (
     BAD,
-    NO_BREAK,
     Block,
     Curves,
     Document,
@@ -24,7 +23,6 @@ from geneva_cli.output.document.blocks import (
     is_number,
     is_short,
     texts,
-    value_text,
 )
 from geneva_cli.output.inks import CENTRE_LINES, inks
 from geneva_cli.output.letters import western

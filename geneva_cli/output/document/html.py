@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterable, Iterator
 from html import escape
 
+from geneva_cli.answer import value_text
 from geneva_cli.errors import clean
 from geneva_cli.output import svg
 from geneva_cli.output.document.blocks import (
@@ -24,7 +25,6 @@ from geneva_cli.output.document.blocks import (
     is_number,
     is_short,
     texts,
-    value_text,
 )
 from geneva_cli.output.plot import plot_svg
 from geneva_cli.output.terminal.summary import SIGNS

@@ -5,35 +5,19 @@ Nothing is cut: a number keeps its width, and text is broken between words only.
 
 from __future__ import annotations
 
-import os
 import re
-import shutil
 import unicodedata
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 from geneva_cli.errors import clean
+from geneva_cli.output.terminal.summary import BOLD, DIM, Window, styled
 from geneva_cli.output.text import WIDTH, cell
 from geneva_cli.table import for_people
 
 GAP = "  "  # between two columns
 PROSE = 28  # letters to which a column of prose is narrowed before another column is omitted
-BOLD, DIM, PLAIN = "\x1b[1m", "\x1b[2m", "\x1b[0m"
 NUMBER = 11  # letters of the widest number, -123456.789 mm
-
-
-class Window(NamedTuple):
-    """The width of lines in letters, the look of letters, and the options for all columns.
-
-    A ``whole`` table has every column, constant ones too; a ``wide`` one exceeds the window.
-    Letters may be ``styled``, as bold ones, and without ``unicode`` they are ASCII.
-    """
-
-    columns: int
-    styled: bool = False
-    whole: bool = False
-    wide: bool = False
-    unicode: bool = True
 
 
 class ShownColumn(NamedTuple):
@@ -60,14 +44,6 @@ class ShownColumn(NamedTuple):
     def _words(self) -> list[str]:
         cells = [word for text in self.cells for word in text.split()] if self.is_text else []
         return [*self.words.split(), self.unit, *cells]
-
-
-def window(whole: bool, is_wide: bool) -> Window:
-    """The window of standard output; COLUMNS has precedence over the terminal's own width."""
-    styled = os.environ.get("TERM", "dumb") != "dumb" and not os.environ.get("NO_COLOR")
-    # A window of fewer than 60 columns breaks lines itself.
-    columns = max(shutil.get_terminal_size().columns, 60)
-    return Window(columns, styled, whole or is_wide, is_wide)
 
 
 def width_of(text: str) -> int:
@@ -183,11 +159,6 @@ def transposed(columns: Sequence[ShownColumn], width: int) -> list[str] | None:
         is_text = [column.is_text or len(rows) == 1] * len(rows)
         lines += row(cells, sizes, [True, *is_text])
     return lines
-
-
-def styled(text: str, style: str, is_styled: bool) -> str:
-    """A text in a style such as bold, if the terminal supports it; an empty one stays empty."""
-    return f"{style}{text}{PLAIN}" if is_styled and style and text else text
 
 
 def value(number: Any, unit: str = "") -> str:

@@ -1,20 +1,54 @@
-"""Summaries for people: a headline with a sign, then lines that fit the window."""
+"""Summaries for people: a headline with a sign, then lines that fit the window; and the window."""
 
 from __future__ import annotations
 
+import os
 import re
+import shutil
 import sys
 import textwrap
 from collections.abc import Iterable, Iterator
+from typing import NamedTuple
 
-from geneva_cli.answer import FAILS, PASSES, WARNS, Summary, SummaryLine
+from geneva_cli.answer import FAILS, NO_BREAK, PASSES, RAISED, TIMES, WARNS, Summary
 from geneva_cli.errors import clean
-from geneva_cli.output.document.blocks import NO_BREAK, RAISED, TIMES
-from geneva_cli.output.terminal.layout import DIM, Window, styled, window
 from geneva_cli.output.text import WIDTH
 
+LABEL_MAX = 20  # letters; a longer label stands above its text
+BOLD, DIM, PLAIN = "\x1b[1m", "\x1b[2m", "\x1b[0m"
 SIGNS = {PASSES: "✓", WARNS: "!", FAILS: "✗"}
 INKS = {PASSES: "\x1b[32m", WARNS: "\x1b[33m", FAILS: "\x1b[31m"}  # green, yellow, red
+# a unit behind a number, from which it is not separated; units of several words
+UNIT = re.compile(r"(?<=\d) (N m s|N m|N|kg m²|kg|rad/s²?|MPa|J|W|kW|mm|µm|deg|rpm|%)(?!\w)")
+UNITS = ("N m s", "N m", "kg m²")
+ASCII = {"✓": "ok", "✗": "x", "°": " deg", "²": "2", "³": "3", "Ø": "dia."}
+
+
+class Window(NamedTuple):
+    """The width of lines in letters, the look of letters, and the options for all columns.
+
+    A ``whole`` table has every column, constant ones too; a ``wide`` one exceeds the window.
+    Letters may be ``styled``, as bold ones, and without ``unicode`` they are ASCII.
+    """
+
+    columns: int
+    styled: bool = False
+    whole: bool = False
+    wide: bool = False
+    unicode: bool = True
+
+
+def window(whole: bool, is_wide: bool) -> Window:
+    """The window of standard output; COLUMNS has precedence over the terminal's own width."""
+    styled = os.environ.get("TERM", "dumb") != "dumb" and not os.environ.get("NO_COLOR")
+    # A window of fewer than 60 columns breaks lines itself.
+    columns = max(shutil.get_terminal_size().columns, 60)
+    return Window(columns, styled, whole or is_wide, is_wide)
+
+
+def styled(text: str, style: str, is_styled: bool) -> str:
+    """A text in a style such as bold, if the terminal supports it; an empty one stays empty."""
+    return f"{style}{text}{PLAIN}" if is_styled and style and text else text
 
 
 def style_of(output: str, is_seen: bool) -> Window:
@@ -35,63 +69,54 @@ def style_of(output: str, is_seen: bool) -> Window:
 
 def chunks(summaries: Iterable[Summary], look: Window) -> Iterator[str]:
     """Each summary as text, with empty lines around one that has lines."""
+    inks, dim, plain = (INKS, DIM, PLAIN) if look.styled else ({}, "", "")
     before: Summary | None = None
     for summary in summaries:
-        if before and (before.lines or summary.lines):
+        lines = summary.lines
+        if before and (before.lines or lines):
             yield "\n"
-        yield _head(summary, look)
-        if summary.lines:
-            yield "\n"
-            yield from _lines(summary.lines, look)
         before = summary
-
-
-def _head(summary: Summary, look: Window) -> str:
-    sign = _letters(SIGNS.get(summary.state, ""), look)
-    indent = " " * (len(sign) + 1) if sign else ""
-    text = "\n".join(_wrapped(summary.head, look.columns - len(indent), look))
-    text = text.replace("\n", f"\n{indent}")
-    sign = styled(sign, INKS.get(summary.state, ""), look.styled)
-    return f"{sign} {text}\n" if sign else f"{text}\n"
-
-
-def _lines(lines: Iterable[SummaryLine], look: Window) -> Iterator[str]:
-    lines = list(lines)
-    label_max = 20  # letters; a longer label stands above its text
-    wide = max((len(line.label) for line in lines if len(line.label) <= label_max), default=0)
-    width = look.columns - wide - 4
-    for line in lines:
-        label = styled(clean(line.label), INKS.get(line.state, ""), look.styled)
-        texts = _wrapped(line.text, width, look)
-        notes = [styled(note, DIM, look.styled) for note in _wrapped(line.note, width, look)]
-        first = f"  {label}{' ' * (wide - len(line.label))}  "
-        if len(line.label) > wide:
-            yield f"  {label}\n"
-            first = " " * (wide + 4)
-        for number, text in enumerate([*texts, *notes]):
-            yield f"{' ' * (wide + 4) if number else first}{text}".rstrip() + "\n"
+        sign = SIGNS.get(summary.state, "")
+        sign = sign if look.unicode else ASCII.get(sign, sign)
+        indent = " " * (len(sign) + 1) if sign else ""
+        text = f"\n{indent}".join(_wrapped(summary.head, look.columns - len(indent), look))
+        ink = inks.get(summary.state, "")
+        yield f"{ink}{sign}{plain} {text}\n" if sign else f"{text}\n"
+        wide = 0
+        for line in lines:
+            if len(line.label) <= LABEL_MAX:
+                wide = max(wide, len(line.label))
+        width = look.columns - wide - 4
+        if lines:
+            yield "\n"
+        for line in lines:
+            label, ink = clean(line.label), inks.get(line.state, "")
+            label = f"{ink}{label}{plain}" if ink and label else label
+            first = f"  {label}{' ' * (wide - len(line.label))}  "
+            if len(line.label) > wide:
+                yield f"  {label}\n"
+                first = " " * (wide + 4)
+            for text in _wrapped(line.text, width, look):
+                yield f"{first}{text}".rstrip() + "\n"
+                first = " " * (wide + 4)
+            for note in _wrapped(line.note, width, look):
+                yield f"{first}{dim}{note}{plain}".rstrip() + "\n"
+                first = " " * (wide + 4)
 
 
 def _wrapped(text: str, width: int, look: Window) -> list[str]:
     """A text in lines; a value is not separated from its power of ten or its unit."""
-    text = re.sub(
-        r"(?<=\d) (N m s|N m|N|kg m²|kg|rad/s²?|MPa|J|W|kW|mm|µm|deg|rpm|%)(?!\w)",
-        lambda unit: NO_BREAK + unit[1].replace(" ", NO_BREAK),
-        text,
-    )
-    text = _letters(NO_BREAK.join(map(clean, text.split(NO_BREAK))), look)
+    text = UNIT.sub(rf"{NO_BREAK}\1", text)
+    for unit in UNITS:
+        text = text.replace(f"{NO_BREAK}{unit}", f"{NO_BREAK}{unit.replace(' ', NO_BREAK)}")
+    text = NO_BREAK.join(map(clean, text.split(NO_BREAK)))
+    if not look.unicode:
+        lowered = {raised: plain for plain, raised in RAISED.items()}
+        power = f"{TIMES}10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)"
+        text = re.sub(power, lambda match: f"e{match[1].translate(lowered)}", text)
+        text = text.translate({ord(letter): plain for letter, plain in ASCII.items()})
     lines = textwrap.wrap(text, max(width, 1), break_long_words=False, break_on_hyphens=False)
-    return [line.replace(NO_BREAK, " ") for line in lines]
-
-
-def _letters(text: str, look: Window) -> str:
-    if look.unicode:
-        return text
-    lowered = {raised: plain for plain, raised in RAISED.items()}
-    power = f"{TIMES}10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)"
-    text = re.sub(power, lambda match: f"e{match[1].translate(lowered)}", text)
-    ascii_letters = {"✓": "ok", "✗": "x", "°": " deg", "²": "2", "³": "3", "Ø": "dia."}
-    return "".join(ascii_letters.get(letter, letter) for letter in text)
+    return "\n".join(lines).replace(NO_BREAK, " ").split("\n") if lines else []
 
 
 def markdown(summaries: Iterable[Summary]) -> Iterator[str]:

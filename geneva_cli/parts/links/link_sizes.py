@@ -16,14 +16,13 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.shapes import Point
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Joint, Link
-from geneva_cli.numerics.arrays import Array
+from geneva_cli.numerics.arrays import Array, half_or
 from geneva_cli.numerics.preferred import bore_radius, rounded_radius
 from geneva_cli.parts.assembly import links_at
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.shafts.bores import Bore
 from geneva_cli.parts.sizes import HUB, drawn_thicknesses, pin_hole, pin_radius, plane_span
-from geneva_cli.spec.default_sizes import half_or
-from geneva_cli.spec.least_wall import eye_about, wall_min
+from geneva_cli.spec.defaults import eye_about, wall_min
 
 SLOT_MARGIN = 0.25  # distance from a block to the end of its slot, as a fraction of the pin's hole
 

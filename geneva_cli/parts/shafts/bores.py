@@ -23,7 +23,7 @@ from geneva_cli.geometry.shapes import (
     closed,
     polygon,
 )
-from geneva_cli.spec.keyways import ParallelKey, key
+from geneva_cli.spec.defaults import ParallelKey, key
 from geneva_cli.spec.tables import Size
 from geneva_cli.spec.written import length
 

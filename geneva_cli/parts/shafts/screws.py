@@ -11,8 +11,8 @@ from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.shapes import ORIGIN, Circle, polar
+from geneva_cli.numerics.arrays import half_or
 from geneva_cli.numerics.tolerances import ROUNDED
-from geneva_cli.spec.default_sizes import half_or
 from geneva_cli.spec.tables import Size
 
 

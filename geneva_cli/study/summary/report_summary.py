@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from geneva_cli.answer import Answer, Summary, SummaryLine
+from geneva_cli.answer import Answer, Summary, SummaryLine, value_text
 from geneva_cli.design import Design
 from geneva_cli.errors import is_warning
 from geneva_cli.loads.cycle_figures import AXIS_BY_NAME
 from geneva_cli.names import spoken
-from geneva_cli.output.document.blocks import value_text
 from geneva_cli.output.finite import only
 from geneva_cli.study.summary.load_lines import (
     cycle_lines,

@@ -128,7 +128,7 @@ def request(
             spec = with_values(text, axes, middle).spec()
         except GenevaError:
             raise error from None
-    if spec.outline.is_given:
+    if spec.outline.files:
         raise GenevaError(f"{spec.path}: [outline]: a sweep varies formulas, and turns no drawings")
     refuse_twice(axes, text.set_keys)
     if best and random is None and any(a.span for a in axes):

@@ -17,8 +17,7 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.parts import Parts, parts_of
-from geneva_cli.specfile.reader import Text
-from geneva_cli.specfile.settings import Setting, setting
+from geneva_cli.specfile.reader import Setting, Text, setting
 from geneva_cli.study.batches import Batch, batch_rows, numbers
 from geneva_cli.study.fields import Pick, pick
 from geneva_cli.study.pool import cores, mapped

@@ -13,10 +13,10 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.numerics.arrays import Array, Whole
-from geneva_cli.spec.rules import RangeText, range_text
+from geneva_cli.spec.rules import range_text
 from geneva_cli.spec.units import in_unit_of, unit_key
 from geneva_cli.specfile.keys import is_whole
-from geneva_cli.specfile.settings import Setting, read_value, whole_key
+from geneva_cli.specfile.reader import Setting, read_value, whole_key
 from geneva_cli.study.rows import Column, column_of
 
 Value: TypeAlias = float | int | str
@@ -97,8 +97,8 @@ def refuse_twice(axes: Sequence[VariedKey], settings: Sequence[Setting]) -> None
 def _axis(key: str, text: str, option: str, random: bool) -> VariedKey:
     parts = text.split(",")
     if len(parts) == 1 and (ends := range_text(text, option)):
-        if random and not ends.step and not (_whole(ends[:2]) and is_whole(key)):
-            low, high = float(_decimal(ends.low, option)), float(_decimal(ends.high, option))
+        if random and not ends[2] and not (_whole(ends[:2]) and is_whole(key)):
+            low, high = float(_decimal(ends[0], option)), float(_decimal(ends[1], option))
             if low >= high:
                 raise GenevaError(f"{option}: the first number must be below the second")
             return VariedKey(key, (low, high), span=True)
@@ -116,18 +116,19 @@ def _whole(parts: Iterable[str]) -> bool:
     return all(re.fullmatch(r"[+-]?\d{1,99}", part) for part in parts)
 
 
-def _range(ends: RangeText, option: str) -> Sequence[float]:
+def _range(ends: tuple[str, str, str], option: str) -> Sequence[float]:
     """The values from LOW to HIGH by STEP; whole numbers need no step."""
-    if _whole(filter(None, ends)) and ends.low and ends.high:
-        first, last, by = int(ends.low), int(ends.high), int(ends.step or 1)
+    least, most, by_step = ends
+    if _whole(filter(None, ends)) and least and most:
+        first, last, by = int(least), int(most), int(by_step or 1)
         if by:
             _refuse_many(option, abs((last - first) / by) + 1)
             if numbers := range(first, last + (1 if by > 0 else -1), by):
                 return numbers
-    low, high = _decimal(ends.low, option), _decimal(ends.high, option)
-    if not ends.step and not _whole(ends[:2]):
+    low, high = _decimal(least, option), _decimal(most, option)
+    if not by_step and not _whole(ends[:2]):
         raise GenevaError(f"{option}: a range of fractions needs its step: LOW..HIGH:STEP")
-    step = _decimal(ends.step or "1", option)
+    step = _decimal(by_step or "1", option)
     if not step or (high - low) / step < 0:
         raise GenevaError(
             f"{option}: a step of {step:g} does not lead from {low:g} to {high:g}; "

@@ -9,6 +9,5 @@ Its steps, one file each:
     suiting        the roller that suits each machine, or the obstacle to its parts
     machine_rows   description and costs of each
     synth_search   the rows of all groups that keep the bounds, the best first
-    built          sizes with which a row's parts pass every check in a full turn
     synth_table    the rows, the first of them turned, and a row as a spec; ``shown``: for people
 """

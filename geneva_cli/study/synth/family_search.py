@@ -12,12 +12,10 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.many import many
 from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.numerics.tolerances import ROUNDED
-from geneva_cli.study.batches import BatchKey, columns, split
+from geneva_cli.study.batches import BatchKey, built, columns, split
 from geneva_cli.study.sweep.constraints import Objective
 from geneva_cli.study.synth.families.family import Family
 from geneva_cli.study.synth.optimiser import SETTLED, Places, Zoom, sampled, tops, zoom
@@ -40,34 +38,32 @@ def best(
 
     The others break the bounds least, with ``how_near`` to the last digit.
     """
-    places = [*(f.low or () if math.isnan(f.best) else (f.best,) for f in families)]
+    numbers = [f.low if math.isnan(f.best) else f.best for f in families]
     searched = [i for i, f in enumerate(families) if f.is_free and math.isnan(f.best)]
-    found: dict[int, bool] = {}  # those that keep the bounds, or not
+    keeps: dict[int, bool | None] = dict.fromkeys(range(len(families)), True)
+    keeps |= dict.fromkeys(searched)  # None without a machine
     if searched:
         free = FamilyCosts([families[i] for i in searched], target)
-        best_places = _best_places(free, how_near)
-        numbers = free.places(best_places.of, best_places.at)[:, 0].tolist()
-        broken = (best_places.violation >= BROKEN).tolist()
-        for of, x, is_broken in zip(best_places.of.tolist(), numbers, broken, strict=True):
-            places[searched[of]], found[searched[of]] = (x,), not is_broken
-    kept: list[FamilyMachine] = []
-    broken_ones: list[FamilyMachine] = []
-    for i, (f, place) in enumerate(zip(families, places, strict=True)):
-        # without a machine, or with that of another family
-        known = zip(place, f.known, f.low, f.high, strict=False)
-        is_known = f.known and all(abs(x - y) <= 1e-4 * (b - a) for x, y, a, b in known)
-        if (i in found or i not in searched) and not is_known and (spec := f.at(place)):
-            (kept if found.get(i, True) else broken_ones).append((spec, f))
-    return kept, broken_ones
+        found = _best_places(free, how_near)
+        own = free.numbers(found.of, found.at[:, 0]).tolist()
+        kept = (found.violation < BROKEN).tolist()
+        for of, x, keep in zip(found.of.tolist(), own, kept, strict=True):
+            numbers[searched[of]], keeps[searched[of]] = x, keep
+    out: dict[bool | None, list[FamilyMachine]] = {True: [], False: []}
+    for i, (f, x) in enumerate(zip(families, numbers, strict=True)):
+        is_known = abs(x - f.known) <= 1e-4 * (f.high - f.low)  # of another family
+        if keeps[i] is not None and not is_known:
+            spec = f.at(x) if math.isnan(f.best) else f.spec
+            out[keeps[i]] += [(spec, f)] if spec else []
+    return out[True], out[False]
 
 
 def _best_places(free: FamilyCosts, how_near: bool) -> Places:
     """The best place of each family, from the plain crank's and the tops of a grid."""
     every = np.arange(len(free.families))
-    with np.errstate(all="ignore"):
-        plain = (free.plain - free.low) / (free.high - free.low)
-    inside = ((plain >= 0.0) & (plain <= 1.0)).all(axis=1)
-    nearest = sampled(free, every[inside], plain[inside])
+    plain = (free.plain - free.low) / (free.high - free.low)
+    inside = (plain >= 0.0) & (plain <= 1.0)
+    nearest = sampled(free, every[inside], plain[inside, None])
     done = nearest.take((nearest.cost == 0.0) & (nearest.violation == 0.0) & free.is_nearest)
     left = np.setdiff1d(every, done.of)
     if not len(left):
@@ -97,27 +93,27 @@ class FamilyCosts:
         self.bounds = [b for b in target.bounds if in_batch([b.name])]
         self.soft = [*target.soft_bounds.values()]
         self.names = [self.goal.name, *(b.name for b in (*self.bounds, *self.soft))]
-        each = [(f.low, f.high, f.plain or (math.nan,)) for f in families]
-        self.low, self.high, self.plain = map(np.array, zip(*each, strict=True))
+        each = [(f.low, f.high, f.plain) for f in families]
+        self.low, self.high, self.plain = np.array(each).T
         keys: dict[Any, list[BatchKey]] = {}
         own = [split(f.spec, keys) for f in families]
         shapes = {shape: i for i, (shape, _) in enumerate(own)}
         self._own = [values for _, values in own]
         self._shape = np.array([shapes[shape] for shape, _ in own])
 
-    def places(self, of: Whole, at: Array) -> Array:
-        """The numbers of families at places of the unit cube, without the cube's rounding."""
+    def numbers(self, of: Whole, at: Array) -> Array:
+        """The numbers (n,) of families at places of the unit cube, without the cube's rounding."""
         low, high, plain = self.low[of], self.high[of], self.plain[of]
         inside: Array = np.where(at == 1.0, high, low + (high - low) * at)
         return np.where(abs(inside - plain) <= 1e-15 * (high - low), plain, inside)
 
     def __call__(self, of: Whole, at: Array) -> tuple[Array, Array]:
-        """Violations and costs at places (n, d) of families, (n,) each."""
-        places = self.places(of, at)
-        values = self._numbers(of, places)
+        """Violations and costs at places (n, 1) of families, (n,) each."""
+        numbers = self.numbers(of, at[:, 0])
+        values = self._values(of, numbers)
         cost = self.goal.sign * values[:, 0]
         if self.is_nearest:
-            far = np.abs(places - self.plain[of])[:, 0]
+            far = np.abs(numbers - self.plain[of])
             cost = np.where(np.isnan(far), cost, far)
         violation = np.zeros(len(of))
         for i, bound in enumerate((*self.bounds, *self.soft)):
@@ -128,34 +124,25 @@ class FamilyCosts:
         known = np.isfinite(values[:, 0]) & ~np.isnan(violation)
         return np.where(known, violation, math.inf), np.where(known, cost, math.inf)
 
-    def _numbers(self, of: Whole, places: Array) -> Array:
-        """The goal and the bounded quantities at places, (n, names); NaN without a machine."""
+    def _values(self, of: Whole, numbers: Array) -> Array:
+        """The goal and the bounded quantities, (n, names); NaN without a machine."""
         out = np.full((len(of), len(self.names)), math.nan)
         shape = self._shape[of]
         for kind in np.unique(shape).tolist():
             which = np.flatnonzero(shape == kind)
-            varied = {
-                key: np.array([self._own[i][key] for i in of[which]]) for key in self._own[kind]
-            }
+            own = [self._own[i] for i in of[which].tolist()]
+            varied = {key: np.array([one[key] for one in own]) for key in own[0]}
             for i in np.unique(of[which]).tolist():
-                own, keys = of[which] == i, self.families[i].keys
+                some, keys = of[which] == i, self.families[i].keys
                 assert keys
-                for key, value in keys(places[which][own]).items():
+                for key, value in keys(numbers[which][some]).items():
                     varied[key] = varied[key].astype(float)
-                    varied[key][own] = value
+                    varied[key][some] = value
             able = np.isfinite(list(varied.values())).all(axis=0)
-            if not able.any():
-                continue
-            which, varied = which[able], {key: value[able] for key, value in varied.items()}
-            same = {key for key, value in varied.items() if not (value != value[0]).any()}
-            same -= {next(iter(varied))} if len(same) == len(varied) else set()
-            one = {key: v[0].item() if key in same else v for key, v in varied.items()}
-            try:
-                batch = many(self.families[of[which[0]]].spec, one)
-            except GenevaError:  # a frame that allows no such machine
-                continue
-            if batch.machine:
-                out[which[batch.which]] = self._columns(batch.machine, len(batch.which))
+            if able.any():
+                which, varied = which[able], {key: value[able] for key, value in varied.items()}
+                for members, machine in built(self.families[of[which[0]]].spec, varied, which):
+                    out[members] = self._columns(machine, len(members))
         return out
 
     def _columns(self, machine: Any, count: int) -> Array:

@@ -65,15 +65,33 @@ def read_target(
     refuse_contradictions(bounds)
     refuse_words(dict.fromkeys([b.name for b in bounds], "--subject-to"), "only numbers are bound")
     phrases += [str(bound) for bound in bounds]
+    able: tuple[str, ...] = GEARINGS
     chosen = dict(zip(GEARINGS, (external, internal, spherical), strict=True))
-    requested = tuple(g for g, is_chosen in chosen.items() if is_chosen)
+    gearings = tuple(name for name, is_chosen in chosen.items() if is_chosen)
+    if rollers is not None and not 1 <= rollers <= ROLLERS_MAX:
+        raise GenevaError(f"--rollers {cut(rollers)}: it must be at least 1, at most {ROLLERS_MAX}")
+    if frame is not None and frame.wheel.stopped:
+        keys = {name: [f.key for f in fields(registry.gearing(name))] for name in GEARINGS}
+        able = tuple(name for name in GEARINGS if "stop" in keys[name])
+        if wrong := next((name for name in gearings if name not in able), None):
+            raise GenevaError(f"--{wrong}: the spec has a stop, which this wheel cannot have")
+        if rollers not in (None, 1):
+            raise GenevaError(f"--rollers {rollers}: the spec has a stop, which needs one roller")
+        rollers = 1
+    slots = parse_z(z or "3..24") if z or frame is None else [frame.wheel.z]
+    most = 200  # each wheel takes some hundredths of a second
+    if len(slots) > most:
+        raise GenevaError(f"--z {cut(z)}: that is more than {most} wheels; give fewer")
+    if law != "all" and law not in LAWS:
+        hint = nearest(law, (*LAWS, "all"))
+        raise GenevaError(f'--law "{cut(law)}": unknown{hint}; it must be all or {few(law, LAWS)}')
     words = ", ".join(phrases) or "the spec alone"
     target = Target(
         words if words.startswith("tau") else words[:1].upper() + words[1:],
-        _slots(z, frame),
-        _gearings(requested, frame),
-        _rollers(rollers, frame),
-        _laws(law),
+        tuple(dict.fromkeys(slots)),
+        gearings or able,
+        rollers,
+        tuple(LAWS) if law == "all" else (law,),
         spans,
         frame,
         objective(sort, "--sort") if sort else None,
@@ -81,7 +99,7 @@ def read_target(
         number("--space", space, Range(0.1, 100.0)) if space else SPACE,
     )
     loads = [name for name in target.names if name.startswith("loads.")]
-    if loads and not (target.frame and target.frame.is_loaded):
+    if loads and not (frame and frame.is_loaded):
         raise GenevaError(
             f"{loads[0]}: nothing resists the wheel, so no machine has a value of it; give a load "
             "with --from SPEC and its [load]"
@@ -110,44 +128,6 @@ def read_frame(path: str, settings: Sequence[str] = ()) -> Spec:
                 ("wheel", "gearing"),
             )
     return spec
-
-
-def _gearings(chosen: tuple[str, ...], frame: Spec | None) -> tuple[str, ...]:
-    if frame is None or not frame.wheel.stopped:
-        return chosen or GEARINGS
-    able = tuple(g for g in GEARINGS if any(f.key == "stop" for f in fields(registry.gearing(g))))
-    wrong = next((name for name in chosen if name not in able), None)
-    if wrong:
-        raise GenevaError(f"--{wrong}: the spec has a stop, which this wheel cannot have")
-    return chosen or able
-
-
-def _rollers(rollers: int | None, frame: Spec | None) -> int | None:
-    """The number of rollers: None for any, 1 for a frame that has a stop."""
-    if rollers is not None and not 1 <= rollers <= ROLLERS_MAX:
-        raise GenevaError(f"--rollers {cut(rollers)}: it must be at least 1, at most {ROLLERS_MAX}")
-    if frame is None or not frame.wheel.stopped:
-        return rollers
-    if rollers not in (None, 1):
-        raise GenevaError(f"--rollers {rollers}: the spec has a stop, which needs one roller")
-    return 1
-
-
-def _slots(text: str, frame: Spec | None) -> tuple[int, ...]:
-    if not text and frame is not None:
-        return (frame.wheel.z,)
-    z = parse_z(text or "3..24")
-    most = 200  # each wheel takes some hundredths of a second
-    if len(z) > most:
-        raise GenevaError(f"--z {cut(text)}: that is more than {most} wheels; give fewer")
-    return tuple(dict.fromkeys(z))
-
-
-def _laws(name: str) -> tuple[str, ...]:
-    if name == "all" or name in LAWS:
-        return tuple(LAWS) if name == "all" else (name,)
-    hint = nearest(name, (*LAWS, "all"))
-    raise GenevaError(f'--law "{cut(name)}": unknown{hint}; it must be all or {few(name, LAWS)}')
 
 
 def span(option: str, text: str, rule: Range) -> AllowedSpan:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from geneva_cli.study.synth.machine_rows import OWN_KEYS
+from geneva_cli.study.synth.machine_rows import CELLS
 from geneva_cli.table import Reading, Table
 
 # Columns and their short names, in order; empty ones are left out.
@@ -43,9 +43,7 @@ def for_people(table: Table, most: int | None = None) -> Table:
     if len(rows) < len(every_row):
         title += f" The first {most} rows. All {len(every_row)} rows: -o FILE.csv"
     several = len({row["law"] for row in rows if row["law"]}) > 1
-    # the machine's description has the keys
-    known = {*COLUMNS, "drive", "law", "alpha0_deg", *OWN_KEYS}
-    extra = [name for name in table.names if name not in known]
+    extra = table.names[len(CELLS) :]
     heads, columns, ranks = list[str](), list[list[Any]](), list[float]()
     for source, head in COLUMNS.items():
         for name in extra if source == "extra" else (source,):

@@ -30,6 +30,7 @@ from geneva_cli.study.synth.machine_rows import MachineRow, rows
 from geneva_cli.study.target import TURNS, Target
 from geneva_cli.verdict.quantities.quantity_names import in_batch
 
+KIND = ("gearing", "z", "drive", "law", "fixed", "rollers")
 TURNED = 20  # rows whose parts are turned by default
 # Least numbers of slots in a group: a search of so many four-bars has its fewest samples for each
 # (four_bar_search), so that groups find what one search of all does.
@@ -46,7 +47,7 @@ class Ranking(NamedTuple):
 
     def rank(self, row: MachineRow) -> tuple[object, ...]:
         """The sort key of a row: the goal's quantity, then peaks, equal in 12 digits."""
-        target, one = self.requested, row.candidate
+        target, one = self.requested, row.cells
         first: tuple[object, ...] = ()
         if target.sort:
             value = row.extra[target.names.index(target.sort.name)]
@@ -54,8 +55,8 @@ class Ranking(NamedTuple):
             first = (1, str(value))
             if is_number(value):
                 first = (0, float(f"{target.sort.sign * float(value):.12g}"))
-        peaks = (float(f"{x:.12g}") for x in (one.peak, one.jerk_max))
-        return (*first, *peaks, one.rollers, one.z, one.gearing, one.drive)
+        peaks = (float(f"{x:.12g}") for x in (row.peak, one["jerk_max"]))
+        return (*first, *peaks, *(one[name] for name in ("rollers", "z", "gearing", "drive")))
 
 
 def search(target: Target) -> Ranking:
@@ -75,12 +76,12 @@ def search(target: Target) -> Ranking:
     # and the first that may be built
     every_kind, can_be = in_batch(target.names), dict[object, bool]()
     for i, row in enumerate(kept):
-        one = row.candidate
-        kind: object = (one.gearing, one.z, one.drive, one.law, one.fixed, one.rollers)
-        if every_kind and one.crank_mm is None:
+        kind: object = tuple(row.cells[name] for name in KIND)
+        if every_kind and row.cells["crank_mm"] is None:
             kind = i
         if kind not in can_be or (not can_be[kind] and not row.trouble):
             ranking.rows.append(row)
+            row.cells["no"] = len(ranking.rows)
             can_be[kind] = not row.trouble
     return ranking
 

@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 import math
+from contextlib import suppress
 from functools import partial
-from typing import NamedTuple
+
+import numpy as np
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.motion.machine_spec import Spec
+from geneva_cli.motion.mechanism import build
 from geneva_cli.progress import tracked
-from geneva_cli.spec.load_limits import LIMITED
+from geneva_cli.spec.defaults import wall_min
+from geneva_cli.spec.tables import LIMITED
 from geneva_cli.specfile.writer import quoted, spec_lines
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.sweep.constraints import Constraint
-from geneva_cli.study.synth.built import built
-from geneva_cli.study.synth.machine_rows import Candidate, MachineRow, rows
-from geneva_cli.study.synth.suiting import MAYBE, YES
+from geneva_cli.study.synth.machine_rows import CELLS, COSTS, MAYBE, YES, MachineRow, rows
+from geneva_cli.study.synth.suiting import SPARE, USUAL, slot_paths, with_roller
 from geneva_cli.study.synth.synth_search import (
     TURNED,
     Ranking,
@@ -25,6 +28,7 @@ from geneva_cli.study.synth.synth_search import (
 )
 from geneva_cli.study.target import Target
 from geneva_cli.table import Table, rows_table
+from geneva_cli.verdict.checks import LIMITS, MOTION, all_pass, checks, every_check
 
 # keys of [limits] and what they bound
 _LIMITED = {
@@ -32,57 +36,48 @@ _LIMITED = {
     "pressure_angle_max_deg": "sizes.pressure_angle_max_deg",
     "product_acceleration_max_m_s2": "product.acceleration_m_s2.max",
 }
-NAMES = ("no", *Candidate._fields)
+# keys that conflict with a crank's bore
+SHAFT = {"crank_shaft_mm", "crank_hub_mm", "crank_bore_wall_mm"}
+UNSIZED = {*MOTION, *LIMITS} - {"undercut_mm"}  # checks that no other roller can mend
 HALVINGS = 5  # of the numbers between a machine that fails in its turn and the plain crank's
 
 
 def synthesis_table(target: Target, count: int = TURNED, buildable: bool = False) -> Table:
     """One row for each machine, numbered from 1, as ``turned`` returns them."""
     ranking = search(target)
-    shown = [
-        (one.no, *one.row.candidate, *one.row.extra) for one in turned(ranking, count, buildable)
-    ]
-    what = "1 machine" if len(shown) == 1 else f"{len(shown)} machines"
-    first = str(target.sort or "") or f"lowest peak acceleration{' in rad/s2' * target.timed}"
-    title = f"{what}, {first} first" if len(shown) > 1 else what
+    shown = [(*row.cells.values(), *row.extra) for row in turned(ranking, count, buildable)]
+    title = "1 machine" if len(shown) == 1 else f"{len(shown)} machines"
+    if several := len(shown) > 1:
+        first = str(target.sort or "") or f"lowest peak acceleration{' in rad/s2' * target.timed}"
+        title = f"{title}, {first} first"
     if buildable:
-        title = f"{title}{',' * (len(shown) > 1)} of {len(ranking.rows)}"
+        title = f"{title}{',' * several} of {len(ranking.rows)}"
     if not shown:
         title = f"none of {len(ranking.rows)} machines passes"
-    return rows_table((*NAMES, *target.names), shown, f"{target.words}: {title}.")
+    return rows_table((*CELLS, *target.names), shown, f"{target.words}: {title}.")
 
 
-class Numbered(NamedTuple):
-    """A row and its number, which does not change if others are hidden."""
-
-    no: int
-    row: MachineRow
-
-
-def turned(ranking: Ranking, count: int = TURNED, buildable: bool = False) -> list[Numbered]:
+def turned(ranking: Ranking, count: int = TURNED, buildable: bool = False) -> list[MachineRow]:
     """The rows, the first ``count`` of them turned; with ``buildable`` the first that pass.
 
     A turned row says yes, with sizes that pass, or no. Others say maybe, or no if that is known
     without turning. With ``buildable`` a row that fails is replaced, under its number, by a machine
     of its family that passes, and stands where its own quantities belong.
     """
-    every = [Numbered(i, row) for i, row in enumerate(ranking.rows, 1)]
-    maybe = [one for one in every if one.row.candidate.parts == MAYBE]
+    maybe = [row for row in ranking.rows if row.cells["parts"] == MAYBE]
     if not buildable:
-        maybe = [one for one in maybe if one.no <= count]
+        maybe = [row for row in maybe if row.cells["no"] <= count]
     work = partial(_turned, ranking._replace(rows=[]), buildable)
-    done = mapped(work, [one.row for one in maybe], min(len(maybe), cores()), "machines")
-    results: dict[int, MachineRow] = {}
-    passed = 0
-    for one, row in zip(maybe, tracked(done, "machines turned", len(maybe)), strict=True):
-        results[one.no] = row
-        passed += row.candidate.parts == YES
-        if buildable and passed >= count:
+    done = mapped(work, maybe, min(len(maybe), cores()), "machines")
+    results, passed = dict[int, MachineRow](), list[MachineRow]()
+    for row in tracked(done, "machines turned", len(maybe)):
+        results[row.cells["no"]] = row
+        passed += [row] if row.cells["parts"] == YES else []
+        if buildable and len(passed) >= count:
             break
-    if not buildable:
-        return [one._replace(row=results.get(one.no, one.row)) for one in every]
-    shown = [Numbered(no, row) for no, row in results.items() if row.candidate.parts == YES]
-    return sorted(shown, key=lambda one: ranking.rank(one.row))
+    if buildable:
+        return sorted(passed, key=ranking.rank)
+    return [results.get(row.cells["no"], row) for row in ranking.rows]
 
 
 def _turned(ranking: Ranking, buildable: bool, row: MachineRow) -> MachineRow:
@@ -94,35 +89,70 @@ def _turned(ranking: Ranking, buildable: bool, row: MachineRow) -> MachineRow:
     sizes = ranking.target.frame.size.as_dict() if ranking.target.frame else {}
     fixed = frozenset(key for key, value in sizes.items() if value is not None)
 
-    def with_result(row: MachineRow) -> MachineRow:
-        spec, trouble = built(row.spec, fixed)
-        entry = f"no: {trouble}" if trouble else YES
-        return row._replace(spec=spec, candidate=row.candidate._replace(parts=entry))
+    def with_result(one: MachineRow) -> MachineRow:
+        spec, trouble = built(one.spec, fixed)
+        parts = f"no: {trouble}" if trouble else YES
+        return one._replace(spec=spec, cells=one.cells | {"no": row.cells["no"], "parts": parts})
 
     out, family = row if row.trouble else with_result(row), row.family
-    if not (buildable and out.trouble and family and family.is_free and len(family.plain) == 1):
+    if not (buildable and out.trouble and family and family.is_free) or math.isnan(family.plain):
         return out
-    (low,), (high,), (plain,) = family.low, family.high, family.plain
+    low, high, plain = family.low, family.high, family.plain
     is_high = abs(high - plain) > abs(low - plain)  # the end that is farther from the plain crank
     fails, passing = (high, max(low, plain)) if is_high else (low, min(high, plain))
     if not math.isnan(family.best):
         fails = family.best
     for _ in range(HALVINGS):
         middle = 0.5 * (fails + passing)
-        spec, own = family.at((middle,)), None
-        for other in rows(ranking.target, [(spec, family)], []) if spec else ():
-            try:
-                (kept,) = bounded(
-                    ranking.requested, with_batch_values(ranking.requested.names, [other])
-                )
-            except GenevaError:
-                continue
-            own = with_result(kept) if not kept.trouble else None
+        spec, own = family.at(middle), None
+        other = rows(ranking.target, [(spec, family)], []) if spec else []
+        with suppress(GenevaError):  # it breaks a bound
+            other = with_batch_values(ranking.requested.names, other)
+            for kept in bounded(ranking.requested, other) if other else ():
+                own = None if kept.trouble else with_result(kept)
         if own and not own.trouble:
             out, passing = own, middle
         else:
             fails = middle
     return out
+
+
+def built(spec: Spec, fixed: frozenset[str] = frozenset()) -> tuple[Spec, str]:
+    """The spec with sizes with which its parts pass every check in a full turn, and what fails.
+
+    The largest of the usual rollers that passes is taken: smaller ones fail less. ``fixed`` are
+    keys of its [size] that must not change. If no sizes pass, the spec is unchanged.
+    """
+    machine = build(spec)
+    failing = [check.name for check in checks(machine, parts=False) if check.passes is False]
+    if not {*failing} & UNSIZED:
+        failing = [check.name for check in checks(machine) if check.passes is False]
+    trouble = {*failing}
+    if not trouble or trouble & UNSIZED:
+        return spec, ", ".join(failing)
+    own = spec
+    if "crank_bore_mm" not in fixed and trouble & SHAFT:
+        own = spec.with_("size.crank_bore_mm", 0.0)  # the shaft ends in the arm
+        if all_pass(every_check(build(own), quick=True)):
+            return own, ""
+    if trouble <= SHAFT or "roller_radius_mm" in fixed:
+        return spec, ", ".join(failing)
+    L = machine.center_distance_mm
+    least = SPARE * float(slot_paths(machine).least[0]) if spec.is_flat else 0.0
+    if spec.drive.LOCKS and spec.size.lock_radius_mm is None:
+        least = max(least, wall_min(spec.size, L))  # a horn is no thicker than its roller's radius
+    most = machine.roller_radius_mm * (1.0 - 1e-9)
+    radii = [r for r in 0.01 * L * np.array(USUAL) if least <= r < most]
+    best = None
+    low, high = 0, len(radii)  # those from ``high`` on pass
+    while low < high:
+        middle = (low + high) // 2
+        other = with_roller(own, radii[middle])
+        if all_pass(every_check(build(other), quick=True)):
+            best, high = other, middle
+        else:
+            low = middle + 1
+    return (best, "") if best else (spec, ", ".join(failing))
 
 
 def chosen(ranking: Ranking, number: int, buildable: bool = False) -> tuple[MachineRow, str]:
@@ -158,16 +188,16 @@ def with_limits(target: Target, spec: Spec) -> Spec:
 
 def commented(target: Target, number: int, machine: MachineRow) -> str:
     """The text of a spec from synthesis, with comments."""
-    row = machine.candidate
-    slots = f"{row.drive}, {row.law}" if row.law else row.drive
-    title = f"{target.words}: {row.z} slots, {row.gearing}, {slots}"
-    names = ("velocity_max", "acceleration_max", "acceleration_entry", "jerk_max", "power_max")
-    costs = [f"{name} {getattr(row, name):.7g}" for name in names]
+    row = machine.cells
+    slots = f"{row['drive']}, {row['law']}" if row["law"] else row["drive"]
+    title = f"{target.words}: {row['z']} slots, {row['gearing']}, {slots}"
+    costs = [f"{name} {row[name]:.7g}" for name in (one.replace(".", "_") for one in COSTS)]
+    moves = f"It moves for {row['motion_deg']:.7g} deg of the input and"
     lines = [
         f"title = {quoted(title)}",
         "",
-        f"# Row {number} of `geneva synth`. It moves for {row.motion_deg:.7g} deg of the input and",
-        f"# rests for {row.dwell_deg:.7g}: tau = {row.tau:.7g}, k = {row.k:.7g}.",
+        f"# Row {number} of `geneva synth`. {moves}",
+        f"# rests for {row['dwell_deg']:.7g}: tau = {row['tau']:.7g}, k = {row['k']:.7g}.",
         f"# Invariants: {', '.join(costs[:3])},",
         f"# {', '.join(costs[3:])}.",
     ]

@@ -11,7 +11,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.preferred import to_digits
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.spec.load_limits import LIMITED
+from geneva_cli.spec.tables import LIMITED
 from geneva_cli.verdict.checks import FIRST, Check, compared
 
 if TYPE_CHECKING:  # a spec without limits or loads is checked without NumPy

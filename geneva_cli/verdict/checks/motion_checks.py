@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.numerics.arrays import value_or
 from geneva_cli.numerics.tolerances import keeps
-from geneva_cli.spec.default_sizes import value_or
-from geneva_cli.spec.load_limits import limited_load
+from geneva_cli.spec.tables import LIMITED
 from geneva_cli.verdict.checks import Check, compared
 from geneva_cli.verdict.motion_warnings import SHOWN_UNDERCUT, turns_back
 
@@ -101,7 +101,7 @@ def limits(names: Collection[str], mechanism: Mechanism) -> Iterator[Check]:
             from geneva_cli.verdict.quantities.batch_designs import number_of, single
             from geneva_cli.verdict.quantities.load_quantities import greatest
 
-            peaks, load = single(mechanism).columns(greatest), limited_load(name)
+            peaks, load = single(mechanism).columns(greatest), LIMITED[name].split(".")[1]
             most, at_deg = number_of(peaks[f"{load}.max"], 0), number_of(peaks[f"{load}.at_deg"], 0)
             yield compared(name, most, "at most", limit, at_deg)
 

@@ -12,7 +12,7 @@ import numpy as np
 from geneva_cli.kept import Known, cached_property
 from geneva_cli.motion.batch import each_of
 from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.spec.load_limits import limited_loads
+from geneva_cli.spec.tables import LIMITED, Limits
 
 if TYPE_CHECKING:
     from geneva_cli.loads.contact import LoadCase
@@ -102,6 +102,15 @@ def only(column: Number | None) -> float | None:
     """The value of the one design of a batch; None if there is none."""
     value = column if column is None or isinstance(column, int | float) else column.item()
     return value if value is not None and math.isfinite(value) else None
+
+
+def limited_loads(limits: Limits) -> list[str]:
+    """The whole names of the loads that a spec limits."""
+    values, names = vars(limits), list[str]()
+    for key, name in LIMITED.items():
+        if name.startswith("loads.") and values[key]:
+            names.append(name)
+    return names
 
 
 @Known

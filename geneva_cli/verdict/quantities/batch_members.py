@@ -11,8 +11,13 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.spec.load_limits import limited_loads
-from geneva_cli.verdict.quantities.batch_designs import Columns, Designs, number_of, single
+from geneva_cli.verdict.quantities.batch_designs import (
+    Columns,
+    Designs,
+    limited_loads,
+    number_of,
+    single,
+)
 from geneva_cli.verdict.quantities.under_load import under_load
 
 

@@ -16,7 +16,7 @@ from geneva_cli.loads.strength.lock import dwell_torque_Nm, held_force_N
 from geneva_cli.loads.strength.part_loads import LoadedShaft, shafts_under_load
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.arrays import Array, Number, array, parameter
-from geneva_cli.spec.materials import roller_material, wheel_material
+from geneva_cli.spec.defaults import roller_material, wheel_material
 from geneva_cli.spec.tables import Material
 from geneva_cli.spec.workshops import Stock
 from geneva_cli.verdict.quantities.batch_designs import Columns, Designs

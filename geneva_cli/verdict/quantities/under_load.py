@@ -30,7 +30,7 @@ from geneva_cli.parts.machine_sizes import Layout, loaded, sized, unloaded
 from geneva_cli.parts.outlines.cut_outlines import cut_lock
 from geneva_cli.parts.sized_by_load import horn_MPa
 from geneva_cli.parts.stressed import Stressed, Unloaded, stressed
-from geneva_cli.spec.materials import roller_material
+from geneva_cli.spec.defaults import roller_material
 from geneva_cli.verdict.quantities.batch_designs import Designs
 
 if TYPE_CHECKING:

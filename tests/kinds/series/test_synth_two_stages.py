@@ -13,7 +13,7 @@ NEAR = "0.1"  # joints so near to the crank that the search of four-bars is shor
 
 def of_kind(kind, **options):
     rows = search(read_target(space=NEAR, **options)).rows
-    return [row for row in rows if row.candidate.drive == kind]
+    return [row for row in rows if row.cells["drive"] == kind]
 
 
 def sector(z, motion_deg):
@@ -34,8 +34,8 @@ def sector(z, motion_deg):
 def test_gear_sectors_move_for_as_long_as_wished(z, motion):
     (row,) = of_kind("gear-sector", motion_deg=str(motion), z=str(z))
     # as exact as the step, of which what the slots leave is a part of some thousandths at worst
-    assert row.candidate.sector_deg == pytest.approx(sector(z, motion), rel=1e-12)
-    assert row.candidate.motion_deg == pytest.approx(motion, rel=1e-13)
+    assert row.cells["sector_deg"] == pytest.approx(sector(z, motion), rel=1e-12)
+    assert row.cells["motion_deg"] == pytest.approx(motion, rel=1e-13)
 
 
 @pytest.mark.long
@@ -45,11 +45,11 @@ def test_first_wheels_for_a_small_share_of_the_cycle(z, most):
     first wheel's half step b reaches it.
     """
     found = of_kind("geneva-pair", tau="..0.4", z=str(z), cycle="3")
-    assert sorted(row.candidate.first_z for row in found) == [*range(3, most + 1)]
+    assert sorted(row.cells["first_z"] for row in found) == [*range(3, most + 1)]
     f = math.pi / 2 - math.pi / z
-    for one in (row.candidate for row in found):
-        sine = math.sin(f) / math.sin(math.pi / one.first_z)
-        tau = (math.asin(min(sine, 1.0)) - f) / math.pi / one.first_z
+    for one in (row.cells for row in found):
+        sine = math.sin(f) / math.sin(math.pi / one["first_z"])
+        tau = (math.asin(min(sine, 1.0)) - f) / math.pi / one["first_z"]
         # an arcsine near 1 is known to the root of a rounding
-        assert one.tau == pytest.approx(tau, rel=1e-7)
-        assert one.motion_s + one.dwell_s == pytest.approx(3.0, rel=1e-12)
+        assert one["tau"] == pytest.approx(tau, rel=1e-7)
+        assert one["motion_s"] + one["dwell_s"] == pytest.approx(3.0, rel=1e-12)

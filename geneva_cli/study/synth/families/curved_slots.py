@@ -15,22 +15,20 @@ import numpy as np
 
 from geneva_cli.drives.cam import Cam
 from geneva_cli.drives.crank import Crank
-from geneva_cli.errors import GenevaError
 from geneva_cli.motion import registry
 from geneva_cli.motion.laws.law import Law
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.many import many
 from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.wheels.classic import rollers_max
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.arrays import Array, Mask
+from geneva_cli.study.batches import built
 from geneva_cli.study.synth.families.family import (
     OPEN_END,
     Family,
     allowed_motions,
     allows,
     closed_span,
-    line,
     machine,
     natural_deg,
     speeds,
@@ -52,17 +50,24 @@ def with_laws(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
     several = [m for m in counts if m <= max(MORE, counts[0])] if counts else []
     if not wheels[0].FLAT:
         return
+    free: dict[tuple[Gearing, int], AllowedSpan] = {}  # the allowed motions
+    for wheel, m in product(wheels, several):
+        natural = natural_deg(wheel)
+        if m <= rollers_max(natural) or target.rollers is None:
+            span = closed_span(allowed_motions(target, m, natural), m)
+            free |= {(wheel, m): span} if span else {}
     for name, is_cam in product(target.laws, (False, True)):
-        law = registry.law(name)()
-        lines, spans = list[_LawLine](), list[AllowedSpan]()
-        for wheel, m in product(wheels, several):
+        lines, law = list[_LawLine](), registry.law(name)()
+        for (wheel, m), span in free.items():
             is_extra = m > max(rollers_max(natural_deg(wheel)), several[0])
-            one = _LawLine(target, wheel, law, is_cam, m, is_extra)
-            if span := one.motions():
-                lines.append(one)
-                spans.append(span)
-        for own, span, most in zip(lines, spans, _longest(lines, spans), strict=True):
-            yield from own.families(span, most)
+            # a cam's motion is shorter than that of a slot parallel to the crank
+            parallel = (1.0 - OPEN_END) * (360.0 - wheel.SIGN * 360.0 / wheel.z)
+            own = span
+            if is_cam and not span.exact and span.low < parallel:
+                own = AllowedSpan(span.low, min(span.high, parallel))
+            lines.append(_LawLine(target, wheel, law, is_cam, m, is_extra, own))
+        for one, longest in zip(lines, _longest(lines) if lines else (), strict=True):
+            yield from one.families(longest)
 
 
 class _LawLine(NamedTuple):
@@ -74,17 +79,7 @@ class _LawLine(NamedTuple):
     is_cam: bool
     m: int  # rollers
     is_extra: bool  # more than the plain wheel takes: the longest motion alone is tried
-
-    def motions(self) -> AllowedSpan | None:
-        """The allowed motions; of a cam those below that of a slot parallel to the crank."""
-        natural = natural_deg(self.wheel)
-        if self.m > rollers_max(natural) and self.target.rollers is not None:
-            return None
-        free = closed_span(allowed_motions(self.target, self.m, natural), self.m)
-        parallel = (1.0 - OPEN_END) * (360.0 - self.wheel.SIGN * 360.0 / self.wheel.z)
-        if free and self.is_cam and not free.exact and free.low < parallel:
-            return AllowedSpan(free.low, min(free.high, parallel))
-        return free
+    free: AllowedSpan  # the allowed motions
 
     def spec(self, motion_deg: float) -> Spec:
         alpha0 = _alpha0(natural_deg(self.wheel), motion_deg)
@@ -95,39 +90,38 @@ class _LawLine(NamedTuple):
 
         return machine(self.target, self.wheel, drive, self.m, motion_deg, motion)
 
-    def families(self, free: AllowedSpan, longest: float) -> Iterator[Family]:
+    def families(self, longest: float) -> Iterator[Family]:
         """Those of the allowed motions, of which ``longest`` can be built; NaN if none can."""
-        target, natural = self.target, natural_deg(self.wheel)
+        target, free, natural = self.target, self.free, natural_deg(self.wheel)
         if math.isnan(longest):
             if self.m > rollers_max(natural):
                 return
             longest = free.high
         is_searched = target.bounds or target.sort or target.soft_bounds
         keys = partial(_keys, target, natural, self.m)
-        own, motion = allows(free, natural), AllowedSpan(free.low, longest)
+        own = allows(free, natural)
         if not (own and free.exact):
             best = math.nan if is_searched else longest
-            yield line(self.spec(longest), keys, motion, plain=(natural,), best=best)
+            yield Family(self.spec(longest), keys, free.low, longest, natural, best=best)
         if own:
             yield Family(self.spec(natural))
 
 
-def _longest(lines: Sequence[_LawLine], spans: Sequence[AllowedSpan]) -> list[float]:
+def _longest(lines: Sequence[_LawLine]) -> list[float]:
     """The longest motion of each line with parts that can be built; NaN if none can."""
-    if not lines:
-        return []
-    low, high = np.array(spans).T
-    every = np.arange(len(lines))
+    low, high = np.array([own.free for own in lines]).T
     able = _buildable(lines, high)
     found = np.where(able, high, math.nan)
-    is_tried = [not own.is_extra for own in lines]
-    left, top, step = every[~able & (low < high) & is_tried], high, (high - low) / PARTS
-    for _ in range(ROUNDS):
-        tried = top[left, None] - step[left, None] * np.arange(1, PARTS + 1)
-        each = [lines[i] for i in left.tolist() for _ in range(PARTS)]
+    is_tried = np.array([not own.is_extra for own in lines])
+    left, top, step = np.flatnonzero(~able & (low < high) & is_tried), high, (high - low) / PARTS
+    for number in range(ROUNDS):
+        count = PARTS - (number > 0)  # the end of a part that is divided again can be built
+        tried = top[left, None] - step[left, None] * np.arange(1, count + 1)
+        each = [lines[i] for i in left.tolist() for _ in range(count)]
         able = _buildable(each, tried.ravel()).reshape(tried.shape)
-        left, tried, able = (part[able.any(axis=1)] for part in (left, tried, able))
-        found[left] = tried[np.arange(len(left)), able.argmax(axis=1)]
+        some = able.any(axis=1)
+        found[left[some]] = tried[some, able[some].argmax(axis=1)]
+        left = left if number else left[some]
         top, step = found + step, step / PARTS
     longest: list[float] = found.tolist()
     return longest
@@ -138,20 +132,19 @@ def _buildable(lines: Sequence[_LawLine], motions: Array) -> Mask:
     able = np.zeros(len(lines), dtype=bool)
     if not lines:
         return able
+    rows = [(natural_deg(own.wheel), own.wheel.z, own.m) for own in lines]
+    natural, z, rollers = np.array(rows).T
+    varied = {"wheel.z": z.astype(int), "motion.alpha0_deg": natural - motions}
     first = lines[0]._replace(m=1).spec(motions[0])
-    alpha0 = np.array([natural_deg(own.wheel) for own in lines]) - motions
-    z, rollers = (np.array(x) for x in zip(*((one.wheel.z, one.m) for one in lines), strict=True))
-    try:
-        batch = many(first, {"wheel.z": z, "motion.alpha0_deg": alpha0})
-    except GenevaError:  # a frame that allows no such machine
-        return able
-    if batch.machine:
-        able[batch.which] = [not why for why in suiting(batch.machine, rollers[batch.which])[1]]
+    for members, batch in built(first, varied, np.arange(len(lines))):
+        every = np.arange(len(members))
+        _, obstacles = suiting(batch, every, rollers[members], largest=False)
+        able[members] = [not why for why in obstacles]
     return able
 
 
 def _keys(target: Target, natural: float, m: int, at: Array) -> dict[str, Array]:
-    motions = at[:, 0].tolist()
+    motions = at.tolist()
     alpha0 = np.array([_alpha0(natural, motion) for motion in motions])
     return {"motion.alpha0_deg": alpha0, **speeds(target, m, motions)}
 

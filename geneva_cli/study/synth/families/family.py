@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from itertools import pairwise
-from typing import Any, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -32,18 +32,18 @@ Keys: TypeAlias = Callable[[Array], dict[str, Array]]
 class Family(NamedTuple):
     """Machines that differ in one number, or a single one.
 
-    ``spec`` is one of them. ``keys`` returns the values (n,) of its keys at places (n, 1) between
+    ``spec`` is one of them. ``keys`` returns the values (n,) of its keys at numbers (n,) between
     ``low`` and ``high``; NaN where there is no machine. At ``plain`` a machine moves as the plain
-    crank does. At ``known`` it is a machine of another family. At ``best`` it is the best, if that
-    is not NaN. All can be passed to another process.
+    crank does. At ``known`` it is a machine of another family. At ``best`` it is the best, which is
+    ``spec``. Those are NaN if there is none. All can be passed to another process.
     """
 
     spec: Spec
     keys: Keys | None = None
-    low: tuple[float, ...] = ()
-    high: tuple[float, ...] = ()
-    plain: tuple[float, ...] = ()
-    known: tuple[float, ...] = ()
+    low: float = math.nan
+    high: float = math.nan
+    plain: float = math.nan
+    known: float = math.nan
     best: float = math.nan
 
     @property
@@ -51,20 +51,15 @@ class Family(NamedTuple):
         """Return True if the family has more than one machine."""
         return self.low < self.high
 
-    def at(self, place: Sequence[float]) -> Spec | None:
-        """The machine at a place; None if it cannot be built."""
+    def at(self, number: float) -> Spec | None:
+        """The machine at a number; None if it cannot be built."""
         try:
             if self.keys is None:
                 return self.spec
-            values = self.keys(np.array([place]))
+            values = self.keys(np.array([number]))
             return changed(self.spec, {key: float(value[0]) for key, value in values.items()})
         except GenevaError:
             return None
-
-
-def line(spec: Spec, keys: Keys, span: AllowedSpan, **places: Any) -> Family:
-    """A family of one free number, in a range."""
-    return Family(spec, keys, (span.low,), (span.high,), **places)
 
 
 def pieces(families: Sequence[Family], most: int) -> list[Family]:
@@ -72,16 +67,11 @@ def pieces(families: Sequence[Family], most: int) -> list[Family]:
 
     No family has more than 8 pieces.
     """
-    free = [f.is_free for f in families]
-    count = max(1, min(8, most // max(sum(free), 1)))
+    count = max(1, min(8, most // max(sum(f.is_free for f in families), 1)))
     out: list[Family] = []
-    for f, is_free in zip(families, free, strict=True):
-        if not is_free:
-            out.append(f)
-            continue
-        (low,), (high,) = f.low, f.high
-        ends = [*(low + (high - low) * k / count for k in range(count)), high]
-        out += [f._replace(low=(a,), high=(b,)) for a, b in pairwise(ends) if a < b]
+    for f in families:
+        ends = [*(f.low + (f.high - f.low) * k / count for k in range(count)), f.high]
+        out += [f._replace(low=a, high=b) for a, b in pairwise(ends) if a < b] or [f]
     return out
 
 

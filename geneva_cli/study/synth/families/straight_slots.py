@@ -35,7 +35,6 @@ from geneva_cli.study.synth.families.family import (
     allows,
     closed_span,
     is_compatible,
-    line,
     machine,
     natural_deg,
     rollers,
@@ -161,19 +160,18 @@ def offset_slots(target: Target, wheel: Gearing) -> Iterator[Family]:
     for m in _natural_rollers(target, natural_deg(wheel)):
         spec = plain(target, wheel, m)
         keys = partial(_offset, spec)
-        yield line(spec, keys, AllowedSpan(tenth, tenth))
+        yield Family(spec, keys, tenth, tenth)
         if target.bounds or target.sort:
             widest = MOST * wheel.step.sin_cos[1] ** 2
-            span = AllowedSpan(-widest, widest)
-            yield line(spec, keys, span, known=(0.0,), plain=(tenth,))
+            yield Family(spec, keys, -widest, widest, tenth, 0.0)
 
 
 def _offset(spec: Spec, at: Array) -> dict[str, Array]:
     """The key of offsets over L; with a given crank radius, L = R / (sin b cos d) grows with it."""
-    L, e = spec.given_distance_mm, at[:, 0]
+    L = spec.given_distance_mm
     if spec.size.derived_distance_mm is None:
-        return {"wheel.offset_mm": L * e}
-    return {"wheel.offset_mm": L * e / np.sqrt(1.0 - (e / spec.wheel.step.sin_cos[1]) ** 2)}
+        return {"wheel.offset_mm": L * at}
+    return {"wheel.offset_mm": L * at / np.sqrt(1.0 - (at / spec.wheel.step.sin_cos[1]) ** 2)}
 
 
 def planets(target: Target, wheel: Gearing) -> Iterator[Family]:
@@ -196,14 +194,12 @@ def planets(target: Target, wheel: Gearing) -> Iterator[Family]:
         l, teeth = sin_cos_pi(1, z)[0], 2 * z // (z - 2)
         c = 1.0 + teeth if fixed == "sun" else 1.0 - teeth
         least = -l / (1.0 + c if c > 0.0 else teeth) * (1.0 - 1e-6)
-        span = AllowedSpan(least, l / (c * c - 1.0) * (1.0 - 1e-9))
-        yield line(
-            planet(fixed, span.high), partial(_key, "drive.planet_ratio"), span, known=(0.0,)
-        )
+        most = l / (c * c - 1.0) * (1.0 - 1e-9)
+        yield Family(planet(fixed, most), _ratio, least, most, known=0.0)
 
 
-def _key(name: str, at: Array) -> dict[str, Array]:
-    return {name: at[:, 0]}
+def _ratio(at: Array) -> dict[str, Array]:
+    return {"drive.planet_ratio": at}
 
 
 def driven(target: Target, wheel: Gearing) -> Iterator[Family]:
@@ -213,7 +209,7 @@ def driven(target: Target, wheel: Gearing) -> Iterator[Family]:
     motion = closed_span(allowed_motions(target, 1, natural), 1) if has_one else None
     if motion is None or (motion.exact and allows(motion, natural)):
         return
-    known = (0.0,) if allows(motion, natural) else ()
+    known = 0.0 if allows(motion, natural) else math.nan
     for one in (SIDE_CRANK, *GEARS):
         span = AllowedSpan(*(one.parameter(natural, x) for x in motion))
         span = span.within(AllowedSpan(one.low, one.high))
@@ -226,12 +222,12 @@ def driven(target: Target, wheel: Gearing) -> Iterator[Family]:
             if one in GEARS:  # as far apart as wheel and crank
                 spec = spec.with_("drive.gear_distance_mm", spec.given_distance_mm)
             keys = partial(_in_front, target, natural, one)
-            yield line(spec, keys, span, known=known, plain=(0.0,))
+            yield Family(spec, keys, *span, 0.0, known)
 
 
 def _in_front(target: Target, natural: float, one: _InFront, at: Array) -> dict[str, Array]:
-    motions = [one.motion(natural, x) for x in at[:, 0].tolist()]
-    size = at[:, 0] if one.low * one.high else abs(at[:, 0])
+    motions = [one.motion(natural, x) for x in at.tolist()]
+    size = at if one.low * one.high else abs(at)
     return {one.key: size, **speeds(target, 1, motions)}
 
 
@@ -245,11 +241,11 @@ def inclined(target: Target, wheel: Gearing) -> Iterator[Family]:
             continue
         span = AllowedSpan(*(axes(z, x) for x in free)).within(AXES)
         if not span.empty:
-            right = (90.0,) if allows(free, 180.0) else ()
+            known = 90.0 if allows(free, 180.0) else math.nan
             keys = partial(_on_axes, target, z, m)
-            yield line(plain(target, wheel, m), keys, span, known=right, plain=(90.0,))
+            yield Family(plain(target, wheel, m), keys, *span, 90.0, known)
 
 
 def _on_axes(target: Target, z: int, m: int, at: Array) -> dict[str, Array]:
-    motions = [axes_motion(z, x) for x in at[:, 0].tolist()]
-    return {"wheel.axes_deg": at[:, 0], **speeds(target, m, motions)}
+    motions = [axes_motion(z, x) for x in at.tolist()]
+    return {"wheel.axes_deg": at, **speeds(target, m, motions)}
