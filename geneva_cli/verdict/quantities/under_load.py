@@ -144,7 +144,8 @@ class UnderLoad:
     def layouts(self) -> Sequence[Layout | None]:
         """Assembly and sizes of each design; None for one without flat parts."""
         if self.designs.are_built or not self.machine.spec.is_loaded:
-            return [*map(sized, self.designs.each)]
+            machines = [self.machine] if self.designs.single else self.designs.each
+            return [*map(sized, machines)]
         machines, size = self.designs.each, self.machine.spec.size
         bent: Sequence[float | None] = [None] * len(machines)
         if self.lock_sizes and size.wheel_thickness_mm is None and size.face_width_mm is None:
