@@ -195,24 +195,19 @@ def all_pass(rows: Iterable[Check]) -> bool:
     return False not in map(attrgetter("passes"), rows)
 
 
-def moving(mechanism: Mechanism) -> Checks:
-    """The checks of the motion of a machine, without those of other kinds of wheels."""
-    among, own = Checks(MOTION), of_wheel(mechanism.spec.wheel.NAME)
+def own_checks(mechanism: Mechanism) -> tuple[Checks, Checks]:
+    """The checks of a machine's motion, and of its parts at rest, without those of other kinds."""
+    motion, own, added = Checks(MOTION), Checks(), Checks()
+    kinds = of_wheel(mechanism.spec.wheel.NAME)
     for kind in KINDS:
-        for name in kind.motion_checks if kind not in own else ():
-            del among[name]
-    return among
-
-
-def standing(mechanism: Mechanism) -> Checks:
-    """The checks of the parts of a machine at rest."""
-    own, added = Checks(), Checks()
-    for kind in of_wheel(mechanism.spec.wheel.NAME):
-        if kind.parts:
+        if kind not in kinds:
+            for name in kind.motion_checks:
+                del motion[name]
+        elif kind.parts:
             own |= kind.parts_checks
         elif concerns(kind, mechanism.spec):
             added |= kind.parts_checks
-    return own | added if own else {**STATIC, **added, **PROCESS}
+    return motion, own | added if own else {**STATIC, **added, **PROCESS}
 
 
 def applicable(among: Checks, *of: object, reasons: bool = True) -> Iterator[Check]:
@@ -249,7 +244,8 @@ def every_check(
     of its machine's parts are not built.
     """
     spec, limits = mechanism.spec, applicable(LIMITS, mechanism, reasons=not quick)
-    yield from applicable(moving(mechanism), mechanism, reasons=not quick)
+    motion, standing = own_checks(mechanism)
+    yield from applicable(motion, mechanism, reasons=not quick)
     if quick:
         yield from limits
     unbuilt = [] if spec.has_parts else [Check("parts", None, "proved", None, None, spec.no_parts)]
@@ -265,7 +261,7 @@ def every_check(
 
         machine = machine or parts_of(mechanism)
         try:
-            rows = unbuilt or [*applicable(standing(mechanism), machine.built)]
+            rows = unbuilt or [*applicable(standing, machine.built)]
             _ = machine.turned
         except GenevaError as error:
             rows, turned = [refused("parts", error)], False
@@ -312,7 +308,7 @@ def single_check(mechanism: Mechanism, name: str, machine: Parts | None = None) 
                 _ = machine.turned
             if not mechanism.spec.has_parts:
                 return None
-            among, of = standing(mechanism), (machine.built,)
+            among, of = own_checks(mechanism)[1], (machine.built,)
     found = load_named(among[name])([name], *of) if name in among else ()
     return next((check for check in found if check.name == name), None)
 
