@@ -23,7 +23,6 @@ from geneva_cli.numerics.preferred import bore_radius, rounded_radius
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.assembly import is_bridged, links_at, same, turn_deg
-from geneva_cli.parts.links.link_sizes import places
 from geneva_cli.parts.links.links import Links, placed_holes
 from geneva_cli.parts.outlines.outlines import Outlines, wheel_hub
 from geneva_cli.parts.parts import FRAME, FrameAndShafts
@@ -31,10 +30,8 @@ from geneva_cli.parts.shafts.bores import around
 from geneva_cli.parts.shafts.screws import SCREWS, bolt_radius, screw_through, tapped
 from geneva_cli.parts.shafts.shaft import (
     Shaft,
-    crank_shaft_radius,
     shaft_ends,
     shafts,
-    wheel_shaft_radius,
 )
 from geneva_cli.parts.sizes import HUB, bridge_low, drawn_thicknesses
 from geneva_cli.spec.defaults import wall_min
@@ -55,7 +52,7 @@ def framed(
     """
     size, L = mechanism.spec.size, mechanism.center_distance_mm
     top = _lowest(mechanism, outlines, bars, base, first) - size.washer_mm
-    thick = drawn_thicknesses(size, L, outlines.sizes if outlines else None).arm
+    thick = outlines.sizes.arm_thickness if outlines else drawn_thicknesses(size, L).arm
     own = _all_shafts(mechanism, outlines, bars, top - thick, first)
     bridge, hanging = None, list[Shaft]()
     for k, shaft in enumerate(own):
@@ -94,7 +91,7 @@ def framed(
         # a frame contains every axis, drilled or not
         within = [*holes, *(Circle("BORE", at, 0.0) for at in (ORIGIN, *standing))]
         plate = mounted_plate(holes, within, eye, (top - thick, top))
-    if bars.cut:
+    if bars.sizes:
         from geneva_cli.parts.links.link_shafts import outside_links
 
         axles = [*outside_links(axles, bars, L)]
@@ -191,6 +188,8 @@ def _bridge(
     size, sizes, L = mechanism.spec.size, parts.sizes, mechanism.center_distance_mm
     if not (sizes.crank_bore and is_bridged(mechanism)):
         return None
+    from geneva_cli.parts.links.link_sizes import places
+
     # no part of crank and drive turns beyond the farthest of these
     far = [sizes.lock, sizes.crank_hub]
     if parts.has_arm:
@@ -227,12 +226,13 @@ def _all_shafts(
     L, stop, out = mechanism.center_distance_mm, None, list[Shaft]()
     known: list[Point] = []  # axes whose shafts carry wheel or crank
     if outlines:
-        if bars.sizes is not None:
+        if bars.sizes:
             from geneva_cli.parts.links.link_shafts import crank_stop
 
             stop = crank_stop(outlines, bars)
-        known += [(L, 0.0)] if crank_shaft_radius(outlines) > 0.0 else []
-        known += [ORIGIN] if wheel_shaft_radius(outlines) > 0.0 else []
+        own = outlines.sizes
+        known += [(L, 0.0)] if (own.arm_bore if outlines.has_arm else own.crank_bore) else []
+        known += [ORIGIN] if own.wheel_bore else []
         half = mechanism.engagements[0].half_step
         for one in shafts(outlines, lowest, stop):
             out.append(one)
@@ -271,7 +271,7 @@ def _link_shafts(
     from geneva_cli.parts.links.link_shafts import carried
 
     size, L, (lowest, stop) = mechanism.spec.size, mechanism.center_distance_mm, ends
-    wheel = drawn_thicknesses(size, L, outlines.sizes if outlines else None).wheel
+    wheel = outlines.sizes.wheel_thickness if outlines else drawn_thicknesses(size, L).wheel
     for axis in bars.axes:
         if any(same(axis.at, at, L) for at in known):
             continue

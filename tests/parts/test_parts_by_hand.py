@@ -17,7 +17,7 @@ from geneva_cli.geometry.moments import moments
 from geneva_cli.geometry.plates import plates
 from geneva_cli.geometry.shapes import Arc
 from geneva_cli.parts.arm import crank_arm
-from geneva_cli.parts.links.links import drawn_links
+from geneva_cli.parts.links.link_plates import drawn_links
 from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.outlines.crank_outline import arc_floor, lock_of, reliefs, widened
 from geneva_cli.parts.outlines.cut_outlines import cut_arcs, drawn

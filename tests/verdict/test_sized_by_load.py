@@ -30,7 +30,7 @@ from geneva_cli.motion.mechanism import build
 from geneva_cli.parts.machine_sizes import sized
 from geneva_cli.parts.outlines.crank_outline import lock_of
 from geneva_cli.parts.outlines.cut_outlines import cut_arcs, cut_lock, drawn
-from geneva_cli.parts.stressed import stressed
+from geneva_cli.parts.sized_by_load import stressed
 from geneva_cli.spec.defaults import DIN_6885_1, wheel_material
 from geneva_cli.spec.tables import Load, Shaft, Size, WheelMaterial
 from geneva_cli.verdict.quantities.batch_designs import Designs

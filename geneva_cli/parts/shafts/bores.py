@@ -99,6 +99,17 @@ class Bore(NamedTuple):
         return closed(layer, [first, second, *sides])
 
 
+class ShaftBore(NamedTuple):
+    """A bore, and the direction of its keyway, flat or side at input angle 0, radians."""
+
+    bore: Bore = Bore(0.0)
+    direction: float = 0.0
+
+    def hole(self, turn: float = 0.0) -> Shape:
+        """Return the hole about the origin of a part that stands turned by an angle."""
+        return self.bore.shape("BORE", self.direction - turn)
+
+
 def bore_of(size: Size, part: str, radius: float) -> Bore:
     """Return the bore of a part, "wheel" or "crank", for a shaft with a radius in mm.
 

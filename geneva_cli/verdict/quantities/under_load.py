@@ -28,8 +28,7 @@ from geneva_cli.numerics.arrays import Array, Number, Record, library, parameter
 from geneva_cli.parts.assembly import assembly
 from geneva_cli.parts.machine_sizes import Layout, loaded, sized, unloaded
 from geneva_cli.parts.outlines.cut_outlines import cut_lock
-from geneva_cli.parts.sized_by_load import horn_MPa
-from geneva_cli.parts.stressed import Stressed, Unloaded, stressed
+from geneva_cli.parts.sized_by_load import Stressed, Unloaded, stressed
 from geneva_cli.spec.defaults import roller_material
 from geneva_cli.verdict.quantities.batch_designs import Designs
 
@@ -149,7 +148,7 @@ class UnderLoad:
         machines, size = self.designs.each, self.machine.spec.size
         bent: Sequence[float | None] = [None] * len(machines)
         if self.lock_sizes and size.wheel_thickness_mm is None and size.face_width_mm is None:
-            bent = horn_MPa(self.machine, *self.lock_sizes, self._flat_horns).tolist()
+            bent = lock.horn_MPa(self.machine, *self.lock_sizes, self._flat_horns).tolist()
 
         def layout(i: int) -> Layout | None:
             parts = self._unloaded[i]
