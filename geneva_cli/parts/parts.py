@@ -74,19 +74,18 @@ class Parts(TurnedParts):
     @property
     def turn(self) -> FullTurn:
         """The full turn; raises WorkLimit where it takes too many positions."""
-        if isinstance(self._turn, WorkLimit):
-            raise self._turn
-        return self._turn
-
-    @cached_property
-    def _turn(self) -> FullTurn | WorkLimit:
         from geneva_cli.parts.turn.full_turn import full_turn
 
-        # That it takes too long is remembered too.
-        try:
-            return full_turn(self)
-        except WorkLimit as error:
-            return error
+        known = vars(self)
+        if "_turn" not in known:
+            try:
+                known["_turn"] = full_turn(self)
+            except WorkLimit as error:  # that it takes too long is remembered too
+                known["_turn"] = error
+        if isinstance(known["_turn"], WorkLimit):
+            raise known["_turn"]
+        turn: FullTurn = known["_turn"]
+        return turn
 
     def of(self, mechanism: Mechanism) -> Self:
         """Return the parts of a machine whose wheel, crank and positions are equal."""

@@ -11,7 +11,7 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.measure import turned
-from geneva_cli.geometry.plates import apart, beyond, plate_wall
+from geneva_cli.geometry.plates import least_wall, plate_wall
 from geneva_cli.geometry.shapes import Arc, Circle, Line, Segment, backwards, closed
 from geneva_cli.loads.carried import farthest_mm
 from geneva_cli.motion.mechanism import Mechanism
@@ -23,6 +23,7 @@ from geneva_cli.parts.outlines.crank_outline import is_whole
 from geneva_cli.parts.outlines.outlines import Outlines, wheel_holes, wheel_hub
 from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.shafts.bores import has_shape
+from geneva_cli.parts.shafts.shaft import crank_hub
 from geneva_cli.parts.slots.roller_paths import roller_centres
 from geneva_cli.spec.workshops import workshop
 from geneva_cli.verdict.checks import Check, compared, refused
@@ -55,7 +56,7 @@ def walls(names: Collection[str], parts: FlatParts) -> Iterator[Check]:
     # to the bottom of the locking disc's relief, and around the bore in a drawn hub
     if size.crank_bore and outlines.crank and is_whole(assembly, size):
         wall = outlines.relief_depth - size.crank_bore - around_shaft
-        if parts.crank_hub:
+        if crank_hub(outlines):
             wall = min(wall, size.crank_hub - size.crank_reach)
         yield compared("crank_bore_wall_mm", wall, "at least", least)
 
@@ -83,15 +84,13 @@ def _between_slots(outlines: Outlines) -> float:
 def _dial_wall(outlines: Outlines) -> float:
     """The least wall around the bore with its keyway and around the dial's bolts."""
     inside = outlines.assembly.sign < 0.0  # the contour is that of the opening
-    edge = Polyarc([backwards(outlines.wheel) if inside else outlines.wheel])
     holes = wheel_holes(outlines.assembly, outlines.sizes)
-    found = [-beyond(edge, hole) for hole in holes]
-    found += [apart(one, two) for one, two in combinations(holes, 2)]
+    least = least_wall(holes, [backwards(outlines.wheel) if inside else outlines.wheel])
     for hole in holes if inside else ():
         assert isinstance(hole, Circle)  # an internal wheel has no bore
         x, y = hole.centre
-        found.append(outlines.sizes.outer - (x * x + y * y) ** 0.5 - hole.radius)
-    return min(found)
+        least = min(least, outlines.sizes.outer - (x * x + y * y) ** 0.5 - hole.radius)
+    return least
 
 
 def clearances(names: Collection[str], parts: FlatParts) -> Iterator[Check]:
