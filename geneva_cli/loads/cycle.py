@@ -118,8 +118,10 @@ class Cycle:
     @cached_property
     def ends(self) -> Mapping[str, LoadSummary[float]]:
         """The same without mean and rms, which take longest."""
-        rows = single_extremes(self.machine)[0].items()
-        return {name: LoadSummary(*np.concatenate(one[:4]).tolist()) for name, one in rows}
+        out = dict[str, LoadSummary[float]]()
+        for name, one in single_extremes(self.machine)[0].items():
+            out[name] = LoadSummary(*np.concatenate(one[:4]).tolist())
+        return out
 
     @cached_property
     def stretches(self) -> list[tuple[Engagement, Stretch]]:
@@ -141,7 +143,5 @@ class Cycle:
         return out
 
 
-@lru_cache(maxsize=16)
-def cycle_of(mechanism: Mechanism) -> Cycle:
-    """The cycle of a machine, cached for its loads, strength and warnings."""
-    return Cycle(mechanism)
+# The cycle of a machine, cached for its loads, strength and warnings.
+cycle_of = lru_cache(maxsize=16)(Cycle)

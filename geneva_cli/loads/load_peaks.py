@@ -62,9 +62,9 @@ def load_peaks(
     by_force = STRESS in names and case.hertz is not None
     for engagement in mechanism.engagements:
         by_force = by_force and engagement.slot.walls_flat
-    sought = [n for n in dict.fromkeys(names) if n != STRESS or not by_force]
-    if by_force and FORCE not in sought:
-        sought.append(FORCE)
+    sought = list(dict.fromkeys((*names, FORCE) if by_force else names))
+    if by_force:
+        sought.remove(STRESS)
     for engagement in mechanism.engagements:
         load = LoadFunctions(engagement, case, sought, own)
         spans, known = load.to_search(sized=True)
@@ -143,14 +143,8 @@ def load_summaries(
     if isinstance(mechanism.design, int) and set(names) <= sources(mechanism).keys():
         known_ones = single_summaries(mechanism) if means else single_extremes(mechanism)[0]
         return {name: known_ones[name] for name in names}
-    found = _extremes(mechanism.under_load, names)
+    found = _extremes(mechanism, names)
     return _with_means(mechanism.under_load, *found) if means else found[0]
-
-
-@lru_cache(maxsize=16)
-def single_extremes(mechanism: Mechanism) -> Found:
-    """The summaries without means of all quantities that a single design has."""
-    return _extremes(mechanism.under_load, [*sources(mechanism)])
 
 
 @lru_cache(maxsize=16)
@@ -159,8 +153,13 @@ def single_summaries(mechanism: Mechanism) -> Mapping[str, LoadSummary[Array]]:
     return _with_means(mechanism.under_load, *single_extremes(mechanism))
 
 
-def _extremes(mechanism: Mechanism, names: Sequence[str]) -> Found:
-    """The summaries of quantities without their means, and the searches for them."""
+def _extremes(mechanism: Mechanism, names: Sequence[str] | None = None) -> Found:
+    """The summaries of quantities without their means, and the searches for them.
+
+    They are those of all quantities that the designs have, or of some by their names.
+    """
+    mechanism = mechanism.under_load
+    names = [*sources(mechanism)] if names is None else names
     known, every, sought = multiples(mechanism), dict[str, tuple[str, Array]](), list[str]()
     for name in names:
         source, factor, _ = known.get(name, (name, 1.0, ""))
@@ -198,6 +197,9 @@ def _extremes(mechanism: Mechanism, names: Sequence[str]) -> Found:
         one = best[source]
         out[name] = one._replace(max=one.max * factor, min=one.min * factor)
     return out, searches
+
+
+single_extremes = lru_cache(maxsize=16)(_extremes)  # of a single design
 
 
 def _with_means(

@@ -71,7 +71,7 @@ def passage(engagement: Engagement, case: LoadCase, half: float = 0.0) -> SlotPa
     # curved slot both branches begin at mid-motion. Spans end there.
     middle = curved or (engagement.on_arm and engagement.motion.symmetric)
     more = ("slides",) if middle else ("slides", "along")
-    load, n = LoadFunctions(engagement, case, (FORCE,), more=more), case.designs
+    load, n = LoadFunctions(engagement, case, (FORCE,), more=more), np.size(case.design)
     parts, known = load.to_search()
     result = search(load, parts, False, known, load.spread)
     bounded = np.isfinite(result.most[0])  # the integrals are, where the force is
