@@ -26,8 +26,8 @@ from geneva_cli.parts.arm import (
     crank_arm,
     roller_plates,
 )
-from geneva_cli.parts.links.link_sizes import roller_pins
-from geneva_cli.parts.links.links import Links, drawn_links
+from geneva_cli.parts.assembly import links_at
+from geneva_cli.parts.links.links import Links
 from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.outlines.crank_outline import crank_bore, is_whole
 from geneva_cli.parts.outlines.cut_outlines import drawn
@@ -135,6 +135,10 @@ class FlatParts(EdgedParts):
     @cached_property
     def links(self) -> Links:
         """The links of the drive, with the pins and rollers between them, and round gears."""
+        if not links_at(self.mechanism, np.zeros(1)):
+            return Links()
+        from geneva_cli.parts.links.link_plates import drawn_links
+
         return drawn_links(self.mechanism, self.drawn)
 
     @cached_property
@@ -172,17 +176,19 @@ class FlatParts(EdgedParts):
         They are in the crank's frame. Of a wheel that is not drawn, they are those on links.
         """
         mechanism, low, drawn = self.mechanism, self.links.pin_low, self.drawn
-        size, r = mechanism.spec.size, mechanism.roller_radius_mm
-        sizes = drawn.sizes if drawn else None
-        thick = drawn_thicknesses(size, mechanism.center_distance_mm, sizes)
-        if low is None:
-            low = -size.allowances.pin_gap_mm - (thick.arm if drawn and drawn.has_arm else 0.0)
-        pin = pin_radius(size, r, sizes)
-        plates = roller_plates(r, pin, low, thick.wheel, size.allowances.shaft_fit_mm)
+        size, r, arm = mechanism.spec.size, mechanism.roller_radius_mm, 0.0
         if drawn:
-            centres = roller_centres(drawn.assembly)
+            sizes, centres = drawn.sizes, roller_centres(drawn.assembly)
+            pin, wide = sizes.pin, sizes.wheel_thickness
+            arm = sizes.arm_thickness if drawn.has_arm else 0.0
         else:
+            from geneva_cli.parts.links.link_sizes import roller_pins
+
             centres = tuple(at for link, at in roller_pins(mechanism) if link.plane == 1)
+            pin = pin_radius(size, r)
+            wide = drawn_thicknesses(size, mechanism.center_distance_mm).wheel
+        low = -size.allowances.pin_gap_mm - arm if low is None else low
+        plates = roller_plates(r, pin, low, wide, size.allowances.shaft_fit_mm)
         out = []
         for centre in centres:
             for plate in plates:

@@ -23,8 +23,6 @@ from geneva_cli.numerics.preferred import bore_radius, rounded_radius
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.assembly import is_bridged, links_at, same, turn_deg
-from geneva_cli.parts.links.link_shafts import carried, crank_stop, outside_links
-from geneva_cli.parts.links.link_sizes import places
 from geneva_cli.parts.links.links import Links, placed_holes
 from geneva_cli.parts.outlines.outlines import Outlines, wheel_hub
 from geneva_cli.parts.parts import FRAME, FrameAndShafts
@@ -32,10 +30,8 @@ from geneva_cli.parts.shafts.bores import around
 from geneva_cli.parts.shafts.screws import SCREWS, bolt_radius, screw_through, tapped
 from geneva_cli.parts.shafts.shaft import (
     Shaft,
-    crank_shaft_radius,
     shaft_ends,
     shafts,
-    wheel_shaft_radius,
 )
 from geneva_cli.parts.sizes import HUB, bridge_low, drawn_thicknesses
 from geneva_cli.spec.defaults import wall_min
@@ -56,7 +52,7 @@ def framed(
     """
     size, L = mechanism.spec.size, mechanism.center_distance_mm
     top = _lowest(mechanism, outlines, bars, base, first) - size.washer_mm
-    thick = drawn_thicknesses(size, L, outlines.sizes if outlines else None).arm
+    thick = outlines.sizes.arm_thickness if outlines else drawn_thicknesses(size, L).arm
     own = _all_shafts(mechanism, outlines, bars, top - thick, first)
     bridge, unborne, axles = None, list[tuple[str, str]](), list[Member]()
     for shaft in own:
@@ -92,9 +88,13 @@ def framed(
         for at in standing:
             within.append(Circle("BORE", at, 0.0))
         plate = mounted_plate(holes, within, eye, (top - thick, top))
+    if bars.sizes:
+        from geneva_cli.parts.links.link_shafts import outside_links
+
+        axles = [*outside_links(axles, bars, L)]
     return FrameAndShafts(
         plate,
-        tuple(outside_links(axles, bars, L)),
+        tuple(axles),
         tuple(spacers),
         tuple(screwed),
         Member(bridge, (L, 0.0)) if bridge else None,
@@ -190,6 +190,8 @@ def _bridge(
     size, sizes, L = mechanism.spec.size, parts.sizes, mechanism.center_distance_mm
     if not (sizes.crank_bore and is_bridged(mechanism)):
         return None
+    from geneva_cli.parts.links.link_sizes import places
+
     # no part of crank and drive turns beyond the farthest of these
     far = [sizes.lock, sizes.crank_hub]
     if parts.has_arm:
@@ -226,9 +228,13 @@ def _all_shafts(
     L, stop, out = mechanism.center_distance_mm, None, list[Shaft]()
     known: list[Point] = []  # axes whose shafts carry wheel or crank
     if outlines:
-        stop = crank_stop(outlines, bars) if bars.sizes else None
-        known += [(L, 0.0)] if crank_shaft_radius(outlines) > 0.0 else []
-        known += [ORIGIN] if wheel_shaft_radius(outlines) > 0.0 else []
+        if bars.sizes:
+            from geneva_cli.parts.links.link_shafts import crank_stop
+
+            stop = crank_stop(outlines, bars)
+        own = outlines.sizes
+        known += [(L, 0.0)] if (own.arm_bore if outlines.has_arm else own.crank_bore) else []
+        known += [ORIGIN] if own.wheel_bore else []
         half = mechanism.engagements[0].half_step
         for one in shafts(outlines, lowest, stop):
             out.append(one)
@@ -264,8 +270,10 @@ def _link_shafts(
 
     ``ends`` has the frame's lower face, and where links stop the crank's shaft, if they do.
     """
+    from geneva_cli.parts.links.link_shafts import carried
+
     size, L, (lowest, stop) = mechanism.spec.size, mechanism.center_distance_mm, ends
-    wheel = drawn_thicknesses(size, L, outlines.sizes if outlines else None).wheel
+    wheel = outlines.sizes.wheel_thickness if outlines else drawn_thicknesses(size, L).wheel
     for axis in bars.axes:
         if any(same(axis.at, at, L) for at in known):
             continue

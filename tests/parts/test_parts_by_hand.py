@@ -16,7 +16,7 @@ from geneva_cli.drawings.sheet.wheel_views import draw_wheel
 from geneva_cli.geometry.plates import moments, plates
 from geneva_cli.geometry.shapes import Arc
 from geneva_cli.parts.arm import crank_arm
-from geneva_cli.parts.links.links import drawn_links
+from geneva_cli.parts.links.link_plates import drawn_links
 from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.outlines.crank_outline import arc_floor, reliefs, widened
 from geneva_cli.parts.outlines.cut_outlines import cut_arcs, cut_lock, drawn

@@ -29,21 +29,13 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.parts.machine_sizes import sized
 from geneva_cli.parts.outlines.cut_outlines import cut_arcs, cut_lock, drawn
-from geneva_cli.parts.stressed import stressed
+from geneva_cli.parts.sized_by_load import stressed
 from geneva_cli.spec.defaults import DIN_6885_1, wheel_material
 from geneva_cli.spec.tables import Load, Shaft, Size, WheelMaterial
 from geneva_cli.verdict.quantities.batch_designs import Designs
-from geneva_cli.verdict.quantities.part_strength import (
-    wheel_shaft,
-)
+from geneva_cli.verdict.quantities.part_strength import wheel_shaft
 
 STRENGTH = PARTS + HORNS
-
-
-def sizes_of(spec):
-    flat = sized(build(spec))
-    assert flat is not None
-    return flat[1]
 
 
 def test_the_default_steel():
@@ -232,15 +224,10 @@ def test_no_default_passes_beyond_its_steel(seed):
 @pytest.mark.usefixtures("no_advice")
 def test_the_spec_s_sizes_stay():
     """A size of the spec is never changed; its check fails instead."""
-    size = Size(
-        wheel_bore_mm=8.0,
-        crank_bore_mm=8.0,
-        pin_mm=3.0,
-        wheel_thickness_mm=6.0,
-        arm_thickness_mm=5.0,
-    )
+    size = Size(wheel_bore_mm=8.0, crank_bore_mm=8.0, pin_mm=3.0, arm_thickness_mm=5.0)
+    size = size.replace(wheel_thickness_mm=6.0)
     spec = Spec(External(6), size=size, load=Load(torque_Nm=40.0))
-    s = sizes_of(spec)
+    _, s = sized(build(spec))
     assert (s.wheel_bore, s.crank_bore, s.pin) == (4.0, 4.0, 1.5)
     assert (s.wheel_thickness, s.arm_thickness) == (6.0, 5.0)
     found = rows(spec)

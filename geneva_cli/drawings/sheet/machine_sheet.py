@@ -23,6 +23,7 @@ from geneva_cli.drawings.sheet.crank_views import (
 )
 from geneva_cli.drawings.sheet.packing import Block
 from geneva_cli.drawings.sheet.paper import on_paper, scale_name, smaller, table
+from geneva_cli.drawings.sheet.sized import Fits
 from geneva_cli.drawings.sheet.standing import draw_frame, draw_shaft
 from geneva_cli.drawings.sheet.view import View
 from geneva_cli.drawings.sheet.wheel_views import draw_wheel
@@ -36,7 +37,6 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Dimension, Pivot
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.projection import alike
-from geneva_cli.parts.shafts.fits import Fits
 from geneva_cli.spec.written import length, number
 
 

@@ -28,8 +28,8 @@ from geneva_cli.parts.parts import FrameAndShafts
 from geneva_cli.parts.shafts.bores import bore_of, reach_or_bore
 from geneva_cli.parts.shafts.screws import bolt_radius, tapped
 from geneva_cli.parts.shafts.shaft import Shaft, shaft_ends
+from geneva_cli.parts.sized_by_load import ShaftSize, Stressed, key_of, shaft_of
 from geneva_cli.parts.sizes import drawn_thicknesses, pin_radius
-from geneva_cli.parts.stressed import ShaftSize, Stressed, key_of, shaft_of
 from geneva_cli.spec.defaults import wall_min
 
 

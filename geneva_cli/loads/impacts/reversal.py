@@ -40,7 +40,7 @@ from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.quadrature import rule
 from geneva_cli.numerics.roots import boundary, find_roots
 from geneva_cli.numerics.tolerances import ROUNDED
-from geneva_cli.spec.workshops import workshop
+from geneva_cli.spec.workshops import WORKSHOPS
 
 
 def changes(engagement: Engagement, drag: Array) -> tuple[Whole, Array]:
@@ -176,16 +176,16 @@ def reversal_impacts(mechanism: Mechanism, pin: PinSize | None = None) -> Impact
     spec, case = mechanism.spec, load_case(mechanism)
     given = spec.size.allowances.slot_clearance_mm
     both = spec.tolerance.roller_diameter_mm + spec.tolerance.slot_width_mm
-    play_mm = choose(given == 0.0, workshop(spec.size.process).slot_play_mm, given) + 0.5 * both
+    play_mm = choose(given == 0.0, WORKSHOPS[spec.size.process].slot_play_mm, given) + 0.5 * both
     drag = drag_over(mechanism)
     none = (drag == np.inf) | (play_mm == 0.0)
-    best = np.full((3, 1), np.nan)
-    if not all_true(none):
-        numbers = mechanism.center_distance_mm, drag, play_mm, case.radius
-        rows = [np.broadcast_to(x, (mechanism.designs, 1)) for x in numbers]
-        for engagement in mechanism.engagements:
-            own = _reversal(engagement, *rows)
-            best = harder(best, shown(mechanism, engagement, *own))
+    if all_true(none):
+        return Impacts(*np.full((5, mechanism.designs), np.nan))
+    best, numbers = np.full((3, 1), np.nan), (mechanism.center_distance_mm, drag, play_mm)
+    rows = [np.broadcast_to(x, (mechanism.designs, 1)) for x in (*numbers, case.radius)]
+    for engagement in mechanism.engagements:
+        own = _reversal(engagement, *rows)
+        best = harder(best, shown(mechanism, engagement, *own))
     *impacts, edge = best
     hit = with_force(mechanism, np.array(impacts), pin)
     if case.hertz is None:

@@ -14,13 +14,13 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Member, Plate
-from geneva_cli.geometry.shapes import ORIGIN, Circle, Point, Shape
+from geneva_cli.geometry.shapes import ORIGIN, Circle, Point
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import assembly, links_at, same
 from geneva_cli.parts.outlines.crank_outline import crank_bore, is_whole, keyway_direction
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.shafts.bores import Bore, bore_of, has_shape, round_bore
+from geneva_cli.parts.shafts.bores import Bore, ShaftBore, bore_of, has_shape, round_bore
 from geneva_cli.spec.tables import Size
 
 
@@ -96,7 +96,7 @@ def shafts(parts: Outlines, lowest: float, stop: float | None) -> Iterator[Shaft
         ends = wheel_shaft_ends(parts, lowest)
         turn = 0.0 if bore.is_plain else float(assembly.wheel(still)[0])
         yield Shaft("wheel's shaft", "wheel", bore, *ends, ORIGIN, assembly.rests[0], turn)
-    radius = crank_shaft_radius(parts)
+    radius = sizes.arm_bore if parts.has_arm else sizes.crank_bore
     if radius:
         bore, at = bore_of(size, "crank", radius), (assembly.L, 0.0)
         # what it carries ends in the arm, or in a bored locking disc or its hub
@@ -110,12 +110,6 @@ def shafts(parts: Outlines, lowest: float, stop: float | None) -> Iterator[Shaft
         yield Shaft("crank's shaft", "crank", bore, *ends, at, direction, turn)
 
 
-def wheel_shaft_radius(parts: Outlines) -> float:
-    """Return the radius around the wheel's shaft; 0 without one."""
-    bore = parts.sizes.wheel_bore
-    return bore_of(parts.assembly.mechanism.spec.size, "wheel", bore).around if bore else 0.0
-
-
 def wheel_shaft_ends(parts: Outlines, lowest: float) -> tuple[float, float]:
     """Return the ends of the wheel's shaft along the axis."""
     sizes, near = parts.sizes, SAME_LENGTH * parts.assembly.L
@@ -125,22 +119,6 @@ def wheel_shaft_ends(parts: Outlines, lowest: float) -> tuple[float, float]:
             geared = geared or math.hypot(float(x[0]), float(y[0])) < near
     low = lowest if sizes.wheel_hub or geared else 0.0
     return shaft_ends(parts.assembly.mechanism.spec.size, "wheel", low, sizes.wheel_thickness)
-
-
-def crank_shaft_radius(parts: Outlines) -> float:
-    """Return the radius of the shaft of arm and locking disc; 0 if it carries only links."""
-    return parts.sizes.arm_bore if parts.has_arm else parts.sizes.crank_bore
-
-
-class ShaftBore(NamedTuple):
-    """A bore, and the direction of its keyway, flat or side at input angle 0, radians."""
-
-    bore: Bore = Bore(0.0)
-    direction: float = 0.0
-
-    def hole(self, turn: float = 0.0) -> Shape:
-        """Return the hole about the origin of a part that stands turned by an angle."""
-        return self.bore.shape("BORE", self.direction - turn)
 
 
 def bore_at(mechanism: Mechanism, at: Point, radius: float) -> ShaftBore:

@@ -13,7 +13,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.numerics.arrays import Array, rising, scalar
+from geneva_cli.numerics.arrays import Array, rising
 from geneva_cli.numerics.roots import boundary_by_sections
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG, SAME_LENGTH
 from geneva_cli.parts.turn.play import (
@@ -226,10 +226,11 @@ def _contact(parts: TurnedParts, motion: int, own: slice) -> tuple[float, float]
     assembly, gaps, close = parts.assembly, parts.gaps, parts.close
     engagement, mid = assembly.motions[motion]
     ends = engagement.exit_deg, engagement.entry_deg
-    ahead = scalar(engagement.reach(ends[0])) - scalar(engagement.reach(ends[1]))
+    ahead = float(engagement.reach(ends[0])) - float(engagement.reach(ends[1]))
     # the mouth of an offset slot has a corner for each end, and the rim is at the farther one
     farther = -1.0 if engagement.slot.offset else assembly.sign
-    start = mid + engagement.end_deg(1.0 if farther * ahead < -SAME_LENGTH else -1.0)
+    later = farther * ahead < -SAME_LENGTH
+    start = mid + (engagement.exit_deg if later else engagement.entry_deg)
     rest = assembly.wheel(np.array([start]))
 
     def margin(at: Array) -> Array:

@@ -19,7 +19,7 @@ from geneva_cli.motion.plane_motion import turned_points
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.output.scene import Bar, CarriedShapes, Place, Push, Track
 from geneva_cli.parts.assembly import Passage, assembly, links_at
-from geneva_cli.parts.links.links import drawn_links
+from geneva_cli.parts.links.link_plates import drawn_links
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.study.animation.tracks import Moving, cut, resting, sampled, track
 
