@@ -26,7 +26,7 @@ from geneva_cli.geometry.sheet import Annotations, Drawing, LevelDistance
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.pivots import Joint
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.parts.arm import arm_plate, crank_arm
+from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.assembly import links_at
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.links.link_sizes import places
@@ -53,8 +53,10 @@ def crank(parts: EdgedParts) -> Drawing:
 
 def arm(parts: FlatParts) -> Drawing:
     """Return the crank arm below the wheel's plane: outline, bore, holes for pins and bolts."""
-    # without an arm the error says why
-    solid = parts.arm_plate or arm_plate(parts.outlines, crank_arm(parts.outlines))
+    solid = parts.arm_plate
+    if solid is None:
+        crank_arm(parts.outlines)  # whose error says why there is none
+    assert solid is not None
     return Drawing(titled(parts.mechanism, "arm"), (solid.outline, *solid.holes), solid=solid)
 
 

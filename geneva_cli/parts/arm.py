@@ -24,8 +24,8 @@ from geneva_cli.parts.outlines.crank_outline import (
 )
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.shafts.bores import bore_of, has_shape
-from geneva_cli.parts.shafts.screws import bolt_radius, refuse_no_screw, tapped
-from geneva_cli.parts.sizes import hub_and_eye, lock_bolt_directions, pin_hole, wall_of_bolts
+from geneva_cli.parts.shafts.screws import bolt_radius, tapped
+from geneva_cli.parts.sizes import hub_and_eye, lock_bolt_directions, pin_hole
 from geneva_cli.parts.slots.roller_paths import roller_centres
 from geneva_cli.spec.defaults import eye_about
 
@@ -68,7 +68,7 @@ def crank_arm(parts: Outlines) -> CrankArm:
             f"must be below {2.0 * (near - hole):.6g}",
             ("size", "arm_bore_mm"),
         )
-    bolted = wall_of_bolts(size, wall)
+    bolted = wall + 2.0 * size.edge_mm
     around, pins, threads = [Circle("ARM", ORIGIN, hub)], list[Circle](), list[Circle]()
     for centre in centres:
         around.append(Circle("ARM", centre, eye))
@@ -99,7 +99,7 @@ def bolts(parts: Outlines) -> list[Circle]:
     held = has_shape(size, "crank") and sizes.crank_bore > 0.0
     if held or not (parts.crank and parts.has_arm):
         return []
-    wall = wall_of_bolts(size, sizes.wall_min)
+    wall = sizes.wall_min + 2.0 * size.edge_mm
     holes = [Circle("BORE", ORIGIN, bore_of(size, "crank", sizes.arm_bore).reach)]
     for centre in roller_centres(assembly):
         holes.append(Circle("BORE", centre, pin_hole(size, sizes.pin)))
@@ -121,11 +121,8 @@ def _bolts(parts: Outlines, count: int) -> list[Circle]:
 
     They are at the radius that leaves the widest walls in the disc.
     """
-    size, sizes, spans = (
-        parts.assembly.mechanism.spec.size,
-        parts.sizes,
-        list[tuple[float, float]](),
-    )
+    size, sizes = parts.assembly.mechanism.spec.size, parts.sizes
+    spans: list[tuple[float, float]] = []
     for start, end in sectors(reliefs(parts.assembly)) if parts.crank and count else ():
         spans.append((start, end - start))
     directions = lock_bolt_directions(spans, count)
@@ -145,8 +142,7 @@ def _bolts(parts: Outlines, count: int) -> list[Circle]:
         half = min(half, max(0.0, float(nearest[best])))
         for turn in turns:
             places.append(polar(ORIGIN, float(radii[best]), turn))
-    r = bolt_radius(size.lock_bolt_mm, parts.assembly.L, half)
-    refuse_no_screw("lock_bolt", size.lock_bolts or 0, r)
+    r = bolt_radius(size.lock_bolt_mm, parts.assembly.L, half, "lock_bolt", size.lock_bolts)
     return [Circle("BORE", place, r) for place in places] if r else []
 
 
@@ -159,30 +155,6 @@ def walls(arm: CrankArm, parts: Outlines) -> float:
         least_wall([arm.bore, *arm.pins, *arm.bolts], [arm.outline]),
         least_wall(in_disc, parts.crank),
     )
-
-
-def arm_plate(parts: Outlines, arm: CrankArm) -> Plate:
-    """Return the crank arm below the wheel, at a distance of ``pin_gap_mm``."""
-    high = -parts.assembly.mechanism.spec.size.allowances.pin_gap_mm
-    holes = (arm.bore, *arm.pins, *arm.bolts)
-    low = high - parts.sizes.arm_thickness
-    return Plate("arm", arm.outline.layer, arm.outline, holes, low, high)
-
-
-def locking_plates(parts: Outlines) -> list[Plate]:
-    """Return the crank's locking disc, or its sectors, with bolts and bore."""
-    assembly, sizes = parts.assembly, parts.sizes
-    low = -assembly.mechanism.spec.size.allowances.pin_gap_mm  # the disc stands on the arm
-    high = low + sizes.lock_thickness
-    whole, screwed = is_whole(assembly, sizes), bolts(parts)
-    bore = crank_bore(assembly, sizes) if whole else ()
-    each = len(screwed) // max(1, len(parts.crank))
-    name = "locking disc" if whole else "locking sector"
-    out = []
-    for k, contour in enumerate(parts.crank):
-        holes = (*bore, *screwed[k * each : (k + 1) * each])
-        out.append(Plate(name, contour.layer, contour, holes, low, high))
-    return out
 
 
 def roller_plates(

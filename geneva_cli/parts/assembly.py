@@ -118,9 +118,9 @@ class Assembly(NamedTuple):
         within, steps = input_deg - turns * self.turn_deg, 0.0
         # rounding may put an angle before the turn: into its first motion
         number = np.zeros(len(within), dtype=int)
-        for i, one in enumerate(self.motions):
-            number[within >= one.entry] = i
-            steps += one.engagement.half_step
+        for i, (engagement, mid) in enumerate(self.motions):
+            number[within >= mid + engagement.entry_deg] = i
+            steps += engagement.half_step
         out, turned = 2.0 * steps * turns, 0.0
         for i, (engagement, mid) in enumerate(self.motions):
             here = number == i
@@ -129,23 +129,6 @@ class Assembly(NamedTuple):
             out[here] += turned + engagement.motion(at, 0).c[0]
             turned += engagement.half_step
         return out
-
-
-@lru_cache(maxsize=16)
-def assembly(mechanism: Mechanism) -> Assembly:
-    """Return the assembly of a mechanism with flat parts, cached for its sizes and its parts."""
-    spec = mechanism.spec
-    if not spec.wheel.FLAT:
-        raise GenevaError(
-            f'gearing = "{spec.wheel.NAME}": its parts are not flat outlines about two axes; write '
-            "`--part wheel`, `crank` or `assembly` as .dxf, .svg or .step",
-            ("wheel", "gearing"),
-        )
-    if spec.wheel.z > Z_DRAWN:
-        raise GenevaError(
-            f"z = {spec.wheel.z}: parts are drawn for up to {Z_DRAWN} slots", ("wheel", "z")
-        )
-    return assembled(mechanism)
 
 
 def input_of(mechanism: Mechanism) -> Callable[[float], float]:
@@ -160,12 +143,25 @@ def _same(input_deg: float) -> float:
     return input_deg
 
 
-def assembled(mechanism: Mechanism, by_input: bool = False) -> Assembly:
-    """Return the assembly of any machine; on a sphere ``pin`` is seen along the wheel's axis.
+@lru_cache(maxsize=16)
+def assembly(mechanism: Mechanism, flat: bool = True, by_input: bool = False) -> Assembly:
+    """Return the assembly of a machine, cached for its sizes and its parts.
 
-    With ``by_input`` its angles are those of the machine's own input shaft.
+    Raises GenevaError if it has no ``flat`` parts that are drawn. Without ``flat`` it is that of
+    any machine; on a sphere ``pin`` is seen along the wheel's axis. With ``by_input`` its angles
+    are those of the machine's own input shaft.
     """
     spec = plain = mechanism.spec
+    if flat and not spec.wheel.FLAT:
+        raise GenevaError(
+            f'gearing = "{spec.wheel.NAME}": its parts are not flat outlines about two axes; write '
+            "`--part wheel`, `crank` or `assembly` as .dxf, .svg or .step",
+            ("wheel", "gearing"),
+        )
+    if flat and spec.wheel.z > Z_DRAWN:
+        raise GenevaError(
+            f"z = {spec.wheel.z}: parts are drawn for up to {Z_DRAWN} slots", ("wheel", "z")
+        )
     if mechanism.law is None and (crank := spec.drive.crank):
         plain = spec.replace(drive=crank, drive_before=None)
     elif spec.drive_before:  # slots and path are by the angle of the drive's own input shaft
@@ -221,6 +217,8 @@ def links_at(mechanism: Mechanism, input_deg: Array, before: bool = True) -> tup
     ``before`` also those of the drive before it.
     """
     spec, sign = mechanism.spec, mechanism.spec.wheel.SIGN
+    if spec.drive.direct and spec.drive_before is None:
+        return ()  # the input carries the crank
     own_deg = mechanism.engagements[0].own_deg(input_deg)
     own, L = spec.drive.links(mechanism.plan, sign, own_deg), mechanism.center_distance_mm
     groove = mechanism.engagements[0].groove

@@ -11,7 +11,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.records import thing
 from geneva_cli.parts.arm import bolts, crank_arm
-from geneva_cli.parts.links.links import drawn_links
+from geneva_cli.parts.links.link_plates import drawn_links
 from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.outlines.crank_outline import reliefs, sectors
 from geneva_cli.parts.outlines.cut_outlines import drawn

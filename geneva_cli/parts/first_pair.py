@@ -9,7 +9,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.motion import registry
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.parts.first_wheel import first_spec
-from geneva_cli.parts.links.links import drawn_links
+from geneva_cli.parts.links.link_plates import drawn_links
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.projection import titled
 from geneva_cli.parts.shafts.bores import has_shape, round_bore

@@ -18,9 +18,8 @@ from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.numerics.preferred import sizes_from
 from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.sized_by_load import shaft_holds
+from geneva_cli.parts.sized_by_load import Stressed, shaft_holds, stressed
 from geneva_cli.parts.sizes import FirstSizes, Sizes
-from geneva_cli.parts.stressed import Stressed, stressed
 from geneva_cli.spec.tables import Load, Size
 
 

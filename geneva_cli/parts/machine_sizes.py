@@ -33,12 +33,12 @@ from geneva_cli.parts.sizes import (
     within_hub,
 )
 from geneva_cli.parts.slots.roller_paths import mouth, roller_paths
-from geneva_cli.parts.stressed import Unloaded
 from geneva_cli.spec.defaults import wall_min
 from geneva_cli.spec.tables import Size
 
 if TYPE_CHECKING:
     from geneva_cli.loads.strength.part_loads import PartLoads
+    from geneva_cli.parts.sized_by_load import Unloaded
 
 Layout: TypeAlias = tuple[Assembly, Sizes]  # of one machine
 OF_AXLE = (
@@ -80,6 +80,8 @@ def sizes(assembly: Assembly) -> Sizes:
 
 def unloaded(assembly: Assembly) -> Unloaded:
     """Return the parts of a machine without its load; raises as ``sizes`` does."""
+    from geneva_cli.parts.sized_by_load import Unloaded
+
     usual, space = _usual_sizes(assembly)
     return Unloaded(assembly, usual, space, cut_lock(assembly, usual) if usual.lock else None)
 
@@ -186,7 +188,7 @@ def drawn_pin_radius(mechanism: Mechanism) -> float:
     """Return the radius of a roller's pin as its machine has it, 0 for none."""
     flat = sized(mechanism)
     parts = flat[1] if flat else None
-    return pin_radius(mechanism.spec.size, mechanism.roller_radius_mm, parts)
+    return parts.pin if parts else pin_radius(mechanism.spec.size, mechanism.roller_radius_mm)
 
 
 def _usual_sizes(assembly: Assembly) -> tuple[Sizes, float]:

@@ -6,6 +6,8 @@ import math
 from collections.abc import Iterable
 from typing import NamedTuple, TypeAlias
 
+import numpy as np
+
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.arrays import half_or, value_or
@@ -81,17 +83,14 @@ class Sizes(NamedTuple):
 KeySizes: TypeAlias = tuple[dict[str, float], tuple[str, ...]]
 
 
-def drawn_thicknesses(size: Size, L: float, parts: Sizes | None = None) -> Thicknesses:
-    """Return the thicknesses of ``parts``, or else of a spec."""
-    if parts:
-        own = parts.wheel_thickness, parts.lock_thickness, parts.arm_thickness
-        return Thicknesses(*own, parts.link_thickness)
+def drawn_thicknesses(size: Size, L: float) -> Thicknesses:
+    """Return the thicknesses of a spec without a load."""
     return size.thicknesses(L, rounded_below)
 
 
-def pin_radius(size: Size, r: float, parts: Sizes | None = None) -> float:
-    """Return the radius of a roller's pin, that of ``parts`` or else of a spec; 0 for none."""
-    return parts.pin if parts else 0.5 * value_or(size.pin_mm, rounded_below(r))
+def pin_radius(size: Size, r: float) -> float:
+    """Return the radius of a roller's pin of a spec without a load; 0 for none."""
+    return 0.5 * value_or(size.pin_mm, rounded_below(r))
 
 
 def plane_span(
@@ -233,19 +232,14 @@ def reach_and_hub(
     return reach, half_or(vars(size)[f"{part}_hub_mm"], default)
 
 
-def wall_of_bolts(size: Size, wall: float) -> float:
-    """Return the wall about the bolts of the lock that is left between chamfered or round edges."""
-    return wall + 2.0 * size.edge_mm
-
-
 def lock_bolt_directions(sectors: Iterable[tuple[float, float]], count: int) -> list[list[float]]:
     """Return the directions of the bolts that fix locking sectors to the arm.
 
     Each sector is its start and width, radians; its ``count`` bolts are evenly spaced.
     """
-    directions = []
+    directions = list[list[float]]()
     for start, width in sectors if count else ():
-        directions.append([start + width * (k + 0.5) / count for k in range(count)])
+        directions.append((start + width * (np.arange(count) + 0.5) / count).tolist())
     if count and not directions:
         raise GenevaError(
             "lock_bolts: there is no locking disc to fix; remove it", ("size", "lock_bolts")

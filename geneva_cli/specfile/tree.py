@@ -11,7 +11,7 @@ from typing import Any
 from geneva_cli.errors import GenevaError, below, clean, cut, few, nearest
 from geneva_cli.motion import registry
 from geneva_cli.motion.drive import Drive
-from geneva_cli.motion.machine_spec import BEFORE, Spec, attribute
+from geneva_cli.motion.machine_spec import BEFORE, Spec
 from geneva_cli.motion.motion import Motion
 from geneva_cli.names import unit_end
 from geneva_cli.spec.rules import Csv
@@ -64,7 +64,7 @@ def spec_of(tree: dict[str, Any], name: str) -> Spec:
         if values is not None and key in LISTS:
             plain[key] = _several(key, cls, values, files)
         elif values is not None:
-            plain[attribute(key)] = cls(**_values(cls, values, files))
+            plain[key.replace(".", "_")] = cls(**_values(cls, values, files))
     drawn = plain["outline"].files if "outline" in plain else ()
     files.extend(map(partial(below, os.path.dirname(name)), drawn))
     drive = dict(tree.get("drive", {}))

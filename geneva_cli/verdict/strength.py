@@ -13,7 +13,7 @@ from geneva_cli.errors import Notice
 from geneva_cli.kept import cached_property
 from geneva_cli.loads.strength.horn import STOUT
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.arrays import Number, value_or
+from geneva_cli.numerics.arrays import value_or
 from geneva_cli.parts.machine_sizes import sized
 from geneva_cli.verdict.quantities import part_strength
 from geneva_cli.verdict.quantities.batch_designs import Columns, Designs, only, single
@@ -77,15 +77,11 @@ class Strength:
 
     def __getitem__(self, name: str) -> float | None:
         """A value by its whole name, such as ``strength.pin.stress_MPa``; None if unknown."""
-        return only(self._column(name))
-
-    def _column(self, name: str) -> Number | None:
-        """A value by its whole name as its group has it: infinite if it is unbounded."""
         table, _, own = name.rpartition(".")
         if compute := CHECKED.get(name) or CHECKED.get(table):
-            return self.design.columns(compute).get(own)
+            return only(self.design.columns(compute).get(own))
         groups = report_groups()
-        return (groups.get(name) or groups[table]).columns(self.design).get(own)
+        return only((groups.get(name) or groups[table]).columns(self.design).get(own))
 
     @cached_property
     def life(self) -> dict[str, float | None]:
@@ -127,8 +123,8 @@ class Strength:
         None for a known value, or for one that the machine lacks, such as a horn's without a lock.
         """
         spec, load = self.spec, self.load
-        part = name.removesuffix("_stress_MPa").removesuffix("_pressure_MPa")
-        locked = name.startswith("lock_")
+        part, locked = name.removesuffix("_stress_MPa"), name.startswith("lock_")
+        part = part.removesuffix("_pressure_MPa")
         if not (spec.is_loaded or locked):
             return spec.load_keys  # nothing else helps
         bounded = locked or math.isfinite(load.force_N[0])
@@ -137,7 +133,8 @@ class Strength:
         if name == "friction_work_J":
             needs = [(bool(spec.load.friction), "friction in [load]")]
         elif name == "pv_max_W_m2":
-            pv, needs = self._column("life.pv_max_W_m2"), [face]
+            pv = self.design.columns(part_strength.pressure_speed).get("pv_max_W_m2")
+            needs = [face]
             if pv is not None and not np.all(np.isfinite(pv)):
                 return "a stress with a bound: see the warnings"
         elif name.startswith("roller_life") and bounded:
@@ -145,16 +142,18 @@ class Strength:
             needs = [(rated, "dynamic_capacity_N in [material.roller]")]
         elif locked or name == "horn_stress_MPa":
             return self._horn_reason(name, locked)
-        elif part.endswith("_shaft"):
-            shaft, drawn = part.removesuffix("_shaft"), load.parts is not None
+        elif part in ("arm", "wheel_key", "crank_key", "wheel_shaft", "crank_shaft"):
+            parts, shaft = load.parts, part.removesuffix("_shaft")
+            # unknown parts count
+            lacks = parts is not None and bool(np.isnan(getattr(parts, part)[0][0]))
+            if shaft == part:
+                return None if lacks else " and ".join(w for met, w in needs if not met) or None
             if shaft == "wheel" and not spec.output.turns:
                 return "a wheel that turns on a shaft"
-            known = {"overhang": drawn, "diameter": drawn and self._has_part(part)}
+            known = {"overhang": parts is not None, "diameter": parts is not None and not lacks}
             for end, is_known in known.items() if bounded else ():
                 key = f"{shaft}_{end}_mm"
                 needs.append((vars(spec.shaft)[key] is not None or is_known, f"{key} in [shaft]"))
-        elif part in ("arm", "wheel_key", "crank_key") and not self._has_part(part):
-            return None
         elif part == "pin":
             needs.append((load.contact_mm is not None, _WIDTH))
         return " and ".join(words for is_met, words in needs if not is_met) or None
@@ -180,11 +179,6 @@ class Strength:
             return _EDGE if load.lock.on == "corner" else _SHORT
         return " and ".join(needs) or None
 
-    def _has_part(self, part: str) -> bool:
-        """True unless the machine lacks an arm, a key or a shaft; unknown ones count."""
-        parts = self.load.parts
-        return parts is None or not np.isnan(getattr(parts, part)[0][0])
-
     def missing(self, among: Sequence[str]) -> list[str]:
         """The keys that the unknown values of ``among`` need, in words."""
         by_key: dict[str, list[str]] = {}
@@ -199,7 +193,5 @@ class Strength:
         ]
 
 
-@lru_cache(maxsize=16)
-def strength(mechanism: Mechanism) -> Strength:
-    """The strength of a machine, cached for its checks, advice and report."""
-    return Strength(mechanism)
+# The strength of a machine, cached for its checks, advice and report.
+strength = lru_cache(maxsize=16)(Strength)

@@ -12,13 +12,7 @@ from words import Motion, Spec, Wheel, load
 
 from geneva_cli.loads.cycle import Cycle
 from geneva_cli.loads.load_case import load_case
-from geneva_cli.loads.strength.roller import (
-    LIFE_EXPONENT,
-    Life,
-    lives,
-    passage,
-    passages,
-)
+from geneva_cli.loads.strength.roller import LIFE_EXPONENT, Life, lives, passage, passages
 from geneva_cli.motion.mechanism import build
 from geneva_cli.numerics.arrays import only_of
 from geneva_cli.spec.tables import Load, RollerMaterial, Size

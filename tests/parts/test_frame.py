@@ -16,7 +16,7 @@ from geneva_cli.geometry.plates import in_place
 from geneva_cli.geometry.shapes import Circle
 from geneva_cli.parts.assembly import links_at
 from geneva_cli.parts.machine_sizes import machine_sizes
-from geneva_cli.parts.stressed import stressed
+from geneva_cli.parts.sized_by_load import stressed
 
 # The pivots of the parts list whose shafts reach the frame, of each kind of drive. The crank of a
 # side-crank ends above the input crank, and the wheel's shaft of the four-bar above the wheel.

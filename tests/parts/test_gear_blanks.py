@@ -11,7 +11,7 @@ import repo
 from geneva_cli import Design, Epicyclic, External, load
 from geneva_cli.geometry.shapes import Arc, Circle
 from geneva_cli.parts.gears.gear_curves import gears_table
-from geneva_cli.parts.links.links import drawn_links
+from geneva_cli.parts.links.link_plates import drawn_links
 from geneva_cli.spec.tables import Size
 
 RHO = 7850.0  # kg/m³, steel

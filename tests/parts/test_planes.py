@@ -11,8 +11,8 @@ from shapely.geometry import Point
 
 from geneva_cli import load
 from geneva_cli.parts.assembly import links_at
+from geneva_cli.parts.links.link_plates import drawn_links
 from geneva_cli.parts.links.link_shafts import planes
-from geneva_cli.parts.links.links import drawn_links
 
 
 def of(name, *given):

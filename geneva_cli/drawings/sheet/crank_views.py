@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.packing import Block
 from geneva_cli.drawings.sheet.paper import table
+from geneva_cli.drawings.sheet.sized import Fits
 from geneva_cli.drawings.sheet.standing import bolted, bored, circle_of, draw_hub, holes_of
 from geneva_cli.drawings.sheet.view import View, grouped, times
 from geneva_cli.geometry.measure import at, legs
@@ -25,7 +26,6 @@ from geneva_cli.parts.machine_sizes import drawn_pin_radius
 from geneva_cli.parts.outlines.crank_outline import is_whole
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.shafts.bores import radius_of
-from geneva_cli.parts.shafts.fits import Fits
 from geneva_cli.spec.written import degrees, length
 
 UP = 0.5 * math.pi

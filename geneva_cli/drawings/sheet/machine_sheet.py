@@ -23,19 +23,20 @@ from geneva_cli.drawings.sheet.crank_views import (
 )
 from geneva_cli.drawings.sheet.packing import Block
 from geneva_cli.drawings.sheet.paper import on_paper, scale_name, smaller, table
+from geneva_cli.drawings.sheet.sized import Fits
 from geneva_cli.drawings.sheet.standing import draw_frame, draw_shaft
 from geneva_cli.drawings.sheet.view import View
 from geneva_cli.drawings.sheet.wheel_views import draw_wheel
 from geneva_cli.geometry.board import chords
 from geneva_cli.geometry.measure import at, bounds, bounds_of, mapped
-from geneva_cli.geometry.plates import Group, Member, Plate, Shell, in_place, plates
+from geneva_cli.geometry.plates import Group, Member, Plate, in_place, plates
 from geneva_cli.geometry.shapes import Circle, Point, two_arcs
 from geneva_cli.geometry.sheet import HATCH, OUTLINE, Sheet, line, rectangle
+from geneva_cli.geometry.sphere_shell import Shell
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Dimension, Pivot
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.projection import alike
-from geneva_cli.parts.shafts.fits import Fits
 from geneva_cli.spec.written import length, number
 
 

@@ -2,13 +2,59 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
-from geneva_cli.parts.shafts.fits import Fits, toleranced
+from geneva_cli.parts.shafts.fits import limits
 from geneva_cli.parts.shafts.screws import SCREWS, screw_through
 from geneva_cli.spec.tables import Size
 from geneva_cli.spec.workshops import WORKSHOPS
-from geneva_cli.spec.written import length
+from geneva_cli.spec.written import length, signed
+
+
+def toleranced(nominal_mm: float, shown: str, fit: str) -> str:
+    """Return a size with its fit and the limits in mm.
+
+    >>> toleranced(20.0, "Ø 20", "g6")
+    'Ø 20 g6 (-0.007/-0.02)'
+    """
+    deviations = limits(nominal_mm, fit)
+    if deviations is None:
+        return shown
+    upper, lower = (signed(1e-3 * one) for one in deviations)
+    return f"{shown} {fit} ({upper}/{lower})"
+
+
+class Fits(NamedTuple):
+    """Fits of a part as the workshop of its process makes it.
+
+    ``thickness_mm`` is that of the plate it is cut from; None for a part that is turned.
+
+    >>> Fits("laser", 18.0).text(24.8, "24.8", "H7"), Fits("print", 18.0).text(24.5, "24.5", "H7")
+    ('24.8 ±0.4', '24.5')
+    """
+
+    process: str | None = None
+    thickness_mm: float | None = None
+
+    def text(self, nominal_mm: float, shown: str, fit: str) -> str:
+        """Return a size with its fit, with the deviation of a cut, or alone if none is kept."""
+        shop = WORKSHOPS[self.process]
+        if self.thickness_mm is not None and shop.cut_mm:
+            return f"{shown} ±{shop.cut_mm(self.thickness_mm, nominal_mm):g}"
+        return toleranced(nominal_mm, shown, fit) if shop.fits else shown
+
+    @property
+    def is_iso(self) -> bool:
+        """True if the part has fits of ISO 286."""
+        shop = WORKSHOPS[self.process]
+        return shop.fits and (self.thickness_mm is None or shop.cut_mm is None)
+
+    @property
+    def turned(self) -> Fits:
+        """The fits of a turned part of the same machine."""
+        return self._replace(thickness_mm=None)
 
 
 def plain(value: float, sign: str = "", off: float = 0.0) -> str:

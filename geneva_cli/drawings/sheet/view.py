@@ -11,6 +11,7 @@ import numpy as np
 
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.packing import Block
+from geneva_cli.drawings.sheet.sized import Fits
 from geneva_cli.geometry import marks
 from geneva_cli.geometry.board import Board, chords
 from geneva_cli.geometry.measure import legs, mapped
@@ -18,7 +19,6 @@ from geneva_cli.geometry.shapes import Arc, Circle, Layer, Point, Segment, Shape
 from geneva_cli.geometry.sheet import CENTRE, LARGE, OUTLINE, SMALL, Label, Measure, line
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
-from geneva_cli.parts.shafts.fits import Fits
 from geneva_cli.spec.written import degrees, length
 
 FIRST, NEXT = 8.0, 7.0  # mm: from the outline to the first dimension line, and between lines

@@ -19,7 +19,7 @@ from geneva_cli.numerics.arrays import half_or, value_or
 from geneva_cli.parts.arm import CrankArm
 from geneva_cli.parts.machine_sizes import lock_between, require_lock_between
 from geneva_cli.parts.shafts.bores import bore_of
-from geneva_cli.parts.shafts.screws import bolt_radius, refuse_no_screw, tapped
+from geneva_cli.parts.shafts.screws import bolt_radius, tapped
 from geneva_cli.parts.sizes import (
     KeySizes,
     arm_bore,
@@ -220,7 +220,6 @@ def lock_bolts(mechanism: Mechanism) -> list[Circle]:
     half_turn = [(0.5 * math.pi, math.pi)] if sizes.lock else []
     away = half_or(size.lock_bolt_circle_mm, 0.5 * (sizes.floor + sizes.lock))
     half_width = min(away - sizes.floor, sizes.lock - away)
-    r = bolt_radius(size.lock_bolt_mm, 2.0 * sizes.arm, half_width)
-    refuse_no_screw("lock_bolt", size.lock_bolts or 0, r)
+    r = bolt_radius(size.lock_bolt_mm, 2.0 * sizes.arm, half_width, "lock_bolt", size.lock_bolts)
     turns = [turn for some in lock_bolt_directions(half_turn, count) for turn in some if r]
     return [Circle("BORE", (away * math.cos(x), away * math.sin(x)), r) for x in turns]

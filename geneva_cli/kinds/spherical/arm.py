@@ -18,8 +18,8 @@ from geneva_cli.geometry.sphere_arcs import RoundHole, least_wall
 from geneva_cli.kinds.spherical.ball import Ball, refuse_wide
 from geneva_cli.kinds.spherical.regions import locked
 from geneva_cli.parts.shafts.bores import Bore, bore_of
-from geneva_cli.parts.shafts.screws import bolt_radius, refuse_no_screw
-from geneva_cli.parts.sizes import hub_and_eye, lock_bolt_directions, pin_hole, wall_of_bolts
+from geneva_cli.parts.shafts.screws import bolt_radius
+from geneva_cli.parts.sizes import hub_and_eye, lock_bolt_directions, pin_hole
 from geneva_cli.spec.defaults import eye_about, wall_min
 from geneva_cli.spec.tables import Size
 
@@ -49,7 +49,7 @@ def crank_arm(ball: Ball, sectors: Sequence[Region], size: Size) -> CapArm:
     own = size.lock_bolts
     arm = _arm(ball, sectors, size, own or 0)
     if own is None and sectors:
-        least = min(arm.wall, wall_of_bolts(size, wall_min(size, ball.radius_mm)))
+        least = min(arm.wall, wall_min(size, ball.radius_mm) + 2.0 * size.edge_mm)
         bolted = (_arm(ball, sectors, size, count) for count in (2, 1))
         arm = next((one for one in bolted if one.wall >= least), arm)
     if arm.wall <= 0.0:
@@ -85,7 +85,7 @@ def _arm(ball: Ball, sectors: Sequence[Region], size: Size, bolts_each: int) -> 
     form = bore_of(size, "crank", ball.arm_bore_mm)
     pins = tuple(RoundHole(place(ball.arm, azimuth), hole) for azimuth in ball.rollers)
     bolts = _bolts(ball, sectors, size, bolts_each)
-    cap, eye, bolted = ball.cap(hub, form.reach, wall), eye / L, wall_of_bolts(size, wall)
+    cap, eye, bolted = ball.cap(hub, form.reach, wall), eye / L, wall + 2.0 * size.edge_mm
     caps = [Cap(POLE, cap), *(Cap(pin.axis, eye) for pin in pins)]
     caps += [Cap(b.axis, eye_about(b.radius, bolted) / under) for b in bolts]
     boundary, holes = convex_hull(caps), (RoundHole(POLE, hub), *pins, *bolts)
@@ -115,9 +115,9 @@ def _bolts(ball: Ball, sectors: Sequence[Region], size: Size, count: int) -> tup
     widths = [(math.atan2(rim.start[1], rim.start[0]), rim.sweep) for rim in rims]
     rings = [(low, rim.angle) for low, rim in zip(inner, rims, strict=True)]
     directions = lock_bolt_directions(widths, count)
-    r = bolt_radius(size.lock_bolt_mm, L, min((0.5 * L * (b - a) for a, b in rings), default=0.0))
-    if directions:
-        refuse_no_screw("lock_bolt", size.lock_bolts or 0, r)
+    half = min((0.5 * L * (b - a) for a, b in rings), default=0.0)
+    asked = size.lock_bolts if directions else 0
+    r = bolt_radius(size.lock_bolt_mm, L, half, "lock_bolt", asked)
     holes = []
     for (low, high), azimuths in zip(rings, directions, strict=False):
         far = 0.5 * (low + high) if own is None else math.asin(min(1.0, 0.5 * own / L))

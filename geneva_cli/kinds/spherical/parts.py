@@ -18,7 +18,6 @@ from geneva_cli.geometry.plates import (
     MassProperties,
     Member,
     Plate,
-    Shell,
     added,
     inwards,
     mass_properties,
@@ -26,6 +25,7 @@ from geneva_cli.geometry.plates import (
 from geneva_cli.geometry.shapes import ORIGIN, Circle
 from geneva_cli.geometry.sphere import POLE, Cap, Region, Rotation, axis_frame, place
 from geneva_cli.geometry.sphere_arcs import RoundHole
+from geneva_cli.geometry.sphere_shell import Shell
 from geneva_cli.kept import cached_property
 from geneva_cli.kinds.spherical.arm import CapArm, crank_arm
 from geneva_cli.kinds.spherical.ball import Ball, refuse_wide
@@ -34,7 +34,7 @@ from geneva_cli.kinds.spherical.regions import at_mid_motion, wheel_regions
 from geneva_cli.kinds.spherical.sizes import ball, fitted
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.parts.assembly import Assembly, assembled
+from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.projection import NamedParts
 from geneva_cli.parts.shafts.bores import bore_of, has_shape
@@ -73,7 +73,7 @@ class SphereParts(Parts):
     @cached_property
     def _shape(self) -> Shells:
         ball, locks = fitted(self.mechanism, self.advice)
-        L, assembly = ball.radius_mm, assembled(self.mechanism)
+        L, where = ball.radius_mm, assembly(self.mechanism, flat=False)
         lengths = BallLengths(
             roller=L * ball.roller,
             half_width=L * ball.half_width,
@@ -82,7 +82,7 @@ class SphereParts(Parts):
             horn=L * ball.horn,
             wall_min=wall_min(self.mechanism.spec.size, L),
         )
-        return Shells(assembly, ball, lengths, locks, BallGaps(assembly, ball, locks))
+        return Shells(where, ball, lengths, locks, BallGaps(where, ball, locks))
 
     @property
     def shells(self) -> Shells:
@@ -152,29 +152,26 @@ class SphereParts(Parts):
     @cached_property
     def shafts(self) -> tuple[Member, ...]:
         """The shafts of wheel and crank: as wide as the bores, and as long as on a plane."""
-        ball, size = self.ball, self.mechanism.spec.size
-        outside, (under, over) = ball.span_mm[1], ball.arm_span_mm
-        lowest = outside - ball.shafts_end_mm(size) - (over - under)
-        members = []
-        for one, frame in self._axles(lowest):
-            part = one.member.part
-            assert isinstance(part, Plate)
-            members.append(Member(inwards(part, outside), frame=frame))
-        return tuple(members)
-
-    def _axles(self, lowest: float) -> Iterator[tuple[Shaft, Rotation | None]]:
-        """Yield the shafts and the frames of their axes."""
         ball, size, arm = self.ball, self.mechanism.spec.size, self.arm
-        (inside, outside), under = ball.span_mm, ball.arm_span_mm[0]
+        (inside, outside), (under, over) = ball.span_mm, ball.arm_span_mm
+        lowest = outside - ball.shafts_end_mm(size) - (over - under)
+        own: list[tuple[Shaft, Rotation | None]] = []
         if ball.bore_mm:
             hub = ball.hub_mm > ball.bore_mm
             bore, high = bore_of(size, "wheel", ball.bore_mm), outside - inside
             ends = shaft_ends(size, "wheel", lowest if hub else 0.0, high)
-            yield Shaft("wheel's shaft", "wheel", bore, *ends, ORIGIN, ball.half_step), None
+            wheel = Shaft("wheel's shaft", "wheel", bore, *ends, ORIGIN, ball.half_step)
+            own.append((wheel, None))
         if arm:
             ends = shaft_ends(size, "crank", lowest, outside - under)
-            one = Shaft("crank's shaft", "crank", arm.bore, *ends, ORIGIN, arm.keyway)
-            yield one, at_mid_motion(ball)
+            crank = Shaft("crank's shaft", "crank", arm.bore, *ends, ORIGIN, arm.keyway)
+            own.append((crank, at_mid_motion(ball)))
+        members = []
+        for one, frame in own:
+            part = one.member.part
+            assert isinstance(part, Plate)
+            members.append(Member(inwards(part, outside), frame=frame))
+        return tuple(members)
 
     @property
     def members(self) -> tuple[Member, ...]:

@@ -14,7 +14,7 @@ from geneva_cli.geometry.sphere import Region
 from geneva_cli.kinds.spherical.ball import Ball, PartDoesNotFit, flat_radius, hub_about, usual_ball
 from geneva_cli.kinds.spherical.horn import sphere_horns
 from geneva_cli.kinds.spherical.regions import sectors
-from geneva_cli.loads.strength.arm_and_key import NO_ARM, ArmDimensions
+from geneva_cli.loads.strength.arm_and_key import NO_ARM, ArmDimensions, arm_stress_MPa
 from geneva_cli.loads.strength.horn import single_stress
 from geneva_cli.loads.strength.lock import dwell_torque_Nm
 from geneva_cli.loads.strength.part_loads import (
@@ -30,7 +30,14 @@ from geneva_cli.numerics.roots import boundary
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.machine_sizes import keys_by_load
 from geneva_cli.parts.shafts.bores import reach_or_bore
-from geneva_cli.parts.sized_by_load import arm_holds, key_holds, pin_that_holds, shaft_holds
+from geneva_cli.parts.sized_by_load import (
+    Stressed,
+    key_holds,
+    key_of,
+    pin_that_holds,
+    shaft_holds,
+    shaft_of,
+)
 from geneva_cli.parts.sizes import (
     LARGEST_HUB,
     KeySizes,
@@ -38,7 +45,6 @@ from geneva_cli.parts.sizes import (
     hub_and_eye,
     within_hub,
 )
-from geneva_cli.parts.stressed import Stressed, key_of, shaft_of
 from geneva_cli.spec.defaults import eye_about, wall_min, wheel_material
 
 
@@ -139,7 +145,10 @@ def ball(mechanism: Mechanism) -> Ball:
         for thick in sizes_from(outside - inside, 2.0 * (outside - inside)):
             trial = sizes._replace(arm_span_mm=(under, under + thick))
             trial = _crank_bored(mechanism, _wheel_bored(mechanism, trial), keyed)
-            if arm_holds(spec, sphere_stressed(spec, trial), loads):
+            parts = sphere_stressed(spec, trial)
+            arm_MPa = float(arm_stress_MPa(parts.arm, loads.wheel_N))
+            key_lasts = key_holds(spec, parts.crank_key, loads.crank_Nm)
+            if key_lasts and keeps(arm_MPa, "at most", wheel_material(spec).allowed_MPa):
                 return trial
     return trial
 

@@ -19,7 +19,7 @@ after wear, and the pressure is as the sine of the angle from the line of centre
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -31,6 +31,9 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import all_true, blocks, parameter, value_or
 from geneva_cli.numerics.jet import Array, Number
 from geneva_cli.spec.defaults import wheel_material
+
+if TYPE_CHECKING:
+    from geneva_cli.loads.strength.horn import HornStress
 
 SHEAR = 1.2  # of a rectangular section: energy of its shear stress over that of the mean stress
 
@@ -107,6 +110,22 @@ def loaded_locks(
     every = np.reshape(np.broadcast_arrays(*rows), (len(rows), -1))
     every[:, np.isnan(every[1])] = np.nan  # without a force nothing is known
     return LockUnderTorque(touch.on, *map(parameter, every))
+
+
+def horn_MPa(
+    machine: Mechanism, half_width: float, by: Lock, known: HornStress | None = None
+) -> Array:
+    """Return the greatest stress in horns 1 mm thick, (m,), under the roller or the dwell's torque.
+
+    ``known`` is that under the roller, if computed already.
+    """
+    from geneva_cli.loads.strength.horn import greatest_stress, horns, single_stress
+
+    search = single_stress if isinstance(machine.design, int) else greatest_stress
+    own = known or search(horns, machine, (half_width, by.recess))
+    held = loaded_locks(machine, half_width, by, 1.0)
+    rows = np.broadcast_arrays(own.stress_MPa, *([held.horn_stress_MPa] if held else []))
+    return np.fmax(0.0, np.fmax.reduce(rows))
 
 
 def bending(mechanism: Mechanism, half_width: float, recess: float, phi: float) -> Array:

@@ -66,35 +66,39 @@ class ShaftLoad(NamedTuple):
 
     def __call__(self, i: Instant[Jet]) -> QuantityValue[Jet]:
         """The square, at an instant."""
-        at, rate = i.at, None
-        on_wheel = self.part == "wheel"
-        if self.on_sphere and not on_wheel:
-            away = at.velocity * at.lever
-            spin = at.spin + at.velocity * at.arm  # of the crank about the roller's axis
-            rate = sqrt(at.along * at.along + away * away + spin * spin)
-            torque = i.input_torque_Nm / rate
+        on_wheel, lever = self.part == "wheel", self.overhang_m
+        if self.on_sphere:
+            square, torque = sphere_moments(i, on_wheel, 0.0 if lever is None else lever)
         else:
             torque = i.wheel_torque_Nm if on_wheel else i.crank_torque_Nm
         turned = torque * self.torsion
-        if self.overhang_m is None:
+        if lever is None:
             return QuantityValue(turned * turned, i.grip)
-        if self.on_sphere:
-            # the moment that bends a shaft whose axis has these cosines along u, m, y
-            axis = at.arm, at.lever * -1.0, at.lever * 0.0
-            if rate is not None:
-                axis = spin / rate * -1.0, away / rate, at.along / rate * -1.0
-            L, b = i.case.L, i.case.L + self.overhang_m
-            rub = i.case.friction * i.slides
-            lever, turn = axis[0] * -b + L, axis[1] - axis[2] * (i.drives * rub)
-            bent = lever * lever * (1.0 + rub * rub) + turn * turn * ((b - L) * (b + L))
-            square = i.force_N * i.force_N * bent
-        else:
+        if not self.on_sphere:
             square = i.crank_bearing_squared
             if on_wheel:  # what orbits is added as if in one plane: an upper bound
                 force = i.wheel_bearing_N + self.orbiting_N
                 square = force * force
-            square = square * (self.overhang_m * self.overhang_m)
+            square = square * (lever * lever)
         return QuantityValue(square * (self.bending * self.bending) + turned * turned, i.grip)
+
+
+def sphere_moments(i: Instant[Jet], on_wheel: bool, overhang_m: Number) -> tuple[Jet, Jet]:
+    """Squared bending moment of a shaft of a sphere, and its torque; the overhang beyond L."""
+    at, L = i.at, i.case.L
+    # the shaft's axis by its cosines along u, m and y
+    if on_wheel:
+        axis, torque = (at.arm, at.lever * -1.0, at.lever * 0.0), i.wheel_torque_Nm
+    else:
+        away = at.velocity * at.lever
+        spin = at.spin + at.velocity * at.arm  # of the crank about the roller's axis
+        rate = sqrt(at.along * at.along + away * away + spin * spin)
+        axis = spin / rate * -1.0, away / rate, at.along / rate * -1.0
+        torque = i.input_torque_Nm / rate
+    b, rub = L + overhang_m, i.case.friction * i.slides
+    lever, turn = axis[0] * -b + L, axis[1] - axis[2] * (i.drives * rub)
+    bent = lever * lever * (1.0 + rub * rub) + turn * turn * ((b - L) * (b + L))
+    return i.force_N * i.force_N * bent, torque
 
 
 def shear_MPa(moment_Nm: N, diameter_mm: N) -> N:
@@ -103,10 +107,8 @@ def shear_MPa(moment_Nm: N, diameter_mm: N) -> N:
 
 
 def orbiting_N(mechanism: Mechanism) -> Number:
-    """The force m L w² of the bodies of a wheel on a carrier; 0 for another."""
+    """The force m L w² of the bodies of a wheel on a carrier."""
     spec = mechanism.spec
-    if not spec.drive.wheels_on_carrier:
-        return 0.0
     return carried_kg(spec) * omega(spec.drive.n_rpm) ** 2 * (mechanism.center_distance_mm * MM)
 
 
@@ -120,13 +122,16 @@ def shafts_under_load(
     overhang or a load. What is held loads a shaft in the dwell, from the first motion's end on.
     """
     table, own = mechanism.spec.shaft, dict[str, LoadQuantity]()
-    orbiting, on_sphere = orbiting_N(mechanism), not mechanism.axes
+    orbiting = orbiting_N(mechanism) if mechanism.spec.drive.wheels_on_carrier else 0.0
+    on_sphere = not mechanism.axes
     for one in shafts:
         if mechanism.spec.is_loaded and one.overhang_mm is not None:
             torque = ShaftLoad(one.part, on_sphere, orbiting)
             factors = table.bending_factor, table.torsion_factor
             moment = ShaftLoad(*torque[:3], one.overhang_mm / 1000.0, *factors)
-            own |= {f"{one.part} moment": moment, f"{one.part} torque": torque}
+            own[f"{one.part} moment"] = moment
+            if one.span_mm is not None and one.diameter_mm is not None:
+                own[f"{one.part} torque"] = torque
     peaks, each = load_peaks(mechanism, tuple(own), own) if own else {}, []
     for one in shafts:
         out = dict[str, Array]()
@@ -134,24 +139,24 @@ def shafts_under_load(
         d, span, overhang_mm = one.diameter_mm, one.span_mm, one.overhang_mm
         if not peaks or overhang_mm is None:
             continue
-        both, turned = peaks[f"{one.part} moment"], peaks[f"{one.part} torque"]
+        both, turned = peaks[f"{one.part} moment"], peaks.get(f"{one.part} torque")
         if np.any(np.asarray(one.held_N) > 0.0) or np.any(np.asarray(one.held_Nm) != 0.0):
             bent = np.ravel(table.bending_factor) * one.held_N * np.ravel(overhang_mm / 1000.0)
             square = bent**2 + (np.ravel(table.torsion_factor) * one.held_Nm) ** 2
             first = mechanism.under_load.engagements[0]
             exit_deg = np.ravel(mechanism.shown_deg(first.mid_deg + first.exit_deg))
             both = greater(both, PeakArray(square, np.broadcast_to(exit_deg, square.shape)))
-            turned = turned._replace(max=np.maximum(turned.max, np.square(one.held_Nm)))
         most = np.sqrt(both.max)
         out |= {"moment_Nm": most, "at_deg": both.at_deg}
         if d is not None:
             out["stress_MPa"] = shear_MPa(most, np.ravel(d))
         if one.allowed_MPa is not None:
             out["least_diameter_mm"] = np.cbrt(16e3 * most / (math.pi * np.ravel(one.allowed_MPa)))
-        if d is not None and span is not None:
+        if d is not None and span is not None and turned is not None:
             polar = math.pi * d**4 / 32.0  # N m mm / (GPa mm^4) is 1
             rate = np.ravel((overhang_mm + span) / (table.shear_modulus_GPa * polar))
-            torque_Nm = np.where(np.isfinite(turned.max), np.sqrt(turned.max), np.nan)
+            square = np.maximum(turned.max, np.square(one.held_Nm))
+            torque_Nm = np.where(np.isfinite(square), np.sqrt(square), np.nan)
             out["twist_deg"] = np.degrees(torque_Nm * rate)
     return each
 
@@ -174,7 +179,8 @@ class PartLoads(NamedTuple):
 
 def part_loads(mechanism: Mechanism) -> PartLoads:
     """The greatest loads of m designs, or as numbers of a single one."""
-    orbiting, on_sphere = orbiting_N(mechanism), not mechanism.axes
+    spec, on_sphere = mechanism.spec, not mechanism.axes
+    orbiting = orbiting_N(mechanism) if spec.drive.wheels_on_carrier else 0.0
     own: dict[str, LoadQuantity] = {
         "wheel_Nm": ShaftLoad("wheel", on_sphere, orbiting),
         "crank_Nm": ShaftLoad("crank", on_sphere, orbiting),
@@ -182,9 +188,11 @@ def part_loads(mechanism: Mechanism) -> PartLoads:
     peaks = load_peaks(mechanism, (FORCE, "wheel_bearing_N", "crank_bearing_N", *own), own)
     force, wheel = peaks[FORCE].max, peaks["wheel_bearing_N"].max
     jump = np.nan_to_num(reversal_impacts(mechanism).jump) + np.zeros(np.shape(force))
-    held = np.maximum(np.sqrt(peaks["wheel_Nm"].max), dwell_torque_Nm(mechanism))
-    crank, crank_Nm = peaks["crank_bearing_N"].max, np.sqrt(peaks["crank_Nm"].max)
-    rows = force, jump, wheel, wheel + np.ravel(orbiting), held, crank, crank_Nm
+    wheel_Nm, crank_Nm = np.sqrt(peaks["wheel_Nm"].max), np.sqrt(peaks["crank_Nm"].max)
+    if spec.load.dwell_torque_Nm is not None:
+        wheel_Nm = np.maximum(wheel_Nm, dwell_torque_Nm(mechanism))
+    crank = peaks["crank_bearing_N"].max
+    rows = force, jump, wheel, wheel + np.ravel(orbiting), wheel_Nm, crank, crank_Nm
     out = PartLoads(*map(parameter, rows))
     return out.of(0) if isinstance(mechanism.design, int) else out
 

@@ -6,10 +6,9 @@ A blank's mass is a gear's within a few percent. A gear that stands still is scr
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.plates import Member, Plate, plate_wall
+from geneva_cli.geometry.plates import Plate, plate_wall
 from geneva_cli.geometry.shapes import (
     ORIGIN,
     Arc,
@@ -23,37 +22,9 @@ from geneva_cli.geometry.shapes import (
 )
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Link, Teeth
-from geneva_cli.parts.links.link_sizes import LinkSizes
-from geneva_cli.parts.shafts.bores import Bore
-from geneva_cli.parts.shafts.screws import BoltCircle, bolt_circle
-from geneva_cli.parts.shafts.shaft import ShaftBore
-
-
-class Gear(NamedTuple):
-    """A gear about its axis: pitch circle, bore (of radius 0 for none or a ring), and plate."""
-
-    at: Point
-    radius: float
-    bore: ShaftBore
-    teeth: Teeth
-    plate: Plate
-    screws: BoltCircle | None = None  # between a gear that stands still and the frame
-
-    @property
-    def name(self) -> str:
-        """The gear's name."""
-        return self.plate.name
-
-    @property
-    def member(self) -> Member:
-        """The blank in the machine, at input angle 0."""
-        return Member(self.plate, self.at)
-
-    @property
-    def outer(self) -> float:
-        """The greatest distance of the outline from its axis."""
-        outline = self.plate.outline
-        return outline.radius if isinstance(outline, Circle) else self.radius
+from geneva_cli.parts.links.link_records import Gear, LinkSizes
+from geneva_cli.parts.shafts.bores import Bore, ShaftBore
+from geneva_cli.parts.shafts.screws import bolt_circle
 
 
 def link_gear(link: Link, at: Point, on: ShaftBore, sizes: LinkSizes, mechanism: Mechanism) -> Gear:

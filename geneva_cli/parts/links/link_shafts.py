@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -20,18 +20,15 @@ from geneva_cli.motion.pivots import Joint, Link
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import gear_plane, links_at, same, turn_deg
-from geneva_cli.parts.links.link_sizes import LinkSizes, places
-from geneva_cli.parts.links.links import Links, joined, placed_holes
+from geneva_cli.parts.links.link_records import LinkAxis, LinkSizes
+from geneva_cli.parts.links.link_sizes import joined, places
+from geneva_cli.parts.links.links import Links, placed_holes
 from geneva_cli.parts.outlines.outlines import Outlines, wheel_hub_length
+from geneva_cli.parts.shafts.bores import bore_of
 from geneva_cli.parts.shafts.shaft import (
     bore_at,
     wheel_shaft_ends,
-    wheel_shaft_radius,
 )
-
-if TYPE_CHECKING:
-    from geneva_cli.parts.links.links import LinkAxis
-
 
 Span: TypeAlias = tuple[float, float]  # lower and upper face, mm
 
@@ -94,11 +91,11 @@ def planes(
     ``bars`` are the links of the machine with the outlines ``parts``, and ``spacers`` the rings on
     its frame. The second gap is that of the crank's shaft to its bearings, None where it is free.
     """
+    if bars.sizes is None:
+        return None, None
     mechanism, L = parts.assembly.full, parts.assembly.L
     turn = turn_deg(mechanism)  # the error of a gap is quadratic in their distance
     every = links_at(mechanism, turn)
-    if bars.sizes is None:
-        return None, None
     met = list(_gears(parts, bars, [link for link in every if link.radius_mm], turn))
     links = [link for link in every if not link.radius_mm]
     if not links:
@@ -213,7 +210,8 @@ def _on_wheel(parts: Outlines, links: list[Link], sizes: LinkSizes, axis: Array)
     """Yield the wheel's hub in the planes that it reaches, and its shaft in those below."""
     if parts.assembly.sign < 0.0:
         return
-    size, shaft = parts.assembly.mechanism.spec.size, wheel_shaft_radius(parts)
+    size, bore = parts.assembly.mechanism.spec.size, parts.sizes.wheel_bore
+    shaft = bore_of(size, "wheel", bore).around if bore else 0.0
     hub = parts.sizes.wheel_hub if size.has_hub("wheel") else 0.0
     reach = -wheel_hub_length(size, parts.sizes)
     low, _ = wheel_shaft_ends(parts, -math.inf)

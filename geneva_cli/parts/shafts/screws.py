@@ -90,26 +90,26 @@ def tapped(hole: Circle) -> Circle:
     return hole._replace(radius=0.5 * (one.thread - one.pitch)) if one else hole
 
 
-def bolt_radius(diameter_mm: float | None, L: float, half_width: float) -> float:
+def bolt_radius(
+    diameter_mm: float | None, L: float, half_width: float, key: str = "", asked: int | None = None
+) -> float:
     """Return the radius of a screw's hole in the middle of a ring, twice ``half_width`` wide.
 
     By default it takes at most half of the ring, and L/40; it is 0 where that leaves no screw.
+    Raises GenevaError, naming the ``key``, where the spec has ``asked`` for screws.
 
     >>> bolt_radius(None, 100.0, 10.0), bolt_radius(None, 60.0, 10.0)
     (1.2, 0.0)
     """
     one = screw_through(min(L / 40.0, half_width))
-    return half_or(diameter_mm, 0.5 * one.through if one else 0.0)
-
-
-def refuse_no_screw(key: str, count: int, radius: float) -> None:
-    """Raise GenevaError, naming the key, for holes that the spec asks for and no screw passes."""
-    if count and not radius:
+    radius = half_or(diameter_mm, 0.5 * one.through if one else 0.0)
+    if asked and not radius:
         raise GenevaError(
-            f"{key}s = {count}: the parts are too small for a screw of M{SCREWS[0].thread:g}; set "
+            f"{key}s = {asked}: the parts are too small for a screw of M{SCREWS[0].thread:g}; set "
             f"{key}_mm for other holes, or remove {key}s",
             ("size", f"{key}s"),
         )
+    return radius
 
 
 def bolt_circle(
@@ -126,9 +126,8 @@ def bolt_circle(
     values, (low, high) = vars(size), ring
     count: int = values[f"{part}_bolts"]
     radius = half_or(values[f"{part}_bolt_circle_mm"], 0.5 * (low + high))
-    hole = bolt_radius(values[f"{part}_bolt_mm"], L, 0.5 * (high - low))
-    if part == "dial":
-        refuse_no_screw("dial_bolt", count, hole)
+    asked = count if part == "dial" else 0
+    hole = bolt_radius(values[f"{part}_bolt_mm"], L, 0.5 * (high - low), "dial_bolt", asked)
     holes = []
     for k in range(count if hole else 0):
         at = polar(ORIGIN, radius, start + math.tau * k / count)

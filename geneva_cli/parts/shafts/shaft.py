@@ -14,13 +14,13 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Member, Plate
-from geneva_cli.geometry.shapes import ORIGIN, Circle, Point, Shape
+from geneva_cli.geometry.shapes import ORIGIN, Circle, Point
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.parts.assembly import assembled, links_at, same
+from geneva_cli.parts.assembly import assembly, links_at, same
 from geneva_cli.parts.outlines.crank_outline import crank_bore, is_whole, keyway_direction
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.shafts.bores import Bore, bore_of, has_shape, round_bore
+from geneva_cli.parts.shafts.bores import Bore, ShaftBore, bore_of, has_shape, round_bore
 from geneva_cli.spec.tables import Size
 
 
@@ -48,7 +48,7 @@ class Shaft(NamedTuple):
                 f"{self.part}_shaft_high_mm",
                 ("size", key),
             )
-        section = self.bore.section("SHAFT", self.direction)
+        section = self.bore.shape("SHAFT", self.direction, shaft=True)
         plate = Plate(self.name, "SHAFT", section, (), self.low, self.high)
         return Member(plate, self.at, self.turn)
 
@@ -96,7 +96,7 @@ def shafts(parts: Outlines, lowest: float, stop: float | None) -> Iterator[Shaft
         ends = wheel_shaft_ends(parts, lowest)
         turn = 0.0 if bore.is_plain else float(assembly.wheel(still)[0])
         yield Shaft("wheel's shaft", "wheel", bore, *ends, ORIGIN, assembly.rests[0], turn)
-    radius = crank_shaft_radius(parts)
+    radius = sizes.arm_bore if parts.has_arm else sizes.crank_bore
     if radius:
         bore, at = bore_of(size, "crank", radius), (assembly.L, 0.0)
         # what it carries ends in the arm, or in a bored locking disc or its hub
@@ -110,12 +110,6 @@ def shafts(parts: Outlines, lowest: float, stop: float | None) -> Iterator[Shaft
         yield Shaft("crank's shaft", "crank", bore, *ends, at, direction, turn)
 
 
-def wheel_shaft_radius(parts: Outlines) -> float:
-    """Return the radius around the wheel's shaft; 0 without one."""
-    bore = parts.sizes.wheel_bore
-    return bore_of(parts.assembly.mechanism.spec.size, "wheel", bore).around if bore else 0.0
-
-
 def wheel_shaft_ends(parts: Outlines, lowest: float) -> tuple[float, float]:
     """Return the ends of the wheel's shaft along the axis."""
     sizes, near = parts.sizes, SAME_LENGTH * parts.assembly.L
@@ -127,29 +121,13 @@ def wheel_shaft_ends(parts: Outlines, lowest: float) -> tuple[float, float]:
     return shaft_ends(parts.assembly.mechanism.spec.size, "wheel", low, sizes.wheel_thickness)
 
 
-def crank_shaft_radius(parts: Outlines) -> float:
-    """Return the radius of the shaft of arm and locking disc; 0 if it carries only links."""
-    return parts.sizes.arm_bore if parts.has_arm else parts.sizes.crank_bore
-
-
-class ShaftBore(NamedTuple):
-    """A bore, and the direction of its keyway, flat or side at input angle 0, radians."""
-
-    bore: Bore = Bore(0.0)
-    direction: float = 0.0
-
-    def hole(self, turn: float = 0.0) -> Shape:
-        """Return the hole about the origin of a part that stands turned by an angle."""
-        return self.bore.shape("BORE", self.direction - turn)
-
-
 def bore_at(mechanism: Mechanism, at: Point, radius: float) -> ShaftBore:
     """Return the bore of what is on the shaft at a point: as in wheel or crank, or a round one."""
     size, L = mechanism.spec.size, mechanism.center_distance_mm
     part = "crank" if same(at, (L, 0.0), L) else "wheel" if same(at, ORIGIN, L) else ""
     if not (part and has_shape(size, part)):
         return ShaftBore(round_bore(size, radius))
-    own, still = assembled(mechanism), np.zeros(1)
+    own, still = assembly(mechanism, flat=False), np.zeros(1)
     if part == "wheel":
         direction, turn = own.rests[0], own.wheel(still)
     else:

@@ -28,8 +28,7 @@ from geneva_cli.numerics.arrays import Array, Number, Record, library, parameter
 from geneva_cli.parts.assembly import assembly
 from geneva_cli.parts.machine_sizes import Layout, loaded, sized, unloaded
 from geneva_cli.parts.outlines.cut_outlines import cut_lock
-from geneva_cli.parts.sized_by_load import horn_MPa
-from geneva_cli.parts.stressed import Stressed, Unloaded, stressed
+from geneva_cli.parts.sized_by_load import Stressed, Unloaded, stressed
 from geneva_cli.spec.defaults import roller_material
 from geneva_cli.verdict.quantities.batch_designs import Designs
 
@@ -73,7 +72,7 @@ class UnderLoad:
     def pv_W_m2(self) -> Array:
         """The greatest contact pressure times sliding speed; it needs a face width."""
         if self.designs.single and not np.isnan(self.loaded[0]):
-            return np.array([cycle_of(self.machine).extremes[PV].max])
+            return np.array([cycle_of(self.machine).ends[PV].max])
         return self._peak(PV)
 
     def _peak(self, name: str) -> Array:
@@ -159,7 +158,7 @@ class UnderLoad:
         machines, size = self.designs.each, self.machine.spec.size
         bent: Sequence[float | None] = [None] * len(machines)
         if self.lock_sizes and size.wheel_thickness_mm is None and size.face_width_mm is None:
-            bent = horn_MPa(self.machine, *self.lock_sizes, self._flat_horns).tolist()
+            bent = lock.horn_MPa(self.machine, *self.lock_sizes, self._flat_horns).tolist()
 
         def layout(i: int) -> Layout | None:
             parts = self._unloaded[i]
@@ -241,6 +240,8 @@ class UnderLoad:
     @cached_property
     def held(self) -> tuple[Array, Array] | None:
         """Force and torque that the lock holds in the dwell, (m,) both; None without a torque."""
+        if self.machine.spec.load.dwell_torque_Nm is None:
+            return None
         torque = lock.dwell_torque_Nm(self.machine)
         if not torque.any():
             return None

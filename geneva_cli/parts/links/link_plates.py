@@ -1,0 +1,247 @@
+"""Links cut out of plates, and the pins, washers and rollers between them.
+
+A link's own frame has its first joint as origin, and x through its second. Its outline is the
+convex hull of an eye about each hole; a pin that slides along it has a block in a slot.
+"""
+
+from __future__ import annotations
+
+import cmath
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.plates import Member, Plate, apart, placed, plate_wall
+from geneva_cli.geometry.shapes import ORIGIN, Circle, Layer, Shape, convex_hull
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.pivots import Joint, Link
+from geneva_cli.numerics.preferred import bore_radius
+from geneva_cli.numerics.tolerances import SAME_LENGTH
+from geneva_cli.parts.assembly import links_at, same, turn_deg
+from geneva_cli.parts.links.link_records import LinkAxis, LinkSizes
+from geneva_cli.parts.links.link_sizes import (
+    joined,
+    link_sizes,
+    places,
+    point_at_zero,
+)
+from geneva_cli.parts.links.links import Links
+from geneva_cli.parts.outlines.outlines import Outlines
+from geneva_cli.parts.shafts.bores import ShaftBore, round_bore
+from geneva_cli.parts.shafts.screws import screw_through
+from geneva_cli.parts.shafts.shaft import bore_at
+
+SHAFT = Joint.SHAFT
+SLOT_MARGIN = 0.25  # distance from a block to the end of its slot, as a fraction of the pin's hole
+
+
+class _Bar(NamedTuple):
+    """A link before it is bored for its shafts; complex points in its own frame."""
+
+    link: Link
+    at: complex  # position of its origin in the machine, at input angle 0
+    unit: complex  # its direction
+    own: tuple[complex, ...]  # its joints
+    eyes: list[Circle]
+    holes: list[Shape]
+    blocks: list[Member]
+
+
+def drawn_links(mechanism: Mechanism, parts: Outlines | None = None) -> Links:
+    """Return the links of a machine as plates; ``parts`` are its outlines, if it has any."""
+    if not links_at(mechanism, np.zeros(1)):
+        return Links()
+    links = links_at(mechanism, turn_deg(mechanism))
+    sizes, L = link_sizes(mechanism, links, parts), mechanism.center_distance_mm
+    linked = [link for link in links if not link.radius_mm]
+    bars = [_bar(link, sizes, L) for link in linked]
+    axes, free = [], False
+    for axis in _axes(links, SAME_LENGTH * L):
+        # the shaft of wheel or crank is as wide as their own bores
+        on_crank, on_wheel = (same(axis.at, at, L) for at in ((L, 0.0), ORIGIN))
+        known = (sizes.crank_shaft or 0.0) if on_crank else 0.0
+        if on_wheel and parts and not on_crank:
+            known = parts.sizes.wheel_bore
+        free = free or (SHAFT in axis.kinds and not known)
+        axes.append(_with_shaft(axis, bars, links, sizes, known, mechanism))
+    if sizes.shaft is not None and not free:
+        raise GenevaError(
+            f"link_bore_mm = {2.0 * sizes.shaft:g}: it applies to no link: all are on the shafts "
+            "of wheel and crank; set crank_bore_mm, arm_bore_mm or wheel_bore_mm instead",
+            ("size", "link_bore_mm"),
+        )
+    gears = []
+    for link in (one for one in links if one.radius_mm):
+        from geneva_cli.parts.gears.gear_blanks import link_gear
+
+        at = point_at_zero(*places(link))
+        bore = next(axis.bore for axis in axes if same(axis.at, at, L))
+        gears.append(link_gear(link, at, bore, sizes, mechanism))
+    kinds = {kind for link in linked if link.plane == 1 for kind in link.kinds}
+    pin_low = None
+    if kinds & {Joint.ROLLER, Joint.CARRIED}:
+        pin_low = sizes.span(2 if Joint.CARRIED in kinds else 1)[0]
+    cut = []
+    for bar in bars:
+        cut += [_bored(bar, axes, sizes, L), *bar.blocks]
+    roller = mechanism.roller_radius_mm
+    return Links(
+        sizes,
+        tuple(cut),
+        (*_pins(linked, sizes, SAME_LENGTH * L), *_rollers(linked, sizes, roller)),
+        tuple(gears),
+        pin_low,
+        standing=frozenset(link.name for link in linked if link.kinds[0] is Joint.NONE),
+        blocks=frozenset(block.part.name for bar in bars for block in bar.blocks),
+        axes=tuple(axes),
+    )
+
+
+def _axes(links: Iterable[Link], near: float) -> Iterator[LinkAxis]:
+    """Yield each axis once; ``near`` is the distance, mm, below which two axes are one."""
+    left = [
+        (link.name, kind, at)
+        for link in links
+        for at, kind in zip(places(link), link.kinds, strict=True)
+        if kind in (SHAFT, Joint.PIN)
+    ]
+    while left:
+        path = left[0][2]
+        met = [bool(np.abs(at - path).max() < near) for _, _, at in left]
+        here = [one for one, is_here in zip(left, met, strict=True) if is_here]
+        left = [one for one, is_here in zip(left, met, strict=True) if not is_here]
+        at = point_at_zero(path)
+        names, kinds, _ = zip(*here, strict=True)
+        yield LinkAxis(names, kinds, at, bool(np.abs(path - complex(*at)).max() < near))
+
+
+def _with_shaft(
+    axis: LinkAxis,
+    bars: list[_Bar],
+    links: Iterable[Link],
+    sizes: LinkSizes,
+    known: float,
+    mechanism: Mechanism,
+) -> LinkAxis:
+    """Return an axis with its shaft's bore, and the links that are too small to be bored."""
+    if SHAFT not in axis.kinds:
+        return axis._replace(bore=ShaftBore(round_bore(mechanism.spec.size, sizes.pin)))
+    there, L = complex(*axis.at), mechanism.center_distance_mm
+    distances = {}  # to the nearest hole of each link, or half-way to another shaft
+    for bar in bars:
+        if bar.link.name in axis.names:
+            z = (there - bar.at) / bar.unit
+            away = [apart(_circle("BORE", z, 0.0), hole) for hole in bar.holes]
+            for other, kind in zip(bar.own, bar.link.kinds, strict=True):
+                away += [0.5 * abs(other - z)] if kind is SHAFT and other != z else []
+            distances[bar.link.name] = max(0.0, min(away))
+    limits = [*distances.values()]
+    limits += [g.radius_mm for g in links if g.radius_mm and g.name in axis.names]
+    own = [radius for limit in limits if (radius := sizes.bore(limit, L)) > 0.0]
+    bore = bore_at(mechanism, axis.at, known or min(own, default=bore_radius(L / 20.0)))
+    if not known and sizes.shaft is not None:  # of the spec: a check reports the wall that is left
+        return axis._replace(bore=bore)
+    least = bore.bore.reach + sizes.wall
+    tight = frozenset(name for name, limit in distances.items() if least > limit)
+    return axis._replace(bore=bore, one_piece=tight)
+
+
+def _bar(link: Link, sizes: LinkSizes, L: float) -> _Bar:
+    """Return a link without bores for shafts, and the blocks that slide along it."""
+    joints = places(link)
+    at = [complex(*point_at_zero(joint)) for joint in joints]
+    ahead = at[1] - at[0]
+    unit = ahead / abs(ahead) if abs(ahead) > SAME_LENGTH * L else 1.0
+    bar = _Bar(link, at[0], unit, tuple((z - at[0]) / unit for z in at), [], [], [])
+    for joint, z, kind in zip(joints, bar.own, link.kinds, strict=True):
+        hole = sizes.hole(kind)
+        if kind in (Joint.PIN, Joint.ROLLER):
+            eye = sizes.roller_eye if kind is Joint.ROLLER else sizes.eye
+            bar.holes.append(_circle("BORE", z, hole))
+            bar.eyes.append(_circle("LINK", z, eye))
+        elif kind in (Joint.SLIDE, Joint.CARRIED):
+            along, distances = z / abs(z), np.abs(joint - joints[0])
+            half, long = sizes.block(hole)
+            spare = long + SLOT_MARGIN * hole
+            ends = float(distances.min()) - spare, float(distances.max()) + spare
+            bar.holes.append(convex_hull("LINK", [_circle("LINK", r * along, half) for r in ends]))
+            bar.eyes.extend(_circle("LINK", r * along, half + hole) for r in ends)
+            if link.kinds[0] is Joint.NONE:  # screws beyond the slot fix it to the frame
+                beyond = half + 2.0 * sizes.pin
+                screw = screw_through(2.0 * sizes.pin)
+                through = 0.5 * screw.through if screw else sizes.pin
+                for f in ((ends[0] - beyond) * along, (ends[1] + beyond) * along):
+                    bar.holes.append(_circle("BORE", f, through))
+                    bar.eyes.append(_circle("LINK", f, sizes.eye))
+            outline = convex_hull("LINK", [Circle("LINK", (x, 0.0), half) for x in (-long, long)])
+            bored = (Circle("BORE", ORIGIN, hole),)
+            block = Plate(f"{link.name}'s block", "LINK", outline, bored, *sizes.span(link.plane))
+            bar.blocks.append(_placed(block, at[0] + z * unit, along * unit))
+    return bar
+
+
+def _bored(bar: _Bar, turning: Iterable[LinkAxis], sizes: LinkSizes, L: float) -> Member:
+    """Return a link as a plate with the bores for its shafts."""
+    eyes, holes, name = [*bar.eyes], [*bar.holes], bar.link.name
+    for z, kind in zip(bar.own, bar.link.kinds, strict=True):
+        if kind is SHAFT:
+            there = bar.at + z * bar.unit
+            axis = next(one for one in turning if same(one.at, (there.real, there.imag), L))
+            eyes.append(_circle("LINK", z, sizes.hub(axis.bore.bore)))
+            if name not in axis.one_piece:
+                hole = axis.bore.hole(cmath.phase(bar.unit))
+                holes.append(placed(hole, (z.real, z.imag), 0.0))
+    span = sizes.span(bar.link.plane)
+    plate = Plate(name, "LINK", convex_hull("LINK", eyes), tuple(holes), *span)
+    wall = plate_wall(plate)
+    if wall <= 0.0:
+        raise GenevaError(
+            f"--part links: no plate is left around the holes of the {name}: it lacks "
+            f"{-wall:.4g} mm; reduce link_pin_mm, link_bore_mm or pin_mm, or move joints apart",
+            ("size", "link_pin_mm"),
+        )
+    return _placed(plate, bar.at, bar.unit)
+
+
+def _placed(plate: Plate, where: complex, direction: complex) -> Member:
+    return Member(plate, (where.real, where.imag), cmath.phase(direction))
+
+
+def _circle(layer: Layer, at: complex, radius: float) -> Circle:
+    return Circle(layer, (at.real, at.imag), radius)
+
+
+def _pins(links: Iterable[Link], sizes: LinkSizes, near: float) -> Iterator[Member]:
+    """Yield each pin that joins links, with the washers and spacers on it."""
+    pin, ring = Circle("ROLLER", ORIGIN, sizes.pin), Circle("LINK", ORIGIN, sizes.ring)
+    hole = Circle("LINK", ORIGIN, sizes.pin + sizes.loose)
+    for path, both in joined(links, near):
+        where, name = point_at_zero(path), " and ".join(link.name for link in both)
+        spans = [sizes.span(link.plane) for link in both]
+        yield Member(Plate(f"pin of {name}", "ROLLER", pin, (), spans[-1][0], spans[0][1]), where)
+        for (high, _), (_, low) in zip(spans, spans[1:], strict=False):
+            if high > low:
+                what = "washer" if high - low <= sizes.washer else "spacer"
+                yield Member(Plate(f"{what} of {name}", "LINK", ring, (hole,), low, high), where)
+
+
+def _rollers(links: Iterable[Link], sizes: LinkSizes, roller: float) -> Iterator[Member]:
+    """Yield rollers below the wheel's plane: a first wheel's, with its pin, and a groove's."""
+    radius = sizes.roller_stands
+    if not radius:
+        return
+    pin, hole, whole = (Circle("ROLLER", ORIGIN, r) for r in (radius, radius + sizes.loose, roller))
+    for link in links:
+        for at, kind in zip(places(link), link.kinds, strict=True):
+            where, plates = point_at_zero(at), []
+            if kind is Joint.ROLLER and link.plane > 1:
+                low, high = sizes.span(link.plane - 1)
+                below = sizes.span(link.plane)[0]
+                plates.append(Plate(f"{link.name}'s roller", "ROLLER", whole, (hole,), low, high))
+                plates.append(Plate(f"{link.name}'s pin", "ROLLER", pin, (), below, high))
+            elif kind is Joint.CARRIED:
+                span = sizes.span(link.plane + 1)
+                plates.append(Plate("roller in the groove", "ROLLER", whole, (hole,), *span))
+            yield from (Member(plate, where) for plate in plates)
