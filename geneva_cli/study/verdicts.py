@@ -11,6 +11,7 @@ from geneva_cli.answer import FAILS, PASSES, WARNS, Answer, Summary, SummaryLine
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.names import spoken
+from geneva_cli.output import choice
 from geneva_cli.parts.chosen import ByLoad
 from geneva_cli.progress import tracked
 from geneva_cli.study.pool import cores, mapped
@@ -48,15 +49,15 @@ def verdict(
         if design.spec.is_loaded and not design.is_drawn:
             from geneva_cli.loads.cycle import cycle_of
             from geneva_cli.loads.strength.part_loads import single_loads
-            from geneva_cli.verdict.strength import strength
+            from geneva_cli.verdict.quantities.batch_designs import single
+            from geneva_cli.verdict.quantities.part_strength import horn, lock, shafts
 
             # loads, the parts that they size, their strength: what checks and warnings read
             with suppress(GenevaError):  # a check says why
                 single_loads(design.mechanism)
-                _ = cycle_of(design.mechanism).ends
-                _ = design.parts.built
-                of = strength(design.mechanism)
-                _ = of["strength.wheel_shaft.stress_MPa"], of["strength.horn.stress_MPa"]
+                _ = cycle_of(design.mechanism).ends, design.parts.built.required
+                of = single(design.mechanism)
+                _ = of.once(shafts), of.columns(horn), of.columns(lock)
         checks = design.checks if to_mm is None else design.proved_to(to_mm)
         return Verdict(
             path=design.spec.path,
@@ -131,8 +132,11 @@ def of_checks(verdicts: Sequence[Verdict], page: bool, as_json: bool) -> Answer:
     The proof and the tightest check are shown for a single spec only; ``page`` shows all checks
     below.
     """
-    table = checks_table(verdicts)
-    data = checks_record(verdicts) if as_json else table
+    # a page for people has the table only where it or some of its columns are asked for
+    is_shown = page or choice.columns
+    data = table = checks_table(verdicts) if is_shown else Table((), ())
+    if as_json:
+        data = checks_record(verdicts)
     is_single = len(verdicts) == 1
     heads, details, sized = list[Summary](), list[Summary](), 0
     for v in verdicts:

@@ -157,7 +157,8 @@ def _process_warnings(parts: Parts) -> Iterator[Notice]:
     if not spec.has_parts:
         return
     try:
-        unborne, named = parts.built.unborne, list(parts.built.by_name())
+        unborne = parts.built.unborne
+        named = list(parts.built.by_name()) if spec.size.process else []
     except GenevaError:  # the check of the parts has the reason
         unborne, named = (), []
     for name, reason in unborne:
