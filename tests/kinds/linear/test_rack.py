@@ -15,8 +15,7 @@ from geneva_cli import Design, Linear, Size
 from geneva_cli.design import load
 from geneva_cli.drawings.sheet.crank_views import draw_arm
 from geneva_cli.geometry.measure import bounds
-from geneva_cli.geometry.moments import moments
-from geneva_cli.geometry.plates import solids
+from geneva_cli.geometry.plates import moments, solids
 from geneva_cli.kinds.linear.frame import guide
 from geneva_cli.kinds.linear.outlines import turned_rack
 from geneva_cli.kinds.linear.rack import crank_arm, locking_sector, rack_contour, rack_sizes
