@@ -183,11 +183,11 @@ def sine_versine(x: Jet) -> tuple[Jet, Jet]:
     return s, Jet((versine, *(c * -1).c[1:]))
 
 
-def rotation(angle: Number, order: int) -> tuple[Jet, Jet]:
-    """Sine and 1 - cosine of an angle, by itself: ``sine_versine`` written out, as most need it."""
-    m, (one,) = library(angle), enclosed(angle, (1.0,))
-    half, sine = m.sin(0.5 * angle), m.sin(angle)
-    cosine = m.cos(angle) if order else sine  # a value alone needs none
+def rotation(tau: Number, order: int) -> tuple[Jet, Jet]:
+    """sin and 1 - cos of an angle, by itself: ``sine_versine`` written out, as most need it."""
+    m, (one,) = library(tau), enclosed(tau, (1.0,))
+    half, sine = m.sin(0.5 * tau), m.sin(tau)
+    cosine = m.cos(tau) if order else sine  # a value alone needs none
     s, versine = [sine], [2.0 * half * half]
     for k in range(1, order + 1):
         step = one / k
