@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import lru_cache
 from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 
@@ -112,8 +112,10 @@ class Cycle:
     @cached_property
     def extremes(self) -> Mapping[str, LoadSummary[float]]:
         """The summaries of all quantities that have a value, as numbers."""
-        rows = self.known.items()
-        return {name: LoadSummary(*np.concatenate(one).tolist()) for name, one in rows}
+        out = dict[str, LoadSummary[float]]()
+        for name, one in self.known.items():
+            out[name] = LoadSummary(*np.concatenate(cast("tuple[Array, ...]", one)).tolist())
+        return out
 
     @cached_property
     def ends(self) -> Mapping[str, LoadSummary[float]]:

@@ -160,10 +160,10 @@ class Cutter:
     def pieces(self, rows: Rows) -> Pieces:
         """Pieces of rows, cut where a sign changes; parts with unknown zeros are sampled again."""
         f, count = self.f, len(rows.design)
-        which: Which = rows.design
-        first, last = int(which[0]), int(which[-1])
-        if last - first == count - 1 and bool((np.diff(which) == 1).all()):
-            which = slice(first, last + 1)  # all designs between two numbers
+        first, last = int(rows.design[0]), int(rows.design[-1])
+        # a slice of all designs between two numbers
+        every = last - first == count - 1 and bool(np.all(np.diff(rows.design) == 1))
+        which: Which = slice(first, last + 1) if every else rows.design
         _, x = rows.places(POINTS[:, None], self.w)
         x[0], x[-1] = rows.x
         own, part = np.arange(count), np.array([[-1.0], [1.0]]).repeat(count, axis=1)

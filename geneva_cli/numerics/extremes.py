@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from math import factorial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -268,7 +268,7 @@ class _Extremes:
         loose = np.flatnonzero(varied & ~(left <= 1e-11 * size))
         # of each turn or end: side of the result, curve, position from -1 to 1, 1 for a maximum, -1
         # for a minimum and 0 for the value there, and a bound of it but for the series' error
-        turns: list[tuple[Array, ...]] = []
+        turns: list[tuple[Any, ...]] = []
         for sense in (1.0, -1.0):
             to = 0 if self.sized or sense > 0.0 else 1
             g, d = sense * value, sense * slope
