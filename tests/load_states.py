@@ -12,7 +12,7 @@ from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_peaks import load_peaks
 from geneva_cli.motion.engagement import Peak
 from geneva_cli.numerics.arrays import Number
-from geneva_cli.numerics.quadrature import Integrands, span_integrals
+from geneva_cli.numerics.quadrature import span_integrals
 
 
 class LoadState(NamedTuple):
@@ -62,5 +62,5 @@ def integrals(cycle, *of):
 
         one, needed = np.zeros(len(pieces), dtype=int), np.full(total.shape, True)
         with np.errstate(all="ignore"):
-            total += span_integrals(Integrands(rows, start, end, ends=True), one, needed)
+            total += span_integrals(rows, (start, end), one, needed, ends=True)
     return [float(x) for x in np.radians(total[:, 0])]

@@ -26,14 +26,14 @@ from geneva_cli.geometry.sheet import Annotations, Drawing, LevelDistance
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.pivots import Joint
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.parts.arm import arm_plate, crank_arm
+from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.assembly import links_at
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.links.link_sizes import places
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.parts import EdgedParts
 from geneva_cli.parts.projection import drawing_of, once, outlines_of, shapes, titled, uncovered
-from geneva_cli.parts.slots.roller_paths import roller_reaches
+from geneva_cli.parts.slots.roller_paths import roller_paths
 
 BEYOND = 0.04  # of the centre distance: from a part to the arrow that shows how it turns
 
@@ -53,8 +53,10 @@ def crank(parts: EdgedParts) -> Drawing:
 
 def arm(parts: FlatParts) -> Drawing:
     """Return the crank arm below the wheel's plane: outline, bore, holes for pins and bolts."""
-    # without an arm the error says why
-    solid = parts.arm_plate or arm_plate(parts.outlines, crank_arm(parts.outlines))
+    solid = parts.arm_plate
+    if solid is None:
+        crank_arm(parts.outlines)  # whose error says why there is none
+    assert solid is not None
     return Drawing(titled(parts.mechanism, "arm"), (solid.outline, *solid.holes), solid=solid)
 
 
@@ -226,7 +228,7 @@ def _turns(parts: Outlines) -> Iterator[Arc]:
     step = math.remainder(float(np.diff(assembly.crank(np.array([-0.5, 0.5])))[0]), math.tau)
     sense = math.copysign(1.0, step)
     # an internal wheel's crank turns within the wheel, so its arrow is near its shaft
-    far = max(roller_reaches(assembly)) + 2.0 * sizes.roller
+    far = max(roller_paths(assembly)[2]) + 2.0 * sizes.roller
     radius = far + BEYOND * assembly.L if assembly.sign > 0.0 else 0.5 * sizes.arm
     for place in mechanism.crank_places:
         yield about(place.at, radius, place.turn - sense * 0.5, sense)

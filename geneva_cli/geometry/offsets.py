@@ -13,8 +13,7 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.measure import at, directions, fraction_at, segment_length
-from geneva_cli.geometry.moments import with_material_left
-from geneva_cli.geometry.plates import Plate, plates
+from geneva_cli.geometry.plates import Plate, plates, with_material_left
 from geneva_cli.geometry.shapes import (
     Arc,
     Circle,

@@ -1,4 +1,4 @@
-"""Solids extruded along the axis from z = 0, or cut out of a sphere, and groups of them; in mm."""
+"""Solids extruded along the axis from z = 0, and groups of them; their mass and walls; in mm."""
 
 from __future__ import annotations
 
@@ -9,17 +9,43 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.geometry.measure import S, mapped, turned
-from geneva_cli.geometry.moments import Moments, moments, total, with_material_left
-from geneva_cli.geometry.shapes import Circle, Contour, Layer, Point, Shape
+from geneva_cli.geometry.measure import (
+    STRAIGHT,
+    S,
+    at,
+    mapped,
+    turned,
+)
+from geneva_cli.geometry.shapes import (
+    Arc,
+    Circle,
+    Contour,
+    Cubic,
+    Layer,
+    Line,
+    Point,
+    Shape,
+    as_contour,
+    backwards,
+)
 
 if TYPE_CHECKING:
-    from geneva_cli.geometry.sphere import Region, Rotation, Vector
-    from geneva_cli.geometry.sphere_arcs import RoundHole
+    from geneva_cli.geometry.sphere import Rotation
+    from geneva_cli.geometry.sphere_shell import Shell
 
 
 MM = 1e-3  # metres
 SAMPLED = 1e-4, 0.5  # mm: sagitta and length of samples of a hole that is not a circle
+
+
+# Gauss-Legendre's abscissae and weights of eight points on -1..1, of which four are below 0
+GAUSS = (
+    (0.18343464249564980, 0.36268378337836198),
+    (0.52553240991632899, 0.31370664587788729),
+    (0.79666647741362674, 0.22238103445337447),
+    (0.96028985649753623, 0.10122853629037626),
+)
+RADIAN = math.tan(0.25)  # the bulge of an arc of one
 
 
 class Plate(NamedTuple):
@@ -38,52 +64,6 @@ class Plate(NamedTuple):
         return self.high - self.low
 
 
-class Shell(NamedTuple):
-    """A solid between two spheres about the origin, over regions that touch along whole arcs.
-
-    Round holes are all within the last of the regions, and separate from each other.
-    """
-
-    name: str
-    layer: Layer
-    regions: tuple[Region, ...]
-    inner: float
-    outer: float
-    holes: tuple[RoundHole, ...] = ()
-
-    @property
-    def volume(self) -> float:
-        """Solid angle times a third of the difference of the cubes, minus the holes, mm³."""
-        covered = math.fsum(r.area for r in self.regions)
-        bored = math.fsum(hole.volume(self.inner, self.outer) for hole in self.holes)
-        return covered * (self.outer**3 - self.inner**3) / 3.0 - bored
-
-    @property
-    def centroid(self) -> Vector:
-        """Centre of mass of a uniform shell, mm."""
-        covered = np.sum([r.moments[0] for r in self.regions], axis=0)
-        first = covered * (self.outer**4 - self.inner**4) / 4.0
-        for hole in self.holes:
-            first = first - hole.first(self.inner, self.outer) * np.array(hole.axis)
-        x, y, z = (first / self.volume).tolist()
-        return x, y, z
-
-    def reach(self, direction: Vector) -> float:
-        """Greatest coordinate of the shell along a direction, mm from the centre."""
-        from geneva_cli.geometry.sphere_arcs import SphereArcs
-
-        if any(SphereArcs(r.boundary).signed(np.array([direction]))[0] < 0.0 for r in self.regions):
-            return self.outer
-        most = max(arc.reach(direction) for region in self.regions for arc in region.boundary)
-        return most * (self.outer if most > 0.0 else self.inner)
-
-    def inertia(self, axis: Vector) -> float:
-        """The volume's moment of inertia about an axis through the centre, mm⁵."""
-        covered = math.fsum(r.area - float(r.moments[1] @ axis @ axis) for r in self.regions)
-        bored = math.fsum(hole.inertia(self.inner, self.outer, axis) for hole in self.holes)
-        return covered * (self.outer**5 - self.inner**5) / 5.0 - bored
-
-
 class Group(NamedTuple):
     """An assembly of parts, each turned about its own origin and then moved."""
 
@@ -100,8 +80,8 @@ class Member(NamedTuple):
     frame: Rotation | None = None  # in place of a turn: the directions of its x, y and z
 
 
-Solid: TypeAlias = Plate | Shell
-Part: TypeAlias = Solid | Group
+Solid: TypeAlias = "Plate | Shell"
+Part: TypeAlias = "Plate | Shell | Group"
 
 
 def solids(part: Part) -> list[Solid]:
@@ -148,6 +128,80 @@ def in_place(members: Iterable[Member]) -> Iterator[tuple[Plate, Plate]]:
             yield own, plate._replace(outline=outline, holes=tuple(holes))
 
 
+class Moments(NamedTuple):
+    """Integrals of 1, x, y and x² + y² over the inside, about the origin; below 0 if clockwise."""
+
+    area: float
+    x: float
+    y: float
+    polar: float
+
+    @property
+    def centroid(self) -> Point:
+        """Centre of mass of a uniform plate."""
+        return self.x / self.area, self.y / self.area
+
+
+def moments(shape: Shape) -> Moments:
+    """Moments of a closed contour, or of a circle, by Green's theorem.
+
+    They are those of the areas that the ray from the origin to a point of the outline sweeps.
+    Gauss's eight points are exact for cubics, and to rounding for arcs of a radian or less.
+    """
+    if isinstance(shape, Circle):
+        (x, y), square = shape.centre, shape.radius * shape.radius
+        area = math.pi * square
+        return Moments(area, area * x, area * y, area * (x * x + y * y + 0.5 * square))
+    rows: list[tuple[float, float, float, float]] = []
+    pieces = [*shape.segments]
+    while pieces:
+        piece = pieces.pop()
+        if isinstance(piece, Arc) and abs(piece.bulge) > RADIAN:
+            middle, bulge = at(piece, 0.5), math.tan(0.125 * piece.sweep)
+            pieces += Arc(piece.start, middle, bulge), Arc(middle, piece.end, bulge)
+            continue
+        if isinstance(piece, Line) or (isinstance(piece, Arc) and abs(piece.bulge) < STRAIGHT):
+            (a, b), (c, d) = piece.start, piece.end
+            cross = a * d - b * c
+            squares = (a * a + b * b) + (a * c + b * d) + (c * c + d * d)
+            x, y = (a + c) / 6.0, (b + d) / 6.0
+            rows.append((cross / 2.0, cross * x, cross * y, cross * squares / 12.0))
+            continue
+        if isinstance(piece, Arc):
+            (x0, y0), (x1, y1), sweep = piece.start, piece.end, piece.sweep
+            first = math.atan2(y1 - y0, x1 - x0) - 0.5 * sweep  # direction at the start
+            length = math.dist(piece.start, piece.end) * 0.5 * sweep / math.sin(0.5 * sweep)
+        own = []
+        for node, weight in GAUSS:
+            for t in (0.5 - 0.5 * node, 0.5 + 0.5 * node):
+                x, y = at(piece, t)
+                if isinstance(piece, Cubic):
+                    dx, dy = _velocity(piece, t)
+                else:
+                    turn = first + t * sweep
+                    dx, dy = length * math.cos(turn), length * math.sin(turn)
+                swept = 0.5 * weight * (x * dy - y * dx)
+                polar = 0.25 * (x * x + y * y)
+                own.append((swept * 0.5, swept * (x / 3.0), swept * (y / 3.0), swept * polar))
+        rows.append(total(own))
+    return total(rows)
+
+
+def _velocity(piece: Cubic, t: float) -> Point:
+    """The derivative of a cubic's point by its parameter."""
+    a, b, c = 3.0 * (1.0 - t) ** 2, 6.0 * t * (1.0 - t), 3.0 * t * t
+    (x0, y0), (x1, y1), (x2, y2), (x3, y3) = piece
+    return (
+        a * (x1 - x0) + b * (x2 - x1) + c * (x3 - x2),
+        a * (y1 - y0) + b * (y2 - y1) + c * (y3 - y2),
+    )
+
+
+def total(rows: Iterable[tuple[float, float, float, float]]) -> Moments:
+    """Sum of the moments of several shapes."""
+    return Moments(*map(math.fsum, zip((0.0, 0.0, 0.0, 0.0), *rows, strict=True)))
+
+
 class MassProperties(NamedTuple):
     """A plate's mass, centroid, and moment of inertia about its own origin along the axis."""
 
@@ -187,28 +241,27 @@ def face(plate: Plate) -> Moments:
     return total(rows)
 
 
-def least_wall(holes: Sequence[Shape], outline: Sequence[Shape] = ()) -> float:
-    """Return the least wall between holes, and to an outline; negative where they overlap."""
-    least = math.inf
-    whole = Polyarc([with_material_left(one, True) for one in outline]) if outline else None
+def least_wall(holes: Sequence[Shape], outline: Sequence[Contour] = ()) -> float:
+    """Return the least wall between holes, and to an outline; negative where they overlap.
+
+    The outline has its material on the left.
+    """
+    whole, least = Polyarc(outline) if outline else None, math.inf
     for i, hole in enumerate(holes):
         for other in holes[:i]:
             least = min(least, apart(other, hole))
-        if whole:
-            least = min(least, -beyond(whole, hole))
+        if whole is None:
+            continue
+        if isinstance(hole, Circle):
+            least = min(least, -float(whole.signed(np.array([hole.centre]))[0]) - hole.radius)
+        else:
+            least = min(least, -float(whole.signed(Polyarc([hole]).samples(*SAMPLED)).max()))
     return least
 
 
 def plate_wall(plate: Plate) -> float:
     """Return the least wall between the holes of a plate, and around them."""
-    return least_wall(plate.holes, [plate.outline])
-
-
-def beyond(outline: Polyarc, hole: Shape) -> float:
-    """Return how far a hole's edge reaches past an outline, mm; negative inside."""
-    if isinstance(hole, Circle):
-        return float(outline.signed(np.array([hole.centre]))[0]) + hole.radius
-    return float(outline.signed(Polyarc([hole]).samples(*SAMPLED)).max())
+    return least_wall(plate.holes, [as_contour(plate.outline)])
 
 
 def apart(one: Shape, two: Shape) -> float:
@@ -221,3 +274,14 @@ def apart(one: Shape, two: Shape) -> float:
     if isinstance(two, Circle):
         return float(away.signed(np.array([two.centre]))[0]) - two.radius
     return float(away.signed(Polyarc([two]).samples(*SAMPLED)).min())
+
+
+def with_material_left(shape: Shape, outside: bool) -> Contour:
+    """Contour that runs counterclockwise as an outline, and clockwise as a hole."""
+    contour = as_contour(shape)
+    return contour if (moments(contour).area > 0.0) is outside else backwards(contour)
+
+
+def oriented(outline: Shape, holes: Iterable[Shape]) -> list[Contour]:
+    """A face's outline and holes as contours with the material on their left."""
+    return [with_material_left(outline, True), *(with_material_left(h, False) for h in holes)]

@@ -145,8 +145,11 @@ def convex_hull(layer: Layer, circles: Sequence[Circle]) -> Contour:
     It touches a circle in the directions in which this circle reaches farthest. Going round, the
     next circle takes over where both reach equally far, on their common tangent.
     """
-    order = sorted(circles, key=lambda c: (c.centre[0] + c.radius, c.centre[1]))
-    here, turned = order[-1], 0.0  # the farthest along x
+    here, turned = circles[0], 0.0
+    for one in circles:  # the farthest along x
+        ahead = one.centre[0] + one.radius - (here.centre[0] + here.radius)
+        if ahead > 0.0 or (ahead == 0.0 and one.centre[1] >= here.centre[1]):
+            here = one
     arcs: list[tuple[Circle, float, float]] = []
     while turned < math.tau:
         # the angle to the next circle, and that circle: a whole turn if there is none

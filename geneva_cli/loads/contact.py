@@ -66,11 +66,6 @@ class LoadCase(NamedTuple):
     # A number that is above 0 for a design with any friction, which may hold the wheel
     all_friction: float = 0.0
 
-    @property
-    def designs(self) -> int:
-        """The number of designs in the load case."""
-        return 1 if isinstance(self.design, int) else len(self.design)
-
     def is_loaded(self, engagement: Engagement, torque: Number) -> Mask:
         """True where a torque at the wheel is more than rounding."""
         usual = self.inertia_Nm * engagement.usual_acceleration + self.resists_Nm
@@ -112,31 +107,20 @@ def lesser(a: V, b: V) -> V:
 
 
 def contact(
-    engagement: Engagement, input_deg: Number, order: int = 0, reactions: bool = True
+    engagement: Engagement, x: Number, order: int = 0, reactions: bool = True, limits: bool = True
 ) -> Contact[Jet]:
-    """The contact at input angles, degrees from an engagement's mid-motion, one or an array.
+    """The contact at input angles x, degrees from an engagement's mid-motion, one or an array.
 
     At mid-motion of a curved slot only the values have a limit, that of entry: ``order`` must be 0.
+    Without ``limits`` they are what the formulas give there.
     """
-    if not engagement.slot.curved or all_true(input_deg != 0.0):
-        return moving_contact(engagement, input_deg, order, reactions)
-    assert order == 0
-    middle = input_deg == 0.0
-    near = choose(middle, NEAR_CUSP * engagement.entry_deg, input_deg)
-    both = zip(_middle(engagement), moving_contact(engagement, near, 0, False)[:-1], strict=True)
-    jets = [Jet((choose(middle, own, jet.c[0]),)) for own, jet in both]
-    joints = _reactions(engagement, input_deg, jets[2], jets[3]) if reactions else None
-    return Contact._make([*jets, joints])
-
-
-def moving_contact(
-    engagement: Engagement, x: Number, order: int = 0, reactions: bool = True
-) -> Contact[Jet]:
-    """The contact where the pin moves in its slot, or where the slot is straight."""
+    slot = engagement.slot
+    if slot.curved and limits and not all_true(x != 0.0):
+        assert order == 0
+        return _at_middle(engagement, x, reactions)
     rates = engagement.motion.rate(x, order + 1)
     velocity, acceleration = rates.lower, rates.derivative()
     constant = Jet((velocity.c[0] * 0.0, *[0.0] * order))
-    slot = engagement.slot
     straight_axis = slot.axis(x, order)
     if straight_axis:
         lever, along = straight_axis
@@ -151,6 +135,16 @@ def moving_contact(
     joints = _reactions(engagement, x, lever, offset) if reactions else None
     wall = lever, offset, along, curvature
     return Contact(velocity, acceleration, *wall, spin, arm, touches, crank, joints)
+
+
+def _at_middle(engagement: Engagement, x: Number, reactions: bool) -> Contact[Jet]:
+    """The contact at input angles of which some are mid-motion of a curved slot."""
+    middle = x == 0.0
+    near = choose(middle, NEAR_CUSP * engagement.entry_deg, x)
+    both = zip(_middle(engagement), contact(engagement, near, 0, False)[:-1], strict=True)
+    jets = [Jet((choose(middle, own, jet.c[0]),)) for own, jet in both]
+    joints = _reactions(engagement, x, jets[2], jets[3]) if reactions else None
+    return Contact._make([*jets, joints])
 
 
 def _curved(engagement: Engagement, x: Number, order: int, rates: Jet) -> tuple[Jet, Jet, Jet, Jet]:
@@ -211,7 +205,7 @@ def _crossing(engagement: Engagement) -> list[Number]:
     The lever is 0 there, so the sign of the tangent is rounding; next to it, the sign is known.
     """
     here, before = (
-        contact_values(moving_contact(engagement, x, 0, False))
+        contact_values(contact(engagement, x, 0, False, limits=False))
         for x in (0.0, NEAR_CUSP * engagement.entry_deg)
     )
     sense = choose(here.along * before.along < 0.0, -1.0, 1.0)
@@ -236,7 +230,7 @@ def _cusp(engagement: Engagement) -> list[Number]:
     curvature = choose(
         at.turning * at.turning > 1e-9 * 1e-9,
         m.copysign(math.inf, sense * at.turning),
-        moving_contact(engagement, NEAR_CUSP * engagement.entry_deg, 0, False).curvature.c[0],
+        contact(engagement, NEAR_CUSP * engagement.entry_deg, 0, False).curvature.c[0],
     )
     return [v, a, sense * lever, offset, 0.0, curvature, body - v, 1.0, 1.0, crank]
 

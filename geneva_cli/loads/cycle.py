@@ -19,11 +19,10 @@ from geneva_cli.loads.cycle_quantities import FORCE, PV, WALL_FORCE, plain_value
 from geneva_cli.loads.instant import STATES, Instant, States, bounded
 from geneva_cli.loads.load_case import load_case, multiples
 from geneva_cli.loads.load_functions import LoadFunctions, on_breaks, refuse_noise
-from geneva_cli.loads.load_peaks import LoadSummary, reported_peaks, single_summaries
+from geneva_cli.loads.load_peaks import LoadSummary, single_extremes, single_summaries
 from geneva_cli.loads.mid_motion import at_crossing
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.peak_search import PeakArray
 from geneva_cli.numerics.jet import Array
 
 
@@ -113,15 +112,16 @@ class Cycle:
     @cached_property
     def extremes(self) -> Mapping[str, LoadSummary[float]]:
         """The summaries of all quantities that have a value, as numbers."""
-        return {
-            name: LoadSummary._make(row if row is None else row.item() for row in one)
-            for name, one in self.known.items()
-        }
+        rows = self.known.items()
+        return {name: LoadSummary(*np.concatenate(one).tolist()) for name, one in rows}
 
-    @property
-    def peaks(self) -> Mapping[str, PeakArray]:
-        """The greatest sizes of ``REPORTED_PEAKS``, (1,) each."""
-        return reported_peaks(self.machine)
+    @cached_property
+    def ends(self) -> Mapping[str, LoadSummary[float]]:
+        """The same without mean and rms, which take longest."""
+        out = dict[str, LoadSummary[float]]()
+        for name, one in single_extremes(self.machine)[0].items():
+            out[name] = LoadSummary(*np.concatenate(one[:4]).tolist())
+        return out
 
     @cached_property
     def stretches(self) -> list[tuple[Engagement, Stretch]]:
@@ -143,7 +143,5 @@ class Cycle:
         return out
 
 
-@lru_cache(maxsize=16)
-def cycle_of(mechanism: Mechanism) -> Cycle:
-    """The cycle of a machine, cached for its loads, strength and warnings."""
-    return Cycle(mechanism)
+# The cycle of a machine, cached for its loads, strength and warnings.
+cycle_of = lru_cache(maxsize=16)(Cycle)

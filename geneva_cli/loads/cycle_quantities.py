@@ -23,7 +23,9 @@ NEVER_NEGATIVE = (*SQUARED, FORCE, "wheel_bearing_N")
 REPORTED_PEAKS = {
     "torque_Nm": "wheel_torque_Nm",
     "rack_force_N": "rack_force_N",
-    **{name: name for name in (FORCE, TORQUE, STRESS)},
+    FORCE: FORCE,
+    TORQUE: TORQUE,
+    STRESS: STRESS,
 }
 
 

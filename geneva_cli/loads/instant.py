@@ -11,7 +11,8 @@ roller, fixed to its body, rubs along the wall.
 
 from __future__ import annotations
 
-from typing import Any, Generic, NamedTuple, Protocol, cast
+from collections.abc import Callable
+from typing import Any, Generic, NamedTuple, TypeAlias, cast
 
 import numpy as np
 
@@ -20,6 +21,10 @@ from geneva_cli.loads.contact import Contact, LoadCase, QuantityValue, lesser, v
 from geneva_cli.loads.cycle_quantities import FORCE, PRESSED, PV, STRESS, TORQUE, WALL_FORCE
 from geneva_cli.numerics.arrays import all_true
 from geneva_cli.numerics.jet import Array, Jet, Number, V
+
+# A quantity and the margin that bounds it: a function that holds no numbers, or a tuple whose
+# numbers may be arrays (m, 1).
+LoadQuantity: TypeAlias = "Callable[[Instant[Jet]], QuantityValue[Jet]]"
 
 
 class Instant(Generic[V]):
@@ -63,6 +68,8 @@ class Instant(Generic[V]):
             self.drag = case.guide.drag(case, at, self.drives, self.slides)
             self.grip = self.slot_grip - self.drag * self.drives
         self.feeds = feeds if isinstance(feeds, float) else sign_of(self.feeding, feeds)
+        # ratio of the input's torque to that without losses: 1 where the wheel drives
+        self.losses = 0.5 * (1.0 + self.feeds) / case.efficiency + 0.5 * (1.0 - self.feeds)
 
     @cached_property
     def feeding(self) -> V:
@@ -107,31 +114,23 @@ class Instant(Generic[V]):
         return self.wheel_torque_Nm * self.drives / (self.grip * self.case.L)
 
     @cached_property
-    def rubbed_Nm(self) -> V:
-        """The part of the input's torque that friction takes, in the slot and in a guide, N m."""
-        at, case = self.at, self.case
-        torque = self.force_N * (at.touches * (case.friction * self.slides)) * self.slip * case.L
-        if case.guided:
-            torque = torque + self.force_N * self.drag * at.velocity * case.L
-        # designs of the batch without friction, whose force may be infinite
-        free = case.all_friction == 0.0
-        if not np.any(free):
-            return torque
-        if isinstance(torque, Jet):
-            return type(torque)([np.where(free, 0.0, c) for c in torque.c])
-        out: V = np.where(free, 0.0, torque)
-        return out
-
-    @cached_property
     def slot_torque_Nm(self) -> V:
         """The part of the input's torque that goes through the slot, before the efficiency, N m."""
-        slot = self.wheel_torque_Nm * self.at.velocity
-        return slot + self.rubbed_Nm if self.case.rubs or self.case.guided else slot
-
-    @property
-    def losses(self) -> Number:
-        """Ratio of the input's torque to that without losses: 1 where the wheel drives."""
-        return 0.5 * (1.0 + self.feeds) / self.case.efficiency + 0.5 * (1.0 - self.feeds)
+        at, case = self.at, self.case
+        moved = self.wheel_torque_Nm * at.velocity
+        if not (case.rubs or case.guided):
+            return moved
+        # what friction takes, in the slot and in a guide
+        rubbed = self.force_N * (at.touches * (case.friction * self.slides)) * self.slip * case.L
+        if case.guided:
+            rubbed = rubbed + self.force_N * self.drag * at.velocity * case.L
+        # designs of the batch without friction, whose force may be infinite
+        free = case.all_friction == 0.0
+        if np.any(free):
+            if isinstance(rubbed, Jet):
+                return moved + type(rubbed)([np.where(free, 0.0, c) for c in rubbed.c])
+            return moved + np.where(free, 0.0, rubbed)
+        return moved + rubbed
 
     @cached_property
     def input_torque_Nm(self) -> V:
@@ -232,7 +231,7 @@ class States(NamedTuple):
 
 
 # each state's quantity
-STATES = {name: name for name in States._fields} | {
+STATES = dict(zip(States._fields, States._fields, strict=True)) | {
     "pin_force_N": WALL_FORCE,
     "stress_squared": STRESS,
     "crank_bearing_squared": "crank_bearing_N",
@@ -262,10 +261,3 @@ def bounded(here: Instant[Array]) -> States:
                 own = np.where(is_held & (margin > 0.0), own, bound * sign)
             out[state] = own
     return States(**out)
-
-
-class LoadQuantity(Protocol):
-    """A function that holds no numbers, or a tuple whose numbers may be arrays (m, 1)."""
-
-    def __call__(self, i: Instant[Jet], /) -> QuantityValue[Jet]:
-        """A quantity, and the margin that bounds it."""

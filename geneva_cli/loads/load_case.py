@@ -81,13 +81,14 @@ def known_quantities(mechanism: Mechanism) -> list[str]:
     """The names of the quantities that have a value for this machine and load."""
     if not mechanism.spec.is_loaded:
         return ["omega_rad_s", "alpha_rad_s2", "sliding_m_s"]
-    missing = {WALL_FORCE}
+    known = [*QUANTITIES]
+    known.remove(WALL_FORCE)
     if load_case(mechanism).hertz is None:
-        missing |= set(PRESSED)
-    # the axes of all engagements are alike
-    if not mechanism.engagements[0].reactions:
-        missing.add("guide_force_N")
-    return [name for name in QUANTITIES if name not in missing]
+        for name in PRESSED:
+            known.remove(name)
+    if not mechanism.engagements[0].reactions:  # the joints of all engagements are alike
+        known.remove("guide_force_N")
+    return known
 
 
 def multiples(mechanism: Mechanism) -> dict[str, tuple[str, float | None, str]]:

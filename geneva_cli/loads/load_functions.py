@@ -17,7 +17,7 @@ from geneva_cli.loads.contact import (
     NEAR_CUSP,
     NEGLIGIBLE,
     LoadCase,
-    moving_contact,
+    contact,
 )
 from geneva_cli.loads.cycle_quantities import PV
 from geneva_cli.loads.instant import Instant, LoadQuantity, sign_of
@@ -27,7 +27,7 @@ from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.peak_search import breaks, pole_deg, spans
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Mask, Which, all_true, array
-from geneva_cli.numerics.extremes import SearchResult, Stretches, cuts, search
+from geneva_cli.numerics.extremes import SearchResult, Stretches, cuts
 from geneva_cli.numerics.jet import Array, Jet, Number
 
 # The functions whose signs matter, in order: each is smooth while those before it keep their signs.
@@ -54,7 +54,8 @@ class LoadFunctions:
         own: Mapping[str, LoadQuantity] | None = None,
         more: Sequence[str] = (),
     ) -> None:
-        self.engagement, self.case, self.names, self.n = engagement, case, names, case.designs
+        self.engagement, self.case, self.names = engagement, case, names
+        self.n = np.size(case.design)
         matters = {
             "drives": not all_true(case.inertia_Nm == 0.0),
             # p v is 0 where the sliding is, in a notch that may be near a pole
@@ -64,7 +65,10 @@ class LoadFunctions:
             "leans": case.guided,
             "edge": engagement.slot.curved and case.hertz is not None,
         }
-        self.kinds = [k for k in (*SIGN_FUNCTIONS, "wanted") if matters.get(k) or k in more]
+        self.kinds: list[str] = []
+        for kind in (*SIGN_FUNCTIONS, "wanted"):
+            if matters.get(kind) or kind in more:
+                self.kinds.append(kind)
         self.signs, self.wanted = len(self.kinds), len(names)
         self.poled: Sequence[int] = (self.kinds.index("edge"),) if "edge" in self.kinds else ()
         # where links carry the roller, bearings and guide need the reactions of joints
@@ -72,7 +76,8 @@ class LoadFunctions:
         self.reactions = joints and engagement.reactions is not None
         # names, or functions of their own, which may hold numbers of each design
         self.quantities: list[str | LoadQuantity] = [*map((own or {}).get, names, names)]
-        self._some = selection((engagement, case, self.quantities))
+        self._every = engagement, case, self.quantities
+        self._some = selection(self._every) if self.n > 1 else None
 
         # Ends of the smooth parts of the motion, one after the other: (n, 1) each
         motion = engagement.motion
@@ -89,7 +94,7 @@ class LoadFunctions:
         # Where friction holds a lever that vanishes there, w is the distance at which it no longer
         # does. Not at mid-motion itself, where a curved slot may have no slopes:
         x = 0.01 * array(engagement.exit_deg)
-        _, _, lever, offset, *_ = at = moving_contact(engagement, x, 2, reactions=False)
+        _, _, lever, offset, *_ = at = contact(engagement, x, 2, reactions=False)
         with np.errstate(all="ignore"):
             w = np.fmin(pole_deg(at.velocity), math.sqrt(0.5) * pole_deg(lever))
             if case.rubs:
@@ -99,9 +104,11 @@ class LoadFunctions:
         w = np.fmin(np.where(w > 0.0, w, np.inf), 10.0 * engagement.exit_deg)
         self.spread: Array = np.broadcast_to(w, (self.n, 1))
 
-    def search(self, sized: bool = False) -> SearchResult:
-        """The extremes of the quantities over the motion, and its stretches."""
-        parts, known, case, engagement = self.spans, [], self.case, self.engagement
+    def to_search(
+        self, sized: bool = False
+    ) -> tuple[list[tuple[Array, Array]], list[tuple[int, Array, Array]]]:
+        """The spans of the motion to be searched, and values that none of them reaches."""
+        parts, case, engagement = self.spans, self.case, self.engagement
         is_curved = engagement.slot.curved
         # Without friction, for an inertia or a torque alone, the second half of the motion has no
         # greater sizes than the first. In a curved slot a torque alone presses on one wall
@@ -113,8 +120,8 @@ class LoadFunctions:
         if sized and alone and radial and engagement.mirrored:
             parts = parts[: len(parts) // 2]
         if is_curved:  # no span reaches mid-motion
-            known = at_mid_motion(engagement, case, self.quantities, self.n)
-        return search(self, parts, sized, known, self.spread)
+            return parts, at_mid_motion(engagement, case, self.quantities, self.n)
+        return parts, []
 
     def stretches(self, result: SearchResult | None = None) -> Stretches:
         """The motion, divided where signs change: as in a search, or without one."""
@@ -134,12 +141,12 @@ class LoadFunctions:
 
         With them the signs that matter, known ones as ``held``, and the functions that have them.
         """
-        engagement, case, quantities = self._some(which)
+        engagement, case, quantities = self._some(which) if self._some else self._every
         known: dict[str, Array] = {} if held is None else dict(zip(self.kinds, held, strict=True))
         signs: list[Number | None] = [known.get("drives")]
         for kind in ("slides", "feeds"):  # 1 where it does not matter
             signs.append(known.get(kind) if kind in self.kinds else 1.0)
-        instant = Instant(case, moving_contact(engagement, x, order, self.reactions), *signs)
+        instant = Instant(case, contact(engagement, x, order, self.reactions), *signs)
         found: list[tuple[Array, Jet]] = []
         for kind in self.kinds:
             of = SIGN_FUNCTIONS.get(kind)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from functools import lru_cache
-from typing import Generic, NamedTuple, TypeVar, cast
+from typing import Generic, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -26,11 +26,10 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import PeakArray, greater
 from geneva_cli.motion.pitch_curve import retraces
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Which, Whole, array, matrix_product
+from geneva_cli.numerics.arrays import Which, Whole, array, matrix_product, parameter
 from geneva_cli.numerics.cuts import gathered, spread
-from geneva_cli.numerics.extremes import SearchResult, first_greatest
+from geneva_cli.numerics.extremes import SearchResult, bar, search
 from geneva_cli.numerics.jet import Array, Jet
-from geneva_cli.numerics.quadrature import Integrands, span_integrals
 
 S = TypeVar("S", float, "float | None", Array)  # of one design, as printed, of a batch
 
@@ -46,6 +45,10 @@ class LoadSummary(NamedTuple, Generic[S]):
     rms: S | None = None
 
 
+Search: TypeAlias = tuple[LoadFunctions, SearchResult]  # of an engagement
+Found: TypeAlias = tuple[dict[str, LoadSummary[Array]], list[Search]]
+
+
 def load_peaks(
     mechanism: Mechanism,
     names: Sequence[str],
@@ -55,21 +58,27 @@ def load_peaks(
     """The greatest sizes of quantities, and the first input angles that have them: (m,)."""
     mechanism = mechanism.under_load
     case, best = case or load_case(mechanism), dict[str, PeakArray]()
-    flat = all(e.slot.walls_flat for e in mechanism.engagements)
-    source_of = {n: FORCE if flat and n == STRESS and case.hertz is not None else n for n in names}
-    sought = list(dict.fromkeys(source_of.values()))
+    # the square of the stress on a flat wall is proportional to the force
+    by_force = STRESS in names and case.hertz is not None
     for engagement in mechanism.engagements:
-        result = LoadFunctions(engagement, case, sought, own).search(sized=True)
+        by_force = by_force and engagement.slot.walls_flat
+    sought = list(dict.fromkeys((*names, FORCE) if by_force else names))
+    if by_force:
+        sought.remove(STRESS)
+    for engagement in mechanism.engagements:
+        load = LoadFunctions(engagement, case, sought, own)
+        spans, known = load.to_search(sized=True)
+        result = search(load, spans, True, known, load.spread)
         at_deg = shown_deg(mechanism, engagement, result.x)
         for name, *row in zip(sought, result.most, at_deg, strict=True):
             here = PeakArray(*row)
             best[name] = greater(best[name], here) if name in best else here
+    if by_force:
+        force = best[FORCE]
+        best[STRESS] = force._replace(max=force.max * np.ravel(case.hertz))
     out = {}
-    for name, source in source_of.items():
-        one = best[source]
-        if source != name:  # the square of the stress on a flat wall is proportional to the force
-            assert case.hertz is not None
-            one = one._replace(max=one.max * np.ravel(case.hertz))
+    for name in names:
+        one = best[name]
         out[name] = one._replace(max=np.sqrt(one.max)) if name in SQUARED else one
     return out
 
@@ -116,8 +125,7 @@ def _single_peaks(mechanism: Mechanism) -> Mapping[str, PeakArray]:
 def _reported(mechanism: Mechanism, names: Iterable[str]) -> dict[str, PeakArray]:
     known = sources(mechanism)
     factors = {name: known[own] for name in names if (own := REPORTED_PEAKS[name]) in known}
-    sought = [*dict.fromkeys(source for source, _ in factors.values())]
-    peaks = load_peaks(mechanism, sought) if sought else {}
+    peaks = load_peaks(mechanism, [s for s, _ in factors.values()]) if factors else {}
     return {
         name: PeakArray(peaks[source].max * np.ravel(factor), peaks[source].at_deg)
         for name, (source, factor) in factors.items()
@@ -133,71 +141,79 @@ def load_summaries(
     mean squares to 1e-12 of it.
     """
     if isinstance(mechanism.design, int) and set(names) <= sources(mechanism).keys():
-        known_ones = single_summaries(mechanism)
+        known_ones = single_summaries(mechanism) if means else single_extremes(mechanism)[0]
         return {name: known_ones[name] for name in names}
-    return _summaries(mechanism.under_load, names, means)
+    found = _extremes(mechanism, names)
+    return _with_means(mechanism.under_load, *found) if means else found[0]
 
 
 @lru_cache(maxsize=16)
 def single_summaries(mechanism: Mechanism) -> Mapping[str, LoadSummary[Array]]:
-    """The summaries of all quantities that a single design has, which are computed together."""
-    return _summaries(mechanism.under_load, [*sources(mechanism)], means=True)
+    """The summaries of all quantities that a single design has."""
+    return _with_means(mechanism.under_load, *single_extremes(mechanism))
 
 
-def _summaries(
-    mechanism: Mechanism, names: Sequence[str], means: bool
-) -> dict[str, LoadSummary[Array]]:
-    known = multiples(mechanism)
-    every = {name: known.get(name, (name, 1.0, ""))[:2] for name in names}
-    sources = list(dict.fromkeys(source for source, _ in every.values()))
-    case, ends, totals = load_case(mechanism), [], []
+def _extremes(mechanism: Mechanism, names: Sequence[str] | None = None) -> Found:
+    """The summaries of quantities without their means, and the searches for them.
+
+    They are those of all quantities that the designs have, or of some by their names.
+    """
+    mechanism = mechanism.under_load
+    names = [*sources(mechanism)] if names is None else names
+    known, every, sought = multiples(mechanism), dict[str, tuple[str, Array]](), list[str]()
+    for name in names:
+        source, factor, _ = known.get(name, (name, 1.0, ""))
+        if factor is not None:
+            every[name] = source, np.ravel(factor)
+            sought += [source] if source not in sought else []
+    case, searches, places = load_case(mechanism), list[Search](), list[Array]()
     for engagement in mechanism.engagements:
-        load = LoadFunctions(engagement, case, sources)
-        result = load.search()
-        ends.append(np.stack((result.most, shown_deg(mechanism, engagement, result.x))))
-        if means:
-            totals.append(_sums_of(load, result))
-    each = _means(mechanism, sources, totals) if means else {}
-    best = {}
-    for i, name in enumerate(sources):
-        # the greatest values of the quantities' negatives follow
-        (most, most_at), (less, less_at) = (
-            np.stack([one[:, k] for one in ends], axis=1) for k in (i, i + len(sources))
-        )
-        size = np.where(np.isfinite(both := np.abs((most, less))), both, 0.0).max(axis=(0, 1))
-        (most, most_at), (less, less_at) = (
-            first_greatest(*side, size) for side in ((most, most_at), (less, less_at))
-        )
-        pair = [np.maximum(x, 0.0) if name in NEVER_NEGATIVE else x for x in (most, -less)]
+        load = LoadFunctions(engagement, case, sought)
+        spans, beside = load.to_search()
+        result = search(load, spans, False, beside, load.spread)
+        searches.append((load, result))
+        places.append(np.stack((result.most, shown_deg(mechanism, engagement, result.x))))
+    # by value and place, engagement, quantity: first the values, then those of the negatives
+    rows, best = np.stack(places, axis=1), dict[str, LoadSummary[Array]]()
+    for i, name in enumerate(sought):
+        value, place = rows[:, :, i :: len(sought)]
+        size = np.where(np.isfinite(value), np.abs(value), 0.0).max(axis=(0, 1))
+        most = value.max(axis=0)
+        first = np.argmax(value >= bar(most, size), axis=0)
+        at_deg = np.take_along_axis(place, first[None], axis=0)[0]
+        ends = most * [[1.0], [-1.0]]
+        if name in NEVER_NEGATIVE:
+            ends = np.maximum(ends, 0.0)
         if name in SQUARED and name not in PRESSED:
-            pair = [np.sqrt(x) for x in pair]
+            ends = np.sqrt(ends)
         # where the torque changes sign, rounding may leave a size of 1e-14 of the other
-        level = 1e-14 * np.maximum(*[np.where(np.isfinite(x), np.abs(x), 0.0) for x in pair])
-        most, least = (np.where(np.abs(x) > level, x, 0.0) for x in pair)
+        level = 1e-14 * np.where(np.isfinite(ends), np.abs(ends), 0.0).max(axis=0)
+        ends = np.where(np.abs(ends) > level, ends, 0.0)
         if name in PRESSED:  # the square of a stress goes with the force, and has its rounding
-            most, least = np.sqrt(most), np.sqrt(least)
-        best[name] = LoadSummary(most, most_at, least, less_at, *each.get(name, (None, None)))
+            ends = np.sqrt(ends)
+        best[name] = LoadSummary(ends[0], at_deg[0], ends[1], at_deg[1])
     out = {}
-    for name, (source, ratio) in every.items():
-        if ratio is not None:
-            factor, one = np.ravel(ratio), best[source]
-            mean, rms = (None if v is None else v * factor for v in one[4:])
-            most, least = one.max * factor, one.min * factor
-            out[name] = LoadSummary(most, one.max_at_deg, least, one.min_at_deg, mean, rms)
-    return out
+    for name, (source, factor) in every.items():
+        one = best[source]
+        out[name] = one._replace(max=one.max * factor, min=one.min * factor)
+    return out, searches
 
 
-def _means(
-    mechanism: Mechanism, names: Sequence[str], each: Sequence[Array]
-) -> dict[str, tuple[Array, Array]]:
-    """Mean and root mean square of quantities over a period, dwells included: (m,) each.
+single_extremes = lru_cache(maxsize=16)(_extremes)  # of a single design
 
-    ``each`` are the results of ``_sums_of``. Of bearings they are the greatest crank's, of wheels
-    one wheel's: the cranks work in turn, and so do the wheels on a carrier.
+
+def _with_means(
+    mechanism: Mechanism, ends: Mapping[str, LoadSummary[Array]], searches: Sequence[Search]
+) -> dict[str, LoadSummary[Array]]:
+    """Summaries with mean and root mean square over a period, dwells included.
+
+    Of bearings they are the greatest crank's, of wheels one wheel's: the cranks work in turn, and
+    so do the wheels on a carrier.
     """
     of_wheel = ("omega_rad_s", "alpha_rad_s2", "wheel_torque_Nm", "wheel_bearing_N")
-    drive = mechanism.spec.drive
+    drive, names = mechanism.spec.drive, searches[0][0].names
     cranks, wheels = len(drive.cranks), max(1, drive.wheels_on_carrier)
+    each = [_sums_of(load, result) for load, result in searches]
     total: Array = np.sum(each, axis=0)
     for i in range(len(total)):
         if names[i % len(names)] in of_wheel:
@@ -206,19 +222,22 @@ def _means(
             own = [sum(one[i] for one in each[k::cranks]) for k in range(min(cranks, len(each)))]
             total[i] = np.max(own, axis=0) * min(1.0, len(each) / cranks)
     total /= np.ravel(mechanism.lasting_deg) * DEGREE
-    out = {}
-    for name, square, mean in zip(names, total, total[len(names) :], strict=False):
-        # a mean whose square is so small a fraction of the mean square is rounding
-        nought = np.isfinite(square) & (mean * mean <= 1e-30 * square)
-        out[name] = np.where(nought, 0.0, mean), np.sqrt(square)
+    squares, sums = total[: len(names)], total[len(names) :]
+    # a mean whose square is so small a fraction of the mean square is rounding
+    nought = np.isfinite(squares) & (sums * sums <= 1e-30 * squares)
+    means, roots = np.where(nought, 0.0, sums), np.sqrt(squares)
+    known, out = multiples(mechanism), {}
+    for name, one in ends.items():
+        source, factor, _ = known.get(name, (name, 1.0, ""))
+        i, by = names.index(source), np.ravel(factor)
+        out[name] = one._replace(mean=means[i] * by, rms=roots[i] * by)
     return out
 
 
 def shown_deg(mechanism: Mechanism, engagement: Engagement, x: Array) -> Array:
     """Input angles of an engagement, (rows, m), as they are shown."""
     places = np.reshape(engagement.mid_deg, (-1, 1)) + on_breaks(x, engagement).T
-    shown = [mechanism.shown_deg(cast("float", places[:, i : i + 1])) for i in range(len(x))]
-    return np.hstack([np.broadcast_to(row, (x.shape[1], 1)) for row in shown]).T
+    return np.broadcast_to(mechanism.shown_deg(parameter(places)), places.shape).T
 
 
 def _sums_of(load: LoadFunctions, result: SearchResult) -> Array:
@@ -227,6 +246,8 @@ def _sums_of(load: LoadFunctions, result: SearchResult) -> Array:
     They are over the stretches of a search, (names, n), and infinite for quantities without a
     bound. Those searched by their squares behave as a root at the ends of their stretches.
     """
+    from geneva_cli.numerics.quadrature import span_integrals  # a check has no means
+
     pieces, n = result.stretches, load.n
     bounded = np.asarray(np.isfinite(result.most).reshape(2, -1, n).all(axis=0))
     # pieces of one span together: a motion of several pieces is evaluated in one of them at a time
@@ -244,7 +265,7 @@ def _sums_of(load: LoadFunctions, result: SearchResult) -> Array:
     rooted = any(name in SQUARED for name in load.names)
     needed = np.tile(bounded, (2, 1))
     with np.errstate(all="ignore"):
-        total = span_integrals(Integrands(rows, spread(a, w), spread(b, w), rooted), design, needed)
+        total = span_integrals(rows, (spread(a, w), spread(b, w)), design, needed, rooted)
         if load.engagement.slot.curved:
             # No stretch reaches mid-motion. The integral of a cubic from 0 to 1 follows from its
             # values at 1, 2 and 3 (Adams and Bashforth).

@@ -13,7 +13,7 @@ from geneva_cli.errors import Notice
 from geneva_cli.loads.cycle import Cycle
 from geneva_cli.loads.cycle_quantities import PRESSED, PV, STRESS
 from geneva_cli.loads.load_case import known_quantities, multiples, sources
-from geneva_cli.loads.load_peaks import LoadSummary
+from geneva_cli.loads.load_peaks import LoadSummary, reported_peaks
 from geneva_cli.table import Reading, Table, computed_table, record_table, rows_table
 
 SHOWN_QUANTITIES = (
@@ -30,7 +30,7 @@ def summaries(cycle: Cycle) -> Mapping[str, LoadSummary[float | None]]:
     """The summary of each quantity, by its name; None for an unbounded or unknown value."""
     known, none = cycle.extremes, [None] * len(LoadSummary._fields)
     out = {name: LoadSummary(*map(_finite, known.get(name, none))) for name in SHOWN_QUANTITIES}
-    for name, (most, at_deg) in cycle.peaks.items():
+    for name, (most, at_deg) in reported_peaks(cycle.machine).items():
         if name in out:
             one = {"max": _finite(most.item()), "max_at_deg": at_deg.item()}
             out[name] = out[name]._replace(**one)

@@ -23,7 +23,7 @@ from geneva_cli.motion.timing import CamFactors, cam_factors
 from geneva_cli.numerics.angles import DEGREE, omega, radians
 from geneva_cli.numerics.arrays import Array, Mask, Number, Whole, choose_record, parameter
 from geneva_cli.numerics.jet import Jet
-from geneva_cli.numerics.quadrature import Integrands, span_integrals
+from geneva_cli.numerics.quadrature import span_integrals
 
 if TYPE_CHECKING:
     from geneva_cli.loads.cycle import Cycle
@@ -263,7 +263,7 @@ def _works(load: LoadFunctions, bounded: Mask) -> tuple[Array, Array]:
 
     needed = np.stack((bounded, bounded))
     with np.errstate(all="ignore"):
-        each = span_integrals(Integrands(rows, a, b, True), design, needed, apart=True) * DEGREE
+        each = span_integrals(rows, (a, b), design, needed, ends=True, apart=True) * DEGREE
     number = np.arange(len(design)) - np.searchsorted(design, design)
     works = np.zeros((n, int(number.max()) + 1))
     works[design, number] = each[0]

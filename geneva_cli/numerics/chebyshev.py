@@ -13,11 +13,6 @@ DEGREE = 16  # of the series: for most loads, its terms have ended between two c
 MIDDLE = DEGREE // 2  # number of the middle point
 
 
-def _even_spread(cells: int) -> Array:
-    """Places -cos(pi k / cells), symmetric to the last bit."""
-    return np.asarray(np.sin(0.5 * np.pi * np.arange(-cells, cells + 1, 2) / cells))
-
-
 def product(matrix: Array, values: Array) -> Array:
     """A matrix (n, k) times values (..., k, m), summed in order."""
     out: Array = matrix[:, 0, None] * values[..., None, 0, :]
@@ -35,37 +30,30 @@ def at(terms: Array, t: Array) -> Array:
     return np.asarray(terms[0] + t * after - later)
 
 
-POINTS = _even_spread(DEGREE)  # where functions are sampled
-GRID = _even_spread(2 * DEGREE)  # where signs are compared: two cells for each point
+# Where functions are sampled, and where signs are compared, with two cells for each point: places
+# -cos(pi k / cells), symmetric to the last bit.
+POINTS: Array = np.sin(0.5 * np.pi * np.arange(-DEGREE, DEGREE + 1, 2) / DEGREE)
+GRID: Array = np.sin(0.25 * np.pi * np.arange(-2 * DEGREE, 2 * DEGREE + 1, 2) / DEGREE)
 
 _k = np.arange(DEGREE + 1)
 _ends = np.where(_k % DEGREE == 0, 0.5, 1.0)  # the first and the last count half
 # from samples to terms: the discrete cosine transform of the second kind of points
-_SERIES = 2.0 / DEGREE * _ends[:, None] * np.cos(np.pi * np.outer(_k, DEGREE - _k) / DEGREE) * _ends
+SERIES = 2.0 / DEGREE * _ends[:, None] * np.cos(np.pi * np.outer(_k, DEGREE - _k) / DEGREE) * _ends
 _rise = _k - _k[:, None]
 # from the terms of a series to those of its derivative
 _SLOPES = np.where((_rise > 0) & (_rise % 2 == 1), 2.0 * _k, 0.0)
 _SLOPES[0] *= 0.5
 _TERMS = at(np.eye(DEGREE + 1)[..., None], GRID).T
-_ON_GRID = product(_TERMS, _SERIES)
-_SLOPES_ON_GRID = product(_TERMS, product(_SLOPES, _SERIES))
-
-
-def series(values: Array) -> Array:
-    """The terms of the series of samples."""
-    return product(_SERIES, values)
+# to values and slopes at ``GRID``
+ON_GRID = product(_TERMS, SERIES)
+SLOPES = product(_TERMS, product(_SLOPES, SERIES))
 
 
 def remainder(values: Array) -> Array:
     """The greatest of the last terms, an estimate of the series' error: (..., m)."""
     # The last three terms together: every other term of an even or odd function is 0.
-    greatest: Array = np.abs(product(_SERIES[-3:], values)).max(axis=-2)
+    greatest: Array = np.abs(product(SERIES[-3:], values)).max(axis=-2)
     return greatest
-
-
-def on_grid(values: Array) -> tuple[Array, Array]:
-    """Values and slopes of the series at ``GRID``."""
-    return product(_ON_GRID, values), product(_SLOPES_ON_GRID, values)
 
 
 def root(terms: Array, low: Array, high: Array, start: Array, slope: Array) -> Array:

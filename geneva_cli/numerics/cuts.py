@@ -6,14 +6,24 @@ smooth on it; it is cut at the zeros of the signs' functions, or halved where no
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from typing import NamedTuple, Protocol
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import numpy as np
 
-from geneva_cli.numerics import chebyshev
 from geneva_cli.numerics.arrays import Array, Mask, Which, Whole, blocks, joined, record_taken
-from geneva_cli.numerics.chebyshev import GRID, MIDDLE, POINTS
+from geneva_cli.numerics.chebyshev import (
+    GRID,
+    MIDDLE,
+    ON_GRID,
+    POINTS,
+    SERIES,
+    SLOPES,
+    at,
+    product,
+    remainder,
+    root,
+)
 
 BLOCK = 1024  # rows sampled at a time: that many fit in the processor's cache
 MOST_ROWS = 100  # of a design at a time, beyond twice those of its spans: more are rounding
@@ -22,28 +32,31 @@ LATER_TERMS = 4.0  # times the last terms of a series: a bound on all later term
 NEWTON_STEPS = 6  # of Newton's method, from the zero of a series
 
 
-class Functions(Protocol):
-    """The functions of designs: first those whose signs matter, then the wanted ones.
+if TYPE_CHECKING:
 
-    Each of the first is smooth while those before it keep their signs, the wanted ones while all
-    do. Called with places (m, k) of some designs, it returns masks of positive signs (signs, m, k)
-    and Taylor coefficients (functions, m, k) by the place. ``held`` are known signs, 1.0 or -1.0,
-    NaN where they are computed. ``requested`` are the numbers of the wanted functions to evaluate,
-    all by default. A function without a bound is infinite, and its slope 0.
-    """
+    class Functions(Protocol):
+        """The functions of designs: first those whose signs matter, then the wanted ones.
 
-    signs: int  # number of the functions whose signs matter
-    wanted: int  # number of the wanted ones
-    poled: Sequence[int]  # numbers of those that behave as 1/x at the place 0
+        Each of the first is smooth while those before it keep their signs, the wanted ones while
+        all do. Called with places (m, k) of some designs, it returns masks of positive signs
+        (signs, m, k) and Taylor coefficients (order + 1, functions, m, k) by the place. ``held``
+        are known signs, 1.0 or -1.0, NaN where they are computed. ``requested`` are the numbers of
+        the wanted functions to evaluate, all by default. A function without a bound is infinite,
+        and its slope 0.
+        """
 
-    def __call__(
-        self,
-        x: Array,
-        which: Which,
-        order: int,
-        held: Array | None = None,
-        requested: Sequence[int] | None = None,
-    ) -> tuple[Mask, Array]: ...
+        signs: int  # number of the functions whose signs matter
+        wanted: int  # number of the wanted ones
+        poled: Sequence[int]  # numbers of those that behave as 1/x at the place 0
+
+        def __call__(
+            self,
+            x: Array,
+            which: Which,
+            order: int,
+            held: Array | None = None,
+            requested: Sequence[int] | None = None,
+        ) -> tuple[Mask, Array]: ...
 
 
 class Rows(NamedTuple):
@@ -54,30 +67,19 @@ class Rows(NamedTuple):
     u: Array  # both ends as ``spread`` places, in which the samples are evenly spaced: (2, m)
     x: Array  # both ends as places
 
-    def take(self, which: Which) -> Rows:
-        """Some of the rows, by a mask or their numbers."""
-        return record_taken(self, which)
+    def places(self, t: Array, w: Array) -> tuple[Array, Array]:
+        """The spread places and the places at positions from -1 to 1 in the rows.
 
-    def at(self, t: Array) -> Array:
-        """The spread places at positions from -1 to 1 in the rows."""
-        a, b = self.u
-        return np.asarray(0.5 * (a + b) + 0.5 * (b - a) * t)
+        ``w`` are the spread widths of all designs.
+        """
+        (a, b), own = self.u, w[self.design]
+        u = 0.5 * (a + b) + 0.5 * (b - a) * t
+        return u, np.clip(own * np.sinh(u / own), *self.x)
 
     def part(self, t: Array, w: Array) -> Rows:
-        """The parts between two positions (2, m); ``w`` are the spread widths of all designs."""
-        inner = np.abs(t) < 1.0
-        u = np.where(inner, self.at(t), self.u)
-        x = np.clip(gathered(u, w[self.design]), *self.x)
-        return self._replace(u=u, x=np.where(inner, x, self.x))
-
-    @property
-    def which(self) -> Which:
-        """The rows' designs, as a slice where they are all designs between two numbers."""
-        if not len(self.design):
-            return self.design
-        first, last = int(self.design[0]), int(self.design[-1])
-        whole = last - first == len(self.design) - 1 and bool((np.diff(self.design) == 1).all())
-        return slice(first, last + 1) if whole else self.design
+        """The parts between two positions (2, m)."""
+        inner, (u, x) = np.abs(t) < 1.0, self.places(t, w)
+        return self._replace(u=np.where(inner, u, self.u), x=np.where(inner, x, self.x))
 
 
 class Pieces(NamedTuple):
@@ -85,90 +87,102 @@ class Pieces(NamedTuple):
 
     rows: Rows
     sign: Array  # (signs, m)
-    part: Array  # both ends as positions in the sampled row, from -1 to 1: (2, m)
+    part: Array  # both ends as positions in the sampled row, from -1 to 1: (2, m); 2 apart if whole
     x: Array  # the places of the row's samples: (points, m)
     value: Array  # at these places, with these signs: (wanted, points, m)
 
 
-def is_whole(part: Array) -> Mask:
-    """Masks of the parts (2, m) of rows, by both ends from -1 to 1, that are whole rows."""
-    return np.asarray((part[0] == -1.0) & (part[1] == 1.0))
-
-
 class Cutter:
-    """Divides rows of designs into pieces, with samples spread about 0 by ``w``, (n,)."""
+    """Divides spans of designs into pieces, with samples spread about 0 by ``w`` (n, 1).
 
-    def __init__(self, f: Functions, w: Array, requested: Sequence[int] | None) -> None:
-        self.f, self.w, self.requested = f, w, requested
+    Without ``w`` they are evenly spaced. ``ends`` are those of the spans: (spans, 2, n, 1).
+    """
+
+    def __init__(
+        self, f: Functions, ends: Array, w: Array | None, requested: Sequence[int] | None
+    ) -> None:
+        self.f, self.ends, self.requested = f, ends[..., 0], requested
+        # with a wide spread, samples are evenly spaced
+        n, reach = ends.shape[2], np.abs(self.ends).max(axis=(0, 1))
+        self.w: Array = 1e3 * reach + 1e-300 if w is None else w[:, 0]
         # the greatest size so far of each function whose sign matters
-        self.size = np.zeros((f.signs, len(w)))
-        self.width = np.zeros(len(w))  # of all spans, in spread places
-        self.noisy = np.full(len(w), False)  # designs whose rows no halving resolves
+        self.size = np.zeros((f.signs, n))
+        self.width = np.zeros(n)  # of all spans, in spread places
+        self.noisy = np.full(n, False)  # designs whose rows no halving resolves
+        self.depth, self.first = 0, np.zeros(n, dtype=int)
         self.todo: list[Rows] = []
 
-    def pieces(
-        self, spans: Sequence[tuple[Array, Array]], start: int
-    ) -> Iterator[tuple[int, list[Pieces]]]:
-        """Yield the pieces of spans (n, 1) of designs from number ``start`` on, level by level.
-
-        A span that ends before it begins is empty. Rows in ``self.todo`` are sampled at the next
-        level, until none is left. A kink or a pole leaves some rows at each level, noise twice as
-        many as before.
-        """
-        each = []
-        for number, (a, b) in enumerate(spans):
-            own = np.flatnonzero((b > a)[:, 0])
-            design, x = own + start, np.stack((a[own, 0], b[own, 0]))
+    def begin(self, part: slice) -> None:
+        """Begin with the spans of some designs; one that ends before it begins is empty."""
+        self.todo, self.depth = [], -1
+        for number, (a, b) in enumerate(self.ends):
+            design = part.start + np.flatnonzero(b[part] > a[part])
+            x = self.ends[number].take(design, axis=1)
             u = spread(x, self.w[design])
             self.width[design] += u[1] - u[0]
-            each.append(Rows(design, np.full(len(own), number), u, x))
-        rows = joined(each)
-        first = np.bincount(rows.design, minlength=len(self.noisy))
-        for depth in range(60):  # halvings: all rows are too narrow for more by then
-            if not len(rows.design):
-                break
-            count = np.bincount(rows.design, minlength=len(self.noisy))
-            self.noisy |= (count > MOST_ROWS + 2 * first) | (depth == 59)
-            self.todo = [rows.take(slice(0))]
-            yield (
-                depth,
-                [self._sampled(rows.take(some)) for some in blocks(len(rows.design), BLOCK)],
-            )
-            rows = joined(self.todo)
+            self.todo.append(Rows(design, np.full(len(design), number), u, x))
+        self.first = np.bincount(joined(self.todo).design, minlength=len(self.noisy))
 
-    def is_settled(self, rows: Rows) -> Mask:
-        """Masks of the rows that are too narrow for halving, or noise."""
+    def level(self) -> list[Rows]:
+        """The rows to be sampled at the next level, in blocks; none after the last.
+
+        Rows that ``again`` puts back are sampled at the level after it. A kink or a pole leaves
+        some rows at each level, noise twice as many as before.
+        """
+        self.depth += 1
+        rows = joined(self.todo) if self.todo else None
+        self.todo = []
+        if rows is None or not len(rows.design) or self.depth == 60:  # all rows are too narrow then
+            return []
+        count = np.bincount(rows.design, minlength=len(self.noisy))
+        self.noisy |= (count > MOST_ROWS + 2 * self.first) | (self.depth == 59)
+        out = []
+        for some in blocks(len(rows.design), BLOCK):
+            out.append(record_taken(rows, some))
+        return out
+
+    def again(self, rows: Rows, part: Array, which: Mask) -> Mask:
+        """Sample some rows again: both halves of a whole row, or a part as a row of its own.
+
+        Those that are too narrow for it, or noise, are left; the others are returned.
+        """
         # no row is narrower than 1e-11 of its design's spans
         narrow = rows.u[1] - rows.u[0] <= 1e-11 * self.width[rows.design]
-        return np.asarray(narrow | self.noisy[rows.design])
+        which = which & ~(narrow | self.noisy[rows.design])
+        if which.any():
+            whole = part[1] - part[0] == 2.0
+            halved = record_taken(rows, which & whole)
+            ends = np.array([[-1.0], [0.0], [1.0]]).repeat(len(halved.design), axis=1)
+            self.todo += [halved.part(ends[:2], self.w), halved.part(ends[1:], self.w)]
+            self.todo.append(record_taken(rows, which & ~whole))
+        return which
 
-    def again(self, rows: Rows, part: Array, which: Mask) -> None:
-        """Sample some rows again: both halves of a whole row, or a part as a row of its own."""
-        halved = rows.take(which & is_whole(part))
-        ends = np.array([[-1.0], [0.0], [1.0]]).repeat(len(halved.design), axis=1)
-        halves = [halved.part(ends[:2], self.w), halved.part(ends[1:], self.w)]
-        self.todo += [*halves, rows.take(which & ~is_whole(part))]
-
-    def _sampled(self, rows: Rows) -> Pieces:
+    def pieces(self, rows: Rows) -> Pieces:
         """Pieces of rows, cut where a sign changes; parts with unknown zeros are sampled again."""
-        x = gathered(rows.at(POINTS[:, None]), self.w[rows.design]).clip(*rows.x)
+        f, count = self.f, len(rows.design)
+        which: Which = rows.design
+        first, last = int(which[0]), int(which[-1])
+        if last - first == count - 1 and bool((np.diff(which) == 1).all()):
+            which = slice(first, last + 1)  # all designs between two numbers
+        _, x = rows.places(POINTS[:, None], self.w)
         x[0], x[-1] = rows.x
-        own = np.arange(x.shape[1])
-        part = np.array([[-1.0], [1.0]]).repeat(len(own), axis=1)
-        sign = np.ones((self.f.signs, len(own)))
-        if self.f.signs:
-            middle = self.f(x.T[:, MIDDLE, None], rows.which, 0, None, ())[0][..., 0]
+        own, part = np.arange(count), np.array([[-1.0], [1.0]]).repeat(count, axis=1)
+        sign = np.ones((f.signs, count))
+        if f.signs:
+            middle = f(x.T[:, MIDDLE, None], which, 0, None, ())[0][..., 0]
             sign = np.where(middle, 1.0, -1.0)
-        value = self._values(x, rows.which, sign)
-        for kind in range(self.f.signs):
+        value = f(x.T, which, 0, sign[..., None], self.requested)[1][0].swapaxes(1, 2)
+        for kind in range(f.signs):
             # a pole is multiplied by the distance from it
-            poled = kind in self.f.poled
-            q = value[kind] * np.abs(x.take(own, axis=1)) if poled else value[kind]
-            here = rows.take(own)
+            q = value[kind] * np.abs(x.take(own, axis=1)) if kind in f.poled else value[kind]
+            here = record_taken(rows, own)
             unsure, cut, t = self._zeros(kind, here, sign, part, q)
-            unsure &= ~self.is_settled(here)
+            if len(cut):
+                t = self._refined(kind, record_taken(here, cut), sign[:, cut], t)
+                inside = (t > part[0, cut]) & (t < part[1, cut])
+                cut, t = cut[inside], t[inside]
             if unsure.any():
-                self.again(here.part(part, self.w), part, unsure)
+                unsure = self.again(here.part(part, self.w), part, unsure)
             if len(cut) or unsure.any():
                 # the parts between the cuts, by the numbers of the original parts
                 number = np.concatenate((np.arange(part.shape[1]), cut))
@@ -177,31 +191,27 @@ class Cutter:
                 number, part = number[one], np.stack((begin[one], end[two]))
                 kept = np.flatnonzero(~unsure[number] & (part[1] > part[0]))
                 number, part = number[kept], part.take(kept, axis=1)
-                own = own[number]
-                q, sign, value = (v.take(number, axis=-1) for v in (q, sign, value))
+                own, q = own[number], q.take(number, axis=1)
+                sign, value = sign.take(number, axis=1), value.take(number, axis=2)
             # parts in whose middle the function does not have the sign of their row
-            some = np.flatnonzero(~is_whole(part))
-            terms, t = chebyshev.series(q.take(some, axis=1)), 0.5 * part.sum(axis=0)[some]
-            middles = np.where(chebyshev.at(terms, t) > 0.0, 1.0, -1.0)
+            some = np.flatnonzero(part[1] - part[0] != 2.0)
+            terms, t = product(SERIES, q.take(some, axis=1)), 0.5 * part.sum(axis=0)[some]
+            middles = np.where(at(terms, t) > 0.0, 1.0, -1.0)
             flip = some[middles != sign[kind, some]]
             if len(flip):
                 sign[kind, flip] *= -1.0
-                design = rows.design[own[flip]]
-                there = x.take(own[flip], axis=1)
-                value[..., flip] = self._values(there, design, sign.take(flip, axis=1))
-        cut_rows = rows.take(own).part(part, self.w)
-        return Pieces(cut_rows, sign, part, x.take(own, axis=1), value[self.f.signs :])
-
-    def _values(self, x: Array, which: Which, sign: Array) -> Array:
-        """Every function at places (points, m) with known signs: (functions, points, m)."""
-        return self.f(x.T, which, 0, sign[..., None], self.requested)[1][0].swapaxes(1, 2)
+                there, held = x.take(own[flip], axis=1).T, sign.take(flip, axis=1)[..., None]
+                values = f(there, rows.design[own[flip]], 0, held, self.requested)[1][0]
+                value[..., flip] = values.swapaxes(1, 2)
+        cut_rows = record_taken(rows, own).part(part, self.w)
+        return Pieces(cut_rows, sign, part, x.take(own, axis=1), value[f.signs :])
 
     def _zeros(
         self, kind: int, rows: Rows, sign: Array, part: Array, value: Array
     ) -> tuple[Mask, Whole, Array]:
-        """A mask of parts with unknown zeros, and the zeros of the other parts."""
+        """A mask of parts with unknown zeros, and the zeros of the others' series."""
         unsure, none = np.full(len(rows.design), False), (np.zeros(0, dtype=int), np.zeros(0))
-        size, left = np.abs(value).max(axis=0), chebyshev.remainder(value)
+        size, left = np.abs(value).max(axis=0), remainder(value)
         np.fmax.at(self.size[kind], rows.design, np.where(np.isfinite(size), size, 0.0))
         q = value * sign[kind]
         # where a point is below a twentieth of the size, the function may be 0 next to it
@@ -209,7 +219,7 @@ class Cutter:
         if not len(some):
             return unsure, *none
         q, size, left = q.take(some, axis=1), size[some], left[some]
-        g, d = chebyshev.on_grid(q)
+        g, d = product(ON_GRID, q), product(SLOPES, q)
         # below 1e-12 of its size on a row, or some roundings of that in its design's whole motion,
         # a function has no sign
         rounding = 4e-15 * self.size[kind, rows.design[some]]
@@ -237,32 +247,32 @@ class Cutter:
             return unsure, *none
         a, b, low, high = g[cell, own], g[cell + 1, own], GRID[cell], GRID[cell + 1]
         chord = (b - a) / (high - low)
-        terms = chebyshev.series(q.take(own, axis=1))
-        t, which = chebyshev.root(terms, low, high, low - a / chord, chord), some[own]
+        terms = product(SERIES, q.take(own, axis=1))
+        t, which = root(terms, low, high, low - a / chord, chord), some[own]
         kept = (t > part[0, which] + AT_END) & (t < part[1, which] - AT_END)
-        which, t = which[kept], t[kept]
-        t = self._refined(kind, rows.take(which), sign[:, which], t)
-        kept = (t > part[0, which]) & (t < part[1, which])
         return unsure, which[kept], t[kept]
 
     def _refined(self, kind: int, rows: Rows, sign: Array, t: Array) -> Array:
         """Zeros of the functions themselves, from the zeros of their series."""
-        w, half = self.w[rows.design], 0.5 * (rows.u[1] - rows.u[0])
-        x, number = gathered(rows.at(t), w), np.arange(self.f.signs)[:, None]
-        known, live = np.where(number < kind, sign, np.nan), np.arange(len(t))
+        (_, x), half = rows.places(t, self.w), 0.5 * (rows.u[1] - rows.u[0])
+        known, live = (
+            np.where(np.arange(self.f.signs)[:, None] < kind, sign, np.nan),
+            np.arange(len(t)),
+        )
         for _ in range(NEWTON_STEPS):
             if not len(live):
                 break
             held = known[:, live, None]
-            both = self.f(x[live, None], rows.design[live], 1, held, ())[1]
-            step = -both[0][kind, :, 0] / both[1][kind, :, 0]
+            value, slope = self.f(x[live, None], rows.design[live], 1, held, ())[1]
+            step = -value[kind, :, 0] / slope[kind, :, 0]
             # No step is longer than a tenth of a half row: the series knows its zeros better.
             far = 0.1 * half[live]
             step = np.clip(np.where(np.isfinite(step), step, 0.0), -far, far)
             x[live] += step
             # After a step of 1e-8 of a half row the rest is rounding.
             live = live[np.abs(step) > 1e-8 * half[live]]
-        return np.asarray((spread(x, w) - rows.at(np.zeros(1))) / half)
+        middle = 0.5 * (rows.u[0] + rows.u[1])
+        return np.asarray((spread(x, self.w[rows.design]) - middle) / half)
 
 
 def spread(x: Array, w: Array) -> Array:

@@ -8,24 +8,33 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from math import factorial
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.numerics import chebyshev
 from geneva_cli.numerics.arrays import Array, Mask, Which, Whole, blocks, joined, record_taken
-from geneva_cli.numerics.chebyshev import GRID, MIDDLE, POINTS
+from geneva_cli.numerics.chebyshev import (
+    GRID,
+    MIDDLE,
+    ON_GRID,
+    POINTS,
+    SERIES,
+    SLOPES,
+    at,
+    product,
+    remainder,
+)
 from geneva_cli.numerics.cuts import (
     BLOCK,
     LATER_TERMS,
     Cutter,
-    Functions,
     Pieces,
     Rows,
-    gathered,
-    is_whole,
 )
 from geneva_cli.numerics.tolerances import TIE
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.cuts import Functions
 
 GROUP = 1 << 15  # functions of designs that are searched together
 UNFINISHED = 4.0 * LATER_TERMS  # times the last terms: the error of a series that has not ended
@@ -51,7 +60,7 @@ class SearchResult(NamedTuple):
     @property
     def stretches(self) -> Stretches:
         """The parts on which no sign changes."""
-        return _stretches(*joined(self.pieces))
+        return _stretches(self.pieces)
 
 
 class Smooth:
@@ -106,37 +115,43 @@ def search(
     NaN. Samples are spread about 0 by ``w`` (n, 1), or evenly spaced.
     """
     with np.errstate(all="ignore"):
-        extremes = _Extremes(f, _widths(spans, w), sized)
+        cutter = Cutter(f, np.array(spans), w, None)
+        extremes = _Extremes(cutter, sized)
         for number, x, value in known:
             design = np.flatnonzero(~np.isnan(value))
             extremes.add(np.full(len(design), number), design, x[design], value[design])
-        for part in blocks(len(spans[0][0]), GROUP // max(f.wanted, 2)):
-            own = [(a[part], b[part]) for a, b in spans]
-            for depth, level in extremes.cutter.pieces(own, part.start):
-                for pieces in level:
-                    extremes.add_samples(pieces, depth)
-                for pieces in level:
+        for part in blocks(len(cutter.w), GROUP // max(f.wanted, 2)):
+            cutter.begin(part)
+            while level := cutter.level():
+                every = []
+                for rows in level:
+                    every.append(cutter.pieces(rows))
+                    extremes.add_samples(every[-1])
+                for pieces in every:
                     extremes.judge(pieces)
             extremes.refine()
-        shape = -1, len(spans[0][0])
-        places = extremes.places().reshape(shape)
-        return SearchResult(extremes.most.reshape(shape), places, extremes.pieces)
+        # the first places of the greatest values
+        first = np.full(extremes.most.shape, np.inf)
+        for side, of, design, x, value in extremes.known:
+            bars = bar(extremes.most[side, of, design], extremes.size[of, design])
+            near = value >= bars
+            np.fmin.at(first, (side[near], of[near], design[near]), x[near])
+        first = np.where(np.isinf(first), extremes.at_sample, first)
+        shape = -1, len(cutter.w)
+        return SearchResult(extremes.most.reshape(shape), first.reshape(shape), extremes.pieces)
 
 
 def cuts(f: Functions, spans: Sequence[tuple[Array, Array]], w: Array | None = None) -> Stretches:
     """The parts of the spans of ``search`` on which no sign changes."""
     with np.errstate(all="ignore"):
-        cutter, out = Cutter(f, _widths(spans, w), ()), _no_pieces(f)
-        for part in blocks(len(spans[0][0]), BLOCK):
-            for _, level in cutter.pieces([(a[part], b[part]) for a, b in spans], part.start):
-                out += [(pieces.rows, pieces.sign) for pieces in level]
-        return _stretches(*joined(out))
-
-
-def _widths(spans: Sequence[tuple[Array, Array]], w: Array | None) -> Array:
-    """The widths (n,) by which samples are spread; with a wide one they are evenly spaced."""
-    reach = np.max([np.abs(end[:, 0]) for span in spans for end in span], axis=0)
-    return np.asarray(1e3 * reach + 1e-300 if w is None else w[:, 0])
+        cutter, out = Cutter(f, np.array(spans), w, ()), list[tuple[Rows, Array]]()
+        for part in blocks(len(cutter.w), BLOCK):
+            cutter.begin(part)
+            while level := cutter.level():
+                for rows in level:
+                    pieces = cutter.pieces(rows)
+                    out.append((pieces.rows, pieces.sign))
+        return _stretches(out)
 
 
 class _Candidates(NamedTuple):
@@ -156,42 +171,28 @@ class _Candidates(NamedTuple):
 class _Extremes:
     """The greatest values of n designs, and the first places that have them."""
 
-    def __init__(self, f: Functions, w: Array, sized: bool) -> None:
-        self.f, self.sized, self.cutter = f, sized, Cutter(f, w, None)
-        self.most = np.full((1 if sized else 2, f.wanted, len(w)), -np.inf)
-        self.size = np.zeros((f.wanted, len(w)))  # typical ones, of samples far from poles
+    def __init__(self, cutter: Cutter, sized: bool) -> None:
+        self.f, self.sized, self.cutter = cutter.f, sized, cutter
+        n, wanted = len(cutter.w), cutter.f.wanted
+        self.most = np.full((1 if sized else 2, wanted, n), -np.inf)
+        self.size = np.zeros((wanted, n))  # typical ones, of samples far from poles
         self.at_sample = np.full(self.most.shape, np.nan)  # the place of a greatest sample
+        # side of the result, number of the function, design, place and value there
         self.known: list[tuple[Whole, Whole, Whole, Array, Array]] = []
         self.candidates: list[_Candidates] = []
-        self.pieces = _no_pieces(f)
-
-    def _sided(self, value: Array) -> Array:
-        """The sizes, or the values and their negatives."""
-        return np.abs(value)[None] if self.sized else np.stack((value, -value))
+        self.pieces: list[tuple[Rows, Array]] = []
 
     def add(self, number: Whole, design: Whole, x: Array, value: Array) -> None:
         """Add values (m,) of functions, by their numbers, at ends and extremes."""
-        for side, own in enumerate(self._sided(value)):
+        for side, own in enumerate((np.abs(value),) if self.sized else (value, -value)):
             sides = np.full(len(number), side)
             _raise(self.most, (sides, number, design), own)
             self.known.append((sides, number, design, x, own))
 
-    def _bar(self, side: int | Whole | slice, number: Whole, design: Whole) -> Array:
-        """The least values that count as equal to the greatest ones."""
-        return bar(self.most[side, number, design], self.size[number, design])
-
-    def places(self) -> Array:
-        """The first places of the greatest values."""
-        first = np.full(self.most.shape, np.inf)
-        for *index, x, value in self.known:
-            near = value >= self._bar(*index)
-            np.fmin.at(first, tuple(i[near] for i in index), x[near])
-        return np.where(np.isinf(first), self.at_sample, first)
-
-    def add_samples(self, pieces: Pieces, depth: int) -> None:
+    def add_samples(self, pieces: Pieces) -> None:
         """Add samples of pieces; only those within each piece count."""
-        (a, b), x, design = pieces.rows.x, pieces.x, pieces.rows.design
-        sided = self._sided(pieces.value)
+        (a, b), x, design, value = pieces.rows.x, pieces.x, pieces.rows.design, pieces.value
+        sided = np.abs(value)[None] if self.sized else np.stack((value, -value))
         outside = (x < a) | (x > b)
         # from its begin on, where a margin changes its sign
         endless = ((sided == np.inf) | outside).all(axis=2) & (sided == np.inf).any(axis=2)
@@ -207,25 +208,25 @@ class _Extremes:
         side, number, of = np.nonzero(top == np.inf)
         rows = place[side, number, of], top[side, number, of]
         self.known.append((side, number, design[of], *rows))
-        if depth < 4:  # rows that were halved more often lie near a pole
-            inner = np.abs(pieces.value[:, MIDDLE // 2 : MIDDLE + 5 : MIDDLE // 2]).max(axis=1)
+        if self.cutter.depth < 4:  # rows that were halved more often lie near a pole
+            inner = np.abs(value[:, MIDDLE // 2 : MIDDLE + 5 : MIDDLE // 2]).max(axis=1)
             _raise(self.size, (numbers[0], design), np.where(np.isfinite(inner), inner, 0.0))
 
     def judge(self, pieces: Pieces) -> None:
         """Keep candidates of pieces with precise series, and sample the others again."""
         value, (a, b), design = pieces.value, pieces.rows.x, pieces.rows.design
-        left = chebyshev.remainder(value)
+        left = remainder(value)
         low, high = value.min(axis=1), value.max(axis=1)
         size = np.maximum(np.abs(low), np.abs(high))
         open_ = ~(left <= PRECISE * size) | (left == np.inf)
         # by how much an extreme between samples exceeds them, over their range
         more = np.where(open_, 1.0, 0.15) * (high - low) + UNFINISHED * left
-        bars = self._bar(slice(None), np.arange(len(value))[:, None], design)
+        bars = bar(self.most[..., design], self.size[:, design])
         low_reach, high_reach = low - more, high + more
         # towards a pole, whose series has no end, the reciprocal's bounds serve
         number, row = np.nonzero(open_)
         inverse = np.ascontiguousarray(1.0 / value[number, :, row].T)
-        rest, least, most = chebyshev.remainder(inverse), inverse.min(axis=0), inverse.max(axis=0)
+        rest, least, most = remainder(inverse), inverse.min(axis=0), inverse.max(axis=0)
         ended = rest <= PRECISE * np.maximum(np.abs(least), np.abs(most))
         beyond = 0.15 * (most - least) + UNFINISHED * rest
         for bound, own, end in (
@@ -240,10 +241,8 @@ class _Extremes:
         may |= open_ & ((best >= a) & (best <= b) & bounded).any(axis=0)
         may &= (low != np.inf) & (high != -np.inf)  # it has a bound somewhere
         open_ &= ~(left <= TIE * TIE * self.size[:, design])
-        miss = (may & open_).any(axis=0) & ~self.cutter.is_settled(pieces.rows)
-        if miss.any():
-            self.cutter.again(pieces.rows, pieces.part, miss)
-        self.pieces.append((pieces.rows.take(~miss), pieces.sign[:, ~miss]))
+        miss = self.cutter.again(pieces.rows, pieces.part, (may & open_).any(axis=0))
+        self.pieces.append((record_taken(pieces.rows, ~miss), pieces.sign[:, ~miss]))
         number, piece = np.nonzero(may & ~miss)
         if len(number):
             self._add_candidates(number, piece, left[number, piece], pieces)
@@ -253,43 +252,46 @@ class _Extremes:
 
         ``left`` is the error of their series, at whose ends a slope may have the wrong sign.
         """
-        rows, part = pieces.rows.take(piece), pieces.part.take(piece, axis=1)
+        rows, part = record_taken(pieces.rows, piece), pieces.part.take(piece, axis=1)
         samples = np.ascontiguousarray(pieces.value[number, :, piece].T)
-        whole = is_whole(part)
+        whole = part[1] - part[0] == 2.0
         cut = np.flatnonzero(~whole)
         if len(cut):  # at the points of the piece itself
             a, b = part[:, cut]
             t = 0.5 * (a + b) + 0.5 * (b - a) * POINTS[:, None]
-            samples[:, cut] = chebyshev.at(chebyshev.series(samples.take(cut, axis=1)), t)
-        value, slope = chebyshev.on_grid(samples)
-        terms, every = chebyshev.series(samples), np.arange(len(number))
+            samples[:, cut] = at(product(SERIES, samples.take(cut, axis=1)), t)
+        value, slope = product(ON_GRID, samples), product(SLOPES, samples)
+        terms, every = product(SERIES, samples), np.arange(len(number))
         size = np.abs(samples).max(axis=0)
         # of a constant the start alone: a range of rounding says nothing about places
         varied = np.ptp(samples, axis=0) > 1e-13 * size
         loose = np.flatnonzero(varied & ~(left <= 1e-11 * size))
         # of each turn or end: side of the result, curve, position from -1 to 1, 1 for a maximum, -1
         # for a minimum and 0 for the value there, and a bound of it but for the series' error
-        turns: list[tuple[Whole | Array | float, ...]] = []
+        turns: list[tuple[Array, ...]] = []
         for sense in (1.0, -1.0):
             to = 0 if self.sized or sense > 0.0 else 1
             g, d = sense * value, sense * slope
             cell, of = np.nonzero((d[:-1] > 0.0) & (d[1:] <= 0.0) & varied)
             before, after = d[cell, of], d[cell + 1, of]
             t = GRID[cell] + (GRID[cell + 1] - GRID[cell]) * before / (before - after)
-            top = 2.0 * sense * chebyshev.at(terms[:, of], t)
-            turns.append((to, of, t, sense, top - np.minimum(g[cell, of], g[cell + 1, of])))
+            top = 2.0 * sense * at(terms[:, of], t)
+            top = top - np.minimum(g[cell, of], g[cell + 1, of])
+            turns.append(tuple(np.broadcast_arrays(to, of, t, sense, top)))
             for end, there in ((-1.0, every), (1.0, np.flatnonzero(varied))):
                 at_end = sense * samples[0 if end < 0.0 else -1]
-                turns.append((to, there, end, 0.0, at_end[there]))
-                turns.append((to, loose, end, sense, at_end[loose] + 1e-3 * size[loose]))
-        found = joined([tuple(np.broadcast_arrays(*one)) for one in turns])
+                turns.append(tuple(np.broadcast_arrays(to, there, end, 0.0, at_end[there])))
+                top = at_end[loose] + 1e-3 * size[loose]
+                turns.append(tuple(np.broadcast_arrays(to, loose, end, sense, top)))
+        found = joined(turns)
         side, of, _, _, top = found
         reach = top + UNFINISHED * left[of]
-        least = self._bar(side, number[of], rows.design[of])
+        design = rows.design[of]
+        least = bar(self.most[side, number[of], design], self.size[number[of], design])
         kept = np.flatnonzero(~(reach < least) & (least < np.inf))
         side, of, t, uphill, top = record_taken(found, kept)
-        own, w = rows.take(of), self.cutter.w[rows.design[of]]
-        before, x, after = (gathered(own.at(t + by), w).clip(*own.x) for by in (-0.1, 0.0, 0.1))
+        own, shifts = record_taken(rows, of), np.array([[-0.1], [0.0], [0.1]])
+        before, x, after = own.places(t + shifts, self.cutter.w)[1]
         x = np.where(t == -1.0, own.x[0], np.where(t == 1.0, own.x[1], x))
         # the sample at the end of a whole row is the value there
         exact = (uphill == 0.0) & whole[of]
@@ -305,14 +307,26 @@ class _Extremes:
             return
         every = joined(self.candidates)
         self.candidates = []
-        least = self._bar(every.side, every.number, every.design)
+        most = self.most[every.side, every.number, every.design]
+        least = bar(most, self.size[every.number, every.design])
         some = record_taken(every, ~(every.reach < least) & (least < np.inf))
         x, near = some.x.copy(), some.near.copy()
         value, live = np.empty(len(x)), np.arange(len(x))
         for _ in range(20):  # most take two
             if not len(live):
                 break
-            v, slope, bend = self._jets(x[live], record_taken(some, live))
+            jets = np.empty((3, len(live)))  # value and two derivatives
+            # several functions at once: their common parts cost most
+            in_order = np.argsort(some.number[live], kind="stable")
+            for block in blocks(len(live), 8 * BLOCK):
+                here = in_order[block]
+                of = live[here]
+                requested, own = np.unique(some.number[of], return_inverse=True)
+                held, asked = some.sign[:, of, None], requested.tolist()
+                rows = self.f(x[of, None], some.design[of], 2, held, asked)[1]
+                for k in range(3):
+                    jets[k, here] = rows[k][self.f.signs + own, np.arange(len(of)), 0]
+            v, slope, bend = jets[0], jets[1], 2.0 * jets[2]
             step = np.nan_to_num(some.uphill[live] * slope / np.abs(bend))
             # at rest where the function has the other extreme: inwards, by less each time
             rests = np.abs(slope) <= 1e-6 * np.abs(bend) * near[live]
@@ -334,20 +348,6 @@ class _Extremes:
             x = np.where(np.abs(x - end) <= reached, end, x)
         self.add(some.number, some.design, x, value)
 
-    def _jets(self, x: Array, of: _Candidates) -> Array:
-        """Value and two derivatives of each candidate's function at places (m,)."""
-        out = np.empty((3, len(x)))
-        # several functions at once: their common parts cost most
-        in_order = np.argsort(of.number, kind="stable")
-        for block in blocks(len(x), 8 * BLOCK):
-            some = in_order[block]
-            requested, own = np.unique(of.number[some], return_inverse=True)
-            held = of.sign[:, some, None]
-            jets = self.f(x[some, None], of.design[some], 2, held, requested.tolist())[1]
-            out[:, some] = [c[self.f.signs + own, np.arange(len(some)), 0] for c in jets]
-        out[2] *= 2.0
-        return out
-
 
 def _raise(most: Array, index: tuple[Whole, ...], value: Array) -> None:
     """Set greatest values to values that are greater."""
@@ -366,18 +366,14 @@ def bar(most: Array, size: Array) -> Array:
     return most - np.where(np.isfinite(most), tie, 0.0)
 
 
-def first_greatest(value: Array, place: Array, size: Array) -> tuple[Array, Array]:
-    """The greatest of values in rows (k, n), and the first place of its equals: (n,) each."""
-    with np.errstate(invalid="ignore"):
-        most = value.max(axis=0)
-        first = np.argmax(value >= bar(most, size), axis=0)
-    return most, np.take_along_axis(place, first[None], axis=0)[0]
-
-
-def _stretches(rows: Rows, sign: Array) -> Stretches:
+def _stretches(pieces: Sequence[tuple[Rows, Array]]) -> Stretches:
     """Adjacent pieces with equal signs joined into one."""
+    if not pieces:
+        none, ends = np.zeros(0, dtype=int), np.zeros((2, 0))
+        return Stretches(none, none, ends, np.zeros((0, 0), dtype=bool))
+    rows, sign = joined(pieces)
     order = np.lexsort((rows.x[0], rows.span, rows.design))
-    design, span, _, (a, b) = rows.take(order)
+    design, span, _, (a, b) = record_taken(rows, order)
     positive = sign[:, order] > 0.0
     first = np.ones(len(design), dtype=bool)
     first[1:] = (design[1:] != design[:-1]) | (span[1:] != span[:-1])
@@ -385,9 +381,3 @@ def _stretches(rows: Rows, sign: Array) -> Stretches:
     last = np.append(first[1:], True)
     x = np.stack((a[first], b[last]))
     return Stretches(design[first], span[first], x, positive[:, first])
-
-
-def _no_pieces(f: Functions) -> list[tuple[Rows, Array]]:
-    """An empty list of pieces, to be joined with others."""
-    none, ends = np.zeros(0, dtype=int), np.zeros((2, 0))
-    return [(Rows(none, none, ends, ends), np.zeros((f.signs, 0)))]

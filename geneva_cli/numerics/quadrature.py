@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cache
-from typing import NamedTuple
 
 import numpy as np
 
@@ -47,72 +46,43 @@ def lobatto(nodes: int) -> tuple[Array, Array]:
     return read_only((x, 2.0 / (nodes * (nodes - 1) * here * here)))
 
 
-class Integrands(NamedTuple):
-    """Functions, and the spans from ``a`` to ``b`` over which each of them is integrated.
-
-    ``functions(x, which)`` returns the functions (functions, m, k) of the spans ``which`` at places
-    (m, k). With ``ends`` they may behave as the root of the distance from a span's ends. Places are
-    then at the fraction t² (3 - 2 t) of the span.
-    """
-
-    functions: Callable[[Array, Whole], Array]
-    a: Array
-    b: Array
-    ends: bool = False
-
-    def parts(self, of: Whole, low: Array, high: Array) -> tuple[Array, Array, Array]:
-        """Integrals over fractions of spans, their last terms, and integrals of the sizes."""
-        node, terms = _rule(self.ends)
-        rows = []
-        for here in blocks(len(of), 1024):  # whose nodes fit in the processor's cache
-            own, half = of[here], 0.5 * (high[here] - low[here])[:, None]
-            # designs lie side by side in memory
-            t = np.asfortranarray((0.5 * (low[here] + high[here]))[:, None] + half * node)
-            width = (self.b - self.a)[own, None]
-            rate = width * half
-            if self.ends:
-                rate = rate * (6.0 * t * (1.0 - t))
-                t = t * t * (3.0 - 2.0 * t)
-            value = self.functions(self.a[own, None] + width * t, own) * rate
-            sums = matrix_product(value, terms)
-            last = np.abs(sums[..., 1:]).max(axis=-1)
-            rows.append((sums[..., 0], last, matrix_product(np.abs(value), terms[:, 0])))
-        return joined(rows)
-
-
 def span_integrals(
-    integrands: Integrands, design: Whole, needed: Mask, apart: bool = False
+    functions: Callable[[Array, Whole], Array],
+    spans: tuple[Array, Array],
+    design: Whole,
+    needed: Mask,
+    ends: bool = False,
+    apart: bool = False,
 ) -> Array:
     """The integral of each function over all spans of each design: (functions, n).
 
-    ``design`` (spans,) is the design of each span. ``needed`` (functions, n) selects the integrals
-    that are needed; others, such as unbounded ones, are meaningless. The functions may clear
-    elements of it while they are evaluated. Unbounded integrals are infinite. Those of noise are
-    NaN, since halving their spans does not help.
+    ``functions(x, which)`` returns the functions (functions, m, k) of the spans ``which``, numbers
+    (m,), at places (m, k). With ``ends`` they may behave as the root of the distance from a span's
+    ends. ``design`` (spans,) is the design of each span. ``needed`` (functions, n) selects the
+    integrals that are needed; others, such as unbounded ones, are meaningless. The functions may
+    clear elements of it while they are evaluated. Unbounded integrals are infinite. Those of noise
+    are NaN, since halving their spans does not help.
 
     With ``apart`` the result is the integral of each span, (functions, spans), to the same
     fraction of its design's.
     """
-    n, spans = needed.shape[1], len(design)
-    into = np.arange(spans) if apart else design
-    total, size = np.zeros((len(needed), spans if apart else n)), np.zeros(needed.shape)
-
-    def add(sums: Array, where: Whole, rows: Array) -> None:
-        for own, row in zip(sums, rows, strict=True):
-            own += np.bincount(where, row, len(own))
-
-    unbounded, of = total != 0.0, np.arange(spans)
-    low, high = np.zeros(spans), np.ones(spans)
+    n, count = needed.shape[1], len(design)
+    into = np.arange(count) if apart else design
+    total, size = np.zeros((len(needed), count if apart else n)), np.zeros(needed.shape)
+    unbounded, of = total != 0.0, np.arange(count)
+    low, high = np.zeros(count), np.ones(count)
     for halved in range(40):  # the narrowest spans are 1e-12 of their design's
-        whole, last, sizes = integrands.parts(of, low, high)
-        if not halved:
-            add(size, design[of], sizes)
+        whole, last, sizes = _parts(functions, spans, ends, of, np.stack((low, high)))
         lost = ~np.isfinite(sizes)  # spans of an unbounded function are not halved further
         for row, endless, marks in zip(needed, lost, unbounded, strict=True):
             row[design[of[endless]]] = False
             marks[into[of[endless]]] = True
+        if not halved:
+            for own, row in zip(size, sizes, strict=True):
+                own += np.bincount(design[of], row, n)
         open_ = (~(last <= LAST_TERMS * size[:, design[of]]) & needed[:, design[of]]).any(axis=0)
-        add(total, into[of[~open_]], whole[:, ~open_])
+        for own, row in zip(total, whole, strict=True):
+            own += np.bincount(into[of[~open_]], row[~open_], len(own))
         parts = np.bincount(design[of[open_]], minlength=n)
         # a kink or a pole leaves some open parts at each depth, noise twice as many as before
         lost_in_noise = (parts > 20_000)[design[of]]
@@ -125,6 +95,35 @@ def span_integrals(
         of = np.concatenate((of[open_], of[open_]))
     total[:, into[of]] = np.inf
     return np.where(unbounded, np.inf, total)
+
+
+def _parts(
+    functions: Callable[[Array, Whole], Array],
+    spans: tuple[Array, Array],
+    ends: bool,
+    of: Whole,
+    fractions: Array,
+) -> tuple[Array, Array, Array]:
+    """Integrals between two fractions of spans, their last terms, and integrals of the sizes.
+
+    With ``ends`` places are at the fraction t² (3 - 2 t) of the span.
+    """
+    (a, b), (node, terms), rows = spans, _rule(ends), []
+    for here in blocks(len(of), 1024):  # whose nodes fit in the processor's cache
+        own, (low, high) = of[here], fractions[:, here]
+        half = 0.5 * (high - low)[:, None]
+        # designs lie side by side in memory
+        t = np.asfortranarray((0.5 * (low + high))[:, None] + half * node)
+        width = (b - a)[own, None]
+        rate = width * half
+        if ends:
+            rate = rate * (6.0 * t * (1.0 - t))
+            t = t * t * (3.0 - 2.0 * t)
+        value = functions(a[own, None] + width * t, own) * rate
+        sums = matrix_product(value, terms)
+        last = np.abs(sums[..., 1:]).max(axis=-1)
+        rows.append((sums[..., 0], last, matrix_product(np.abs(value), terms[:, 0])))
+    return joined(rows)
 
 
 @cache

@@ -12,11 +12,11 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.measure import STRAIGHT, points
-from geneva_cli.geometry.moments import oriented
-from geneva_cli.geometry.plates import Group, Part, Plate, Shell, Solid
+from geneva_cli.geometry.plates import Group, Part, Plate, Solid, oriented
 from geneva_cli.geometry.shapes import Arc, Cubic, Layer, Segment
 from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.geometry.sphere import Vector, cross, square_to, unit
+from geneva_cli.geometry.sphere_shell import Shell
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.output.solid_part import plate_contours, require_thick, solid_part
 

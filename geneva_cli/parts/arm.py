@@ -121,11 +121,8 @@ def _bolts(parts: Outlines, count: int) -> list[Circle]:
 
     They are at the radius that leaves the widest walls in the disc.
     """
-    size, sizes, spans = (
-        parts.assembly.mechanism.spec.size,
-        parts.sizes,
-        list[tuple[float, float]](),
-    )
+    size, sizes = parts.assembly.mechanism.spec.size, parts.sizes
+    spans: list[tuple[float, float]] = []
     for start, end in sectors(reliefs(parts.assembly)) if parts.crank and count else ():
         spans.append((start, end - start))
     directions = lock_bolt_directions(spans, count)
@@ -158,30 +155,6 @@ def walls(arm: CrankArm, parts: Outlines) -> float:
         least_wall([arm.bore, *arm.pins, *arm.bolts], [arm.outline]),
         least_wall(in_disc, parts.crank),
     )
-
-
-def arm_plate(parts: Outlines, arm: CrankArm) -> Plate:
-    """Return the crank arm below the wheel, at a distance of ``pin_gap_mm``."""
-    high = -parts.assembly.mechanism.spec.size.allowances.pin_gap_mm
-    holes = (arm.bore, *arm.pins, *arm.bolts)
-    low = high - parts.sizes.arm_thickness
-    return Plate("arm", arm.outline.layer, arm.outline, holes, low, high)
-
-
-def locking_plates(parts: Outlines) -> list[Plate]:
-    """Return the crank's locking disc, or its sectors, with bolts and bore."""
-    assembly, sizes = parts.assembly, parts.sizes
-    low = -assembly.mechanism.spec.size.allowances.pin_gap_mm  # the disc stands on the arm
-    high = low + sizes.lock_thickness
-    whole, screwed = is_whole(assembly, sizes), bolts(parts)
-    bore = crank_bore(assembly, sizes) if whole else ()
-    each = len(screwed) // max(1, len(parts.crank))
-    name = "locking disc" if whole else "locking sector"
-    out = []
-    for k, contour in enumerate(parts.crank):
-        holes = (*bore, *screwed[k * each : (k + 1) * each])
-        out.append(Plate(name, contour.layer, contour, holes, low, high))
-    return out
 
 
 def roller_plates(

@@ -59,6 +59,7 @@ class Assembly(NamedTuple):
     sign: float  # +1 external, -1 internal
     turn_deg: float  # input angle in a whole turn of the crank
     start_deg: float  # where the first engagement begins, and a whole turn
+    half_step: float  # of the wheel in its shortest motion, radians
     motions: tuple[Passage, ...]
     rollers: tuple[Passage, ...]
     slots: tuple[tuple[Engagement, float], ...]
@@ -117,9 +118,9 @@ class Assembly(NamedTuple):
         within, steps = input_deg - turns * self.turn_deg, 0.0
         # rounding may put an angle before the turn: into its first motion
         number = np.zeros(len(within), dtype=int)
-        for i, one in enumerate(self.motions):
-            number[within >= one.entry] = i
-            steps += one.engagement.half_step
+        for i, (engagement, mid) in enumerate(self.motions):
+            number[within >= mid + engagement.entry_deg] = i
+            steps += engagement.half_step
         out, turned = 2.0 * steps * turns, 0.0
         for i, (engagement, mid) in enumerate(self.motions):
             here = number == i
@@ -128,23 +129,6 @@ class Assembly(NamedTuple):
             out[here] += turned + engagement.motion(at, 0).c[0]
             turned += engagement.half_step
         return out
-
-
-@lru_cache(maxsize=16)
-def assembly(mechanism: Mechanism) -> Assembly:
-    """Return the assembly of a mechanism with flat parts, cached for its sizes and its parts."""
-    spec = mechanism.spec
-    if not spec.wheel.FLAT:
-        raise GenevaError(
-            f'gearing = "{spec.wheel.NAME}": its parts are not flat outlines about two axes; write '
-            "`--part wheel`, `crank` or `assembly` as .dxf, .svg or .step",
-            ("wheel", "gearing"),
-        )
-    if spec.wheel.z > Z_DRAWN:
-        raise GenevaError(
-            f"z = {spec.wheel.z}: parts are drawn for up to {Z_DRAWN} slots", ("wheel", "z")
-        )
-    return assembled(mechanism)
 
 
 def input_of(mechanism: Mechanism) -> Callable[[float], float]:
@@ -159,23 +143,37 @@ def _same(input_deg: float) -> float:
     return input_deg
 
 
-def assembled(mechanism: Mechanism, by_input: bool = False) -> Assembly:
-    """Return the assembly of any machine; on a sphere ``pin`` is seen along the wheel's axis.
+@lru_cache(maxsize=16)
+def assembly(mechanism: Mechanism, flat: bool = True, by_input: bool = False) -> Assembly:
+    """Return the assembly of a machine, cached for its sizes and its parts.
 
-    With ``by_input`` its angles are those of the machine's own input shaft.
+    Raises GenevaError if it has no ``flat`` parts that are drawn. Without ``flat`` it is that of
+    any machine; on a sphere ``pin`` is seen along the wheel's axis. With ``by_input`` its angles
+    are those of the machine's own input shaft.
     """
     spec = plain = mechanism.spec
+    if flat and not spec.wheel.FLAT:
+        raise GenevaError(
+            f'gearing = "{spec.wheel.NAME}": its parts are not flat outlines about two axes; write '
+            "`--part wheel`, `crank` or `assembly` as .dxf, .svg or .step",
+            ("wheel", "gearing"),
+        )
+    if flat and spec.wheel.z > Z_DRAWN:
+        raise GenevaError(
+            f"z = {spec.wheel.z}: parts are drawn for up to {Z_DRAWN} slots", ("wheel", "z")
+        )
     if mechanism.law is None and (crank := spec.drive.crank):
         plain = spec.replace(drive=crank, drive_before=None)
     elif spec.drive_before:  # slots and path are by the angle of the drive's own input shaft
         plain = spec.replace(drive_before=None)
     turned = mechanism if by_input or plain == spec else build(plain)
     turn, engagements = 360.0 * turned.spec.turns, turned.engagements
-    motions, rollers = list[Passage](), list[Passage]()
+    motions, rollers, half_step = list[Passage](), list[Passage](), math.inf
     for k in range(round(turn / turned.period_deg)):
         for engagement in engagements:
             mid = engagement.mid_deg + k * turned.period_deg
             motions.append(Passage(engagement, mid))
+            half_step = min(half_step, engagement.half_step)
             for passage, ahead in engagement.passages:
                 rollers.append(Passage(passage, mid - ahead))
     # around the wheel counterclockwise; later slots follow clockwise
@@ -194,6 +192,7 @@ def assembled(mechanism: Mechanism, by_input: bool = False) -> Assembly:
         sign=wheel.SIGN,
         turn_deg=turn,
         start_deg=motions[0].engagement.entry_deg,
+        half_step=half_step,
         motions=tuple(motions),
         rollers=tuple(rollers),
         slots=tuple(slots),

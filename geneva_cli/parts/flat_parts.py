@@ -22,22 +22,21 @@ from geneva_cli.motion.records import thing
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.arm import (
     CrankArm,
-    arm_plate,
     bolts,
     crank_arm,
-    locking_plates,
     roller_plates,
 )
 from geneva_cli.parts.assembly import links_at
 from geneva_cli.parts.links.links import Links
 from geneva_cli.parts.machine_sizes import machine_sizes
+from geneva_cli.parts.outlines.crank_outline import crank_bore, is_whole
 from geneva_cli.parts.outlines.cut_outlines import drawn
 from geneva_cli.parts.outlines.outlines import Outlines, dial_circle, wheel_hub, wheel_plate
 from geneva_cli.parts.outlines.wheel_outline import slot_walls, wheel_contour
 from geneva_cli.parts.parts import EdgedParts, FrameAndShafts, NamedBuilds
 from geneva_cli.parts.shafts.screws import Screws
 from geneva_cli.parts.shafts.shaft import crank_hub
-from geneva_cli.parts.sizes import Sizes, drawn_thicknesses, pin_radius
+from geneva_cli.parts.sizes import drawn_thicknesses, pin_radius
 from geneva_cli.parts.slots.roller_paths import roller_centres, wall_lost
 
 if TYPE_CHECKING:
@@ -62,11 +61,6 @@ class FlatParts(EdgedParts):
         return self._shape
 
     @property
-    def sizes(self) -> Sizes:
-        """The lengths of the parts."""
-        return self._shape.sizes
-
-    @property
     def close(self) -> float:
         """The overlap, mm, that counts as rounding or as the walls' tolerance."""
         return self._shape.close
@@ -79,7 +73,8 @@ class FlatParts(EdgedParts):
     @property
     def built(self) -> Self:
         """These parts. Raises GenevaError where the sizes leave no wheel or no crank."""
-        _ = self.drawn
+        if self.mechanism.spec.is_flat:
+            _ = self._shape
         return self
 
     def past_mouth(self, motion: int, at: Array) -> Array:
@@ -105,7 +100,7 @@ class FlatParts(EdgedParts):
 
     def _has_sizes_of(self, mechanism: Mechanism) -> bool:
         try:
-            return machine_sizes(mechanism)[1] == self.sizes
+            return machine_sizes(mechanism)[1] == self.outlines.sizes
         except GenevaError:
             return False
 
@@ -153,13 +148,26 @@ class FlatParts(EdgedParts):
 
     @cached_property
     def arm_plate(self) -> Plate | None:
-        """The crank arm as a plate."""
-        return arm_plate(self.outlines, self.arm) if self.arm else None
+        """The crank arm as a plate below the wheel, at a distance of ``pin_gap_mm``."""
+        arm, high = self.arm, -self.mechanism.spec.size.allowances.pin_gap_mm
+        if arm is None:
+            return None
+        low, holes = high - self.outlines.sizes.arm_thickness, (arm.bore, *arm.pins, *arm.bolts)
+        return Plate("arm", arm.outline.layer, arm.outline, holes, low, high)
 
     @cached_property
     def locking(self) -> tuple[Plate, ...]:
-        """The locking disc, or its sectors."""
-        return tuple(locking_plates(self.outlines))
+        """The locking disc, or its sectors, with bolts and bore."""
+        parts, screwed = self.outlines, bolts(self.outlines)
+        whole = is_whole(parts.assembly, parts.sizes)
+        low = -self.mechanism.spec.size.allowances.pin_gap_mm  # it stands on the arm
+        high, name = low + parts.sizes.lock_thickness, "locking disc" if whole else "locking sector"
+        bore = crank_bore(parts.assembly, parts.sizes) if whole else ()
+        each, plates = len(screwed) // max(1, len(parts.crank)), list[Plate]()
+        for k, contour in enumerate(parts.crank):
+            holes = (*bore, *screwed[k * each : (k + 1) * each])
+            plates.append(Plate(name, contour.layer, contour, holes, low, high))
+        return tuple(plates)
 
     @cached_property
     def rollers(self) -> tuple[Member, ...]:
@@ -183,22 +191,18 @@ class FlatParts(EdgedParts):
         plates = roller_plates(r, pin, low, wide, size.allowances.shaft_fit_mm)
         out = []
         for centre in centres:
-            out += [Member(plate, centre) for plate in plates]
+            for plate in plates:
+                out.append(Member(plate, centre))
         return tuple(out)
-
-    @cached_property
-    def crank_hub(self) -> Plate | None:
-        """The crank's hub above the disc or the arm, if the spec has one."""
-        return crank_hub(self.outlines)
 
     @property
     def horn_mm(self) -> float | None:
         """Thickness of the horns between slots and recesses; None without a lock."""
-        return self.sizes.horn if self.outlines.crank else None
+        return self.outlines.sizes.horn if self.outlines.crank else None
 
     def axle_radius(self, part: str) -> float:
         """Return the radius of a part's shaft, or of its hub if the spec has one, mm; 0 if none."""
-        sizes = self.sizes
+        sizes = self.outlines.sizes
         bore = sizes.wheel_bore if part == "wheel" else sizes.crank_bore
         hub = sizes.wheel_hub if part == "wheel" else sizes.crank_hub
         return max(bore, hub) if self.mechanism.spec.size.has_hub(part) else bore
@@ -218,7 +222,7 @@ class FlatParts(EdgedParts):
         for plate in (*self.locking, arm):
             members += [Member(plate)] if plate else []
         members += self.rollers
-        if hub := self.crank_hub:
+        if hub := crank_hub(self.outlines):
             members.append(Member(hub))
         turn = float(assembly.crank(np.zeros(1))[0])
         return Member(Group("crank", tuple(members)), (assembly.L, 0.0), turn)
@@ -261,7 +265,7 @@ class FlatParts(EdgedParts):
         low, high = self.links.sizes.span(2)
         # at mid-motion the first slot of the first wheel's frame points at the first crank
         wheel = wheel_plate(first.assembly, first.sizes, first.wheel), L, 0.0
-        discs = ((plate, L + first.assembly.L, math.pi) for plate in locking_plates(first))
+        discs = ((plate, L + first.assembly.L, math.pi) for plate in self.front.locking)
         return tuple(
             Member(plate._replace(name=f"first {plate.name}", low=low, high=high), (x, 0.0), turn)
             for plate, x, turn in (wheel, *discs)
@@ -335,18 +339,14 @@ class FlatParts(EdgedParts):
     @property
     def screws(self) -> tuple[Screws, ...]:
         """The screws of dial, locking disc, and what is fixed to the frame."""
-        framed, drawn = self._framed.screws, self.drawn
-        if not drawn:
-            return framed
-        holes = {"dial": (dial_circle(drawn.assembly, drawn.sizes).holes, "the dial")}
-        if self.locking:
-            holes[self.locking[0].name] = tuple(bolts(drawn)), "the arm"
-        own = (
-            Screws(fixed, len(some), 2.0 * some[0].radius, thread)
-            for fixed, (some, thread) in holes.items()
-            if some
-        )
-        return (*own, *framed)
+        own, drawn = list[Screws](), self.drawn
+        if drawn:
+            dial, locking = dial_circle(drawn.assembly, drawn.sizes).holes, self.locking
+            if dial:
+                own.append(Screws("dial", len(dial), 2.0 * dial[0].radius, "the dial"))
+            if locking and (some := bolts(drawn)):
+                own.append(Screws(locking[0].name, len(some), 2.0 * some[0].radius, "the arm"))
+        return (*own, *self._framed.screws)
 
     @property
     def required(self) -> tuple[Member, ...]:
@@ -378,7 +378,7 @@ class FlatParts(EdgedParts):
             yield "locking disc", lambda: each * self.locking
             yield "arm", lambda: each * [self.arm_plate] if self.arm_plate else []
             yield "rollers", lambda: each * [one.part for one in self.rollers]
-            yield "crank's hub", lambda: each * [self.crank_hub] if self.crank_hub else []
+            yield "crank's hub", lambda: each * [hub] if (hub := crank_hub(self.outlines)) else []
         yield "links", lambda: [one.part for one in self.linked]
         yield "gears", lambda: [one.part for one in (*self.round_gears, *self.gear_pair)]
         yield "first wheel", lambda: [one.part for one in self.first]

@@ -54,42 +54,39 @@ def framed(
     top = _lowest(mechanism, outlines, bars, base, first) - size.washer_mm
     thick = outlines.sizes.arm_thickness if outlines else drawn_thicknesses(size, L).arm
     own = _all_shafts(mechanism, outlines, bars, top - thick, first)
-    bridge, hanging = None, list[Shaft]()
-    for k, shaft in enumerate(own):
-        if not shaft.turns or shaft.low < top:
-            continue
-        if outlines and not bridge and same(shaft.at, mechanism.crank_shaft.at, L):
+    bridge, unborne, axles = None, list[tuple[str, str]](), list[Member]()
+    for shaft in own:
+        borne = not shaft.turns or shaft.low < top
+        if outlines and not (borne or bridge) and same(shaft.at, mechanism.crank_shaft.at, L):
             bridge = _bridge(mechanism, outlines, bars, shaft, thick)
-            if bridge:
-                own[k] = shaft._replace(high=bridge.high)
-                continue
-        hanging.append(shaft)
-    axles = [one.member for one in own]
+            borne, high = bool(bridge), bridge.high if bridge else shaft.high
+            shaft = shaft._replace(high=high)
+        if not borne:
+            unborne.append((shaft.name, _why_above(shaft, mechanism, bars, top)))
+        axles.append(shaft.member)
     standing, holes = _standing(mechanism, bars), list[Circle]()
-    for at in standing:
+    for at, diameter_mm in standing.items():
         here = [axle._replace(at=at) for axle in axles if same(axle.at, at, L)]
-        holes += shaft_holes(size, here, top)
-        if not here:
-            table = mechanism.spec.shaft
-            on_crank = at in [one.at for one in mechanism.crank_places]
-            diameter = table.crank_diameter_mm if on_crank else table.wheel_diameter_mm
-            holes.append(hole_without_shaft(diameter, at, L))
-    screwed, spacers = _screwed(bars, (base, bridge), L), list[Member]()
-    for hole, part in screwed:
+        holes += shaft_holes(size, here, top) if here else [hole_without_shaft(diameter_mm, at, L)]
+    screwed, spacers = list[tuple[Circle, str]](), list[Member]()
+    for hole, part in _screwed(bars, (base, bridge), L):
         holes.append(tapped(hole))
+        screwed.append((hole, part.name))
         if part.low - top > SAME_LENGTH * L:
             # a ring twice as wide, turned from a rod: often it is higher than wide
             ring, bore = Circle("SHAFT", ORIGIN, 2.0 * hole.radius), hole._replace(centre=ORIGIN)
             name = f"spacer of the {part.name}"
             spacers.append(Member(Plate(name, "SHAFT", ring, (bore,), top, part.low), hole.centre))
-    eye = corner_radius(size, L)
+    eye = max(L / 20.0, 3.0 * wall_min(size, L))  # it leaves walls around mounting holes
     if mechanism.frame > 0.0:
         reach = max((c.radius for c in holes), default=0.0) + eye
         outline = convex_hull("FRAME", [Circle("FRAME", at, reach) for at in standing])
         plate = Plate("carrier", "FRAME", outline, tuple(holes), top - thick, top)
     else:
         # a frame contains every axis, drilled or not
-        within = [*holes, *(Circle("BORE", at, 0.0) for at in (ORIGIN, *standing))]
+        within = [*holes, Circle("BORE", ORIGIN, 0.0)]
+        for at in standing:
+            within.append(Circle("BORE", at, 0.0))
         plate = mounted_plate(holes, within, eye, (top - thick, top))
     if bars.sizes:
         from geneva_cli.parts.links.link_shafts import outside_links
@@ -99,9 +96,9 @@ def framed(
         plate,
         tuple(axles),
         tuple(spacers),
-        tuple((hole, part.name) for hole, part in screwed),
+        tuple(screwed),
         Member(bridge, (L, 0.0)) if bridge else None,
-        tuple((one.name, _why_above(one, mechanism, bars, top)) for one in hanging),
+        tuple(unborne),
     )
 
 
@@ -132,20 +129,25 @@ def _lowest(
     return min(lows)
 
 
-def _standing(mechanism: Mechanism, bars: Links) -> list[Point]:
-    """Return the positions of shafts, each once: of the wheels, the crank, and its drive.
+def _standing(mechanism: Mechanism, bars: Links) -> dict[Point, float | None]:
+    """Return the positions of shafts, of the wheels, the crank, and its drive, each once.
 
-    An internal wheel is open in the middle, where its crank turns below it. It is held from above.
+    With each is the diameter that the spec gives its shaft. An internal wheel is open in the
+    middle, where its crank turns below it. It is held from above.
     """
-    wheels = mechanism.wheel_places if mechanism.spec.wheel.SIGN > 0.0 else ()
-    standing = [one.at for one in (*wheels, *mechanism.crank_places)]
+    standing, shaft = dict[Point, float | None](), mechanism.spec.shaft
+    for place in mechanism.wheel_places if mechanism.spec.wheel.SIGN > 0.0 else ():
+        standing[place.at] = shaft.wheel_diameter_mm
+    for place in mechanism.crank_places:
+        standing[place.at] = shaft.crank_diameter_mm
     if mechanism.spec.gears:
-        standing.append((mechanism.gear_shaft.x_mm + mechanism.spec.gears.distance_mm, 0.0))
+        driver = mechanism.gear_shaft.x_mm + mechanism.spec.gears.distance_mm, 0.0
+        standing[driver] = shaft.wheel_diameter_mm
     for axis in bars.axes:
         if axis.stands and not any(
             same(axis.at, one, mechanism.center_distance_mm) for one in standing
         ):
-            standing.append(axis.at)
+            standing[axis.at] = shaft.wheel_diameter_mm
     return standing
 
 
@@ -312,11 +314,6 @@ def mounted_plate(
             if mount:
                 mounts.append(Circle("BORE", (x, y), 0.5 * mount.through))
     return Plate(FRAME, "FRAME", convex_hull("FRAME", corners), (*holes, *mounts), *span)
-
-
-def corner_radius(size: Size, L: float) -> float:
-    """Return the radius of a frame's corners, which leaves walls around their mounting holes."""
-    return max(L / 20.0, 3.0 * wall_min(size, L))
 
 
 def shaft_holes(size: Size, axles: Iterable[Member], top: float) -> list[Circle]:

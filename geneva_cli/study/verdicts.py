@@ -47,14 +47,13 @@ def verdict(
         design = load(path, settings, reverse)
         if design.spec.is_loaded and not design.is_drawn:
             from geneva_cli.loads.cycle import cycle_of
-            from geneva_cli.loads.load_tables import summaries
             from geneva_cli.loads.strength.part_loads import single_loads
             from geneva_cli.verdict.strength import strength
 
             # loads, the parts that they size, their strength: what checks and warnings read
             with suppress(GenevaError):  # a check says why
                 single_loads(design.mechanism)
-                summaries(cycle_of(design.mechanism))
+                _ = cycle_of(design.mechanism).ends
                 _ = design.parts.built
                 of = strength(design.mechanism)
                 _ = of["strength.wheel_shaft.stress_MPa"], of["strength.horn.stress_MPa"]

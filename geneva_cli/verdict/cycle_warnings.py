@@ -9,10 +9,9 @@ from geneva_cli.errors import Notice
 from geneva_cli.loads.carried import weight_kg
 from geneva_cli.loads.contact import contact
 from geneva_cli.loads.cycle import Cycle, cycle_of
-from geneva_cli.loads.cycle_quantities import FORCE, STRESS
+from geneva_cli.loads.cycle_quantities import FORCE, STRESS, TORQUE
 from geneva_cli.loads.impacts.reversal import arrival
 from geneva_cli.loads.instant import Instant
-from geneva_cli.loads.load_tables import summaries
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import braking
 from geneva_cli.motion.peaks import worst
@@ -29,7 +28,7 @@ def cycle_warnings(mechanism: Mechanism) -> list[Notice]:
 
 def _unbounded(cycle: Cycle) -> Iterator[Notice]:
     """Warnings about loads that nothing bounds."""
-    case, force = cycle.case, cycle.extremes[FORCE]
+    case, force = cycle.case, cycle.ends[FORCE]
     endless_deg = math.inf
     for value, at_deg in ((force.max, force.max_at_deg), (force.min, force.min_at_deg)):
         if math.isinf(value):
@@ -44,7 +43,7 @@ def _unbounded(cycle: Cycle) -> Iterator[Notice]:
             f"friction of {of} holds the {held} at {endless_deg:.4g}°, however hard the roller "
             f"presses: it takes as much {more} gives. Use a smaller roller or less {less}",
         )
-    stress = cycle.extremes.get(STRESS)
+    stress = cycle.ends.get(STRESS)
     if stress is not None and not math.isfinite(stress.max) and endless_deg == math.inf:
         yield Notice(
             "sharp-wall",
@@ -56,14 +55,16 @@ def _unbounded(cycle: Cycle) -> Iterator[Notice]:
 
 def _driven(cycle: Cycle) -> Iterator[Notice]:
     """Warnings about a wheel that drives the motor, or lags behind its roller."""
-    mechanism, sums = cycle.mechanism, summaries(cycle)
-    torque, noun, stop = sums["input_torque_Nm"], mechanism.output.noun, arrival(mechanism)
+    mechanism, ends = cycle.mechanism, cycle.ends
+    torque, noun, stop = ends[TORQUE], mechanism.output.noun, arrival(mechanism)
     # a torque without a bound is no measure of the rounding of another
-    largest = sums["wheel_torque_Nm"].max if torque.max is None else torque.max
+    largest = torque.max
+    if not math.isfinite(largest):
+        largest = ends["wheel_torque_Nm"].max if "wheel_torque_Nm" in ends else 0.0
     least = torque.min
-    fed = least is not None and least < -ROUNDED * abs(largest or least)
+    fed = math.isfinite(least) and least < -ROUNDED * abs(largest or least)
     driven = back_driven_deg(cycle) if fed else []
-    if least is not None and driven:
+    if driven:
         each = [f"{round(a, 9):.4g} to {round(b, 9):.4g}" for a, b in driven]
         more = len(each) - 6  # a line or two; a carousel may have many
         where = ", ".join(each if more <= 0 else each[:6])
@@ -98,17 +99,18 @@ def _driven(cycle: Cycle) -> Iterator[Notice]:
 
 def _unbalanced(cycle: Cycle) -> Iterator[Notice]:
     """A warning about single bodies off the wheel's axis, whose force its shaft bears."""
-    spec, bearing = cycle.mechanism.spec, summaries(cycle)["wheel_bearing_N"].max
+    spec, bearing = cycle.mechanism.spec, cycle.ends.get("wheel_bearing_N")
     bodies = [one for one in spec.mass if one.to_one_side]
     # on a carrier the loads count that force; behind gears another shaft bears it
-    if bearing is not None and not cycle.case.frame and spec.support.gear_ratio == 1.0:
+    held = bearing is not None and math.isfinite(bearing.max) and not cycle.case.frame
+    if bearing and held and spec.support.gear_ratio == 1.0:
         peaks = worst(cycle.mechanism)
         # at most: the peaks need not coincide, nor the bodies stand on one side
         most = math.hypot(peaks.velocity.max**2, peaks.acceleration.max)
         off_kgm = sum(weight_kg(one) * one.radius_mm * 1e-3 for one in bodies)
         force_N = omega(spec.drive.n_rpm) ** 2 * most * off_kgm
         names = " and ".join(one.name or one.shape for one in bodies)
-        if force_N >= 0.01 * bearing:
+        if force_N >= 0.01 * bearing.max:
             yield Notice(
                 "unbalanced",
                 f"{names} stand{'s' * (len(bodies) == 1)} off the wheel's axis. While the wheel "

@@ -7,7 +7,7 @@ import pytest
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.loops import loops, shown
-from geneva_cli.geometry.moments import moments
+from geneva_cli.geometry.plates import moments
 from geneva_cli.geometry.shapes import Arc, Circle, Line, two_arcs
 
 

@@ -12,7 +12,7 @@ from sampling import some
 from shapely.geometry import LineString, Polygon
 
 from geneva_cli.geometry.measure import at, bounds, fraction_at, segment_length
-from geneva_cli.geometry.moments import moments
+from geneva_cli.geometry.plates import moments
 from geneva_cli.geometry.shapes import Arc, Contour, Line, about
 
 FINE = 1e-5  # mm, of the witnesses' polygons

@@ -6,7 +6,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from geneva_cli.geometry.moments import moments, total
+from geneva_cli.geometry.plates import moments, total
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Line, about, closed
 
 mp = mpmath.mp.clone()

@@ -83,7 +83,7 @@ def test_the_work_closes(path):
         cycle,
         lambda i: i.input_torque_Nm,
         lambda i: i.wheel_torque_Nm * i.at.velocity,
-        lambda i: i.rubbed_Nm,
+        lambda i: i.slot_torque_Nm - i.wheel_torque_Nm * i.at.velocity,
         lambda i: i.at.acceleration * i.at.velocity * (w * w),
     )
     step = sum(2.0 * engagement.half_step for engagement in mechanism.engagements)

@@ -7,7 +7,6 @@ import repo
 from design_arrays import MACHINES, alone
 from load_states import state
 from loaded_arrays import MISSED, NAMES, beyond, dense_means, loaded, missed
-from scipy.integrate import quad
 
 from geneva_cli import design
 from geneva_cli.loads.cycle import Cycle
@@ -155,27 +154,6 @@ def test_a_torque_alone_has_no_sign_that_counts():
         middle = state(one, one.engagements[0], 0.0)
         for name in names:
             assert sizes[name].max[i] == pytest.approx(getattr(middle, name), rel=32 * ULP)
-
-
-def test_the_inertia_alone_against_the_theory():
-    """theory-loads: the pin force's factor of the classic wheel of six slots, at -19.96 deg."""
-    spec, _ = MACHINES["crank"]
-    spec = spec.replace(load=Load(inertia_kgm2=1.0))
-    found = many(spec, {"wheel.z": np.array([6, 12]), "drive.n_rpm": np.array([60.0, 30.0])})
-    force = load_summaries(found.machine, ["pin_force_N"])["pin_force_N"]
-    L, w = 0.1, np.array([2.0 * np.pi, np.pi])
-    assert force.max * L / w**2 == pytest.approx(
-        [2.3911331461217286, 0.42187714544353779], rel=1e-14
-    )
-    assert force.max_at_deg == pytest.approx([-19.9649425, -39.16219639], abs=1e-7)
-    for z, mean in zip((6, 12), force.mean * L / w**2, strict=True):
-        ratio, end = np.sin(np.pi / z), np.pi / 2.0 - np.pi / z
-
-        def size(x, ratio=ratio):  # |psi''| over the distance of roller and wheel's axis
-            square = 1.0 - 2.0 * ratio * np.cos(x) + ratio**2
-            return ratio * (1.0 - ratio**2) * np.sin(x) / square**2.5
-
-        assert mean == pytest.approx(quad(size, 0.0, end)[0] / np.pi, rel=1e-12)
 
 
 def test_an_input_torque_that_holds_back_most_is_greatest_by_size():

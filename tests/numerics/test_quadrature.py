@@ -7,7 +7,7 @@ import pytest
 
 from geneva_cli.motion.slot_and_motion import _sinc
 from geneva_cli.numerics.jet import Jet
-from geneva_cli.numerics.quadrature import Integrands, lobatto, rule, span_integrals
+from geneva_cli.numerics.quadrature import lobatto, rule, span_integrals
 
 CLOSED = {  # over 2..5
     "root at the start": (lambda x: np.sqrt(x - 2.0), 2.0 / 3.0 * 3.0**1.5),
@@ -28,7 +28,7 @@ def test_roots_at_the_ends_cost_no_more_than_what_is_smooth(name):
         return f(x)[None]
 
     ends, one = (np.array([2.0]), np.array([5.0])), np.zeros(1, dtype=int)
-    (found,) = span_integrals(Integrands(rows, *ends, True), one, np.full((1, 1), True))[0]
+    (found,) = span_integrals(rows, ends, one, np.full((1, 1), True), True)[0]
     # beside an end x itself is rounded, to 4e-16 of 5: a root of that over so short a way is lost
     assert found == pytest.approx(exact, rel=1e-14)
     assert len(calls) <= 4, "an end is halved time and again"
@@ -38,9 +38,7 @@ def test_roots_at_the_ends_cost_no_more_than_what_is_smooth(name):
 def test_a_kink_beside_an_end_is_found(kink):
     """|x - kink| over 2..5: between an end and the nearest place of Gauss none would tell of it."""
     ends, one = (np.array([2.0]), np.array([5.0])), np.zeros(1, dtype=int)
-    found = span_integrals(
-        Integrands(lambda x, _: abs(x - kink)[None], *ends, True), one, np.full((1, 1), True)
-    )
+    found = span_integrals(lambda x, _: abs(x - kink)[None], ends, one, np.full((1, 1), True), True)
     exact = 0.5 * ((kink - 2.0) ** 2 + (5.0 - kink) ** 2)
     assert found[0, 0] == pytest.approx(exact, rel=1e-12)  # what its last terms may leave
 

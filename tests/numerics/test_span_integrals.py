@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from geneva_cli.numerics import quadrature
-from geneva_cli.numerics.quadrature import LAST_TERMS, NODES, Integrands, span_integrals
+from geneva_cli.numerics.quadrature import LAST_TERMS, NODES, span_integrals
 
 
 def summed(f, n=1, ends=False):
@@ -18,7 +18,7 @@ def summed(f, n=1, ends=False):
         return f(x, which)[None]
 
     a, every = np.zeros(n), np.arange(n)
-    found = span_integrals(Integrands(functions, a, a + 1.0, ends), every, np.full((1, n), True))
+    found = span_integrals(functions, (a, a + 1.0), every, np.full((1, n), True), ends)
     return found[0], sum(places)
 
 

@@ -18,10 +18,10 @@ from geneva_cli import Design, External, Size
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.measure import bounds
-from geneva_cli.geometry.moments import moments
-from geneva_cli.geometry.plates import Plate, Shell, face, solids
+from geneva_cli.geometry.plates import Plate, face, moments, solids
 from geneva_cli.geometry.shapes import Arc, Circle, Cubic, Line, closed
 from geneva_cli.geometry.sheet import Drawing
+from geneva_cli.geometry.sphere_shell import Shell
 from geneva_cli.output.inks import INKS
 from geneva_cli.output.mesh_files import stl, threemf
 from geneva_cli.output.meshes import DECIMALS, bodies

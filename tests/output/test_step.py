@@ -13,8 +13,7 @@ from witness import mp
 from geneva_cli import Design, External
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.moments import moments
-from geneva_cli.geometry.plates import Group, Member, Plate
+from geneva_cli.geometry.plates import Group, Member, Plate, moments
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Line, about, backwards, closed
 from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.output.inks import INKS

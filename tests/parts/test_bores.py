@@ -10,8 +10,7 @@ from shapely.geometry import Point
 
 from geneva_cli import Design, External, Size, load
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.moments import moments
-from geneva_cli.geometry.plates import in_place, plates
+from geneva_cli.geometry.plates import in_place, moments, plates
 from geneva_cli.geometry.shapes import Contour
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.shafts.bores import bore_of, radius_of

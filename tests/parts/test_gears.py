@@ -80,20 +80,6 @@ def test_drawn_gears_mesh_as_the_crank_turns(gearing):
         assert one.intersection(other).area < 1e-4
 
 
-def test_the_groove_against_the_law_of_sines():
-    """R = L sin psi / sin(phi + psi), from the law's closed form."""
-    spec = Spec(Wheel(6), Drive("cam"), Keys("cam"), Motion("cycloidal"))
-    at = columns(groove_table(build(spec), TOL, 25))
-    phi = np.radians(at["input_deg"])
-    u = at["input_deg"] / 120.0 + 0.5
-    psi = math.pi / 3.0 * (u - np.sin(2.0 * math.pi * u) / (2.0 * math.pi) - 0.5)
-    off = np.abs(phi) > 1e-9
-    expected = 100.0 * np.sin(psi[off]) / np.sin(phi[off] + psi[off])
-    assert at["radius_mm"][off] == pytest.approx(expected, rel=1e-13)
-    assert at["radius_mm"][~off] == pytest.approx(50.0, rel=1e-15)  # L V/(1+V), V = 1
-    assert at["curvature_radius_mm"][0] == math.inf  # entering along a slot at rest
-
-
 def missed(x, y, true: np.ndarray) -> float:
     """The greatest distance of true places x + iy from the chords between rows of a table."""
     chords = LineString(np.column_stack((x, y)))
@@ -123,6 +109,11 @@ def test_the_groove_table_keeps_its_tolerance(tolerance):
         for side, off in (("", 0.0), ("left_", 5.0), ("right_", -5.0))
     ]
     assert 0.5 * tolerance < max(worst) <= 1.005 * tolerance
+    turned = np.radians(at["input_deg"])
+    off = np.abs(turned) > 1e-9  # at 0 it is L V/(1+V), V = 1
+    assert at["radius_mm"][off] == pytest.approx(distance(turned[off]), rel=1e-13)
+    assert at["radius_mm"][~off] == pytest.approx(50.0, rel=1e-15)
+    assert at["curvature_radius_mm"][0] == math.inf  # entering along a slot at rest
 
 
 @pytest.mark.parametrize(("z", "law", "alpha0"), [(6, "cycloidal", 0.0), (4, "3-4-5", -20.0)])

@@ -3,12 +3,13 @@
 import pytest
 import repo
 from drawing_witness import polygon, vertices
-from shapely.geometry import LineString
+from shapely.geometry import LineString, Point
 
 from geneva_cli import load
 from geneva_cli.drawings.parts_list import parts_list
 from geneva_cli.geometry.plates import mass_properties, plates
 from geneva_cli.geometry.shapes import Circle
+from geneva_cli.parts.slots.groove import groove_table
 
 SAGITTA = 1e-3  # mm, of the chords that shapely is given
 OFF = 5e-3  # mm: those, the walls' own tolerance of 0.001, and shapely's arcs
@@ -31,6 +32,11 @@ def test_the_roller_fills_the_groove_all_round(cam):
     assert groove.buffer(OFF).contains(swept)
     assert swept.buffer(OFF).contains(groove)
     assert base.outline == ring.outline
+    # the roller's path through the motion is that of the table
+    path = LineString(vertices(pitch, SAGITTA))
+    table = groove_table(cam[0].mechanism, 0.001, 181)
+    for row in table.to_rows():
+        assert path.distance(Point(row["x_mm"], row["y_mm"])) < OFF
 
 
 def test_it_lies_about_its_roller_and_below_the_crank(cam):

@@ -13,14 +13,13 @@ from geneva_cli import Design, External
 from geneva_cli.drawings.sheet.crank_views import draw_arm, draw_disc, draw_link
 from geneva_cli.drawings.sheet.view import View
 from geneva_cli.drawings.sheet.wheel_views import draw_wheel
-from geneva_cli.geometry.moments import moments
-from geneva_cli.geometry.plates import plates
+from geneva_cli.geometry.plates import moments, plates
 from geneva_cli.geometry.shapes import Arc
 from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.links.link_plates import drawn_links
 from geneva_cli.parts.machine_sizes import machine_sizes
-from geneva_cli.parts.outlines.crank_outline import arc_floor, lock_of, reliefs, widened
-from geneva_cli.parts.outlines.cut_outlines import cut_arcs, drawn
+from geneva_cli.parts.outlines.crank_outline import arc_floor, reliefs, widened
+from geneva_cli.parts.outlines.cut_outlines import cut_arcs, cut_lock, drawn
 from geneva_cli.parts.shafts.bores import bore_of
 from geneva_cli.parts.slots.roller_paths import horn_corners
 from geneva_cli.spec.tables import Size
@@ -139,7 +138,7 @@ def test_keyways_of_a_shaft():
     circle's strip of width b beyond that.
     """
     size = Size(wheel_keyway="DIN 6885-1", wheel_bore_mm=20.0)
-    section = bore_of(size, "wheel", 10.0).section("SHAFT", 0.3)
+    section = bore_of(size, "wheel", 10.0).shape("SHAFT", 0.3, shaft=True)
     strip = 3.0 * math.sqrt(91.0) + 100.0 * math.asin(0.3)
     cut = strip - 6.0 * (10.0 - 3.5)
     assert moments(section).area == pytest.approx(100.0 * math.pi - cut, rel=1e-12)
@@ -200,13 +199,13 @@ def test_a_relief_is_as_wide_as_the_wheel_reaches(wheel, passed):
     parts = drawn(*machine_sizes(Design(wheel, size=Size(100.0, 4.0)).mechanism))
     assembly, sizes = parts.assembly, parts.sizes
     mouths = horn_corners(assembly, sizes.roller, 0.0, sizes.recess, sizes.rim)
-    wide = {one.motion: one for one in widened(assembly, sizes, mouths)}
-    for one in reliefs(assembly):
-        middle = 0.5 * (one.start + one.end)
-        x, y = parts.gaps.swept(one.motion, 0.002)
+    wide = {motion: end - start for start, end, motion in widened(assembly, sizes, mouths)}
+    for start, end, motion in reliefs(assembly):
+        middle, half = 0.5 * (start + end), 0.5 * (end - start)
+        x, y = parts.gaps.swept(motion, 0.002)
         off = np.abs(np.remainder(np.arctan2(y, x) - middle + math.pi, math.tau) - math.pi).max()
-        assert (off > one.half + 1e-6) == (one.motion in passed)
-        reach = off + sizes.relief / sizes.lock if one.motion in passed else one.half
-        assert wide[one.motion].half == pytest.approx(reach, abs=math.radians(0.02))
+        assert (off > half + 1e-6) == (motion in passed)
+        reach = off + sizes.relief / sizes.lock if motion in passed else half
+        assert 0.5 * wide[motion] == pytest.approx(reach, abs=math.radians(0.02))
     cut = [arc.sweep for arc in cut_arcs(parts.crank, sizes.lock, 0.0, 1e-6)]
-    assert lock_of(assembly, sizes).half == pytest.approx(0.5 * min(map(abs, cut)), rel=1e-12)
+    assert cut_lock(assembly, sizes).half == pytest.approx(0.5 * min(map(abs, cut)), rel=1e-12)

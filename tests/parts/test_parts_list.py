@@ -17,7 +17,7 @@ from geneva_cli import Design
 from geneva_cli.cli.app import app
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.moments import moments
+from geneva_cli.geometry.plates import moments
 from geneva_cli.motion import registry
 from geneva_cli.motion.records import of_wheel
 

@@ -21,7 +21,7 @@ from geneva_cli import (
     Spherical,
 )
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.moments import moments
+from geneva_cli.geometry.plates import moments
 from geneva_cli.geometry.shapes import Arc, Line
 from geneva_cli.loads.impacts.entry import mouth_contacts
 from geneva_cli.loads.strength.horn import horns, single_stress

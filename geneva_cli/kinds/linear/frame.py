@@ -19,7 +19,6 @@ from geneva_cli.loads.strength.arm_and_key import NO_ARM, NO_KEY, ArmDimensions
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import value_or
 from geneva_cli.parts.frame import (
-    corner_radius,
     hole_without_shaft,
     mounted_plate,
     shaft_holes,
@@ -31,6 +30,7 @@ from geneva_cli.parts.shafts.screws import bolt_radius, tapped
 from geneva_cli.parts.shafts.shaft import Shaft, shaft_ends
 from geneva_cli.parts.sized_by_load import ShaftSize, Stressed, key_of, shaft_of
 from geneva_cli.parts.sizes import drawn_thicknesses, pin_radius
+from geneva_cli.spec.defaults import wall_min
 
 
 class RackFrame(NamedTuple):
@@ -78,7 +78,8 @@ def shafts_and_frame(mechanism: Mechanism) -> FrameAndShafts:
     screwed = tuple((hole, name) for name, row in rows for hole in row)
     within = [*bored, *(tapped(hole) for hole, _ in screwed)]
     holes = [one for one in within if one.radius]
-    frame = mounted_plate(holes, within, corner_radius(size, L), (heights.plain, heights.top))
+    eye = max(L / 20.0, 3.0 * wall_min(size, L))  # it leaves walls around mounting holes
+    frame = mounted_plate(holes, within, eye, (heights.plain, heights.top))
     return FrameAndShafts(frame, axles, screwed=screwed if _bolt(sizes) else ())
 
 

@@ -29,7 +29,7 @@ from geneva_cli.kinds.linear.rack import (
 )
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.arm import roller_plates
-from geneva_cli.parts.assembly import assembled
+from geneva_cli.parts.assembly import assembly
 from geneva_cli.parts.gears.gear_pair import gear_pair
 from geneva_cli.parts.parts import EdgedParts, FrameAndShafts, NamedBuilds
 from geneva_cli.parts.projection import NamedParts
@@ -44,7 +44,7 @@ class RackParts(EdgedParts):
 
     @cached_property
     def _shape(self) -> RackOutlines:
-        return turned_rack(assembled(self.mechanism), self.sizes)
+        return turned_rack(assembly(self.mechanism, flat=False), self.sizes)
 
     @cached_property
     def sizes(self) -> RackSizes:

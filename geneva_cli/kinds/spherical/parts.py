@@ -18,7 +18,6 @@ from geneva_cli.geometry.plates import (
     MassProperties,
     Member,
     Plate,
-    Shell,
     added,
     inwards,
     mass_properties,
@@ -26,6 +25,7 @@ from geneva_cli.geometry.plates import (
 from geneva_cli.geometry.shapes import ORIGIN, Circle
 from geneva_cli.geometry.sphere import POLE, Cap, Region, Rotation, axis_frame, place
 from geneva_cli.geometry.sphere_arcs import RoundHole
+from geneva_cli.geometry.sphere_shell import Shell
 from geneva_cli.kept import cached_property
 from geneva_cli.kinds.spherical.arm import CapArm, crank_arm
 from geneva_cli.kinds.spherical.ball import Ball, refuse_wide
@@ -34,7 +34,7 @@ from geneva_cli.kinds.spherical.regions import at_mid_motion, wheel_regions
 from geneva_cli.kinds.spherical.sizes import ball, fitted
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.parts.assembly import Assembly, assembled
+from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.projection import NamedParts
 from geneva_cli.parts.shafts.bores import bore_of, has_shape
@@ -73,7 +73,7 @@ class SphereParts(Parts):
     @cached_property
     def _shape(self) -> Shells:
         ball, locks = fitted(self.mechanism, self.advice)
-        L, assembly = ball.radius_mm, assembled(self.mechanism)
+        L, where = ball.radius_mm, assembly(self.mechanism, flat=False)
         lengths = BallLengths(
             roller=L * ball.roller,
             half_width=L * ball.half_width,
@@ -82,7 +82,7 @@ class SphereParts(Parts):
             horn=L * ball.horn,
             wall_min=wall_min(self.mechanism.spec.size, L),
         )
-        return Shells(assembly, ball, lengths, locks, BallGaps(assembly, ball, locks))
+        return Shells(where, ball, lengths, locks, BallGaps(where, ball, locks))
 
     @property
     def shells(self) -> Shells:

@@ -179,13 +179,13 @@ def reversal_impacts(mechanism: Mechanism, pin: PinSize | None = None) -> Impact
     play_mm = choose(given == 0.0, workshop(spec.size.process).slot_play_mm, given) + 0.5 * both
     drag = drag_over(mechanism)
     none = (drag == np.inf) | (play_mm == 0.0)
-    best = np.full((3, 1), np.nan)
-    if not all_true(none):
-        numbers = mechanism.center_distance_mm, drag, play_mm, case.radius
-        rows = [np.broadcast_to(x, (mechanism.designs, 1)) for x in numbers]
-        for engagement in mechanism.engagements:
-            own = _reversal(engagement, *rows)
-            best = harder(best, shown(mechanism, engagement, *own))
+    if all_true(none):
+        return Impacts(*np.full((5, mechanism.designs), np.nan))
+    best, numbers = np.full((3, 1), np.nan), (mechanism.center_distance_mm, drag, play_mm)
+    rows = [np.broadcast_to(x, (mechanism.designs, 1)) for x in (*numbers, case.radius)]
+    for engagement in mechanism.engagements:
+        own = _reversal(engagement, *rows)
+        best = harder(best, shown(mechanism, engagement, *own))
     *impacts, edge = best
     hit = with_force(mechanism, np.array(impacts), pin)
     if case.hertz is None:

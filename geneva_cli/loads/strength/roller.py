@@ -26,7 +26,8 @@ from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Array, Whole, array, parameter
-from geneva_cli.numerics.quadrature import Integrands, span_integrals
+from geneva_cli.numerics.extremes import search
+from geneva_cli.numerics.quadrature import span_integrals
 
 LIFE_EXPONENT = 10.0 / 3.0  # p, of line contact
 
@@ -70,8 +71,9 @@ def passage(engagement: Engagement, case: LoadCase, half: float = 0.0) -> SlotPa
     # curved slot both branches begin at mid-motion. Spans end there.
     middle = curved or (engagement.on_arm and engagement.motion.symmetric)
     more = ("slides",) if middle else ("slides", "along")
-    load, n = LoadFunctions(engagement, case, (FORCE,), more=more), case.designs
-    result = load.search()
+    load, n = LoadFunctions(engagement, case, (FORCE,), more=more), np.size(case.design)
+    parts, known = load.to_search()
+    result = search(load, parts, False, known, load.spread)
     bounded = np.isfinite(result.most[0])  # the integrals are, where the force is
     design, _, (a, b), positive = load.stretches(result)
     own = np.flatnonzero(half * (a + b) >= 0.0)
@@ -98,8 +100,8 @@ def passage(engagement: Engagement, case: LoadCase, half: float = 0.0) -> SlotPa
     every_one = np.full(n, True)
     requested = np.stack((every_one, every_one, bounded, bounded))
     with np.errstate(all="ignore"):
-        each = Integrands(rows, a, b, ends=True)
-        moved, *others = span_integrals(each, design, requested, apart=True) * DEGREE
+        each = span_integrals(rows, (a, b), design, requested, ends=True, apart=True)
+        moved, *others = each * DEGREE
     total = [np.bincount(design, row, n) for row in (abs(moved), *others)]
     return SlotPassage(*map(parameter, np.where(requested, total, np.inf)))
 

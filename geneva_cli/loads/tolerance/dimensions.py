@@ -29,6 +29,9 @@ class Deviations(NamedTuple):
     recess_radius_mm: Jet
 
 
+AS_DRAWN = Deviations(*[Jet((0.0,))] * len(Deviations._fields))  # without any
+
+
 def tolerances(spec: Spec) -> dict[str, float]:
     """Plus or minus of each dimension, in millimetres and radians."""
     values = spec.tolerance.as_dict()

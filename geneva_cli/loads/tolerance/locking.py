@@ -10,12 +10,13 @@ first if that reaches farther round; or both arcs meet where their centres are r
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import NamedTuple, Protocol, cast
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import NamedTuple, TypeAlias, cast
 
 import numpy as np
 
-from geneva_cli.loads.tolerance.dimensions import Deviations, deviations
+from geneva_cli.loads.tolerance.dimensions import AS_DRAWN, Deviations
 from geneva_cli.numerics.arrays import (
     Mask,
     Truth,
@@ -38,11 +39,8 @@ class LockPlay(NamedTuple):
     jams: Mask  # True if they do not fit together
 
 
-class CutLock(Protocol):
-    """A lock of parts as they are cut, whose play deviations change."""
-
-    def __call__(self, by: Deviations) -> LockPlay:
-        """Play of the wheel to one side."""
+# A lock of parts as they are cut: the play of the wheel to one side with deviations.
+CutLock: TypeAlias = Callable[[Deviations], LockPlay]
 
 
 class LockContact(NamedTuple):
@@ -100,24 +98,25 @@ class Lock(NamedTuple):
         """Contact of disc and recess after the play is used up, without deviations."""
         L, clearance = self.L, self.recess - self.lock
         # a corner meets the disc if the disc reaches as far round as the recess
-        corner, loose = _truth(self.reach <= self.half), _truth(clearance > 0.0)
+        half_reach = self.reach
+        corner, loose = half_reach <= self.half, clearance > 0.0
         x, y = L - self.sign * self.lock * np.cos(self.half), self.lock * np.sin(self.half)
-        far = choose(corner, self.corner - self.sign * self.edge, np.hypot(x, y))
-        reach = choose(corner, self.lock + self.edge, self.recess)
+        far = np.where(corner, self.corner - self.sign * self.edge, np.hypot(x, y))
+        reach = np.where(corner, self.lock + self.edge, self.recess)
         cosine = self.sign * (L * L + reach * reach - far * far) / (2.0 * L * reach)
         # if the arcs touch there is no such triangle: the angle is 90 degrees
-        arcs = _truth(smaller(self.reach, self.half) > 0.5 * math.pi)
+        arcs = smaller(half_reach, self.half) > 0.5 * math.pi
         with np.errstate(invalid="ignore"):
             # NaN where the recess's corner is beyond the recess, so that nothing meets it
-            phi = np.arccos(choose(arcs, 0.0, cosine))
-        edge = choose(corner, self.edge, 0.0)
-        between = self.lock * self.recess / choose(loose, clearance, 1.0)
+            phi = np.arccos(np.where(arcs, 0.0, cosine))
+        edge = np.where(corner, self.edge, 0.0)
+        between = self.lock * self.recess / np.where(loose, clearance, 1.0)
         ended = self.lock * edge / (self.lock + edge)
-        radius = choose(loose, choose(arcs, between, ended), math.inf)
+        radius = np.where(loose, np.where(arcs, between, ended), math.inf)[()]
         on = np.where(arcs, "recess", np.where(corner, "corner", "disc's end"))[()]
         # without clearance rounding may make it negative
-        play = np.maximum(self(deviations([0.0] * len(Deviations._fields))).angle.c[0], 0.0)
-        return LockContact(cast("str", on), phi, parameter(play), radius)
+        play = np.maximum(self(AS_DRAWN).angle.c[0], 0.0)
+        return LockContact(cast("str", on), phi, parameter(play), parameter(radius))
 
 
 def _at(one: Jet, other: float, opposite: Jet) -> Jet:
@@ -131,14 +130,9 @@ def positive_root(square: Jet) -> Jet:
     return sqrt(_chosen(square.c[0] > 0.0, square, square * 0.0 + 1e-300))
 
 
-def _truth(condition: Truth) -> Truth:
-    """Truth value of one lock as Python's own type."""
-    return bool(condition) if np.ndim(condition) == 0 else condition
-
-
 def _chosen(condition: Truth, yes: Jet, no: Jet) -> Jet:
-    one = _truth(condition)
-    return Jet([choose(one, a, b) for a, b in zip(yes.c, no.c, strict=True)])
+    one = bool(condition) if np.ndim(condition) == 0 else condition
+    return Jet([*map(partial(choose, one), yes.c, no.c)])
 
 
 def loosest(locks: Sequence[Lock]) -> Lock:

@@ -9,8 +9,7 @@ from __future__ import annotations
 import math
 from itertools import pairwise
 
-from geneva_cli.geometry.moments import with_material_left
-from geneva_cli.geometry.plates import Plate
+from geneva_cli.geometry.plates import Plate, with_material_left
 from geneva_cli.geometry.shapes import Arc, Circle, Line, Point
 from geneva_cli.output.solid_part import plate_contours
 from geneva_cli.output.splines import Piece, Spline, pieces

@@ -10,9 +10,9 @@ from __future__ import annotations
 
 import math
 
-from geneva_cli.geometry.plates import Shell
 from geneva_cli.geometry.sphere import SphereArc, Vector, combined, cross, opposite, square_to, unit
 from geneva_cli.geometry.sphere_arcs import RoundHole
+from geneva_cli.geometry.sphere_shell import Shell
 from geneva_cli.output.solid_part import require_thick
 from geneva_cli.output.step.entities import Entities, real
 

@@ -91,11 +91,11 @@ def planes(
     ``bars`` are the links of the machine with the outlines ``parts``, and ``spacers`` the rings on
     its frame. The second gap is that of the crank's shaft to its bearings, None where it is free.
     """
+    if bars.sizes is None:
+        return None, None
     mechanism, L = parts.assembly.full, parts.assembly.L
     turn = turn_deg(mechanism)  # the error of a gap is quadratic in their distance
     every = links_at(mechanism, turn)
-    if bars.sizes is None:
-        return None, None
     met = list(_gears(parts, bars, [link for link in every if link.radius_mm], turn))
     links = [link for link in every if not link.radius_mm]
     if not links:

@@ -8,11 +8,10 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_left
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from functools import cache, partial
-from itertools import chain, combinations
 from operator import attrgetter
-from typing import NamedTuple, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
@@ -28,30 +27,21 @@ from geneva_cli.geometry.shapes import (
     closed,
     polar,
 )
-from geneva_cli.loads.tolerance.locking import Lock, loosest
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.arrays import Array, within_half_turn
 from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.shafts.bores import bore_of
 from geneva_cli.parts.sizes import Sizes, reach_and_hub
-from geneva_cli.parts.slots.roller_paths import horn_corners, roller_centres
+from geneva_cli.parts.slots.roller_paths import horn_corners
 
 # radii of the corners of each kind of slot's mouth at entry and exit, mm
 Mouths: TypeAlias = Mapping[Engagement, tuple[float, float]]
 
 
-class Relief(NamedTuple):
-    """A relief of the disc: its directions on the crank, radians, counterclockwise."""
-
-    start: float
-    end: float
-    motion: int  # number of the motion that needs it
-
-    @property
-    def half(self) -> float:
-        """Half of its width."""
-        return 0.5 * (self.end - self.start)
+# a relief of the disc: its directions on the crank, radians, from and to, counterclockwise; the
+# number of the motion that needs it
+Relief: TypeAlias = tuple[float, float, int]
 
 
 def is_whole(assembly: Assembly, sizes: Sizes) -> bool:
@@ -61,7 +51,8 @@ def is_whole(assembly: Assembly, sizes: Sizes) -> bool:
 
 def reliefs(assembly: Assembly) -> list[Relief]:
     """Return the reliefs around the crank: directions of the line of centres in motions."""
-    out, first = list[Relief](), 0.0
+    out: list[Relief] = []
+    first = 0.0
     ahead = math.pi if assembly.sign > 0.0 else 0.0  # of the crank at input 0
     for i, (engagement, mid) in enumerate(assembly.motions):
         at = mid + np.array([0.0, engagement.entry_deg, engagement.exit_deg])
@@ -71,18 +62,17 @@ def reliefs(assembly: Assembly) -> list[Relief]:
         low, high = min(one, other), max(one, other)
         first = first if i else low
         start = first + (low - first + SAME_ANGLE) % math.tau - SAME_ANGLE
-        out.append(Relief(start, start + high - low, i))
+        out.append((start, start + high - low, i))
     return sorted(out)
 
 
 def sectors(around: list[Relief]) -> list[tuple[float, float]]:
     """Return the sectors in which the disc locks: directions on the crank, radians, from and to."""
     out = []
-    for i, one in enumerate(around):
-        last = i + 1 == len(around)
-        after = around[0].start + math.tau if last else around[i + 1].start
-        if after - one.end > SAME_ANGLE:
-            out.append((one.end, after))
+    for i, (_, end, _) in enumerate(around):
+        after = around[i + 1][0] if i + 1 < len(around) else around[0][0] + math.tau
+        if after - end > SAME_ANGLE:
+            out.append((end, after))
     return out
 
 
@@ -91,7 +81,9 @@ def arc_floor(assembly: Assembly, lock: float) -> float:
 
     They meet the disc at right angles. If gears widen the reliefs, they must leave a bore.
     """
-    half = max(map(attrgetter("half"), reliefs(assembly)))
+    half = 0.0
+    for start, end, _ in reliefs(assembly):
+        half = max(half, 0.5 * (end - start))
     if half > 0.5 * math.pi - SAME_ANGLE:
         return 0.0
     floor = lock * math.tan(0.25 * math.pi - 0.5 * half)
@@ -109,13 +101,13 @@ def widened(assembly: Assembly, sizes: Sizes, mouths: Mouths) -> list[Relief]:
     """
     joined: list[Relief] = []
     L, lock, recess = assembly.L, sizes.lock, sizes.recess
-    for one in reliefs(assembly):
-        engagement, behind = assembly.motions[one.motion]
-        half_step, middle = engagement.half_step, 0.5 * (one.start + one.end)
+    for first, after, motion in reliefs(assembly):
+        engagement, behind = assembly.motions[motion]
+        half_step, middle, half = engagement.half_step, 0.5 * (first + after), 0.5 * (after - first)
         # samples 1/2000 of the motion apart bring a greatest value to 1e-5 degrees
         at = np.linspace(engagement.entry_deg, engagement.exit_deg, 2001)
         turned = engagement.motion(at, 0).c[0]
-        start, end, spare = one.start, one.end, sizes.relief / lock
+        start, end, spare = first, after, sizes.relief / lock
         corners = mouths.get(engagement) or next(iter(mouths.values()))  # slots are equal
         for side, p in zip((1.0, -1.0), corners, strict=True):
             leaves = (L * L + p * p - lock * lock) / (2.0 * L * p)  # as cosines
@@ -129,16 +121,17 @@ def widened(assembly: Assembly, sizes: Sizes, mouths: Mouths) -> list[Relief]:
             crank = assembly.crank(behind + np.append(at, np.interp(last, turned, at)))
             off = within_half_turn(np.arctan2(y, x) - crank - middle)
             off = off[np.hypot(x, y) < lock * (1.0 + SAME_LENGTH)]
-            if off.min(initial=0.0) < -one.half - SAME_ANGLE:
+            if off.min(initial=0.0) < -half - SAME_ANGLE:
                 start = min(start, middle + float(off.min()) - spare)
-            if off.max(initial=0.0) > one.half + SAME_ANGLE:
+            if off.max(initial=0.0) > half + SAME_ANGLE:
                 end = max(end, middle + float(off.max()) + spare)
-        if not joined or start - joined[-1].end > SAME_ANGLE:
-            joined.append(one._replace(start=start, end=end))
-        else:
-            joined[-1] = joined[-1]._replace(end=max(end, joined[-1].end))
-    if len(joined) > 1 and joined[0].start + math.tau - joined[-1].end <= SAME_ANGLE:
-        joined = [joined[0]._replace(start=joined[-1].start - math.tau), *joined[1:-1]]
+        if joined and start - joined[-1][1] <= SAME_ANGLE:
+            start, last, motion = joined.pop()
+            end = max(end, last)
+        joined.append((start, end, motion))
+    if len(joined) > 1 and joined[0][0] + math.tau - joined[-1][1] <= SAME_ANGLE:
+        (_, end, motion), (start, *_) = joined[0], joined.pop()
+        joined[0] = start - math.tau, end, motion
     return joined
 
 
@@ -146,25 +139,6 @@ def keyway_direction(assembly: Assembly) -> float:
     """Return the keyway's direction: the middle of a locking sector, away from reliefs."""
     (start, end), *_ = sectors(reliefs(assembly)) or [(math.pi, math.pi)]
     return 0.5 * (start + end)
-
-
-def lock_of(where: Assembly, size: Sizes, cut: Iterable[float] = ()) -> Lock:
-    """Return the lock of parts of these sizes, in its narrowest sector between two reliefs."""
-    mouths = horn_corners(where, size.roller, size.half_width, size.recess, size.rim, size.horn_tip)
-    # arcs end where the motions do
-    arcs = not is_whole(where, size) or where.mechanism.spec.size.relief == "arc"
-    halves = [*cut]
-    for start, end in sectors(reliefs(where) if arcs else widened(where, size, mouths)):
-        halves.append(0.5 * (end - start))
-    edge, corners = where.full.spec.size.lock_edge_mm or 0.0, [*chain(*mouths.values())]
-    first = corners[0] if size.horn_tip else size.rim
-    half = min(halves, default=math.nan)
-    lock = Lock(where.L, where.sign, size.lock, size.recess, first, half, edge)
-    if max(corners) - min(corners) < SAME_LENGTH * where.L:
-        return lock
-    near, far = abs(where.L - size.recess), where.L + size.recess
-    tried = [lock._replace(corner=r) for r in sorted(corners) if near < r < far]
-    return loosest(tried) if tried else lock
 
 
 # points of the wheel inside the disc in one motion: x and y in the crank's frame
@@ -185,35 +159,37 @@ def crank_contours(
     if relief == "sector":
         lengths = sizes.roller, sizes.half_width, sizes.recess, sizes.rim, sizes.horn_tip
         around = widened(assembly, sizes, horn_corners(assembly, *lengths))
-    if 2.0 * sum(map(attrgetter("half"), around)) > math.tau - SAME_ANGLE:
+    covered = 0.0
+    for start, end, _ in around:
+        covered += end - start
+    if covered > math.tau - SAME_ANGLE:
         raise GenevaError(
             "nothing is left of the locking disc: its reliefs go all the way round; use fewer "
             f"rollers, or a smaller one than {sizes.roller:g} mm",
             ("size", "roller_radius_mm"),
         )
     segments, locking = list[Segment](), dict(sectors(around))
-    for one in around:
-        middle = 0.5 * (one.start + one.end)
+    for start, end, _ in around:
+        middle, half = 0.5 * (start + end), 0.5 * (end - start)
         if relief == "sector":  # down to where the wheel never comes
             floor = assembly.L - sizes.rim - sizes.relief
-            bottom = about(ORIGIN, floor, one.start, one.end - one.start)
-            start, end = polar(ORIGIN, sizes.lock, one.start), polar(ORIGIN, sizes.lock, one.end)
-            segments += [Line(start, bottom.start), bottom, Line(bottom.end, end)]
-        elif one.half > 0.5 * math.pi - SAME_ANGLE:
+            bottom = about(ORIGIN, floor, start, end - start)
+            begin, last = polar(ORIGIN, sizes.lock, start), polar(ORIGIN, sizes.lock, end)
+            segments += [Line(begin, bottom.start), bottom, Line(bottom.end, last)]
+        elif half > 0.5 * math.pi - SAME_ANGLE:
             raise GenevaError(
-                f'relief = "arc": the wheel moves over {math.degrees(2.0 * one.half):.6g} deg of '
+                f'relief = "arc": the wheel moves over {math.degrees(2.0 * half):.6g} deg of '
                 'the crank, but an arc relieves less than 180 deg; set relief = "sector"',
                 ("size", "relief"),
             )
         else:
             # The arc meets the disc at right angles. For a radial slot entered without shock it is
             # the triangle of wheel, crank and roller at entry, scaled down to the disc.
-            centre = polar(ORIGIN, sizes.lock / math.cos(one.half), middle)
-            half = math.pi / 2.0 - one.half
-            radius = sizes.lock * math.tan(one.half)
-            segments.append(about(centre, radius, middle + math.pi + half, -2.0 * half))
-        if one.end in locking:
-            segments.append(about(ORIGIN, sizes.lock, one.end, locking[one.end] - one.end))
+            centre = polar(ORIGIN, sizes.lock / math.cos(half), middle)
+            off, radius = math.pi / 2.0 - half, sizes.lock * math.tan(half)
+            segments.append(about(centre, radius, middle + math.pi + off, -2.0 * off))
+        if end in locking:
+            segments.append(about(ORIGIN, sizes.lock, end, locking[end] - end))
     return [closed("CRANK", segments)]
 
 
@@ -240,14 +216,6 @@ def crank_bore(assembly: Assembly, sizes: Sizes) -> tuple[Shape, ...]:
         return ()
     own = bore_of(assembly.mechanism.spec.size, "crank", sizes.crank_bore)
     return (own.shape("BORE", keyway_direction(assembly)),)
-
-
-def rollers_gap(assembly: Assembly, sizes: Sizes) -> float | None:
-    """Return the gap of the rollers that start and stop the wheel, mm; None if they are one."""
-    if len(assembly.rollers) == len(assembly.motions):
-        return None
-    pairs = combinations(roller_centres(assembly), 2)
-    return min(math.dist(one, other) for one, other in pairs) - 2.0 * sizes.roller
 
 
 def _rings(assembly: Assembly, sizes: Sizes, swept: Swept, spare: float) -> list[Contour]:

@@ -4,20 +4,30 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from functools import cache, lru_cache
+from itertools import chain
 
 import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.shapes import Arc, Contour
 from geneva_cli.kept import KEPT
-from geneva_cli.loads.tolerance.locking import Lock
+from geneva_cli.loads.tolerance.locking import Lock, loosest
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.outlines.crank_outline import crank_contours, is_whole, lock_of, takes_arcs
+from geneva_cli.parts.outlines.crank_outline import (
+    crank_contours,
+    is_whole,
+    reliefs,
+    sectors,
+    takes_arcs,
+    widened,
+)
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.wheel_outline import CURVED, turned_walls, wheel_contour
 from geneva_cli.parts.sizes import Sizes
+from geneva_cli.parts.slots.roller_paths import horn_corners
 from geneva_cli.parts.turn.gaps import Gaps
 from geneva_cli.parts.turn.stops import Pose
 
@@ -80,15 +90,28 @@ def cut_lock(assembly: Assembly, sizes: Sizes) -> Lock:
 
     Beyond the crank's axis the wheel leaves less than a sector between two reliefs.
     """
-    lock = lock_of(assembly, sizes)
-    if is_whole(assembly, sizes):
-        return lock
-    try:
-        parts = drawn(assembly, sizes)
-    except GenevaError:  # the check of the parts reports the error
-        return lock
-    locking = cut_arcs(parts.crank, lock.lock, 0.0, SAME_LENGTH * assembly.L)
-    return lock_of(assembly, sizes, [0.5 * abs(arc.sweep) for arc in locking])
+    L, lock, recess, flat = assembly.L, sizes.lock, sizes.recess, sizes.horn_tip
+    mouths = horn_corners(assembly, sizes.roller, sizes.half_width, recess, sizes.rim, flat)
+    whole, halves = is_whole(assembly, sizes), list[float]()
+    around = reliefs(assembly)
+    # arcs end where the motions do
+    if whole and assembly.mechanism.spec.size.relief != "arc":
+        around = widened(assembly, sizes, mouths)
+    for start, end in sectors(around):
+        halves.append(0.5 * (end - start))
+    if not whole:
+        with suppress(GenevaError):  # the check of the parts reports the error
+            for arc in cut_arcs(drawn(assembly, sizes).crank, lock, 0.0, SAME_LENGTH * L):
+                halves.append(0.5 * abs(arc.sweep))
+    edge, corners = assembly.full.spec.size.lock_edge_mm or 0.0, [*chain(*mouths.values())]
+    first = corners[0] if flat else sizes.rim
+    half = min(halves, default=math.nan)
+    out = Lock(L, assembly.sign, lock, recess, first, half, edge)
+    if max(corners) - min(corners) < SAME_LENGTH * L:
+        return out
+    near, far = abs(L - recess), L + recess
+    tried = [out._replace(corner=r) for r in sorted(corners) if near < r < far]
+    return loosest(tried) if tried else out
 
 
 def cut_arcs(contours: Iterable[Contour], radius: float, away: float, near: float) -> Iterator[Arc]:

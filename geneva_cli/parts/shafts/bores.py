@@ -68,35 +68,33 @@ class Bore(NamedTuple):
             return f"hexagon {length(2.0 * cut)} across flats"
         return f"flat, {length(2.0 * cut - self.flat)} to the far side" if self.flat else ""
 
-    def shape(self, layer: Layer, direction: float) -> Shape:
+    def shape(self, layer: Layer, direction: float, shaft: bool = False) -> Shape:
         """Return the bore about the origin, with its feature in a direction, radians.
 
-        Its first piece is the keyway's top, the flat, or the side in the direction.
+        Its first piece is the keyway's top, the flat, or the side in the direction. With ``shaft``
+        it is the section of the shaft.
         """
-        radius = self.radius + self.loose
+        radius = self.radius if shaft else self.radius + self.loose
         if self.key:
-            first, second = _arcs(radius, direction, math.asin(0.5 * self.key.width / radius))
-            low, high = _across(self.key, self.reach, direction)
-            sides = Line(high, first.start), first, second, Line(second.end, low)
-            return closed(layer, [Line(low, high), *sides])
-        if self.form == "hex":
-            turns = (direction + (2 * k - 1) * math.pi / 6.0 for k in range(6))
-            return polygon(layer, [_turned(self.reach, 0.0, turn) for turn in turns])
-        if self.form == "D":
-            half = math.acos(1.0 - self.flat / radius)
+            half = math.asin(0.5 * self.key.width / radius)
             first, second = _arcs(radius, direction, half)
+            far = radius - self.key.in_shaft if shaft else self.reach
+            low = _turned(far, -0.5 * self.key.width, direction)
+            high = _turned(far, 0.5 * self.key.width, direction)
+            top, sides = Line(low, high), (Line(high, first.start), Line(second.end, low))
+            if shaft:
+                return closed(layer, [first, second, sides[1], top, sides[0]])
+            return closed(layer, [top, sides[0], first, second, sides[1]])
+        if self.form == "hex":
+            reach = radius / math.cos(math.pi / 6.0)
+            corners = []
+            for k in range(6):
+                corners.append(_turned(reach, 0.0, direction + (2 * k - 1) * math.pi / 6.0))
+            return polygon(layer, corners)
+        if self.form == "D":
+            first, second = _arcs(radius, direction, math.acos(1.0 - self.flat / radius))
             return closed(layer, [Line(second.end, first.start), first, second])
         return Circle(layer, ORIGIN, radius)
-
-    def section(self, layer: Layer, direction: float) -> Shape:
-        """Return the section of the shaft."""
-        if not self.key:
-            return self._replace(loose=0.0).shape(layer, direction)
-        half = math.asin(0.5 * self.key.width / self.radius)
-        first, second = _arcs(self.radius, direction, half)
-        low, high = _across(self.key, self.radius - self.key.in_shaft, direction)
-        sides = Line(second.end, low), Line(low, high), Line(high, first.start)
-        return closed(layer, [first, second, *sides])
 
 
 class ShaftBore(NamedTuple):
@@ -188,11 +186,12 @@ def radius_of(shape: Shape) -> float:
 def section_note(section: Shape) -> str:
     """Return what a drawing of a shaft says of its section besides the diameter.
 
-    >>> section_note(Bore(20.0, form="hex").section("SHAFT", 0.3))
+    >>> section_note(Bore(20.0, form="hex").shape("SHAFT", 0.3, shaft=True))
     'hexagon 40 across flats'
-    >>> section_note(Bore(20.0, 0.0, "D", 4.0).section("SHAFT", 0.3))
+    >>> section_note(Bore(20.0, 0.0, "D", 4.0).shape("SHAFT", 0.3, shaft=True))
     'flat, 36 to the far side'
-    >>> section_note(bore_of(Size(crank_keyway="DIN 6885-1"), "crank", 20.0).section("SHAFT", 0.3))
+    >>> keyed = bore_of(Size(crank_keyway="DIN 6885-1"), "crank", 20.0)
+    >>> section_note(keyed.shape("SHAFT", 0.3, shaft=True))
     'keyway 12 P9, 5 deep'
     """
     if isinstance(section, Circle):
@@ -219,12 +218,6 @@ def around(section: Shape) -> float:
 def _turned(x: float, y: float, direction: float) -> Point:
     c, s = math.cos(direction), math.sin(direction)
     return x * c - y * s, x * s + y * c
-
-
-def _across(key: ParallelKey, x: float, direction: float) -> tuple[Point, Point]:
-    """Return both ends of a keyway's bottom or top, at a distance from the axis."""
-    half = 0.5 * key.width
-    return _turned(x, -half, direction), _turned(x, half, direction)
 
 
 def _arcs(radius: float, direction: float, half: float) -> tuple[Arc, Arc]:

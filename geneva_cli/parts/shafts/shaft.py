@@ -17,7 +17,7 @@ from geneva_cli.geometry.plates import Member, Plate
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Point
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.parts.assembly import assembled, links_at, same
+from geneva_cli.parts.assembly import assembly, links_at, same
 from geneva_cli.parts.outlines.crank_outline import crank_bore, is_whole, keyway_direction
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.shafts.bores import Bore, ShaftBore, bore_of, has_shape, round_bore
@@ -48,7 +48,7 @@ class Shaft(NamedTuple):
                 f"{self.part}_shaft_high_mm",
                 ("size", key),
             )
-        section = self.bore.section("SHAFT", self.direction)
+        section = self.bore.shape("SHAFT", self.direction, shaft=True)
         plate = Plate(self.name, "SHAFT", section, (), self.low, self.high)
         return Member(plate, self.at, self.turn)
 
@@ -127,7 +127,7 @@ def bore_at(mechanism: Mechanism, at: Point, radius: float) -> ShaftBore:
     part = "crank" if same(at, (L, 0.0), L) else "wheel" if same(at, ORIGIN, L) else ""
     if not (part and has_shape(size, part)):
         return ShaftBore(round_bore(size, radius))
-    own, still = assembled(mechanism), np.zeros(1)
+    own, still = assembly(mechanism, flat=False), np.zeros(1)
     if part == "wheel":
         direction, turn = own.rests[0], own.wheel(still)
     else:

@@ -18,7 +18,7 @@ from geneva_cli.motion.pivots import AxisPlace, Joint, Link
 from geneva_cli.motion.plane_motion import turned_points
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.output.scene import Bar, CarriedShapes, Place, Push, Track
-from geneva_cli.parts.assembly import Passage, assembled, links_at
+from geneva_cli.parts.assembly import Passage, assembly, links_at
 from geneva_cli.parts.links.link_plates import drawn_links
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.study.animation.tracks import Moving, cut, resting, sampled, track
@@ -31,7 +31,7 @@ class MachineTurn:
 
     def __init__(self, mechanism: Mechanism) -> None:
         self.mechanism = mechanism
-        self.assembly = assembled(mechanism, by_input=True)
+        self.assembly = assembly(mechanism, flat=False, by_input=True)
         self.L, self.turn_deg = self.assembly.L, self.assembly.turn_deg
         self.passages = self.assembly.motions
         self.start = self.passages[0].entry

@@ -11,7 +11,7 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.measure import turned
-from geneva_cli.geometry.plates import apart, beyond, plate_wall
+from geneva_cli.geometry.plates import least_wall, plate_wall
 from geneva_cli.geometry.shapes import Arc, Circle, Line, Segment, backwards, closed
 from geneva_cli.loads.carried import farthest_mm
 from geneva_cli.motion.mechanism import Mechanism
@@ -19,10 +19,11 @@ from geneva_cli.motion.pitch_curve import opposites
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.arm import walls as arm_walls
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.outlines.crank_outline import is_whole, rollers_gap
+from geneva_cli.parts.outlines.crank_outline import is_whole
 from geneva_cli.parts.outlines.outlines import Outlines, wheel_holes, wheel_hub
 from geneva_cli.parts.parts import EdgedParts
 from geneva_cli.parts.shafts.bores import has_shape
+from geneva_cli.parts.shafts.shaft import crank_hub
 from geneva_cli.parts.slots.roller_paths import roller_centres
 from geneva_cli.spec.workshops import workshop
 from geneva_cli.verdict.checks import Check, compared, refused
@@ -38,9 +39,10 @@ def walls(names: Collection[str], parts: FlatParts) -> Iterator[Check]:
     if outlines.crank:  # between a slot and the recess of the locking disc or sectors
         yield compared("horn_mm", size.horn, "at least", least)
     # the roller that starts the wheel and the one that stops it, on one crank
-    rollers = rollers_gap(assembly, size)
-    if rollers is not None:
-        yield compared("rollers_apart_mm", rollers, "at least", 0.0)
+    if len(assembly.rollers) != len(assembly.motions):
+        pairs = combinations(roller_centres(assembly), 2)
+        near = min(math.dist(one, other) for one, other in pairs) - 2.0 * size.roller
+        yield compared("rollers_apart_mm", near, "at least", 0.0)
     if size.wheel_bore:  # to the slots' ends, and around the bore in a drawn hub
         wall = size.slot_end - size.wheel_bore - around_shaft
         if wheel_hub(assembly, size):
@@ -54,7 +56,7 @@ def walls(names: Collection[str], parts: FlatParts) -> Iterator[Check]:
     # to the bottom of the locking disc's relief, and around the bore in a drawn hub
     if size.crank_bore and outlines.crank and is_whole(assembly, size):
         wall = outlines.relief_depth - size.crank_bore - around_shaft
-        if parts.crank_hub:
+        if crank_hub(outlines):
             wall = min(wall, size.crank_hub - size.crank_reach)
         yield compared("crank_bore_wall_mm", wall, "at least", least)
 
@@ -82,15 +84,13 @@ def _between_slots(outlines: Outlines) -> float:
 def _dial_wall(outlines: Outlines) -> float:
     """The least wall around the bore with its keyway and around the dial's bolts."""
     inside = outlines.assembly.sign < 0.0  # the contour is that of the opening
-    edge = Polyarc([backwards(outlines.wheel) if inside else outlines.wheel])
     holes = wheel_holes(outlines.assembly, outlines.sizes)
-    found = [-beyond(edge, hole) for hole in holes]
-    found += [apart(one, two) for one, two in combinations(holes, 2)]
+    least = least_wall(holes, [backwards(outlines.wheel) if inside else outlines.wheel])
     for hole in holes if inside else ():
         assert isinstance(hole, Circle)  # an internal wheel has no bore
         x, y = hole.centre
-        found.append(outlines.sizes.outer - (x * x + y * y) ** 0.5 - hole.radius)
-    return min(found)
+        least = min(least, outlines.sizes.outer - (x * x + y * y) ** 0.5 - hole.radius)
+    return least
 
 
 def clearances(names: Collection[str], parts: FlatParts) -> Iterator[Check]:

@@ -72,7 +72,7 @@ class UnderLoad:
     def pv_W_m2(self) -> Array:
         """The greatest contact pressure times sliding speed; it needs a face width."""
         if self.designs.single and not np.isnan(self.loaded[0]):
-            return np.array([cycle_of(self.machine).extremes[PV].max])
+            return np.array([cycle_of(self.machine).ends[PV].max])
         return self._peak(PV)
 
     def _peak(self, name: str) -> Array:

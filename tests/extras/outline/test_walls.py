@@ -8,7 +8,7 @@ import shapely
 from drawn_wheels import corners, disc, drawn_wheel
 
 from geneva_cli.extras.outline.walls import smallest_wall
-from geneva_cli.geometry.moments import with_material_left
+from geneva_cli.geometry.plates import with_material_left
 from geneva_cli.geometry.shapes import Line, closed
 
 

@@ -12,8 +12,7 @@ from other_shape import with_shape
 from geneva_cli import Design, Linear, Size
 from geneva_cli.design import load
 from geneva_cli.geometry.measure import bounds
-from geneva_cli.geometry.moments import moments
-from geneva_cli.geometry.plates import solids
+from geneva_cli.geometry.plates import moments, solids
 from geneva_cli.kinds.linear.outlines import turned_rack
 from geneva_cli.kinds.linear.rack import locking_sector, rack_contour, rack_sizes
 from geneva_cli.parts.turn.full_turn import full_turn
