@@ -41,7 +41,6 @@ from geneva_cli.parts.outlines.outlines import wheel_hub_length
 from geneva_cli.parts.shafts.bores import reach_or_bore
 from geneva_cli.parts.sizes import (
     LARGEST_HUB,
-    FirstSizes,
     Sizes,
     arm_hub,
     bridge_low,
@@ -152,19 +151,19 @@ def key_of(standard: str | None, bore: float, length: float) -> KeyDimensions:
 
 
 def load_sizes(
-    of: Unloaded, loads: PartLoads, bent_MPa: float | None = None, first: FirstSizes | None = None
+    of: Unloaded, loads: PartLoads, bent_MPa: float | None = None, link: float = 0.0
 ) -> Sizes:
     """Return the sizes of a machine under its loads, from those without them.
 
-    ``bent_MPa`` is the stress of ``horn_MPa``, if computed already; ``first`` is what the loads
-    need of a first wheel. A load without a bound leaves all sizes.
+    ``bent_MPa`` is the stress of ``horn_MPa``, if computed already; ``link`` is the thickness that
+    the loads need of a first wheel. A load without a bound leaves all sizes.
     """
     assembly, sizes, space, by = of
     machine, spec = assembly.full, assembly.full.spec
     if not all(map(math.isfinite, loads)):
         return sizes
-    if first:
-        sizes = sizes._replace(link_thickness=first.thickness)
+    if link:
+        sizes = sizes._replace(link_thickness=link)
     # the force between disc and wheel in the dwell loads both shafts
     held = 0.0
     if by and spec.load.dwell_torque_Nm:
