@@ -11,7 +11,6 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from geneva_cli.motion.engagement import Engagement, Load, Vector, cross
-from geneva_cli.motion.path_and_slot import cuts
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Batchable, choose, library, narrowed
 from geneva_cli.numerics.jet import Jet, Number, atan2, composed, piecewise, sin_cos
@@ -47,7 +46,7 @@ class Timing(Batchable):
         self.at_deg = tuple(at_deg - self.within_deg for at_deg, _ in local)
         self.advances = tuple(advance for _, advance in local)
         # input angles at which the formula about another place takes over
-        self.cuts = cuts(self.at_deg)
+        self.cuts = [0.75 * self.at_deg[0], 0.75 * self.at_deg[-1]]
 
     def input_deg(self, own_deg: float) -> float:
         """Machine's input angle at an angle of the driven shaft, both from mid-motion, degrees."""

@@ -16,7 +16,7 @@ from geneva_cli.motion.wheels.classic import HalfStep, PinTravel, middle, refuse
 from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Array, larger, parameter
-from geneva_cli.numerics.jet import Jet, Number, sine_versine
+from geneva_cli.numerics.jet import rotation
 
 if TYPE_CHECKING:
     from geneva_cli.drives.pushed import PushedCrank
@@ -33,11 +33,6 @@ ANGLES_KEY = ("drive", "roller_angles_deg")
 LocalTransmission: TypeAlias = "tuple[float, Displacement]"
 
 
-def same(tau: Number, order: int) -> tuple[Jet, Jet]:
-    """sin d and 1 - cos d of a crank that turns as the input does."""
-    return sine_versine(Jet.variable(tau, order))
-
-
 class Transmission(Drive, kw_only=True):
     """A drive in front of the crank; a kind defines ``about``, and more only if it needs more."""
 
@@ -51,6 +46,11 @@ class Transmission(Drive, kw_only=True):
     def crank(self) -> Drive:
         plain, angles = registry.drive("crank"), self.roller_angles_deg
         return plain(n_rpm=self.n_rpm, rollers=self.rollers, roller_angles_deg=angles)
+
+    @property
+    def reach_deg(self) -> float:
+        """Greatest crank angle from mid-motion at which the crank may move the wheel, degrees."""
+        return 180.0
 
     @property
     def side_crank(self) -> float | None:
@@ -164,9 +164,8 @@ class Transmission(Drive, kw_only=True):
         """Raise GenevaError if the transmission does not cover the whole motion."""
         text = "z = {z}: the crank must turn {far:.6g} deg to either side, but kind = "
         text += '"{name}" turns it only {most:.6g}: reduce z or first_z'
-        most = 180.0 / self.turns  # crank angle from mid-motion in a turn of the input
-        values = {"z": wheel.z, "far": farthest_deg, "name": self.NAME, "most": most}
-        refuse_text(farthest_deg > most * (1.0 + 1e-12), ("wheel", "z"), text, **values)
+        values = {"z": wheel.z, "far": farthest_deg, "name": self.NAME, "most": self.reach_deg}
+        refuse_text(farthest_deg > self.reach_deg * (1.0 + 1e-12), ("wheel", "z"), text, **values)
 
 
 class Direct(Transmission, kw_only=True):
@@ -176,7 +175,7 @@ class Direct(Transmission, kw_only=True):
     turned_at_crank: ClassVar[bool] = True
 
     def about(self, crank_deg: float) -> LocalTransmission:
-        return crank_deg, same
+        return crank_deg, rotation  # the crank turns as the input does
 
 
 def places(

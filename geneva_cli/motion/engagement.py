@@ -248,10 +248,6 @@ class Engagement(Batchable):
         """``AsBuilt.gained``, negative where the roller leaves before that rest; else NaN."""
         return math.nan if self.built is None else self.built.gained
 
-    def end_deg(self, end: float) -> float:
-        """Input angle at entry, where ``end`` is -1, or at exit, where it is 1."""
-        return self.entry_deg if end < 0.0 else self.exit_deg
-
     @property
     def usual_acceleration(self) -> float:
         """The step over the square of the motion, of which accelerations are multiples."""

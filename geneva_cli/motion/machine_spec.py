@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import field
+from operator import attrgetter
 from typing import Any, ClassVar, Self
 
 from geneva_cli.errors import GenevaError, refuse_text
@@ -33,11 +34,6 @@ NEEDED = {
     "lock_deflection_max_deg": _CONTACT,
     "roller_life_min_h": ("dynamic_capacity_N", "material.roller", "the roller's capacity"),
 }
-
-
-def attribute(table: str) -> str:
-    """Name of the ``Spec`` field that holds a table of the file."""
-    return table.replace(".", "_")
 
 
 # Fields of ``Spec`` that hold a table, their type, and an example for the error message.
@@ -109,7 +105,7 @@ class Spec(SpecTable):
             vars(self)["size"] = size.replace(derived_distance_mm=L)
         turns = self.drive.turns * (self.drive_before.turns if self.drive_before else 1)
         L, before = self.size.distance_mm, self.drive_before
-        gears = (before and before.gears) or self.drive.gears
+        gears = (before and before.gears) or (None if self.drive.direct else self.drive.gears)
         lock = self.drive.LOCKS and self.size.lock_radius_mm != 0.0
         own = {"turns": turns, "given_distance_mm": L, "gears": gears, "has_lock": lock}
         vars(self).update(own, output=self.wheel.output(L))
@@ -144,18 +140,11 @@ class Spec(SpecTable):
         """
         if name == "motion":
             return {} if self.motion is None else self.motion.law.as_dict() | self.motion.as_dict()
-        part = self._part(name)
-        return {} if part is None else part.as_dict()
-
-    def _part(self, name: str) -> SpecTable | None:
-        """Table by its name in the file (``mass.0`` is the first of a list), or None if absent."""
-        table, _, number = name.partition(".")
-        if table in LISTS:
-            several = vars(self)[table]
-            known = number.isdecimal() and int(number) < len(several)
-            return several[int(number)] if known else None
+        one_of, _, number = name.partition(".")  # ``mass.0`` is the first of a list
         part = vars(self).get(name.replace(".", "_")) if "_" not in name else None
-        return part if isinstance(part, SpecTable) else None
+        if one_of in LISTS and number.isdecimal() and int(number) < len(vars(self)[one_of]):
+            part = vars(self)[one_of][int(number)]
+        return part.as_dict() if isinstance(part, SpecTable) else {}
 
     def with_(self, key: str, value: object) -> Self:
         """Return a copy with one key changed, written ``table.key``; None sets its default.
@@ -166,21 +155,24 @@ class Spec(SpecTable):
         8
         """
         table, _, name = key.rpartition(".")
-        part = self._part(table)
-        if part is None:
+        one_of, _, number = table.partition(".")
+        several = [*vars(self)[one_of]] if one_of in LISTS else []
+        if number.isdecimal() and int(number) < len(several):
+            several[int(number)] = several[int(number)].with_key(name, value)
+            return self.replace(**{one_of: tuple(several)})
+        attribute = table.replace(".", "_")
+        part = vars(self).get(attribute) if "_" not in table else None
+        if not isinstance(part, SpecTable):
             missing = table or key
             raise GenevaError(f"{key}: this spec has no [{missing}]", tuple(key.split(".")))
-        changed = part.with_key(name, value)
-        one_of, _, number = table.partition(".")
-        if one_of not in LISTS:
-            return self.replace(**{attribute(table): changed})
-        several, at = vars(self)[one_of], int(number)
-        return self.replace(**{one_of: (*several[:at], changed, *several[at + 1 :])})
+        return self.replace(**{attribute: part.with_key(name, value)})
 
     def input_deg(self, crank_deg: float) -> float:
         """Input angle from mid-motion at a crank angle from mid-motion, degrees."""
-        shaft_deg = self.drive.input_deg(crank_deg)
         before = self.drive_before
+        if before is None and self.drive.direct:
+            return float(crank_deg)
+        shaft_deg = self.drive.input_deg(crank_deg)
         return shaft_deg if before is None else before.input_deg(shaft_deg)
 
     @property
@@ -201,7 +193,7 @@ class Spec(SpecTable):
     @property
     def unbalanced(self) -> bool:
         """True if a single body stands off the wheel's axis."""
-        return any(one.to_one_side for one in self.mass)
+        return any(map(attrgetter("to_one_side"), self.mass))
 
     @property
     def is_flat(self) -> bool:

@@ -21,7 +21,7 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError, marking
 from geneva_cli.motion.batch import taken
-from geneva_cli.motion.machine_spec import BEFORE, Spec, attribute
+from geneva_cli.motion.machine_spec import BEFORE, Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.peak_search import QUANTITIES, PeakArray, greater, motion_peaks
@@ -114,14 +114,15 @@ def changed(spec: Spec, values: Mapping[str, object]) -> Spec:
             own = {k: v for k, v in new.items() if k not in law}
             parts[table] = spec.motion.replace(law=spec.motion.law.replace(**law), **own)
         else:
-            part: SpecTable = vars(spec)[attribute(table)]
-            parts[attribute(table)] = part.replace(**new)
+            name = table.replace(".", "_")  # of the field that holds the table
+            part: SpecTable = vars(spec)[name]
+            parts[name] = part.replace(**new)
     return spec.replace(**parts)
 
 
 def _field(spec: Spec, key: str) -> Field:
     table, _, name = key.rpartition(".")
-    part = vars(spec).get(attribute(table))
+    part = vars(spec).get(table.replace(".", "_"))
     if not isinstance(part, SpecTable):
         raise GenevaError(f"{key}: this spec has no [{table or key}]", (table, name))
     known = {field.key: field for field in fields(type(part))}

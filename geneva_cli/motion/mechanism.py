@@ -16,7 +16,7 @@ from geneva_cli.motion.drive import FirstWheel, Plan
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.laws.law import Law
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.pivots import AxisPlace, Layout, Pivot, ShaftPlace, wheel_places
+from geneva_cli.motion.pivots import FIRST, AxisPlace, Layout, Pivot, ShaftPlace, wheel_places
 from geneva_cli.motion.records import IN_FRONT
 from geneva_cli.motion.wheels.gearing import Output
 from geneva_cli.numerics.angles import sin_cos_pi
@@ -179,14 +179,15 @@ def build(spec: Spec, like: Mechanism | None = None) -> Mechanism:
     refuse_conflicts(spec)
     radius, L = spec.size.crank_radius_mm, spec.size.center_distance_mm
     if like and spec.moving == like.spec.moving:
-        plan = Plan(*like[1:6])
+        plan, own = Plan(*like[1:6]), like.plan
     else:
-        own = None
+        built = None
         if radius is not None and L is not None and spec.motion is None:
-            own = _as_built(spec, radius, L)
-        plan = own or spec.drive.plan(spec.wheel, spec.motion, spec.size.distance_mm)
+            built = _as_built(spec, radius, L)
+        plan = own = built or spec.drive.plan(spec.wheel, spec.motion, spec.size.distance_mm)
         if spec.drive_before:
             plan = load_named(IN_FRONT)(plan, spec, spec.drive_before)
+            own = plan._replace(engagements=tuple(map(attrgetter("own"), plan.engagements)))
     refuse_sizes(spec, plan.center_distance_mm, plan.ratio)
     refuse_tolerances(spec, plan.center_distance_mm, plan.ratio)
     L, wheel, wheels = plan.center_distance_mm, spec.wheel, spec.drive.wheels_on_carrier
@@ -199,13 +200,13 @@ def build(spec: Spec, like: Mechanism | None = None) -> Mechanism:
         spec,
         *plan,
         design=0,
-        plan=plan._replace(engagements=tuple(map(attrgetter("own"), plan.engagements))),
+        plan=own,
         law=spec.motion.law if spec.motion else None,
         output=spec.output,
         axes=wheel.axes(L),
-        first_wheel=spec.drive.first_wheel(L),
+        first_wheel=None if spec.drive.direct else spec.drive.first_wheel(L),
         frame=wheel.SIGN if wheels else 0.0,
-        wheel_places=wheel_places(max(1, wheels), wheel.SIGN, L),
+        wheel_places=wheel_places(wheels, wheel.SIGN, L) if wheels > 1 else (FIRST,),
         crank_places=tuple(cranks),
         no_turn=_AS_BUILT if plan.engagements[0].built else "",
     )

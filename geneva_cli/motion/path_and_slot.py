@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from operator import attrgetter
@@ -24,7 +23,12 @@ class AnchoredPath(Batchable):
     def __init__(self, anchors: tuple[Anchor, ...], ahead: float = 0.0) -> None:
         self.anchors, self.ahead = anchors, ahead
         self.middle = anchors[len(anchors) // 2]  # of mid-motion
-        self.cuts = cuts([*map(attrgetter("input_deg"), anchors)])
+        # half-way, and nearer to both ends: at this fraction of the span from the anchor inside
+        near_end, (first, *inner, last) = 0.75, map(attrgetter("input_deg"), anchors)
+        self.cuts = [inner[0] + near_end * (first - inner[0])]
+        for before, after in pairwise(inner):
+            self.cuts.append(0.5 * (before + after))
+        self.cuts.append(inner[-1] + near_end * (last - inner[-1]))
 
     def __call__(self, input_deg: Number, order: int = 3) -> Vector:
         """Pin (x, y) on its path at input angles in degrees from mid-motion."""
@@ -48,16 +52,6 @@ class AnchoredPath(Batchable):
         return (*anchor.place(input_deg, order), anchor.wheel)
 
 
-def cuts(degrees: Sequence[float]) -> list[float]:
-    """Input angles at which one anchor hands over to the next: half-way, nearer to both ends."""
-    first, *inner, last = degrees
-    near_end = 0.75  # fraction of the span from the last inner anchor to an end
-    out = [inner[0] + near_end * (first - inner[0])]
-    for before, after in pairwise(inner):
-        out.append(0.5 * (before + after))
-    return [*out, inner[-1] + near_end * (last - inner[-1])]
-
-
 @dataclass(eq=False)
 class RadialSlot(Slot):
     """A straight slot towards the wheel's centre."""
@@ -72,7 +66,7 @@ class RadialSlot(Slot):
     def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
         along, across, _ = self.path.nearest(input_deg, order + 1)
         depth = sqrt(along * along + across * across)
-        return depth.lower, depth.derivative()
+        return Jet(depth.c[:-1]), depth.derivative()
 
 
 class StraightSlotMotion(WheelMotion):
@@ -81,6 +75,8 @@ class StraightSlotMotion(WheelMotion):
     ``closed`` is for a radial slot on a plain crank, whose peaks have closed forms: 1 for an
     external wheel or -1 for an internal one, l = sin b and 1 - l.
     """
+
+    entry: Anchor
 
     def __init__(
         self,

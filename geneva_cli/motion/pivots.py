@@ -81,9 +81,12 @@ class AxisPlace(NamedTuple):
     at: tuple[float, float]  # of its axis, mm from the first wheel's
 
 
+FIRST = AxisPlace(1, 0.0, 0.0, (0.0, 0.0))  # the only wheel, but on a carrier
+
+
 def wheel_places(count: int, sign: float, L: float) -> tuple[AxisPlace, ...]:
     """Places of evenly spaced wheels about the axis at (L, 0); ``sign`` is -1 for internal ones."""
-    out = [AxisPlace(1, 0.0, 0.0, (0.0, 0.0))]
+    out = [FIRST]
     for k in range(1, count):
         angle = math.tau * k / count
         at = 2.0 * L * math.sin(0.5 * angle) ** 2, sign * L * math.sin(angle)

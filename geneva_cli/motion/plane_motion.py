@@ -21,14 +21,12 @@ class PlaneMotion:
 
     # change of the place after which a body meets itself, radians; infinite for a rack
     PERIOD = math.tau
+    # rate at which the body's x axis turns; 0 for a rack
+    TURNS = 1.0
 
     def into(self, points: Array, turn: Array) -> Array:
         """Return points in the frame of the body, which has moved by n angles."""
         return turned_points(points, -turn)
-
-    def angle(self, turn: Array) -> Array:
-        """Return the direction of the body's x axis."""
-        return turn
 
     def level(self, points: Array) -> Array:
         """Return the coordinate of points that the motion leaves as it is, (n,)."""

@@ -33,7 +33,8 @@ _TABLES = {
     "gears": "parts.gears.gear_curves:gears_table",
     "groove": "parts.slots.groove:groove_table",
 }
-_FRONT = "parts.flat_parts:FrontParts"
+# class of the parts of a wheel without its own: the links and gears in front
+FRONT = "parts.flat_parts:FrontParts"
 # What wheels in the plane have in common.
 _FLAT = Kind(
     "",
@@ -57,7 +58,7 @@ _CORE = (
         "spherical",
         synonyms=("bevel",),
         wheel="motion.wheels.spherical:Spherical",
-        front=_FRONT,
+        front=FRONT,
         drawings=_DRAWINGS,
         tables=_TABLES,
         families={"wheel": "study.synth.families.straight_slots:inclined"},
@@ -106,11 +107,6 @@ def named(wheel: str, field: str) -> str:
     for kind in of_wheel(wheel):
         path = getattr(kind, field) or path
     return path
-
-
-def parts_class(wheel: str) -> Any:
-    """Class of the parts of a kind of wheel; without its own, of the links and gears in front."""
-    return thing(wheel, "parts") or load_named(_FRONT)
 
 
 def families_of_kinds(where: str, wheel: str = "") -> list[Any]:

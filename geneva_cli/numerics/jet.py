@@ -174,12 +174,28 @@ def cosines_after(sine: Number, cosine: Number, order: int) -> list[Number]:
 
 def sine_versine(x: Jet) -> tuple[Jet, Jet]:
     """sin x and 1 - cos x, the latter without cancellation."""
-    half = library(x.c[0]).sin(0.5 * x.c[0])
+    at, m = x.c[0], library(x.c[0])
+    half, sine = m.sin(0.5 * at), m.sin(at)
     versine = 2.0 * half * half
     if len(x.c) == 1:  # a value alone needs no cosine
-        return Jet((library(x.c[0]).sin(x.c[0]),)), Jet((versine,))
-    s, c = sin_cos(x)
+        return Jet((sine,)), Jet((versine,))
+    s, c = _circle((0.0, *x.derivative().c), sine, m.cos(at))
     return s, Jet((versine, *(c * -1).c[1:]))
+
+
+def rotation(angle: Number, order: int) -> tuple[Jet, Jet]:
+    """Sine and 1 - cosine of an angle, by itself: ``sine_versine`` written out, as most need it."""
+    m, (one,) = library(angle), enclosed(angle, (1.0,))
+    half, sine = m.sin(0.5 * angle), m.sin(angle)
+    cosine = m.cos(angle) if order else sine  # a value alone needs none
+    s, versine = [sine], [2.0 * half * half]
+    for k in range(1, order + 1):
+        step = one / k
+        sine, across = cosine * step, sine * step
+        cosine = -across
+        s.append(sine)
+        versine.append(across)
+    return Jet(s), Jet(versine)
 
 
 def sine_versine_of(rate: Jet, y: Number, x: Number, order: int) -> tuple[Jet, Jet]:
@@ -249,7 +265,7 @@ def turning(x: Jet, y: Jet, less: Jet | None = None, square: Jet | None = None) 
             total = total + (more * (k - 2 * i) if k - 2 * i > 1 else more)
         out.append(total)
     moment = Jet(out) if less is None else Jet(out) - less.derivative()
-    low_x, low_y = x.lower, y.lower
+    low_x, low_y = Jet(a[:-1]), Jet(b[:-1])
     return moment / (low_x * low_x + low_y * low_y if square is None else square.lower)
 
 

@@ -217,6 +217,8 @@ def links_at(mechanism: Mechanism, input_deg: Array, before: bool = True) -> tup
     ``before`` also those of the drive before it.
     """
     spec, sign = mechanism.spec, mechanism.spec.wheel.SIGN
+    if spec.drive.direct and spec.drive_before is None:
+        return ()  # the input carries the crank
     own_deg = mechanism.engagements[0].own_deg(input_deg)
     own, L = spec.drive.links(mechanism.plan, sign, own_deg), mechanism.center_distance_mm
     groove = mechanism.engagements[0].groove

@@ -16,10 +16,11 @@ from geneva_cli.geometry.plates import Member, Plate
 from geneva_cli.geometry.shapes import Arc, Circle, Contour
 from geneva_cli.kept import cached_property
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.records import named, parts_class, thing
+from geneva_cli.motion.records import FRONT, named, thing
 from geneva_cli.parts.assembly import input_of
 from geneva_cli.parts.shafts.screws import Screws, tapped
 from geneva_cli.parts.turn.turned_parts import TurnedParts
+from geneva_cli.spec.load_named import load_named
 
 if TYPE_CHECKING:
     from geneva_cli.geometry.fit import Writer
@@ -253,5 +254,5 @@ class EdgedParts(Parts):
 
 def parts_of(mechanism: Mechanism, advice: bool = True) -> Parts:
     """Return the parts of a machine; nothing is built yet."""
-    kind: type[Parts] = parts_class(mechanism.spec.wheel.NAME)
+    kind: type[Parts] = thing(mechanism.spec.wheel.NAME, "parts") or load_named(FRONT)
     return kind(mechanism, advice)

@@ -11,7 +11,7 @@ from typing import Any
 from geneva_cli.errors import GenevaError, below, clean, cut, few, nearest
 from geneva_cli.motion import registry
 from geneva_cli.motion.drive import Drive
-from geneva_cli.motion.machine_spec import BEFORE, Spec, attribute
+from geneva_cli.motion.machine_spec import BEFORE, Spec
 from geneva_cli.motion.motion import Motion
 from geneva_cli.names import unit_end
 from geneva_cli.spec.rules import Csv
@@ -103,7 +103,7 @@ def _plain(tree: dict[str, Any], files: list[str]) -> dict[str, Any]:
                     raise GenevaError(text, (table, own))
             values = values.get(part, {})
         if name not in LISTS:
-            out[attribute(name)] = cls(**_values(cls, values, files))
+            out[name.replace(".", "_")] = cls(**_values(cls, values, files))
             continue
         several = []
         for i, one in enumerate(values):

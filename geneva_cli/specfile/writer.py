@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from geneva_cli.motion import registry
 from geneva_cli.motion.drive import Drive
-from geneva_cli.motion.machine_spec import BEFORE, Spec, attribute
+from geneva_cli.motion.machine_spec import BEFORE, Spec
 from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.spec.rules import OneOf
@@ -140,7 +140,7 @@ def values_of(spec: Spec, table: str) -> list[dict[str, Any]]:
     words = {"wheel": {"gearing": spec.wheel.NAME}, "drive": {"kind": spec.drive.NAME}}
     if spec.drive_before:
         words[BEFORE] = {"kind": spec.drive_before.NAME}
-    return [{**words.get(table, {}), **_own(vars(spec)[attribute(table)])}]
+    return [{**words.get(table, {}), **_own(vars(spec)[table.replace(".", "_")])}]
 
 
 def _own(table: SpecTable) -> dict[str, Any]:

@@ -11,7 +11,6 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import BEFORE, Spec
-from geneva_cli.motion.machine_spec import attribute as attribute_of
 from geneva_cli.motion.many import many, may_vary
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array, Number, Whole
@@ -141,7 +140,7 @@ def split(spec: Spec, keys: dict[Any, list[BatchKey]]) -> tuple[Any, dict[str, f
     if kinds not in keys:
         keys[kinds] = []
         for table in ("wheel", "drive", BEFORE, "motion"):  # where machines of a requirement differ
-            part: SpecTable | None = vars(spec)[attribute_of(table)]
+            part: SpecTable | None = vars(spec)[table.replace(".", "_")]
             for field in fields(type(part)) if part else ():
                 name = f"{table}.{field.key}"
                 key = BatchKey(table, field.attribute, name, may_vary(spec, name))
@@ -149,7 +148,7 @@ def split(spec: Spec, keys: dict[Any, list[BatchKey]]) -> tuple[Any, dict[str, f
     own, tables = {}, vars(spec)
     shape: list[Any] = [kinds, *(tables[name] for name in _SHARED)]
     for table, attribute, name, varies in keys[kinds]:
-        value = vars(tables[attribute_of(table)])[attribute]
+        value = vars(tables[table.replace(".", "_")])[attribute]
         if varies and isinstance(value, (int, float)) and not isinstance(value, bool):
             own[name] = value
         else:

@@ -100,8 +100,9 @@ def test_crossings_against_roots_at_50_digits(
     exit_ = mp.pi / 2 - rest[1]
     if off <= 0:
         exit_ = mp.findroot(lambda crank: slot(crank) - rest[1], -guess)
-    for end, at, jump in zip((-1, 1), (entry, exit_), one.jumps, strict=True):
-        assert math.radians(one.end_deg(end)) == pytest.approx(float(at), abs=1e-14)
+    ends = one.entry_deg, one.exit_deg
+    for end_deg, at, jump in zip(ends, (entry, exit_), one.jumps, strict=True):
+        assert math.radians(end_deg) == pytest.approx(float(at), abs=1e-14)
         assert jump == pytest.approx(float(mp.diff(slot, at)), abs=1e-13)
     middle = sum(rest) / 2
     for crank_deg in np.linspace(one.entry_deg, one.exit_deg, 7):

@@ -133,6 +133,13 @@ def test_constants_to_the_digits_of_the_books():
     assert CONSTANTS["sine-group"] == pytest.approx((2.667, 10.883, 105.28), abs=5e-3)
 
 
+def test_a_tilted_law_is_half_way_later():
+    """s(u) = 1/2 by mpmath, from the witness's closed form of s."""
+    witness = krasniqi(0.1)
+    wanted = float(mp.findroot(lambda u: witness(u, 0)[0] - mp.mpf(0.5), 0.6))
+    assert SineGroup(0.1).half_way == pytest.approx(wanted, abs=2e-16)
+
+
 # ---------------------------------------------------------------- the law "table"
 
 

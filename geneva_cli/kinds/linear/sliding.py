@@ -14,6 +14,7 @@ class Sliding(PlaneMotion):
     """The travel of a rack along y, by ``radius`` a radian."""
 
     PERIOD = math.inf
+    TURNS = 0.0
 
     def __init__(self, radius: float) -> None:
         self.radius = radius
@@ -23,10 +24,6 @@ class Sliding(PlaneMotion):
         out = np.array(points)
         out[:, 1] -= self.radius * turn
         return out
-
-    def angle(self, turn: Array) -> Array:
-        """Return 0: a rack does not turn."""
-        return 0.0 * turn
 
     def level(self, points: Array) -> Array:
         """Return the position across the rack, x."""

@@ -64,6 +64,11 @@ class GenevaPair(Transmission, kw_only=True):
         vars(self)["turns"] = self.first_z
 
     @property
+    def reach_deg(self) -> float:
+        """Greatest angle of the second crank from mid-step while it moves its wheel, degrees."""
+        return 180.0 / self.first_z
+
+    @property
     def missing_length(self) -> str:
         """The first centre distance, where it is not set."""
         return "first_distance_mm" if self.first_distance_mm is None else ""
@@ -115,7 +120,7 @@ class GenevaPair(Transmission, kw_only=True):
     def about(self, crank_deg: float) -> LocalTransmission:
         """Transmission about an angle of the second crank (degrees) within the first step."""
         entry, middle, exit_ = classic.radial(1.0, classic.HalfStep.of(1, self.first_z))
-        reach = 180.0 / self.first_z  # of the second crank from mid-step
+        reach = self.reach_deg
         inside = choose(abs(crank_deg) < reach, crank_deg, 0.0)
         running = _running(middle, _crank_at(self.first_z, inside))
         ends = choose_record(crank_deg < 0.0, entry, exit_)

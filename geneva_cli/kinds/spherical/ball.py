@@ -205,7 +205,17 @@ def usual_ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
         pin_mm=pin,
         arm_bore_mm=bored,
     )
-    ball = _with_axle(spec, ball)
+    end = ball.slot_end_mm
+    bore = wheel_bore(spec, end, wall_min(size, L), L)
+    hub = hub_about(size, L, bore, end)
+    for key, radius in (("wheel_bore_mm", bore), ("wheel_hub_mm", hub)):
+        if radius >= end:
+            raise GenevaError(
+                f"{key} = {2.0 * radius:g}: the slots reach this diameter; it must be below "
+                f"{2.0 * end:.6g}, or the roller smaller",
+                ("size", key),
+            )
+    ball = ball._replace(bore_mm=bore, hub_mm=hub)
     if ball.inner <= 0.0:
         raise PartDoesNotFit(
             "the wheel's middle is not open: the slots end within a roller's width of its axis; "
@@ -253,21 +263,6 @@ def _lock_mm(spec: Spec, L: float, least: float, limit: float, roller: float) ->
         return L * math.sin(lock_between(least, limit, roller))
     require_lock_between(own, low, high)
     return own
-
-
-def _with_axle(spec: Spec, ball: Ball) -> Ball:
-    """Return the sizes with the wheel's bore and hub. Raises GenevaError where one cuts slots."""
-    L, end = ball.radius_mm, ball.slot_end_mm
-    bore = wheel_bore(spec, end, wall_min(spec.size, L), L)
-    hub = hub_about(spec.size, L, bore, end)
-    for key, radius in (("wheel_bore_mm", bore), ("wheel_hub_mm", hub)):
-        if radius >= end:
-            raise GenevaError(
-                f"{key} = {2.0 * radius:g}: the slots reach this diameter; it must be below "
-                f"{2.0 * end:.6g}, or the roller smaller",
-                ("size", key),
-            )
-    return ball._replace(bore_mm=bore, hub_mm=hub)
 
 
 def hub_about(size: Size, L: float, bore: float, end: float) -> float:

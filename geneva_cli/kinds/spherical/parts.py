@@ -152,29 +152,26 @@ class SphereParts(Parts):
     @cached_property
     def shafts(self) -> tuple[Member, ...]:
         """The shafts of wheel and crank: as wide as the bores, and as long as on a plane."""
-        ball, size = self.ball, self.mechanism.spec.size
-        outside, (under, over) = ball.span_mm[1], ball.arm_span_mm
-        lowest = outside - ball.shafts_end_mm(size) - (over - under)
-        members = []
-        for one, frame in self._axles(lowest):
-            part = one.member.part
-            assert isinstance(part, Plate)
-            members.append(Member(inwards(part, outside), frame=frame))
-        return tuple(members)
-
-    def _axles(self, lowest: float) -> Iterator[tuple[Shaft, Rotation | None]]:
-        """Yield the shafts and the frames of their axes."""
         ball, size, arm = self.ball, self.mechanism.spec.size, self.arm
-        (inside, outside), under = ball.span_mm, ball.arm_span_mm[0]
+        (inside, outside), (under, over) = ball.span_mm, ball.arm_span_mm
+        lowest = outside - ball.shafts_end_mm(size) - (over - under)
+        own: list[tuple[Shaft, Rotation | None]] = []
         if ball.bore_mm:
             hub = ball.hub_mm > ball.bore_mm
             bore, high = bore_of(size, "wheel", ball.bore_mm), outside - inside
             ends = shaft_ends(size, "wheel", lowest if hub else 0.0, high)
-            yield Shaft("wheel's shaft", "wheel", bore, *ends, ORIGIN, ball.half_step), None
+            wheel = Shaft("wheel's shaft", "wheel", bore, *ends, ORIGIN, ball.half_step)
+            own.append((wheel, None))
         if arm:
             ends = shaft_ends(size, "crank", lowest, outside - under)
-            one = Shaft("crank's shaft", "crank", arm.bore, *ends, ORIGIN, arm.keyway)
-            yield one, at_mid_motion(ball)
+            crank = Shaft("crank's shaft", "crank", arm.bore, *ends, ORIGIN, arm.keyway)
+            own.append((crank, at_mid_motion(ball)))
+        members = []
+        for one, frame in own:
+            part = one.member.part
+            assert isinstance(part, Plate)
+            members.append(Member(inwards(part, outside), frame=frame))
+        return tuple(members)
 
     @property
     def members(self) -> tuple[Member, ...]:

@@ -10,12 +10,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import NamedTuple, cast
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 from geneva_cli.errors import GenevaError, cut, refuse
 from geneva_cli.numerics.angles import one_minus_sin_pi, sin_cos_pi
 from geneva_cli.numerics.arrays import choose, larger, library, smaller
-from geneva_cli.numerics.jet import Jet, Number
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Jet, Number
 
 
 class PinPose(NamedTuple):

@@ -229,7 +229,8 @@ def _contact(parts: TurnedParts, motion: int, own: slice) -> tuple[float, float]
     ahead = scalar(engagement.reach(ends[0])) - scalar(engagement.reach(ends[1]))
     # the mouth of an offset slot has a corner for each end, and the rim is at the farther one
     farther = -1.0 if engagement.slot.offset else assembly.sign
-    start = mid + engagement.end_deg(1.0 if farther * ahead < -SAME_LENGTH else -1.0)
+    later = farther * ahead < -SAME_LENGTH
+    start = mid + (engagement.exit_deg if later else engagement.entry_deg)
     rest = assembly.wheel(np.array([start]))
 
     def margin(at: Array) -> Array:

@@ -140,7 +140,7 @@ class Gaps:
         axis = moves.into(np.tile((self.assembly.L, 0.0), (len(turn), 1)), turn)
         half = moves.half_span(reach + float(self.wheel.size.max()), self.assembly.L)
         nearby = _places_within(self.places, moves.PERIOD, -turn, half)
-        angle = pose.crank - moves.angle(turn)
+        angle = pose.crank - moves.TURNS * turn
         owner, points = _candidates(self.wheel, nearby, self.crank, (axis, angle), reach)
         seen = turned_points(points - axis[owner], -angle[owner])
         np.minimum.at(out, owner, self.crank.signed(seen))

@@ -5,16 +5,20 @@ Its proof and its play are in test_rack_turn.py.
 
 import math
 
+import mpmath
 import pytest
 import repo
 from other_shape import with_shape
+from test_parts_by_hand import dimensions
 
 from geneva_cli import Design, Linear, Size
 from geneva_cli.design import load
+from geneva_cli.drawings.sheet.crank_views import draw_arm
 from geneva_cli.geometry.measure import bounds
 from geneva_cli.geometry.plates import moments, solids
+from geneva_cli.kinds.linear.frame import guide
 from geneva_cli.kinds.linear.outlines import turned_rack
-from geneva_cli.kinds.linear.rack import locking_sector, rack_contour, rack_sizes
+from geneva_cli.kinds.linear.rack import crank_arm, locking_sector, rack_contour, rack_sizes
 from geneva_cli.parts.turn.full_turn import full_turn
 
 R, r = 50.0, 6.0
@@ -154,3 +158,53 @@ def test_a_guide_locks_where_the_loads_lose_their_bound(mu):
         assert (slid.loads["pin_force_N"].max is not None) is bounded
         rows = {one.name: one for one in slid.checks}
         assert rows["guide_locks"].passes is bounded
+
+
+def test_the_horn_of_a_rack_is_its_formula():
+    """6 F (s - s0)/(b t²), t = h + k - sqrt(k² - s²), greatest with the roller at the mouth.
+
+    1e-9: the search by grids stops where the stress is flat.
+    """
+    keys = {"slot_clearance_mm": 0.1, "lock_radius_mm": 41.0, "face_width_mm": 12.0}
+    rack = design(**keys).with_("load.force_N", 30.0)
+    with mpmath.workdps(30):
+        k = mpmath.mpf(41)
+        h = R - mpmath.mpf(r + 0.1) - k
+
+        def stress(s):
+            t = h + k - mpmath.sqrt(k * k - s * s)
+            return 6 * 30 * s / (12 * t * t)
+
+        s = mpmath.findroot(lambda s: mpmath.diff(stress, s), 2 * h)
+        expected = stress(s)
+    values = rack.report.table.to_dict()
+    assert values["strength.horn.stress_MPa"] == pytest.approx(float(expected), rel=1e-9)
+    assert values["strength.horn.inwards_mm"] == pytest.approx(float(s), rel=1e-4)
+    assert values["strength.horn.at_deg"] == pytest.approx(-90.0, abs=1e-6)
+    assert values["life.horn_stress_MPa"] == values["strength.horn.stress_MPa"]
+    assert "horn_stress_MPa" in {one.name for one in rack.checks}
+
+
+def test_the_bolts_of_a_racks_arm_are_amid_its_locking_sector():
+    """R = 50, r = 6: the sector reaches from R - rho + R/200 to rho = R - 2 r.
+
+    It lies over half a turn opposite the roller, so the bolts are at 135° and 225°. A hole of up to
+    2 R/40 = 2.5 mm is one of 2.4 mm for M2, whose pitch is 0.4 mm.
+    """
+    mechanism = design().mechanism
+    far = 0.5 * (50.0 - 38.0 + 0.25 + 38.0)
+    arm, at = crank_arm(mechanism), far * math.sqrt(0.5)
+    holes = [(*bolt.centre, bolt.radius) for bolt in arm.bolts]
+    assert holes == [pytest.approx((-at, at, 0.8)), pytest.approx((-at, -at, 0.8))]
+    on_sheet = {"50", "Ø 6 P7 (-0.008/-0.02)", "R 38", "R 6", "Ø 10 H7 (+0.015/0)"}
+    on_sheet.add(f"2× Ø 1.6, tapped M2 on Ø {2.0 * far:g}")
+    assert dimensions(draw_arm, mechanism, arm) == on_sheet
+
+
+def test_screws_are_amid_the_guides_bars():
+    """R = 50, half a slot 6.1: bars of R/10, whose screws are half a bar from their ends."""
+    for bar in guide(design(slot_clearance_mm=0.1).mechanism)[:2]:
+        box = bounds(bar.outline)
+        middle, far = 0.5 * (box.x0 + box.x1), 50.0 - 6.1 - 2.5
+        places = [pytest.approx((middle, y)) for y in (-far, 0.0, far)]
+        assert [one.centre for one in bar.holes] == places
