@@ -2,7 +2,7 @@
 
 from geneva_cli.motion.mechanism import build
 from geneva_cli.verdict.advice import advised
-from geneva_cli.verdict.checks import applicable, checks, standing
+from geneva_cli.verdict.checks import applicable, checks, own_checks
 
 PARTS = (
     "pin_stress_MPa",
@@ -20,7 +20,7 @@ def rows(spec):
 
 
 def standing_checks(parts):
-    return applicable(standing(parts.mechanism), parts)
+    return applicable(own_checks(parts.mechanism)[1], parts)
 
 
 def judged(mechanism, machine=None, parts=True):

@@ -155,6 +155,11 @@ class Parts(TurnedParts):
     def members(self) -> tuple[Member, ...]:
         """All parts at their positions."""
 
+    @property
+    def required(self) -> tuple[Member, ...]:
+        """The parts without which the machine is not built."""
+        return self.members
+
     @abstractmethod
     def by_name(self) -> Iterator[NamedParts]:
         """Yield all parts in the order of a list, as names and functions that build them."""
@@ -245,11 +250,6 @@ class EdgedParts(Parts):
     def unborne(self) -> tuple[tuple[str, str], ...]:
         """The shafts that turn and have no bearing, each with the reason."""
         return self._framed.unborne
-
-    @property
-    def required(self) -> tuple[Member, ...]:
-        """The parts without which the machine is not built."""
-        return self.members
 
 
 def parts_of(mechanism: Mechanism, advice: bool = True) -> Parts:

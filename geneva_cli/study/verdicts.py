@@ -9,8 +9,9 @@ from typing import NamedTuple
 
 from geneva_cli.answer import FAILS, PASSES, WARNS, Answer, Summary, SummaryLine, value_text
 from geneva_cli.design import load
-from geneva_cli.errors import GenevaError, Notice, open_warnings
+from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.names import spoken
+from geneva_cli.output import choice
 from geneva_cli.parts.chosen import ByLoad
 from geneva_cli.progress import tracked
 from geneva_cli.study.pool import cores, mapped
@@ -48,23 +49,23 @@ def verdict(
         if design.spec.is_loaded and not design.is_drawn:
             from geneva_cli.loads.cycle import cycle_of
             from geneva_cli.loads.strength.part_loads import single_loads
-            from geneva_cli.verdict.strength import strength
+            from geneva_cli.verdict.quantities.batch_designs import single
+            from geneva_cli.verdict.quantities.part_strength import horn, lock, shafts
 
             # loads, the parts that they size, their strength: what checks and warnings read
             with suppress(GenevaError):  # a check says why
                 single_loads(design.mechanism)
-                _ = cycle_of(design.mechanism).ends
-                _ = design.parts.built
-                of = strength(design.mechanism)
-                _ = of["strength.wheel_shaft.stress_MPa"], of["strength.horn.stress_MPa"]
+                _ = cycle_of(design.mechanism).ends, design.parts.built.required
+                of = single(design.mechanism)
+                _ = of.once(shafts), of.columns(horn), of.columns(lock)
         checks = design.checks if to_mm is None else design.proved_to(to_mm)
         return Verdict(
             path=design.spec.path,
             passes=all_pass(checks),
             files=design.spec.files,
             checks=tuple(checks),
-            warnings=tuple(design.check_warnings),
-            unused=tuple(design.unused_acceptances),
+            warnings=tuple(design.check_warnings if design.is_drawn else design.warnings),
+            unused=tuple(design.unused_acceptances) if design.spec.accept.reasons else (),
             chosen=design.chosen_by_load,
         )
     except GenevaError as error:
@@ -102,7 +103,7 @@ def checks_table(verdicts: Sequence[Verdict]) -> Table:
     ]
     # a narrow window shows the limit rather than the angle, which is not known for most checks
     first = ("spec", "check", "value", "must_be", "limit", "passes", "nearest", "at_deg", "why")
-    return rows_table(names, rows).replaced(reading=Reading(first))
+    return rows_table(names, rows, reading=Reading(first))
 
 
 def checks_record(verdicts: Sequence[Verdict]) -> Table:
@@ -131,8 +132,11 @@ def of_checks(verdicts: Sequence[Verdict], page: bool, as_json: bool) -> Answer:
     The proof and the tightest check are shown for a single spec only; ``page`` shows all checks
     below.
     """
-    table = checks_table(verdicts)
-    data = checks_record(verdicts) if as_json else table
+    # a page for people has the table only where it or some of its columns are asked for
+    is_shown = page or choice.columns
+    data = table = checks_table(verdicts) if is_shown else Table((), ())
+    if as_json:
+        data = checks_record(verdicts)
     is_single = len(verdicts) == 1
     heads, details, sized = list[Summary](), list[Summary](), 0
     for v in verdicts:
@@ -171,7 +175,7 @@ def of_checks(verdicts: Sequence[Verdict], page: bool, as_json: bool) -> Answer:
     return Answer((*heads, *details), table if page else None, data)
 
 
-def headline(checks: Sequence[Check], warnings: Sequence[str]) -> tuple[str, str]:
+def headline(checks: Sequence[Check], warnings: Sequence[Notice]) -> tuple[str, str]:
     """State of a design (PASSES, WARNS or FAILS), and counts of its checks and warnings in words.
 
     >>> from geneva_cli.verdict.checks import Check
@@ -194,7 +198,7 @@ def headline(checks: Sequence[Check], warnings: Sequence[str]) -> tuple[str, str
     if not_proved:
         text += f", {not_proved} not proved"
     text += driven
-    left = open_warnings(warnings)
+    left = [one for one in warnings if not one.accepted]
     if left:
         text += f", {len(left)} warning{'s' * (len(left) != 1)}"
     if accepted := len(warnings) - len(left):

@@ -14,7 +14,6 @@ from geneva_cli.loads.impacts.reversal import arrival
 from geneva_cli.loads.instant import Instant
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import braking
-from geneva_cli.motion.peaks import worst
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.tolerances import ROUNDED
 
@@ -56,13 +55,13 @@ def _unbounded(cycle: Cycle) -> Iterator[Notice]:
 def _driven(cycle: Cycle) -> Iterator[Notice]:
     """Warnings about a wheel that drives the motor, or lags behind its roller."""
     mechanism, ends = cycle.mechanism, cycle.ends
-    torque, noun, stop = ends[TORQUE], mechanism.output.noun, arrival(mechanism)
+    torque, noun = ends[TORQUE], mechanism.output.noun
+    stop = arrival(mechanism) if mechanism.engagements[0].paired else None
+    least, largest = torque.min, max(abs(torque.max), abs(torque.min))
     # a torque without a bound is no measure of the rounding of another
-    largest = torque.max
-    if not math.isfinite(largest):
-        largest = ends["wheel_torque_Nm"].max if "wheel_torque_Nm" in ends else 0.0
-    least = torque.min
-    fed = math.isfinite(least) and least < -ROUNDED * abs(largest or least)
+    if math.isinf(largest):
+        largest = abs(ends["wheel_torque_Nm"].max) if "wheel_torque_Nm" in ends else 0.0
+    fed = math.isfinite(least) and least < -ROUNDED * (largest or abs(least))
     driven = back_driven_deg(cycle) if fed else []
     if driven:
         each = [f"{round(a, 9):.4g} to {round(b, 9):.4g}" for a, b in driven]
@@ -104,6 +103,8 @@ def _unbalanced(cycle: Cycle) -> Iterator[Notice]:
     # on a carrier the loads count that force; behind gears another shaft bears it
     held = bearing is not None and math.isfinite(bearing.max) and not cycle.case.frame
     if bearing and held and spec.support.gear_ratio == 1.0:
+        from geneva_cli.motion.peaks import worst
+
         peaks = worst(cycle.mechanism)
         # at most: the peaks need not coincide, nor the bodies stand on one side
         most = math.hypot(peaks.velocity.max**2, peaks.acceleration.max)

@@ -10,12 +10,11 @@ from geneva_cli.errors import Notice
 from geneva_cli.motion.engagement import WheelMotion
 from geneva_cli.motion.laws.law import Law
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.peaks import greatest_jumps, peak
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.shafts.fits import closest_mm, loosest_mm
 from geneva_cli.spec.tables import Z_USUAL
-from geneva_cli.spec.workshops import workshop
+from geneva_cli.spec.workshops import WORKSHOPS
 
 SHOWN_UNDERCUT = 0.005  # mm: a wall cut back by less is within a shop's tolerance
 
@@ -62,6 +61,8 @@ def _of_sizes(mechanism: Mechanism) -> Iterator[Notice]:
                 f"speed brake_s and start_s may take {least / (3.0 * drive.n_rpm):.4g} s together",
             )
     if engagement.built is not None:
+        from geneva_cli.motion.peaks import greatest_jumps
+
         needed = spec.wheel.place(spec.wheel.step, L).ratio
         most, impact = 0.0, "the roller's centre never crosses the axis of the slot at rest inside "
         impact += "the rim"
@@ -88,7 +89,7 @@ def _fits(mechanism: Mechanism) -> Iterator[Notice]:
     if mechanism.spec.has_lock:
         radius = mechanism.ratio * mechanism.center_distance_mm if disc is None else disc
         pairs.append(("lock_clearance_mm", "locking disc", "recess", radius))
-    shop = workshop(size.process)
+    shop = WORKSHOPS[size.process]
     for key, part, mate, radius in pairs:
         clearance, fit = getattr(size, key), loosest_mm(2.0 * radius)
         if clearance is None:
@@ -130,6 +131,8 @@ def _of_law(mechanism: Mechanism, law: Law) -> Iterator[Notice]:
     if doubt := law.doubt():  # points of a file that round the jerk
         own = engagement.own  # the law holds by the angle of its shaft
         move = doubt[1] * 2.0 * own.half_step / (own.motion_deg * DEGREE) ** 3
+        from geneva_cli.motion.peaks import peak
+
         fraction = move / peak(own.motion, "jerk").max
         if not fraction < 0.01:  # less is not worth a warning
             yield Notice(

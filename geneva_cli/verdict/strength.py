@@ -103,9 +103,12 @@ class Strength:
 
     def warnings(self) -> list[Notice]:
         """A note on the limits of a known stress."""
-        if self["strength.horn.stress_MPa"] is None:
+        load = self.load
+        if self["strength.horn.stress_MPa"] is None or not load.horn_sizes:
             return []
-        stout, recess = self.load.stoutest_horn()
+        stout, recess = 0.0, 0.0  # thickness at the mouth over the recess's radius, and that
+        for horn in load.sides(self.mechanism, *load.horn_sizes):
+            stout, recess = max((stout, recess), (float(horn.stoutness[0]), float(horn.recess_mm)))
         if stout <= STOUT:
             return []
         return [

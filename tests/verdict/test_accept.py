@@ -14,7 +14,7 @@ from typer.testing import CliRunner
 
 from geneva_cli import Accept, Design, External, Size
 from geneva_cli.cli.app import app
-from geneva_cli.errors import GenevaError, Notice
+from geneva_cli.errors import Notice
 from geneva_cli.spec.schema import fields
 
 SPEC = """\
@@ -107,8 +107,3 @@ def test_bad_names_and_reasons_have_their_line(spec: str, line: str, message: st
     shown = run("check", spec)
     assert shown.exit_code == 2
     assert message in shown.stderr
-
-
-def test_python_refuses_an_empty_reason() -> None:
-    with pytest.raises(GenevaError, match="needs the reason"):
-        Accept(many_slots="")

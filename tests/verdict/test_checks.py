@@ -2,14 +2,13 @@
 
 import math
 import re
-from pathlib import Path
 
 import pytest
 import repo
 from strength_checks import standing_checks
 from words import Drive, Keys, Motion, Spec, Wheel, law, load
 
-from geneva_cli import Design, External
+from geneva_cli import Design, External, Internal
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion import machine_spec as machine_spec
 from geneva_cli.motion.mechanism import build
@@ -53,13 +52,9 @@ def test_warnings(spec: Spec, said: str) -> None:
 
 
 def test_constant_acceleration_shocks_at_mid_motion_too() -> None:
-    said = motion_warnings(
-        build(CURVED.replace(motion=machine_spec.Motion(law("scca", 0.0, 1.0, 0.0))))
-    )
-    assert [c.name for c in said if "soft shock" in c] == [
-        "soft-shock-at-ends",
-        "soft-shock-at-mid",
-    ]
+    constant = CURVED.replace(motion=machine_spec.Motion(law("scca", 0.0, 1.0, 0.0)))
+    said = [c.name for c in motion_warnings(build(constant)) if "soft shock" in c]
+    assert said == ["soft-shock-at-ends", "soft-shock-at-mid"]
 
 
 def test_the_side_crank_moves_the_mid_condition() -> None:
@@ -91,49 +86,43 @@ def test_what_is_not_proved_is_said() -> None:
 
 
 @pytest.mark.parametrize(
-    ("value", "must_be", "limit", "kept"),
+    ("value", "must_be", "limit", "noise", "kept"),
     [
-        (0.4999999999999787, "at least", 0.5, True),
-        (40.001, "at most", 40.0, False),
-        (0.0, "above", 0.0, False),
-        (-1e-12, "at least", 0.0, False),
+        (0.4999999999999787, "at least", 0.5, 0.0, True),
+        (40.001, "at most", 40.0, 0.0, False),
+        (0.0, "above", 0.0, 0.0, False),
+        (-1e-12, "at least", 0.0, 0.0, False),
+        (-2e-6, "at least", 0.0, 1e-5, True),  # a gap is known as nearly as its outlines
+        (-2e-5, "at least", 0.0, 1e-5, False),
     ],
 )
-def test_rounding_breaks_no_limit(value: float, must_be: str, limit: float, kept: bool) -> None:
-    assert keeps(value, must_be, limit) is kept
-
-
-def test_the_gap_is_known_as_nearly_as_its_outlines() -> None:
-    assert keeps(-2e-6, "at least", 0.0, noise=1e-5)
-    assert not keeps(-2e-5, "at least", 0.0, noise=1e-5)
+def test_rounding_breaks_no_limit(
+    value: float, must_be: str, limit: float, noise: float, kept: bool
+) -> None:
+    assert keeps(value, must_be, limit, noise) is kept
 
 
 @pytest.mark.parametrize(
-    ("keys", "row", "value"),
+    ("wheel", "size", "row", "value"),
     [
         # L - R - r - r/20 is 44.75 mm at L = 100, R = 50, r = 5
-        ("wheel_bore_mm = 89.4", "wheel_bore_wall_mm", 44.75 - 44.7),
+        (External(6), Size(wheel_bore_mm=89.4), "wheel_bore_wall_mm", 44.75 - 44.7),
         # The relief's arc: from the centre at L rk / R, radius L cos 30 deg rk / R
-        ("crank_bore_mm = 12", "crank_bore_wall_mm", 80.0 * (1.0 - math.sqrt(0.75)) - 6.0),
+        (
+            External(6),
+            Size(crank_bore_mm=12.0, lock_radius_mm=40.0),
+            "crank_bore_wall_mm",
+            80.0 * (1.0 - math.sqrt(0.75)) - 6.0,
+        ),
+        # L + R + r + r/20 is 155.25 mm
+        (Internal(6), Size(wheel_outer_radius_mm=155.5), "outer_wall_mm", 0.25),
     ],
 )
-def test_walls_beside_bores(keys: str, row: str, value: float, tmp_path: Path) -> None:
-    path = tmp_path / "bore.toml"
-    path.write_text(f"[wheel]\nz = 6\n[size]\n{keys}\nlock_radius_mm = 40\n")
-    rows = {c.name: c for c in standing_checks(parts_of(load(str(path))))}
+def test_walls_beside_bores_and_outside(wheel, size: Size, row: str, value: float) -> None:
+    rows = {c.name: c for c in standing_checks(Design(wheel, size=size).parts)}
     assert rows[row].value == pytest.approx(value, abs=1e-5)
     assert rows[row].limit == 0.5
     assert rows[row].passes == (value >= 0.5)
-
-
-def test_the_wall_outside_an_internal_wheel(tmp_path: Path) -> None:
-    path = tmp_path / "ring.toml"
-    size = "[size]\nwheel_outer_radius_mm = 155.5\n"
-    path.write_text(f'[wheel]\nz = 6\ngearing = "internal"\n{size}')
-    rows = {c.name: c for c in standing_checks(parts_of(load(str(path))))}
-    # L + R + r + r/20 is 155.25 mm
-    assert rows["outer_wall_mm"].value == pytest.approx(0.25, abs=1e-9)
-    assert not rows["outer_wall_mm"].passes
 
 
 @pytest.mark.long

@@ -7,15 +7,7 @@ import math
 import pytest
 from strength_checks import judged
 
-from geneva_cli import (
-    Crank,
-    Design,
-    External,
-    Limits,
-    Motion,
-    Size,
-    Tolerance,
-)
+from geneva_cli import Crank, Design, External, Limits, Motion, Size, Tolerance
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.registry import gearing, law
 from geneva_cli.study.sweep.constraints import constraint
@@ -44,12 +36,18 @@ def test_times_by_hand() -> None:
     assert failing == ["dwell_min_s", "motion_max_s", "cycle_max_s"]
 
 
-def test_unequal_steps_count_by_their_worst() -> None:
-    """Steps of 72 and 48 degrees move for 108 and 132; both dwell for 60 of the rest."""
-    steps = External(6, steps_deg=(72.0, 48.0))
-    design = Design(steps, limits=Limits(motion_max_s=1.0, dwell_min_s=0.1))
-    assert check_of(design, "motion_max_s").value == pytest.approx(132.0 / 360.0, rel=1e-12)
-    assert check_of(design, "dwell_min_s").value == pytest.approx(60.0 / 360.0, rel=1e-12)
+def test_times_of_unequal_steps_and_of_a_law() -> None:
+    """Steps of 72 and 48 degrees move for 108 and 132; both dwell for 60 of the rest.
+
+    An extra dwell of 30 degrees leaves 90 of a law's 120: a quarter of a second at 60 rpm.
+    """
+    limits = Limits(motion_max_s=1.0, dwell_min_s=0.1)
+    steps = Design(External(6, steps_deg=(72.0, 48.0)), limits=limits)
+    assert check_of(steps, "motion_max_s").value == pytest.approx(132.0 / 360.0, rel=1e-12)
+    assert check_of(steps, "dwell_min_s").value == pytest.approx(60.0 / 360.0, rel=1e-12)
+    motion = Motion(law("cycloidal")(), alpha0_deg=30.0, ratio="matched")
+    curved = Design(External(6), motion=motion, limits=limits)
+    assert check_of(curved, "motion_max_s").value == pytest.approx(0.25, rel=1e-14)
 
 
 @pytest.mark.parametrize(
@@ -121,10 +119,3 @@ def test_synth_writes_what_was_required_as_limits() -> None:
     written = {key: value for key, value in spec.limits.as_dict().items() if value is not None}
     assert written == {"jerk_max": 3.0, "dwell_min_s": 0.8, "motion_max_s": 0.6, "cycle_max_s": 1.5}
     assert constraint("velocity.max >= 0.1").sign == ">="  # no key holds a least velocity
-
-
-def test_a_curved_slot_has_its_time_limited_too() -> None:
-    """An extra dwell of 30 degrees leaves 90 of the 120: a quarter of a second at 60 rpm."""
-    motion = Motion(law("cycloidal")(), alpha0_deg=30.0, ratio="matched")
-    design = Design(External(6), motion=motion, limits=Limits(motion_max_s=0.25))
-    assert check_of(design, "motion_max_s").value == pytest.approx(0.25, rel=1e-14)

@@ -29,7 +29,7 @@ KINDS = (
             "arm_wall_mm": "kinds.spherical.checks:standing",
             "cut_plate_mm": "kinds.spherical.checks:standing",
             "cut_slot_mm": "kinds.spherical.checks:standing",
-            "parts": "kinds.spherical.checks:standing",
+            "parts": "verdict.checks.part_checks:built",
         },
     ),
 )

@@ -18,7 +18,7 @@ from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.shafts.bores import around, reach_or_bore
 from geneva_cli.parts.sizes import refuse_thin_hub
-from geneva_cli.verdict.checks import Check, compared, refused
+from geneva_cli.verdict.checks import Check, compared
 from geneva_cli.verdict.checks.part_checks import cuts, least_gap
 from geneva_cli.verdict.shaft_gap import ring_gap
 
@@ -53,11 +53,6 @@ def standing(names: Collection[str], parts: SphereParts) -> Iterator[Check]:
     (inner, outer), thickest = ball.span_mm, max(end - start for start, end in spans)
     wide = 2.0 * inner * math.sin(ball.half_width)  # of the slots inside
     yield from cuts(parts.mechanism, thickest, wide, outer - inner)
-    if "parts" in names:
-        try:
-            _ = parts.members
-        except GenevaError as error:
-            yield refused("parts", error)
 
 
 def _bore_wall(parts: SphereParts) -> float:

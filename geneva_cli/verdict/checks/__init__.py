@@ -195,15 +195,19 @@ def all_pass(rows: Iterable[Check]) -> bool:
     return False not in map(attrgetter("passes"), rows)
 
 
-def standing(mechanism: Mechanism) -> Checks:
-    """The checks of the parts of a machine at rest."""
-    own, added = Checks(), Checks()
-    for kind in of_wheel(mechanism.spec.wheel.NAME):
-        if kind.parts:
+def own_checks(mechanism: Mechanism) -> tuple[Checks, Checks]:
+    """The checks of a machine's motion, and of its parts at rest, without those of other kinds."""
+    motion, own, added = Checks(MOTION), Checks(), Checks()
+    kinds = of_wheel(mechanism.spec.wheel.NAME)
+    for kind in KINDS:
+        if kind not in kinds:
+            for name in kind.motion_checks:
+                del motion[name]
+        elif kind.parts:
             own |= kind.parts_checks
         elif concerns(kind, mechanism.spec):
             added |= kind.parts_checks
-    return own | added if own else {**STATIC, **added, **PROCESS}
+    return motion, own | added if own else {**STATIC, **added, **PROCESS}
 
 
 def applicable(among: Checks, *of: object, reasons: bool = True) -> Iterator[Check]:
@@ -240,7 +244,8 @@ def every_check(
     of its machine's parts are not built.
     """
     spec, limits = mechanism.spec, applicable(LIMITS, mechanism, reasons=not quick)
-    yield from applicable(MOTION, mechanism, reasons=not quick)
+    motion, standing = own_checks(mechanism)
+    yield from applicable(motion, mechanism, reasons=not quick)
     if quick:
         yield from limits
     unbuilt = [] if spec.has_parts else [Check("parts", None, "proved", None, None, spec.no_parts)]
@@ -255,7 +260,7 @@ def every_check(
 
         machine = machine or parts_of(mechanism)
         try:
-            rows = unbuilt or [*applicable(standing(mechanism), machine.built)]
+            rows = unbuilt or [*applicable(standing, machine.built)]
             _ = machine.turned
         except GenevaError as error:
             rows, turned = [refused("parts", error)], False
@@ -302,7 +307,7 @@ def single_check(mechanism: Mechanism, name: str, machine: Parts | None = None) 
                 _ = machine.turned
             if not mechanism.spec.has_parts:
                 return None
-            among, of = standing(mechanism), (machine.built,)
+            among, of = own_checks(mechanism)[1], (machine.built,)
     found = load_named(among[name])([name], *of) if name in among else ()
     return next((check for check in found if check.name == name), None)
 
@@ -322,7 +327,7 @@ def pushed_round(mechanism: Mechanism) -> list[Check]:
 def proofs(parts: Parts, to_mm: float | None = None) -> list[Check]:
     """The proof that no parts collide in a whole turn; none if they cannot be made or turned.
 
-    ``to_mm`` is the tolerance of the proof, by default that of ``least_gap``.
+    ``to_mm`` is the tolerance of the proof, by default that of ``turn_checks.proof``.
     """
     if not parts.mechanism.spec.is_turned or parts.mechanism.no_turn:
         return []

@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.peaks import greatest_jumps, worst, worst_of
-from geneva_cli.motion.timing import timings
 from geneva_cli.numerics.arrays import value_or
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.spec.tables import LIMITED
@@ -82,22 +80,23 @@ def limits(names: Collection[str], mechanism: Mechanism) -> Iterator[Check]:
             yield _entry_velocity(name, mechanism)
         elif limit is None:
             continue
-        elif name == "acceleration_entry_max":
-            yield compared(name, worst(mechanism).ends.acceleration_entry, "at most", limit)
-        elif name == "jerk_max":
-            yield compared(name, worst(mechanism).jerk.max, "at most", limit)
-        elif name == "dwell_min_s":
-            shortest = min(one.dwell_s for one in timings(mechanism))
-            yield compared(name, shortest, "at least", limit)
-        elif name == "motion_max_s":
-            longest = max(one.motion_s for one in timings(mechanism))
-            yield compared(name, longest, "at most", limit)
-        elif name == "cycle_max_s":
-            longest = max(one.cycle_s for one in timings(mechanism))
-            yield compared(name, longest, "at most", limit)
-        elif name in ("velocity_max", "acceleration_max"):
-            most = worst_of(mechanism, name.removesuffix("_max")).max
+        elif name in ("velocity_max", "acceleration_max", "acceleration_entry_max", "jerk_max"):
+            from geneva_cli.motion.peaks import worst, worst_of
+
+            if name == "acceleration_entry_max":
+                most = worst(mechanism).ends.acceleration_entry
+            elif name == "jerk_max":
+                most = worst(mechanism).jerk.max
+            else:
+                most = worst_of(mechanism, name.removesuffix("_max")).max
             yield compared(name, most, "at most", limit)
+        elif name.endswith("_s"):
+            from geneva_cli.motion.timing import timings
+
+            key, is_least = name.replace("_max", "").replace("_min", ""), "_min" in name
+            times = [getattr(one, key) for one in timings(mechanism)]
+            value, must_be = (min(times), "at least") if is_least else (max(times), "at most")
+            yield compared(name, value, must_be, limit)
         else:
             from geneva_cli.verdict.quantities.batch_designs import number_of, single
             from geneva_cli.verdict.quantities.load_quantities import greatest
@@ -121,6 +120,8 @@ def _entry_velocity(name: str, mechanism: Mechanism) -> Check:
 
     It fails where the roller never crosses the axis of the slot at rest.
     """
+    from geneva_cli.motion.peaks import greatest_jumps
+
     own = mechanism.engagements
     limit, jumps = entry_velocity_limit(mechanism), greatest_jumps(own)
     sizes = [abs(jump) for jump in jumps if jump is not None]

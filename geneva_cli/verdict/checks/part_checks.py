@@ -21,11 +21,11 @@ from geneva_cli.parts.arm import walls as arm_walls
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.outlines.crank_outline import is_whole
 from geneva_cli.parts.outlines.outlines import Outlines, wheel_holes, wheel_hub
-from geneva_cli.parts.parts import EdgedParts
+from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.shafts.bores import has_shape
 from geneva_cli.parts.shafts.shaft import crank_hub
 from geneva_cli.parts.slots.roller_paths import roller_centres
-from geneva_cli.spec.workshops import workshop
+from geneva_cli.spec.workshops import WORKSHOPS
 from geneva_cli.verdict.checks import Check, compared, refused
 
 
@@ -33,16 +33,16 @@ def walls(names: Collection[str], parts: FlatParts) -> Iterator[Check]:
     """Walls of wheel and crank, which must not be thinner than the process makes them."""
     outlines, spec = parts.outlines, parts.mechanism.spec
     assembly, size, least = outlines.assembly, outlines.sizes, outlines.sizes.wall_min
-    around_shaft = spec.size.allowances.around_shaft_mm
+    around_shaft = 0.5 * spec.size.allowances.shaft_fit_mm
     if "wall_between_slots_mm" in names:
         yield compared("wall_between_slots_mm", _between_slots(outlines), "at least", least)
     if outlines.crank:  # between a slot and the recess of the locking disc or sectors
         yield compared("horn_mm", size.horn, "at least", least)
     # the roller that starts the wheel and the one that stops it, on one crank
-    if len(assembly.rollers) != len(assembly.motions):
+    if len(assembly.rollers) > len(assembly.motions):
         pairs = combinations(roller_centres(assembly), 2)
-        near = min(math.dist(one, other) for one, other in pairs) - 2.0 * size.roller
-        yield compared("rollers_apart_mm", near, "at least", 0.0)
+        apart_mm = min(math.dist(one, other) for one, other in pairs) - 2.0 * size.roller
+        yield compared("rollers_apart_mm", apart_mm, "at least", 0.0)
     if size.wheel_bore:  # to the slots' ends, and around the bore in a drawn hub
         wall = size.slot_end - size.wheel_bore - around_shaft
         if wheel_hub(assembly, size):
@@ -178,12 +178,12 @@ def _arm(parts: FlatParts) -> Iterator[Check]:
 
 def _links_gap(name: str, parts: FlatParts) -> Iterator[Check]:
     """The gap in a whole turn between links and hub, shaft and pins through their planes."""
-    if not parts.links.sizes:
-        return
-    from geneva_cli.parts.links.link_shafts import planes
-
     mechanism = parts.mechanism
     try:
+        if parts.links.sizes is None:
+            return
+        from geneva_cli.parts.links.link_shafts import planes
+
         spacers = parts.spacers if mechanism.spec.drive_before else ()
         near, blocked = planes(parts.outlines, parts.links, spacers)
     except GenevaError as error:
@@ -293,15 +293,15 @@ def process(names: Collection[str], parts: FlatParts) -> Iterator[Check]:
 
 def cuts(mechanism: Mechanism, thickest: float, wide: float, thick: float) -> Iterator[Check]:
     """What a process can cut: the thickest plate, and slots so wide in a plate so ``thick``."""
-    shop = workshop(mechanism.spec.size.process)
+    shop = WORKSHOPS[mechanism.spec.size.process]
     if shop.plate_mm != math.inf:
         yield compared("cut_plate_mm", thickest, "at most", shop.plate_mm)
     if shop.hole:  # it cuts no slot that is narrow for its plate
         yield compared("cut_slot_mm", wide, "at least", shop.hole * thick)
 
 
-def built(names: Collection[str], parts: EdgedParts) -> Iterator[Check]:
-    """The check that fails if a plate of a machine cannot be built."""
+def built(names: Collection[str], parts: Parts) -> Iterator[Check]:
+    """The check that fails if a part of a machine cannot be built."""
     try:
         _ = parts.required
     except GenevaError as error:

@@ -12,7 +12,7 @@ import numpy as np
 from geneva_cli.kept import Known, cached_property
 from geneva_cli.motion.batch import each_of
 from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.spec.tables import LIMITED, Limits
+from geneva_cli.spec.tables import LIMITED
 
 if TYPE_CHECKING:
     from geneva_cli.loads.contact import LoadCase
@@ -31,15 +31,25 @@ class Designs:
     """The m designs of a machine, and shared values of their quantities, (m,), computed once.
 
     A value is infinite if a design has none, and NaN if it must be computed for the design alone.
-    ``each`` are the machines of a batch's single designs, if they are built already.
+    ``each`` are the machines of a batch's single designs, if they are built already. ``names`` are
+    those of all requested quantities: by default of the loads that the spec limits, which its
+    checks compare.
     """
 
     def __init__(
-        self, machine: Mechanism, names: Collection[str] = (), each: Sequence[Mechanism] = ()
+        self,
+        machine: Mechanism,
+        names: Collection[str] | None = None,
+        each: Sequence[Mechanism] = (),
     ) -> None:
         self.machine, self._each = machine, each
         self.spec = machine.spec
-        self.names = names  # the names of all requested quantities
+        if names is None:
+            limits, names = vars(machine.spec.limits), list[str]()
+            for key, name in LIMITED.items():
+                if name.startswith("loads.") and limits[key]:
+                    names.append(name)
+        self.names = names
         self.single = isinstance(machine.design, int)  # its numbers are floats: m = 1
         self.are_built = self.single or bool(each)  # the machines of the single designs are
         self._kept: dict[object, object] = {}
@@ -104,19 +114,7 @@ def only(column: Number | None) -> float | None:
     return value if value is not None and math.isfinite(value) else None
 
 
-def limited_loads(limits: Limits) -> list[str]:
-    """The whole names of the loads that a spec limits."""
-    values, names = vars(limits), list[str]()
-    for key, name in LIMITED.items():
-        if name.startswith("loads.") and values[key]:
-            names.append(name)
-    return names
-
-
 @Known
 def single(mechanism: Mechanism) -> Designs:
-    """A machine as a batch of one, cached for its checks, advice and report.
-
-    Requested are the loads that the spec limits, which its checks compare.
-    """
-    return Designs(mechanism, limited_loads(mechanism.spec.limits))
+    """A machine as a batch of one, cached for its checks, advice and report."""
+    return Designs(mechanism)

@@ -11,13 +11,7 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.verdict.quantities.batch_designs import (
-    Columns,
-    Designs,
-    limited_loads,
-    number_of,
-    single,
-)
+from geneva_cli.verdict.quantities.batch_designs import Columns, Designs, number_of, single
 from geneva_cli.verdict.quantities.under_load import under_load
 
 
@@ -48,7 +42,7 @@ def share(batch: Mechanism, machines: Sequence[Mechanism]) -> None:
     The batch is searched when the first of them needs a value. A value that the batch lacks is
     computed for the design alone. There are at most ``kept.KEPT`` machines.
     """
-    designs = Designs(batch, limited_loads(batch.spec.limits), machines)
+    designs = Designs(batch, None, machines)
 
     @cache
     def sizing() -> PartLoads | None:

@@ -12,10 +12,8 @@ from geneva_cli.loads.load_case import centrifugal_N
 from geneva_cli.loads.strength import arm_and_key as arms
 from geneva_cli.loads.strength import pin as pins
 from geneva_cli.loads.strength.arm_and_key import key_stress, shear_allowed_MPa
-from geneva_cli.loads.strength.part_loads import (
-    LoadedShaft,
-    shafts_under_load,
-)
+from geneva_cli.loads.strength.lock import dwell_torque_Nm, held_force_N
+from geneva_cli.loads.strength.part_loads import LoadedShaft, shafts_under_load
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.arrays import Array, Number, array, parameter
 from geneva_cli.spec.defaults import roller_material, wheel_material
@@ -118,19 +116,24 @@ def _known(row: Number | None) -> Array:
 
 def _shaft(of: Designs, part: str) -> Columns:
     """The shaft of wheel or crank."""
-    return of.once(_shafts)[part]
+    return of.once(shafts)[part]
 
 
 wheel_shaft, crank_shaft = partial(_shaft, part="wheel"), partial(_shaft, part="crank")
 
 
-def _shafts(of: Designs) -> dict[str, Columns]:
+def shafts(of: Designs) -> dict[str, Columns]:
     """The columns of the shafts of wheel and crank, which are searched together."""
     wheel, crank = _drawn(of, "wheel"), _drawn(of, "crank")
-    if held := under_load(of).held:
+    held = of.spec.load.dwell_torque_Nm is not None  # by the lock, in the dwell
+    torque_Nm = dwell_torque_Nm(of.machine) if held else np.zeros(1)
+    if torque_Nm.any():
+        sizes = under_load(of).lock_sizes  # without a disc something else holds it, by a couple
+        force = held_force_N(torque_Nm[:, None], sizes[1]) if sizes else 0.0 * torque_Nm
+        force = np.nan_to_num(np.ravel(force))
         carried = np.ravel(centrifugal_N(of.machine)) if of.machine.frame else 0.0
-        wheel = wheel._replace(held_N=held[0] + carried, held_Nm=held[1])
-        crank = crank._replace(held_N=held[0])  # the force passes through the crank's axis
+        wheel = wheel._replace(held_N=force + carried, held_Nm=torque_Nm)
+        crank = crank._replace(held_N=force)  # the force passes through the crank's axis
     both, each = (wheel, crank), dict[str, Columns]()
     for shaft, rows in zip(both, shafts_under_load(of.machine, both), strict=True):
         out: dict[str, Number | None] = {"diameter_mm": shaft.diameter_mm}

@@ -48,7 +48,10 @@ class UnderLoad:
         self.machine, self.designs = of.machine, of
         self.loaded = of.loaded
         # the function that returns the horns: those of a flat wheel for most kinds
-        self._sides: Sides = thing(of.spec.wheel.NAME, "horns") or horns
+        self.sides: Sides = thing(of.spec.wheel.NAME, "horns") or horns
+        # the force on a roller over that along the wall's normal, (m, 1)
+        friction = of.load_case.friction
+        self.rubbed = parameter(library(friction).hypot(1.0, friction))
 
     @cached_property
     def force_N(self) -> Array:
@@ -61,12 +64,6 @@ class UnderLoad:
     def roller_N(self) -> Array:
         """The greatest force on a roller, with its friction along the wall; (m, 1)."""
         return self.force_N[:, None] * self.rubbed
-
-    @property
-    def rubbed(self) -> float:
-        """The force on a roller over that along the wall's normal, (m, 1)."""
-        friction = self.designs.load_case.friction
-        return parameter(library(friction).hypot(1.0, friction))
 
     @cached_property
     def pv_W_m2(self) -> Array:
@@ -126,14 +123,14 @@ class UnderLoad:
 
     def horn_stress(self, width: float) -> HornStress:
         """The greatest stress in the horns under the roller, for a width of its contact."""
-        if self._sides is horns:
+        if self.sides is horns:
             bent = self._flat_horns
             return bent._replace(stress_MPa=parameter(bent.stress_MPa / np.ravel(width)))
         assert self.horn_sizes
         if not self.designs.single:
-            return greatest_stress(self._sides, self.machine, self.horn_sizes, width)
+            return greatest_stress(self.sides, self.machine, self.horn_sizes, width)
         wide = float(np.ravel(width)[0])  # to be hashed
-        return single_stress(self._sides, self.machine, self.horn_sizes, wide)
+        return single_stress(self.sides, self.machine, self.horn_sizes, wide)
 
     @cached_property
     def _flat_horns(self) -> HornStress:
@@ -142,19 +139,12 @@ class UnderLoad:
         search = single_stress if self.designs.single else greatest_stress
         return search(horns, self.machine, self.horn_sizes)
 
-    def stoutest_horn(self) -> tuple[float, float]:
-        """A single design's greatest thickness at the mouth over the recess's radius, and that."""
-        assert self.horn_sizes
-        each = []
-        for one in self._sides(self.machine, *self.horn_sizes):
-            each.append((float(one.stoutness[0]), float(one.recess_mm)))
-        return max(each)
-
     @cached_property
     def layouts(self) -> Sequence[Layout | None]:
         """Assembly and sizes of each design; None for one without flat parts."""
         if self.designs.are_built or not self.machine.spec.is_loaded:
-            return [*map(sized, self.designs.each)]
+            machines = [self.machine] if self.designs.single else self.designs.each
+            return [*map(sized, machines)]
         machines, size = self.designs.each, self.machine.spec.size
         bent: Sequence[float | None] = [None] * len(machines)
         if self.lock_sizes and size.wheel_thickness_mm is None and size.face_width_mm is None:
@@ -236,18 +226,6 @@ class UnderLoad:
     def part_loads(self) -> PartLoads:
         """The greatest loads on arm, keys and shafts."""
         return single_loads(self.machine) if self.designs.single else part_loads(self.machine)
-
-    @cached_property
-    def held(self) -> tuple[Array, Array] | None:
-        """Force and torque that the lock holds in the dwell, (m,) both; None without a torque."""
-        if self.machine.spec.load.dwell_torque_Nm is None:
-            return None
-        torque = lock.dwell_torque_Nm(self.machine)
-        if not torque.any():
-            return None
-        sizes = self.lock_sizes  # without a disc something else holds the wheel, by a couple
-        force = lock.held_force_N(torque[:, None], sizes[1]) if sizes else 0.0 * torque
-        return np.nan_to_num(np.ravel(force)), torque
 
 
 def _or_none(make: Callable[[K], T | None], of: K) -> T | None:
