@@ -10,11 +10,14 @@ from geneva_cli.numerics.tolerances import ROUNDED
 
 # Rounded numbers of all decades of sizes, 10 to 90 times each power of ten.
 _TENS = (10, 11, 12, 14, 16, 18, 20, 22, 25, 28, 30, 35, 40, 45, 50, 55, 60, 70, 80, 90)
-_ROUNDED = tuple(float(f"{n}e{power}") for power in range(-20, 16) for n in _TENS)
+_ROUNDED = list[float]()
+for _power in range(-20, 16):
+    for _n in _TENS:
+        _ROUNDED.append(float(f"{_n}e{_power}"))
 # Bores of radial bearings by ISO 15, mm.
 _SMALL = (1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 12.0, 15.0, 17.0)
 _LARGE = map(float, (*range(20, 110, 5), *range(110, 200, 10), *range(200, 501, 20)))
-_BORES = (*_SMALL, *_LARGE)
+_BORES = [*_SMALL, *_LARGE]
 
 
 def rounded_below(most: float) -> float:
@@ -28,9 +31,7 @@ def sizes_from(least: float, most: float, bores: bool = False) -> list[float]:
 
     Of ``bores`` those of standard bearings, where both are in their range, mm.
     """
-    numbers = _ROUNDED
-    if bores and _BORES[0] <= least <= most <= _BORES[-1]:
-        numbers = _BORES
+    numbers = _BORES if bores and _BORES[0] <= least <= most <= _BORES[-1] else _ROUNDED
     if not 0.0 < least < most:
         return [least]
     first = bisect_right(numbers, least * (1.0 + ROUNDED))

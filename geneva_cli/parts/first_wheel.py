@@ -19,7 +19,7 @@ from geneva_cli.motion.wheels.external import External
 from geneva_cli.numerics.preferred import sizes_from
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.sized_by_load import Stressed, shaft_holds, stressed
-from geneva_cli.parts.sizes import FirstSizes, Sizes
+from geneva_cli.parts.sizes import Sizes
 from geneva_cli.spec.tables import Load, Size
 
 
@@ -51,8 +51,11 @@ def first_spec(mechanism: Mechanism, first: FirstWheel) -> Spec:
 @lru_cache(maxsize=16)
 def first_sizes(
     mechanism: Mechanism, sized: Callable[[Mechanism, PartLoads], tuple[Assembly, Sizes] | None]
-) -> FirstSizes | None:
-    """Return what the load needs of a first wheel and its crank; None without either."""
+) -> tuple[float, float, float] | None:
+    """Return what the load needs of a first wheel and its crank; None without either.
+
+    That is the thickness of both, and the radii of the roller's pin and of the crank's shaft, mm.
+    """
     first = mechanism.first_wheel
     spec = None if first is None else first_spec(mechanism, first)
     if spec is None or not spec.is_loaded:
@@ -87,4 +90,4 @@ def first_sizes(
                 break
     assert parts is not None
     thick = max(parts.contact, float(parts.arm.thickness))
-    return FirstSizes(thick, 0.5 * parts.pin, 0.5 * parts.crank_shaft.diameter)
+    return thick, 0.5 * parts.pin, 0.5 * parts.crank_shaft.diameter

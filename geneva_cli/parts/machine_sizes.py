@@ -95,7 +95,8 @@ def loaded(of: Unloaded, loads: PartLoads, horn_MPa: float | None = None) -> Siz
         from geneva_cli.parts.first_wheel import first_sizes
 
         first = first_sizes(of.assembly.full, sized)
-    out = load_sizes(of, loads, horn_MPa, first)._replace(first=first)
+    link, pin, shaft = first or (0.0, 0.0, 0.0)
+    out = load_sizes(of, loads, horn_MPa, link)._replace(first_pin=pin, first_shaft=shaft)
     _refuse(of.assembly, out)
     return out
 

@@ -41,7 +41,6 @@ from geneva_cli.parts.outlines.outlines import wheel_hub_length
 from geneva_cli.parts.shafts.bores import reach_or_bore
 from geneva_cli.parts.sizes import (
     LARGEST_HUB,
-    FirstSizes,
     Sizes,
     arm_hub,
     bridge_low,
@@ -152,19 +151,19 @@ def key_of(standard: str | None, bore: float, length: float) -> KeyDimensions:
 
 
 def load_sizes(
-    of: Unloaded, loads: PartLoads, bent_MPa: float | None = None, first: FirstSizes | None = None
+    of: Unloaded, loads: PartLoads, bent_MPa: float | None = None, link: float = 0.0
 ) -> Sizes:
     """Return the sizes of a machine under its loads, from those without them.
 
-    ``bent_MPa`` is the stress of ``horn_MPa``, if computed already; ``first`` is what the loads
-    need of a first wheel. A load without a bound leaves all sizes.
+    ``bent_MPa`` is the stress of ``horn_MPa``, if computed already; ``link`` is the thickness that
+    the loads need of a first wheel. A load without a bound leaves all sizes.
     """
     assembly, sizes, space, by = of
     machine, spec = assembly.full, assembly.full.spec
     if not all(map(math.isfinite, loads)):
         return sizes
-    if first:
-        sizes = sizes._replace(link_thickness=first.thickness)
+    if link:
+        sizes = sizes._replace(link_thickness=link)
     # the force between disc and wheel in the dwell loads both shafts
     held = 0.0
     if by and spec.load.dwell_torque_Nm:
@@ -198,7 +197,8 @@ def load_sizes(
             trial = _crank_bored(assembly, trial, loads, space, keyed)
             parts = stressed(assembly, trial)
             arm_MPa = float(arm_stress_MPa(parts.arm, loads.wheel_N))
-            key_lasts = key_holds(spec, parts.crank_key, loads.crank_Nm)
+            free = parts.crank_key is NO_KEY
+            key_lasts = free or key_holds(spec, parts.crank_key, loads.crank_Nm)
             if key_lasts and keeps(arm_MPa, "at most", allowed):
                 return trial
     return trial
@@ -236,7 +236,7 @@ def _wheel_bored(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> Sizes:
         bent = spec.shaft.bending_factor * loads.wheel_shaft_N * shaft.overhang / 1000.0
         turned = spec.shaft.torsion_factor * torque
         holds = shaft_holds(spec, "wheel", shaft.diameter, bent, turned)
-        if holds and key_holds(spec, parts.wheel_key, torque):
+        if holds and (parts.wheel_key is NO_KEY or key_holds(spec, parts.wheel_key, torque)):
             break
     return sizes
 
@@ -275,7 +275,8 @@ def _crank_bored(
         bent = spec.shaft.bending_factor * loads.crank_N * shaft.overhang / 1000.0
         turned = spec.shaft.torsion_factor * loads.crank_Nm
         holds = shaft_holds(spec, "crank", shaft.diameter, bent, turned)
-        if holds and (not keyed or key_holds(spec, parts.crank_key, loads.crank_Nm)):
+        free = not keyed or parts.crank_key is NO_KEY
+        if holds and (free or key_holds(spec, parts.crank_key, loads.crank_Nm)):
             break
     return sizes
 
@@ -320,9 +321,7 @@ def shaft_holds(
 
 
 def key_holds(spec: Spec, key: KeyDimensions, torque_Nm: float) -> bool:
-    """Return True if a key holds a torque, or where there is none."""
-    if math.isnan(float(key.length)):
-        return True
+    """Return True if a key holds a torque."""
     sides, shear = wheel_material(spec).allowed_MPa, shear_allowed_MPa(spec.shaft)
     torque = spec.shaft.torsion_factor * torque_Nm
     return keeps(float(key.length), "at least", float(key_stress(key, torque, sides, shear)[2]))

@@ -20,14 +20,6 @@ HUB = 1.6  # outside diameter of a hub, as a multiple of its bore
 LARGEST_HUB = 0.75  # of the slots' ends: a quarter of the wheel up to them stays free
 
 
-class FirstSizes(NamedTuple):
-    """What a load needs of the first wheel's parts, mm."""
-
-    thickness: float  # of the wheel and its crank
-    pin: float  # radius of the roller's pin
-    shaft: float  # radius of its crank's shaft
-
-
 class Sizes(NamedTuple):
     """Lengths and radii, mm; bores and hubs are radii too. 0 for parts that do not exist."""
 
@@ -58,7 +50,8 @@ class Sizes(NamedTuple):
     lock_thickness: float = 0.0
     arm_thickness: float = 0.0
     link_thickness: float = 0.0
-    first: FirstSizes | None = None  # of a first wheel in front, under a load
+    first_pin: float = 0.0  # of the roller of a first wheel in front, under a load
+    first_shaft: float = 0.0  # of that wheel's crank
 
     @property
     def horn(self) -> float:
@@ -73,9 +66,9 @@ class Sizes(NamedTuple):
     @property
     def outline(self) -> Sizes:
         """The sizes of the outlines of wheel and crank: 0 for those that a load may change."""
-        keys = Sizes._fields[Sizes._fields.index("wheel_bore") : -1]
+        keys = Sizes._fields[Sizes._fields.index("wheel_bore") :]
         none: dict[str, float] = dict.fromkeys(keys, 0.0)
-        return self._replace(**none, first=None)  # type: ignore[arg-type]
+        return self._replace(**none)  # type: ignore[arg-type]
 
 
 # The sizes of a machine's parts by keys of ``[size]``, mm and diameters as the keys say; and those

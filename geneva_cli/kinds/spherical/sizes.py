@@ -14,7 +14,7 @@ from geneva_cli.geometry.sphere import Region
 from geneva_cli.kinds.spherical.ball import Ball, PartDoesNotFit, flat_radius, hub_about, usual_ball
 from geneva_cli.kinds.spherical.horn import sphere_horns
 from geneva_cli.kinds.spherical.regions import sectors
-from geneva_cli.loads.strength.arm_and_key import NO_ARM, ArmDimensions, arm_stress_MPa
+from geneva_cli.loads.strength.arm_and_key import NO_ARM, NO_KEY, ArmDimensions, arm_stress_MPa
 from geneva_cli.loads.strength.horn import single_stress
 from geneva_cli.loads.strength.lock import dwell_torque_Nm
 from geneva_cli.loads.strength.part_loads import (
@@ -147,7 +147,8 @@ def ball(mechanism: Mechanism) -> Ball:
             trial = _crank_bored(mechanism, _wheel_bored(mechanism, trial), keyed)
             parts = sphere_stressed(spec, trial)
             arm_MPa = float(arm_stress_MPa(parts.arm, loads.wheel_N))
-            key_lasts = key_holds(spec, parts.crank_key, loads.crank_Nm)
+            key = parts.crank_key
+            key_lasts = key is NO_KEY or key_holds(spec, key, loads.crank_Nm)
             if key_lasts and keeps(arm_MPa, "at most", wheel_material(spec).allowed_MPa):
                 return trial
     return trial
@@ -184,7 +185,8 @@ def _wheel_bored(mechanism: Mechanism, ball: Ball) -> Ball:
         ball, parts = trial, sphere_stressed(spec, trial)
         moment = _moment_Nm(mechanism, "wheel", parts.wheel_shaft.overhang)
         shaft = shaft_holds(spec, "wheel", parts.wheel_shaft.diameter, max(moment, held))
-        if shaft and key_holds(spec, parts.wheel_key, single_loads(mechanism).wheel_Nm):
+        key, torque = parts.wheel_key, single_loads(mechanism).wheel_Nm
+        if shaft and (key is NO_KEY or key_holds(spec, key, torque)):
             break
     return ball
 
@@ -223,8 +225,8 @@ def _crank_bored(mechanism: Mechanism, ball: Ball, keyed: bool) -> Ball:
         sizes, parts = trial, sphere_stressed(spec, trial)
         moment = _moment_Nm(mechanism, "crank", parts.crank_shaft.overhang)
         shaft = shaft_holds(spec, "crank", parts.crank_shaft.diameter, moment)
-        key = not keyed or key_holds(spec, parts.crank_key, single_loads(mechanism).crank_Nm)
-        if shaft and key:
+        key, torque = parts.crank_key, single_loads(mechanism).crank_Nm
+        if shaft and (not keyed or key is NO_KEY or key_holds(spec, key, torque)):
             break
     return sizes
 

@@ -35,10 +35,10 @@ def link_sizes(
     size, bars = spec.size, [link for link in links if not link.radius_mm]
     drawn = parts.sizes if parts else None
     wall, thick = wall_min(size, L), drawn_thicknesses(size, L)
-    first = drawn.first if drawn else None
-    stands = drawn.pin if drawn else pin_radius(size, mechanism.roller_radius_mm)
-    stands, thickness, arm = first.pin if first else stands, thick.link, thick.arm
+    stands = pin_radius(size, mechanism.roller_radius_mm)
+    thickness, arm = thick.link, thick.arm
     if drawn:
+        stands = drawn.first_pin or drawn.pin
         thickness, arm = drawn.link_thickness, drawn.arm_thickness
     own = None if size.link_bore_mm is None else 0.5 * size.link_bore_mm
     roller, loose = pin_hole(size, stands) if stands else 0.0, 0.5 * size.allowances.shaft_fit_mm
@@ -71,7 +71,7 @@ def link_sizes(
         roller_pin=roller,
         eye=eye,
         roller_eye=eye_about(roller, wall, _eye_limit(mechanism, bars)) if roller else eye,
-        shaft=first.shaft if first else own,
+        shaft=drawn.first_shaft if drawn and drawn.first_shaft else own,
         crank_shaft=crank_shaft,
         thickness=thickness,
         arm=arm if spec.drive.ONE_ARM else thickness,
