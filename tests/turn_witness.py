@@ -1,6 +1,5 @@
 """Witnesses of certificates of the full turn, flat or on a sphere: gaps at dense positions."""
 
-import math
 from functools import partial
 
 import numpy as np
@@ -9,7 +8,7 @@ from drawing_witness import polygon
 from sampling import some
 from shapely import affinity
 
-from geneva_cli.parts.turn.play import search_deg, wheel_stops, windows
+from geneva_cli.parts.turn.play import wheel_stops, windows
 from geneva_cli.parts.turn.turn_certificate import certificate, intervals
 
 TO_MM = 1e-3
@@ -19,17 +18,15 @@ ROUNDING = 1e-9  # mm: a hundred times the rounding of a distance here
 DENSE = some(20_000, 4_000)  # positions of a turn
 
 
-def least_gap(parts, at):
-    """The smallest gap of all parts over some input angles, mm."""
-    pose = parts.gaps.pose(at)
-    locking = parts.gaps.locking(pose).min() if parts.locked else math.inf
-    return float(min(parts.gaps.rollers(pose).min(), locking))
-
-
-def smallest_clearance(parts, pose, lead):
+def smallest_clearance(parts, pose, lead=0.0):
     """The smallest clearance of all parts in each pose, mm, the wheel turned on, radians."""
     gaps = parts.gaps
     return np.minimum(gaps.locking(pose, lead), gaps.rollers(pose, lead).min(axis=1))
+
+
+def least_gap(parts, at):
+    """The smallest gap of all parts over some input angles, mm."""
+    return float(smallest_clearance(parts, parts.gaps.pose(at)).min())
 
 
 def check_first_contacts(parts, at_deg, looks=50):
@@ -37,8 +34,8 @@ def check_first_contacts(parts, at_deg, looks=50):
 
     By gaps that are distances of points, not contacts, at some turns of the wheel up to each stop.
     """
-    pose, most = parts.gaps.pose(at_deg), math.radians(search_deg(parts))
-    apart = smallest_clearance(parts, pose, np.zeros(len(at_deg))) + parts.close >= 0.0
+    pose, most = parts.gaps.pose(at_deg), parts.assembly.half_step
+    apart = smallest_clearance(parts, pose) + parts.close >= 0.0
     many, share = parts.gaps.pose(np.tile(at_deg, looks)), np.linspace(0.0, 1.0, looks)[:, None]
     for way, free in zip((-1.0, 1.0), wheel_stops(parts, at_deg)[0], strict=True):
         assert ((free >= 0.0) & (free <= most)).all()

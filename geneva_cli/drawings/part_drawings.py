@@ -33,7 +33,7 @@ from geneva_cli.parts.links.link_sizes import places
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.parts import EdgedParts
 from geneva_cli.parts.projection import drawing_of, once, outlines_of, shapes, titled, uncovered
-from geneva_cli.parts.slots.roller_paths import roller_reaches
+from geneva_cli.parts.slots.roller_paths import roller_paths
 
 BEYOND = 0.04  # of the centre distance: from a part to the arrow that shows how it turns
 
@@ -228,7 +228,7 @@ def _turns(parts: Outlines) -> Iterator[Arc]:
     step = math.remainder(float(np.diff(assembly.crank(np.array([-0.5, 0.5])))[0]), math.tau)
     sense = math.copysign(1.0, step)
     # an internal wheel's crank turns within the wheel, so its arrow is near its shaft
-    far = max(roller_reaches(assembly)) + 2.0 * sizes.roller
+    far = max(roller_paths(assembly)[2]) + 2.0 * sizes.roller
     radius = far + BEYOND * assembly.L if assembly.sign > 0.0 else 0.5 * sizes.arm
     for place in mechanism.crank_places:
         yield about(place.at, radius, place.turn - sense * 0.5, sense)

@@ -145,7 +145,7 @@ class Polyarc:
         bent = np.maximum(sweep / step, sweep * radius / longest)
         count = np.maximum(np.ceil(np.where(arc, bent, self.length / longest)), 1.0).astype(int)
         first = np.cumsum(count) - count
-        which = np.repeat(np.arange(len(self)), count)
+        which = np.repeat(np.arange(len(count)), count)
         fraction = (np.arange(len(which)) - first[which]) / count[which]
         half, size = 0.5 * sweep[which], 2.0 * radius[which]
         turn = (2.0 * fraction - 1.0) * half

@@ -13,9 +13,7 @@ from geneva_cli.geometry.measure import (
     STRAIGHT,
     S,
     at,
-    directions,
     mapped,
-    segment_length,
     turned,
 )
 from geneva_cli.geometry.shapes import (
@@ -170,7 +168,9 @@ def moments(shape: Shape) -> Moments:
             rows.append((cross / 2.0, cross * x, cross * y, cross * squares / 12.0))
             continue
         if isinstance(piece, Arc):
-            length, (first, _), sweep = segment_length(piece), directions(piece), piece.sweep
+            (x0, y0), (x1, y1), sweep = piece.start, piece.end, piece.sweep
+            first = math.atan2(y1 - y0, x1 - x0) - 0.5 * sweep  # direction at the start
+            length = math.dist(piece.start, piece.end) * 0.5 * sweep / math.sin(0.5 * sweep)
         own = []
         for node, weight in GAUSS:
             for t in (0.5 - 0.5 * node, 0.5 + 0.5 * node):

@@ -59,6 +59,7 @@ class Assembly(NamedTuple):
     sign: float  # +1 external, -1 internal
     turn_deg: float  # input angle in a whole turn of the crank
     start_deg: float  # where the first engagement begins, and a whole turn
+    half_step: float  # of the wheel in its shortest motion, radians
     motions: tuple[Passage, ...]
     rollers: tuple[Passage, ...]
     slots: tuple[tuple[Engagement, float], ...]
@@ -167,11 +168,12 @@ def assembly(mechanism: Mechanism, flat: bool = True, by_input: bool = False) ->
         plain = spec.replace(drive_before=None)
     turned = mechanism if by_input or plain == spec else build(plain)
     turn, engagements = 360.0 * turned.spec.turns, turned.engagements
-    motions, rollers = list[Passage](), list[Passage]()
+    motions, rollers, half_step = list[Passage](), list[Passage](), math.inf
     for k in range(round(turn / turned.period_deg)):
         for engagement in engagements:
             mid = engagement.mid_deg + k * turned.period_deg
             motions.append(Passage(engagement, mid))
+            half_step = min(half_step, engagement.half_step)
             for passage, ahead in engagement.passages:
                 rollers.append(Passage(passage, mid - ahead))
     # around the wheel counterclockwise; later slots follow clockwise
@@ -190,6 +192,7 @@ def assembly(mechanism: Mechanism, flat: bool = True, by_input: bool = False) ->
         sign=wheel.SIGN,
         turn_deg=turn,
         start_deg=motions[0].engagement.entry_deg,
+        half_step=half_step,
         motions=tuple(motions),
         rollers=tuple(rollers),
         slots=tuple(slots),

@@ -32,7 +32,7 @@ from geneva_cli.parts.sizes import (
     wheel_bore,
     within_hub,
 )
-from geneva_cli.parts.slots.roller_paths import mouth, roller_paths, roller_reaches
+from geneva_cli.parts.slots.roller_paths import mouth, roller_paths
 from geneva_cli.parts.stressed import Unloaded
 from geneva_cli.spec.defaults import wall_min
 from geneva_cli.spec.tables import Size
@@ -192,22 +192,23 @@ def drawn_pin_radius(mechanism: Mechanism) -> float:
 def _usual_sizes(assembly: Assembly) -> tuple[Sizes, float]:
     """Return the sizes without a load, and the radius about the crank's axis inside the relief."""
     spec, full, L, sign = assembly.mechanism.spec, assembly.full.spec, assembly.L, assembly.sign
-    size, r, path = spec.size, assembly.mechanism.roller_radius_mm, roller_paths(assembly)
+    size, r = spec.size, assembly.mechanism.roller_radius_mm
+    deepest, arm, reaches = roller_paths(assembly)
     allowed, outside = size.allowances, sign > 0.0
     w = r + allowed.slot_clearance_mm
     bottom = value_or(size.slot_bottom_clearance_mm, max(allowed.slot_clearance_mm, r / 20.0))
     mouths, ends, apart = list[float](), list[float](), False
-    for s, deepest in zip(assembly.kinds, path.ends, strict=True):
+    for s, far in zip(assembly.kinds, deepest, strict=True):
         mouths.append(mouth(assembly, s, r))
         # the gap below the deepest roller is along the slot, whose axis may miss the wheel's
         offset = L * s.through.slot.offset
-        along = math.sqrt(max(deepest * deepest - offset * offset, 0.0))
+        along = math.sqrt(max(far * far - offset * offset, 0.0))
         along -= 0.0 if s.slot.curved else sign * bottom
         # beyond the wheel's axis the distance is negative
         ends.append(sign * math.copysign(math.hypot(along, offset), along))
         apart = apart or bool(s.apart)
     rim = value_or(size.wheel_radius_mm, max(mouths))
-    end, arm, depth = (min(ends) - w) * sign, path.arm, abs(L - rim)
+    end, depth = (min(ends) - w) * sign, abs(L - rim)
     lock = _lock(assembly, arm, w, rim)
     relief = value_or(size.relief_clearance_mm, min(L / 200.0, depth / 4.0))
     space = (lock or rim) / arm * (L - math.sqrt(max(rim * rim - r * r, 0.0))) if outside else 0.0
@@ -221,7 +222,7 @@ def _usual_sizes(assembly: Assembly) -> tuple[Sizes, float]:
     wheel_reach, wheel_hub = reach_and_hub(size, "wheel", axle, wall, end)
     crank_reach, crank_hub = reach_and_hub(size, "crank", bore, wall)
     thick, pin = size.thicknesses(L, rounded_below), 0.5 * size.pin_diameter(r, rounded_below)
-    reaches, armed = roller_reaches(assembly), 0.0
+    armed = 0.0
     if full.drive.ONE_ARM and pin:  # without pins there is no arm
         hole = pin - 0.5 * allowed.press_fit_mm
         armed = arm_bore(full, bore, L, min(reaches) - hole)

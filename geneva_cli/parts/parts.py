@@ -11,6 +11,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, ClassVar, NamedTuple, Self, TypeAlias
 
+from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Member, Plate
 from geneva_cli.geometry.shapes import Arc, Circle, Contour
 from geneva_cli.kept import cached_property
@@ -18,7 +19,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.records import named, parts_class, thing
 from geneva_cli.parts.assembly import input_of
 from geneva_cli.parts.shafts.screws import Screws, tapped
-from geneva_cli.parts.turn.turned_parts import TurnedParts, WorkLimit
+from geneva_cli.parts.turn.turned_parts import TurnedParts
 
 if TYPE_CHECKING:
     from geneva_cli.geometry.fit import Writer
@@ -73,16 +74,16 @@ class Parts(TurnedParts):
 
     @property
     def turn(self) -> FullTurn:
-        """The full turn; raises WorkLimit where it takes too many positions."""
+        """The full turn; raises GenevaError where it takes too many positions."""
         from geneva_cli.parts.turn.full_turn import full_turn
 
         known = vars(self)
         if "_turn" not in known:
             try:
                 known["_turn"] = full_turn(self)
-            except WorkLimit as error:  # that it takes too long is remembered too
+            except GenevaError as error:  # that it takes too long is remembered too
                 known["_turn"] = error
-        if isinstance(known["_turn"], WorkLimit):
+        if isinstance(known["_turn"], GenevaError):
             raise known["_turn"]
         turn: FullTurn = known["_turn"]
         return turn

@@ -220,7 +220,7 @@ def _cut_radii(parts: Parts) -> Values:
         from geneva_cli.parts.slots.roller_paths import roller_paths
 
         where = assembly(parts.mechanism)
-        ends = roller_paths(where).ends
+        ends, _, _ = roller_paths(where)
         mouth = max(where.L * scalar(s.reach(s.entry_deg)) for s in where.kinds)
         bottom = max(ends) if inside else min(ends)
         with suppress(GenevaError):  # ``parts.none`` gives the reason

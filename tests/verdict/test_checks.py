@@ -10,11 +10,11 @@ from strength_checks import standing_checks
 from words import Drive, Keys, Motion, Spec, Wheel, law, load
 
 from geneva_cli import Design, External
+from geneva_cli.errors import GenevaError
 from geneva_cli.motion import machine_spec as machine_spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.parts import parts_of
-from geneva_cli.parts.turn.turned_parts import WorkLimit
 from geneva_cli.spec.tables import Limits, Load, Size
 from geneva_cli.verdict.checks import Check, checks
 from geneva_cli.verdict.motion_warnings import motion_warnings
@@ -190,7 +190,7 @@ def test_a_turn_that_takes_too_long_fails(monkeypatch: pytest.MonkeyPatch) -> No
 
     def endless(parts: object) -> None:
         tries.append(parts)
-        raise WorkLimit("it takes too long")
+        raise GenevaError("it takes too long")
 
     monkeypatch.setattr("geneva_cli.parts.turn.full_turn.full_turn", endless)
     parts = parts_of(build(Spec(Wheel(6))))

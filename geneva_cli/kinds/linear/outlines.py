@@ -125,7 +125,7 @@ class RackGaps(Gaps):
     @cached_property
     def stops(self) -> Stops:
         """The stops of the rack, slid back and on."""
-        crank = [self.crank] if self.crank else []
+        crank = [] if self.crank is None else [self.crank]
         return SlidingStops(self.one, self.pitch, crank, self.assembly.L, self.sizes.roller)
 
 

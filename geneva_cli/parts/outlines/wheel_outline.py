@@ -31,7 +31,7 @@ from geneva_cli.numerics.arrays import array, scalar
 from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.sizes import Sizes
-from geneva_cli.parts.slots.roller_paths import Tip, corner, least_mouth, mouth, rest, rounded, tip
+from geneva_cli.parts.slots.roller_paths import corner, least_mouth, mouth, rest, rounded, tip
 from geneva_cli.parts.turn.turned_parts import CONTACT
 
 CURVED = CONTACT  # of the centre distance: accuracy of curved walls for the full turn
@@ -171,7 +171,7 @@ def _rim(
     axis. Horns thinner than ``horn_tip_mm`` are cut back to flats, at which the walls then end.
     """
     L = assembly.L
-    flats: tuple[Tip | None, Tip | None] = None, None
+    flats: tuple[Line | None, Line | None] = None, None
     if sizes.lock and sizes.horn_tip:
         flats = _cut_back(sizes, before, after, polar(ORIGIN, L, at))
     start, end = before[-1].end, after[0].start
@@ -208,13 +208,13 @@ def _rim(
     if not sizes.lock:
         return [*rising, about(ORIGIN, rims[0], first, last - first), *falling]
     if flats[0]:
-        rising, first_edge = [Line(start, flats[0].recess)], flats[0].recess
+        rising, first_edge = [flats[0]], flats[0].end
     else:
         low = at - _opening(L, rims[0], sizes.recess)
         rising.append(about(ORIGIN, rims[0], first, low - first))
         first_edge = polar(ORIGIN, rims[0], low)
     if flats[1]:
-        falling, last_edge = [Line(flats[1].recess, end)], flats[1].recess
+        falling, last_edge = [Line(flats[1].end, end)], flats[1].end
     else:
         high = at + _opening(L, rims[1], sizes.recess)
         falling.insert(0, about(ORIGIN, rims[1], high, last - high))
@@ -224,13 +224,13 @@ def _rim(
 
 def _cut_back(
     sizes: Sizes, before: list[Segment], after: list[Segment], axis: Point
-) -> tuple[Tip | None, Tip | None]:
+) -> tuple[Line | None, Line | None]:
     """Cut thin horns beside a recess about an axis, and the walls there; return their flats."""
     one, other, k, flat = before[-1], after[0], sizes.recess, sizes.horn_tip
     assert isinstance(one, Line) and isinstance(other, Line)
     first, last = tip(one, axis, k, flat), tip(Line(other.end, other.start), axis, k, flat)
-    before[-1] = one._replace(end=first.wall) if first else one
-    after[0] = other._replace(start=last.wall) if last else other
+    before[-1] = one._replace(end=first.start) if first else one
+    after[0] = other._replace(start=last.start) if last else other
     return first, last
 
 

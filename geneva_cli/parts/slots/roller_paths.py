@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache
-from typing import NamedTuple
 
 import numpy as np
 
@@ -23,16 +22,13 @@ from geneva_cli.parts.assembly import Assembly
 TURN_SAMPLES = 720  # input angles at which a path is sampled
 
 
-class RollerPaths(NamedTuple):
-    """Least distances of the rollers' centres from the axes, mm, whatever the rollers' radius."""
+def roller_paths(assembly: Assembly) -> tuple[list[float], float, list[float]]:
+    """Return how near the rollers' centres come to the axes, mm, whatever the rollers' radius.
 
-    # least distance of each kind of slot from the wheel's axis; greatest for internal wheels
-    ends: tuple[float, ...]
-    arm: float  # least distance of the rollers, and of the adjacent slots, from the crank's axis
-
-
-def roller_paths(assembly: Assembly) -> RollerPaths:
-    """Return the paths of a machine's rollers."""
+    Of each kind of slot it is the least distance from the wheel's axis, of an internal wheel the
+    greatest. Then the least distance of rollers and adjacent slots from the crank's axis, and that
+    of each kind of roller at its mid-motion.
+    """
     L, ends, near = assembly.L, [], []
     for slot in assembly.kinds:
         kind = slot.through
@@ -45,12 +41,14 @@ def roller_paths(assembly: Assembly) -> RollerPaths:
             near.append(float(np.hypot(*(points - axis).T).min()))
             if kind.built is not None:  # their mouths may be nearer
                 near.append(math.dist(_mouth(assembly, kind, end), axis))
-    turn, known = np.linspace(0.0, assembly.turn_deg, TURN_SAMPLES, endpoint=False), set()
-    for i, (engagement, _) in enumerate(assembly.rollers):
-        if engagement not in known:  # others follow their leaders
+    reaches: dict[Engagement, float] = {}
+    turn = np.linspace(0.0, assembly.turn_deg, TURN_SAMPLES, endpoint=False)
+    for i, (engagement, mid) in enumerate(assembly.rollers):
+        if engagement not in reaches:  # others follow their leaders
             near.append(float(np.hypot(*(assembly.pin(i, turn) - (L, 0.0)).T).min()))
-            known.add(engagement)
-    return RollerPaths(tuple(ends), min(near))
+        x, y = assembly.pin(i, np.array([mid]))[0]
+        reaches[engagement] = math.hypot(x - L, y)
+    return ends, min(near), list(reaches.values())
 
 
 def mouth(assembly: Assembly, engagement: Engagement, r: float) -> float:
@@ -120,7 +118,7 @@ def horn_corners(
             if flat and recess:
                 wall = _wall_of_horn(assembly, kind, end, half_width, at)
                 cut = tip(wall, rest(assembly, kind, end), recess, flat)
-                at = math.hypot(*cut.recess) if cut else at
+                at = math.hypot(*cut.end) if cut else at
             ends.append(at)
         out[kind] = ends[0], ends[1]
     return out
@@ -164,25 +162,10 @@ def roller_centres(assembly: Assembly) -> tuple[Point, ...]:
     return tuple(centres)
 
 
-def roller_reaches(assembly: Assembly) -> list[float]:
-    """Return the distances of the rollers from the crank's axis, at mid-motion, each once."""
-    out: dict[Engagement, float] = {}
-    for i, (engagement, mid) in enumerate(assembly.rollers):
-        x, y = assembly.pin(i, np.array([mid]))[0]
-        out[engagement] = math.hypot(x - assembly.L, y)
-    return list(out.values())
+def tip(wall: Line, centre: Point, recess: float, width: float) -> Line | None:
+    """Return the flat of a horn, from a wall that runs outwards to the recess; None without one.
 
-
-class Tip(NamedTuple):
-    """A flat at a horn's tip: its ends on the slot's wall and on the recess."""
-
-    wall: Point
-    recess: Point
-
-
-def tip(wall: Line, centre: Point, recess: float, width: float) -> Tip | None:
-    """Return the flat of a horn beside a wall that runs outwards; None for a horn thick enough.
-
+    A horn that is thick enough has none.
     ``centre`` and ``recess`` are centre and radius of the recess, and ``width`` is the flat's.
     """
     (x, y), long = wall.start, math.dist(wall.start, wall.end)
@@ -203,7 +186,7 @@ def tip(wall: Line, centre: Point, recess: float, width: float) -> Tip | None:
         )
     across = math.copysign(width, side)
     on_wall = x + at * u, y + at * v
-    return Tip(on_wall, (on_wall[0] - across * v, on_wall[1] + across * u))
+    return Line(on_wall, (on_wall[0] - across * v, on_wall[1] + across * u))
 
 
 def rounded(before: Line | Arc, after: Line | Arc, radius: float, sign: float) -> list[Segment]:

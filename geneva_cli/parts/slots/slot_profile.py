@@ -36,11 +36,10 @@ class SlotProfile(NamedTuple):
 def slot(mechanism: Mechanism, input_deg: Array) -> SlotProfile:
     """Return the slot of a mechanism at ascending input angles of its first engagement."""
     engagement, L = mechanism.engagements[0].through, mechanism.center_distance_mm
-    at, side, lines = _lines(mechanism, input_deg)
+    input_deg, at, side, lines = _lines(mechanism, input_deg)
     with np.errstate(divide="ignore", invalid="ignore"):
         radius = L * side * np.divide(at.speed, at.turning)
     straight = engagement.slot.axis(engagement.entry_deg) is not None
-    input_deg = _snapped(engagement, input_deg)
     return SlotProfile(
         input_deg,
         array(engagement.motion(input_deg, 0).c[0]) * mechanism.output.per_radian,
@@ -52,26 +51,21 @@ def slot(mechanism: Mechanism, input_deg: Array) -> SlotProfile:
 
 def flanks(mechanism: Mechanism, input_deg: Array) -> tuple[Array, Array, Array]:
     """Return the pitch curve and both flanks at input angles, mm, (n, 2) each."""
-    return _lines(mechanism, input_deg)[2]
-
-
-def _snapped(engagement: Engagement, input_deg: Array) -> Array:
-    """Return input angles, with those near a retracing mid-motion set to exactly 0."""
-    near = (np.abs(input_deg) < SAME_INPUT_DEG) & retraces(engagement)
-    return np.where(near, 0.0, input_deg)
+    return _lines(mechanism, input_deg)[-1]
 
 
 def _lines(
     mechanism: Mechanism, input_deg: Array
-) -> tuple[Pitch, Array, tuple[Array, Array, Array]]:
-    """Return the pitch curve, the sense of travel on it, and its points with those of both flanks.
+) -> tuple[Array, Pitch, Array, tuple[Array, Array, Array]]:
+    """Return input angles, pitch curve, sense of travel on it, and points of curve and flanks.
 
-    The sense is -1 where the pin returns on its path: the flanks keep their sides.
+    Angles near a retracing mid-motion are exactly 0. The sense is -1 where the pin returns on its
+    path: the flanks keep their sides.
     """
     engagement, L = mechanism.engagements[0].through, mechanism.center_distance_mm
-    input_deg = _snapped(engagement, input_deg)
-    at = pitch_at(engagement, input_deg)
-    back = retraces(engagement) & (input_deg > 0.0)
+    retraced = retraces(engagement)
+    input_deg = np.where((np.abs(input_deg) < SAME_INPUT_DEG) & retraced, 0.0, input_deg)
+    at, back = pitch_at(engagement, input_deg), retraced & (input_deg > 0.0)
     if engagement.slot.axis(engagement.entry_deg) is not None:
         first = pitch(engagement, engagement.entry_deg)
         ahead = array(at.tangent_x * first.tangent_x + at.tangent_y * first.tangent_y)
@@ -80,7 +74,7 @@ def _lines(
     offset = mechanism.roller_radius_mm + mechanism.spec.size.allowances.slot_clearance_mm
     normal = np.column_stack((-at.tangent_y * side, at.tangent_x * side))
     centre = L * np.column_stack((at.x, at.y))
-    return at, side, (centre, centre + offset * normal, centre - offset * normal)
+    return input_deg, at, side, (centre, centre + offset * normal, centre - offset * normal)
 
 
 def pitch_at(engagement: Engagement, input_deg: Array) -> Pitch:
@@ -137,31 +131,24 @@ def _flank_cusps(mechanism: Mechanism) -> list[float]:
     return sorted(cusps)
 
 
-def chord_errors(mechanism: Mechanism, input_deg: Array) -> Array:
-    """Return the deviation of pitch curve or flanks from each chord between samples, mm."""
-    return chords.chord_errors(partial(flanks, mechanism), input_deg)
-
-
 def profile_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) -> Table:
     """Return the slot's table: for a chord tolerance, or at ``samples`` even input angles."""
     engagement = mechanism.engagements[0].through
     names = ("input_deg", mechanism.output.column, *WALLED)
-    if samples is None:
-        return Table(names, _rows(mechanism, nodes(mechanism, tolerance_mm)))
     entry, exit_ = engagement.entry_deg, engagement.exit_deg
 
+    def columns(input_deg: Array) -> list[Array]:
+        at = slot(mechanism, input_deg)
+        points = [axis for line in (at.centre, at.left, at.right) for axis in line.T]
+        return [at.input_deg, at.output, *points, at.pressure_deg, at.radius]
+
+    if samples is None:
+        return Table(names, columns(nodes(mechanism, tolerance_mm)))
+
     def rows(begin: int, end: int) -> list[Array]:
-        at: Array = entry + np.arange(begin, end, dtype=np.float64) * (
-            (exit_ - entry) / (samples - 1)
-        )
+        step = (exit_ - entry) / (samples - 1)
+        at: Array = entry + np.arange(begin, end, dtype=np.float64) * step
         at[samples - 1 - begin :] = exit_  # the last of all, without rounding
-        return _rows(mechanism, at)
+        return columns(at)
 
     return computed_table(names, samples, rows)
-
-
-def _rows(mechanism: Mechanism, input_deg: Array) -> list[Array]:
-    """Return the columns of the slot's table at input angles."""
-    at = slot(mechanism, input_deg)
-    points = [axis for line in (at.centre, at.left, at.right) for axis in line.T]
-    return [at.input_deg, at.output, *points, at.pressure_deg, at.radius]

@@ -12,6 +12,7 @@ from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
+from geneva_cli.errors import GenevaError
 from geneva_cli.numerics.arrays import Array, rising, scalar
 from geneva_cli.numerics.roots import boundary_by_sections
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG, SAME_LENGTH
@@ -19,11 +20,10 @@ from geneva_cli.parts.turn.play import (
     EXACT,
     Play,
     play_of,
-    search_deg,
     wheel_stops,
     windows,
 )
-from geneva_cli.parts.turn.turned_parts import TurnedParts, WorkLimit
+from geneva_cli.parts.turn.turned_parts import TurnedParts
 
 POSITIONS = 10_000  # at most: about 0.1 s of the parts alone; a turn that needs more is not proved
 DIP = 1e-9  # mm: gaps that differ by less count as equal
@@ -40,13 +40,6 @@ class Gap(NamedTuple):
     mm: float
     at_deg: float  # input angle
     parts: str
-
-
-class FirstContact(NamedTuple):
-    """A roller's offset from the slot's middle beyond the clearance, mm, and its input angle."""
-
-    offset_mm: float
-    at_deg: float
 
 
 class Most(NamedTuple):
@@ -66,8 +59,9 @@ class FullTurn(NamedTuple):
     slot. ``motion`` is the largest play in both directions while a roller is in its slot; a slot
     that drives from one wall only does not count as play. ``ahead`` and ``behind`` are the largest
     play there in each direction alone. ``push`` is the largest pressure angle at which a roller
-    pushes the wheel into line. ``contact`` is the first contact of a roller with a wheel at rest. A
-    play of ``free_deg``, half a step, means that nothing holds the wheel.
+    pushes the wheel into line. ``contact`` is where a roller first meets a wheel at rest: its
+    offset from the slot's middle beyond the clearance, mm, and the input angle. A play of
+    ``free_deg``, half a step, means that nothing holds the wheel.
     """
 
     driving: Gap
@@ -81,13 +75,13 @@ class FullTurn(NamedTuple):
     ahead: Most
     behind: Most
     push: Most
-    contact: FirstContact
+    contact: tuple[float, float]
     free_deg: float
     play: Play
 
 
 def full_turn(parts: TurnedParts) -> FullTurn:
-    """Return the results of a whole turn of the crank; raises WorkLimit beyond ``POSITIONS``."""
+    """Return the results of a whole turn of the crank; raises GenevaError beyond ``POSITIONS``."""
     # One turn of the input is shown from half a turn before mid-motion, so that the second half of
     # the last dwell comes first. A period of several turns is shown from the first entry.
     assembly, every = parts.assembly, windows(parts)
@@ -120,16 +114,15 @@ def full_turn(parts: TurnedParts) -> FullTurn:
     guided_deg = play.input_deg[inside]
     either, both = np.maximum(play.back, play.on), np.minimum(play.back, play.on)
     # of each kind of motion, the first contact that is farthest off its slot's middle
-    contact, begin, known = None, 0, set()
+    offset, contact_deg, begin, known = -math.inf, 0.0, 0, set()
     for i, (engagement, _) in enumerate(assembly.motions):
         own = slice(begin, begin + len(engagement.passages))
         begin = own.stop
         if engagement not in known:
             known.add(engagement)
-            found = _contact(parts, i, own)
-            contact = found if contact is None or found.offset_mm > contact.offset_mm else contact
-    assert contact is not None  # every machine moves
-    free_deg = search_deg(parts)
+            found, at_deg = _contact(parts, i, own)
+            offset, contact_deg = (found, at_deg) if found > offset else (offset, contact_deg)
+    free_deg = math.degrees(assembly.half_step)
     return FullTurn(
         driving,
         idle,
@@ -142,7 +135,7 @@ def full_turn(parts: TurnedParts) -> FullTurn:
         _most(play.on[inside], guided_deg, first),
         _most(play.back[inside], guided_deg, first),
         _most(push_deg, play.input_deg[:-1], first),
-        contact._replace(at_deg=assembly.shown_deg(contact.at_deg)),
+        (offset, assembly.shown_deg(contact_deg)),
         free_deg,
         play,
     )
@@ -161,7 +154,7 @@ def _most(values: Array, at: Array, first: First) -> Most:
 
 
 def _positions(parts: TurnedParts) -> Array:
-    """Return input angles so dense that no part moves far between two; raises WorkLimit."""
+    """Return input angles so dense that no part moves far between two; raises GenevaError."""
     assembly, sizes = parts.assembly, parts.sizes
     grid = np.linspace(assembly.start_deg, assembly.start_deg + assembly.turn_deg, 721)
     crank, wheel = np.unwrap(assembly.crank(grid)), assembly.wheel(grid)
@@ -171,7 +164,7 @@ def _positions(parts: TurnedParts) -> Array:
     # parts move a quarter of the thinnest feature between two positions
     count = math.ceil(total[-1] / (min(sizes.roller, max(sizes.horn, 0.2 * sizes.roller)) * 0.25))
     if count > POSITIONS:
-        raise WorkLimit(
+        raise GenevaError(
             f"the full turn is not proved: it takes {count:,} positions, more than {POSITIONS:,}; "
             "a larger roller or horn takes fewer"
         )
@@ -225,10 +218,10 @@ def _least(parts: TurnedParts, pair: str, at: Array, first: First) -> Gap:
     return Gap(size, first(np.append(begins, places[finest <= size + parts.close])), pair)
 
 
-def _contact(parts: TurnedParts, motion: int, own: slice) -> FirstContact:
-    """Return the first contact of a motion's ``own`` rollers, at entry or, in reverse, at exit.
+def _contact(parts: TurnedParts, motion: int, own: slice) -> tuple[float, float]:
+    """Return the first contact of a motion's ``own`` rollers: offset, mm, and input angle.
 
-    It is at the end where the roller comes nearer to the rim's inside.
+    It is at entry or, in reverse, at exit: where the roller comes nearer to the rim's inside.
     """
     assembly, gaps, close = parts.assembly, parts.gaps, parts.close
     engagement, mid = assembly.motions[motion]
@@ -246,14 +239,14 @@ def _contact(parts: TurnedParts, motion: int, own: slice) -> FirstContact:
         return gap - close
 
     if margin(np.array([start]))[0] <= 0.0:  # the roller is in the slot's middle there
-        return FirstContact(0.0, start)
+        return 0.0, start
     at = np.linspace(start, mid, 65)  # a degree or so of the input apart
     meets = margin(at) <= 0.0
     first = int(np.argmax(meets)) if meets.any() else len(at) - 1
     x = boundary_by_sections(margin, at[first - 1], at[first])
     place = np.array([x])
     if parts.past_mouth(motion, place)[0] >= 0.0:  # a wall meets it, no corner
-        return FirstContact(0.0, x)
+        return 0.0, x
     roller = gaps.in_wheel(motion, place, rest - assembly.wheel(place))
     # 720 chords are within 1e-6 of the centre distance, half of what counts as touching
     whole = mid + np.linspace(engagement.entry_deg, engagement.exit_deg, 721)
@@ -264,4 +257,4 @@ def _contact(parts: TurnedParts, motion: int, own: slice) -> FirstContact:
     along = np.clip(((roller[0] - begins) * step).sum(axis=1) / square, 0.0, 1.0)
     off = float(np.linalg.norm(begins + along[:, None] * step - roller[0], axis=1).min())
     off -= parts.sizes.half_width - parts.sizes.roller
-    return FirstContact(off if off > parts.contact else 0.0, x)
+    return off if off > parts.contact else 0.0, x

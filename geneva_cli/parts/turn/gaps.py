@@ -85,7 +85,7 @@ class Gaps:
     @cached_property
     def stops(self) -> Stops:
         """The stops of the wheel, turned back and on."""
-        crank = [self.crank] if self.crank else []
+        crank = [] if self.crank is None else [self.crank]
         return Stops(self.one, self.pitch or math.tau, crank, self.assembly.L, self.sizes.roller)
 
     def pose(self, input_deg: Array) -> Pose:

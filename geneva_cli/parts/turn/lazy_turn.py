@@ -7,12 +7,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import partial
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
 from geneva_cli.numerics.arrays import Array, Mask
-from geneva_cli.parts.turn.free_ranges import FreeRanges, Range, Ranges
+from geneva_cli.parts.turn.free_ranges import FreeRanges, Range
 
 STEPS = 1440  # positions of a turn of the crank: a quarter of a degree apart
 MANY = 30000  # pairs of pieces above which positions are half a degree apart
@@ -118,7 +119,7 @@ class Turner:
                     if k > last:
                         break
                 crank = self.start + way * math.tau * k / self.steps
-                path.to(crank, _looker(self.ranges, way * k % self.steps))
+                path.to(crank, partial(self.ranges.around, way * k % self.steps))
                 k += 1
         except _Stuck as stuck:
             jam = stuck.jam
@@ -126,10 +127,6 @@ class Turner:
             path.pushes.append(Push(*path.begun, *path.rows[-1][:2]))
         crank_at, wheel_at, low, high = np.array(path.rows).reshape(-1, 4).T
         return LazyTurn(crank_at, wheel_at, low, high, tuple(path.pushes), jam)
-
-
-def _looker(ranges: Ranges, i: int) -> Around:
-    return lambda wheel: ranges.around(i, wheel)
 
 
 class _Path:
@@ -193,7 +190,7 @@ class _Path:
         places = np.linspace(before, crank, PARTS + 1)[1:]
         ranges = self.free.near(before, crank, wheel, STEEPEST * step).at(places)
         for i in range(PARTS):
-            self._follow(float(places[i]), _looker(ranges, i), is_near=True)
+            self._follow(float(places[i]), partial(ranges.around, i), is_near=True)
 
     def _add(self, crank: float, wheel: float, around: Around, is_near: bool = False) -> None:
         """Add a position that touches, with the free range on the other side, if that is known."""
@@ -222,7 +219,7 @@ class _Path:
                 moved = [_pushed(ranges.around(i, wheel), wheel) for i in range(PARTS + 1)]
                 k = max(range(PARTS + 1), key=lambda i: abs(moved[i] - wheel))
                 if abs(moved[k] - wheel) > abs(farthest - wheel):
-                    end, farthest, there = float(places[k]), moved[k], _looker(ranges, k)
+                    end, farthest, there = float(places[k]), moved[k], partial(ranges.around, k)
                 k = int(np.argmin(np.abs(places - end)))
                 low, high = float(places[max(k - 1, 0)]), float(places[min(k + 1, PARTS)])
         if end != before:

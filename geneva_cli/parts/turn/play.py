@@ -7,7 +7,6 @@ wheel that is off by it must be pushed into line, not blocked.
 from __future__ import annotations
 
 import math
-from operator import attrgetter
 from typing import NamedTuple
 
 import numpy as np
@@ -77,42 +76,31 @@ def play_of(parts: TurnedParts, fits: bool) -> tuple[Play, Array]:
         # in the rest of a motion an odd number, so that mid-motion is one
         grid += [a + near, np.linspace(a, b, (5 if rests else 15) + 2)[1:-1], b - near]
     play = _play_at(parts, every, rising(np.concatenate(grid)), fits, least)
-    angle = _push_deg(play, lever, least)
-    # 9 rounds: 5**-9 of some degrees is a millionth
-    for _ in range(9):
+    left = 9  # rounds: 5**-9 of some degrees is a millionth
+    while True:
+        # Where the play shrinks as the crank turns, a roller at the mouth of its slot pushes the
+        # wheel's corner along their common normal. A play that ends abruptly means that a corner
+        # blocks: 90 degrees.
+        travel = 0.5 * (play.speed[1:] + play.speed[:-1]) * np.diff(play.input_deg)
+        free, pushes = ~(play.guided[:-1] | play.guided[1:]), np.zeros(len(travel))
+        for edge, push in ((play.back, play.back_push), (play.on, play.on_push)):
+            closing = lever * np.radians(-np.diff(edge))
+            # a rim that moves more than 30 times the roller's travel is not pushed by the roller
+            angle = np.where(closing > 30.0 * travel, 90.0, push[1:])
+            known = free & (np.radians(edge[:-1]) > least) & (closing > 0.0)
+            pushes = np.maximum(pushes, np.where(known, angle, 0.0))
         # where the play closes fastest, with the neighbours
-        top = np.argsort(-angle, kind="stable")[: MOST if angle.max() > 0.0 else 0]
+        top = np.argsort(-pushes, kind="stable")[: MOST if pushes.max() > 0.0 else 0]
         i = rising(np.concatenate((*_peaks(parts, play, lever, least), top - 1, top, top + 1)))
         i = i[(i >= 0) & (i < len(play.input_deg) - 1)]
         low, wide = play.input_deg[i], np.diff(play.input_deg)[i]
         cut = wide > 1e-6  # narrower intervals are not divided
         more = (low[cut, None] + wide[cut, None] * (np.arange(1, AROUND) / AROUND)).ravel()
-        if not len(more):
-            break
+        if not left or not len(more):
+            return play, pushes
+        left -= 1
         play = joined((play, _play_at(parts, every, more, fits, least)))
         play = record_taken(play, np.argsort(play.input_deg, kind="stable"))
-        angle = _push_deg(play, lever, least)
-    return play, angle
-
-
-def _push_deg(play: Play, lever: float, least: float) -> Array:
-    """Return the pressure angle, degrees, at which the wheel is pushed into line; 0 if it is not.
-
-    It belongs to the intervals between positions. Where the play shrinks as the crank turns, a
-    roller at the mouth of its slot pushes the wheel's corner along their common normal. A play that
-    ends abruptly means that a corner blocks: 90 degrees.
-    """
-    step = np.diff(play.input_deg)
-    moved = 0.5 * (play.speed[1:] + play.speed[:-1]) * step
-    free = ~(play.guided[:-1] | play.guided[1:])
-    pushes = np.zeros(len(step))
-    for edge, push in ((play.back, play.back_push), (play.on, play.on_push)):
-        closing = lever * np.radians(-np.diff(edge))
-        # a rim that moves more than 30 times the roller's travel is not pushed by the roller
-        angle = np.where(closing > 30.0 * moved, 90.0, push[1:])
-        known = np.radians(edge[:-1]) > least
-        pushes = np.maximum(pushes, np.where(free & known & (closing > 0.0), angle, 0.0))
-    return pushes
 
 
 def _play_at(parts: TurnedParts, every: list[Window], at: Array, fits: bool, least: float) -> Play:
@@ -155,7 +143,9 @@ def _peaks(
     edges = np.array((play.back, play.back, play.on, play.on, both, both))
     where = np.array((play.guided, ~play.guided) * 3)
     above = np.array(((either,), (either,), (either,), (either,), (held,), (either,)))
-    value = np.where(where & (edges < search_deg(parts)) & (edges > above), edges, -1.0)
+    # beyond half a step the place is lost
+    known = where & (edges < math.degrees(parts.assembly.half_step)) & (edges > above)
+    value = np.where(known, edges, -1.0)
     padded = np.pad(value, ((0, 0), (1, 1)), constant_values=-1.0)
     # around a local maximum below 0.8 of the greatest no greater play is expected
     great = np.maximum(0.8 * value.max(axis=1, keepdims=True), 0.0)
@@ -165,15 +155,9 @@ def _peaks(
     top = top[np.arange(len(row)) - np.searchsorted(row, row) < MOST]
     ends = np.array((play.back, play.on))
     most = np.maximum(ends[:, :-1], ends[:, 1:]).min(axis=0)
-    known = max(held, both[play.guided].max(initial=0.0))
-    change = np.flatnonzero(play.guided[:-1] & play.guided[1:] & (most > known))
+    floor = max(held, both[play.guided].max(initial=0.0))
+    change = np.flatnonzero(play.guided[:-1] & play.guided[1:] & (most > floor))
     return top - 1, top, change[np.argsort(-most[change], kind="stable")][:MOST]
-
-
-def search_deg(parts: TurnedParts) -> float:
-    """Return the largest play that is searched for, half a step: beyond it the place is lost."""
-    steps = map(attrgetter("engagement.half_step"), parts.assembly.motions)
-    return math.degrees(min(steps))
 
 
 def wheel_stops(parts: TurnedParts, at: Array, fits: bool = False) -> tuple[Array, Array]:
@@ -185,10 +169,8 @@ def wheel_stops(parts: TurnedParts, at: Array, fits: bool = False) -> tuple[Arra
     gaps, close = parts.gaps, parts.close
     pose, held = gaps.pose(at), parts.assembly.geared(at)
     if not fits:  # parts that overlap from the start leave no play
-        clear = np.minimum(
-            gaps.locking(pose, near=close), gaps.rollers(pose, near=close).min(axis=1)
-        )
-        held |= clear < -close
-    leads, pressures = gaps.stops.first(pose, math.radians(search_deg(parts)), close)
+        held |= gaps.locking(pose, near=close) < -close
+        held |= (gaps.rollers(pose, near=close) < -close).any(axis=1)
+    leads, pressures = gaps.stops.first(pose, parts.assembly.half_step, close)
     leads[:, held] = pressures[:, held] = 0.0
     return leads, pressures

@@ -128,7 +128,7 @@ class FlatPairs:
         # the crank in arcs of a degree, each of which is tested for being in the wheel, and the
         # greatest distance of the crank from its axis, mm
         self.pieces = short_pieces(crank, math.radians(1.0)) if crank else None
-        self.disc = float(farthest(self.pieces, 0.0, 0.0).max()) if self.pieces else 0.0
+        self.disc = float(farthest(self.pieces, 0.0, 0.0).max()) if self.pieces is not None else 0.0
 
     def lock(self, window: Window, on: Intervals) -> tuple[Array, Array]:
         """Return the gap of locking disc and wheel: bounds up to ``apart``.

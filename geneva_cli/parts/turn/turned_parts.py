@@ -5,7 +5,6 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from typing import TYPE_CHECKING, NamedTuple, Protocol, Self
 
-from geneva_cli.errors import GenevaError
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
@@ -16,28 +15,24 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array
     from geneva_cli.parts.turn.stops import Pose, Stops
 
-    class Lengths(Protocol):
-        """Lengths of the parts, mm; on a sphere arc lengths, except ``rim``."""
+    class _Lengths(Protocol):
+        """Lengths of the parts, mm; on a sphere arc lengths, except ``rim``.
+
+        They are the radius of the roller, half the width of a slot, the distance of the rim from
+        the wheel's axis (of a rack's edge from the origin) and that of the rollers from the
+        crank's, and the thickness of the horn between slot and recess.
+        """
 
         @property
-        def roller(self) -> float:
-            """Radius of the roller."""
-
+        def roller(self) -> float: ...
         @property
-        def half_width(self) -> float:
-            """Half the width of a slot."""
-
+        def half_width(self) -> float: ...
         @property
-        def rim(self) -> float:
-            """Distance of the rim from the wheel's axis; of a rack's edge from the origin."""
-
+        def rim(self) -> float: ...
         @property
-        def arm(self) -> float:
-            """Distance of the rollers from the crank's axis."""
-
+        def arm(self) -> float: ...
         @property
-        def horn(self) -> float:
-            """Thickness of the horn between slot and recess."""
+        def horn(self) -> float: ...
 
     class Clearances(Protocol):
         """The clearances between wheel, crank and rollers, mm, negative where they overlap.
@@ -65,50 +60,36 @@ if TYPE_CHECKING:
         def locking(self, pose: Pose, lead: Array | float = 0, near: float | None = None) -> Array:
             """Return the clearance between the crank's locking surfaces and the wheel, (n,)."""
 
-    class Pairs(Protocol):
+    class _Pairs(Protocol):
         """The pairs of parts that may meet, with bounds of their gaps on n intervals.
 
-        Both answers, (n,) each, are in mm: the gap in the middle of each interval, and a proved
-        lower bound of it throughout.
+        They are the crank's locking surfaces and the wheel, and a roller and the wheel: in its slot
+        between two input angles, or outside the slot that it drives. Both answers, (n,) each, are
+        in mm: the gap in the middle of each interval, and a proved lower bound of it throughout.
         """
 
-        def lock(self, window: Window, on: Intervals) -> tuple[Array, Array]:
-            """Bound the gap between the crank's locking surfaces and the wheel."""
-
+        def lock(self, window: Window, on: Intervals) -> tuple[Array, Array]: ...
         def roller(
             self, number: int, window: Window, span: tuple[float, float] | None, on: Intervals
-        ) -> tuple[Array, Array]:
-            """Bound the gap of a roller outside the slot it drives, or in it within a span."""
+        ) -> tuple[Array, Array]: ...
 
-    class Shape(Protocol):
+    class _Shape(Protocol):
         """Wheel and crank of a machine, as they are cut and turned."""
 
         @property
-        def assembly(self) -> Assembly:
-            """The positions of the parts at any input angle."""
-
+        def assembly(self) -> Assembly: ...
         @property
-        def sizes(self) -> Lengths:
-            """The lengths of the parts."""
-
+        def sizes(self) -> _Lengths: ...
         @property
-        def gaps(self) -> Clearances:
-            """The clearances between the parts."""
-
+        def gaps(self) -> Clearances: ...
         @property
-        def crank(self) -> Sized:
-            """The outlines of the crank's locking surfaces."""
-
+        def crank(self) -> Sized: ...
         def _replace(self, *, assembly: Assembly) -> Self: ...
 
 
 # Of the centre distance, 0.2 um in 100 mm: parts that overlap by less count as touching. No cutter
 # and no roller is more accurate, nor are curved walls.
 CONTACT = 2e-6
-
-
-class WorkLimit(GenevaError):
-    """Error for a full turn that would take too long."""
 
 
 class Window(NamedTuple):
@@ -155,7 +136,7 @@ class TurnedParts(ABC):
 
     @property
     @abstractmethod
-    def _shape(self) -> Shape:
+    def _shape(self) -> _Shape:
         """Wheel and crank as they are turned. Raises GenevaError where the sizes leave none."""
 
     @property
@@ -164,7 +145,7 @@ class TurnedParts(ABC):
         return self._shape.assembly
 
     @property
-    def sizes(self) -> Lengths:
+    def sizes(self) -> _Lengths:
         """The lengths of the parts."""
         return self._shape.sizes
 
@@ -199,5 +180,5 @@ class TurnedParts(ABC):
         """Return how far a motion's roller is in its slot, beyond the mouth's corners, mm, (n,)."""
 
     @abstractmethod
-    def pairs(self, target: float) -> Pairs:
+    def pairs(self, target: float) -> _Pairs:
         """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""

@@ -252,7 +252,6 @@ def every_check(
                 yield Check(name, None, "at most", limit, None, why)
     elif parts:
         from geneva_cli.parts.parts import parts_of
-        from geneva_cli.parts.turn.turned_parts import WorkLimit
 
         machine = machine or parts_of(mechanism)
         try:
@@ -266,7 +265,7 @@ def every_check(
         elif turned:
             try:
                 turn = machine.turn
-            except WorkLimit as error:
+            except GenevaError as error:
                 yield refused("full_turn", error)
             else:
                 yield from applicable(TURNING, machine, turn)

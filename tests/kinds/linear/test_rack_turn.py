@@ -12,7 +12,7 @@ import pytest
 from other_shape import with_shape
 from sampling import some
 from scipy.spatial import cKDTree
-from turn_witness import TO_MM, check_proof, least_gap, turn_of
+from turn_witness import TO_MM, check_proof, least_gap, smallest_clearance, turn_of
 
 from geneva_cli import Design, Linear, Size
 from geneva_cli.geometry.distance import Polyarc
@@ -136,18 +136,12 @@ def test_a_stop_is_where_parts_begin_to_overlap(seed):
     parts = random_parts(seed)
     at = np.random.default_rng(seed).uniform(-90.0, 270.0, 12)
     pose = parts.gaps.pose(at)
-
-    def least(lead):
-        return np.minimum(
-            parts.gaps.rollers(pose, lead).min(axis=1), parts.gaps.locking(pose, lead)
-        )
-
-    free = least(np.zeros(12)) >= -1e-9
+    free = smallest_clearance(parts, pose) >= -1e-9
     leads, _ = parts.gaps.stops.first(pose, 1.0, parts.close)
     for way, stop in zip((-1.0, 1.0), leads, strict=True):
         # 1e-6 radians short of a stop a part may still overlap by its rounding
         for fraction in np.linspace(0.0, 1.0, some(1000, 100)):
             lead = way * np.maximum(fraction * stop - 1e-6, 0.0)
-            assert (least(lead)[free] >= -1e-8).all()
+            assert (smallest_clearance(parts, pose, lead)[free] >= -1e-8).all()
         stopped = free & (stop < 1.0)
-        assert (least(way * (stop + 1e-3))[stopped] < 0.0).all()
+        assert (smallest_clearance(parts, pose, way * (stop + 1e-3))[stopped] < 0.0).all()
