@@ -112,8 +112,11 @@ class Cycle:
     @cached_property
     def extremes(self) -> Mapping[str, LoadSummary[float]]:
         """The summaries of all quantities that have a value, as numbers."""
-        rows = self.known.items()
-        return {name: LoadSummary(*np.concatenate(one).tolist()) for name, one in rows}
+        out = dict[str, LoadSummary[float]]()
+        for name, one in self.known.items():
+            rows = [row for row in one if row is not None]  # all are known
+            out[name] = LoadSummary(*np.concatenate(rows).tolist())
+        return out
 
     @cached_property
     def ends(self) -> Mapping[str, LoadSummary[float]]:

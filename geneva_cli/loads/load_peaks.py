@@ -73,7 +73,7 @@ def load_peaks(
         for name, *row in zip(sought, result.most, at_deg, strict=True):
             here = PeakArray(*row)
             best[name] = greater(best[name], here) if name in best else here
-    if by_force:
+    if by_force and case.hertz is not None:
         force = best[FORCE]
         best[STRESS] = force._replace(max=force.max * np.ravel(case.hertz))
     out = {}
@@ -193,9 +193,9 @@ def _extremes(mechanism: Mechanism, names: Sequence[str] | None = None) -> Found
             ends = np.sqrt(ends)
         best[name] = LoadSummary(ends[0], at_deg[0], ends[1], at_deg[1])
     out = {}
-    for name, (source, factor) in every.items():
+    for name, (source, by) in every.items():
         one = best[source]
-        out[name] = one._replace(max=one.max * factor, min=one.min * factor)
+        out[name] = one._replace(max=one.max * by, min=one.min * by)
     return out, searches
 
 
@@ -229,6 +229,7 @@ def _with_means(
     known, out = multiples(mechanism), {}
     for name, one in ends.items():
         source, factor, _ = known.get(name, (name, 1.0, ""))
+        assert factor is not None  # what is known has a factor
         i, by = names.index(source), np.ravel(factor)
         out[name] = one._replace(mean=means[i] * by, rms=roots[i] * by)
     return out

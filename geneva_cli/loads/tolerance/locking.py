@@ -119,7 +119,7 @@ class Lock(NamedTuple):
         on = np.where(arcs, "recess", np.where(corner, "corner", "disc's end"))[()]
         # without clearance rounding may make it negative
         play = np.maximum(self(AS_DRAWN).angle.c[0], 0.0)
-        return LockContact(cast("str", on), phi, parameter(play), parameter(radius))
+        return LockContact(cast("str", on), parameter(phi), parameter(play), parameter(radius))
 
 
 def _at(one: Jet, other: float, opposite: Jet) -> Jet:
