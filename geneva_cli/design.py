@@ -142,6 +142,7 @@ class Design:
 
     is_backwards = False  # True of a design made by ``backwards``
     text: Text | None  # of the file that the design was read from; None for one made in Python
+    is_drawn: bool  # drawings replace the outlines of its parts: [outline]
 
     def __new__(cls, *_: object, **named: object) -> Self:
         """Refuse an unknown keyword, with the nearest known one."""
@@ -174,6 +175,7 @@ class Design:
         inputs = {name: value for name, value in locals().items() if value is not None}
         del inputs["self"]
         self.spec, self.text = Spec(**inputs), None
+        self.is_drawn = bool(self.spec.outline.files)
 
     @classmethod
     def of(cls, spec: Spec, text: Text | None = None) -> Design:
@@ -184,11 +186,12 @@ class Design:
         """
         design = object.__new__(cls)
         design.spec, design.text = spec, text
+        design.is_drawn = spec.outline.wheel is not None or spec.outline.crank is not None
         return design
 
     def __getstate__(self) -> dict[str, object]:
         """The inputs without the answers, which a pickled copy computes again."""
-        inputs = ("spec", "text", "is_backwards")
+        inputs = ("spec", "text", "is_backwards", "is_drawn")
         return {name: value for name, value in vars(self).items() if name in inputs}
 
     def __repr__(self) -> str:
@@ -765,16 +768,6 @@ class Design:
 
         return self._judged if self.is_drawn else [*self._judged, *proofs(self.parts)]
 
-    @property
-    def is_drawn(self) -> bool:
-        """True if drawings replace the outlines of its parts: ``[outline]``.
-
-        >>> Design(External(6), outline=Outline(wheel="wheel.dxf")).is_drawn
-        True
-        """
-        outline = self.spec.outline
-        return outline.wheel is not None or outline.crank is not None
-
     def _of_drawing(self, answer: str, *values: object) -> Any:
         """An answer about the drawings that replace the outlines."""
         if self.is_backwards:
@@ -948,6 +941,8 @@ class Design:
         >>> Design(External(6), accept=Accept(many_slots="agreed")).unused_acceptances
         ['many-slots']
         """
+        if not self.spec.accept.reasons:
+            return []
         # of drawings without turning parts of ours, which check does not need
         drawn = [*self.ideal_notes, *self.check_warnings] if self.is_drawn else None
         return self.spec.accept.unused(self.warnings if drawn is None else drawn)

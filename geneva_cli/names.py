@@ -109,7 +109,10 @@ def spoken(name: str) -> tuple[str, str]:
     words, unit = [], ""
     for part in name.split("."):
         end = unit_end(part)
-        words.append(_worded(part, end, WORDS))
+        bare = part.removesuffix(end)
+        is_symbol = len(bare) <= 3  # with its index, such as C_v
+        text = bare if is_symbol else bare.replace("_", " ")
+        words.append(WORDS.get(part) or WORDS.get(bare) or text)
         unit = UNITS.get(end, unit)
     return " ".join(words), SHORT_UNITS.get(unit, unit)
 
@@ -128,7 +131,9 @@ def described(name: str) -> tuple[str, str]:
     bare = name.removesuffix(end)
     if bare.endswith("_at"):
         return f"{described(bare.removesuffix('_at'))[0]}, {LONG_WORDS['at']}", unit
-    return _worded(name, end, WORDS | LONG_WORDS), unit
+    known = WORDS | LONG_WORDS
+    text = bare if len(bare) <= 3 else bare.replace("_", " ")
+    return known.get(name) or known.get(bare) or text, unit
 
 
 def unit_end(name: str) -> str:
@@ -139,13 +144,6 @@ def unit_end(name: str) -> str:
             return f"_{rest}"
         _, line, rest = rest.partition("_")
     return ""
-
-
-def _worded(name: str, end: str, words: dict[str, str]) -> str:
-    """The words of a whole name or of its part without a unit, or else the letters of that part."""
-    bare = name.removesuffix(end)
-    is_symbol = len(bare) <= 3  # with its index, such as C_v
-    return words.get(name) or words.get(bare) or (bare if is_symbol else bare.replace("_", " "))
 
 
 def heading(name: str) -> str:

@@ -1,6 +1,6 @@
 """Progress of long work, reported here by the work and shown by the command line.
 
-Nothing is shown by default: only the command line calls ``show_with``.
+Nothing is shown by default: only the command line sets ``maker``.
 """
 
 from __future__ import annotations
@@ -23,13 +23,8 @@ class ProgressBar(Protocol):
 
 # Makes a bar from the word for the items and their number; None if nobody watches.
 BarMaker: TypeAlias = Callable[[str, int], ProgressBar | None]
-_maker: list[BarMaker] = []  # at most one
+maker: BarMaker | None = None
 _shown: list[ProgressBar] = []  # at most one: work within other work is not shown
-
-
-def show_with(maker: BarMaker | None) -> None:
-    """Show progress with the bars that ``maker`` makes; None: show none."""
-    _maker[:] = [maker] if maker else []
 
 
 def close() -> None:
@@ -47,8 +42,7 @@ class Meter:
     def __init__(self, what: str, total: int) -> None:
         self.total = total
         # a bar of one item shows no progress, and would hide those of the work within
-        shows = _maker and not _shown and total > 1
-        self.bar = _maker[0](what, total) if shows else None
+        self.bar = maker(what, total) if maker and not _shown and total > 1 else None
         if self.bar:
             _shown.append(self.bar)
 
@@ -70,7 +64,7 @@ def tracked(
     items: Iterable[T], what: str, total: int, size: Callable[[T], int] | None = None
 ) -> Iterator[T]:
     """Yield the items and report how many of ``total`` are done; ``size`` of an item is 1."""
-    if total < 2 or not _maker:  # as ``Meter`` decides, for most runs
+    if total < 2 or not maker:  # as ``Meter`` decides, for most runs
         yield from items
         return
     meter, done = Meter(what, total), 0

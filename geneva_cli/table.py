@@ -171,7 +171,9 @@ def for_people(value: float, unit: str = "", digits: int = 4) -> str:
         return in_decimals(value, 3)
     if unit in ("deg", "°") and abs(value) < 1e-9:
         return "0"
-    text = in_digits(value, digits)
+    if math.isinf(value):
+        return NO_BOUND
+    text = f"{value + 0.0:.{digits}g}"
     return f"{float(text):.0f}" if "e+" in text and abs(value) < 1e6 else text
 
 
@@ -250,11 +252,15 @@ def plain_rows(columns: Sequence[Any]) -> list[tuple[Any, ...]]:
 
 
 def rows_table(
-    names: Sequence[str], rows: Sequence[Sequence[Any]], title: str = "", mixed: bool = False
+    names: Sequence[str],
+    rows: Sequence[Sequence[Any]],
+    title: str = "",
+    mixed: bool = False,
+    reading: Reading | None = None,
 ) -> Table:
     """A table from its rows."""
     columns = list(zip(*rows, strict=True)) if rows else [() for _ in names]
-    return Table(tuple(names), columns, title=title, mixed=mixed)
+    return Table(tuple(names), columns, title=title, mixed=mixed, reading=reading or Reading())
 
 
 def record_table(values: dict[str, Any], title: str = "", prose: str = "") -> Table:

@@ -14,10 +14,11 @@ from typing import Annotated, Any, NoReturn
 import typer
 from typer.core import TyperCommand, TyperGroup
 
+import geneva_cli.progress as progress
 from geneva_cli import __version__
 from geneva_cli.cli.command import HELP, USAGE, PlainValues, as_command, table_options
 from geneva_cli.errors import GenevaError, clean, cut
-from geneva_cli.progress import ProgressBar, close, show_with
+from geneva_cli.progress import ProgressBar, close
 from geneva_cli.streams import leave, open_streams
 
 # The registry by task: the module in geneva_cli.cli.commands, and its line in --help.
@@ -139,7 +140,7 @@ class LazyGroup(PlainValues, TyperGroup):
 
     def invoke(self, ctx: Any) -> Any:
         """Run the command; an error that a user can correct becomes a line and an exit code."""
-        show_with(_bar)
+        progress.maker = _bar
         try:
             return super().invoke(ctx)
         except GenevaError as error:

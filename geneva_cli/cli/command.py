@@ -233,11 +233,6 @@ Output: TypeAlias = Annotated[str, output_option("FILE", "Write to this file; - 
 Format: TypeAlias = Annotated[str, option("FORMAT", "table, csv, json or md.", name="--format")]
 
 
-def warn(design: "Design") -> None:
-    """Print the warnings about the motion on standard error."""
-    say(design.spec.path, design.motion_warnings)
-
-
 def say(path: str, warnings: Iterable[str]) -> None:
     """Print warnings about a spec on standard error, one a line, with names for `explain`."""
     for text in warnings:

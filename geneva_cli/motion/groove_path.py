@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import Array, Number, scalar, smaller
+from geneva_cli.numerics.arrays import Array, Number, smaller
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet_functions import Groove
@@ -34,8 +34,8 @@ def dwell_rates(groove: Groove) -> tuple[float, float]:
     none, far, slope, bend = np.zeros(1), 0.0, 0.0, 0.0
     levels = []
     for end, sense in zip(groove.ends, (-1.0, 1.0), strict=True):
-        R, first, second = (scalar(x) for x in end)
-        levels.append(scalar(_eased(end, eased, none, sense)[3]))
+        R, first, second = (float(x) for x in end)
+        levels.append(float(_eased(end, eased, none, sense)[3]))
         m = abs(second) * eased
         far = max(far, abs(R)) + eased * (abs(first) + m)
         slope = max(slope, abs(first) + 4.0 / 27.0 * m)

@@ -8,7 +8,6 @@ from typing import NamedTuple, cast
 
 from geneva_cli.motion.engagement import Engagement, Peak, WheelMotion
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.arrays import scalar
 from geneva_cli.numerics.roots import greatest_at
 from geneva_cli.table import Table, record_table, rows_table
 
@@ -116,7 +115,7 @@ def _record(
     jumps: Sequence[float | None] = (0.0, 0.0)
     if engagements[0].built is not None:
         jumps = greatest_jumps(engagements)
-        gained = math.degrees(scalar(engagements[0].built.gained))  # all leave the rim alike
+        gained = math.degrees(float(engagements[0].built.gained))  # all leave the rim alike
     at_ends: dict[str, Sequence[float | None]] = {
         "velocity": jumps,
         "acceleration": (ends.acceleration_entry, ends.acceleration_exit),
@@ -137,6 +136,6 @@ def greatest_jumps(engagements: Sequence[Engagement]) -> list[float | None]:
     """
     out: list[float | None] = []
     for each in zip(*(one.jumps for one in engagements), strict=True):
-        jumps = [scalar(jump) for jump in each]
+        jumps = [float(jump) for jump in each]
         out.append(None if any(map(math.isnan, jumps)) else max(jumps, key=abs))
     return out

@@ -281,11 +281,6 @@ def parameter(x: Number) -> float:
     return cast(float, x)
 
 
-def scalar(x: Number) -> float:
-    """A number that is known to be a single one. Raises TypeError for an array."""
-    return x if isinstance(x, float) else float(x)
-
-
 def matrix_product(values: Array, matrix: Array) -> Array:
     """``values @ matrix`` with its sums in one order on every processor."""
     import numpy

@@ -81,7 +81,7 @@ def _chunks(table: Table, output: str, name: str) -> Iterator[str]:
     if choice.columns:
         table = only(table, choice.columns)
     if name == "table" and seen:
-        from geneva_cli.output.terminal.summary import window
+        from geneva_cli.output.terminal.layout import window
         from geneva_cli.output.terminal.terminal_tables import chunks
 
         return chunks(table, window(bool(choice.columns), choice.wide))
@@ -114,7 +114,7 @@ def show_answer(
     if name == "md":
         first = summary.markdown(answer.summaries)
     else:
-        first = summary.chunks(answer.summaries, summary.style_of(output, is_seen(output)))
+        first = summary.chunks(answer.summaries, output, is_seen(output))
     page = answer.page
     rest = chain(["\n"] if name == "table" else (), _chunks(page, output, name)) if page else ()
     _put(chain(first, rest), output, inputs, name)
@@ -192,8 +192,8 @@ def show_markdown(text: str) -> None:
     if not is_seen("-"):
         _put([text], "-")
         return
+    from geneva_cli.output.terminal.layout import window
     from geneva_cli.output.terminal.page_reader import chunks
-    from geneva_cli.output.terminal.summary import window
 
     _put(chunks(text, window(False, choice.wide)), "-", (), "table")
 

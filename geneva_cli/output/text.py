@@ -23,12 +23,26 @@ def chunks(table: Table) -> Iterator[str]:
         yield from _plain(table)
         return
     for _, piece in apart(table, plain_names=True):
-        if piece.record:
-            yield from _lines(piece)
-        else:
+        if not piece.record:
             yield "\n"
             yield from _plain(piece)
             yield "\n"
+            continue
+        # one line for each value, and a heading where the first part of the dotted name changes
+        shown, width = [], 0
+        own = flat(piece) if piece.names else piece
+        for name, (value,) in zip(own.names, own.columns, strict=True):
+            if value not in (None, ""):  # a value that does not apply has no line
+                group, _, last = name.rpartition(".")
+                shown.append((group, last, value))
+                width = max(width, len(last) + (2 if group else 0))
+        current = ""
+        for group, name, value in shown:
+            if group != current:
+                yield f"{group}\n" if group else ""
+                current = group
+            label = f"  {name}" if group else name
+            yield f"{label.ljust(width)}  {cell(value)}\n"
 
 
 def cell(value: Any) -> str:
@@ -106,23 +120,3 @@ def apart(record: Table, plain_names: bool = False) -> Iterator[tuple[str, Table
         else:
             values[name] = value
     yield "", record_table(values)
-
-
-def _lines(table: Table) -> Iterator[str]:
-    """One line for each value, and a heading where the first part of the dotted name changes."""
-    if not table.names:
-        return
-    table = flat(table)
-    shown, width = [], 0
-    for name, (value,) in zip(table.names, table.columns, strict=True):
-        if value not in (None, ""):  # a value that does not apply has no line
-            group, _, last = name.rpartition(".")
-            shown.append((group, last, value))
-            width = max(width, len(last) + (2 if group else 0))
-    current = ""
-    for group, name, value in shown:
-        if group != current:
-            yield f"{group}\n" if group else ""
-            current = group
-        label = f"  {name}" if group else name
-        yield f"{label.ljust(width)}  {cell(value)}\n"

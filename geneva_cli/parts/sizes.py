@@ -90,7 +90,7 @@ def drawn_thicknesses(size: Size, L: float) -> Thicknesses:
 
 def pin_radius(size: Size, r: float) -> float:
     """Return the radius of a roller's pin of a spec without a load; 0 for none."""
-    return 0.5 * size.pin_diameter(r, rounded_below)
+    return 0.5 * value_or(size.pin_mm, rounded_below(r))
 
 
 def plane_span(

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.numerics.arrays import N, choose, larger, smaller, value_or
-from geneva_cli.spec.workshops import Stock, workshop
+from geneva_cli.spec.workshops import WORKSHOPS, Stock
 
 if TYPE_CHECKING:
     from geneva_cli.motion.machine_spec import Spec
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 def wall_min(size: Size, L: float) -> float:
     """Return the least wall that ``check`` lets pass, mm; (m, 1) for m designs."""
-    return value_or(size.wall_min_mm, larger(L / 200.0, workshop(size.process).wall_mm))
+    return value_or(size.wall_min_mm, larger(L / 200.0, WORKSHOPS[size.process].wall_mm))
 
 
 def eye_about(hole: N, wall: N, most: float = math.inf) -> N:
@@ -101,7 +101,7 @@ def wheel_material(spec: Spec) -> Stock:
     >>> wheel_material(Spec(External(6), size=Size(process="print"))).youngs_modulus_GPa
     2.4
     """
-    return _material(spec.material_wheel, workshop(spec.size.process).stock)
+    return _material(spec.material_wheel, WORKSHOPS[spec.size.process].stock)
 
 
 def roller_material(spec: Spec) -> Stock:
@@ -117,7 +117,7 @@ def material_names(spec: Spec) -> tuple[str, str]:
     ('PLA', 'steel')
     """
     return (
-        _named(spec.material_wheel, wheel_material(spec), workshop(spec.size.process).stock),
+        _named(spec.material_wheel, wheel_material(spec), WORKSHOPS[spec.size.process].stock),
         _named(spec.material_roller, roller_material(spec), Stock()),
     )
 

@@ -14,7 +14,7 @@ from geneva_cli.kept import cached_property
 from geneva_cli.numerics.arrays import value_or
 from geneva_cli.spec.rules import LENGTH, NOT_NEGATIVE, POSITIVE, OneOf, Range
 from geneva_cli.spec.schema import SpecTable
-from geneva_cli.spec.workshops import PROCESSES, Allowances, workshop
+from geneva_cli.spec.workshops import PROCESSES, WORKSHOPS, Allowances
 
 Rounding = Callable[[float], float]
 # types of usual keys
@@ -274,10 +274,6 @@ class Size(SpecTable):
         """Radius of a roller for a centre distance, mm; by default a twentieth of it."""
         return value_or(self.roller_radius_mm, L / 20.0)
 
-    def pin_diameter(self, roller: float, rounded: Rounding = unrounded) -> float:
-        """Diameter of a roller's pin, mm: by default half of the roller's; 0 for no pin."""
-        return value_or(self.pin_mm, rounded(roller))
-
     def thicknesses(self, L: float, rounded: Rounding = unrounded) -> Thicknesses:
         """Thicknesses of the plates for a centre distance, mm; by default all are the wheel's."""
         between = None if self.face_width_mm is None else self.face_width_mm + 2.0 * self.edge_mm
@@ -296,7 +292,7 @@ class Size(SpecTable):
         >>> Size(process="laser", wheel_thickness_mm=3.0, lock_clearance_mm=0.1).allowances[:3]
         (0.2, 0.1, 0.15)
         """
-        own, cut_mm = vars(self), workshop(self.process).cut_mm
+        own, cut_mm = vars(self), WORKSHOPS[self.process].cut_mm
         values = (Allowances() if self.process is None else PROCESSES[self.process])._asdict()
         if cut_mm:
             # Parts are all off by the deviation of their cut. The roller is wide and its slot
@@ -310,7 +306,7 @@ class Size(SpecTable):
             disc = cut_mm(thick.wheel, across) + cut_mm(thick.lock, across)
             values["slot_clearance_mm"] = cut_mm(thick.wheel, 2.0 * roller)
             values["lock_clearance_mm"] = 0.5 * disc
-            values["press_fit_mm"] = cut_mm(thick.arm, self.pin_diameter(roller))
+            values["press_fit_mm"] = cut_mm(thick.arm, value_or(self.pin_mm, roller))
             values["shaft_fit_mm"] = cut_mm(thick.wheel, value_or(self.wheel_bore_mm, L / 6.0))
         for key in values:
             if own.get(key) is not None:
@@ -714,6 +710,7 @@ LIMITED = {
     "cycle_max_s": "timing.cycle_s",
 }
 
+
 Reason = Annotated[str | None, None, "reason for accepting this warning"]
 
 
@@ -769,24 +766,20 @@ class Accept(SpecTable):
         *("short-motion", "tolerance-left-out", "not-every-machine-turns"),
     )
 
+    reasons: ClassVar[dict[str, str]]  # of each record, by the names of the accepted warnings
+
     def __post_init__(self) -> None:
         super().__post_init__()
-        for name, reason in self.reasons.items():
-            if not reason.strip():
+        reasons = vars(self)["reasons"] = self.as_dict()
+        for name, reason in [*reasons.items()]:
+            if reason is None:
+                del reasons[name]
+            elif not reason.strip():
                 raise GenevaError(
                     f'{name} needs the reason for accepting it, as {name} = "agreed with the '
                     'customer"',
                     (self.TABLE, name),
                 )
-
-    @property
-    def reasons(self) -> dict[str, str]:
-        """The reasons by the names of the accepted warnings."""
-        reasons = self.as_dict()
-        for name, reason in [*reasons.items()]:
-            if reason is None:
-                del reasons[name]
-        return reasons
 
     def applied(self, notices: Iterable[Notice]) -> list[Notice]:
         """The warnings, the accepted ones with their reason.
@@ -803,7 +796,7 @@ class Accept(SpecTable):
 
     def unused(self, notices: Iterable[Notice]) -> list[str]:
         """Names of accepted warnings that do not occur among those of ``check``."""
-        unused = self.reasons
+        unused = dict(self.reasons)
         for name in (*self.ELSEWHERE, *map(attrgetter("name"), notices)):
             unused.pop(name, None)
         return list(unused)

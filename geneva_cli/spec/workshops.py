@@ -82,7 +82,9 @@ class Workshop(NamedTuple):
     plate_mm: float = float("inf")  # thickest plate
 
 
-WORKSHOPS = {
+# by the process; without one, usual machining
+WORKSHOPS: dict[str | None, Workshop] = {
+    None: Workshop("ISO 2768-m"),
     # ISO 9013 is for lasers up to 32 mm. A hole of 0.7 thicknesses is the least that cutters take
     # (acutelaser.com.au/resources/laser-cutting, lasermaster-en.blogspot.com/2022/06); others ask
     # for a whole thickness. Fibre lasers keep its second range of roughness
@@ -114,15 +116,6 @@ WORKSHOPS = {
 }
 
 
-def workshop(process: str | None) -> Workshop:
-    """Return the workshop of a process; without one that of usual machining.
-
-    >>> workshop(None).tolerances, workshop("print").fits
-    ('ISO 2768-m', False)
-    """
-    return WORKSHOPS[process] if process else Workshop("ISO 2768-m")
-
-
 class Allowances(NamedTuple):
     """Clearances by the keys of ``[size]``, mm, and their source.
 
@@ -135,11 +128,6 @@ class Allowances(NamedTuple):
     shaft_fit_mm: float = 0.0  # difference of diameters, bore minus shaft or pin in it
     pin_gap_mm: float = 0.0  # along the axis, between wheel and crank arm
     source: str | None = None
-
-    @property
-    def around_shaft_mm(self) -> float:
-        """Clearance per side between a bore and its shaft, mm."""
-        return 0.5 * self.shaft_fit_mm
 
 
 PROCESSES = {

@@ -48,31 +48,27 @@ def spec_of(tree: dict[str, Any], name: str) -> Spec:
     if not isinstance(title, str):
         raise GenevaError(f"title must be text, not {shown(title)}", ("title",))
     for table, value in tree.items():
-        if table not in TABLES:
-            named = f"table [{cut(table)}]" if isinstance(value, dict) else f"key {cut(table)}"
-            where = "" if isinstance(value, dict) else _tables(_meanings(table))
-            if where:
-                text = f"{table} belongs to {where}; write it below that line"
-                raise GenevaError(text, (table,))
-            known = few(table, [f"[{t}]" for t in TABLES])
-            hint = nearest(table, (*TABLES, "title"))
-            raise GenevaError(f"unknown {named}{hint}; known: title, {known}", (table,))
-        if table in LISTS:
-            if not (isinstance(value, list) and all(isinstance(one, dict) for one in value)):
-                several = f"a list of tables: write [[{table}]] above the keys of each"
-                raise GenevaError(f"{table} must be {several}", (table,))
-        elif not isinstance(value, dict):
-            raise GenevaError(f"{table} must be a table: write [{table}] above its keys", (table,))
+        if table not in TABLES or table in LISTS or not isinstance(value, dict):
+            _refuse_table(table, value)
     if "wheel" not in tree:
         raise GenevaError(
             f"{name}: no [wheel] table; the shortest spec is [wheel] and, on the next line, z = 6"
         )
-    files = [name]
-    drive = dict(tree.get("drive", {}))
-    before = drive.pop("before", None)
-    plain = _plain(tree, files)
+    files, plain = [name], dict[str, Any]()  # the tables that every kind of machine has
+    for key, cls in PLAIN.items():
+        table, _, part = key.partition(".")
+        values = tree.get(table)
+        if values is not None and part:
+            _refuse_parts(table, values)
+            values = values.get(part, {})
+        if values is not None and key in LISTS:
+            plain[key] = _several(key, cls, values, files)
+        elif values is not None:
+            plain[key.replace(".", "_")] = cls(**_values(cls, values, files))
     drawn = plain["outline"].files if "outline" in plain else ()
     files.extend(map(partial(below, os.path.dirname(name)), drawn))
+    drive = dict(tree.get("drive", {}))
+    before = drive.pop("before", None)
     return Spec(
         wheel=_kind(tree["wheel"], WHEELS, files),
         drive=_kind(drive, DRIVES, files),
@@ -85,35 +81,47 @@ def spec_of(tree: dict[str, Any], name: str) -> Spec:
     )
 
 
-def _plain(tree: dict[str, Any], files: list[str]) -> dict[str, Any]:
-    """The tables that do not depend on the kind of machine, by field of ``Spec``."""
-    out: dict[str, Any] = {}
-    for name, cls in PLAIN.items():
-        table, _, part = name.partition(".")
-        values = tree.get(table)
-        if values is None:
-            continue
-        if part:
-            known = [n.partition(".")[2] for n in PLAIN if n.startswith(f"{table}.")]
-            for own, value in values.items():
-                if own not in known:
-                    raise unknown(own, table, known)
-                if not isinstance(value, dict):
-                    text = f"{own} must be a table: write [{table}.{own}] above its keys"
-                    raise GenevaError(text, (table, own))
-            values = values.get(part, {})
-        if name not in LISTS:
-            out[name.replace(".", "_")] = cls(**_values(cls, values, files))
-            continue
-        several = []
-        for i, one in enumerate(values):
-            try:
-                several.append(cls(**_values(cls, one, files)))
-            except GenevaError as error:
-                where = f"[[{name}]] number {i + 1}"
-                raise GenevaError(f"{where}: {error}", (name, i, *error.key[1:])) from None
-        out[name] = tuple(several)
-    return out
+def _refuse_table(table: str, value: Any) -> None:
+    """Raise GenevaError for what is no table of a spec, and no list of tables where one may be."""
+    if table not in TABLES:
+        named = f"table [{cut(table)}]" if isinstance(value, dict) else f"key {cut(table)}"
+        where = "" if isinstance(value, dict) else _tables(_meanings(table))
+        if where:
+            text = f"{table} belongs to {where}; write it below that line"
+            raise GenevaError(text, (table,))
+        known = few(table, [f"[{t}]" for t in TABLES])
+        hint = nearest(table, (*TABLES, "title"))
+        raise GenevaError(f"unknown {named}{hint}; known: title, {known}", (table,))
+    if table not in LISTS:
+        raise GenevaError(f"{table} must be a table: write [{table}] above its keys", (table,))
+    if not (isinstance(value, list) and all(isinstance(one, dict) for one in value)):
+        several = f"a list of tables: write [[{table}]] above the keys of each"
+        raise GenevaError(f"{table} must be {several}", (table,))
+
+
+def _refuse_parts(table: str, values: dict[str, Any]) -> None:
+    """Raise GenevaError for what is no table of a table, such as [material.wheel]."""
+    known = [n.partition(".")[2] for n in PLAIN if n.startswith(f"{table}.")]
+    for own, value in values.items():
+        if own not in known:
+            raise unknown(own, table, known)
+        if not isinstance(value, dict):
+            text = f"{own} must be a table: write [{table}.{own}] above its keys"
+            raise GenevaError(text, (table, own))
+
+
+def _several(
+    name: str, cls: type[SpecTable], values: list[dict[str, Any]], files: list[str]
+) -> tuple[SpecTable, ...]:
+    """The tables of a list; an error says which one it is."""
+    several = []
+    for i, one in enumerate(values):
+        try:
+            several.append(cls(**_values(cls, one, files)))
+        except GenevaError as error:
+            where = f"[[{name}]] number {i + 1}"
+            raise GenevaError(f"{where}: {error}", (name, i, *error.key[1:])) from None
+    return tuple(several)
 
 
 def _kind(values: dict[str, Any], kinds: KindTable, files: list[str]) -> Any:

@@ -11,8 +11,8 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, TypeVar
 
+import geneva_cli.progress as progress
 from geneva_cli.errors import GenevaError
-from geneva_cli.progress import show_with
 
 if TYPE_CHECKING:
     from concurrent.futures import Future
@@ -71,7 +71,7 @@ def _attend() -> None:
     """Set up a worker process, which ends with the program that started it."""
     if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.SIG_DFL)
-    show_with(None)  # the parent process shows the progress of all
+    progress.maker = None  # the parent process shows the progress of all
     gc.freeze()  # the objects of the parent stay
     gc.set_threshold(50_000)  # new objects: the work makes little cyclic garbage
     threading.Thread(target=_leave, daemon=True).start()

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from geneva_cli.answer import FAILS, PASSES, WARNS, Answer, Summary, SummaryLine, value_text
 from geneva_cli.design import load
-from geneva_cli.errors import GenevaError, Notice, open_warnings
+from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.names import spoken
 from geneva_cli.output import choice
 from geneva_cli.parts.chosen import ByLoad
@@ -64,8 +64,8 @@ def verdict(
             passes=all_pass(checks),
             files=design.spec.files,
             checks=tuple(checks),
-            warnings=tuple(design.check_warnings),
-            unused=tuple(design.unused_acceptances),
+            warnings=tuple(design.check_warnings if design.is_drawn else design.warnings),
+            unused=tuple(design.unused_acceptances) if design.spec.accept.reasons else (),
             chosen=design.chosen_by_load,
         )
     except GenevaError as error:
@@ -103,7 +103,7 @@ def checks_table(verdicts: Sequence[Verdict]) -> Table:
     ]
     # a narrow window shows the limit rather than the angle, which is not known for most checks
     first = ("spec", "check", "value", "must_be", "limit", "passes", "nearest", "at_deg", "why")
-    return rows_table(names, rows).replaced(reading=Reading(first))
+    return rows_table(names, rows, reading=Reading(first))
 
 
 def checks_record(verdicts: Sequence[Verdict]) -> Table:
@@ -175,7 +175,7 @@ def of_checks(verdicts: Sequence[Verdict], page: bool, as_json: bool) -> Answer:
     return Answer((*heads, *details), table if page else None, data)
 
 
-def headline(checks: Sequence[Check], warnings: Sequence[str]) -> tuple[str, str]:
+def headline(checks: Sequence[Check], warnings: Sequence[Notice]) -> tuple[str, str]:
     """State of a design (PASSES, WARNS or FAILS), and counts of its checks and warnings in words.
 
     >>> from geneva_cli.verdict.checks import Check
@@ -198,7 +198,7 @@ def headline(checks: Sequence[Check], warnings: Sequence[str]) -> tuple[str, str
     if not_proved:
         text += f", {not_proved} not proved"
     text += driven
-    left = open_warnings(warnings)
+    left = [one for one in warnings if not one.accepted]
     if left:
         text += f", {len(left)} warning{'s' * (len(left) != 1)}"
     if accepted := len(warnings) - len(left):

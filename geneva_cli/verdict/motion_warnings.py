@@ -14,7 +14,7 @@ from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.shafts.fits import closest_mm, loosest_mm
 from geneva_cli.spec.tables import Z_USUAL
-from geneva_cli.spec.workshops import workshop
+from geneva_cli.spec.workshops import WORKSHOPS
 
 SHOWN_UNDERCUT = 0.005  # mm: a wall cut back by less is within a shop's tolerance
 
@@ -89,7 +89,7 @@ def _fits(mechanism: Mechanism) -> Iterator[Notice]:
     if mechanism.spec.has_lock:
         radius = mechanism.ratio * mechanism.center_distance_mm if disc is None else disc
         pairs.append(("lock_clearance_mm", "locking disc", "recess", radius))
-    shop = workshop(size.process)
+    shop = WORKSHOPS[size.process]
     for key, part, mate, radius in pairs:
         clearance, fit = getattr(size, key), loosest_mm(2.0 * radius)
         if clearance is None:

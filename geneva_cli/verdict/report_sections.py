@@ -12,7 +12,6 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peaks import greatest_jumps, peaks
 from geneva_cli.motion.timing import timings
 from geneva_cli.numerics.angles import omega
-from geneva_cli.numerics.arrays import scalar
 from geneva_cli.parts.parts import Parts
 from geneva_cli.table import Reading, rows_table
 from geneva_cli.verdict.quantities.batch_designs import Numbers, Values, only, single
@@ -221,7 +220,7 @@ def _cut_radii(parts: Parts) -> Values:
 
         where = assembly(parts.mechanism)
         ends, _, _ = roller_paths(where)
-        mouth = max(where.L * scalar(s.reach(s.entry_deg)) for s in where.kinds)
+        mouth = max(where.L * float(s.reach(s.entry_deg)) for s in where.kinds)
         bottom = max(ends) if inside else min(ends)
         with suppress(GenevaError):  # ``parts.none`` gives the reason
             rim = machine_sizes(parts.mechanism)[1].rim

@@ -20,7 +20,7 @@ from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.turn.full_turn import SAME
 from geneva_cli.parts.wheel_body import wheel_body
 from geneva_cli.spec.tables import Motor
-from geneva_cli.spec.workshops import workshop
+from geneva_cli.spec.workshops import WORKSHOPS
 from geneva_cli.verdict.checks.turn_checks import motion_play_max, slips_deg
 from geneva_cli.verdict.motion_warnings import motion_warnings
 
@@ -169,7 +169,7 @@ def _process_warnings(parts: Parts) -> Iterator[Notice]:
             f"{part}_shaft_high_mm makes it longer",
         )
     if spec.size.process:
-        shop = workshop(spec.size.process)
+        shop = WORKSHOPS[spec.size.process]
         yield from gears_without_teeth(spec)
         yield from _small_holes(named, shop.hole)
         if named and spec.is_flat and shop.cut_mm:

@@ -85,13 +85,10 @@ def test_a_bar_shows_what_is_left_and_goes(capsys, monkeypatch):
     clock = iter([0.0, 0.5, 2.0, 2.05, 3.0])
     monkeypatch.setattr("geneva_cli.output.terminal.bar.time.monotonic", lambda: next(clock))
     monkeypatch.setattr("geneva_cli.output.terminal.bar.columns", lambda: 60)
-    progress.show_with(TextBar)
-    try:
-        # what is inside of other work shows nothing of its own
-        outer = (len([*progress.tracked("ab", "inner", 2)]) for _ in range(4))
-        assert [*progress.tracked(outer, "outer", 4)] == [2] * 4
-    finally:
-        progress.show_with(None)
+    monkeypatch.setattr(progress, "maker", TextBar)
+    # what is inside of other work shows nothing of its own
+    outer = (len([*progress.tracked("ab", "inner", 2)]) for _ in range(4))
+    assert [*progress.tracked(outer, "outer", 4)] == [2] * 4
     _, first, second, *end = capsys.readouterr().err.split("\r")
     assert first == f"[{'#' * 15}{'-' * 15}] 2 of 4 outer, 0:02 left"
     assert second == f"[{'#' * 30}] 4 of 4 outer, 0:00 left"

@@ -18,8 +18,7 @@ from geneva_cli import output
 from geneva_cli.cli.app import COMMANDS, app
 from geneva_cli.cli.pages import page
 from geneva_cli.manual import TOPICS
-from geneva_cli.output.terminal.layout import value
-from geneva_cli.output.terminal.summary import Window
+from geneva_cli.output.terminal.layout import Window, value
 from geneva_cli.output.terminal.terminal_tables import chunks
 from geneva_cli.table import Reading, record_table, rows_table
 

@@ -10,7 +10,7 @@ import pytest
 from geneva_cli.output import text
 from geneva_cli.output.terminal import page_reader
 from geneva_cli.output.terminal import terminal_tables as terminal
-from geneva_cli.output.terminal.summary import Window
+from geneva_cli.output.terminal.layout import Window
 
 COLUMNS = (60, 80, 120, 200)
 STYLED = (True, False)

@@ -16,7 +16,7 @@ import time
 
 import numpy as np
 from loaded_arrays import beyond, loaded
-from many_options import options
+from stress_many import options
 
 from geneva_cli.loads.load_case import known_quantities
 from geneva_cli.loads.load_peaks import load_peaks, load_summaries

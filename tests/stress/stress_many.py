@@ -13,6 +13,7 @@ parts, and some at distances of all orders of magnitude from the motion's ends a
 A very narrow peak, which some hundred designs would hide, shows in a million.
 """
 
+import argparse
 import math
 import sys
 import time
@@ -21,7 +22,6 @@ from typing import NamedTuple
 import numpy as np
 from design_arrays import MACHINES, alone, drawn
 from machine_witness import motions
-from many_options import options
 from witness import QUANTITIES as EXACT
 
 from geneva_cli.motion.batch import taken
@@ -130,6 +130,21 @@ def errors(true, peaks, row):
         true_size, slope, *_ = (abs(v) for v in EXACT[name](true.derivatives(at)))
         moves = slope / true_size * math.radians(math.ulp(at))
         yield max(float(abs(size / true_size - 1) - moves), 0.0)
+
+
+def options(doc):
+    """Return ``designs``, ``machine``, ``seconds`` and ``seed`` of the command line.
+
+    The first line of ``doc`` is the title of its help.
+    """
+    parser = argparse.ArgumentParser(description=doc.split("\n")[0])
+    parser.add_argument("--designs", type=int, default=20_000, help="of each machine")
+    parser.add_argument("--machine", action="append", choices=list(MACHINES))
+    parser.add_argument("--seconds", type=float, default=math.inf, help="for each machine, of CPU")
+    parser.add_argument("--seed", type=int, default=12, help="of the designs drawn")
+    chosen = parser.parse_args()
+    chosen.machine = chosen.machine or list(MACHINES)
+    return chosen
 
 
 def main():

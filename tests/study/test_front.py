@@ -5,8 +5,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from geneva_cli.errors import GenevaError
-from geneva_cli.study.sweep.constraints import Objective, objective
 from geneva_cli.study.sweep.front import front
 
 
@@ -39,14 +37,3 @@ def test_rows_without_a_number_are_none_of_them():
     assert front(costs).tolist() == [0, 2]
     assert front(-costs[:, :1]).tolist() == [2, 3]
     assert front(np.array([[np.nan]])).tolist() == []
-
-
-def test_objectives():
-    assert objective("min:acceleration.max", "--best") == Objective(1.0, "acceleration.max")
-    assert objective(" max:dwell_s", "--best").sign == -1.0
-
-
-@pytest.mark.parametrize("text", ["acceleration.max", "least:a", "min:", ""])
-def test_no_objective(text):
-    with pytest.raises(GenevaError, match=r"--best .*min:FIELD or max:FIELD"):
-        objective(text, "--best")

@@ -6,10 +6,14 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from geneva_cli import load
+from geneva_cli import External, load
 from geneva_cli.cli.app import app
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.parts.parts import parts_of
+from geneva_cli.spec.tables import Load, Size
 from geneva_cli.specfile.reader import read
+from geneva_cli.study.batches import batch_machines, numbers
+from geneva_cli.study.sweep.request import request
 from geneva_cli.study.sweep.run import Sweep, plan, sweep
 from geneva_cli.study.sweep.values import axis
 
@@ -17,6 +21,7 @@ DESIGNS = os.path.join(os.path.dirname(__file__), os.pardir, os.pardir, "designs
 TIMING = ["timing.motion_deg", "timing.dwell_s", "timing.k"]
 # the last bits of one sine by the C library, of many by NumPy
 CLOSE = 1e-13
+CHECKED = ("checks.passes", "checks.failed")
 
 
 def rows(spec, vary, picks, random=None):
@@ -25,7 +30,7 @@ def rows(spec, vary, picks, random=None):
         plan([axis(v, random is not None) for v in vary], random, 5),
         picks=picks,
     )
-    together = [*found.rows(0, len(found.plan))]
+    together = [*found.rows_of(found.plan.columns(0, len(found.plan)))]
     alone = [Sweep.row(found, some) for some in found.plan.rows(0, len(found.plan))]
     return together, alone, found
 
@@ -81,3 +86,66 @@ def test_parts_are_kept_for_another_speed_and_not_for_another_drive():
     following, alone = first.following(other), parts_of(other).outlines
     assert following.mechanism is other and following.outlines.crank == alone.crank
     assert alone.crank != first.outlines.crank
+
+
+def test_a_design_that_cannot_be_built_spoils_no_batch():
+    text = read(os.path.join(DESIGNS, "turret.toml"))
+    picks = ["checks.pin_stress_MPa", "checks.passes"]
+    checked = sweep(text, plan([axis("load.efficiency=0.5,2,0.9")], None, 0), picks=picks)
+    first, refused, last = checked.rows_of(checked.plan.columns(0, 3))
+    assert refused[1:3] == [None, None] and "efficiency" in refused[3]
+    assert first[2] is last[2] is True and first[1] == pytest.approx(last[1], rel=1e-14)
+
+
+@pytest.mark.sampled(3)
+@pytest.mark.parametrize(
+    ("name", "varied"),
+    [
+        ("modified-trapezoid-z5.toml", "drive.n_rpm=30,60,90"),
+        ("modified-trapezoid-z5.toml", "size.center_distance_mm=90,110,110"),
+        ("modified-trapezoid-z5.toml", "motion.alpha0_deg=0,0,5"),
+        ("press-straight.toml", "load.inertia_kgm2=1,100"),  # larger sizes under the larger load
+        ("press-straight.toml", "limits.velocity_max=1,2,9"),
+    ],
+)
+def test_designs_with_equal_parts_have_one_turn(name, varied):
+    """It is computed once for all designs whose parts are equal, and for no others."""
+    text = read(os.path.join(DESIGNS, name))
+    checked = sweep(text, plan([axis(varied)], None, 0), picks=["checks.gap_mm", *CHECKED])
+    together = [*checked.rows_of(checked.plan.columns(0, len(checked.plan)))]
+    assert together == [checked.row(row[:1]) for row in together]
+
+
+@pytest.mark.sampled(2)
+@pytest.mark.parametrize(
+    ("text", "vary", "refused"),
+    [
+        ("steps_deg = [72, 48]", "wheel.offset_mm=0,0.003", "remove one of them"),
+        ("[drive]\nrollers = 2\nroller_angles_deg = [0, 90]", "wheel.z=4,5", "jam"),
+    ],
+)
+def test_one_of_a_batch_is_left(tmp_path, text, vary, refused):
+    """The others are refused in their rows; of one a batch is a batch too."""
+    z = 6 if "steps" in text else 4
+    path = tmp_path / "spec.toml"
+    path.write_text(
+        f"[wheel]\nz = {z}\n{text}\n[size]\nface_width_mm = 10\n[load]\ntorque_Nm = 5\n"
+    )
+    pick = "life.horn_stress_MPa,strength.lock.force_N"
+    [[left, other]] = request(str(path), [vary], pick=pick).blocks()
+    [[single]] = request(str(path), [f"{vary.split(',')[0]}"], pick=pick).blocks()
+    assert left[-1] is None
+    assert left[1:-1] == pytest.approx(single[1:-1], rel=1e-14)
+    assert other[1:-1] == [None, None]
+    assert refused in other[-1]
+
+
+def test_specs_of_one_kind_keep_their_own_loads_and_sizes():
+    """A force goes with the inertia, and with 1/L: three times the one, a third of the other."""
+    specs = [
+        Spec(External(6), load=Load(inertia_kgm2=inertia), size=Size(center_distance_mm=L))
+        for inertia, L in ((1.0, 100.0), (3.0, 100.0), (1.0, 300.0))
+    ]
+    ((one, heavy, wide),) = numbers(batch_machines(specs), ["loads.pin_force_N.max"], 3)
+    assert heavy == pytest.approx(3.0 * one, rel=1e-12)
+    assert wide == pytest.approx(one / 3.0, rel=1e-12)

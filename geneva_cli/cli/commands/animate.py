@@ -3,7 +3,7 @@
 import os
 from typing import Annotated
 
-from geneva_cli.cli.command import Reverse, Settings, SpecPath, flag, output_option, warn
+from geneva_cli.cli.command import Reverse, Settings, SpecPath, flag, output_option, say
 from geneva_cli.errors import GenevaError
 
 EXAMPLES = (
@@ -42,7 +42,7 @@ def run(
         place = os.path.join(tempfile.mkdtemp(prefix="geneva-"), "machine.html")
     shown = load_extra("outline", "scene")(design) if design.is_drawn else scene(design)
     animate(shown, place, design.spec.files)
-    warn(design)
+    say(design.spec.path, design.motion_warnings)
     if open_:
         import webbrowser
         from pathlib import Path

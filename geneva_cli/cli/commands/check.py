@@ -11,7 +11,6 @@ from geneva_cli.cli.command import (
     Output,
     Reverse,
     Settings,
-    flag,
     option,
     say,
 )
@@ -23,7 +22,7 @@ DRAWN = "A drawing from elsewhere"
 
 def run(
     specs: Annotated[list[str], typer.Argument(metavar="SPEC...", help="Specs, TOML files.")],
-    strict: Annotated[bool, flag("--strict", "Exit 1 on a warning too.")] = False,
+    strict: Annotated[bool, typer.Option("--strict", help="Exit 1 on a warning too.")] = False,
     verbose: Annotated[
         bool, typer.Option("-v", "--verbose", help="Every check, a row each.")
     ] = False,

@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.cli.command import Output, Reverse, Settings, SpecPath, one_of, option, warn
+from geneva_cli.cli.command import Output, Reverse, Settings, SpecPath, one_of, option, say
 from geneva_cli.errors import GenevaError, clean
 from geneva_cli.output.formats import CAMS, CONTROLLERS, FORMATS
 
@@ -64,7 +64,7 @@ def run(
             raise GenevaError("--for and --tolerance are for electronic cams: --format cam")
         rows = 361 if samples is None else samples
         show(design.motion(rows, turns, _angles(at, samples, turns)), output, format, files)
-        warn(design)
+        say(design.spec.path, design.motion_warnings)
         return
     from geneva_cli.spec.load_named import load_extra
 
@@ -81,7 +81,7 @@ def run(
         show(content, output, "csv", files)
     text, is_met = load_extra("servo", "cam_words")(controller, rows, error_deg, tolerance)
     print(clean(f"{spec}: {text}"), file=sys.stderr)
-    warn(design)
+    say(design.spec.path, design.motion_warnings)
     if not is_met:
         raise typer.Exit(1)
 

@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from geneva_cli.cli.command import Format, Output, Reverse, Settings, SpecPath, flag, warn
+from geneva_cli.cli.command import Format, Output, Reverse, Settings, SpecPath, flag, say
 
 EXAMPLES = (
     "geneva peaks spec.toml",
@@ -36,4 +36,4 @@ def run(
     if certify:
         table = design.certified_peaks(is_for_people(output, format))
     show(table, output, format, design.spec.files)
-    warn(design)
+    say(design.spec.path, design.motion_warnings)

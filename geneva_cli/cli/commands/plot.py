@@ -4,7 +4,7 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.cli.command import AlsoReverse, Output, Settings, option, say, warn
+from geneva_cli.cli.command import AlsoReverse, Output, Settings, option, say
 from geneva_cli.errors import GenevaError, cut
 
 EXAMPLES = (
@@ -60,7 +60,7 @@ def run(
     figure, designs, left_out = of_specs(specs, settings or (), _names(pick), vary or (), reverse)
     show_figure(figure, output, format, [file for d in designs for file in d.spec.files])
     for design in designs:
-        warn(design)
+        say(design.spec.path, design.motion_warnings)
         say(design.spec.path, design.ideal_notes)
     for path, text in left_out:
         say(path, [text])

@@ -10,7 +10,7 @@ from geneva_cli.cli.command import (
     one_of,
     option,
     require_written,
-    warn,
+    say,
 )
 from geneva_cli.drawings.catalogue import is_sheet, require_tolerance
 from geneva_cli.errors import GenevaError, cut
@@ -85,7 +85,7 @@ def run(
         if dxf_version is not None:
             raise GenevaError("--dxf-version is for drawings; this is a table of points")
         show(design.part_table(part, tolerance, samples), output, format, files)
-        warn(design)
+        say(design.spec.path, design.motion_warnings)
         return
     if samples is not None:
         raise GenevaError("--samples is for tables of points; drawings take --tolerance")
@@ -103,7 +103,7 @@ def run(
         drawing = design.drawing(part, tolerance, curves, kerf)
         shown = drawing if kerf is not None else design.drawing_over(drawing)
         draw(shown, output, format, files, dxf_version or "")
-    warn(design)
+    say(design.spec.path, design.motion_warnings)
 
 
 def _refuse(kerf: float | None, cutter: float | None) -> None:

@@ -4,7 +4,7 @@ import sys
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated
 
-from geneva_cli.cli.command import Format, Output, Settings, flag, option, warn
+from geneva_cli.cli.command import Format, Output, Settings, flag, option, say
 from geneva_cli.errors import GenevaError, clean, cut
 
 if TYPE_CHECKING:
@@ -128,4 +128,4 @@ def _write(target: "Target", number: int, buildable: bool, output: str, format: 
     if row.trouble:
         note = f"{path}: warning: its parts cannot be built: {row.trouble}"
         print(clean(note), file=sys.stderr)
-    warn(Design.of(row.spec.replace(path=path)))
+    say(path, Design.of(row.spec.replace(path=path)).motion_warnings)

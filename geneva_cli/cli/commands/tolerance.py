@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from geneva_cli.cli.command import Format, Output, Settings, SpecPath, option, say, warn
+from geneva_cli.cli.command import Format, Output, Settings, SpecPath, option, say
 
 EXAMPLES = ("geneva tolerance spec.toml --set tolerance.slot_angle_deg=0.01",)
 
@@ -31,6 +31,6 @@ def run(
     show_answer(of_tolerance(design, table), output, format, design.spec.files)
     # the warnings of tolerances only
     if output != "-" or not is_for_people(output, format):
-        warn(design)
+        say(design.spec.path, design.motion_warnings)
     if output != "-":
         say(design.spec.path, table.to_dict()["warnings"])

@@ -28,7 +28,7 @@ from geneva_cli.geometry.sheet import (
 )
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.spec.defaults import material_names
-from geneva_cli.spec.workshops import workshop
+from geneva_cli.spec.workshops import WORKSHOPS
 from geneva_cli.spec.written import length, number
 
 LEFT, MARGIN = 20.0, 10.0  # mm: margin of the frame on the filing side, and on the others
@@ -135,7 +135,7 @@ def _title_block(spec: Spec, rows: list[dict[str, Any]], scale: float, paper: Pa
 
     Fields without a value are empty, for a pen.
     """
-    own, shop, materials = spec.drawing, workshop(spec.size.process), material_names(spec)
+    own, shop, materials = spec.drawing, WORKSHOPS[spec.size.process], material_names(spec)
     mass = sum(row["mass_kg"] * row["count"] for row in rows)
     # mg where kg would have too many zeros for the field
     shown = f"{_rounded(mass)} kg" if mass >= 1e-3 else f"{_rounded(1e6 * mass)} mg"

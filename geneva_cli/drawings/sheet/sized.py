@@ -9,7 +9,7 @@ from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.shafts.fits import limits
 from geneva_cli.parts.shafts.screws import SCREWS, screw_through
 from geneva_cli.spec.tables import Size
-from geneva_cli.spec.workshops import workshop
+from geneva_cli.spec.workshops import WORKSHOPS
 from geneva_cli.spec.written import length, signed
 
 
@@ -40,7 +40,7 @@ class Fits(NamedTuple):
 
     def text(self, nominal_mm: float, shown: str, fit: str) -> str:
         """Return a size with its fit, with the deviation of a cut, or alone if none is kept."""
-        shop = workshop(self.process)
+        shop = WORKSHOPS[self.process]
         if self.thickness_mm is not None and shop.cut_mm:
             return f"{shown} ±{shop.cut_mm(self.thickness_mm, nominal_mm):g}"
         return toleranced(nominal_mm, shown, fit) if shop.fits else shown
@@ -48,7 +48,7 @@ class Fits(NamedTuple):
     @property
     def is_iso(self) -> bool:
         """True if the part has fits of ISO 286."""
-        shop = workshop(self.process)
+        shop = WORKSHOPS[self.process]
         return shop.fits and (self.thickness_mm is None or shop.cut_mm is None)
 
     @property
@@ -91,7 +91,7 @@ def made(fits: Fits, mechanism: Mechanism, what: str, half: float) -> str:
         "pin hole": ("H7" if clear.press_fit_mm else "P7", 0.0),
     }[what]
     shown = fitted(fits, 2.0 * half, "" if what == "slot" else "Ø ", fit, deviation)
-    is_pressed = size.press_fit_mm is not None or workshop(size.process).cut_mm is None
+    is_pressed = size.press_fit_mm is not None or WORKSHOPS[size.process].cut_mm is None
     if what != "pin hole" or is_pressed:
         return shown
     pin = 2.0 * half + clear.press_fit_mm

@@ -95,7 +95,7 @@ def bored(view: View, bores: Sequence[Shape], size: Size, part: str) -> None:
     form = Bore(radius_of(shape))
     if isinstance(shape, Contour):
         # without the rounding errors of the sum, which would choose another key
-        form = bore_of(size, part, round(form.radius - size.allowances.around_shaft_mm, 9))
+        form = bore_of(size, part, round(form.radius - 0.5 * size.allowances.shaft_fit_mm, 9))
     if form.form != "hex":
         cut = form.radius + form.loose
         view.diameter([Circle("", ORIGIN, cut)], sized.bore(view.fits, cut))

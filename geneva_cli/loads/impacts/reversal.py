@@ -40,7 +40,7 @@ from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.quadrature import rule
 from geneva_cli.numerics.roots import boundary, find_roots
 from geneva_cli.numerics.tolerances import ROUNDED
-from geneva_cli.spec.workshops import workshop
+from geneva_cli.spec.workshops import WORKSHOPS
 
 
 def changes(engagement: Engagement, drag: Array) -> tuple[Whole, Array]:
@@ -176,7 +176,7 @@ def reversal_impacts(mechanism: Mechanism, pin: PinSize | None = None) -> Impact
     spec, case = mechanism.spec, load_case(mechanism)
     given = spec.size.allowances.slot_clearance_mm
     both = spec.tolerance.roller_diameter_mm + spec.tolerance.slot_width_mm
-    play_mm = choose(given == 0.0, workshop(spec.size.process).slot_play_mm, given) + 0.5 * both
+    play_mm = choose(given == 0.0, WORKSHOPS[spec.size.process].slot_play_mm, given) + 0.5 * both
     drag = drag_over(mechanism)
     none = (drag == np.inf) | (play_mm == 0.0)
     if all_true(none):

@@ -5,19 +5,47 @@ Nothing is cut: a number keeps its width, and text is broken between words only.
 
 from __future__ import annotations
 
+import os
 import re
+import shutil
 import unicodedata
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 from geneva_cli.errors import clean
-from geneva_cli.output.terminal.summary import BOLD, DIM, Window, styled
 from geneva_cli.output.text import WIDTH, cell
 from geneva_cli.table import for_people
 
+BOLD, DIM, PLAIN = "\x1b[1m", "\x1b[2m", "\x1b[0m"
 GAP = "  "  # between two columns
 PROSE = 28  # letters to which a column of prose is narrowed before another column is omitted
 NUMBER = 11  # letters of the widest number, -123456.789 mm
+
+
+class Window(NamedTuple):
+    """The width of lines in letters, the look of letters, and the options for all columns.
+
+    A ``whole`` table has every column, constant ones too; a ``wide`` one exceeds the window.
+    Letters may be ``styled``, as bold ones.
+    """
+
+    columns: int
+    styled: bool = False
+    whole: bool = False
+    wide: bool = False
+
+
+def window(whole: bool, is_wide: bool) -> Window:
+    """The window of standard output; COLUMNS has precedence over the terminal's own width."""
+    styled = os.environ.get("TERM", "dumb") != "dumb" and not os.environ.get("NO_COLOR")
+    # A window of fewer than 60 columns breaks lines itself.
+    columns = max(shutil.get_terminal_size().columns, 60)
+    return Window(columns, styled, whole or is_wide, is_wide)
+
+
+def styled(text: str, style: str, is_styled: bool) -> str:
+    """A text in a style such as bold, if the terminal supports it; an empty one stays empty."""
+    return f"{style}{text}{PLAIN}" if is_styled and style and text else text
 
 
 class ShownColumn(NamedTuple):

@@ -9,8 +9,16 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from geneva_cli.output.terminal.layout import ShownColumn, heads, row, widths, wrapped
-from geneva_cli.output.terminal.summary import BOLD, PLAIN, Window
+from geneva_cli.output.terminal.layout import (
+    BOLD,
+    PLAIN,
+    ShownColumn,
+    Window,
+    heads,
+    row,
+    widths,
+    wrapped,
+)
 from geneva_cli.output.text import WIDTH
 
 FENCE = "```"

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from itertools import chain
 
-from geneva_cli.progress import show_with
+import geneva_cli.progress as progress
 
 is_wanted = True  # False after --no-pager
 
@@ -62,7 +62,7 @@ def _through(command: str, chunks: Iterable[str]) -> None:
     import subprocess
 
     sys.stdout.flush()
-    show_with(None)  # a bar would be drawn over the pager's page
+    progress.maker = None  # a bar would be drawn over the pager's page
     pager = subprocess.Popen(
         command,
         shell=True,

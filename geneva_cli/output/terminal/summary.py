@@ -1,21 +1,18 @@
-"""Summaries for people: a headline with a sign, then lines that fit the window; and the window."""
+"""Summaries for people: a headline with a sign, then lines that fit the window."""
 
 from __future__ import annotations
 
-import os
 import re
-import shutil
 import sys
 import textwrap
 from collections.abc import Iterable, Iterator
-from typing import NamedTuple
 
 from geneva_cli.answer import FAILS, NO_BREAK, PASSES, RAISED, TIMES, WARNS, Summary
 from geneva_cli.errors import clean
 from geneva_cli.output.text import WIDTH
 
 LABEL_MAX = 20  # letters; a longer label stands above its text
-BOLD, DIM, PLAIN = "\x1b[1m", "\x1b[2m", "\x1b[0m"
+DIM, PLAIN = "\x1b[2m", "\x1b[0m"
 SIGNS = {PASSES: "✓", WARNS: "!", FAILS: "✗"}
 INKS = {PASSES: "\x1b[32m", WARNS: "\x1b[33m", FAILS: "\x1b[31m"}  # green, yellow, red
 # a unit behind a number, from which it is not separated; units of several words
@@ -24,52 +21,26 @@ UNITS = ("N m s", "N m", "kg m²")
 ASCII = {"✓": "ok", "✗": "x", "°": " deg", "²": "2", "³": "3", "Ø": "dia."}
 
 
-class Window(NamedTuple):
-    """The width of lines in letters, the look of letters, and the options for all columns.
+def chunks(summaries: Iterable[Summary], output: str, is_seen: bool) -> Iterator[str]:
+    """Each summary as text, with empty lines around one that has lines.
 
-    A ``whole`` table has every column, constant ones too; a ``wide`` one exceeds the window.
-    Letters may be ``styled``, as bold ones, and without ``unicode`` they are ASCII.
+    Its look is for a terminal if ``is_seen``, a pipe, or a file, which is always UTF-8.
     """
+    columns, unicode, dim, plain = WIDTH, True, "", ""
+    inks: dict[str, str] = {}
+    if output == "-":
+        try:
+            "✓✗°²³⁻⁵".encode(sys.stdout.encoding or "ascii")
+        except (UnicodeEncodeError, LookupError):
+            unicode = False
+    if is_seen:
+        from geneva_cli.output.terminal.layout import window
 
-    columns: int
-    styled: bool = False
-    whole: bool = False
-    wide: bool = False
-    unicode: bool = True
-
-
-def window(whole: bool, is_wide: bool) -> Window:
-    """The window of standard output; COLUMNS has precedence over the terminal's own width."""
-    styled = os.environ.get("TERM", "dumb") != "dumb" and not os.environ.get("NO_COLOR")
-    # A window of fewer than 60 columns breaks lines itself.
-    columns = max(shutil.get_terminal_size().columns, 60)
-    return Window(columns, styled, whole or is_wide, is_wide)
-
-
-def styled(text: str, style: str, is_styled: bool) -> str:
-    """A text in a style such as bold, if the terminal supports it; an empty one stays empty."""
-    return f"{style}{text}{PLAIN}" if is_styled and style and text else text
-
-
-def style_of(output: str, is_seen: bool) -> Window:
-    """The look for a terminal if ``is_seen``, a pipe, or a file, which is always UTF-8."""
-    if output != "-":
-        return Window(WIDTH)
-    try:
-        "✓✗°²³⁻⁵".encode(sys.stdout.encoding or "ascii")
-        unicode = True
-    except (UnicodeEncodeError, LookupError):
-        unicode = False
-    if not is_seen:
-        return Window(WIDTH, unicode=unicode)
-    terminal = window(False, False)
-    # Lines of more than 100 letters are hard to read.
-    return terminal._replace(columns=min(terminal.columns, 100), unicode=unicode)
-
-
-def chunks(summaries: Iterable[Summary], look: Window) -> Iterator[str]:
-    """Each summary as text, with empty lines around one that has lines."""
-    inks, dim, plain = (INKS, DIM, PLAIN) if look.styled else ({}, "", "")
+        terminal = window(False, False)
+        # Lines of more than 100 letters are hard to read.
+        columns = min(terminal.columns, 100)
+        if terminal.styled:
+            inks, dim, plain = INKS, DIM, PLAIN
     before: Summary | None = None
     for summary in summaries:
         lines = summary.lines
@@ -77,16 +48,16 @@ def chunks(summaries: Iterable[Summary], look: Window) -> Iterator[str]:
             yield "\n"
         before = summary
         sign = SIGNS.get(summary.state, "")
-        sign = sign if look.unicode else ASCII.get(sign, sign)
+        sign = sign if unicode else ASCII.get(sign, sign)
         indent = " " * (len(sign) + 1) if sign else ""
-        text = f"\n{indent}".join(_wrapped(summary.head, look.columns - len(indent), look))
+        text = f"\n{indent}".join(_wrapped(summary.head, columns - len(indent), unicode))
         ink = inks.get(summary.state, "")
         yield f"{ink}{sign}{plain} {text}\n" if sign else f"{text}\n"
         wide = 0
         for line in lines:
             if len(line.label) <= LABEL_MAX:
                 wide = max(wide, len(line.label))
-        width = look.columns - wide - 4
+        width = columns - wide - 4
         if lines:
             yield "\n"
         for line in lines:
@@ -96,21 +67,21 @@ def chunks(summaries: Iterable[Summary], look: Window) -> Iterator[str]:
             if len(line.label) > wide:
                 yield f"  {label}\n"
                 first = " " * (wide + 4)
-            for text in _wrapped(line.text, width, look):
+            for text in _wrapped(line.text, width, unicode):
                 yield f"{first}{text}".rstrip() + "\n"
                 first = " " * (wide + 4)
-            for note in _wrapped(line.note, width, look):
+            for note in _wrapped(line.note, width, unicode):
                 yield f"{first}{dim}{note}{plain}".rstrip() + "\n"
                 first = " " * (wide + 4)
 
 
-def _wrapped(text: str, width: int, look: Window) -> list[str]:
+def _wrapped(text: str, width: int, unicode: bool) -> list[str]:
     """A text in lines; a value is not separated from its power of ten or its unit."""
     text = UNIT.sub(rf"{NO_BREAK}\1", text)
     for unit in UNITS:
         text = text.replace(f"{NO_BREAK}{unit}", f"{NO_BREAK}{unit.replace(' ', NO_BREAK)}")
     text = NO_BREAK.join(map(clean, text.split(NO_BREAK)))
-    if not look.unicode:
+    if not unicode:
         lowered = {raised: plain for plain, raised in RAISED.items()}
         power = f"{TIMES}10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)"
         text = re.sub(power, lambda match: f"e{match[1].translate(lowered)}", text)

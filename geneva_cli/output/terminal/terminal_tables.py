@@ -10,14 +10,18 @@ from typing import Any
 from geneva_cli.errors import clean
 from geneva_cli.names import heading, spoken
 from geneva_cli.output.terminal.layout import (
+    BOLD,
+    DIM,
     GAP,
     NUMBER,
     ShownColumn,
+    Window,
     bare,
     fitting,
     heads,
     paragraphs,
     row,
+    styled,
     transposed,
     value,
     width_of,
@@ -25,7 +29,6 @@ from geneva_cli.output.terminal.layout import (
     with_unit,
     wrapped,
 )
-from geneva_cli.output.terminal.summary import BOLD, DIM, Window, styled
 from geneva_cli.output.text import WIDTH, apart, without_noise
 from geneva_cli.table import Table
 

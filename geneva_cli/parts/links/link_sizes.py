@@ -41,7 +41,7 @@ def link_sizes(
     if drawn:
         thickness, arm = drawn.link_thickness, drawn.arm_thickness
     own = None if size.link_bore_mm is None else 0.5 * size.link_bore_mm
-    roller, loose = pin_hole(size, stands) if stands else 0.0, size.allowances.around_shaft_mm
+    roller, loose = pin_hole(size, stands) if stands else 0.0, 0.5 * size.allowances.shaft_fit_mm
     # a fifth of the distance to the next joint leaves eyes and a gap between
     nearest = min(
         (

@@ -205,7 +205,7 @@ def takes_arcs(assembly: Assembly, sizes: Sizes) -> bool:
         return False
     bore = 0.5 * (size.crank_bore_mm or 0.0)
     _, hub = reach_and_hub(size, "crank", bore, sizes.wall_min)
-    wall = size.allowances.around_shaft_mm + sizes.wall_min
+    wall = 0.5 * size.allowances.shaft_fit_mm + sizes.wall_min
     needed = max(bore + wall if bore else 0.0, hub if size.has_hub("crank") else 0.0)
     return floor >= min(needed, assembly.L - sizes.rim - sizes.relief)
 

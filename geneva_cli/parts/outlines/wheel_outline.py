@@ -27,7 +27,7 @@ from geneva_cli.geometry.shapes import (
     polar,
 )
 from geneva_cli.motion.engagement import Engagement
-from geneva_cli.numerics.arrays import array, scalar
+from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.sizes import Sizes
@@ -65,7 +65,7 @@ def slot_walls(
     u, v = engagement.slot(0.0, 0)
     angle = math.atan2(out * (y.c[0] - v.c[0]), out * (x.c[0] - u.c[0]))
     c, s = math.cos(angle), math.sin(angle)
-    level = scalar(L * y.c[0] * c - L * x.c[0] * s)
+    level = float(L * y.c[0] * c - L * x.c[0] * s)
     level = level if abs(level) > 1e-12 * L else 0.0
     # the deepest position of the roller's centre along it
     x, y = engagement.slot(np.linspace(engagement.entry_deg, engagement.exit_deg, 721), 0)

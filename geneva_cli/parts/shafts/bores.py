@@ -120,7 +120,7 @@ def bore_of(size: Size, part: str, radius: float) -> Bore:
     >>> bore_of(Size(wheel_bore="D"), "wheel", 5.0).note
     'flat, 9 to the far side'
     """
-    values, loose = vars(size), size.allowances.around_shaft_mm
+    values, loose = vars(size), 0.5 * size.allowances.shaft_fit_mm
     form, standard = values[f"{part}_bore"], values[f"{part}_keyway"]
     if form == "round":
         fitting = key(standard, radius, part)
@@ -150,7 +150,7 @@ def bore_of(size: Size, part: str, radius: float) -> Bore:
 
 def round_bore(size: Size, radius: float) -> Bore:
     """Return the round bore for a shaft or pin; none where its radius is 0."""
-    return Bore(radius, size.allowances.around_shaft_mm if radius else 0.0)
+    return Bore(radius, 0.5 * size.allowances.shaft_fit_mm if radius else 0.0)
 
 
 def has_shape(size: Size, part: str) -> bool:

@@ -16,7 +16,6 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.measure import fraction_at, segment_length
 from geneva_cli.geometry.shapes import Arc, Contour, Line, Point, Segment
 from geneva_cli.motion.engagement import Engagement
-from geneva_cli.numerics.arrays import scalar
 from geneva_cli.parts.assembly import Assembly
 
 TURN_SAMPLES = 720  # input angles at which a path is sampled
@@ -62,7 +61,7 @@ def mouth(assembly: Assembly, engagement: Engagement, r: float) -> float:
         if engagement.built is not None:
             return math.hypot(*_mouth(assembly, engagement, 1.0), r)
         entry, exit_ = engagement.reach(engagement.entry_deg), engagement.reach(engagement.exit_deg)
-        return math.hypot(assembly.L * nearest(scalar(entry), scalar(exit_)), r)
+        return math.hypot(assembly.L * nearest(float(entry), float(exit_)), r)
     return max(math.hypot(*corner(assembly, engagement, end, r)) for end in (-1.0, 1.0))
 
 
@@ -81,11 +80,11 @@ def _mouth(assembly: Assembly, engagement: Engagement, end: float) -> Point:
     perpendicular from the crank's axis to the slot's.
     """
     x, y = engagement.slot(engagement.entry_deg if end < 0.0 else engagement.exit_deg, 0)
-    px, py = assembly.L * scalar(x.c[0]), assembly.L * scalar(y.c[0])
+    px, py = assembly.L * float(x.c[0]), assembly.L * float(y.c[0])
     if engagement.built is None:
         return px, py
     x, y = engagement.slot(0.0, 0)
-    ux, uy = px - assembly.L * scalar(x.c[0]), py - assembly.L * scalar(y.c[0])
+    ux, uy = px - assembly.L * float(x.c[0]), py - assembly.L * float(y.c[0])
     cx, cy = rest(assembly, engagement, end)
     further = ((cx - px) * ux + (cy - py) * uy) / (ux * ux + uy * uy)
     return px + further * ux, py + further * uy
@@ -131,8 +130,8 @@ def _wall_of_horn(
     x, y = kind.slot(kind.entry_deg if end < 0.0 else kind.exit_deg, 0)
     u, v = kind.slot(0.0, 0)
     L, centre = assembly.L, rest(assembly, kind, end)
-    start = L * scalar(u.c[0]), L * scalar(v.c[0])
-    run = L * scalar(x.c[0]) - start[0], L * scalar(y.c[0]) - start[1]
+    start = L * float(u.c[0]), L * float(v.c[0])
+    run = L * float(x.c[0]) - start[0], L * float(y.c[0]) - start[1]
     ux, uy = run[0] / math.hypot(*run), run[1] / math.hypot(*run)
     off = (centre[1] - start[1]) * ux - (centre[0] - start[0]) * uy
     side = math.copysign(half_width, off)

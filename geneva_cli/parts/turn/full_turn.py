@@ -13,7 +13,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.numerics.arrays import Array, rising, scalar
+from geneva_cli.numerics.arrays import Array, rising
 from geneva_cli.numerics.roots import boundary_by_sections
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG, SAME_LENGTH
 from geneva_cli.parts.turn.play import (
@@ -226,7 +226,7 @@ def _contact(parts: TurnedParts, motion: int, own: slice) -> tuple[float, float]
     assembly, gaps, close = parts.assembly, parts.gaps, parts.close
     engagement, mid = assembly.motions[motion]
     ends = engagement.exit_deg, engagement.entry_deg
-    ahead = scalar(engagement.reach(ends[0])) - scalar(engagement.reach(ends[1]))
+    ahead = float(engagement.reach(ends[0])) - float(engagement.reach(ends[1]))
     # the mouth of an offset slot has a corner for each end, and the rim is at the farther one
     farther = -1.0 if engagement.slot.offset else assembly.sign
     later = farther * ahead < -SAME_LENGTH

@@ -6,6 +6,8 @@ import hashlib
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
+from functools import partial
+from itertools import chain
 from typing import NamedTuple
 
 import numpy as np
@@ -116,30 +118,22 @@ class Sweep(NamedTuple):
         """Return True if all quantities can be computed for a batch of designs."""
         return bool(self.pick.names) and not self.pick.rest.names
 
-    @property
-    def task_size(self) -> int:
-        """The number of designs in one task."""
-        if self.is_batched:
-            return BLOCK
-        if not any(group.makes_parts for group in self.pick.groups):
-            return 64
-        # Parts are slow: eight tasks keep several processes busy. Four designs or more share the
-        # searches of their batch, which keeps the results of at most KEPT.
-        return min(KEPT, max(4, math.ceil(len(self.plan) / 8)))
-
     def blocks(self, done: int = 0, workers: int | None = None) -> Iterator[Rows]:
         """The rows in blocks and in order; the first ``done`` rows are skipped."""
-        starts = range(done, len(self.plan), self.task_size)
+        if self.is_batched:
+            size = BLOCK
+        elif not any(group.makes_parts for group in self.pick.groups):
+            size = 64
+        else:
+            # Parts are slow: eight tasks keep several processes busy. Four designs or more share
+            # the searches of their batch, which keeps the results of at most KEPT.
+            size = min(KEPT, max(4, math.ceil(len(self.plan) / 8)))
+        starts = range(done, len(self.plan), size)
         count = min(len(starts), cores() if workers is None else workers)
-        yield from mapped(self.block, starts, count)
+        yield from mapped(partial(self._block, size), starts, count)
 
-    def block(self, start: int) -> Rows:
-        """The rows of one task, from a design on."""
-        return self.rows(start, min(start + self.task_size, len(self.plan)))
-
-    def rows(self, start: int, stop: int) -> Rows:
-        """The rows of the designs ``start`` to ``stop - 1``."""
-        return self.rows_of(self.plan.columns(start, stop))
+    def _block(self, size: int, start: int) -> Rows:
+        return self.rows_of(self.plan.columns(start, min(start + size, len(self.plan))))
 
     def rows_of(self, keys: Sequence[Column]) -> Rows:
         """The rows of designs from the columns of their keys."""
@@ -178,10 +172,10 @@ class Sweep(NamedTuple):
             last: Parts | None = None
             for i, machine in zip(part, self._machines(designs.taken(np.array(part))), strict=True):
                 if isinstance(machine, GenevaError):
-                    out[i] = self._row(keys[i], machine)
+                    out[i] = self.row(keys[i], machine)
                     continue
                 last = last.following(machine) if last else parts_of(machine)
-                out[i] = self._row(keys[i], last, known.get(i))
+                out[i] = self.row(keys[i], last, known.get(i))
         return [out[i] for i in range(len(keys))]
 
     def _keeps(self, cells: Mapping[str, Cell]) -> bool:
@@ -198,8 +192,7 @@ class Sweep(NamedTuple):
         # the loads of their checks are those of batches
         makes_parts = any(group.makes_parts for group in self.pick.groups)
         for members, machine in self._batches(designs) if makes_parts else ():
-            each = [machines[i] for i in members.tolist()]
-            own = [one for one in each if isinstance(one, Mechanism)]
+            own = [one for i in members.tolist() if isinstance(one := machines[i], Mechanism)]
             if len(own) == len(members) > 1:
                 share(machine, own)
         return machines
@@ -216,23 +209,21 @@ class Sweep(NamedTuple):
                 return own
         return None
 
-    def row(self, values: Sequence[Cell]) -> list[Cell]:
-        """The row of the design with these values of the keys, computed alone."""
-        try:
-            return self._row(values, parts_of(self.machine(values)))
-        except GenevaError as error:
-            return self._row(values, error)
-
-    def _row(
+    def row(
         self,
         values: Sequence[Cell],
-        parts: Parts | GenevaError,
+        parts: Parts | GenevaError | None = None,
         known: Sequence[Cell] | None = None,
     ) -> list[Cell]:
-        """The row of a machine; ``known`` are the quantities of ``pick.batched`` from a batch."""
+        """The row of the design with these values of the keys.
+
+        It is computed alone, with the parts of its machine or the reason for none, if they are
+        given; ``known`` are the quantities of ``pick.batched`` from a batch.
+        """
         try:
             if isinstance(parts, GenevaError):
                 raise parts
+            parts = parts or parts_of(self.machine(values))
             return [*values, *self.pick.of_parts(parts, known, self._keeps), None]
         except GenevaError as error:
             return [*values, *[None] * len(self.pick.names), str(error)]
@@ -251,16 +242,11 @@ def sweep(text: Text, plan: SweepPlan, picks: Sequence[str] = DEFAULT) -> Sweep:
     names = tuple(name for name in pick(picks).names if name not in varied)
     run, size, most = Sweep(text, plan, Pick(names)), len(plan), 1000  # designs of the sample
     count, reasons = min(size, most), list[str]()
-
-    def sample() -> Iterator[tuple[Value, ...]]:
-        # the middle design comes first: most ranges have one that can be built
-        yield from _values([a.between(np.array([0.5])) for a in plan.axes])
-        if plan.random:
-            yield from plan.rows(0, count)
-        for at in (i * size // count for i in range(0 if plan.random else count)):
-            yield from plan.rows(at, at + 1)
-
-    for values in sample():
+    # the middle design comes first: most ranges have one that can be built
+    middle = _values([a.between(np.array([0.5])) for a in plan.axes])
+    every = [(0, count)] if plan.random else [(i * size // count,) * 2 for i in range(count)]
+    sample = (values for a, b in every for values in plan.rows(a, max(a + 1, b)))
+    for values in chain(middle, sample):
         try:
             run.machine(values)
             return run

@@ -82,11 +82,14 @@ def rows(
         if cost is not None:
             *_, motion_deg, period, entry, end = cost
             dwell_deg = period / drive.rollers + entry - end
-        if cost is None or not math.isfinite(cost[1]) or not dwell_deg > -1e-9:  # rounding
+        is_sound = cost is not None and math.isfinite(cost[1])
+        if not (is_sound and dwell_deg > 1e-9):  # rollers without a dwell may jam
             try:
                 build(spec)
             except GenevaError as error:
                 errors.append(str(error))
+                continue
+        if cost is None or not is_sound:
             continue
         motion = target.motion_for(drive.rollers / drive.turns)
         if motion is not None and not allows(motion, motion_deg):

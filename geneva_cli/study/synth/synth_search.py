@@ -47,7 +47,7 @@ class Ranking(NamedTuple):
 
     def rank(self, row: MachineRow) -> tuple[object, ...]:
         """The sort key of a row: the goal's quantity, then peaks, equal in 12 digits."""
-        target, one = self.requested, row.cells
+        target, numbers, cells = self.requested, [row.peak, row.cells["jerk_max"]], row.cells
         first: tuple[object, ...] = ()
         if target.sort:
             value = row.extra[target.names.index(target.sort.name)]
@@ -55,21 +55,20 @@ class Ranking(NamedTuple):
             first = (1, str(value))
             if is_number(value):
                 first = (0, float(f"{target.sort.sign * float(value):.12g}"))
-        peaks = (float(f"{x:.12g}") for x in (row.peak, one["jerk_max"]))
-        return (*first, *peaks, *(one[name] for name in ("rollers", "z", "gearing", "drive")))
+        peaks = (float(f"{x:.12g}") for x in numbers)
+        return (*first, *peaks, *(cells[name] for name in ("rollers", "z", "gearing", "drive")))
 
 
 def search(target: Target) -> Ranking:
     """The machines that meet the requirement, in order; no part has been turned yet."""
-    narrowed = target.with_times()
+    narrowed, errors = target.with_times(), list[str]()
     narrowed.refuse_contradictions()
-    found = _all_groups(narrowed, target.names, False)
-    # the error message says how near they come
-    if not any(keeps for _, keeps, _ in found):
-        found = _all_groups(target, target.names, True)
-    every = [row for own, _, _ in found for row in own]
+    every = _all_groups(narrowed, target.names, False, errors)
+    if not every:  # the error message says how near they come
+        errors.clear()
+        every = _all_groups(target, target.names, True, errors)
     if not every:
-        raise GenevaError(_out_of_reach(target, [e for *_, errors in found for e in errors]))
+        raise GenevaError(_out_of_reach(target, errors))
     ranking = Ranking([], narrowed, target)
     kept = sorted(bounded(target, every), key=ranking.rank)
     # without a search for the goal or a bound a family has several rows: the first of each kind,
@@ -87,12 +86,13 @@ def search(target: Target) -> Ranking:
 
 
 def _all_groups(
-    target: Target, names: Sequence[str], how_near: bool
-) -> list[tuple[list[MachineRow], bool, list[str]]]:
+    target: Target, names: Sequence[str], how_near: bool, errors: list[str]
+) -> list[MachineRow]:
     """The rows of all independent groups of machines, in order, from all cores.
 
     They are straight slots, and laws, of each gearing; those of kinds. Each has some of the numbers
-    of slots.
+    of slots. With ``how_near`` those that break the bounds are among them. The reasons against
+    machines are added to ``errors``.
     """
     count = max(len(target.z) // GROUP, 1)
     ends = [-(-len(target.z) * i // count) for i in range(count + 1)]
@@ -107,13 +107,17 @@ def _all_groups(
     is_small = len(target.gearings) * len(target.z) * len(target.laws) <= 6
     workers = 1 if is_small else min(len(tasks), cores())
     done = mapped(partial(_group, names=names, how_near=how_near), tasks, workers, "machines")
-    return list(tracked(done, "groups of machines", len(tasks)))
+    out = list[MachineRow]()
+    for found, reasons in tracked(done, "groups of machines", len(tasks)):
+        out += found
+        errors += reasons
+    return out
 
 
 def _group(
     task: tuple[Kind, Target], names: Sequence[str], how_near: bool
-) -> tuple[list[MachineRow], bool, list[str]]:
-    """The rows of a group, whether one keeps the bounds, and the reasons against the others."""
+) -> tuple[list[MachineRow], list[str]]:
+    """The rows of a group, and the reasons against the other machines."""
     kind, target = task
     wheels = [target.wheel(gearing, z) for gearing in target.gearings for z in target.z]
     families: Sequence[Family] = [*kind(target, wheels)]
@@ -125,17 +129,15 @@ def _group(
     bounds = [b for b in target.bounds if in_batch([b.name]) and not b.name.startswith("loads.")]
     specs = [spec for spec, _ in machines]
     values = numbers(batch_machines(specs), [b.name for b in bounds], len(specs))
-    is_broken = np.full(len(specs), False)
+    keeps = np.full(len(specs), True)
     for bound, own in zip(bounds, values, strict=True):
-        is_broken |= ~(bound.kept_by(own) | np.isnan(own))
-    broken = {*np.flatnonzero(is_broken).tolist()}
-    shown = [one for i, one in enumerate(machines) if i not in broken]
-    keeps = bool(shown)
+        keeps &= bound.kept_by(own) | np.isnan(own)
+    shown = [machines[i] for i in np.flatnonzero(keeps).tolist()]
     if how_near:
-        shown += [*(machines[i] for i in sorted(broken)), *near]
+        shown += [*(machines[i] for i in np.flatnonzero(~keeps).tolist()), *near]
     errors: list[str] = []
     found = rows(target, [*dict(shown).items()], errors)
-    return with_batch_values(names, found), keeps, errors
+    return with_batch_values(names, found), errors
 
 
 def with_batch_values(names: Sequence[str], found: Sequence[MachineRow]) -> list[MachineRow]:
@@ -160,29 +162,25 @@ def bounded(target: Target, found: Sequence[MachineRow]) -> list[MachineRow]:
     rest = tracked(rest, "machines computed", len(alone))
     values = [row.extra or next(rest) for row in found]
     known = [(row, cells) for row, cells in zip(found, values, strict=True) if cells is not None]
-    nearness = Nearness([(names.index(b.name), b) for b in target.bounds])
-    if known:
-        nearness.add(rows_of([cells for _, cells in known]).numbers)
+    bounds = [(names.index(b.name), b) for b in target.bounds]
     kept = [
         row._replace(extra=cells)
         for row, cells in known
-        if all(b.kept(cells[i]) for i, b in nearness.bounds)
+        if all(b.kept(cells[i]) for i, b in bounds)
     ]
     if kept:
         return kept
+    nearness = Nearness(bounds)
+    if known:
+        nearness.add(rows_of([cells for _, cells in known]).numbers)
     phrases = [
         f"{b} (not known)" if nearest is None else f"{b} (nearest {nearest:.6g})"
-        for (_, b), count, nearest in zip(
-            nearness.bounds, nearness.kept, nearness.nearest, strict=True
-        )
+        for (_, b), count, nearest in zip(bounds, nearness.kept, nearness.nearest, strict=True)
         if not count
     ]
-    each = " and ".join(phrases or [str(b) for _, b in nearness.bounds])
-    at_once = "" if phrases else " at once"
-    raise GenevaError(
-        f"--subject-to: none of {len(found)} machines that keep all other bounds keeps "
-        f"{each}{at_once}"
-    )
+    each = " and ".join(phrases or [f"{b}" for _, b in bounds]) + " at once" * (not phrases)
+    others = f"none of {len(found)} machines that keep all other bounds"
+    raise GenevaError(f"--subject-to: {others} keeps {each}")
 
 
 def _values(of: Pick, spec: Spec) -> tuple[Cell, ...] | None:

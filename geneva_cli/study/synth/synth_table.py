@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from contextlib import suppress
 from functools import partial
 
@@ -11,6 +12,7 @@ import numpy as np
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
+from geneva_cli.parts.parts import parts_of
 from geneva_cli.progress import tracked
 from geneva_cli.spec.defaults import wall_min
 from geneva_cli.spec.tables import LIMITED
@@ -28,7 +30,15 @@ from geneva_cli.study.synth.synth_search import (
 )
 from geneva_cli.study.target import Target
 from geneva_cli.table import Table, rows_table
-from geneva_cli.verdict.checks import LIMITS, MOTION, all_pass, checks, every_check
+from geneva_cli.verdict.checks import (
+    LIMITS,
+    MOTION,
+    STANDING,
+    all_pass,
+    checks,
+    every_check,
+    single_check,
+)
 
 # keys of [limits] and what they bound
 _LIMITED = {
@@ -148,11 +158,24 @@ def built(spec: Spec, fixed: frozenset[str] = frozenset()) -> tuple[Spec, str]:
     while low < high:
         middle = (low + high) // 2
         other = with_roller(own, radii[middle])
-        if all_pass(every_check(build(other), quick=True)):
+        if _passes(other, failing):
             best, high = other, middle
         else:
             low = middle + 1
     return (best, "") if best else (spec, ", ".join(failing))
+
+
+def _passes(spec: Spec, failing: Sequence[str]) -> bool:
+    """Whether a machine passes every check, of which ``failing`` are those most likely to fail."""
+    machine = build(spec)
+    parts = parts_of(machine)
+    try:  # before a whole turn
+        first = [single_check(machine, name, parts) for name in failing if name in STANDING]
+    except GenevaError:
+        return False
+    if not all_pass(filter(None, first)):
+        return False
+    return all_pass(every_check(machine, parts, quick=True))
 
 
 def chosen(ranking: Ranking, number: int, buildable: bool = False) -> tuple[MachineRow, str]:

@@ -25,7 +25,7 @@ from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.shafts.bores import has_shape
 from geneva_cli.parts.shafts.shaft import crank_hub
 from geneva_cli.parts.slots.roller_paths import roller_centres
-from geneva_cli.spec.workshops import workshop
+from geneva_cli.spec.workshops import WORKSHOPS
 from geneva_cli.verdict.checks import Check, compared, refused
 
 
@@ -33,7 +33,7 @@ def walls(names: Collection[str], parts: FlatParts) -> Iterator[Check]:
     """Walls of wheel and crank, which must not be thinner than the process makes them."""
     outlines, spec = parts.outlines, parts.mechanism.spec
     assembly, size, least = outlines.assembly, outlines.sizes, outlines.sizes.wall_min
-    around_shaft = spec.size.allowances.around_shaft_mm
+    around_shaft = 0.5 * spec.size.allowances.shaft_fit_mm
     if "wall_between_slots_mm" in names:
         yield compared("wall_between_slots_mm", _between_slots(outlines), "at least", least)
     if outlines.crank:  # between a slot and the recess of the locking disc or sectors
@@ -293,7 +293,7 @@ def process(names: Collection[str], parts: FlatParts) -> Iterator[Check]:
 
 def cuts(mechanism: Mechanism, thickest: float, wide: float, thick: float) -> Iterator[Check]:
     """What a process can cut: the thickest plate, and slots so wide in a plate so ``thick``."""
-    shop = workshop(mechanism.spec.size.process)
+    shop = WORKSHOPS[mechanism.spec.size.process]
     if shop.plate_mm != math.inf:
         yield compared("cut_plate_mm", thickest, "at most", shop.plate_mm)
     if shop.hole:  # it cuts no slot that is narrow for its plate

@@ -16,7 +16,6 @@ from geneva_cli.motion.drive import Drive
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.many import changed
 from geneva_cli.motion.motion import Motion
-from geneva_cli.motion.wheels.classic import rollers_max
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.study.target import AllowedSpan, Target
@@ -136,23 +135,11 @@ def allows(motion: AllowedSpan, natural: float) -> bool:
     return motion.low - slack <= natural <= motion.high + slack
 
 
-def longest_deg(m: float) -> float:
-    """The motion that leaves ``OPEN_END`` of a turn over m to the dwell."""
-    return (1.0 - OPEN_END) * (360.0 / m)
-
-
 def closed_span(motion: AllowedSpan, m: int) -> AllowedSpan | None:
     """The range with open ends replaced by values near their limits; None if it is empty."""
     whole = 360.0 / m
     if motion.low >= whole or motion.high <= 0.0 or motion.empty:
         return None
     low = motion.low if motion.low > 0.0 else OPEN_END * whole
-    high = motion.high if motion.high < whole else longest_deg(m)
+    high = motion.high if motion.high < whole else (1.0 - OPEN_END) * whole
     return motion if motion.exact else AllowedSpan(min(low, high), high)
-
-
-def rollers(target: Target, natural: float) -> range:
-    """The numbers of rollers to try: those that straight slots allow, or the required one."""
-    if target.rollers is not None:
-        return range(target.rollers, target.rollers + 1)
-    return range(1, rollers_max(natural) + 1)

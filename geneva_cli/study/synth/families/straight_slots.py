@@ -37,7 +37,6 @@ from geneva_cli.study.synth.families.family import (
     is_compatible,
     machine,
     natural_deg,
-    rollers,
     speeds,
 )
 from geneva_cli.study.target import AllowedSpan, Target
@@ -112,17 +111,12 @@ class _InFront(NamedTuple):
     high: float = MOST
 
 
-SIDE_CRANK = _InFront(SideCrank(A=0.0), "drive.A", side_crank, side_crank_motion)
-# of gears the sign of the eccentricity is the phase
-GEARS = tuple(
-    _InFront(
-        EllipticalGears(eccentricity=0.1, phase=phase),
-        "drive.eccentricity",
-        eccentricity,
-        gears_motion,
-        *span,
-    )
-    for phase, span in (("slow", (0.0, MOST)), ("quick", (-MOST, 0.0)))
+SLOW, QUICK = (EllipticalGears(eccentricity=0.1, phase=phase) for phase in ("slow", "quick"))
+IN_FRONT = (
+    _InFront(SideCrank(A=0.0), "drive.A", side_crank, side_crank_motion),
+    # of gears the sign of the eccentricity is the phase
+    _InFront(SLOW, "drive.eccentricity", eccentricity, gears_motion, low=0.0),
+    _InFront(QUICK, "drive.eccentricity", eccentricity, gears_motion, high=0.0),
 )
 
 
@@ -141,7 +135,7 @@ def straight(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
 
 def _natural_rollers(target: Target, natural: float) -> list[int]:
     """The numbers of rollers for which the plain crank's motion is allowed."""
-    several = rollers(target, natural)
+    several = [target.rollers] if target.rollers else range(1, rollers_max(natural) + 1)
     return [m for m in several if allows(allowed_motions(target, m, natural), natural)]
 
 
@@ -210,7 +204,7 @@ def driven(target: Target, wheel: Gearing) -> Iterator[Family]:
     if motion is None or (motion.exact and allows(motion, natural)):
         return
     known = 0.0 if allows(motion, natural) else math.nan
-    for one in (SIDE_CRANK, *GEARS):
+    for one in IN_FRONT:
         span = AllowedSpan(*(one.parameter(natural, x) for x in motion))
         span = span.within(AllowedSpan(one.low, one.high))
         if not span.empty:
@@ -219,7 +213,7 @@ def driven(target: Target, wheel: Gearing) -> Iterator[Family]:
                 return kind.replace(n_rpm=n_rpm)
 
             spec = machine(target, wheel, drive, 1, natural)
-            if one in GEARS:  # as far apart as wheel and crank
+            if one.parameter is eccentricity:  # gears are as far apart as wheel and crank
                 spec = spec.with_("drive.gear_distance_mm", spec.given_distance_mm)
             keys = partial(_in_front, target, natural, one)
             yield Family(spec, keys, *span, 0.0, known)
