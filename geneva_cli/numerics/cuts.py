@@ -160,9 +160,10 @@ class Cutter:
     def pieces(self, rows: Rows) -> Pieces:
         """Pieces of rows, cut where a sign changes; parts with unknown zeros are sampled again."""
         f, count = self.f, len(rows.design)
-        which: Which = rows.design
-        first, last = int(which[0]), int(which[-1])
-        if last - first == count - 1 and bool((np.diff(which) == 1).all()):
+        design = rows.design
+        which: Which = design
+        first, last = int(design[0]), int(design[-1])
+        if last - first == count - 1 and bool((np.diff(design) == 1).all()):
             which = slice(first, last + 1)  # all designs between two numbers
         _, x = rows.places(POINTS[:, None], self.w)
         x[0], x[-1] = rows.x
