@@ -11,8 +11,7 @@ roller, fixed to its body, rubs along the wall.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any, Generic, NamedTuple, TypeAlias, cast
+from typing import Any, Generic, NamedTuple, Protocol, cast
 
 import numpy as np
 
@@ -21,10 +20,6 @@ from geneva_cli.loads.contact import Contact, LoadCase, QuantityValue, lesser, v
 from geneva_cli.loads.cycle_quantities import FORCE, PRESSED, PV, STRESS, TORQUE, WALL_FORCE
 from geneva_cli.numerics.arrays import all_true
 from geneva_cli.numerics.jet import Array, Jet, Number, V
-
-# A quantity and the margin that bounds it: a function that holds no numbers, or a tuple whose
-# numbers may be arrays (m, 1).
-LoadQuantity: TypeAlias = "Callable[[Instant[Jet]], QuantityValue[Jet]]"
 
 
 class Instant(Generic[V]):
@@ -205,6 +200,13 @@ class Instant(Generic[V]):
         if name == PV:  # W²/m⁴
             square = square * (sliding * sliding * 1e12)
         return QuantityValue(square, margin)
+
+
+class LoadQuantity(Protocol):
+    """A quantity: a function without numbers, or a tuple whose numbers may be arrays (m, 1)."""
+
+    def __call__(self, i: Instant[Jet], /) -> QuantityValue[Jet]:
+        """The quantity, and the margin that bounds it."""
 
 
 def sign_of(jet: V, known: Number | None) -> Number:

@@ -10,9 +10,9 @@ first if that reaches farther round; or both arcs meet where their centres are r
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import partial
-from typing import NamedTuple, TypeAlias, cast
+from typing import NamedTuple, Protocol, cast
 
 import numpy as np
 
@@ -39,8 +39,11 @@ class LockPlay(NamedTuple):
     jams: Mask  # True if they do not fit together
 
 
-# A lock of parts as they are cut: the play of the wheel to one side with deviations.
-CutLock: TypeAlias = Callable[[Deviations], LockPlay]
+class CutLock(Protocol):
+    """A lock of parts as they are cut."""
+
+    def __call__(self, by: Deviations, /) -> LockPlay:
+        """Play of the wheel to one side."""
 
 
 class LockContact(NamedTuple):
