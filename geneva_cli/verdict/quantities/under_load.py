@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, TypeVar, cast
 
 import numpy as np
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, marking
 from geneva_cli.kept import cached_property
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.cycle_quantities import FORCE, PV
@@ -82,10 +82,11 @@ class UnderLoad:
     def _unloaded(self) -> list[Unloaded | None]:
         """The parts of the designs without their loads; None for one without flat parts."""
         of, count = self.machine.spec, self.machine.designs
-        drive = of.drive.replace(n_rpm=1.0)
-        bare = Spec(
-            of.wheel, drive, of.motion, of.size, shaft=of.shaft, drive_before=of.drive_before
-        )
+        with marking():  # the values of the designs are checked
+            drive = of.drive.replace(n_rpm=1.0)
+            bare = Spec(
+                of.wheel, drive, of.motion, of.size, shaft=of.shaft, drive_before=of.drive_before
+            )
 
         def parts(one: Mechanism) -> Unloaded | None:
             return unloaded(assembly(one)) if one.spec.is_flat else None
