@@ -65,15 +65,22 @@ def read(data):
 
 
 def consistent(mechanism):
-    """Check what every machine has: rest at both ends, a whole step, an ascending window."""
+    """Check what every machine has: rest at both ends, a whole step, an ascending window.
+
+    The roller of a short crank as built never reaches the axis of the slot: it turns the wheel by
+    less than a step.
+    """
     for engagement in mechanism.engagements:
         assert engagement.entry_deg < engagement.exit_deg
         b = engagement.half_step
         for x, wheel in ((engagement.entry_deg, -b), (engagement.exit_deg, b)):
             p = engagement.motion(x, 3).derivatives()
             assert all(math.isfinite(v) for v in p), f"not finite at {x!r}: {p}"
+            short = engagement.built and not engagement.built.crosses
+            is_short = short and math.copysign(p[0], wheel) == p[0] and abs(p[0]) < b
             # a law given as points ends where its spline does: rounding of sums of such terms
-            assert abs(p[0] - wheel) <= 1e-9 * b, f"wheel at {x!r}: {p[0]!r}, not {wheel!r}"
+            is_near = abs(p[0] - wheel) <= 1e-9 * b
+            assert is_short or is_near, f"wheel at {x!r}: {p[0]!r}, not {wheel!r}"
     for i in range(len(mechanism.engagements)):
         assert math.isfinite(mechanism.dwell_deg(i))
 

@@ -46,6 +46,17 @@ def test_any_text(text):
     FUZZERS["specs"].one(text)
 
 
+def test_short_crank_as_built():
+    """A machine whose roller never reaches the axis of its slot turns less than a step."""
+    size = "[size]\ncenter_distance_mm = 100.0\ncrank_radius_mm = 43.0\nwheel_radius_mm = {}\n"
+    text = '[wheel]\nz = 7\n[drive]\nkind = "crank"\n' + size.format(105.0)
+    (engagement,) = read(text.encode()).engagements
+    assert FUZZERS["specs"].one(text) == "machine"
+    turned = engagement.motion(engagement.exit_deg, 0).derivatives()[0]
+    assert turned == pytest.approx(math.asin(0.43))
+    assert turned < engagement.half_step
+
+
 @pytest.mark.parametrize("seed", range(some(800, 100)))
 def test_words_and_mutated_specs(seed):
     rng = random.Random(seed)
