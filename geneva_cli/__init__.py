@@ -28,6 +28,7 @@ if TYPE_CHECKING:  # for a type checker: one line for each name
     from geneva_cli.kinds.linkages.four_bar import FourBar as FourBar
     from geneva_cli.kinds.linkages.slider_crank import SliderCrank as SliderCrank
     from geneva_cli.kinds.series.geneva_pair import GenevaPair as GenevaPair
+    from geneva_cli.motion.laws.law import Motion as Motion
     from geneva_cli.motion.laws.standard import Cycloidal as Cycloidal
     from geneva_cli.motion.laws.standard import Harmonic as Harmonic
     from geneva_cli.motion.laws.standard import ModifiedConstantVelocity as ModifiedConstantVelocity
@@ -39,7 +40,6 @@ if TYPE_CHECKING:  # for a type checker: one line for each name
     from geneva_cli.motion.laws.standard import SineGroup as SineGroup
     from geneva_cli.motion.laws.table_law import TableLaw as TableLaw
     from geneva_cli.motion.machine_spec import Spec as Spec
-    from geneva_cli.motion.motion import Motion as Motion
     from geneva_cli.motion.wheels.external import External as External
     from geneva_cli.motion.wheels.internal import Internal as Internal
     from geneva_cli.motion.wheels.spherical import Spherical as Spherical

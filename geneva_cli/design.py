@@ -19,13 +19,12 @@ from functools import wraps
 from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec, Self, TypeVar
 
 from geneva_cli.errors import GenevaError, Notice, cut
-from geneva_cli.kept import cached_property
+from geneva_cli.kept import cached_property, load_extra
 from geneva_cli.motion.drive import Drive
+from geneva_cli.motion.laws.law import Motion
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.wheels.gearing import Gearing
-from geneva_cli.spec.load_named import load_extra
 from geneva_cli.spec.rules import plain
 from geneva_cli.spec.schema import SHOWN_MAX, refuse_keywords, shortly
 from geneva_cli.spec.tables import (

@@ -1,10 +1,13 @@
-"""Results that an object computes once."""
+"""What an object computes once, and what is imported by its name at its first use."""
 
 from __future__ import annotations
 
+import importlib
 from collections.abc import Callable
 from functools import cached_property as cached_property  # exported
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
+
+from geneva_cli.extras import FOLDERS
 
 if not TYPE_CHECKING:  # to a checker of types it is the one of Python
 
@@ -64,3 +67,29 @@ class Known(Generic[K, T]):
         self._later[of] = later
         for old in [*self._later][:-KEPT]:
             self._later.pop(old, None)
+
+
+def load_named(path: str) -> Any:
+    """Class or function that ``module:name`` names in this package.
+
+    >>> load_named("drives.cam:Cam").NAME
+    'cam'
+    """
+    module, _, name = path.partition(":")
+    return vars(importlib.import_module(f"geneva_cli.{module}"))[name]
+
+
+def load_extra(folder: str, answer: str) -> Any:
+    """Function of a folder of ``extras`` for an answer. Raises GenevaError without the folder.
+
+    >>> load_extra("servo", "cam").__name__
+    'cam'
+    >>> load_extra("laser", "cut")
+    Traceback (most recent call last):
+    geneva_cli.errors.GenevaError: not computed: needs extras/laser, which is not installed
+    """
+    if folder not in FOLDERS:
+        from geneva_cli.errors import GenevaError
+
+        raise GenevaError(f"not computed: needs extras/{folder}, which is not installed")
+    return load_named(load_named(f"extras.{folder}:EXTRA").answers[answer])

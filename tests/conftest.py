@@ -23,7 +23,7 @@ from geneva_cli.parts import flat_parts
 from geneva_cli.parts.outlines import curved_walls, cut_outlines, path_walls
 from geneva_cli.parts.turn import full_turn
 from geneva_cli.verdict import advice, motion_warnings
-from geneva_cli.verdict.checks import turn_checks
+from geneva_cli.verdict.checks import motion_checks
 
 SHARING = {"made_once", "read_once"}  # fixtures of what costs seconds
 LONGEST = "test_without"  # some minutes: it begins before all others
@@ -142,7 +142,7 @@ def of_slot(assembly, sizes, of):
 
 OUTLINES = kept(cut_outlines.drawn, of_sizes)
 TURNED = kept(full_turn.full_turn, of_outlines)
-PROVED = kept(turn_checks.certificate, of_certificate)
+PROVED = kept(motion_checks.certificate, of_certificate)
 WALLS = kept(path_walls.walls, of_slot)
 CHAIN = kept(curved_walls.chain, of_slot)  # whose walls are kept too
 MOTION_WARNINGS = kept(motion_warnings.motion_warnings, lambda mechanism: mechanism.spec)
@@ -158,7 +158,7 @@ def made_once():
         patch.setattr(cut_outlines, "drawn", OUTLINES)
         patch.setattr(flat_parts, "drawn", OUTLINES)
         patch.setattr(full_turn, "full_turn", TURNED)
-        patch.setattr(turn_checks, "certificate", PROVED)
+        patch.setattr(motion_checks, "certificate", PROVED)
         patch.setattr(curved_walls, "walls", WALLS)
         patch.setattr(curved_walls, "chain", CHAIN)
         patch.setattr(motion_warnings, "motion_warnings", MOTION_WARNINGS)

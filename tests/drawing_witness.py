@@ -17,8 +17,16 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 from shapely.geometry import Polygon
 
-from geneva_cli.geometry.measure import STRAIGHT, at, segment_length
-from geneva_cli.geometry.shapes import Arc, Circle, Cubic, Line, closed
+from geneva_cli.geometry.shapes import (
+    STRAIGHT,
+    Arc,
+    Circle,
+    Cubic,
+    Line,
+    at,
+    closed,
+    segment_length,
+)
 
 FRACTIONS = (0.0, 0.07, 0.25, 0.5, 0.61, 0.83, 1.0)
 CHAIN = 1e-9  # how near ends must be to be one point; the files' last decimals are 1e-9 and 1e-12

@@ -3,8 +3,7 @@
 import math
 
 from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.geometry.measure import at
-from geneva_cli.geometry.shapes import Arc, Circle, Line, closed, two_arcs
+from geneva_cli.geometry.shapes import Arc, Circle, Line, at, closed, two_arcs
 
 TAU = math.tau
 

@@ -5,7 +5,7 @@ import numpy as np
 from geneva_cli.loads.impacts.entry import FirstContacts, first_contacts
 from geneva_cli.loads.impacts.reversal import changes, impacts_of
 from geneva_cli.loads.impacts.shock_force import forces_N
-from geneva_cli.loads.strength.pin import PinSize, pin_diameter_mm
+from geneva_cli.loads.strength.pin_arm_key import PinSize, pin_diameter_mm
 from geneva_cli.parts.machine_sizes import built
 
 

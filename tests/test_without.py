@@ -17,7 +17,7 @@ from repo import DESIGNS, ROOT
 from sampling import some
 
 from geneva_cli import extras, kinds
-from geneva_cli.spec.load_named import load_named
+from geneva_cli.kept import load_named
 
 ROOMS = ["motion", "test_design.py"]
 REST = ["numerics", "geometry", "drives", "loads", "specfile", "output", "parts", "verdict"]

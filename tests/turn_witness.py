@@ -8,8 +8,8 @@ from drawing_witness import polygon
 from sampling import some
 from shapely import affinity
 
-from geneva_cli.parts.turn.play import wheel_stops, windows
 from geneva_cli.parts.turn.turn_certificate import certificate, intervals
+from geneva_cli.parts.turn.turned_parts import wheel_stops, windows
 
 TO_MM = 1e-3
 PAST = 1e-5  # radians: what grazes at 100 mm overlaps by some 1e-7 mm more, as much as counts

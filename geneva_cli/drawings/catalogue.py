@@ -9,10 +9,10 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from geneva_cli.errors import GenevaError, cut, few, nearest
+from geneva_cli.kept import load_named
 from geneva_cli.motion.compatible import is_geared
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.records import of_wheel
-from geneva_cli.spec.load_named import load_named
+from geneva_cli.motion.registry import of_wheel
 from geneva_cli.spec.rules import Range, require_mm
 from geneva_cli.table import Table
 

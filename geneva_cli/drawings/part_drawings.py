@@ -9,7 +9,6 @@ from itertools import pairwise
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.measure import bounds, turned
 from geneva_cli.geometry.plates import Group, Member, in_place, placed
 from geneva_cli.geometry.shapes import (
     Arc,
@@ -19,20 +18,22 @@ from geneva_cli.geometry.shapes import (
     Segment,
     Shape,
     about,
+    bounds,
     closed,
     joined,
+    turned,
 )
 from geneva_cli.geometry.sheet import Annotations, Drawing, LevelDistance
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.pivots import Joint
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.assembly import links_at
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.links.link_sizes import places
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.parts import EdgedParts
 from geneva_cli.parts.projection import drawing_of, once, outlines_of, shapes, titled, uncovered
+from geneva_cli.parts.shafts.arm_and_shafts import crank_arm
 from geneva_cli.parts.slots.roller_paths import roller_paths
 
 BEYOND = 0.04  # of the centre distance: from a part to the arrow that shows how it turns

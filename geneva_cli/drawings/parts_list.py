@@ -17,13 +17,13 @@ from typing import TypeAlias
 
 from geneva_cli.drives.transmission import places
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.measure import bounds_of
 from geneva_cli.geometry.plates import MM, Part, Solid, mass_properties
+from geneva_cli.geometry.shapes import bounds_of
 from geneva_cli.geometry.sphere_shell import Shell
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Dimension, Pivot
-from geneva_cli.motion.records import thing
+from geneva_cli.motion.registry import thing
 from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.parts.projection import Missing, alike, built_of, or_missing, outlines_of
 from geneva_cli.spec.defaults import material_names, roller_material, wheel_material

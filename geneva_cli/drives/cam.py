@@ -18,7 +18,7 @@ from geneva_cli.numerics.jet import Number
 from geneva_cli.spec.schema import Example
 
 if TYPE_CHECKING:
-    from geneva_cli.motion.motion import Motion
+    from geneva_cli.motion.laws.law import Motion
     from geneva_cli.motion.wheels.gearing import Gearing
 
 

@@ -20,8 +20,7 @@ from geneva_cli.numerics.jet import rotation
 
 if TYPE_CHECKING:
     from geneva_cli.drives.pushed import PushedCrank
-    from geneva_cli.motion.laws.law import Law
-    from geneva_cli.motion.motion import Motion
+    from geneva_cli.motion.laws.law import Law, Motion
     from geneva_cli.numerics.jet_functions import Displacement, Path
 
 

@@ -7,8 +7,19 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from geneva_cli.geometry.measure import legs, points, segment_length
-from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line, Point, Segment, Shape, two_arcs
+from geneva_cli.geometry.shapes import (
+    Arc,
+    Circle,
+    Contour,
+    Line,
+    Point,
+    Segment,
+    Shape,
+    legs,
+    points,
+    segment_length,
+    two_arcs,
+)
 from geneva_cli.geometry.sheet import ABOVE, BELOW, Label, Measure
 from geneva_cli.numerics.arrays import Array
 

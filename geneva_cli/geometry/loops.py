@@ -14,9 +14,8 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.geometry.measure import at
 from geneva_cli.geometry.plates import with_material_left
-from geneva_cli.geometry.shapes import Arc, Contour, Line, Point, closed
+from geneva_cli.geometry.shapes import Arc, Contour, Line, Point, at, closed
 from geneva_cli.numerics.arrays import Array, Mask, Whole
 
 JOINED_MM = 1e-3  # ends that are nearer to each other are one

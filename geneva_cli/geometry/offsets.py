@@ -12,7 +12,6 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.geometry.measure import at, directions, fraction_at, segment_length
 from geneva_cli.geometry.plates import Plate, plates, with_material_left
 from geneva_cli.geometry.shapes import (
     Arc,
@@ -24,7 +23,11 @@ from geneva_cli.geometry.shapes import (
     Segment,
     Shape,
     as_contour,
+    at,
     closed,
+    directions,
+    fraction_at,
+    segment_length,
 )
 from geneva_cli.geometry.sheet import SHORTEST_MM, Drawing, prepared
 from geneva_cli.numerics.tolerances import SAME_CUT_MM

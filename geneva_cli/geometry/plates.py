@@ -9,14 +9,8 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.geometry.measure import (
-    STRAIGHT,
-    S,
-    at,
-    mapped,
-    turned,
-)
 from geneva_cli.geometry.shapes import (
+    STRAIGHT,
     Arc,
     Circle,
     Contour,
@@ -24,9 +18,13 @@ from geneva_cli.geometry.shapes import (
     Layer,
     Line,
     Point,
+    S,
     Shape,
     as_contour,
+    at,
     backwards,
+    mapped,
+    turned,
 )
 
 if TYPE_CHECKING:

@@ -11,9 +11,9 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.measure import Box, bounds_of, segment_length
 from geneva_cli.geometry.shapes import (
     Arc,
+    Box,
     Circle,
     Contour,
     Layer,
@@ -21,9 +21,11 @@ from geneva_cli.geometry.shapes import (
     Point,
     Segment,
     Shape,
+    bounds_of,
     closed,
     joined,
     polygon,
+    segment_length,
 )
 
 if TYPE_CHECKING:

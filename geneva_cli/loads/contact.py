@@ -189,7 +189,7 @@ def _reactions(
 
 def _middle(engagement: Engagement) -> list[Number]:
     """The contact at mid-motion of a curved slot, where the pin crosses the radius or reverses."""
-    from geneva_cli.motion.pitch_curve import retraces
+    from geneva_cli.motion.path_and_slot import retraces
 
     back = retraces(engagement)
     if isinstance(back, bool):
@@ -215,7 +215,7 @@ def _crossing(engagement: Engagement) -> list[Number]:
 
 def _cusp(engagement: Engagement) -> list[Number]:
     """The contact where the pin reverses in a cusp of its pitch curve."""
-    from geneva_cli.motion.pitch_curve import pitch_at_retrace
+    from geneva_cli.motion.path_and_slot import pitch_at_retrace
 
     at = pitch_at_retrace(engagement)
     m = library(at.x)

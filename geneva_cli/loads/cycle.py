@@ -1,4 +1,4 @@
-"""The whole cycle under load: states at any input angle, and extremes.
+"""The whole cycle under load: states at any input angle, extremes, and what they warn of.
 
 The cycle is a period of the machine from the first entry; with several wheels on a carrier it ends
 at the entry of the next wheel. All loads are 0 in a dwell.
@@ -6,24 +6,30 @@ at the entry of the next wheel. All loads are 0 in a dwell.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Iterator, Mapping
 from functools import lru_cache
 from itertools import pairwise
 from typing import Any, NamedTuple, cast
 
 import numpy as np
 
+from geneva_cli.errors import Notice
 from geneva_cli.kept import cached_property
 from geneva_cli.loads.contact import LoadCase, contact, contact_values
-from geneva_cli.loads.cycle_quantities import FORCE, PV, WALL_FORCE, plain_values
+from geneva_cli.loads.cycle_quantities import FORCE, PV, STRESS, TORQUE, WALL_FORCE, plain_values
+from geneva_cli.loads.impacts.reversal import arrival
 from geneva_cli.loads.instant import STATES, Instant, States, bounded
-from geneva_cli.loads.load_case import load_case, multiples
+from geneva_cli.loads.load_case import load_case, multiples, weight_kg
 from geneva_cli.loads.load_functions import LoadFunctions, on_breaks, refuse_noise
 from geneva_cli.loads.load_peaks import LoadSummary, single_extremes, single_summaries
 from geneva_cli.loads.mid_motion import at_crossing
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.peak_search import braking
+from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.tolerances import ROUNDED
 
 
 class Stretch(NamedTuple):
@@ -147,3 +153,125 @@ class Cycle:
 
 # The cycle of a machine, cached for its loads, strength and warnings.
 cycle_of = lru_cache(maxsize=16)(Cycle)
+
+
+def cycle_warnings(mechanism: Mechanism) -> list[Notice]:
+    """Warnings about a loaded machine: loads without a bound, a wheel that drives or lags."""
+    cycle = cycle_of(mechanism)
+    off_axis = _unbalanced(cycle) if mechanism.spec.unbalanced else ()
+    return [*_unbounded(cycle), *_driven(cycle), *off_axis]
+
+
+def _unbounded(cycle: Cycle) -> Iterator[Notice]:
+    """Warnings about loads that nothing bounds."""
+    case, force = cycle.case, cycle.ends[FORCE]
+    endless_deg = math.inf
+    for value, at_deg in ((force.max, force.max_at_deg), (force.min, force.min_at_deg)):
+        if math.isinf(value):
+            endless_deg = min(endless_deg, at_deg)
+    if case.all_friction and endless_deg < math.inf:
+        held, of, more, less = "wheel", f"{case.friction:g}", "torque as the wall", "friction"
+        if case.guide and case.guided:  # the slot's friction holds nothing: it is across the travel
+            held, of = cycle.mechanism.output.noun, f"{case.guide.friction:g} in the guide"
+            more, less = "force as the roller", "guide_friction"
+        yield Notice(
+            "friction-holds-the-wheel",
+            f"friction of {of} holds the {held} at {endless_deg:.4g}°, however hard the roller "
+            f"presses: it takes as much {more} gives. Use a smaller roller or less {less}",
+        )
+    stress = cycle.ends.get(STRESS)
+    if stress is not None and not math.isfinite(stress.max) and endless_deg == math.inf:
+        yield Notice(
+            "sharp-wall",
+            f"the contact stress has no bound at {stress.max_at_deg:.4g}°: the roller bears on an "
+            "edge there, where the undercut of the wall begins. A smaller roller bears on less of "
+            'it; straight slots have none (kind = "cam" drives any law)',
+        )
+
+
+def _driven(cycle: Cycle) -> Iterator[Notice]:
+    """Warnings about a wheel that drives the motor, or lags behind its roller."""
+    mechanism, ends = cycle.mechanism, cycle.ends
+    torque, noun = ends[TORQUE], mechanism.output.noun
+    stop = arrival(mechanism) if mechanism.engagements[0].paired else None
+    least, largest = torque.min, max(abs(torque.max), abs(torque.min))
+    # a torque without a bound is no measure of the rounding of another
+    if math.isinf(largest):
+        largest = abs(ends["wheel_torque_Nm"].max) if "wheel_torque_Nm" in ends else 0.0
+    fed = math.isfinite(least) and least < -ROUNDED * (largest or abs(least))
+    driven = back_driven_deg(cycle) if fed else []
+    if driven:
+        each = [f"{round(a, 9):.4g} to {round(b, 9):.4g}" for a, b in driven]
+        more = len(each) - 6  # a line or two; a carousel may have many
+        where = ", ".join(each if more <= 0 else each[:6])
+        where += f"° and in {more} other intervals" if more > 0 else "°"
+        # what brakes the wheel alone at its greatest deceleration
+        braked_Nm = max(cycle.case.inertia_Nm * braking(one) for one in mechanism.engagements)
+        brake = f"a resisting torque of {braked_Nm:.4g} N m"
+        if not mechanism.output.turns:
+            brake = f"a resisting force of {braked_Nm / cycle.case.L:.4g} N"
+        helps = f"or add a drag to the {noun} (with {brake} in all, the input always drives)"
+        if stop:
+            helps = "but no drag on the wheel, which would take it off the roller that stops it"
+        if cycle.case.frame:
+            helps = "as no drag on the wheel stops it from pushing the carrier"
+        yield Notice(
+            "drives-the-motor",
+            f"the {noun} drives the motor from {where}, with up to {-least:.4g} N m on "
+            "the input. There the play of slot and reducer changes sides, and a self-locking worm "
+            f"jams: use a brake or a motor that brakes, {helps}",
+        )
+    torque_Nm, _, lagging = stop or (0.0, 0.0, None)
+    if lagging:
+        lag, at_deg, struck = lagging
+        yield Notice(
+            "lags-behind",
+            f"a torque of {torque_Nm:.4g} N m takes the wheel off the roller that stops it. "
+            f"Once the gears let go the wheel lags, by up to {lag:.4g}° at {at_deg:.4g}°, "
+            f"and the roller strikes it at {struck:.4g}°. Less torque, more inertia or more "
+            "speed reduces the lag",
+        )
+
+
+def _unbalanced(cycle: Cycle) -> Iterator[Notice]:
+    """A warning about single bodies off the wheel's axis, whose force its shaft bears."""
+    spec, bearing = cycle.mechanism.spec, cycle.ends.get("wheel_bearing_N")
+    bodies = [one for one in spec.mass if one.to_one_side]
+    # on a carrier the loads count that force; behind gears another shaft bears it
+    held = bearing is not None and math.isfinite(bearing.max) and not cycle.case.frame
+    if bearing and held and spec.support.gear_ratio == 1.0:
+        from geneva_cli.motion.peaks import worst
+
+        peaks = worst(cycle.mechanism)
+        # at most: the peaks need not coincide, nor the bodies stand on one side
+        most = math.hypot(peaks.velocity.max**2, peaks.acceleration.max)
+        off_kgm = sum(weight_kg(one) * one.radius_mm * 1e-3 for one in bodies)
+        force_N = omega(spec.drive.n_rpm) ** 2 * most * off_kgm
+        names = " and ".join(one.name or one.shape for one in bodies)
+        if force_N >= 0.01 * bearing.max:
+            yield Notice(
+                "unbalanced",
+                f"{names} stand{'s' * (len(bodies) == 1)} off the wheel's axis. While the wheel "
+                f"moves, bearing and shaft hold up to {force_N:.4g} N for that, which is not "
+                "counted: balance it with another body (count = 2)",
+            )
+
+
+def back_driven_deg(cycle: Cycle) -> list[tuple[float, float]]:
+    """The intervals of input angle, as shown, in which the wheel drives the input."""
+    shown, out = cycle.mechanism.shown_deg, list[tuple[float, float]]()
+    last = None
+    for engagement, stretch in cycle.stretches:
+        a, b = (engagement.mid_deg + x for x in stretch[:2])
+        # Over less than 1e-4 of a motion, next to a rest, the sign is rounding.
+        driven = stretch.feeds < 0.0 and b - a > 1e-4 * engagement.motion_deg
+        if driven:  # where friction alone holds the wheel, it drives nothing
+            at = contact(engagement, 0.5 * (stretch.start + stretch.end), 1, reactions=False)
+            grip = Instant(cycle.case, at, *stretch[2:]).grip
+            driven = grip.scalars()[0] > 0.0
+        if driven and last == a:
+            out[-1] = out[-1][0], shown(b)
+        elif driven:
+            out.append((shown(a), shown(b)))
+        last = b if driven else None
+    return out

@@ -7,15 +7,16 @@ from collections.abc import Callable
 
 import numpy as np
 
-from geneva_cli.loads.carried import carried_kg, inertia_kgm2, resisting_torques_Nm
 from geneva_cli.loads.contact import LoadCase
 from geneva_cli.loads.cycle_quantities import PRESSED, QUANTITIES, TORQUE, WALL_FORCE
-from geneva_cli.loads.strength.pin import pin_diameter_mm
+from geneva_cli.loads.strength.pin_arm_key import pin_diameter_mm
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.records import thing
+from geneva_cli.motion.registry import thing
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import Array, N, all_true, choose, library
 from geneva_cli.spec.defaults import roller_material, wheel_material
+from geneva_cli.spec.tables import Mass
 from geneva_cli.spec.workshops import Stock
 
 PARALLEL_SHAFTS = (
@@ -126,3 +127,66 @@ def sources(mechanism: Mechanism) -> dict[str, tuple[str, float]]:
     for name in mechanism.output.lacks:
         out.pop(name, None)
     return out
+
+
+G = 9.80665  # standard gravity, m/s²
+MM = 1e-3  # metres
+
+
+def weight_kg(mass: Mass) -> float:
+    """The mass of one body of a ``[[mass]]``, kg."""
+    if mass.mass_kg is not None:
+        return mass.mass_kg
+    assert mass.density_kgm3 is not None and mass.thickness_mm is not None  # Mass has checked this
+    D, d, a, c = _face_m(mass)
+    face = a * c if a else 0.25 * math.pi * (D - d) * (D + d)
+    return mass.density_kgm3 * face * mass.thickness_mm * MM
+
+
+def _face_m(mass: Mass) -> list[float]:
+    """Diameter and bore of a body's face, perpendicular to the wheel's axis, or its sides; m."""
+    sizes = mass.diameter_mm, mass.bore_mm, mass.length_mm, mass.width_mm
+    return [(size or 0.0) * MM for size in sizes]
+
+
+def mass_inertia_kgm2(mass: Mass) -> float:
+    """Inertia of all bodies of a ``[[mass]]`` about the table's axis, by Steiner's theorem."""
+    (D, d, a, c), e, weight = _face_m(mass), mass.radius_mm * MM, weight_kg(mass)
+    # about its own axis: m (D² + d²)/8, of a block m (a² + c²)/12
+    own = weight * ((D * D + d * d) / 8.0 + (a * a + c * c) / 12.0)
+    return mass.count * (own + weight * e * e)
+
+
+def inertia_kgm2(spec: Spec) -> float:
+    """Inertia of everything the wheel turns, at the wheel's shaft."""
+    ratio, lever = spec.support.gear_ratio, spec.given_distance_mm * MM
+    own = spec.load.inertia_kgm2 + spec.load.mass_kg * (lever * lever)
+    return own + ratio * ratio * sum(map(mass_inertia_kgm2, spec.mass))
+
+
+def carried_kg(spec: Spec) -> float:
+    """The mass of all bodies on the table, kg."""
+    total = 0.0
+    for mass in spec.mass:
+        total += mass.count * weight_kg(mass)
+    return total
+
+
+def farthest_mm(spec: Spec) -> float:
+    """Radius about the wheel's axis that contains all bodies on the table; 0 without bodies."""
+    reaches = [0.0]
+    for one in spec.mass:
+        sides = one.length_mm or 0.0, one.width_mm or 0.0
+        reaches.append(one.radius_mm + 0.5 * max(one.diameter_mm or 0.0, math.hypot(*sides)))
+    return max(reaches)
+
+
+def resisting_torques_Nm(spec: Spec) -> tuple[float, float]:
+    """Torques that resist at the wheel's shaft while it turns, N m: of the work and of the support.
+
+    The support's friction is mu (m g + F) r, through the gears.
+    """
+    load, support = spec.load, spec.support
+    pressed = carried_kg(spec) * G + support.force_N
+    rubbed = support.gear_ratio * support.friction * pressed * support.radius_mm * MM
+    return load.torque_Nm + load.force_N * (spec.given_distance_mm * MM), rubbed

@@ -23,8 +23,8 @@ from geneva_cli.loads.load_case import load_case, multiples, sources
 from geneva_cli.loads.load_functions import LoadFunctions, on_breaks
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.path_and_slot import retraces
 from geneva_cli.motion.peak_search import PeakArray, greater
-from geneva_cli.motion.pitch_curve import retraces
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Which, Whole, array, matrix_product, parameter
 from geneva_cli.numerics.cuts import gathered, spread

@@ -12,7 +12,7 @@ import numpy as np
 from geneva_cli.loads.contact import NEAR_CUSP, NEGLIGIBLE, LoadCase, contact, contact_values, value
 from geneva_cli.loads.instant import STATES, Instant, LoadQuantity, bounded, lacks
 from geneva_cli.motion.engagement import Engagement
-from geneva_cli.motion.pitch_curve import retraces
+from geneva_cli.motion.path_and_slot import retraces
 from geneva_cli.numerics.arrays import Mask, Number, array
 from geneva_cli.numerics.jet import Array, Jet
 

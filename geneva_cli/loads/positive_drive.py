@@ -12,7 +12,7 @@ import numpy as np
 
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.pitch_curve import opposites
+from geneva_cli.motion.path_and_slot import opposites
 from geneva_cli.numerics.arrays import Array, Mask
 
 

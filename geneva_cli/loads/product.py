@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.loads.carried import G
+from geneva_cli.loads.load_case import G
 from geneva_cli.motion.batch import selection
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.many import worst_peaks

@@ -9,11 +9,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.loads.carried import inertia_kgm2, resisting_torques_Nm
 from geneva_cli.loads.contact import QuantityValue
 from geneva_cli.loads.cycle_quantities import TORQUE
 from geneva_cli.loads.instant import Instant, LoadQuantity
-from geneva_cli.loads.load_case import load_case
+from geneva_cli.loads.load_case import inertia_kgm2, load_case, resisting_torques_Nm
 from geneva_cli.loads.load_functions import LoadFunctions
 from geneva_cli.loads.load_peaks import LoadSummary, load_peaks, load_summaries
 from geneva_cli.motion.engagement import Engagement

@@ -14,8 +14,7 @@ from geneva_cli.spec.rules import NOT_NEGATIVE, SPEED, Z_MAX, Range
 from geneva_cli.spec.schema import Example, SpecTable
 
 if TYPE_CHECKING:
-    from geneva_cli.motion.laws.law import Law
-    from geneva_cli.motion.motion import Motion
+    from geneva_cli.motion.laws.law import Law, Motion
     from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
     from geneva_cli.numerics.arrays import Array
     from geneva_cli.numerics.jet_functions import Displacement

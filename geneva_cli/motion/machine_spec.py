@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import field
 from operator import attrgetter
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar, NamedTuple, Self
 
 from geneva_cli.errors import GenevaError, refuse_text
+from geneva_cli.kept import load_named
+from geneva_cli.motion import registry
 from geneva_cli.motion.drive import Drive, Gears
-from geneva_cli.motion.motion import Motion
-from geneva_cli.motion.records import CRANK, named, thing
+from geneva_cli.motion.laws.law import Motion
+from geneva_cli.motion.registry import CRANK, named, thing
 from geneva_cli.motion.wheels.gearing import Gearing, Output
 from geneva_cli.numerics.arrays import Truth, all_true
 from geneva_cli.spec import tables
-from geneva_cli.spec.load_named import load_named
-from geneva_cli.spec.schema import SpecTable, refuse_kind
+from geneva_cli.spec.rules import OneOf
+from geneva_cli.spec.schema import Field, SpecTable, fields, refuse_kind
 from geneva_cli.spec.tables import LISTS, PLAIN, Z_DRAWN, Accept, Mass
 
 BEFORE = "drive.before"  # table of the drive that turns the input shaft of [drive]
@@ -244,3 +246,56 @@ class Spec(SpecTable):
             built = (size.crank_radius_mm, size.wheel_radius_mm, size.roller_radius_mm)
         own = self.wheel, self.drive, self.drive_before, self.motion
         return (*own, *built, self.size.distance_mm)
+
+
+class KindTable(NamedTuple):
+    """A table whose keys depend on a word in it, such as ``kind``."""
+
+    table: str
+    word: Field
+    names: Collection[str]  # that the word may be
+    find: Callable[[str], type[SpecTable]]  # imports the class of a kind
+    shared: Sequence[Field] = ()  # keys of all kinds, which the word alone allows
+    without: Sequence[Field] = ()  # keys of kinds that this table lacks
+
+    @property
+    def keys(self) -> dict[str, list[Field]]:
+        """The keys of each kind; it imports all kinds."""
+        return {name: self.keys_of(self.find(name)) for name in self.names}
+
+    def keys_of(self, kind: type[SpecTable]) -> list[Field]:
+        """Keys of one kind in this table."""
+        return [field for field in fields(kind) if field not in self.without]
+
+
+WHEELS = KindTable(
+    "wheel",
+    Field("gearing", "", (str,), OneOf(registry.GEARINGS), "external", "type of wheel and crank"),
+    registry.GEARINGS,
+    registry.gearing,
+)
+DRIVES = KindTable(
+    "drive",
+    Field("kind", "", (str,), None, "crank", "type of drive"),
+    registry.DRIVES,
+    registry.drive,
+)
+LAWS = KindTable(
+    "motion",
+    Field("law", "", (str,), None, None, "motion law of curved slots (`geneva laws`)"),
+    registry.LAWS,
+    registry.law,
+    fields(Motion),
+)
+
+
+def drives_before(names: Collection[str] = registry.DRIVES) -> KindTable:
+    """[drive.before] for some kinds of drives, whose shared keys stand in [drive]."""
+    word = DRIVES.word._replace(default=None, meaning="drive that turns the input shaft of [drive]")
+    return DRIVES._replace(table=BEFORE, word=word, names=names, without=fields(Drive))
+
+
+def kind_tables() -> list[KindTable]:
+    """Every table whose keys depend on a word, in the order of a file; it imports all drives."""
+    before = [name for name in registry.DRIVES if registry.drive(name).IN_FRONT]
+    return [WHEELS, DRIVES, drives_before(before), LAWS]

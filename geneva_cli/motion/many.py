@@ -21,9 +21,9 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError, marking
 from geneva_cli.motion.batch import taken
+from geneva_cli.motion.laws.law import Motion
 from geneva_cli.motion.machine_spec import BEFORE, Spec
 from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.peak_search import QUANTITIES, PeakArray, greater, motion_peaks
 from geneva_cli.numerics.arrays import Array, Mask, Number, Whole, parameter
 from geneva_cli.spec.rules import is_array

@@ -6,6 +6,7 @@ import math
 from operator import attrgetter
 from typing import NamedTuple
 
+from geneva_cli.kept import load_named
 from geneva_cli.motion.compatible import (
     SAME_RATIO,
     refuse_conflicts,
@@ -17,7 +18,7 @@ from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.laws.law import Law
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.pivots import FIRST, AxisPlace, Layout, Pivot, ShaftPlace, wheel_places
-from geneva_cli.motion.records import IN_FRONT
+from geneva_cli.motion.registry import IN_FRONT
 from geneva_cli.motion.wheels.gearing import Output
 from geneva_cli.numerics.angles import sin_cos_pi
 from geneva_cli.numerics.arrays import (
@@ -29,7 +30,6 @@ from geneva_cli.numerics.arrays import (
     library,
 )
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
-from geneva_cli.spec.load_named import load_named
 
 _AS_BUILT = (
     "the crank is taken as built: the wheel is at rest until the roller's centre crosses its "

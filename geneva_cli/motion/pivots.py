@@ -1,10 +1,12 @@
-"""Pivots and dimensions from which a machine can be rebuilt, in the frame of the assembly."""
+"""Pivots and dimensions that a machine can be rebuilt from, and the motion of a body in a plane."""
+
+from __future__ import annotations
 
 import math
 from enum import Enum
 from typing import NamedTuple, TypeAlias
 
-from geneva_cli.numerics.arrays import Array
+from geneva_cli.numerics.arrays import Array, N, library
 
 
 class Pivot(NamedTuple):
@@ -95,3 +97,51 @@ def wheel_places(count: int, sign: float, L: float) -> tuple[AxisPlace, ...]:
 
 
 Layout: TypeAlias = tuple[Pivot | Dimension, ...]
+
+
+class PlaneMotion:
+    """The motion of a body in its plane: here a wheel that turns about the origin.
+
+    Angles are in radians; arrays of points are (n, 2).
+    """
+
+    # change of the place after which a body meets itself, radians; infinite for a rack
+    PERIOD = math.tau
+    # rate at which the body's x axis turns; 0 for a rack
+    TURNS = 1.0
+
+    def into(self, points: Array, turn: Array) -> Array:
+        """Return points in the frame of the body, which has moved by n angles."""
+        return turned_points(points, -turn)
+
+    def level(self, points: Array) -> Array:
+        """Return the coordinate of points that the motion leaves as it is, (n,)."""
+        x, y = points[..., 0], points[..., 1]
+        return library(points).hypot(x, y)
+
+    def place(self, points: Array) -> Array:
+        """Return the coordinate of points that the motion changes, radians (n,)."""
+        x, y = points[..., 0], points[..., 1]
+        return library(points).atan2(y, x)
+
+    def outwards(self, points: Array) -> Array:
+        """Return directions (n, 2) out of the body at points: those in which the level rises."""
+        return points
+
+    def lever(self, level: N) -> N:
+        """Return how far points at a level move a radian."""
+        return level
+
+    def half_span(self, reach: float, level: float) -> float:
+        """Return half of the range of places that a disc of radius ``reach`` covers."""
+        return math.asin(reach / level) if reach < level else math.pi
+
+
+def turned_points(points: Array, angle: Array) -> Array:
+    """Return points (n, 2), each turned about the origin by its own angle, radians."""
+    import numpy as np
+
+    c, s = np.cos(angle), np.sin(angle)
+    return np.column_stack(
+        (points[:, 0] * c - points[:, 1] * s, points[:, 0] * s + points[:, 1] * c)
+    )

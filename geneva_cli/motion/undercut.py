@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.pitch_curve import pitch, retraces
+from geneva_cli.motion.path_and_slot import pitch, retraces
 from geneva_cli.numerics.arrays import Array, Mask, Number
 from geneva_cli.numerics.tolerances import TIE
 

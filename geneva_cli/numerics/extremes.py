@@ -13,23 +13,21 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from geneva_cli.numerics.arrays import Array, Mask, Which, Whole, blocks, joined, record_taken
-from geneva_cli.numerics.chebyshev import (
+from geneva_cli.numerics.cuts import (
+    BLOCK,
     GRID,
+    LATER_TERMS,
     MIDDLE,
     ON_GRID,
     POINTS,
     SERIES,
     SLOPES,
-    at,
-    product,
-    remainder,
-)
-from geneva_cli.numerics.cuts import (
-    BLOCK,
-    LATER_TERMS,
     Cutter,
     Pieces,
     Rows,
+    at,
+    product,
+    remainder,
 )
 from geneva_cli.numerics.tolerances import TIE
 

@@ -7,27 +7,28 @@ for a format that they do not write, and for a file that cannot be written.
 
 from __future__ import annotations
 
-import importlib
 import os
 import sys
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from itertools import chain
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError, cut
+from geneva_cli.kept import load_named
 from geneva_cli.output.formats import (
     DOCUMENTS,
     DRAWN,
     FORMATS,
     MESHES,
     PLOTTED,
+    chosen,
     document_as,
     drawn_as,
+    named,
     plotted_as,
     sheet_as,
-    table_as,
 )
 from geneva_cli.streams import use_utf8
 from geneva_cli.table import Table
@@ -62,9 +63,15 @@ def refuse_columns() -> None:
         raise GenevaError("--columns is for tables, and this run prints none; leave it out")
 
 
-def _function(name: str) -> Any:
-    module, _, function = name.partition(":")
-    return vars(importlib.import_module(f"geneva_cli.output.{module}"))[function]
+def table_as(output: str, format: str) -> str:
+    """The format of a table. Raises GenevaError for an unknown one."""
+    name = format or ("table" if output == "-" else named(output, ""))
+    return name if name in FORMATS else chosen(output, format, FORMATS)
+
+
+def is_for_people(output: str, format: str) -> bool:
+    """Return True for a table that people read, False for one for programs."""
+    return table_as(output, format) in ("table", "md")
 
 
 def show(table: Table, output: str = "-", format: str = "", inputs: Iterable[str] = ()) -> None:
@@ -74,7 +81,7 @@ def show(table: Table, output: str = "-", format: str = "", inputs: Iterable[str
 
 
 def _chunks(table: Table, output: str, name: str) -> Iterator[str]:
-    from geneva_cli.output.finite import checked, only
+    from geneva_cli.output.text import checked, only
 
     seen = is_seen(output)
     table = checked(table, seen)
@@ -85,7 +92,7 @@ def _chunks(table: Table, output: str, name: str) -> Iterator[str]:
         from geneva_cli.output.terminal.terminal_tables import chunks
 
         return chunks(table, window(bool(choice.columns), choice.wide))
-    return _function(f"{FORMATS[name]}:chunks")(table)
+    return load_named(f"output.{FORMATS[name]}:chunks")(table)
 
 
 def is_seen(output: str) -> bool:
@@ -131,7 +138,7 @@ def draw(
     name = drawn_as(output, format)
     own = _of_dxf(name, version)
     refuse_columns()
-    _put(_function(DRAWN[name])(drawing, *own), output, inputs, name)
+    _put(load_named(f"output.{DRAWN[name]}")(drawing, *own), output, inputs, name)
 
 
 def draw_sheet(
@@ -141,7 +148,7 @@ def draw_sheet(
     name = sheet_as(output, format)
     own = _of_dxf(name, version)
     refuse_columns()
-    _put(_function(f"{name}:sheet_chunks")(sheet, *own), output, inputs)
+    _put(load_named(f"output.{name}:sheet_chunks")(sheet, *own), output, inputs)
 
 
 def _of_dxf(name: str, version: str) -> tuple[str, ...]:
@@ -159,7 +166,7 @@ def show_figure(
         show(figure.table(), output, name, inputs)
         return
     refuse_columns()
-    _put(_function(f"plot.{PLOTTED[name]}")(figure), output, inputs, name)
+    _put(load_named(f"output.plot.{PLOTTED[name]}")(figure), output, inputs, name)
 
 
 def animate(scene: Scene, output: str, inputs: Iterable[str] = ()) -> None:
@@ -168,7 +175,7 @@ def animate(scene: Scene, output: str, inputs: Iterable[str] = ()) -> None:
         raise GenevaError("a page is not for a terminal: give -o FILE.html, or --open to show it")
     if output != "-" and os.path.splitext(output)[1].lower() not in (".html", ".htm"):
         raise GenevaError(f'-o "{cut(output)}": it must end in .html or .htm')
-    _put(_function("page:chunks")(scene), output, inputs)
+    _put(load_named("output.page:chunks")(scene), output, inputs)
 
 
 def show_document(
@@ -177,7 +184,7 @@ def show_document(
     """Print the document, or write it to the file ``output``."""
     name = document_as(output, format)
     refuse_columns()
-    _put(_function(f"document.{DOCUMENTS[name]}:chunks")(document), output, inputs)
+    _put(load_named(f"output.document.{DOCUMENTS[name]}:chunks")(document), output, inputs)
 
 
 def show_text(text: str, output: str = "-", inputs: Iterable[str] = ()) -> None:

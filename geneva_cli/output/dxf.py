@@ -13,8 +13,17 @@ import math
 from collections.abc import Callable, Iterator
 
 from geneva_cli.errors import GenevaError, clean, cut
-from geneva_cli.geometry.measure import halved
-from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Layer, Line, Segment, Shape
+from geneva_cli.geometry.shapes import (
+    Arc,
+    Circle,
+    Contour,
+    Cubic,
+    Layer,
+    Line,
+    Segment,
+    Shape,
+    halved,
+)
 from geneva_cli.geometry.sheet import (
     DASHED,
     DIMENSION,

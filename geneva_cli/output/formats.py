@@ -27,17 +27,6 @@ EXTENSIONS |= {"stp": "step", "html": "html", "htm": "html"}
 DXF_VERSIONS = ("R12", "R2000", "R2004", "R2007", "R2010", "R2013", "R2018")
 
 
-def table_as(output: str, format: str) -> str:
-    """The format of a table. Raises GenevaError for an unknown one."""
-    name = format or ("table" if output == "-" else _named(output, ""))
-    return name if name in FORMATS else _chosen(output, format, FORMATS)
-
-
-def is_for_people(output: str, format: str) -> bool:
-    """Return True for a table that people read, False for one for programs."""
-    return table_as(output, format) in ("table", "md")
-
-
 def drawn_as(output: str, format: str) -> str:
     """The format of a drawing. Raises GenevaError for another one."""
     if not is_drawn(output, format):
@@ -45,17 +34,17 @@ def drawn_as(output: str, format: str) -> str:
             "this part is a drawing, no table of points: write it with -o FILE.dxf (or "
             f"{', '.join(f'.{name}' for name in DRAWN if name != 'dxf')}), or take --part slot"
         )
-    return _named(output, format)
+    return named(output, format)
 
 
 def is_drawn(output: str, format: str) -> bool:
     """Return True for lines and arcs, False for a table. Raises GenevaError for another format."""
-    if _named(output, format) == "pdf":
+    if named(output, format) == "pdf":
         option = f"--format {format}" if format else f'-o "{cut(output)}"'
         raise GenevaError(
             f"{option}: a pdf holds a drawing sheet: take --part sheet, or write .dxf or .svg"
         )
-    return _chosen(output, format, {**DRAWN, **FORMATS}) in DRAWN
+    return chosen(output, format, {**DRAWN, **FORMATS}) in DRAWN
 
 
 def sheet_as(output: str, format: str) -> str:
@@ -64,23 +53,23 @@ def sheet_as(output: str, format: str) -> str:
         raise GenevaError(
             f"a drawing sheet is written as {', '.join(SHEETS)}: give -o FILE.pdf, or --format pdf"
         )
-    return _chosen(output, format, SHEETS, "of a drawing sheet ")
+    return chosen(output, format, SHEETS, "of a drawing sheet ")
 
 
 def document_as(output: str, format: str) -> str:
     """The format of a document. Raises GenevaError for an unknown one."""
-    return _chosen(output, format, DOCUMENTS)
+    return chosen(output, format, DOCUMENTS)
 
 
 def is_document(output: str, format: str) -> bool:
     """Return True for a document, False for a table. Raises GenevaError for another format."""
     formats = dict.fromkeys((*FORMATS, *DOCUMENTS))
-    return _chosen(output, format, formats, "of a report ") in DOCUMENTS
+    return chosen(output, format, formats, "of a report ") in DOCUMENTS
 
 
 def plotted_as(output: str, format: str) -> str:
     """The format of a figure. Raises GenevaError for an unknown one."""
-    return _chosen(output, format, (*PLOTTED, *FORMATS))
+    return chosen(output, format, (*PLOTTED, *FORMATS))
 
 
 def usual_curves(output: str, format: str) -> str:
@@ -90,7 +79,7 @@ def usual_curves(output: str, format: str) -> str:
     ('spline', 'arcs')
     """
     # In a solid, a wall is one face as a spline, and a hundred faces as arcs.
-    return "spline" if _named(output, format) == "step" else "arcs"
+    return "spline" if named(output, format) == "step" else "arcs"
 
 
 def curve_tolerance(tolerance_mm: float | None, output: str, format: str) -> float:
@@ -102,15 +91,15 @@ def curve_tolerance(tolerance_mm: float | None, output: str, format: str) -> flo
     >>> curve_tolerance(None, "wheel.stl", ""), curve_tolerance(None, "wheel.dxf", "")
     (0.005, 0.001)
     """
-    is_mesh = _named(output, format) in MESHES
+    is_mesh = named(output, format) in MESHES
     if tolerance_mm is None:
         tolerance_mm = 0.01 if is_mesh else 0.001
     return 0.5 * tolerance_mm if is_mesh else tolerance_mm
 
 
-def _chosen(output: str, format: str, formats: Collection[str], remark: str = "") -> str:
+def chosen(output: str, format: str, formats: Collection[str], remark: str = "") -> str:
     """The format that is given, or that of a file's extension; on standard output, a table."""
-    name = format or ("table" if output == "-" else _named(output, ""))
+    name = format or ("table" if output == "-" else named(output, ""))
     if name in formats:
         return name
     if formats is FORMATS and name in (*DRAWN, *PICTURES):
@@ -126,5 +115,6 @@ def _chosen(output: str, format: str, formats: Collection[str], remark: str = ""
     )
 
 
-def _named(output: str, format: str) -> str:
+def named(output: str, format: str) -> str:
+    """The format that is given, or that of a file's extension."""
     return format or EXTENSIONS.get(os.path.splitext(output)[1].lower().lstrip("."), "")

@@ -29,7 +29,7 @@ from geneva_cli.output.files import (
     replacing,
     write_errors,
 )
-from geneva_cli.output.finite import refuse_nan
+from geneva_cli.output.text import refuse_nan
 from geneva_cli.streams import use_utf8
 
 SUFFIX = ".geneva"

@@ -11,9 +11,8 @@ import manifold3d as m3
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.measure import STRAIGHT, points
 from geneva_cli.geometry.plates import Group, Part, Plate, Solid, oriented
-from geneva_cli.geometry.shapes import Arc, Cubic, Layer, Segment
+from geneva_cli.geometry.shapes import STRAIGHT, Arc, Cubic, Layer, Segment, points
 from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.geometry.sphere import Vector, cross, square_to, unit
 from geneva_cli.geometry.sphere_shell import Shell

@@ -8,8 +8,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from geneva_cli.geometry.measure import Box, bounds
-from geneva_cli.geometry.shapes import Arc, Contour, Point
+from geneva_cli.geometry.shapes import Arc, Box, Contour, Point, bounds
 from geneva_cli.geometry.sheet import Annotations, LevelDistance, line
 from geneva_cli.output.letters import width
 from geneva_cli.table import in_decimals

@@ -15,8 +15,16 @@ from typing import NamedTuple
 
 from geneva_cli.errors import clean
 from geneva_cli.geometry import sheet as letters
-from geneva_cli.geometry.measure import as_cubic, halved
-from geneva_cli.geometry.shapes import Arc, Cubic, Point, Segment, Shape, as_contour
+from geneva_cli.geometry.shapes import (
+    Arc,
+    Cubic,
+    Point,
+    Segment,
+    Shape,
+    as_contour,
+    as_cubic,
+    halved,
+)
 from geneva_cli.geometry.sheet import CAPITALS, DASHED, WIDTHS, Sheet
 from geneva_cli.output.letters import western
 from geneva_cli.table import in_decimals

@@ -12,8 +12,7 @@ import math
 from collections.abc import Iterable
 from typing import NamedTuple, TypeAlias
 
-from geneva_cli.geometry.measure import as_cubic
-from geneva_cli.geometry.shapes import Arc, Cubic, Line, Point, Segment
+from geneva_cli.geometry.shapes import Arc, Cubic, Line, Point, Segment, as_cubic
 
 
 class Spline(NamedTuple):

@@ -11,7 +11,6 @@ from collections.abc import Iterator
 from html import escape
 
 from geneva_cli.errors import clean
-from geneva_cli.geometry.measure import halved
 from geneva_cli.geometry.plates import Member, Part, in_place
 from geneva_cli.geometry.shapes import (
     Circle,
@@ -23,6 +22,7 @@ from geneva_cli.geometry.shapes import (
     Segment,
     Shape,
     as_contour,
+    halved,
 )
 from geneva_cli.geometry.sheet import CAPITALS, DASHED, WIDTHS, Drawing, Sheet, extent, prepared
 from geneva_cli.output.inks import CENTRE_LINES, DARK, DASHES, LIGHT, Paper, inks, mixed

@@ -25,7 +25,7 @@ from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.spec.tables import Z_DRAWN
 
 if TYPE_CHECKING:
-    from geneva_cli.motion.plane_motion import PlaneMotion
+    from geneva_cli.motion.pivots import PlaneMotion
 
 
 class Passage(NamedTuple):

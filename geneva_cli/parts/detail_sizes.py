@@ -9,15 +9,14 @@ from contextlib import suppress
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.records import thing
-from geneva_cli.parts.arm import bolts, crank_arm
+from geneva_cli.motion.registry import thing
 from geneva_cli.parts.links.link_plates import drawn_links
 from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.outlines.crank_outline import reliefs, sectors
 from geneva_cli.parts.outlines.cut_outlines import drawn
 from geneva_cli.parts.outlines.outlines import Outlines, dial_circle, wheel_hub_length
+from geneva_cli.parts.shafts.arm_and_shafts import bolts, crank_arm, crank_hub
 from geneva_cli.parts.shafts.bores import bore_of
-from geneva_cli.parts.shafts.shaft import crank_hub
 
 Values = dict[str, float | str]
 

@@ -16,7 +16,7 @@ from geneva_cli.motion.drive import FirstWheel
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.wheels.external import External
-from geneva_cli.numerics.preferred import sizes_from
+from geneva_cli.numerics.tolerances import sizes_from
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.sized_by_load import Stressed, shaft_holds, stressed
 from geneva_cli.parts.sizes import Sizes

@@ -12,20 +12,13 @@ from typing import TYPE_CHECKING, NoReturn, Self
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.measure import turned
 from geneva_cli.geometry.plates import Group, Member, Plate
-from geneva_cli.geometry.shapes import Contour
+from geneva_cli.geometry.shapes import Contour, turned
 from geneva_cli.kept import cached_property
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.records import thing
+from geneva_cli.motion.registry import thing
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.parts.arm import (
-    CrankArm,
-    bolts,
-    crank_arm,
-    roller_plates,
-)
 from geneva_cli.parts.assembly import links_at
 from geneva_cli.parts.links.links import Links
 from geneva_cli.parts.machine_sizes import machine_sizes
@@ -34,8 +27,14 @@ from geneva_cli.parts.outlines.cut_outlines import drawn
 from geneva_cli.parts.outlines.outlines import Outlines, dial_circle, wheel_hub, wheel_plate
 from geneva_cli.parts.outlines.wheel_outline import slot_walls, wheel_contour
 from geneva_cli.parts.parts import EdgedParts, FrameAndShafts, NamedBuilds
-from geneva_cli.parts.shafts.screws import Screws
-from geneva_cli.parts.shafts.shaft import crank_hub
+from geneva_cli.parts.shafts.arm_and_shafts import (
+    CrankArm,
+    bolts,
+    crank_arm,
+    crank_hub,
+    roller_plates,
+)
+from geneva_cli.parts.shafts.bores import Screws
 from geneva_cli.parts.sizes import drawn_thicknesses, pin_radius
 from geneva_cli.parts.slots.roller_paths import roller_centres, wall_lost
 

@@ -13,26 +13,23 @@ from collections.abc import Iterable, Iterator, Sequence
 import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc, farthest
-from geneva_cli.geometry.measure import bounds_of
 from geneva_cli.geometry.plates import Member, Plate
-from geneva_cli.geometry.shapes import ORIGIN, Circle, Point, as_contour, convex_hull
+from geneva_cli.geometry.shapes import ORIGIN, Circle, Point, as_contour, bounds_of, convex_hull
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Joint
 from geneva_cli.numerics.arrays import half_or
-from geneva_cli.numerics.preferred import bore_radius, rounded_radius
-from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.parts.arm import crank_arm
+from geneva_cli.numerics.tolerances import SAME_LENGTH, bore_radius, rounded_radius
 from geneva_cli.parts.assembly import is_bridged, links_at, same, turn_deg
 from geneva_cli.parts.links.links import Links, placed_holes
 from geneva_cli.parts.outlines.outlines import Outlines, wheel_hub
 from geneva_cli.parts.parts import FRAME, FrameAndShafts
-from geneva_cli.parts.shafts.bores import around
-from geneva_cli.parts.shafts.screws import SCREWS, bolt_radius, screw_through, tapped
-from geneva_cli.parts.shafts.shaft import (
+from geneva_cli.parts.shafts.arm_and_shafts import (
     Shaft,
+    crank_arm,
     shaft_ends,
     shafts,
 )
+from geneva_cli.parts.shafts.bores import SCREWS, around, bolt_radius, screw_through, tapped
 from geneva_cli.parts.sizes import HUB, bridge_low, drawn_thicknesses
 from geneva_cli.spec.defaults import wall_min
 from geneva_cli.spec.tables import Size

@@ -14,10 +14,9 @@ from typing import TYPE_CHECKING, TypeAlias
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.records import thing
+from geneva_cli.motion.registry import thing
 from geneva_cli.numerics.arrays import value_or
-from geneva_cli.numerics.preferred import bore_radius, rounded_below
-from geneva_cli.numerics.tolerances import SAME_LENGTH
+from geneva_cli.numerics.tolerances import SAME_LENGTH, bore_radius, rounded_below
 from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.outlines.crank_outline import arc_floor
 from geneva_cli.parts.outlines.cut_outlines import cut_lock

@@ -14,13 +14,12 @@ from typing import TYPE_CHECKING, ClassVar, NamedTuple, Self, TypeAlias
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Member, Plate
 from geneva_cli.geometry.shapes import Arc, Circle, Contour
-from geneva_cli.kept import cached_property
+from geneva_cli.kept import cached_property, load_named
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.records import FRONT, named, thing
+from geneva_cli.motion.registry import FRONT, named, thing
 from geneva_cli.parts.assembly import input_of
-from geneva_cli.parts.shafts.screws import Screws, tapped
+from geneva_cli.parts.shafts.bores import Screws, tapped
 from geneva_cli.parts.turn.turned_parts import TurnedParts
-from geneva_cli.spec.load_named import load_named
 
 if TYPE_CHECKING:
     from geneva_cli.geometry.fit import Writer

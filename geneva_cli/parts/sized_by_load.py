@@ -18,23 +18,23 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.loads.impacts.shock_force import forces_N
 from geneva_cli.loads.load_case import centrifugal_N
 from geneva_cli.loads.strength import lock
-from geneva_cli.loads.strength.arm_and_key import (
+from geneva_cli.loads.strength.part_loads import PartLoads, shear_MPa
+from geneva_cli.loads.strength.pin_arm_key import (
     NO_ARM,
     NO_KEY,
     ArmDimensions,
     KeyDimensions,
+    PinSize,
     arm_stress_MPa,
     key_stress,
+    pin_stress_MPa,
     shear_allowed_MPa,
 )
-from geneva_cli.loads.strength.part_loads import PartLoads, shear_MPa
-from geneva_cli.loads.strength.pin import PinSize, pin_stress_MPa
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import half_or, value_or
-from geneva_cli.numerics.preferred import rounded_below, sizes_from
-from geneva_cli.numerics.tolerances import keeps
+from geneva_cli.numerics.tolerances import keeps, rounded_below, sizes_from
 from geneva_cli.parts.assembly import Assembly, gear_plane, is_bridged, links_at
 from geneva_cli.parts.outlines.crank_outline import is_whole
 from geneva_cli.parts.outlines.outlines import wheel_hub_length

@@ -11,7 +11,7 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.arrays import half_or, value_or
-from geneva_cli.numerics.preferred import bore_radius, rounded_below, rounded_radius
+from geneva_cli.numerics.tolerances import bore_radius, rounded_below, rounded_radius
 from geneva_cli.parts.shafts.bores import bore_of, has_shape, reach_or_bore
 from geneva_cli.spec.defaults import eye_about
 from geneva_cli.spec.tables import Size, Thicknesses

@@ -7,7 +7,7 @@ from functools import lru_cache
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import MassProperties, added, mass_properties
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.records import thing
+from geneva_cli.motion.registry import thing
 from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.outlines.outlines import wheel_hub, wheel_plate
 from geneva_cli.parts.outlines.wheel_outline import turned_walls, wheel_contour

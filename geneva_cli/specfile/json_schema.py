@@ -10,11 +10,11 @@ import math
 import sys
 from typing import Any
 
+from geneva_cli.motion.machine_spec import KindTable, kind_tables
 from geneva_cli.spec.rules import Csv, OneOf, Range
 from geneva_cli.spec.schema import LIST, LIST_MAX, REQUIRED, TEXT_MAX, Field, fields
 from geneva_cli.spec.tables import LISTS, PLAIN
 from geneva_cli.spec.units import pattern, unit_key
-from geneva_cli.specfile.writer import KindTable, kind_tables
 
 FILE = "geneva.schema.json"  # the file that the first line of a new spec names
 Schema = dict[str, Any]

@@ -3,11 +3,12 @@
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, nearest
+from geneva_cli.motion.machine_spec import kind_tables
 from geneva_cli.names import unit_of
 from geneva_cli.spec.rules import Csv
 from geneva_cli.spec.schema import LIST, REQUIRED, Field, fields
 from geneva_cli.spec.tables import LISTS, PLAIN
-from geneva_cli.specfile.writer import kind_tables, quoted
+from geneva_cli.specfile.writer import quoted
 
 TYPES = {int: "whole number", float: "number", str: "word", bool: "true or false", LIST: "list"}
 

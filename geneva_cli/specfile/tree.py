@@ -11,8 +11,17 @@ from typing import Any
 from geneva_cli.errors import GenevaError, below, clean, cut, few, nearest
 from geneva_cli.motion import registry
 from geneva_cli.motion.drive import Drive
-from geneva_cli.motion.machine_spec import BEFORE, Spec
-from geneva_cli.motion.motion import Motion
+from geneva_cli.motion.laws.law import Motion
+from geneva_cli.motion.machine_spec import (
+    BEFORE,
+    DRIVES,
+    LAWS,
+    WHEELS,
+    KindTable,
+    Spec,
+    drives_before,
+    kind_tables,
+)
 from geneva_cli.names import unit_end
 from geneva_cli.spec.rules import Csv
 from geneva_cli.spec.schema import (
@@ -27,7 +36,6 @@ from geneva_cli.spec.schema import (
     unknown,
 )
 from geneva_cli.spec.tables import LISTS, PLAIN
-from geneva_cli.specfile.writer import DRIVES, LAWS, WHEELS, KindTable, drives_before, kind_tables
 
 TABLES = ["wheel", "drive", "motion"]
 for _name in PLAIN:

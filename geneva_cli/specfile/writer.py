@@ -2,71 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from types import MappingProxyType
-from typing import Any, NamedTuple
+from typing import Any
 
-from geneva_cli.motion import registry
 from geneva_cli.motion.drive import Drive
-from geneva_cli.motion.machine_spec import BEFORE, Spec
-from geneva_cli.motion.motion import Motion
+from geneva_cli.motion.laws.law import Motion
+from geneva_cli.motion.machine_spec import BEFORE, DRIVES, LAWS, WHEELS, Spec, drives_before
 from geneva_cli.motion.wheels.gearing import Gearing
-from geneva_cli.spec.rules import OneOf
 from geneva_cli.spec.schema import Field, Points, SpecTable, fields
 from geneva_cli.spec.tables import LISTS, PLAIN
-
-
-class KindTable(NamedTuple):
-    """A table whose keys depend on a word in it, such as ``kind``."""
-
-    table: str
-    word: Field
-    names: Collection[str]  # that the word may be
-    find: Callable[[str], type[SpecTable]]  # imports the class of a kind
-    shared: Sequence[Field] = ()  # keys of all kinds, which the word alone allows
-    without: Sequence[Field] = ()  # keys of kinds that this table lacks
-
-    @property
-    def keys(self) -> dict[str, list[Field]]:
-        """The keys of each kind; it imports all kinds."""
-        return {name: self.keys_of(self.find(name)) for name in self.names}
-
-    def keys_of(self, kind: type[SpecTable]) -> list[Field]:
-        """Keys of one kind in this table."""
-        return [field for field in fields(kind) if field not in self.without]
-
-
-WHEELS = KindTable(
-    "wheel",
-    Field("gearing", "", (str,), OneOf(registry.GEARINGS), "external", "type of wheel and crank"),
-    registry.GEARINGS,
-    registry.gearing,
-)
-DRIVES = KindTable(
-    "drive",
-    Field("kind", "", (str,), None, "crank", "type of drive"),
-    registry.DRIVES,
-    registry.drive,
-)
-LAWS = KindTable(
-    "motion",
-    Field("law", "", (str,), None, None, "motion law of curved slots (`geneva laws`)"),
-    registry.LAWS,
-    registry.law,
-    fields(Motion),
-)
-
-
-def drives_before(names: Collection[str] = registry.DRIVES) -> KindTable:
-    """[drive.before] for some kinds of drives, whose shared keys stand in [drive]."""
-    word = DRIVES.word._replace(default=None, meaning="drive that turns the input shaft of [drive]")
-    return DRIVES._replace(table=BEFORE, word=word, names=names, without=fields(Drive))
-
-
-def kind_tables() -> list[KindTable]:
-    """Every table whose keys depend on a word, in the order of a file; it imports all drives."""
-    before = [name for name in registry.DRIVES if registry.drive(name).IN_FRONT]
-    return [WHEELS, DRIVES, drives_before(before), LAWS]
 
 
 def keys_of(

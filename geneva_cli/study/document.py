@@ -29,7 +29,7 @@ from geneva_cli.output.document.blocks import (
     Row,
     TextList,
 )
-from geneva_cli.output.finite import only
+from geneva_cli.output.text import only
 from geneva_cli.specfile.writer import keys_in, values_of
 from geneva_cli.study.summary.load_lines import title_of
 from geneva_cli.study.summary.report_summary import (

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.motion.records import KINDS
+from geneva_cli.motion.registry import KINDS
 from geneva_cli.spec.tables import Size
 from geneva_cli.verdict.checks import (
     LIMITS,

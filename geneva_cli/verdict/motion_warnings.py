@@ -12,9 +12,8 @@ from geneva_cli.motion.laws.law import Law
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.tolerances import keeps
-from geneva_cli.parts.shafts.fits import closest_mm, loosest_mm
 from geneva_cli.spec.tables import Z_USUAL
-from geneva_cli.spec.workshops import WORKSHOPS
+from geneva_cli.spec.workshops import WORKSHOPS, closest_mm, loosest_mm
 
 SHOWN_UNDERCUT = 0.005  # mm: a wall cut back by less is within a shop's tolerance
 
@@ -125,7 +124,7 @@ def _fits(mechanism: Mechanism) -> Iterator[Notice]:
 
 def _of_law(mechanism: Mechanism, law: Law) -> Iterator[Notice]:
     """Warnings about a wheel that follows a law, and about its slots."""
-    from geneva_cli.motion.pitch_curve import retraces
+    from geneva_cli.motion.path_and_slot import retraces
 
     engagement = mechanism.engagements[0]
     if doubt := law.doubt():  # points of a file that round the jerk

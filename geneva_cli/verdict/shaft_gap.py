@@ -15,9 +15,8 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.geometry.measure import at
 from geneva_cli.geometry.plates import Member, in_place, oriented
-from geneva_cli.geometry.shapes import Arc, Layer, Point, Segment
+from geneva_cli.geometry.shapes import Arc, Layer, Point, Segment, at
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH

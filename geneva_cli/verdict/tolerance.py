@@ -17,9 +17,15 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError, Notice, cut
 from geneva_cli.loads.impacts.entry import arm_mm, mouth_jumps_worst
-from geneva_cli.loads.tolerance.dimensions import Deviations, corners, tolerances, without_effect
 from geneva_cli.loads.tolerance.entry_jump import entry_jumps, entry_jumps_worst
-from geneva_cli.loads.tolerance.locking import CutLock, Lock
+from geneva_cli.loads.tolerance.locking import (
+    CutLock,
+    Deviations,
+    Lock,
+    corners,
+    tolerances,
+    without_effect,
+)
 from geneva_cli.loads.tolerance.motion_error import motion_errors, used
 from geneva_cli.loads.tolerance.random_machines import (
     Draws,
@@ -29,7 +35,7 @@ from geneva_cli.loads.tolerance.random_machines import (
     spread,
 )
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.records import thing
+from geneva_cli.motion.registry import thing
 from geneva_cli.parts.outlines.cut_outlines import cut_arcs
 from geneva_cli.parts.parts import Parts
 from geneva_cli.spec.rules import POSITIVE, require_mm

@@ -9,8 +9,8 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError, Notice
-from geneva_cli.geometry.measure import bounds
-from geneva_cli.loads.carried import G, inertia_kgm2, weight_kg
+from geneva_cli.geometry.shapes import bounds
+from geneva_cli.loads.load_case import G, inertia_kgm2, weight_kg
 from geneva_cli.motion.compatible import is_geared
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
@@ -21,7 +21,7 @@ from geneva_cli.parts.turn.full_turn import SAME
 from geneva_cli.parts.wheel_body import wheel_body
 from geneva_cli.spec.tables import Motor
 from geneva_cli.spec.workshops import WORKSHOPS
-from geneva_cli.verdict.checks.turn_checks import motion_play_max, slips_deg
+from geneva_cli.verdict.checks.motion_checks import motion_play_max, slips_deg
 from geneva_cli.verdict.motion_warnings import motion_warnings
 
 if TYPE_CHECKING:
@@ -36,7 +36,7 @@ def warnings(parts: Parts) -> list[Notice]:
     mechanism = parts.mechanism
     of_loads, of_strength = list[Notice](), list[Notice]()
     if mechanism.spec.is_loaded:  # machines without a load do not import what these need
-        from geneva_cli.verdict.cycle_warnings import cycle_warnings
+        from geneva_cli.loads.cycle import cycle_warnings
         from geneva_cli.verdict.strength import strength
 
         of_loads, of_strength = cycle_warnings(mechanism), strength(mechanism).warnings()

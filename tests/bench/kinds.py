@@ -18,11 +18,11 @@ from geneva_cli.drives.side_crank import SideCrank
 from geneva_cli.kinds.linear.motion import Linear
 from geneva_cli.kinds.linkages.four_bar import FourBar
 from geneva_cli.kinds.series.geneva_pair import GenevaPair
+from geneva_cli.motion.laws.law import Motion
 from geneva_cli.motion.laws.standard import ModifiedSine, SineGroup
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.many import many
 from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.motion.wheels.internal import Internal
 from geneva_cli.motion.wheels.spherical import Spherical

@@ -28,7 +28,7 @@ from geneva_cli.manual import TOPICS
 from geneva_cli.manual.explained import Entry, entries
 from geneva_cli.motion import motion_table as motion
 from geneva_cli.motion import registry
-from geneva_cli.motion.pitch_curve import WALLED
+from geneva_cli.motion.path_and_slot import WALLED
 from geneva_cli.motion.timing import CamFactors
 from geneva_cli.parts.gears import gear_curves
 from geneva_cli.parts.slots import groove

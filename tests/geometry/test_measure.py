@@ -11,9 +11,17 @@ from hypothesis import strategies as st
 from sampling import some
 from shapely.geometry import LineString, Polygon
 
-from geneva_cli.geometry.measure import at, bounds, fraction_at, segment_length
 from geneva_cli.geometry.plates import moments
-from geneva_cli.geometry.shapes import Arc, Contour, Line, about
+from geneva_cli.geometry.shapes import (
+    Arc,
+    Contour,
+    Line,
+    about,
+    at,
+    bounds,
+    fraction_at,
+    segment_length,
+)
 
 FINE = 1e-5  # mm, of the witnesses' polygons
 # Few examples: the whole file stays within seconds, and each is compared in several ways.

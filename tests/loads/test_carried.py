@@ -6,7 +6,7 @@ import pytest
 from geneva_cli import External, Mass, Support
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
-from geneva_cli.loads.carried import (
+from geneva_cli.loads.load_case import (
     inertia_kgm2,
     mass_inertia_kgm2,
     resisting_torques_Nm,

@@ -12,11 +12,10 @@ from words import Drive, Motion, Spec, Wheel, load
 
 from geneva_cli import Design, External, Load, Shaft, Size, Spherical
 from geneva_cli.cli.app import app
-from geneva_cli.loads.cycle import Cycle
+from geneva_cli.loads.cycle import Cycle, back_driven_deg
 from geneva_cli.loads.load_tables import reversals_deg, summaries
 from geneva_cli.motion.mechanism import build
 from geneva_cli.numerics.angles import omega
-from geneva_cli.verdict.cycle_warnings import back_driven_deg
 from geneva_cli.verdict.warnings import carried_warnings
 
 DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))

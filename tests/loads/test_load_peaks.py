@@ -12,14 +12,13 @@ from words import Drive, Keys, Motion, Spec, Wheel
 
 from geneva_cli.design import Design, load
 from geneva_cli.errors import GenevaError
-from geneva_cli.loads.cycle import Cycle
+from geneva_cli.loads.cycle import Cycle, cycle_warnings
 from geneva_cli.loads.cycle_quantities import REPORTED_PEAKS
 from geneva_cli.loads.load_peaks import greatest_pressure
 from geneva_cli.loads.sizing import kinetic_power_W
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.peaks import worst
 from geneva_cli.spec.tables import Load, Size
-from geneva_cli.verdict.cycle_warnings import cycle_warnings
 
 OMEGA = 2.0 * math.pi
 BOTH = Load(0.02, 3.0, friction=0.1)

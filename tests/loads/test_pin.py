@@ -5,7 +5,7 @@ import math
 import mpmath
 import pytest
 
-from geneva_cli.loads.strength.pin import least_diameter_mm, pin_stress_MPa
+from geneva_cli.loads.strength.pin_arm_key import least_diameter_mm, pin_stress_MPa
 from geneva_cli.spec.tables import Size
 
 

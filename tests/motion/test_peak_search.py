@@ -7,8 +7,8 @@ from machine_witness import motions
 from witness import QUANTITIES as EXACT
 
 from geneva_cli.motion import registry
+from geneva_cli.motion.laws.law import Motion
 from geneva_cli.motion.many import many, worst_peaks
-from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.peak_search import QUANTITIES, motion_peaks, search_peaks
 from geneva_cli.motion.peaks import worst
 from geneva_cli.spec.schema import REQUIRED, fields

@@ -9,9 +9,8 @@ import pytest
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.loops import loops
-from geneva_cli.geometry.measure import at
 from geneva_cli.geometry.plates import moments
-from geneva_cli.geometry.shapes import Arc, Line
+from geneva_cli.geometry.shapes import Arc, Line, at
 from geneva_cli.output.foreign import read_drawing
 from geneva_cli.output.foreign.drawn import CURVE_MM, ellipse_pieces
 

@@ -17,9 +17,8 @@ from hypothesis import strategies as st
 from geneva_cli import Design, External, Size
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.measure import bounds
 from geneva_cli.geometry.plates import Plate, face, moments, solids
-from geneva_cli.geometry.shapes import Arc, Circle, Cubic, Line, closed
+from geneva_cli.geometry.shapes import Arc, Circle, Cubic, Line, bounds, closed
 from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.geometry.sphere_shell import Shell
 from geneva_cli.output.inks import INKS

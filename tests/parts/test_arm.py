@@ -11,9 +11,8 @@ from shapely.geometry import Point
 from words import Drive, Spec, Wheel
 
 from geneva_cli.design import Design
-from geneva_cli.geometry.measure import segment_length
-from geneva_cli.geometry.shapes import Arc, Circle, convex_hull
-from geneva_cli.parts.arm import bolts, crank_arm, walls
+from geneva_cli.geometry.shapes import Arc, Circle, convex_hull, segment_length
+from geneva_cli.parts.shafts.arm_and_shafts import bolts, crank_arm, walls
 from geneva_cli.spec.tables import Size
 
 

@@ -10,9 +10,9 @@ import pytest
 from words import Spec, Wheel
 
 from geneva_cli import Design
-from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.outlines.outlines import dial_circle
+from geneva_cli.parts.shafts.arm_and_shafts import crank_arm
 from geneva_cli.spec.tables import Size
 
 L = 100.0

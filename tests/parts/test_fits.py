@@ -5,7 +5,7 @@ import math
 
 import pytest
 
-from geneva_cli.parts.shafts.fits import ISO_286, limits
+from geneva_cli.spec.workshops import ISO_286, limits
 
 # The main ranges of ISO 286; those between share their range's tolerances.
 MAIN = (1, 3, 6, 10, 18, 30, 50, 80, 120, 180, 250, 315, 400, 500, 630, 800, 1000, 1250, 1600)

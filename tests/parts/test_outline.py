@@ -18,11 +18,11 @@ from shapely import affinity
 from shapely.geometry import LineString, Point, Polygon
 from words import LAWS, Drive, Motion, Spec, Wheel
 
-from geneva_cli.geometry.measure import turned as turn
 from geneva_cli.geometry.plates import moments
 from geneva_cli.geometry.shapes import Arc, Contour
+from geneva_cli.geometry.shapes import turned as turn
+from geneva_cli.motion.laws.law import Motion as Given
 from geneva_cli.motion.mechanism import build
-from geneva_cli.motion.motion import Motion as Given
 from geneva_cli.parts.outlines.wheel_outline import CURVED
 from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.spec.tables import Size

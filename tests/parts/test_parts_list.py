@@ -19,7 +19,7 @@ from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import moments
 from geneva_cli.motion import registry
-from geneva_cli.motion.records import of_wheel
+from geneva_cli.motion.registry import of_wheel
 
 DESIGNS = sorted(Path(__file__, "../../../designs").resolve().glob("*.toml"))
 SAME = 1e-9  # radians, as far as a machine must come out from its printed dimensions

@@ -13,7 +13,7 @@ from words import Motion, load
 
 from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.parts.turn.full_turn import full_turn
-from geneva_cli.parts.turn.play import wheel_stops, windows
+from geneva_cli.parts.turn.turned_parts import wheel_stops, windows
 from geneva_cli.verdict.checks import TURNING, applicable
 
 DESIGNS = repo.DESIGNS

@@ -2,7 +2,7 @@
 
 import pytest
 
-from geneva_cli.parts.shafts.screws import SCREWS, bolt_radius, screw_through
+from geneva_cli.parts.shafts.bores import SCREWS, bolt_radius, screw_through
 
 # Coarse threads of ISO 262, their clearance holes of the medium series of ISO 273, and the drills
 # before the threads are cut by ISO 2306.

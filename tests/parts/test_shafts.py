@@ -8,7 +8,7 @@ import repo
 from geneva_cli import Design, External, Internal, SideCrank, Size, load
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import plates
-from geneva_cli.parts.arm import crank_arm
+from geneva_cli.parts.shafts.arm_and_shafts import crank_arm
 from geneva_cli.verdict.shaft_gap import shaft_gaps
 
 STEEL = 7850e-9  # kg/mm³

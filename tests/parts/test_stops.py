@@ -10,12 +10,11 @@ from test_outline import made
 from turn_witness import check_first_contacts
 from words import load
 
-from geneva_cli.geometry.measure import at
-from geneva_cli.geometry.shapes import Arc, Line
+from geneva_cli.geometry.shapes import Arc, Line, at
 from geneva_cli.motion.mechanism import build
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.turn.gaps import Gaps
-from geneva_cli.parts.turn.play import wheel_stops, windows
+from geneva_cli.parts.turn.turned_parts import wheel_stops, windows
 
 BARE = ("turret", "internal-z6", "four-bar-z4", "press-curved", "three-rollers-z4", "spherical-z6")
 LOOSE = (

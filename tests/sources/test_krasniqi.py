@@ -16,7 +16,7 @@ import pytest
 from witness import mp, near
 
 from geneva_cli.motion.laws.standard import SineGroup
-from geneva_cli.motion.pitch_curve import pitch, pitch_at_retrace, retraces
+from geneva_cli.motion.path_and_slot import pitch, pitch_at_retrace, retraces
 from geneva_cli.motion.timing import timings
 
 SHAPES = (-0.25, -0.15, -0.05, 0.0, 0.05, 0.15, 0.25)  # the rows of Table 1, and 0

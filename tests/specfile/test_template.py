@@ -7,7 +7,7 @@ import tomli
 
 from geneva_cli import load
 from geneva_cli.motion import registry
-from geneva_cli.motion.motion import Motion
+from geneva_cli.motion.laws.law import Motion
 from geneva_cli.spec.schema import SpecTable, fields
 from geneva_cli.spec.tables import Limits, Load, Size
 from geneva_cli.specfile.template import KINDS, template

@@ -16,7 +16,7 @@ from words import Motion
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.turn.full_turn import full_turn
-from geneva_cli.parts.turn.play import wheel_stops, windows
+from geneva_cli.parts.turn.turned_parts import wheel_stops, windows
 
 LAWS = ("modified-sine", "cycloidal", "modified-trapezoid", "3-4-5", "harmonic")
 PLACES, DENSE = 80, 1500  # positions of the wheel in each motion and dwell

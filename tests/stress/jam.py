@@ -24,7 +24,7 @@ import shapely
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
 from geneva_cli.output import draw
-from geneva_cli.parts.turn.play import windows
+from geneva_cli.parts.turn.turned_parts import windows
 
 TURNS = 2
 STEPS = 7200  # a turn: a roller 50 mm from its axis moves 0.04 mm in one

@@ -37,9 +37,8 @@ from OCP.XCAFDoc import XCAFDoc_ColorType, XCAFDoc_DocumentTool
 
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.measure import bounds
 from geneva_cli.geometry.plates import Group, Plate, mass_properties
-from geneva_cli.geometry.shapes import Contour, Cubic
+from geneva_cli.geometry.shapes import Contour, Cubic, bounds
 from geneva_cli.output.inks import INKS
 from geneva_cli.output.step import chunks
 

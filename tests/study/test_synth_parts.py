@@ -10,10 +10,10 @@ from geneva_cli import GearSector
 from geneva_cli.cli.app import app
 from geneva_cli.design import load
 from geneva_cli.drives.crank import Crank
+from geneva_cli.motion.laws.law import Motion
 from geneva_cli.motion.laws.standard import ModifiedSine
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
-from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.study.synth.machine_rows import rows
 from geneva_cli.study.synth.reading import read_target

@@ -15,7 +15,8 @@ from strength_checks import HORNS, PARTS, rows
 
 from geneva_cli import Crank, Design, External, Internal, NoncircularGears, SideCrank
 from geneva_cli.errors import GenevaError
-from geneva_cli.loads.strength.arm_and_key import (
+from geneva_cli.loads.strength.part_loads import part_loads
+from geneva_cli.loads.strength.pin_arm_key import (
     ArmDimensions,
     KeyDimensions,
     arm_stress_MPa,
@@ -24,7 +25,6 @@ from geneva_cli.loads.strength.arm_and_key import (
     shear_allowed_MPa,
     torsion_MPa,
 )
-from geneva_cli.loads.strength.part_loads import part_loads
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.parts.machine_sizes import sized

@@ -12,13 +12,12 @@ import geneva_cli
 from geneva_cli import Design, External, Internal, SideCrank, Size, Spherical, Tolerance
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
-from geneva_cli.loads.tolerance.dimensions import Deviations, deviations, slope_of
 from geneva_cli.loads.tolerance.entry_jump import entry_jumps
-from geneva_cli.loads.tolerance.locking import Lock
+from geneva_cli.loads.tolerance.locking import Deviations, Lock, deviations, slope_of
 from geneva_cli.loads.tolerance.motion_error import motion_errors, motion_plays
+from geneva_cli.motion.laws.law import Motion
 from geneva_cli.motion.laws.standard import Cycloidal
 from geneva_cli.motion.many import many
-from geneva_cli.motion.motion import Motion
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.verdict.checks import TURNING, applicable
 from geneva_cli.verdict.tolerance import flat_locks

@@ -28,8 +28,8 @@ def run(
     --open also prints the page's path.
     """
     from geneva_cli.design import load
+    from geneva_cli.kept import load_extra
     from geneva_cli.output import animate
-    from geneva_cli.spec.load_named import load_extra
     from geneva_cli.study.animation.turning_scene import scene
 
     if open_ and output != "-" and not output.endswith(".html"):

@@ -47,7 +47,7 @@ def run(
     from geneva_cli.study.compare import differing as only_differing
 
     if against:
-        from geneva_cli.spec.load_named import load_extra
+        from geneva_cli.kept import load_extra
 
         if len(specs) > 1 or vary or pick or ratio or differing or reverse:
             raise GenevaError(

@@ -27,8 +27,7 @@ def run(
 ) -> None:
     """Explain a word of the output: meaning, formula, unit, source, what to do, manual page."""
     from geneva_cli.cli.pages import search
-    from geneva_cli.output import show, show_markdown, show_text
-    from geneva_cli.output.formats import is_for_people
+    from geneva_cli.output import is_for_people, show, show_markdown, show_text
     from geneva_cli.specfile.meanings import (
         Meaning,
         as_markdown,

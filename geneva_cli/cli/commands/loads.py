@@ -55,8 +55,7 @@ def run(
     called not proved. It needs geneva-cli[certify]. More: `geneva help accuracy`.
     """
     from geneva_cli.design import load
-    from geneva_cli.output import choice, show, show_answer
-    from geneva_cli.output.formats import is_for_people, table_as
+    from geneva_cli.output import choice, is_for_people, show, show_answer, table_as
     from geneva_cli.study.summary.load_lines import of_loads
 
     design = load(spec, settings or (), reverse)

@@ -66,7 +66,7 @@ def run(
         show(design.motion(rows, turns, _angles(at, samples, turns)), output, format, files)
         say(design.spec.path, design.motion_warnings)
         return
-    from geneva_cli.spec.load_named import load_extra
+    from geneva_cli.kept import load_extra
 
     if samples is not None or at:
         given = "--at" if at else "--samples"

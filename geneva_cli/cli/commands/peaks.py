@@ -28,8 +28,7 @@ def run(
     the extra geneva-cli[certify]. More: `geneva help accuracy`.
     """
     from geneva_cli.design import load
-    from geneva_cli.output import show
-    from geneva_cli.output.formats import is_for_people
+    from geneva_cli.output import is_for_people, show
 
     design = load(spec, settings or (), reverse)
     table = design.peaks_table

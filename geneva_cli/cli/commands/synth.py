@@ -98,8 +98,7 @@ def _inputs(target: "Target") -> Sequence[str]:
 
 
 def _show(target: "Target", check: int, buildable: bool, output: str, format: str) -> None:
-    from geneva_cli.output import is_watched, show
-    from geneva_cli.output.formats import is_for_people
+    from geneva_cli.output import is_for_people, is_watched, show
     from geneva_cli.study.synth.shown import for_people
     from geneva_cli.study.synth.synth_table import synthesis_table
 

@@ -22,8 +22,7 @@ def run(
     dimension contributes, and the clearances with which every machine still turns.
     """
     from geneva_cli.design import load
-    from geneva_cli.output import show_answer
-    from geneva_cli.output.formats import is_for_people
+    from geneva_cli.output import is_for_people, show_answer
     from geneva_cli.study.summary.report_summary import of_tolerance
 
     design = load(spec, settings or ())

@@ -11,13 +11,11 @@ from geneva_cli.drawings.sheet.paper import table
 from geneva_cli.drawings.sheet.sized import Fits
 from geneva_cli.drawings.sheet.standing import bolted, bored, circle_of, draw_hub, holes_of
 from geneva_cli.drawings.sheet.view import View, grouped, times
-from geneva_cli.geometry.measure import at, legs
 from geneva_cli.geometry.plates import Member, Plate, plates
-from geneva_cli.geometry.shapes import ORIGIN, Arc, Circle, Contour, Point, Shape
+from geneva_cli.geometry.shapes import ORIGIN, Arc, Circle, Contour, Point, Shape, at, legs
 from geneva_cli.geometry.sheet import CENTRE, HIDDEN, OUTLINE
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
-from geneva_cli.parts.arm import CrankArm
 from geneva_cli.parts.assembly import same
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.links.link_sizes import roller_pins
@@ -25,6 +23,7 @@ from geneva_cli.parts.links.links import Links, placed_holes
 from geneva_cli.parts.machine_sizes import drawn_pin_radius
 from geneva_cli.parts.outlines.crank_outline import is_whole
 from geneva_cli.parts.outlines.outlines import Outlines
+from geneva_cli.parts.shafts.arm_and_shafts import CrankArm
 from geneva_cli.parts.shafts.bores import radius_of
 from geneva_cli.spec.written import degrees, length
 

@@ -28,9 +28,8 @@ from geneva_cli.drawings.sheet.standing import draw_frame, draw_shaft
 from geneva_cli.drawings.sheet.view import View
 from geneva_cli.drawings.sheet.wheel_views import draw_wheel
 from geneva_cli.geometry.board import chords
-from geneva_cli.geometry.measure import at, bounds, bounds_of, mapped
 from geneva_cli.geometry.plates import Group, Member, Plate, in_place, plates
-from geneva_cli.geometry.shapes import Circle, Point, two_arcs
+from geneva_cli.geometry.shapes import Circle, Point, at, bounds, bounds_of, mapped, two_arcs
 from geneva_cli.geometry.sheet import HATCH, OUTLINE, Sheet, line, rectangle
 from geneva_cli.geometry.sphere_shell import Shell
 from geneva_cli.motion.mechanism import Mechanism

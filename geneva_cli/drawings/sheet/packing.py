@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import NamedTuple, TypeAlias
 
-from geneva_cli.geometry.measure import mapped
-from geneva_cli.geometry.shapes import Contour, Point, Shape
+from geneva_cli.geometry.shapes import Contour, Point, Shape, mapped
 from geneva_cli.geometry.sheet import Label, Measure
 
 Box: TypeAlias = tuple[float, float, float, float]  # x0, y0, x1, y1

@@ -6,10 +6,9 @@ from typing import NamedTuple
 
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
-from geneva_cli.parts.shafts.fits import limits
-from geneva_cli.parts.shafts.screws import SCREWS, screw_through
+from geneva_cli.parts.shafts.bores import SCREWS, screw_through
 from geneva_cli.spec.tables import Size
-from geneva_cli.spec.workshops import WORKSHOPS
+from geneva_cli.spec.workshops import WORKSHOPS, limits
 from geneva_cli.spec.written import length, signed
 
 

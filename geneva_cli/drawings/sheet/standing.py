@@ -7,9 +7,8 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.view import View, grouped, times
-from geneva_cli.geometry.measure import at, bounds
 from geneva_cli.geometry.plates import Plate
-from geneva_cli.geometry.shapes import ORIGIN, Arc, Circle, Contour, Shape, polygon
+from geneva_cli.geometry.shapes import ORIGIN, Arc, Circle, Contour, Shape, at, bounds, polygon
 from geneva_cli.geometry.sheet import CENTRE, OUTLINE
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.parts import mounts_of

@@ -14,8 +14,17 @@ from geneva_cli.drawings.sheet.packing import Block
 from geneva_cli.drawings.sheet.sized import Fits
 from geneva_cli.geometry import marks
 from geneva_cli.geometry.board import Board, chords
-from geneva_cli.geometry.measure import legs, mapped
-from geneva_cli.geometry.shapes import Arc, Circle, Layer, Point, Segment, Shape, polar
+from geneva_cli.geometry.shapes import (
+    Arc,
+    Circle,
+    Layer,
+    Point,
+    Segment,
+    Shape,
+    legs,
+    mapped,
+    polar,
+)
 from geneva_cli.geometry.sheet import CENTRE, LARGE, OUTLINE, SMALL, Label, Measure, line
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET

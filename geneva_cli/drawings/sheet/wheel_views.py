@@ -8,9 +8,8 @@ from geneva_cli.drawings.part_drawings import pitch_lines
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.standing import bolted, bored, circle_of, draw_hub, holes_of
 from geneva_cli.drawings.sheet.view import View, grouped, times
-from geneva_cli.geometry.measure import turned
 from geneva_cli.geometry.plates import plates
-from geneva_cli.geometry.shapes import ORIGIN, Arc, Contour, Point
+from geneva_cli.geometry.shapes import ORIGIN, Arc, Contour, Point, turned
 from geneva_cli.geometry.sheet import CENTRE, HIDDEN, OUTLINE
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET

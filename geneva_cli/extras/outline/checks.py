@@ -27,7 +27,7 @@ from geneva_cli.extras.outline.turning import (
 from geneva_cli.extras.outline.walls import smallest_wall
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.loops import shown
-from geneva_cli.geometry.measure import at
+from geneva_cli.geometry.shapes import at
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.parts import parts_of

@@ -12,9 +12,18 @@ import numpy as np
 from geneva_cli.errors import GenevaError, Notice, below, cut
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.loops import Loop, greatest_gap, loops, shown
-from geneva_cli.geometry.measure import turned_pieces
 from geneva_cli.geometry.plates import moments, total
-from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Line, Point, closed, two_arcs
+from geneva_cli.geometry.shapes import (
+    Arc,
+    Circle,
+    Contour,
+    Cubic,
+    Line,
+    Point,
+    closed,
+    turned_pieces,
+    two_arcs,
+)
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array

@@ -11,7 +11,7 @@ import numpy as np
 from geneva_cli.extras.outline.contact import Contact, contacts
 from geneva_cli.extras.outline.machine import DrawnMachine, crank_jet, drawn_machine
 from geneva_cli.loads.impacts.shock_force import forces_N, impulse_Nms
-from geneva_cli.loads.strength.pin import PinSize, pin_diameter_mm
+from geneva_cli.loads.strength.pin_arm_key import PinSize, pin_diameter_mm
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.parts.machine_sizes import built
 from geneva_cli.parts.turn.free_ranges import Range

@@ -16,12 +16,11 @@ from geneva_cli.design import Design, load
 from geneva_cli.drives.crank import Crank
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.extras.servo.s_curve import SCurve
-from geneva_cli.loads.carried import inertia_kgm2, resisting_torques_Nm
-from geneva_cli.motion.laws.law import Law
+from geneva_cli.loads.load_case import inertia_kgm2, resisting_torques_Nm
+from geneva_cli.motion.laws.law import Law, Motion
 from geneva_cli.motion.laws.standard import ModifiedSine
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.spec.tables import Load
 from geneva_cli.study.compare import over

@@ -10,10 +10,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Annotated, ClassVar
 
-from geneva_cli.drives.refuses import of_transmission, other_wheels
 from geneva_cli.drives.transmission import Direct
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.motion.compatible import Conflict
+from geneva_cli.motion.compatible import Conflict, of_transmission, other_wheels
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.pivots import Dimension, Layout, Pivot, wheel_places
 from geneva_cli.motion.wheels.classic import rollers_max
@@ -22,7 +21,7 @@ from geneva_cli.spec.schema import Example
 
 if TYPE_CHECKING:
     from geneva_cli.motion.drive import Plan
-    from geneva_cli.motion.motion import Motion
+    from geneva_cli.motion.laws.law import Motion
     from geneva_cli.motion.wheels.gearing import Gearing
 
 

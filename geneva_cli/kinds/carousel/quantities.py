@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.loads.carried import carried_kg
-from geneva_cli.loads.load_case import centrifugal_N
+from geneva_cli.loads.load_case import carried_kg, centrifugal_N
 from geneva_cli.motion.many import worst_peaks
 from geneva_cli.parts.parts import Parts
 from geneva_cli.verdict.checks.part_checks import reach_mm

@@ -7,7 +7,7 @@ KINDS = (
         "gear-sector",
         drive="kinds.gear_sector.motion:GearSector",
         gearings=("external",),
-        refuses="drives.refuses:of_pin_path",
+        refuses="motion.compatible:of_pin_path",
         families={"straight": "kinds.gear_sector.family:sectors"},
     ),
 )

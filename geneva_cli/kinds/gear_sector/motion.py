@@ -26,7 +26,7 @@ from geneva_cli.spec.schema import Example
 
 if TYPE_CHECKING:
     from geneva_cli.drives.transmission import Transmission
-    from geneva_cli.motion.motion import Motion
+    from geneva_cli.motion.laws.law import Motion
     from geneva_cli.motion.wheels.gearing import Gearing
     from geneva_cli.numerics.jet_functions import Path
 

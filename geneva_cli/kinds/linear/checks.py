@@ -9,9 +9,8 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.geometry.measure import bounds
 from geneva_cli.geometry.plates import plates
-from geneva_cli.geometry.shapes import as_contour
+from geneva_cli.geometry.shapes import as_contour, bounds
 from geneva_cli.kinds.linear.guide import RackGuide
 from geneva_cli.kinds.linear.motion import guided
 from geneva_cli.kinds.linear.parts import RackParts

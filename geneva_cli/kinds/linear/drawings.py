@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from geneva_cli.geometry.measure import bounds
 from geneva_cli.geometry.plates import Group
-from geneva_cli.geometry.shapes import Circle, Contour, Line, Shape, closed
+from geneva_cli.geometry.shapes import Circle, Contour, Line, Shape, bounds, closed
 from geneva_cli.geometry.sheet import Annotations, Drawing, LevelDistance
 from geneva_cli.kinds.linear.parts import RackParts
 from geneva_cli.kinds.linear.rack import rack_sizes, slot_walls

@@ -15,7 +15,7 @@ from geneva_cli.geometry.plates import Plate
 from geneva_cli.geometry.shapes import Circle
 from geneva_cli.geometry.sheet import rectangle
 from geneva_cli.kinds.linear.rack import RackSizes, crank_arm, rack_bore, rack_sizes, slot_places
-from geneva_cli.loads.strength.arm_and_key import NO_ARM, NO_KEY, ArmDimensions
+from geneva_cli.loads.strength.pin_arm_key import NO_ARM, NO_KEY, ArmDimensions
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import value_or
 from geneva_cli.parts.frame import (
@@ -25,9 +25,8 @@ from geneva_cli.parts.frame import (
 )
 from geneva_cli.parts.gears.gear_pair import gear_shafts, gear_span
 from geneva_cli.parts.parts import FrameAndShafts
-from geneva_cli.parts.shafts.bores import bore_of, reach_or_bore
-from geneva_cli.parts.shafts.screws import bolt_radius, tapped
-from geneva_cli.parts.shafts.shaft import Shaft, shaft_ends
+from geneva_cli.parts.shafts.arm_and_shafts import Shaft, shaft_ends
+from geneva_cli.parts.shafts.bores import bolt_radius, bore_of, reach_or_bore, tapped
 from geneva_cli.parts.sized_by_load import ShaftSize, Stressed, key_of, shaft_of
 from geneva_cli.parts.sizes import drawn_thicknesses, pin_radius
 from geneva_cli.spec.defaults import wall_min

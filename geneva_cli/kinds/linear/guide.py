@@ -19,7 +19,7 @@ from typing import NamedTuple
 
 from geneva_cli.kinds.linear.motion import guided
 from geneva_cli.loads.contact import Contact, LoadCase, lesser
-from geneva_cli.loads.strength.pin import pin_diameter_mm
+from geneva_cli.loads.strength.pin_arm_key import pin_diameter_mm
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import choose, larger, value_or
 from geneva_cli.numerics.jet import Number, V

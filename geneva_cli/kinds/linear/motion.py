@@ -21,7 +21,7 @@ from geneva_cli.spec.schema import Example
 
 if TYPE_CHECKING:
     from geneva_cli.motion.machine_spec import Spec
-    from geneva_cli.motion.plane_motion import PlaneMotion
+    from geneva_cli.motion.pivots import PlaneMotion
     from geneva_cli.numerics.jet_functions import Displacement
 
 

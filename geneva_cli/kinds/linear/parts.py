@@ -28,12 +28,12 @@ from geneva_cli.kinds.linear.rack import (
     rack_sizes,
 )
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.parts.arm import roller_plates
 from geneva_cli.parts.assembly import assembly
 from geneva_cli.parts.gears.gear_pair import gear_pair
 from geneva_cli.parts.parts import EdgedParts, FrameAndShafts, NamedBuilds
 from geneva_cli.parts.projection import NamedParts
-from geneva_cli.parts.shafts.screws import Screws
+from geneva_cli.parts.shafts.arm_and_shafts import roller_plates
+from geneva_cli.parts.shafts.bores import Screws
 from geneva_cli.parts.sizes import drawn_thicknesses, pin_radius
 from geneva_cli.parts.turn.turn_certificate import FlatPairs
 from geneva_cli.spec.defaults import wall_min

@@ -16,10 +16,9 @@ from geneva_cli.geometry.shapes import Circle, Contour, Line, Segment, about, cl
 from geneva_cli.kinds.linear.guide import GuidePlace, guide_place
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import half_or, value_or
-from geneva_cli.parts.arm import CrankArm
 from geneva_cli.parts.machine_sizes import lock_between, require_lock_between
-from geneva_cli.parts.shafts.bores import bore_of
-from geneva_cli.parts.shafts.screws import bolt_radius, tapped
+from geneva_cli.parts.shafts.arm_and_shafts import CrankArm
+from geneva_cli.parts.shafts.bores import bolt_radius, bore_of, tapped
 from geneva_cli.parts.sizes import (
     KeySizes,
     arm_bore,

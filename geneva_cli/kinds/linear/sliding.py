@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from geneva_cli.motion.plane_motion import PlaneMotion
+from geneva_cli.motion.pivots import PlaneMotion
 from geneva_cli.numerics.arrays import Array, N
 
 

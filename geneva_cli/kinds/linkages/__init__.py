@@ -7,13 +7,13 @@ KINDS = (
         "four-bar",
         drive="kinds.linkages.four_bar:FourBar",
         gearings=("external",),
-        refuses="drives.refuses:of_pin_path",
+        refuses="motion.compatible:of_pin_path",
         families={"alone": "kinds.linkages.four_bar_family:four_bars"},
     ),
     Kind(
         "slider-crank",
         drive="kinds.linkages.slider_crank:SliderCrank",
         gearings=("external",),
-        refuses="drives.refuses:of_pin_path",
+        refuses="motion.compatible:of_pin_path",
     ),
 )

@@ -19,7 +19,7 @@ from geneva_cli.spec.rules import Range
 from geneva_cli.spec.tables import DISTANCE_MM
 
 if TYPE_CHECKING:
-    from geneva_cli.motion.motion import Motion
+    from geneva_cli.motion.laws.law import Motion
     from geneva_cli.motion.wheels.gearing import Gearing
 
 Place = TypeVar("Place", float, "Array")

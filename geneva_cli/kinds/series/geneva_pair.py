@@ -12,9 +12,8 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
 from geneva_cli.drives.pushed import PushedCrank
-from geneva_cli.drives.refuses import of_transmission, several_rollers
 from geneva_cli.drives.transmission import LocalTransmission, Transmission
-from geneva_cli.motion.compatible import Conflict
+from geneva_cli.motion.compatible import Conflict, of_transmission, several_rollers
 from geneva_cli.motion.drive import FirstWheel, Plan
 from geneva_cli.motion.engagement import Vector
 from geneva_cli.motion.machine_spec import Spec

@@ -17,8 +17,7 @@ from geneva_cli.geometry.sphere import POLE, Cap, Region, convex_hull, dot, plac
 from geneva_cli.geometry.sphere_arcs import RoundHole, least_wall
 from geneva_cli.kinds.spherical.ball import Ball, refuse_wide
 from geneva_cli.kinds.spherical.regions import locked
-from geneva_cli.parts.shafts.bores import Bore, bore_of
-from geneva_cli.parts.shafts.screws import bolt_radius
+from geneva_cli.parts.shafts.bores import Bore, bolt_radius, bore_of
 from geneva_cli.parts.sizes import hub_and_eye, lock_bolt_directions, pin_hole
 from geneva_cli.spec.defaults import eye_about, wall_min
 from geneva_cli.spec.tables import Size

@@ -19,7 +19,6 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.geometry import fit
-from geneva_cli.geometry.measure import bounds, mapped
 from geneva_cli.geometry.plates import Group, Member, Part, Plate
 from geneva_cli.geometry.shapes import (
     Arc,
@@ -29,8 +28,10 @@ from geneva_cli.geometry.shapes import (
     Point,
     Segment,
     Shape,
+    bounds,
     closed,
     joined,
+    mapped,
 )
 from geneva_cli.geometry.sheet import Annotations, Drawing
 from geneva_cli.geometry.sphere import Region, SphereArc

@@ -20,8 +20,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.loads.strength.arm_and_key import torsion_MPa
 from geneva_cli.loads.strength.horn import SlotEnd, slot_ends
+from geneva_cli.loads.strength.pin_arm_key import torsion_MPa
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Number, parameter
 from geneva_cli.numerics.jet import Array

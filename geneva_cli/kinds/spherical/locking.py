@@ -18,8 +18,7 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 from geneva_cli.kinds.spherical.parts import SphereParts
-from geneva_cli.loads.tolerance.dimensions import Deviations
-from geneva_cli.loads.tolerance.locking import ROUNDING, LockPlay, positive_root
+from geneva_cli.loads.tolerance.locking import ROUNDING, Deviations, LockPlay, positive_root
 from geneva_cli.numerics.arrays import array, choose
 from geneva_cli.numerics.jet import Jet, atan2, sqrt
 from geneva_cli.parts.parts import Parts
@@ -31,7 +30,7 @@ class SphereLock(NamedTuple):
 
     At a right angle, with rim and crank's axis on one great circle, the play is the clearance:
 
-    >>> from geneva_cli.loads.tolerance.dimensions import deviations
+    >>> from geneva_cli.loads.tolerance.locking import deviations
     >>> lock = SphereLock(100.0, 0.5 * math.pi, 0.4, 0.401, 0.5 * math.pi, 0.5 * math.pi)
     >>> round(lock(deviations([0.0] * 7)).angle.c[0], 12)
     0.001

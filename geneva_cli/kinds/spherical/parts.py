@@ -37,8 +37,8 @@ from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.projection import NamedParts
+from geneva_cli.parts.shafts.arm_and_shafts import Shaft, shaft_ends
 from geneva_cli.parts.shafts.bores import bore_of, has_shape
-from geneva_cli.parts.shafts.shaft import Shaft, shaft_ends
 from geneva_cli.parts.sizes import refuse_thin_hub
 from geneva_cli.spec.defaults import wall_min, wheel_material
 from geneva_cli.spec.tables import Size

@@ -14,7 +14,6 @@ from geneva_cli.geometry.sphere import Region
 from geneva_cli.kinds.spherical.ball import Ball, PartDoesNotFit, flat_radius, hub_about, usual_ball
 from geneva_cli.kinds.spherical.horn import sphere_horns
 from geneva_cli.kinds.spherical.regions import sectors
-from geneva_cli.loads.strength.arm_and_key import NO_ARM, NO_KEY, ArmDimensions, arm_stress_MPa
 from geneva_cli.loads.strength.horn import single_stress
 from geneva_cli.loads.strength.lock import dwell_torque_Nm
 from geneva_cli.loads.strength.part_loads import (
@@ -22,12 +21,12 @@ from geneva_cli.loads.strength.part_loads import (
     shafts_under_load,
     single_loads,
 )
+from geneva_cli.loads.strength.pin_arm_key import NO_ARM, NO_KEY, ArmDimensions, arm_stress_MPa
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import half_or, value_or
-from geneva_cli.numerics.preferred import sizes_from, to_digits
 from geneva_cli.numerics.roots import boundary
-from geneva_cli.numerics.tolerances import keeps
+from geneva_cli.numerics.tolerances import keeps, sizes_from, to_digits
 from geneva_cli.parts.machine_sizes import keys_by_load
 from geneva_cli.parts.shafts.bores import reach_or_bore
 from geneva_cli.parts.sized_by_load import (

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.loads.impacts.shock_force import Impacts, harder, shown, with_force
-from geneva_cli.loads.strength.pin import PinSize
+from geneva_cli.loads.strength.pin_arm_key import PinSize
 from geneva_cli.motion.batch import taken
 from geneva_cli.motion.engagement import Anchor, Engagement
 from geneva_cli.motion.mechanism import Mechanism

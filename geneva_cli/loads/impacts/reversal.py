@@ -14,11 +14,10 @@ from typing import TypeAlias
 
 import numpy as np
 
-from geneva_cli.loads.carried import inertia_kgm2, resisting_torques_Nm
 from geneva_cli.loads.contact import contact
 from geneva_cli.loads.impacts.shock_force import Impacts, harder, shown, with_force
-from geneva_cli.loads.load_case import load_case
-from geneva_cli.loads.strength.pin import PinSize
+from geneva_cli.loads.load_case import inertia_kgm2, load_case, resisting_torques_Nm
+from geneva_cli.loads.strength.pin_arm_key import PinSize
 from geneva_cli.motion.batch import selection, taken
 from geneva_cli.motion.engagement import Engagement, WheelMotion
 from geneva_cli.motion.mechanism import Mechanism

@@ -14,9 +14,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.loads.carried import MM, inertia_kgm2
-from geneva_cli.loads.load_case import contact_modulus_GPa
-from geneva_cli.loads.strength.pin import PinSize, stiffness_N_mm
+from geneva_cli.loads.load_case import MM, contact_modulus_GPa, inertia_kgm2
+from geneva_cli.loads.strength.pin_arm_key import PinSize, stiffness_N_mm
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import omega

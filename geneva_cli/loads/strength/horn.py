@@ -28,7 +28,7 @@ from geneva_cli.loads.load_case import load_case
 from geneva_cli.motion.batch import taken
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.pitch_curve import pitch
+from geneva_cli.motion.path_and_slot import pitch
 from geneva_cli.numerics.arrays import Number, array, blocks, joined, parameter
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.tolerances import TIE

@@ -25,11 +25,11 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.kept import Known
-from geneva_cli.loads.carried import MM, carried_kg
 from geneva_cli.loads.contact import QuantityValue
 from geneva_cli.loads.cycle_quantities import FORCE
 from geneva_cli.loads.impacts.reversal import reversal_impacts
 from geneva_cli.loads.instant import Instant, LoadQuantity
+from geneva_cli.loads.load_case import MM, carried_kg
 from geneva_cli.loads.load_peaks import load_peaks
 from geneva_cli.loads.strength.lock import dwell_torque_Nm
 from geneva_cli.motion.mechanism import Mechanism

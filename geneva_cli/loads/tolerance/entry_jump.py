@@ -12,7 +12,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.loads.impacts.entry import RestingAxis, arm_mm, first_contacts
-from geneva_cli.loads.tolerance.dimensions import Deviations, corners
+from geneva_cli.loads.tolerance.locking import Deviations, corners
 from geneva_cli.motion.drive import Drive
 from geneva_cli.motion.engagement import AsBuilt
 from geneva_cli.motion.mechanism import Mechanism

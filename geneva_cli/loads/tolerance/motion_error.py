@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.loads.impacts.entry import arm_mm
-from geneva_cli.loads.tolerance.dimensions import (
+from geneva_cli.loads.tolerance.locking import (
     Deviations,
     corners,
     deviations,

@@ -15,7 +15,7 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.kept import cached_property
-from geneva_cli.loads.carried import inertia_kgm2
+from geneva_cli.loads.load_case import inertia_kgm2
 from geneva_cli.loads.vibration.panels import law_shape, motion_shapes
 from geneva_cli.loads.vibration.swing import (
     Oscillator,

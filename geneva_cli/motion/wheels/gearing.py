@@ -17,7 +17,7 @@ from geneva_cli.spec.schema import Example, SpecTable
 
 if TYPE_CHECKING:
     from geneva_cli.motion.engagement import AsBuilt, Slot, WheelMotion
-    from geneva_cli.motion.plane_motion import PlaneMotion
+    from geneva_cli.motion.pivots import PlaneMotion
     from geneva_cli.numerics.jet_functions import Displacement
 
 
@@ -174,7 +174,7 @@ class Gearing(SpecTable):
     def plane_motion(self, center_distance_mm: float) -> PlaneMotion:
         """How the wheel moves in its plane, for lengths in millimetres."""
         # imported here, as `table` starts without NumPy
-        from geneva_cli.motion.plane_motion import PlaneMotion
+        from geneva_cli.motion.pivots import PlaneMotion
 
         return PlaneMotion()
 

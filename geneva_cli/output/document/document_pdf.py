@@ -6,8 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from geneva_cli.answer import FAILS, NO_BREAK, PASSES, WARNS, value_text
 from geneva_cli.errors import clean
-from geneva_cli.geometry.measure import mapped
-from geneva_cli.geometry.shapes import Point, Shape
+from geneva_cli.geometry.shapes import Point, Shape, mapped
 from geneva_cli.geometry.sheet import Annotations, Drawing, extent, prepared
 from geneva_cli.output.document.blocks import (
     BAD,

@@ -13,8 +13,7 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.geometry.fit.arcs import arcs
-from geneva_cli.geometry.measure import mapped
-from geneva_cli.geometry.shapes import Arc, Contour, Line
+from geneva_cli.geometry.shapes import Arc, Contour, Line, mapped
 from geneva_cli.output.ezdxf_alone import Document, readfile
 from geneva_cli.output.foreign.drawn import CURVE_MM, Drawn, arc_pieces, ellipse_pieces
 

@@ -22,9 +22,8 @@ from geneva_cli.geometry.shapes import (
 )
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Link, Teeth
-from geneva_cli.parts.links.link_records import Gear, LinkSizes
-from geneva_cli.parts.shafts.bores import Bore, ShaftBore
-from geneva_cli.parts.shafts.screws import bolt_circle
+from geneva_cli.parts.links.links import Gear, LinkSizes
+from geneva_cli.parts.shafts.bores import Bore, ShaftBore, bolt_circle
 
 
 def link_gear(link: Link, at: Point, on: ShaftBore, sizes: LinkSizes, mechanism: Mechanism) -> Gear:

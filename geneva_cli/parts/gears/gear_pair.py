@@ -14,14 +14,14 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Member, Plate
 from geneva_cli.geometry.shapes import Point, closed
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.preferred import bore_radius
+from geneva_cli.numerics.tolerances import bore_radius
 from geneva_cli.parts.assembly import gear_plane, same
 from geneva_cli.parts.gears.gear_curves import GEARS, pitch_curves, pitch_radii, required_gears
 from geneva_cli.parts.links.link_plates import drawn_links
 from geneva_cli.parts.links.link_sizes import link_sizes
 from geneva_cli.parts.outlines.outlines import Outlines
+from geneva_cli.parts.shafts.arm_and_shafts import Shaft, bore_at, shaft_ends
 from geneva_cli.parts.shafts.bores import Bore, ShaftBore, round_bore
-from geneva_cli.parts.shafts.shaft import Shaft, bore_at, shaft_ends
 
 if TYPE_CHECKING:
     from geneva_cli.geometry.fit import Writer

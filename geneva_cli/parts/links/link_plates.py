@@ -17,21 +17,18 @@ from geneva_cli.geometry.plates import Member, Plate, apart, placed, plate_wall
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Layer, Shape, convex_hull
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Joint, Link
-from geneva_cli.numerics.preferred import bore_radius
-from geneva_cli.numerics.tolerances import SAME_LENGTH
+from geneva_cli.numerics.tolerances import SAME_LENGTH, bore_radius
 from geneva_cli.parts.assembly import links_at, same, turn_deg
-from geneva_cli.parts.links.link_records import LinkAxis, LinkSizes
 from geneva_cli.parts.links.link_sizes import (
     joined,
     link_sizes,
     places,
     point_at_zero,
 )
-from geneva_cli.parts.links.links import Links
+from geneva_cli.parts.links.links import LinkAxis, Links, LinkSizes
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.shafts.bores import ShaftBore, round_bore
-from geneva_cli.parts.shafts.screws import screw_through
-from geneva_cli.parts.shafts.shaft import bore_at
+from geneva_cli.parts.shafts.arm_and_shafts import bore_at
+from geneva_cli.parts.shafts.bores import ShaftBore, round_bore, screw_through
 
 SHAFT = Joint.SHAFT
 SLOT_MARGIN = 0.25  # distance from a block to the end of its slot, as a fraction of the pin's hole

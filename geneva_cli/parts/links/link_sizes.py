@@ -16,9 +16,9 @@ from geneva_cli.geometry.shapes import Point
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Joint, Link
 from geneva_cli.numerics.arrays import Array, half_or
-from geneva_cli.numerics.preferred import rounded_radius
+from geneva_cli.numerics.tolerances import rounded_radius
 from geneva_cli.parts.assembly import links_at
-from geneva_cli.parts.links.link_records import LinkSizes
+from geneva_cli.parts.links.links import LinkSizes
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.sizes import drawn_thicknesses, pin_hole, pin_radius
 from geneva_cli.spec.defaults import eye_about, wall_min

@@ -17,8 +17,7 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry import fit
-from geneva_cli.geometry.measure import mirrored
-from geneva_cli.geometry.shapes import Contour, Segment, about, joined
+from geneva_cli.geometry.shapes import Contour, Segment, about, joined, mirrored
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.roots import boundary_by_sections

@@ -11,8 +11,7 @@ from geneva_cli.geometry.plates import Plate
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Contour
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.shafts.bores import bore_of, has_shape
-from geneva_cli.parts.shafts.screws import BoltCircle, bolt_circle
+from geneva_cli.parts.shafts.bores import BoltCircle, bolt_circle, bore_of, has_shape
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.turn.gaps import Gaps
 from geneva_cli.spec.tables import Size

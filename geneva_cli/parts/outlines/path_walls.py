@@ -13,7 +13,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.motion.engagement import Engagement
-from geneva_cli.motion.pitch_curve import Pitch, retraces
+from geneva_cli.motion.path_and_slot import Pitch, retraces
 from geneva_cli.numerics.arrays import Array, Mask, array
 from geneva_cli.numerics.roots import boundary_by_sections
 from geneva_cli.parts.assembly import Assembly

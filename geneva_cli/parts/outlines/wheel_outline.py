@@ -13,7 +13,6 @@ from itertools import chain
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.measure import turned, turned_pieces
 from geneva_cli.geometry.shapes import (
     ORIGIN,
     Arc,
@@ -25,6 +24,8 @@ from geneva_cli.geometry.shapes import (
     closed,
     joined,
     polar,
+    turned,
+    turned_pieces,
 )
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.arrays import array

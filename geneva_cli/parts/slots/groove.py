@@ -14,13 +14,13 @@ from geneva_cli.geometry.plates import Plate
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Contour, Layer, closed, polar
 from geneva_cli.motion.groove_path import back, distances
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.pitch_curve import WALLED
+from geneva_cli.motion.path_and_slot import WALLED
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.roots import boundary_by_sections, greatest_at
 from geneva_cli.parts.links.links import Links
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.shafts.screws import screw_through
-from geneva_cli.parts.shafts.shaft import bore_at
+from geneva_cli.parts.shafts.arm_and_shafts import bore_at
+from geneva_cli.parts.shafts.bores import screw_through
 from geneva_cli.table import Table
 
 if TYPE_CHECKING:

@@ -13,8 +13,15 @@ from functools import lru_cache
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.measure import fraction_at, segment_length
-from geneva_cli.geometry.shapes import Arc, Contour, Line, Point, Segment
+from geneva_cli.geometry.shapes import (
+    Arc,
+    Contour,
+    Line,
+    Point,
+    Segment,
+    fraction_at,
+    segment_length,
+)
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.parts.assembly import Assembly
 

@@ -10,7 +10,7 @@ import numpy as np
 from geneva_cli.geometry import chords
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.pitch_curve import WALLED, Pitch, pitch, pitch_at_retrace, retraces
+from geneva_cli.motion.path_and_slot import WALLED, Pitch, pitch, pitch_at_retrace, retraces
 from geneva_cli.numerics.arrays import Array, array
 from geneva_cli.numerics.roots import boundary_by_sections
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG

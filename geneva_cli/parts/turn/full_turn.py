@@ -16,14 +16,14 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.numerics.arrays import Array, rising
 from geneva_cli.numerics.roots import boundary_by_sections
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG, SAME_LENGTH
-from geneva_cli.parts.turn.play import (
+from geneva_cli.parts.turn.turned_parts import (
     EXACT,
     Play,
+    TurnedParts,
     play_of,
     wheel_stops,
     windows,
 )
-from geneva_cli.parts.turn.turned_parts import TurnedParts
 
 POSITIONS = 10_000  # at most: about 0.1 s of the parts alone; a turn that needs more is not proved
 DIP = 1e-9  # mm: gaps that differ by less count as equal

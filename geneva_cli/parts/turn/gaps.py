@@ -16,7 +16,7 @@ import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.shapes import Contour, backwards
-from geneva_cli.motion.plane_motion import turned_points
+from geneva_cli.motion.pivots import turned_points
 from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.motion.plane_motion import turned_points
+from geneva_cli.motion.pivots import turned_points
 from geneva_cli.numerics.arrays import Array, Mask, Whole
 
 BLOCK = 1 << 18  # pairs of branches that are compared together

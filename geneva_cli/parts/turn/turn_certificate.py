@@ -17,12 +17,11 @@ import numpy as np
 from geneva_cli.geometry.distance import farthest, from_segments, short_pieces
 from geneva_cli.geometry.shapes import Contour
 from geneva_cli.motion.engagement import Engagement
-from geneva_cli.motion.plane_motion import turned_points
+from geneva_cli.motion.pivots import turned_points
 from geneva_cli.numerics.arrays import Array, rising
 from geneva_cli.parts.turn.gaps import Gaps
-from geneva_cli.parts.turn.play import windows
 from geneva_cli.parts.turn.stops import Pose
-from geneva_cli.parts.turn.turned_parts import Intervals, TurnedParts, Window
+from geneva_cli.parts.turn.turned_parts import Intervals, TurnedParts, Window, windows
 
 if TYPE_CHECKING:
     from geneva_cli.parts.turn.turned_parts import Clearances

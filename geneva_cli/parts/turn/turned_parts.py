@@ -1,18 +1,26 @@
-"""What a full turn asks of the parts of a machine: wheel, crank and rollers, and their gaps."""
+"""What a full turn asks of the parts of a machine, and the wheel's play in their gaps.
+
+The play is the angle that the wheel can be turned until parts touch. It has some where slot and
+lock take over from each other, and in a slot wider than its roller. A wheel that is off by it must
+be pushed into line, not blocked.
+"""
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from typing import TYPE_CHECKING, NamedTuple, Protocol, Self
 
+import numpy as np
+
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.tolerances import SAME_LENGTH
+from geneva_cli.numerics.arrays import Array, Mask, Whole, joined, record_taken, rising
+from geneva_cli.numerics.tolerances import SAME_INPUT_DEG, SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
 
 if TYPE_CHECKING:
     from collections.abc import Sized
 
-    from geneva_cli.numerics.arrays import Array
     from geneva_cli.parts.turn.stops import Pose, Stops
 
     class _Lengths(Protocol):
@@ -182,3 +190,164 @@ class TurnedParts(ABC):
     @abstractmethod
     def pairs(self, target: float) -> _Pairs:
         """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""
+
+
+AROUND = 5  # parts into which an interval is divided about a peak
+SMALL = 1e-3  # degrees: the interval over which a roller's speed is computed
+MOST = 4  # intervals that are divided in a round for one peak
+EXACT = 1e-10  # radians: smaller angles are rounding
+
+
+class Play(NamedTuple):
+    """The wheel's play back and on, degrees, at ascending input angles.
+
+    A slot that drives from one wall has play one way only. A roller's centre is past its mouth's
+    corners where ``guided``. ``speed`` is the roller's in the wheel's frame, mm per degree. The
+    pushes are pressure angles, degrees, where a roller stops the wheel; 0 where the lock does.
+    """
+
+    input_deg: Array
+    back: Array
+    on: Array
+    guided: Mask
+    speed: Array
+    back_push: Array
+    on_push: Array
+
+
+def windows(parts: TurnedParts) -> list[Window]:
+    """Return the motions and dwells of a turn."""
+    assembly, motions, out = parts.assembly, parts.assembly.motions, []
+    for i, (engagement, behind) in enumerate(motions):
+        after, later = motions[(i + 1) % len(motions)]
+        turns = assembly.turn_deg if i + 1 == len(motions) else 0.0
+        entry, exit_ = behind + engagement.entry_deg, behind + engagement.exit_deg
+        spans: tuple[tuple[float, float, int | None], ...] = ((entry, exit_, i),)
+        if engagement.paired:
+            # between two rollers gears drive the wheel, from the deepest position to the other's
+            first, last = 2 * i, 2 * i + 1
+            leaves = entry + (assembly.rollers[first].mid - entry) % assembly.turn_deg
+            meets = entry + (assembly.rollers[last].mid - entry) % assembly.turn_deg
+            spans = (entry, leaves, first), (leaves, meets, None), (meets, exit_, last)
+        out.append(Window(entry, exit_, i, False, spans))
+        following = later + turns + after.entry_deg
+        if following - exit_ > SAME_INPUT_DEG:
+            out.append(Window(exit_, following, i, True, ((exit_, following, None),)))
+    return out
+
+
+def play_of(parts: TurnedParts, fits: bool) -> tuple[Play, Array]:
+    """Return the play at a grid of positions, refined where it is greatest or closes fastest.
+
+    With it go the pressure angles, degrees, at which the wheel is pushed into line between them.
+    """
+    lever = parts.assembly.plane_motion.lever(parts.sizes.rim)  # of the rim
+    # The largest play, radians, that may be rounding, as tangent parts separate slowly: the angle
+    # at which two circles of the rim's radius overlap by ``close``.
+    least = math.sqrt(2.0 * parts.close / lever)
+    # 24 positions on either side of entry and exit, where lock and roller change over
+    close, grid = np.concatenate(([0.0], np.geomspace(0.01, 1.0, 24))), []
+    every = windows(parts)
+    for a, b, _, rests, _ in every:
+        near = close * min(15.0, 0.5 * (b - a))
+        # in the rest of a motion an odd number, so that mid-motion is one
+        grid += [a + near, np.linspace(a, b, (5 if rests else 15) + 2)[1:-1], b - near]
+    play = _play_at(parts, every, rising(np.concatenate(grid)), fits, least)
+    left = 9  # rounds: 5**-9 of some degrees is a millionth
+    while True:
+        # Where the play shrinks as the crank turns, a roller at the mouth of its slot pushes the
+        # wheel's corner along their common normal. A play that ends abruptly means that a corner
+        # blocks: 90 degrees.
+        travel = 0.5 * (play.speed[1:] + play.speed[:-1]) * np.diff(play.input_deg)
+        free, pushes = ~(play.guided[:-1] | play.guided[1:]), np.zeros(len(travel))
+        for edge, push in ((play.back, play.back_push), (play.on, play.on_push)):
+            closing = lever * np.radians(-np.diff(edge))
+            # a rim that moves more than 30 times the roller's travel is not pushed by the roller
+            angle = np.where(closing > 30.0 * travel, 90.0, push[1:])
+            known = free & (np.radians(edge[:-1]) > least) & (closing > 0.0)
+            pushes = np.maximum(pushes, np.where(known, angle, 0.0))
+        # where the play closes fastest, with the neighbours
+        top = np.argsort(-pushes, kind="stable")[: MOST if pushes.max() > 0.0 else 0]
+        i = rising(np.concatenate((*_peaks(parts, play, lever, least), top - 1, top, top + 1)))
+        i = i[(i >= 0) & (i < len(play.input_deg) - 1)]
+        low, wide = play.input_deg[i], np.diff(play.input_deg)[i]
+        cut = wide > 1e-6  # narrower intervals are not divided
+        more = (low[cut, None] + wide[cut, None] * (np.arange(1, AROUND) / AROUND)).ravel()
+        if not left or not len(more):
+            return play, pushes
+        left -= 1
+        play = joined((play, _play_at(parts, every, more, fits, least)))
+        play = record_taken(play, np.argsort(play.input_deg, kind="stable"))
+
+
+def _play_at(parts: TurnedParts, every: list[Window], at: Array, fits: bool, least: float) -> Play:
+    """Return the play at input angles (n,), in the motions and dwells of the turn."""
+    assembly, gaps = parts.assembly, parts.gaps
+    leads, pressures = wheel_stops(parts, at, fits)
+    resting, guided = np.zeros(len(at), dtype=bool), np.zeros(len(at), dtype=bool)
+    speed, last = np.zeros(len(at)), assembly.start_deg + assembly.turn_deg
+    for start, end, motion, rests, _ in every:
+        here = (at >= start - SAME_INPUT_DEG) & (at <= end + SAME_INPUT_DEG)
+        if not here.any():
+            continue
+        low = np.maximum(at[here] - SMALL, assembly.start_deg)
+        high = np.minimum(at[here] + SMALL, last)
+        before, after = np.split(gaps.in_wheel(motion, np.concatenate((low, high))), 2)
+        moved = np.linalg.norm(after - before, axis=1) / (high - low)
+        speed[here] = np.maximum(speed[here], moved)
+        if rests:
+            resting |= here
+        else:
+            guided[here] |= parts.past_mouth(motion, at[here]) > -SAME_INPUT_DEG * assembly.L
+    back, on = np.degrees(leads)
+    back_push, on_push = np.where(leads > least, np.degrees(pressures), 0.0)
+    return Play(at, back, on, guided & ~resting, speed, back_push, on_push)
+
+
+def _peaks(
+    parts: TurnedParts, play: Play, lever: float, least: float
+) -> tuple[Whole, Whole, Whole]:
+    """Return the intervals in which the play may be greatest, in slots and elsewhere.
+
+    Besides those about the greatest plays they are those in which the roller changes from one wall
+    of its slot to the other: the smaller play may have a narrow peak there. Where both change
+    steadily, it is at most the smaller of their greater ends.
+    """
+    # walls hold up to a pressure angle of 84 degrees, whose cosine is 1/10: a smaller play between
+    # the walls of a slot may be that of their tolerance alone
+    held = math.degrees(10.0 * parts.close / lever)
+    either, both = math.degrees(least), np.minimum(play.back, play.on)
+    edges = np.array((play.back, play.back, play.on, play.on, both, both))
+    where = np.array((play.guided, ~play.guided) * 3)
+    above = np.array(((either,), (either,), (either,), (either,), (held,), (either,)))
+    # beyond half a step the place is lost
+    known = where & (edges < math.degrees(parts.assembly.half_step)) & (edges > above)
+    value = np.where(known, edges, -1.0)
+    padded = np.pad(value, ((0, 0), (1, 1)), constant_values=-1.0)
+    # around a local maximum below 0.8 of the greatest no greater play is expected
+    great = np.maximum(0.8 * value.max(axis=1, keepdims=True), 0.0)
+    row, top = np.nonzero((value > great) & (value >= padded[:, :-2]) & (value >= padded[:, 2:]))
+    order = np.lexsort((-value[row, top], row))  # in each row the greatest first
+    row, top = row[order], top[order]
+    top = top[np.arange(len(row)) - np.searchsorted(row, row) < MOST]
+    ends = np.array((play.back, play.on))
+    most = np.maximum(ends[:, :-1], ends[:, 1:]).min(axis=0)
+    floor = max(held, both[play.guided].max(initial=0.0))
+    change = np.flatnonzero(play.guided[:-1] & play.guided[1:] & (most > floor))
+    return top - 1, top, change[np.argsort(-most[change], kind="stable")][:MOST]
+
+
+def wheel_stops(parts: TurnedParts, at: Array, fits: bool = False) -> tuple[Array, Array]:
+    """Return how far the wheel turns back and on at input angles (n,), radians: (2, n).
+
+    With it go the pressure angles of rollers that stop it; see ``Stops.first``. ``fits`` says that
+    no parts overlap there. Gears hold the wheel both ways, without backlash.
+    """
+    gaps, close = parts.gaps, parts.close
+    pose, held = gaps.pose(at), parts.assembly.geared(at)
+    if not fits:  # parts that overlap from the start leave no play
+        held |= gaps.locking(pose, near=close) < -close
+        held |= (gaps.rollers(pose, near=close) < -close).any(axis=1)
+    leads, pressures = gaps.stops.first(pose, parts.assembly.half_step, close)
+    leads[:, held] = pressures[:, held] = 0.0
+    return leads, pressures

@@ -14,8 +14,7 @@ from geneva_cli.geometry.plates import Plate
 from geneva_cli.loads.cycle import Cycle
 from geneva_cli.motion.engagement import WheelMotion
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.pivots import AxisPlace, Joint, Link
-from geneva_cli.motion.plane_motion import turned_points
+from geneva_cli.motion.pivots import AxisPlace, Joint, Link, turned_points
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.output.scene import Bar, CarriedShapes, Place, Push, Track
 from geneva_cli.parts.assembly import Passage, assembly, links_at

@@ -12,12 +12,11 @@ import numpy as np
 
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.measure import at, bounds
-from geneva_cli.geometry.shapes import Circle, Contour, Line, Shape, polygon
+from geneva_cli.geometry.shapes import Circle, Contour, Line, Shape, at, bounds, polygon
 from geneva_cli.motion.drive import Gears
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.records import thing
+from geneva_cli.motion.registry import thing
 from geneva_cli.numerics.angles import radians
 from geneva_cli.output.scene import (
     Bar,

@@ -10,7 +10,7 @@ from geneva_cli.design import Design
 from geneva_cli.errors import is_warning
 from geneva_cli.loads.cycle_figures import AXIS_BY_NAME
 from geneva_cli.names import spoken
-from geneva_cli.output.finite import only
+from geneva_cli.output.text import only
 from geneva_cli.study.summary.load_lines import (
     cycle_lines,
     flywheel_line,

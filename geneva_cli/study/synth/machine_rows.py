@@ -12,7 +12,7 @@ from geneva_cli.drives.crank import Crank
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
-from geneva_cli.motion.records import thing
+from geneva_cli.motion.registry import thing
 from geneva_cli.motion.timing import Timing, timing
 from geneva_cli.numerics.angles import omega
 from geneva_cli.study.batches import batch_machines, columns, numbers

@@ -17,7 +17,7 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.undercut import outer_walls
 from geneva_cli.numerics.arrays import Array, Mask, Whole, parameter
-from geneva_cli.numerics.preferred import to_digits
+from geneva_cli.numerics.tolerances import to_digits
 from geneva_cli.parts.slots.groove import sampled_extremes
 from geneva_cli.spec.defaults import wall_min
 from geneva_cli.verdict.checks.motion_checks import GROOVE_MAX_DEG

@@ -13,7 +13,7 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
-from geneva_cli.motion.records import families_of_kinds
+from geneva_cli.motion.registry import families_of_kinds
 from geneva_cli.motion.wheels.classic import rollers_max
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.progress import tracked

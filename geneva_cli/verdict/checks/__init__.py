@@ -13,11 +13,11 @@ from operator import attrgetter
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.kept import load_extra, load_named
 from geneva_cli.motion.compatible import concerns
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.records import KINDS, of_wheel
+from geneva_cli.motion.registry import KINDS, of_wheel
 from geneva_cli.numerics.tolerances import keeps
-from geneva_cli.spec.load_named import load_extra, load_named
 
 if TYPE_CHECKING:
     from geneva_cli.parts.parts import Parts
@@ -104,15 +104,15 @@ TURNING: Checks = dict.fromkeys(
         *("dwell_hold", "gap_mm", "idle_roller_mm", "dwell_play_deg", "dwell_play_mm"),
         *(*JAMS, "motion_play_deg", "motion_play_mm"),
     ),
-    "verdict.checks.turn_checks:turning",
+    "verdict.checks.motion_checks:turning",
 )
 # Plays that the spec limits; a machine whose parts cannot be turned has no value of them.
 PLAYS = ("index_play_max_deg", "dwell_play_max_deg", "dwell_position_max_deg")
 # Of all the machines within the tolerances.
 TOLERANCES = ("tolerance_slot_mm", "tolerance_lock_mm")
-TURNING |= dict.fromkeys((*PLAYS, *TOLERANCES), "verdict.checks.turn_checks:within_tolerances")
+TURNING |= dict.fromkeys((*PLAYS, *TOLERANCES), "verdict.checks.motion_checks:within_tolerances")
 # Of flat parts at every angle of the turn, made for a design's own answer.
-PROOFS: Checks = {"gap_proved_mm": "verdict.checks.turn_checks:proof"}
+PROOFS: Checks = {"gap_proved_mm": "verdict.checks.motion_checks:proof"}
 # Of machines as built, by what touches.
 PUSHED = ("turns", "strike_velocity")
 # The names of all checks but those of the whole turn; ``parts``: they can be built.
@@ -327,7 +327,7 @@ def pushed_round(mechanism: Mechanism) -> list[Check]:
 def proofs(parts: Parts, to_mm: float | None = None) -> list[Check]:
     """The proof that no parts collide in a whole turn; none if they cannot be made or turned.
 
-    ``to_mm`` is the tolerance of the proof, by default that of ``turn_checks.proof``.
+    ``to_mm`` is the tolerance of the proof, by default that of ``motion_checks.proof``.
     """
     if not parts.mechanism.spec.is_turned or parts.mechanism.no_turn:
         return []

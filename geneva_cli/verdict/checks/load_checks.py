@@ -8,15 +8,15 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.preferred import to_digits
 from geneva_cli.numerics.roots import boundary
+from geneva_cli.numerics.tolerances import to_digits
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.spec.tables import LIMITED
 from geneva_cli.verdict.checks import FIRST, Check, compared
 
 if TYPE_CHECKING:  # a spec without limits or loads is checked without NumPy
     from geneva_cli.loads.impacts.shock_force import Impact
-    from geneva_cli.loads.strength.pin import PinSize
+    from geneva_cli.loads.strength.pin_arm_key import PinSize
     from geneva_cli.verdict.strength import Strength
 
 # Each limited quantity of strength and life: the key that limits it, its whole name, and the loaded

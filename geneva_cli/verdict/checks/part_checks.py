@@ -10,20 +10,19 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.geometry.measure import turned
 from geneva_cli.geometry.plates import least_wall, plate_wall
-from geneva_cli.geometry.shapes import Arc, Circle, Line, Segment, backwards, closed
-from geneva_cli.loads.carried import farthest_mm
+from geneva_cli.geometry.shapes import Arc, Circle, Line, Segment, backwards, closed, turned
+from geneva_cli.loads.load_case import farthest_mm
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.pitch_curve import opposites
+from geneva_cli.motion.path_and_slot import opposites
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.parts.arm import walls as arm_walls
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.outlines.crank_outline import is_whole
 from geneva_cli.parts.outlines.outlines import Outlines, wheel_holes, wheel_hub
 from geneva_cli.parts.parts import Parts
+from geneva_cli.parts.shafts.arm_and_shafts import crank_hub
+from geneva_cli.parts.shafts.arm_and_shafts import walls as arm_walls
 from geneva_cli.parts.shafts.bores import has_shape
-from geneva_cli.parts.shafts.shaft import crank_hub
 from geneva_cli.parts.slots.roller_paths import roller_centres
 from geneva_cli.spec.workshops import WORKSHOPS
 from geneva_cli.verdict.checks import Check, compared, refused
@@ -249,7 +248,10 @@ def _cranks_apart(name: str, parts: FlatParts) -> Check:
     outlines = parts.outlines
     # points of a crank in its own frame, and how far it reaches about each, mm
     near = 1e-5 * outlines.assembly.L  # chords of arcs miss the outline by less
-    contours = [*outlines.crank, *([parts.arm.outline] if parts.arm else [])]
+    contours = [
+        *outlines.crank,
+        *([parts.arm.outline] if parts.arm else []),
+    ]
     edge = Polyarc(contours).samples(near, outlines.assembly.L) if contours else np.empty((0, 2))
     centres = [(0.0, 0.0), *roller_centres(outlines.assembly)]
     points = np.concatenate((edge, centres))

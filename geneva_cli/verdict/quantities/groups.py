@@ -9,8 +9,8 @@ import re
 from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
-from geneva_cli.motion.records import KINDS, of_wheel
-from geneva_cli.spec.load_named import load_named
+from geneva_cli.kept import load_named
+from geneva_cli.motion.registry import KINDS, of_wheel
 from geneva_cli.spec.schema import fields
 from geneva_cli.spec.tables import Limits, Load, RollerMaterial, Shaft, WheelMaterial
 from geneva_cli.verdict.checks import BEFORE_TURN, OF_TURN, PROOFS

@@ -9,11 +9,10 @@ import numpy as np
 
 from geneva_cli.loads.impacts.shock_force import least_pin_mm
 from geneva_cli.loads.load_case import centrifugal_N
-from geneva_cli.loads.strength import arm_and_key as arms
-from geneva_cli.loads.strength import pin as pins
-from geneva_cli.loads.strength.arm_and_key import key_stress, shear_allowed_MPa
+from geneva_cli.loads.strength import pin_arm_key
 from geneva_cli.loads.strength.lock import dwell_torque_Nm, held_force_N
 from geneva_cli.loads.strength.part_loads import LoadedShaft, shafts_under_load
+from geneva_cli.loads.strength.pin_arm_key import key_stress, shear_allowed_MPa
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.arrays import Array, Number, array, parameter
 from geneva_cli.spec.defaults import roller_material, wheel_material
@@ -46,8 +45,8 @@ def pin(of: Designs) -> Columns:
     if width is None:
         return out
     size, d = of.spec.size, load.pin_mm
-    own = pins.PinSize(d, width)
-    bending, shear, equivalent = pins.pin_stress_MPa(size, width, d, load.pin_N(own))
+    own = pin_arm_key.PinSize(d, width)
+    bending, shear, equivalent = pin_arm_key.pin_stress_MPa(size, width, d, load.pin_N(own))
     stress = np.ravel(equivalent)
     out |= {
         "diameter_mm": d,
@@ -57,9 +56,12 @@ def pin(of: Designs) -> Columns:
         "margin": margin(stress, allowed),
     }
     if allowed is not None:
-        bending, shear, _ = pins.pin_stress_MPa(size, width, d, load.roller_N)
-        least = np.ravel(pins.least_diameter_mm(bending, shear, d, allowed))
-        jump, rubbed = load.reversals.jump, pins.pin_stress_MPa(size, width, d, load.rubbed)[:2]
+        bending, shear, _ = pin_arm_key.pin_stress_MPa(size, width, d, load.roller_N)
+        least = np.ravel(pin_arm_key.least_diameter_mm(bending, shear, d, allowed))
+        jump, rubbed = (
+            load.reversals.jump,
+            pin_arm_key.pin_stress_MPa(size, width, d, load.rubbed)[:2],
+        )
         if not np.isnan(jump).all():
             struck = least_pin_mm(of.machine, jump[:, None], own, rubbed, allowed)
             least = np.maximum(least, np.nan_to_num(struck))
@@ -180,7 +182,7 @@ def arm(of: Designs) -> Columns:
     if parts is None or np.isnan(parts.arm.length).all():
         return out
     force = under_load(of).part_loads.wheel_N * of.loaded
-    stress = _known(arms.arm_stress_MPa(parts.arm, force))
+    stress = _known(pin_arm_key.arm_stress_MPa(parts.arm, force))
     return out | {
         "thickness_mm": _known(parts.arm.thickness),
         "stress_MPa": stress,
@@ -194,7 +196,7 @@ def arm_thickness(of: Designs) -> Columns:
     if parts is None or np.isnan(parts.arm.length).all():
         return {}
     force = under_load(of).part_loads.wheel_N * of.loaded
-    least = arms.least_thickness_mm(parts.arm, force, steel.ravel())
+    least = pin_arm_key.least_thickness_mm(parts.arm, force, steel.ravel())
     return {"least_thickness_mm": _known(np.where(np.isfinite(force), least, force))}
 
 

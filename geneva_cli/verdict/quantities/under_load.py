@@ -14,16 +14,15 @@ from geneva_cli.loads.cycle_quantities import FORCE, PV
 from geneva_cli.loads.impacts.reversal import reversal_impacts
 from geneva_cli.loads.impacts.shock_force import Impacts, forces_N
 from geneva_cli.loads.load_peaks import load_peaks
-from geneva_cli.loads.strength import lock
-from geneva_cli.loads.strength import pin as pins
+from geneva_cli.loads.strength import lock, pin_arm_key
 from geneva_cli.loads.strength.horn import greatest_stress, horns, single_stress
 from geneva_cli.loads.strength.part_loads import PartLoads, part_loads, single_loads
-from geneva_cli.loads.strength.pin import PinSize
+from geneva_cli.loads.strength.pin_arm_key import PinSize
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.motion.batch import designs_in, taken
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
-from geneva_cli.motion.records import thing
+from geneva_cli.motion.registry import thing
 from geneva_cli.numerics.arrays import Array, Number, Record, library, parameter, record_of
 from geneva_cli.parts.assembly import assembly
 from geneva_cli.parts.machine_sizes import Layout, loaded, sized, unloaded
@@ -211,11 +210,11 @@ class UnderLoad:
     def pin_mm(self) -> Number:
         """The diameter of the roller's pin, (m, 1): of the spec, or as its machine is drawn."""
         size, width = self.machine.spec.size, self.contact_mm
-        usual = pins.pin_diameter_mm(self.machine)
+        usual = pin_arm_key.pin_diameter_mm(self.machine)
         if size.pin_mm is not None or width is None:
             return usual
         force = self.pin_N(PinSize(usual, width))
-        stress = pins.pin_stress_MPa(size, width, usual, force)[2]
+        stress = pin_arm_key.pin_stress_MPa(size, width, usual, force)[2]
         # where the usual pin holds, it is drawn
         holds = ~(stress > roller_material(self.machine.spec).allowed_MPa)
         parts = None if np.all(holds) else self.parts

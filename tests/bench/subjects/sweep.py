@@ -12,10 +12,10 @@ import numpy as np
 
 from bench.kinds import KINDS, QUICK, VariedMachine, drawn, one_by_one, task_of_many
 from bench.method import Method, Subject, Task
+from geneva_cli.motion.laws.law import Motion
 from geneva_cli.motion.laws.standard import ModifiedSine
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.numerics.jet import Array
 from geneva_cli.spec.tables import Load, Shaft, Tolerance

@@ -20,10 +20,9 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.extras.outline.checks import lag_deg
 from geneva_cli.extras.outline.pictures import drawn_scene
 from geneva_cli.extras.outline.turning import hardest_impact, turned
-from geneva_cli.geometry.measure import mapped
-from geneva_cli.geometry.shapes import Arc, Line, closed
+from geneva_cli.geometry.shapes import Arc, Line, closed, mapped
 from geneva_cli.geometry.sheet import Drawing
-from geneva_cli.loads.strength.pin import stiffness_N_mm
+from geneva_cli.loads.strength.pin_arm_key import stiffness_N_mm
 from geneva_cli.output import draw
 from geneva_cli.spec.workshops import Stock
 

@@ -17,9 +17,9 @@ from witness import mp
 from geneva_cli import Design, External, GearSector, Load, Size
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.shapes import Arc
+from geneva_cli.loads.cycle import cycle_warnings
 from geneva_cli.loads.impacts.reversal import arrival
 from geneva_cli.verdict.checks import single_check
-from geneva_cli.verdict.cycle_warnings import cycle_warnings
 
 MACHINES = {
     "the design": (3, 60.0, {"roller_radius_mm": 8.0}),

@@ -14,8 +14,8 @@ from test_parts_by_hand import dimensions
 from geneva_cli import Design, Linear, Size
 from geneva_cli.design import load
 from geneva_cli.drawings.sheet.crank_views import draw_arm
-from geneva_cli.geometry.measure import bounds
 from geneva_cli.geometry.plates import moments, solids
+from geneva_cli.geometry.shapes import bounds
 from geneva_cli.kinds.linear.frame import guide
 from geneva_cli.kinds.linear.outlines import turned_rack
 from geneva_cli.kinds.linear.rack import crank_arm, locking_sector, rack_contour, rack_sizes

@@ -11,8 +11,8 @@ import pytest
 
 from geneva_cli import Spherical
 from geneva_cli.kinds.spherical.sizes import ball, sphere_stressed
-from geneva_cli.loads.strength.arm_and_key import arm_stress_MPa
 from geneva_cli.loads.strength.part_loads import single_loads
+from geneva_cli.loads.strength.pin_arm_key import arm_stress_MPa
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.spec.tables import Load, Shaft, Size

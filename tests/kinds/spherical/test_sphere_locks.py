@@ -7,7 +7,7 @@ import pytest
 
 from geneva_cli import Crank, Design, Size, Spherical
 from geneva_cli.kinds.spherical.locking import sphere_locks
-from geneva_cli.loads.tolerance.dimensions import Deviations, deviations, slope_of
+from geneva_cli.loads.tolerance.locking import Deviations, deviations, slope_of
 
 ROUND = [(60.0, 1), (60.0, 2), (90.0, 1), (120.0, 1)]  # the corner's, the end's, both, the end's
 

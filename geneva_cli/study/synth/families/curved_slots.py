@@ -16,9 +16,8 @@ import numpy as np
 from geneva_cli.drives.cam import Cam
 from geneva_cli.drives.crank import Crank
 from geneva_cli.motion import registry
-from geneva_cli.motion.laws.law import Law
+from geneva_cli.motion.laws.law import Law, Motion
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.wheels.classic import rollers_max
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.arrays import Array, Mask

@@ -13,9 +13,9 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.motion import registry
 from geneva_cli.motion.compatible import refuse_conflicts
 from geneva_cli.motion.drive import Drive
+from geneva_cli.motion.laws.law import Motion
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.many import changed
-from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.study.target import AllowedSpan, Target

@@ -24,7 +24,7 @@ from geneva_cli.drives.epicyclic import Epicyclic
 from geneva_cli.drives.side_crank import SideCrank
 from geneva_cli.motion.drive import Drive
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.records import families_of_kinds
+from geneva_cli.motion.registry import families_of_kinds
 from geneva_cli.motion.wheels.classic import half_motion_deg, rollers_max
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import DEGREE, sin_cos_pi
