@@ -269,9 +269,9 @@ def cut(
 ) -> list[Array]:
     """Return branches of the arcs of a mask (n, k), cut at their nearest and farthest points.
 
-    ``span`` has the angles of both ends about an arc's centre, from the farthest point on,
-    ``known`` (2, 2, n, k) the levels there, and their angles from the place of the centre,
-    ``extremes`` both at the nearest point and at the farthest, and ``curve`` size, excess and
+    ``span`` has the angles of both ends about an arc's centre, from the farthest point on. There
+    ``known`` (2, 2, n, k) has the levels, and their angles from the place of the centre, and
+    ``extremes`` has both at the nearest point and at the farthest. ``curve`` has size, excess and
     place of the centre.
     """
     (start, end), (least, most), zero, parts = span, extremes, 0.0 * curve[2], []

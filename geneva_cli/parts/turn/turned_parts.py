@@ -26,9 +26,9 @@ if TYPE_CHECKING:
     class _Lengths(Protocol):
         """Lengths of the parts, mm; on a sphere arc lengths, except ``rim``.
 
-        They are the radius of the roller, half the width of a slot, the distance of the rim from
-        the wheel's axis (of a rack's edge from the origin) and that of the rollers from the
-        crank's, and the thickness of the horn between slot and recess.
+        They are the radius of the roller and half the width of a slot. The rim is at its distance
+        from the wheel's axis (a rack's edge from the origin), and the rollers from the crank's.
+        The horn is as thick as between slot and recess.
         """
 
         @property
