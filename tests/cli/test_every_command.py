@@ -74,7 +74,7 @@ FORMATS = "table", "csv", "json", "md"
 FAILING = "check", "report", "pdf", "profile", "assembly", "export"  # status 1 of a failing design
 
 
-@pytest.mark.sampled(30)
+@pytest.mark.sampled(60)
 @every
 def test_every_command(design, under, tmp_path):
     """It ends with the right status and prints finite numbers; a table has equal rows."""
