@@ -72,12 +72,11 @@ class LoadCase(NamedTuple):
         loaded: Mask = np.abs(torque) > NEGLIGIBLE * usual
         return loaded
 
-    def with_friction(self, friction: float, guided: LoadCase | None = None) -> LoadCase:
-        """The load case with friction along the wall, and in the guide of another load case."""
-        guide = guided.guide if guided else None
+    def with_friction(self, friction: float) -> LoadCase:
+        """The load case with this friction along the wall, and with that in its own guide."""
+        guide = self.guide
         return self._replace(
             friction=friction,
-            guide=guide,
             rubs=not all_true(friction == 0.0),
             guided=guide is not None and not all_true(guide.friction == 0.0),
             all_friction=friction + guide.friction if guide else friction,

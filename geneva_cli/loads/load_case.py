@@ -69,7 +69,9 @@ def load_case(mechanism: Mechanism) -> LoadCase:
     )
     complete: Callable[[Mechanism, LoadCase], LoadCase] | None
     complete = thing(spec.wheel.NAME, "load_case")
-    return case.with_friction(friction, complete(mechanism, case) if complete else None)
+    if complete:
+        case = complete(mechanism, case)
+    return case.with_friction(friction)
 
 
 def centrifugal_N(mechanism: Mechanism) -> Array:

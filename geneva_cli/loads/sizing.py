@@ -276,7 +276,8 @@ def kinetic_power_W(mechanism: Mechanism, power_invariant: float) -> float:
     spec, w = mechanism.spec, omega(mechanism.spec.drive.n_rpm)
     if not mechanism.frame:
         return inertia_kgm2(spec) * power_invariant * w**3 / spec.load.efficiency
-    case = load_case(mechanism).with_friction(0.0)._replace(resists_Nm=0.0, efficiency=1.0)
+    case = load_case(mechanism)._replace(resists_Nm=0.0, efficiency=1.0, guide=None)
+    case = case.with_friction(0.0)
     torque = load_peaks(mechanism, (TORQUE,), case=case)[TORQUE].max
     one = isinstance(power_invariant, float)
     return (float(torque[0]) if one else parameter(torque[:, None])) * w / spec.load.efficiency
