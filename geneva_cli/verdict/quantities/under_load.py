@@ -101,10 +101,12 @@ class UnderLoad:
         NaN for designs without a lock; None if none has one.
         """
         each = list[tuple[float, Lock] | None]()
-        for one in self.layouts if self.designs.are_built else ():
-            each.append((one[1].half_width, cut_lock(*one)) if one and one[1].lock else None)
-        for bare in self._unloaded if not self.designs.are_built else ():
-            each.append((bare.sizes.half_width, bare.lock) if bare and bare.lock else None)
+        if self.designs.are_built:
+            for one in self.layouts:
+                each.append((one[1].half_width, cut_lock(*one)) if one and one[1].lock else None)
+        else:
+            for bare in self._unloaded:
+                each.append((bare.sizes.half_width, bare.lock) if bare and bare.lock else None)
         return batched(each, as_numbers)
 
     @cached_property
