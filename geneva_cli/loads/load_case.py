@@ -1,4 +1,7 @@
-"""The load case of a machine, from its spec, and the loads that are known of it."""
+"""The load case of a machine, from its spec: what the wheel carries, and what resists it.
+
+Also the names of the loads that a machine has.
+"""
 
 from __future__ import annotations
 
@@ -19,6 +22,8 @@ from geneva_cli.spec.defaults import roller_material, wheel_material
 from geneva_cli.spec.tables import Mass
 from geneva_cli.spec.workshops import Stock
 
+G = 9.80665  # standard gravity, m/s²
+MM = 1e-3  # metres
 PARALLEL_SHAFTS = (
     "parallel shafts; on a sphere the force moves along them, and pushes along them too"
 )
@@ -129,10 +134,6 @@ def sources(mechanism: Mechanism) -> dict[str, tuple[str, float]]:
     for name in mechanism.output.lacks:
         out.pop(name, None)
     return out
-
-
-G = 9.80665  # standard gravity, m/s²
-MM = 1e-3  # metres
 
 
 def weight_kg(mass: Mass) -> float:
