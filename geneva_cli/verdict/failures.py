@@ -78,8 +78,8 @@ def failures(rows: list[Check], parts: Parts) -> tuple[str, list[str]]:
             refused.append(c.why)
         elif c.name == "parts":  # the reason why there are none
             warned.append(c.why)
-        elif c.value is None:
-            warned.append(f"{c.name} is not computed: {c.why}")
+        elif c.not_computed:
+            warned.append(c.not_computed)
         elif c.name in JAMS or (
             # Links and gears lie below the wheel's plane, so the wheel can be cut all the same.
             c.name not in ("link_wall_mm", "link_gap_mm", "gear_gap_mm")

@@ -54,7 +54,7 @@ def report(
 def _in_one_line(check: Check) -> str:
     """A failing check in one line."""
     if check.value is None or check.limit is None:
-        return f"{check.name} is not computed: {check.why}" if check.value is None else ""
+        return check.not_computed
     where = "" if check.at_deg is None else f" at {check.at_deg:.6g}°"
     value, limit = in_digits(check.value, 6), in_digits(check.limit, 6)
     change = f"; nearest change: {check.nearest}" if check.nearest else ""
