@@ -63,13 +63,11 @@ def _of_sizes(mechanism: Mechanism) -> Iterator[Notice]:
         from geneva_cli.motion.peaks import greatest_jumps
 
         needed = spec.wheel.place(spec.wheel.step, L).ratio
-        most, impact = 0.0, "the roller's centre never crosses the axis of the slot at rest inside "
-        impact += "the rim"
-        for jump in greatest_jumps(mechanism.engagements):
-            if jump is not None:
-                most = max(most, abs(jump))
-                impact = f"the wheel's velocity jumps by up to {most:.4g} of the input's, an "
-                impact += "impact that the loads leave out"
+        sizes = [abs(jump) for jump in greatest_jumps(mechanism.engagements) if jump is not None]
+        impact = "the roller's centre never crosses the axis of the slot at rest inside the rim"
+        if sizes:
+            impact = f"the wheel's velocity jumps by up to {max(sizes):.4g} of the input's, an "
+            impact += "impact that the loads leave out"
         yield Notice(
             "taken-as-built",
             f"crank_radius_mm = {size.crank_radius_mm:.9g} and center_distance_mm = {L:.9g} have "
@@ -128,10 +126,10 @@ def _of_law(mechanism: Mechanism, law: Law) -> Iterator[Notice]:
 
     engagement = mechanism.engagements[0]
     if doubt := law.doubt():  # points of a file that round the jerk
-        own = engagement.own  # the law holds by the angle of its shaft
-        move = doubt[1] * 2.0 * own.half_step / (own.motion_deg * DEGREE) ** 3
         from geneva_cli.motion.peaks import peak
 
+        own = engagement.own  # the law holds by the angle of its shaft
+        move = doubt[1] * 2.0 * own.half_step / (own.motion_deg * DEGREE) ** 3
         fraction = move / peak(own.motion, "jerk").max
         if not fraction < 0.01:  # less is not worth a warning
             yield Notice(
