@@ -208,7 +208,7 @@ def within_tolerances(names: Collection[str], parts: Parts, turn: FullTurn) -> I
         limit = limits.as_dict()[name]
         if limit is None:
             continue
-        if parts.locked or play is turn.motion:
+        if parts.locked or name == "index_play_max_deg":
             yield compared(name, play.deg, "at most", limit, play.at_deg if play.deg else None)
         else:
             yield Check(name, None, "at most", limit, None, unlocked)
