@@ -108,12 +108,11 @@ def contacts(
     best = np.full(n, near)
     sides, point = np.zeros((2, 4, n)), np.zeros((n, 2))
     for first in range(0, n, 16):
-        for row, start, end, start_level, end_level, *both in free.meetings(
-            crank_angle[first : first + 16]
-        ):
+        for met in free.meetings(crank_angle[first : first + 16]):
+            row, start, end, start_level, end_level, *both = met
             row = row + first
             # an arc about the wheel's axis pushes nothing; its ends are those of other pieces too
-            is_round = both[0][-1] + both[1][-1] > 0.0
+            is_round = sum(Branches(*each).half for each in both) > 0.0
             for place, levels in ((start, start_level), (end, end_level)):
                 shift = period * np.round((place - wheel[row]) / period)
                 off = np.abs(place - wheel[row] - shift)
