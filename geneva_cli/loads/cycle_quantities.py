@@ -27,8 +27,6 @@ REPORTED_PEAKS = {
     TORQUE: TORQUE,
     STRESS: STRESS,
 }
-
-
 # The names of all quantities that are searched.
 QUANTITIES = (
     *("omega_rad_s", "alpha_rad_s2", "wheel_torque_Nm", FORCE, WALL_FORCE, STRESS, "sliding_m_s"),

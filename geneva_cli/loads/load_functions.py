@@ -13,12 +13,7 @@ from operator import attrgetter
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.loads.contact import (
-    NEAR_CUSP,
-    NEGLIGIBLE,
-    LoadCase,
-    contact,
-)
+from geneva_cli.loads.contact import NEAR_CUSP, NEGLIGIBLE, LoadCase, contact
 from geneva_cli.loads.cycle_quantities import PV
 from geneva_cli.loads.instant import Instant, LoadQuantity, sign_of
 from geneva_cli.loads.mid_motion import at_mid_motion

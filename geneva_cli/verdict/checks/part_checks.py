@@ -135,10 +135,7 @@ def _passing(names: Collection[str], parts: FlatParts) -> Iterator[Check]:
             sized = sized or size[f"{part}_{key}_mm"] is not None
     for name, is_there in (("beside_shafts_mm", sized), ("gear_gap_mm", spec.gears is not None)):
         if is_there and name in names:
-            from geneva_cli.verdict.shaft_gap import (  # which few machines need
-                gear_gaps,
-                shaft_gaps,
-            )
+            from geneva_cli.verdict.shaft_gap import gear_gaps, shaft_gaps  # for few machines
 
             gaps = shaft_gaps if name == "beside_shafts_mm" else gear_gaps
             yield from least_gap(name, gaps(parts), parts.outlines.assembly.L)
@@ -248,10 +245,7 @@ def _cranks_apart(name: str, parts: FlatParts) -> Check:
     outlines = parts.outlines
     # points of a crank in its own frame, and how far it reaches about each, mm
     near = 1e-5 * outlines.assembly.L  # chords of arcs miss the outline by less
-    contours = [
-        *outlines.crank,
-        *([parts.arm.outline] if parts.arm else []),
-    ]
+    contours = [*outlines.crank, *([parts.arm.outline] if parts.arm else [])]
     edge = Polyarc(contours).samples(near, outlines.assembly.L) if contours else np.empty((0, 2))
     centres = [(0.0, 0.0), *roller_centres(outlines.assembly)]
     points = np.concatenate((edge, centres))
