@@ -5,6 +5,9 @@ at L + dL. The wheel turns by d until a corner of the recess, at p from the whee
 disc, at d = chi(L, rho) - chi(L + dL, k) with cos chi = (L² + p² - rho²) / (2 L p). (Of a corner
 rounded by e that holds for its centre, with rho + e and k + e.) An end of the disc meets the recess
 first if that reaches farther round; or both arcs meet where their centres are rho - k apart.
+
+First the deviations themselves, in mm and radians. They are jets: of order 0 the values of many
+machines, of order 1 the slope by one dimension.
 """
 
 from __future__ import annotations
@@ -33,6 +36,56 @@ from geneva_cli.numerics.arrays import (
 from geneva_cli.numerics.jet import Jet, Number, atan2, sqrt
 
 ROUNDING = 1e-13  # of an angle, or of the centre distance
+
+
+class Deviations(NamedTuple):
+    """Deviations of the dimensions in ``[tolerance]``, in their order."""
+
+    center_distance_mm: Jet
+    crank_radius_mm: Jet
+    roller_diameter_mm: Jet
+    slot_width_mm: Jet
+    slot_angle_deg: Jet  # in radians here
+    lock_radius_mm: Jet
+    recess_radius_mm: Jet
+
+
+AS_DRAWN = Deviations(*[Jet((0.0,))] * len(Deviations._fields))  # without any
+
+
+def tolerances(spec: Spec) -> dict[str, float]:
+    """Plus or minus of each dimension, in millimetres and radians."""
+    values = spec.tolerance.as_dict()
+    return {
+        name: radians(values[name]) if name.endswith("_deg") else values[name]
+        for name in Deviations._fields
+    }
+
+
+def without_effect(spec: Spec) -> dict[str, str]:
+    """Dimensions whose deviations have no effect in a machine, with the reason."""
+    why = {}
+    if not spec.drive.ONE_ARM:
+        why["crank_radius_mm"] = "no crank's arm carries the roller"
+    if not spec.wheel.FLAT:
+        why["center_distance_mm"] = "the shafts meet, whatever the sphere's radius"
+    return why
+
+
+def deviations(values: Sequence[Number]) -> Deviations:
+    """Deviations with these values, without slopes."""
+    return Deviations(*[Jet((value,)) for value in values])
+
+
+def slope_of(number: int) -> Deviations:
+    """Deviations of 0, with the slope by one of them."""
+    return Deviations(*[Jet((0.0, float(i == number))) for i in range(len(Deviations._fields))])
+
+
+def corners(sizes: Sequence[float]) -> Deviations:
+    """Every combination of the ends of the nonzero tolerances: (2**n,), or (2**n, m, 1) of m."""
+    ends = [(0.0,) if all_true(size == 0.0) else (-size, size) for size in sizes]
+    return deviations([np.array(column) for column in zip(*product(*ends), strict=True)])
 
 
 class LockPlay(NamedTuple):
@@ -147,53 +200,3 @@ def loosest(locks: Sequence[Lock]) -> Lock:
     Of equal ones, as without clearance, it is that with the least reach: it takes the most force.
     """
     return max(locks, key=lambda one: (round(float(one.contact().play), 12), -float(one.reach)))
-
-
-class Deviations(NamedTuple):
-    """Deviations of the dimensions in ``[tolerance]``, in their order."""
-
-    center_distance_mm: Jet
-    crank_radius_mm: Jet
-    roller_diameter_mm: Jet
-    slot_width_mm: Jet
-    slot_angle_deg: Jet  # in radians here
-    lock_radius_mm: Jet
-    recess_radius_mm: Jet
-
-
-AS_DRAWN = Deviations(*[Jet((0.0,))] * len(Deviations._fields))  # without any
-
-
-def tolerances(spec: Spec) -> dict[str, float]:
-    """Plus or minus of each dimension, in millimetres and radians."""
-    values = spec.tolerance.as_dict()
-    return {
-        name: radians(values[name]) if name.endswith("_deg") else values[name]
-        for name in Deviations._fields
-    }
-
-
-def without_effect(spec: Spec) -> dict[str, str]:
-    """Dimensions whose deviations have no effect in a machine, with the reason."""
-    why = {}
-    if not spec.drive.ONE_ARM:
-        why["crank_radius_mm"] = "no crank's arm carries the roller"
-    if not spec.wheel.FLAT:
-        why["center_distance_mm"] = "the shafts meet, whatever the sphere's radius"
-    return why
-
-
-def deviations(values: Sequence[Number]) -> Deviations:
-    """Deviations with these values, without slopes."""
-    return Deviations(*[Jet((value,)) for value in values])
-
-
-def slope_of(number: int) -> Deviations:
-    """Deviations of 0, with the slope by one of them."""
-    return Deviations(*[Jet((0.0, float(i == number))) for i in range(len(Deviations._fields))])
-
-
-def corners(sizes: Sequence[float]) -> Deviations:
-    """Every combination of the ends of the nonzero tolerances: (2**n,), or (2**n, m, 1) of m."""
-    ends = [(0.0,) if all_true(size == 0.0) else (-size, size) for size in sizes]
-    return deviations([np.array(column) for column in zip(*product(*ends), strict=True)])
