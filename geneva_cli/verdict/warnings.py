@@ -1,5 +1,7 @@
-"""All warnings about a design: those about what the wheel carries, unlikely numbers, keys without
-effect, the parts and their whole turn stand here.
+"""All warnings about a design, in one list.
+
+Here are those about what the wheel carries, unlikely numbers, keys without effect, and the parts
+and their whole turn.
 """
 
 from __future__ import annotations

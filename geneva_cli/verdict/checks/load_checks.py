@@ -1,4 +1,4 @@
-"""Impacts, stresses and life against limits of the spec, or of the default steel."""
+"""Impacts, the product, stresses and life against limits of the spec or the default steel."""
 
 from __future__ import annotations
 
