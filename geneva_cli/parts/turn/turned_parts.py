@@ -98,6 +98,10 @@ if TYPE_CHECKING:
 # Of the centre distance, 0.2 um in 100 mm: parts that overlap by less count as touching. No cutter
 # and no roller is more accurate, nor are curved walls.
 CONTACT = 2e-6
+AROUND = 5  # parts into which an interval is divided about a peak
+SMALL = 1e-3  # degrees: the interval over which a roller's speed is computed
+MOST = 4  # intervals that are divided in a round for one peak
+EXACT = 1e-10  # radians: smaller angles are rounding
 
 
 class Window(NamedTuple):
@@ -190,12 +194,6 @@ class TurnedParts(ABC):
     @abstractmethod
     def pairs(self, target: float) -> _Pairs:
         """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""
-
-
-AROUND = 5  # parts into which an interval is divided about a peak
-SMALL = 1e-3  # degrees: the interval over which a roller's speed is computed
-MOST = 4  # intervals that are divided in a round for one peak
-EXACT = 1e-10  # radians: smaller angles are rounding
 
 
 class Play(NamedTuple):
