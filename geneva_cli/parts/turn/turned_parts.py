@@ -251,8 +251,7 @@ def play_of(parts: TurnedParts, fits: bool) -> tuple[Play, Array]:
         # in the rest of a motion an odd number, so that mid-motion is one
         grid += [a + near, np.linspace(a, b, (5 if rests else 15) + 2)[1:-1], b - near]
     play = _play_at(parts, every, rising(np.concatenate(grid)), fits, least)
-    left = 9  # rounds: 5**-9 of some degrees is a millionth
-    while True:
+    for left in range(9, -1, -1):  # rounds: 5**-9 of some degrees is a millionth
         # Where the play shrinks as the crank turns, a roller at the mouth of its slot pushes the
         # wheel's corner along their common normal. A play that ends abruptly means that a corner
         # blocks: 90 degrees.
@@ -264,6 +263,8 @@ def play_of(parts: TurnedParts, fits: bool) -> tuple[Play, Array]:
             angle = np.where(closing > 30.0 * travel, 90.0, push[1:])
             known = free & (np.radians(edge[:-1]) > least) & (closing > 0.0)
             pushes = np.maximum(pushes, np.where(known, angle, 0.0))
+        if not left:
+            break
         # where the play closes fastest, with the neighbours
         top = np.argsort(-pushes, kind="stable")[: MOST if pushes.max() > 0.0 else 0]
         i = rising(np.concatenate((*_peaks(parts, play, lever, least), top - 1, top, top + 1)))
@@ -271,11 +272,11 @@ def play_of(parts: TurnedParts, fits: bool) -> tuple[Play, Array]:
         low, wide = play.input_deg[i], np.diff(play.input_deg)[i]
         cut = wide > 1e-6  # narrower intervals are not divided
         more = (low[cut, None] + wide[cut, None] * (np.arange(1, AROUND) / AROUND)).ravel()
-        if not left or not len(more):
-            return play, pushes
-        left -= 1
+        if not len(more):
+            break
         play = joined((play, _play_at(parts, every, more, fits, least)))
         play = record_taken(play, np.argsort(play.input_deg, kind="stable"))
+    return play, pushes
 
 
 def _play_at(parts: TurnedParts, every: list[Window], at: Array, fits: bool, least: float) -> Play:
