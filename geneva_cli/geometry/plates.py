@@ -31,11 +31,8 @@ if TYPE_CHECKING:
     from geneva_cli.geometry.sphere import Rotation
     from geneva_cli.geometry.sphere_shell import Shell
 
-
 MM = 1e-3  # metres
 SAMPLED = 1e-4, 0.5  # mm: sagitta and length of samples of a hole that is not a circle
-
-
 # Gauss-Legendre's abscissae and weights of eight points on -1..1, of which four are below 0
 GAUSS = (
     (0.18343464249564980, 0.36268378337836198),

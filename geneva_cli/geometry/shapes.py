@@ -1,5 +1,6 @@
-"""Shapes: contours of lines, arcs and cubics on named layers, in millimetres; and their bounds.
+"""Shapes: contours of lines, arcs and cubics on named layers, in millimetres.
 
+Also their hull, bounds and lengths, places on them, and shapes that are moved, turned or mirrored.
 Points are (x, y). Nothing is measured from an arc's centre, which may be far away.
 """
 
@@ -11,6 +12,7 @@ from typing import Literal, NamedTuple, TypeAlias, TypeVar
 
 Point: TypeAlias = tuple[float, float]
 ORIGIN: Point = (0.0, 0.0)
+STRAIGHT = 1e-16  # a bulge below it moves no point of the arc by a rounding of the chord
 HULL_ROUNDING = 1e-12  # radians, and mm: directions and points nearer to each other are one
 # The names of all layers: of drawings, sheets and animations. Shapes that are not drawn
 # have none.
@@ -82,6 +84,7 @@ class Circle(NamedTuple):
 
 
 Shape: TypeAlias = Contour | Circle
+S = TypeVar("S", Contour, Circle, Shape)
 
 
 def polar(centre: Point, radius: float, turn: float) -> Point:
@@ -183,10 +186,6 @@ def convex_hull(layer: Layer, circles: Sequence[Circle]) -> Contour:
     if len(arcs) > 1 and math.dist(pieces[-1].end, pieces[0].start) > HULL_ROUNDING:
         pieces.append(Line(pieces[-1].end, pieces[0].start))
     return closed(layer, pieces)
-
-
-STRAIGHT = 1e-16  # a bulge below it moves no point of the arc by a rounding of the chord
-S = TypeVar("S", Contour, Circle, Shape)
 
 
 class Box(NamedTuple):

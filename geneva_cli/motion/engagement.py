@@ -259,6 +259,10 @@ class Engagement(Batchable):
         """True if motion, slot and loads are symmetric about mid-motion."""
         return self.motion.symmetric
 
+    def end_deg(self, end: float) -> float:
+        """Input angle at entry, where ``end`` is -1, or at exit, where it is 1."""
+        return self.entry_deg if end < 0.0 else self.exit_deg
+
     def reach(self, input_deg: float) -> Number:
         """Pin distance from the wheel's axis, in units of L."""
         x, y = self.slot(input_deg, 0)

@@ -120,7 +120,7 @@ class RackGaps(Gaps):
         self.around = rack.subset(np.flatnonzero(np.abs(rack.oy) <= 3.5 * radius))
         # a slot and the recess after it, whose pieces begin between two recesses
         self.one = rack.subset(np.flatnonzero((rack.y0 >= -radius) & (rack.y0 < radius)))
-        cranks = [] if self.crank is None else [self.crank]
+        cranks = self.stops.crank
         self.stops = SlidingStops(self.one, self.pitch, cranks, radius, sizes.roller)
 
 

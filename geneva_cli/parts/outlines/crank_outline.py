@@ -37,8 +37,6 @@ from geneva_cli.parts.slots.roller_paths import horn_corners
 
 # radii of the corners of each kind of slot's mouth at entry and exit, mm
 Mouths: TypeAlias = Mapping[Engagement, tuple[float, float]]
-
-
 # a relief of the disc: its directions on the crank, radians, from and to, counterclockwise; the
 # number of the motion that needs it
 Relief: TypeAlias = tuple[float, float, int]

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from functools import cache, lru_cache
 from itertools import chain
+from operator import attrgetter
 
 import numpy as np
 
@@ -46,31 +47,34 @@ def _drawn(assembly: Assembly, sizes: Sizes) -> Outlines:
     An arc leaves the most of the disc and is one cut. If it collides or leaves too little, the
     whole sector is cut down to where the wheel never comes.
     """
-    walls, stopped = turned_walls(assembly, sizes), assembly.full.spec.wheel.stopped
-    close = SAME_LENGTH * assembly.L
-    for kind in assembly.kinds:
-        close = max(close, CURVED * assembly.L if kind.slot.curved else 0.0)
+    walls, curved = turned_walls(assembly, sizes), map(attrgetter("slot.curved"), assembly.kinds)
+    close = (CURVED if any(curved) else SAME_LENGTH) * assembly.L
     wheel = wheel_contour(assembly, sizes, walls)
     bare = Gaps(assembly, sizes, wheel, [])
-    if stopped:
+    if assembly.full.spec.wheel.stopped:
         wheel = wheel_contour(assembly, sizes, walls, convex=True)
+    unlocked = Outlines(assembly, sizes, walls, wheel, [], "none", bare, close)
     if not sizes.lock:
-        return Outlines(assembly, sizes, walls, wheel, [], "none", bare, close)
-    whole, requested = is_whole(assembly, sizes), assembly.mechanism.spec.size.relief
-    relief = requested or ("arc" if takes_arcs(assembly, sizes) else "sector")
-    swept, spare = cache(lambda i: bare.swept(i, SWEPT_DEG)), 0.0
+        return unlocked
+    requested = assembly.mechanism.spec.size.relief
+    swept = cache(lambda i: bare.swept(i, SWEPT_DEG))
+    if not requested and takes_arcs(assembly, sizes):
+        crank = crank_contours(assembly, sizes, "arc", swept)
+        gaps = bare.with_crank(crank)
+        if _overlap(gaps, close) <= close:
+            return unlocked._replace(crank=crank, relief="arc", gaps=gaps)
+    relief, whole, spare = requested or "sector", is_whole(assembly, sizes), 0.0
     for _ in range(6):
         crank = crank_contours(assembly, sizes, relief, swept, spare)
-        gaps, tried = bare.with_crank(crank), relief == "arc" and not requested
-        if whole and not tried:
+        gaps = bare.with_crank(crank)
+        if whole:
             break
         overlap = _overlap(gaps, close)
         if overlap <= close:
             break
         # Between two of these positions the wheel comes nearer still: three times the overlap.
-        spare += 0.0 if tried else 3.0 * overlap + 10.0 * close
-        relief = requested or "sector"
-    return Outlines(assembly, sizes, walls, wheel, crank, relief, gaps, close)
+        spare += 3.0 * overlap + 10.0 * close
+    return unlocked._replace(crank=crank, relief=relief, gaps=gaps)
 
 
 def _overlap(gaps: Gaps, close: float) -> float:

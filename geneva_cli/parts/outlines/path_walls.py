@@ -96,8 +96,7 @@ def _circle(
 ) -> tuple[tuple[float, float], Array]:
     """Return the roller's path before entry (-1) or after exit (1): centre, and points outwards."""
     centre = rest(assembly, engagement, end)
-    at_deg = engagement.entry_deg if end < 0.0 else engagement.exit_deg
-    x, y = _pitch(assembly.L, engagement, np.array([at_deg]))[0]
+    x, y = _pitch(assembly.L, engagement, np.array([engagement.end_deg(end)]))[0]
     radius, start = math.dist((x, y), centre), math.atan2(y - centre[1], x - centre[0])
     # As far as the middle of the dwell, where the path of the next slot begins.
     ahead = math.atan2(-assembly.sign * centre[1], -assembly.sign * centre[0])

@@ -86,7 +86,7 @@ def _mouth(assembly: Assembly, engagement: Engagement, end: float) -> Point:
     For a crank as built it is where a crank of the right R/L would have it: at the foot of the
     perpendicular from the crank's axis to the slot's.
     """
-    x, y = engagement.slot(engagement.entry_deg if end < 0.0 else engagement.exit_deg, 0)
+    x, y = engagement.slot(engagement.end_deg(end), 0)
     px, py = assembly.L * float(x.c[0]), assembly.L * float(y.c[0])
     if engagement.built is None:
         return px, py
@@ -134,7 +134,7 @@ def _wall_of_horn(
     assembly: Assembly, kind: Engagement, end: float, half_width: float, corner_mm: float
 ) -> Line:
     """Return a slot's wall beside its horn before (-1) or after (1) a motion, out to its corner."""
-    x, y = kind.slot(kind.entry_deg if end < 0.0 else kind.exit_deg, 0)
+    x, y = kind.slot(kind.end_deg(end), 0)
     u, v = kind.slot(0.0, 0)
     L, centre = assembly.L, rest(assembly, kind, end)
     start = L * float(u.c[0]), L * float(v.c[0])

@@ -82,8 +82,9 @@ class Stops:
         n, count, size = pose.pins.shape
         wheel = self.branches(self.outline, None, 0.0)
         inset = self.branches(self.outline, None, close)
+        # both sides of each roller: those on the other one follow
         sides = np.tile(self.rollers(pose.pins.reshape(-1, size), close), 2)
-        sides[8, n * count :] = -1.0
+        Branches(*sides).sign[n * count :] = -1.0
         each, levels = self._blocked(sides, wheel, np.repeat(pose.wheel, count), most)
         lock = np.full((2, n), most)
         for outline in self.crank:

@@ -184,20 +184,20 @@ class FlatPairs:
             gap = np.maximum(gap, beyond - gaps.sizes.roller)
             least = gap - travel
             some = np.flatnonzero(window.rests & (least < self.target))
+            if not len(some):
+                return gap, least
         if span and not engagement.slot.curved:
             places = gaps.pose(np.array([span[0], 0.5 * (span[0] + span[1])]))
             first, other = moves.into(places.pins[:, number], places.wheel)
             axis = (first - other) / math.dist(first, other)
             start, end = centre - travel[:, None] * axis, centre + travel[:, None] * axis
             aside = np.abs((centre - first) @ (-axis[1], axis[0]))
-        elif len(some):
+        else:
             start = moves.into(on.at_start.pins[some, number], on.at_start.wheel[some])
             end = moves.into(on.at_end.pins[some, number], on.at_end.wheel[some])
             if span:  # a curved slot's, as the roller travels in the wheel's frame
                 moving, mid = assembly.motions[number]
                 _, aside = self._slot(moving).on(on.start - mid, on.end - mid)
-        if not len(some):
-            return gap, least
         # A segment that is shorter than its middle's distance from the outline does not cross it.
         radius, off = gaps.sizes.roller, np.hypot(*(0.5 * (start + end) - centre[some]).T)
         short = 0.5 * np.hypot(*(end - start).T) < radius + gap[some] - off

@@ -98,6 +98,10 @@ if TYPE_CHECKING:
 # Of the centre distance, 0.2 um in 100 mm: parts that overlap by less count as touching. No cutter
 # and no roller is more accurate, nor are curved walls.
 CONTACT = 2e-6
+AROUND = 5  # parts into which an interval is divided about a peak
+SMALL = 1e-3  # degrees: the interval over which a roller's speed is computed
+MOST = 4  # intervals that are divided in a round for one peak
+EXACT = 1e-10  # radians: smaller angles are rounding
 
 
 class Window(NamedTuple):
@@ -192,12 +196,6 @@ class TurnedParts(ABC):
         """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""
 
 
-AROUND = 5  # parts into which an interval is divided about a peak
-SMALL = 1e-3  # degrees: the interval over which a roller's speed is computed
-MOST = 4  # intervals that are divided in a round for one peak
-EXACT = 1e-10  # radians: smaller angles are rounding
-
-
 class Play(NamedTuple):
     """The wheel's play back and on, degrees, at ascending input angles.
 
@@ -253,8 +251,7 @@ def play_of(parts: TurnedParts, fits: bool) -> tuple[Play, Array]:
         # in the rest of a motion an odd number, so that mid-motion is one
         grid += [a + near, np.linspace(a, b, (5 if rests else 15) + 2)[1:-1], b - near]
     play = _play_at(parts, every, rising(np.concatenate(grid)), fits, least)
-    left = 9  # rounds: 5**-9 of some degrees is a millionth
-    while True:
+    for left in range(9, -1, -1):  # rounds: 5**-9 of some degrees is a millionth
         # Where the play shrinks as the crank turns, a roller at the mouth of its slot pushes the
         # wheel's corner along their common normal. A play that ends abruptly means that a corner
         # blocks: 90 degrees.
@@ -266,6 +263,8 @@ def play_of(parts: TurnedParts, fits: bool) -> tuple[Play, Array]:
             angle = np.where(closing > 30.0 * travel, 90.0, push[1:])
             known = free & (np.radians(edge[:-1]) > least) & (closing > 0.0)
             pushes = np.maximum(pushes, np.where(known, angle, 0.0))
+        if not left:
+            break
         # where the play closes fastest, with the neighbours
         top = np.argsort(-pushes, kind="stable")[: MOST if pushes.max() > 0.0 else 0]
         i = rising(np.concatenate((*_peaks(parts, play, lever, least), top - 1, top, top + 1)))
@@ -273,11 +272,11 @@ def play_of(parts: TurnedParts, fits: bool) -> tuple[Play, Array]:
         low, wide = play.input_deg[i], np.diff(play.input_deg)[i]
         cut = wide > 1e-6  # narrower intervals are not divided
         more = (low[cut, None] + wide[cut, None] * (np.arange(1, AROUND) / AROUND)).ravel()
-        if not left or not len(more):
-            return play, pushes
-        left -= 1
+        if not len(more):
+            break
         play = joined((play, _play_at(parts, every, more, fits, least)))
         play = record_taken(play, np.argsort(play.input_deg, kind="stable"))
+    return play, pushes
 
 
 def _play_at(parts: TurnedParts, every: list[Window], at: Array, fits: bool, least: float) -> Play:
