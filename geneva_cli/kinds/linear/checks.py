@@ -1,4 +1,4 @@
-"""The checks and quantities of a rack: its horns, its guide, and shafts that pass it."""
+"""Checks of a rack and its guide, shafts and gears, and the guide's quantities."""
 
 from __future__ import annotations
 
