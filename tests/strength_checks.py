@@ -1,4 +1,4 @@
-"""Names of the strength checks that default sizes must pass, and a spec's checks by name."""
+"""Names of the strength checks that default sizes must pass; checks by name, at rest, advised."""
 
 from geneva_cli.motion.mechanism import build
 from geneva_cli.verdict.advice import advised

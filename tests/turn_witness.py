@@ -1,4 +1,4 @@
-"""Witnesses of certificates of the full turn, flat or on a sphere: gaps at dense positions."""
+"""Witnesses of the full turn, its stops and its certificates: dense gaps, and polygons."""
 
 from functools import partial
 

@@ -53,6 +53,7 @@ def wheel(name, text, *wants):
 NOT_TOML = [
     case("not-toml", "[wheel]\nz = six\n", 2, "not TOML"),
     case("open-string", '[wheel]\nz = 6\ntitle = "six\n', 3, "without its quotation mark"),
+    case("yaml", "wheel:\n  z: 6\n", 1, "not TOML", "write [table], or KEY = VALUE as in z = 6"),
     case("no-value", "[wheel]\nz =\n", 2, "the value is missing; write one behind the sign"),
     case("not-utf-8", b"[wheel]\nz = 6\n# gr\xfc\xdfe\n", 3, "not UTF-8", "save"),
     case("utf-16", "[wheel]\nz = 6\n".encode("utf-16"), 1, "not UTF-8", "-o FILE"),

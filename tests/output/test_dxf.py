@@ -1,4 +1,4 @@
-"""DXF files, read back by ezdxf: the same shapes, true arcs, one version, the same bytes."""
+"""DXF files of each version, read back by ezdxf: the same shapes, true arcs, the same bytes."""
 
 import io
 import math

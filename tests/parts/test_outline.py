@@ -331,6 +331,26 @@ def test_from_which_disc_on_the_relief_arc_clears(z: int, least: float) -> None:
         assert made(z, roller_radius_mm=r, lock_radius_mm=share * R).outlines.relief == kind
 
 
+RELIEF = [(3, 0.7), (4, 0.45), (6, 0.31), (7, 0.8), (10, 0.48), (16, 0.67)]
+
+
+@pytest.mark.parametrize(("z", "share"), RELIEF)
+def test_the_relief_is_the_triangle_of_entry(z: int, share: float) -> None:
+    """Centre L rk/R from the axis ahead of the roller, radius L cos b rk/R; where it clears."""
+    b = math.pi / z
+    R = L * math.sin(b)
+    found = made(z, roller_radius_mm=2.0, lock_radius_mm=share * R)
+    assert found.outlines.relief == "arc"
+    (relief,) = [
+        s for s in found.outlines.crank[0].segments if isinstance(s, Arc) and s.bulge < 0.0
+    ]
+    assert relief.centre == pytest.approx((L * share, 0.0), abs=1e-12 * L)
+    assert relief.radius == pytest.approx(L * math.cos(b) * share, rel=1e-12)
+    for end in (relief.start, relief.end):
+        angle = abs(math.degrees(math.atan2(end[1], end[0])))
+        assert angle == pytest.approx(90.0 - 180.0 / z, abs=1e-11)
+
+
 @pytest.mark.parametrize(("z", "share"), [(8, 0.38), (10, 0.44), (12, 0.5), (16, 0.63), (24, 0.6)])
 def test_a_small_disc_is_cut_down_to_a_sector(z: int, share: float) -> None:
     """Down to L - Rw less a clearance, and as wide as the motion or, of the smallest discs, wider:

@@ -58,11 +58,8 @@ def test_the_slots_of_a_sphere_are_meridians_of_it(name, axes):
 
     To 1e-9 of degrees: a few roundings of numbers of this size.
     """
-    S, b, design = (
-        math.radians(axes),
-        math.pi / 6,
-        geneva_cli.load(str(repo.DESIGNS / f"{name}.toml")),
-    )
+    S, b = math.radians(axes), math.pi / 6
+    design = geneva_cli.load(str(repo.DESIGNS / f"{name}.toml"))
     values = design.report.table.to_dict()
     assert values["sizes.sphere_radius_mm"] == design.mechanism.center_distance_mm
     mouth = math.degrees(math.atan2(math.sin(S) * math.cos(b), math.cos(S)))

@@ -1,4 +1,4 @@
-"""Checks and motion_warnings: each must be able to fail. Their advice is in test_advice."""
+"""Checks and warnings: each must be able to fail. Their advice is in test_advice."""
 
 import math
 import re

@@ -37,7 +37,7 @@ KINDS = (
         horn_sizes="kinds.linear.frame:horn_sizes",
         load_case="kinds.linear.guide:with_guide",
         scene="kinds.linear.drawings:RackScene",
-        motion_checks={"rack_horn_mm": "kinds.linear.horn_check:rack_horn"},
+        motion_checks={"rack_horn_mm": "kinds.linear.checks:rack_horn"},
         parts_checks={
             "guide_locks": "kinds.linear.checks:standing",
             "beside_shafts_mm": "kinds.linear.checks:standing",

@@ -1,4 +1,4 @@
-"""The checks and quantities of a rack: its horns, its guide, and shafts that pass it."""
+"""Checks of a rack, its horns, guide, shafts and gears, and the guide's quantities."""
 
 from __future__ import annotations
 
@@ -18,15 +18,30 @@ from geneva_cli.kinds.linear.rack import rack_sizes
 from geneva_cli.loads.contact import QuantityValue
 from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.load_peaks import load_peaks
+from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import value_or
 from geneva_cli.numerics.jet import Jet
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.sizes import drawn_thicknesses
+from geneva_cli.spec.defaults import wall_min
 from geneva_cli.verdict.checks import Check, compared
 from geneva_cli.verdict.checks.part_checks import cuts, least_gap
 from geneva_cli.verdict.quantities.batch_designs import Columns, Designs
 from geneva_cli.verdict.shaft_gap import gear_rings, ring_gaps, rings_of
 from geneva_cli.verdict.strength import strength
+
+
+def rack_horn(names: Collection[str], mechanism: Mechanism) -> Iterator[Check]:
+    """The wall between slot and recess of a rack that is locked."""
+    if mechanism.output.turns:
+        return
+    try:
+        sizes = rack_sizes(mechanism)
+    except GenevaError:
+        return  # the check of the parts reports the error
+    if sizes.lock:
+        least = wall_min(mechanism.spec.size, mechanism.center_distance_mm)
+        yield compared("rack_horn_mm", sizes.horn, "at least", least)
 
 
 def standing(names: Collection[str], parts: RackParts) -> Iterator[Check]:

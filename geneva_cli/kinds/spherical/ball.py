@@ -180,7 +180,7 @@ def usual_ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
     turns = [first.crank_deg, *(p.crank_deg for p in others)] if others else even
     bored = 0.0
     if spec.drive.crank and pin:
-        bored = arm_bore(spec, 0.0, L, L * arm - (pin - 0.5 * allowed.press_fit_mm))
+        bored = arm_bore(spec, 0.0, L, L * arm - hole_radius(size, pin))
     ball = Ball(
         radius_mm=L,
         z=z,
@@ -270,6 +270,11 @@ def hub_about(size: Size, L: float, bore: float, end: float) -> float:
     wall = wall_min(size, L)
     bored, hub = reach_and_hub(size, "wheel", bore, wall, end)
     return bore if size.wheel_hub_mm is None and hub < bored + wall else hub
+
+
+def hole_radius(size: Size, pin: float) -> float:
+    """Return the radius of a pin's hole; ``pin_hole`` refuses a pin that leaves none."""
+    return pin - 0.5 * size.allowances.press_fit_mm
 
 
 def flat_radius(inner: float, outer: float) -> float:

@@ -11,7 +11,14 @@ from functools import lru_cache
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.sphere import Region
-from geneva_cli.kinds.spherical.ball import Ball, PartDoesNotFit, flat_radius, hub_about, usual_ball
+from geneva_cli.kinds.spherical.ball import (
+    Ball,
+    PartDoesNotFit,
+    flat_radius,
+    hole_radius,
+    hub_about,
+    usual_ball,
+)
 from geneva_cli.kinds.spherical.horn import sphere_horns
 from geneva_cli.kinds.spherical.regions import sectors
 from geneva_cli.loads.strength.horn import single_stress
@@ -105,8 +112,7 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
     if sizes.arm_bore_mm:
         known["arm_bore_mm"] = 2.0 * sizes.arm_bore_mm
         with suppress(GenevaError):  # reported by the check of the parts
-            pin = sizes.pin_mm - 0.5 * size.allowances.press_fit_mm
-            passing = sizes.passing_mm(sizes.opening_mm)
+            pin, passing = hole_radius(size, sizes.pin_mm), sizes.passing_mm(sizes.opening_mm)
             wall = wall_min(size, sizes.radius_mm)
             hub, eye = hub_and_eye(size, wall, pin, sizes.arm_bore_mm, passing)
             known |= {"arm_hub_mm": 2.0 * hub, "arm_eye_mm": 2.0 * eye}
@@ -209,8 +215,7 @@ def _crank_bored(mechanism: Mechanism, ball: Ball, keyed: bool) -> Ball:
         # the arm's hub fits: about its bore, in the arm, and past pins and wheel
         bored = reach_or_bore(size, "crank", trial.arm_bore_mm)
         hub = arm_hub(size, bored, trial.arm_bore_mm, wall)
-        pin = trial.pin_mm - 0.5 * size.allowances.press_fit_mm
-        hole = math.asin(min(1.0, pin / under))
+        hole = math.asin(min(1.0, hole_radius(size, trial.pin_mm) / under))
         to_pins = under * math.sin(max(0.0, trial.arm - hole - wall / under))
         passing = trial.arm + trial.passing_mm(trial.opening_mm) / trial.radius_mm
         within = bored + wall <= hub <= min(to_pins, 0.99 * flat_radius(under, over))
@@ -243,8 +248,7 @@ def sphere_stressed(spec: Spec, ball: Ball) -> Stressed:
     thick, arm, bore = over - under, NO_ARM, ball.arm_bore_mm
     end = ball.shafts_end_mm(size) - L, thick
     if bore:
-        middle, wall = 0.5 * (under + over), wall_min(size, L)
-        hole = ball.pin_mm - 0.5 * size.allowances.press_fit_mm
+        middle, wall, hole = 0.5 * (under + over), wall_min(size, L), hole_radius(size, ball.pin_mm)
         bored = reach_or_bore(size, "crank", bore)
         cap = ball.cap(arm_hub(size, bored, bore, wall), bored, wall)
         eye = half_or(size.arm_eye_mm, eye_about(hole, wall, ball.passing_mm(ball.opening_mm)))

@@ -14,14 +14,7 @@ from geneva_cli.geometry.sphere_arcs import SphereArcs
 from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.numerics.arrays import Array, within_half_turn
 from geneva_cli.numerics.tolerances import SAME_ANGLE
-from geneva_cli.parts.turn.stops import (
-    CONCENTRIC,
-    Branches,
-    Pose,
-    Stops,
-    cut,
-    masked,
-)
+from geneva_cli.parts.turn.stops import CONCENTRIC, Branches, Pose, Stops, cut, masked
 
 
 class SphereStops(Stops):

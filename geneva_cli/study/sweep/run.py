@@ -244,8 +244,10 @@ def sweep(text: Text, plan: SweepPlan, picks: Sequence[str] = DEFAULT) -> Sweep:
     count, reasons = min(size, most), list[str]()
     # the middle design comes first: most ranges have one that can be built
     middle = _values([a.between(np.array([0.5])) for a in plan.axes])
-    every = [(0, count)] if plan.random else [(i * size // count,) * 2 for i in range(count)]
-    sample = (values for a, b in every for values in plan.rows(a, max(a + 1, b)))
+    starts, some = [i * size // count for i in range(count)], 1
+    if plan.random:  # its first ones, at once
+        starts, some = [0], count
+    sample = (values for at in starts for values in plan.rows(at, at + some))
     for values in chain(middle, sample):
         try:
             run.machine(values)

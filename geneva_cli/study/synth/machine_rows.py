@@ -74,22 +74,18 @@ def rows(
     costs, sized = _costs_and_rollers(specs, alone)
     limited = numbers(batch_machines(specs), [b.name for b in limits.values()], len(specs))
     out: list[MachineRow] = []
-    for i, ((spec, family), one, (radius, why)) in enumerate(
-        zip(machines, alone, sized, strict=True)
-    ):
+    each = zip(machines, alone, sized, limited.T.tolist(), strict=True)
+    for (spec, family), one, (radius, why), held in each:
         cost, drive = costs.get(one), spec.drive
-        motion_deg, dwell_deg = math.nan, math.nan
-        if cost is not None:
-            *_, motion_deg, period, entry, end = cost
-            dwell_deg = period / drive.rollers + entry - end
-        is_sound = cost is not None and math.isfinite(cost[1])
-        if not (is_sound and dwell_deg > 1e-9):  # rollers without a dwell may jam
+        *_, motion_deg, period, entry, end = cost or [math.nan] * 4
+        dwell_deg = period / drive.rollers + entry - end
+        if not dwell_deg > 1e-9:  # there is no machine, or rollers without a dwell may jam
             try:
                 build(spec)
             except GenevaError as error:
                 errors.append(str(error))
                 continue
-        if cost is None or not is_sound:
+        if cost is None:
             continue
         motion = target.motion_for(drive.rollers / drive.turns)
         if motion is not None and not allows(motion, motion_deg):
@@ -97,8 +93,8 @@ def rows(
         dwell_deg = dwell_deg if dwell_deg > 1e-9 else 0.0
         index_deg = spec.wheel.index_deg(0)
         times = timing(motion_deg, dwell_deg, index_deg, drive.n_rpm, None, drive.stop_s)
-        held = zip(limits.items(), limited[:, i].tolist(), strict=True)
-        over = [key for (key, bound), x in held if not (np.isnan(x) or bound.kept(x))]
+        bounds = zip(limits.items(), held, strict=True)
+        over = [key for (key, bound), x in bounds if not (np.isnan(x) or bound.kept(x))]
         parts = MAYBE if spec.is_turned else None
         if why or (over and parts):
             parts = f"no: {why or ', '.join(over)}"
@@ -113,7 +109,8 @@ def _costs_and_rollers(
     """The costs, R/L, motion, period and ends of the machines ``alone``; the rollers that suit.
 
     ``alone`` are the specs with one roller each. The rollers are those of specs, with obstacles.
-    Both come from the same batches. A spec that makes no machine has no costs.
+    Both come from the same batches. A spec that makes no machine, or one whose acceleration has no
+    bound, has no costs.
     """
     # with the same slots and rollers' paths: plain cranks, whatever turns them
     slots = [
@@ -134,7 +131,8 @@ def _costs_and_rollers(
             ends = moved.mid_deg + moved.entry_deg, moved.mid_deg + moved.exit_deg
             more = machine.ratio, moved.motion_deg, machine.period_deg, *ends
             table = np.broadcast_arrays(*values, *map(np.ravel, more))
-            costs.update(zip(own, np.column_stack(table).tolist(), strict=True))
+            known = zip(own, np.column_stack(table).tolist(), strict=True)
+            costs |= {spec: row for spec, row in known if math.isfinite(row[1])}
         pairs = [(i, one, m) for i, one in enumerate(own) for m in several.get(one, ())]
         if pairs:
             which, suited_specs, counts = zip(*pairs, strict=True)

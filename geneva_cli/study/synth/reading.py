@@ -78,20 +78,13 @@ def read_target(
         if rollers not in (None, 1):
             raise GenevaError(f"--rollers {rollers}: the spec has a stop, which needs one roller")
         rollers = 1
-    slots = parse_z(z or "3..24") if z or frame is None else [frame.wheel.z]
-    most = 200  # each wheel takes some hundredths of a second
-    if len(slots) > most:
-        raise GenevaError(f"--z {cut(z)}: that is more than {most} wheels; give fewer")
-    if law != "all" and law not in LAWS:
-        hint = nearest(law, (*LAWS, "all"))
-        raise GenevaError(f'--law "{cut(law)}": unknown{hint}; it must be all or {few(law, LAWS)}')
     words = ", ".join(phrases) or "the spec alone"
     target = Target(
         words if words.startswith("tau") else words[:1].upper() + words[1:],
-        tuple(dict.fromkeys(slots)),
+        _slots(z, frame),
         gearings or able,
         rollers,
-        tuple(LAWS) if law == "all" else (law,),
+        _laws(law),
         spans,
         frame,
         objective(sort, "--sort") if sort else None,
@@ -106,6 +99,25 @@ def read_target(
         )
     target.refuse_contradictions()
     return target
+
+
+def _slots(text: str, frame: Spec | None) -> tuple[int, ...]:
+    """The numbers of slots: those of a text, or of the frame, or the usual ones."""
+    if not text and frame is not None:
+        return (frame.wheel.z,)
+    z = parse_z(text or "3..24")
+    most = 200  # each wheel takes some hundredths of a second
+    if len(z) > most:
+        raise GenevaError(f"--z {cut(text)}: that is more than {most} wheels; give fewer")
+    return tuple(dict.fromkeys(z))
+
+
+def _laws(name: str) -> tuple[str, ...]:
+    """The law of this name, or all laws."""
+    if name == "all" or name in LAWS:
+        return tuple(LAWS) if name == "all" else (name,)
+    hint = nearest(name, (*LAWS, "all"))
+    raise GenevaError(f'--law "{cut(name)}": unknown{hint}; it must be all or {few(name, LAWS)}')
 
 
 def read_frame(path: str, settings: Sequence[str] = ()) -> Spec:

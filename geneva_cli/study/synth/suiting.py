@@ -3,7 +3,7 @@
 A curved slot needs a roller between two limits. Where its entry and exit paths differ, a small
 roller leaves an island of the wheel between them, which falls out. A large roller undercuts the
 outer walls. Adjacent slots and the locking disc limit the roller too. Places are sampled, and
-collisions in a whole turn are left to ``built``.
+collisions in a whole turn are left to ``synth_table``.
 """
 
 from __future__ import annotations

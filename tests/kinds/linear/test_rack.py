@@ -1,4 +1,4 @@
-"""The rack and the locking sector of a linear Geneva: sizes, area, and gaps over a turn.
+"""Rack, locking sector, arm and guide of a linear Geneva: sizes, area, horns, gaps over a turn.
 
 Its proof and its play are in test_rack_turn.py.
 """

@@ -38,10 +38,7 @@ def test_the_crank_of_a_sphere():
     # slots end R/L = 30° off the crank's axis, which is 90° off, less a roller and r/20
     assert parts.ball.slot_end == pytest.approx(math.pi / 3.0 - 0.06 - 0.003)
     every = {one.name: one for one in solids(parts.crank.part)}
-    assert (every["pin"].outline.radius, parts.arm.pins[0].radius) == (
-        3.0,
-        pytest.approx(2.95),
-    )
+    assert (every["pin"].outline.radius, parts.arm.pins[0].radius) == (3.0, pytest.approx(2.95))
     assert [hole.radius for hole in every["roller"].holes] == [pytest.approx(3.1)]
     spans = {name: (one.inner, one.outer) for name, one in every.items() if hasattr(one, "inner")}
     assert spans["roller"] == (95.0, 105.0)
