@@ -144,7 +144,7 @@ class StraightSlotMotion(WheelMotion):
         return Peak(size, 0.0 - at_deg)
 
     def end_rates(self, input_deg: float) -> tuple[float, float]:
-        if self.closed is None or self.entry is None:
+        if self.closed is None:
             return super().end_rates(input_deg)
         jump = self.closed[1] / self.entry.along  # which is cos b
         return jump, 3.0 * jump * jump
