@@ -86,7 +86,7 @@ class RadialSlot(Slot):
     def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
         along, across, _ = self.path.nearest(input_deg, order + 1)
         depth = sqrt(along * along + across * across)
-        return Jet(depth.c[:-1]), depth.derivative()
+        return depth.lower, depth.derivative()
 
 
 class StraightSlotMotion(WheelMotion):

@@ -174,12 +174,11 @@ def cosines_after(sine: Number, cosine: Number, order: int) -> list[Number]:
 
 def sine_versine(x: Jet) -> tuple[Jet, Jet]:
     """sin x and 1 - cos x, the latter without cancellation."""
-    at, m = x.c[0], library(x.c[0])
-    half, sine = m.sin(0.5 * at), m.sin(at)
+    half = library(x.c[0]).sin(0.5 * x.c[0])
     versine = 2.0 * half * half
-    if len(x.c) == 1:  # a value alone needs no cosine
-        return Jet((sine,)), Jet((versine,))
-    s, c = _circle((0.0, *x.derivative().c), sine, m.cos(at))
+    if not x.order:
+        return sin(x), Jet((versine,))
+    s, c = sin_cos(x)
     return s, Jet((versine, *(c * -1).c[1:]))
 
 
@@ -265,7 +264,7 @@ def turning(x: Jet, y: Jet, less: Jet | None = None, square: Jet | None = None) 
             total = total + (more * (k - 2 * i) if k - 2 * i > 1 else more)
         out.append(total)
     moment = Jet(out) if less is None else Jet(out) - less.derivative()
-    low_x, low_y = Jet(a[:-1]), Jet(b[:-1])
+    low_x, low_y = x.lower, y.lower
     return moment / (low_x * low_x + low_y * low_y if square is None else square.lower)
 
 
