@@ -31,6 +31,9 @@ from geneva_cli.numerics.arrays import (
 )
 from geneva_cli.numerics.jet import Jet, Number, atan2, sqrt, turning
 
+# Where an anchor of an end takes over: this fraction of the span to it from the anchor inside.
+NEAR_END = 0.75
+
 
 class AnchoredPath(Batchable):
     """A pin path written about several anchors: entry, mid-motion, exit, and others between.
@@ -43,12 +46,12 @@ class AnchoredPath(Batchable):
     def __init__(self, anchors: tuple[Anchor, ...], ahead: float = 0.0) -> None:
         self.anchors, self.ahead = anchors, ahead
         self.middle = anchors[len(anchors) // 2]  # of mid-motion
-        # half-way, and nearer to both ends: at this fraction of the span from the anchor inside
-        near_end, (first, *inner, last) = 0.75, map(attrgetter("input_deg"), anchors)
-        self.cuts = [inner[0] + near_end * (first - inner[0])]
+        first, *inner, last = map(attrgetter("input_deg"), anchors)
+        # half-way, and nearer to both ends
+        self.cuts = [inner[0] + NEAR_END * (first - inner[0])]
         for before, after in pairwise(inner):
             self.cuts.append(0.5 * (before + after))
-        self.cuts.append(inner[-1] + near_end * (last - inner[-1]))
+        self.cuts.append(inner[-1] + NEAR_END * (last - inner[-1]))
 
     def __call__(self, input_deg: Number, order: int = 3) -> Vector:
         """Pin (x, y) on its path at input angles in degrees from mid-motion."""
