@@ -1,4 +1,7 @@
-"""Drives with a transmission between input shaft and crank: the roller runs on a circle."""
+"""Drives with a transmission between input shaft and crank: the roller runs on a circle.
+
+And the places of several rollers on the crank.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""A whole spec: the wheel, its drive, its motion, and the tables of sizes, loads and limits."""
+"""A whole spec: the wheel, its drive, its motion, and the tables of sizes, loads and limits.
+
+And the tables of its file whose keys depend on the kind of wheel, drive or law.
+"""
 
 from __future__ import annotations
 

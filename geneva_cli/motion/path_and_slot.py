@@ -1,4 +1,7 @@
-"""Engagements with a known pin path and straight slot, whose motion is solved for."""
+"""Engagements with a known pin path and straight slot, whose motion is solved for.
+
+And the pitch curve of any slot: its tangent, curvature and pressure angle, in jets of any numbers.
+"""
 
 from __future__ import annotations
 
