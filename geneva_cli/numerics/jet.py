@@ -83,7 +83,7 @@ class Jet:
 
     def __mul__(self, other: Jet | Number) -> Jet:
         a, b = self.c, other.c if isinstance(other, Jet) else (other,)
-        if len(b) > 1 and not _is_constant(b):
+        if isinstance(other, Jet) and not _is_constant(b):
             if not _is_constant(a):
                 out = []
                 for k in range(len(a)):
@@ -102,7 +102,7 @@ class Jet:
     def __truediv__(self, other: Jet | Number) -> Jet:
         b = other.c if isinstance(other, Jet) else (other,)
         divisor, q = b[0], [self.c[0] / b[0]]
-        if len(b) == 1 or _is_constant(b):
+        if not isinstance(other, Jet) or _is_constant(b):
             for a in self.c[1:]:
                 q.append(a / divisor)
         else:
