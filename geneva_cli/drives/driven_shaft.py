@@ -11,6 +11,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from geneva_cli.motion.engagement import Engagement, Load, Vector, cross
+from geneva_cli.motion.path_and_slot import NEAR_END
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Batchable, choose, library, narrowed
 from geneva_cli.numerics.jet import Jet, Number, atan2, composed, piecewise, sin_cos
@@ -46,7 +47,7 @@ class Timing(Batchable):
         self.at_deg = tuple(at_deg - self.within_deg for at_deg, _ in local)
         self.advances = tuple(advance for _, advance in local)
         # input angles at which the formula about another place takes over
-        self.cuts = [0.75 * self.at_deg[0], 0.75 * self.at_deg[-1]]
+        self.cuts = [NEAR_END * self.at_deg[0], NEAR_END * self.at_deg[-1]]
 
     def input_deg(self, own_deg: float) -> float:
         """Machine's input angle at an angle of the driven shaft, both from mid-motion, degrees."""

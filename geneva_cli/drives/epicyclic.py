@@ -16,10 +16,10 @@ from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.engagement import Anchor, Engagement, Load, Vector, cross
 from geneva_cli.motion.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot, Teeth
-from geneva_cli.motion.wheels.classic import PinPose, gap, middle
+from geneva_cli.motion.wheels.classic import PinPose, PinTravel, gap, middle
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Array, choose, library
-from geneva_cli.numerics.jet import Jet, Number, sin_cos, sine_versine
+from geneva_cli.numerics.jet import Jet, Number, rotation, sin_cos, sine_versine
 from geneva_cli.spec.rules import OneOf, Range
 from geneva_cli.spec.schema import Example
 
@@ -156,7 +156,10 @@ class _Arms(NamedTuple):
     c: float  # the planet's rate
 
     def __call__(self, tau: Number, order: int) -> Vector:
-        turn = Jet.variable(tau, order)
-        x, y = self.pose.displacement(*sine_versine(turn))
-        u, v = self.pose.displacement(*sine_versine(turn * self.c))
+        x, y = PinTravel(self.pose, rotation)(tau, order)
+        u, v = PinTravel(self.pose, self._planet)(tau, order)
         return x * self.R0 + u * self.rp, y * self.R0 + v * self.rp
+
+    def _planet(self, tau: Number, order: int) -> Vector:
+        """sin d and 1 - cos d of the planet's rotation d."""
+        return sine_versine(Jet.variable(tau, order) * self.c)

@@ -1,4 +1,7 @@
-"""Drives with a transmission between input shaft and crank: the roller runs on a circle."""
+"""Drives with a transmission between input shaft and crank: the roller runs on a circle.
+
+And the places of several rollers on the crank.
+"""
 
 from __future__ import annotations
 
@@ -97,10 +100,10 @@ class Transmission(Drive, kw_only=True):
                 from geneva_cli.motion.wheels.side_crank_arrays import SideCrankMotion
 
                 motion = SideCrankMotion(path, place.step.b, side_crank, place.closed)
-            own = Engagement(middle_deg, path, slot, motion, -wheel.SIGN * place.cone)
+            body, hub, built = -wheel.SIGN * place.cone, place.hub, place.built
+            own = Engagement(middle_deg, path, slot, motion, body, hub=hub, built=built)
             if not self.direct:
                 self._behind(wheel, own, turned, L)
-            own.hub, own.built = place.hub, place.built
             engagements.append(own)
         turn = 360.0 * self.turns
         period = turn / self.rollers if len(rollers) == 1 else turn

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
+from functools import cache
 from typing import TypeAlias, TypeVar, cast
 
 import numpy as np
@@ -55,11 +56,7 @@ def _changed(thing: object, change: Change, done: dict[int, object]) -> object:
     kind: type = type(thing)
     if isinstance(thing, np.ndarray):
         return change(thing) if thing.ndim == 2 and thing.shape[1] == 1 else thing
-    # tables of a spec, what is built from them, and records of both
-    record = isinstance(thing, (SpecTable, Batchable, tuple, list)) and not isinstance(
-        thing, Points
-    )
-    if not record or id(thing) in done:
+    if not _is_record(kind) or id(thing) in done:
         return done.get(id(thing), thing)
     own = None if isinstance(thing, (tuple, list)) else vars(thing).copy()
     old = cast("Iterable[object]", thing) if own is None else own.values()
@@ -77,3 +74,9 @@ def _changed(thing: object, change: Change, done: dict[int, object]) -> object:
             copy = record_of(thing, new) if isinstance(thing, tuple) else new
     done[id(thing)] = copy
     return copy
+
+
+@cache  # by type: most of what a machine holds is None or a number
+def _is_record(kind: type) -> bool:
+    """True for tables of a spec, for what is built from them, and for records of both."""
+    return issubclass(kind, (SpecTable, Batchable, tuple, list)) and not issubclass(kind, Points)

@@ -1,6 +1,7 @@
 """What makes no machine: kinds, keys, sizes and tolerances that a spec cannot combine.
 
-Each kind names its own rules; here are those of sizes and tolerances, whatever the kind.
+Each kind names its own rules; here are those of the core's drives, and those of sizes and
+tolerances, whatever the kind.
 """
 
 from __future__ import annotations

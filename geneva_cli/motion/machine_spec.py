@@ -1,4 +1,7 @@
-"""A whole spec: the wheel, its drive, its motion, and the tables of sizes, loads and limits."""
+"""A whole spec: the wheel, its drive, its motion, and the tables of sizes, loads and limits.
+
+And the tables of its file whose keys depend on the kind of wheel, drive or law.
+"""
 
 from __future__ import annotations
 
@@ -105,8 +108,8 @@ class Spec(SpecTable):
             L = self.drive.distance_mm(self.wheel, self.motion, radius)
         if L is not size.derived_distance_mm:
             vars(self)["size"] = size.replace(derived_distance_mm=L)
-        turns = self.drive.turns * (self.drive_before.turns if self.drive_before else 1)
         L, before = self.size.distance_mm, self.drive_before
+        turns = self.drive.turns * (before.turns if before else 1)
         gears = (before and before.gears) or (None if self.drive.direct else self.drive.gears)
         lock = self.drive.LOCKS and self.size.lock_radius_mm != 0.0
         own = {"turns": turns, "given_distance_mm": L, "gears": gears, "has_lock": lock}
@@ -245,7 +248,7 @@ class Spec(SpecTable):
             # a crank as built enters where its roller crosses the slot's axis inside the rim
             built = (size.crank_radius_mm, size.wheel_radius_mm, size.roller_radius_mm)
         own = self.wheel, self.drive, self.drive_before, self.motion
-        return (*own, *built, self.size.distance_mm)
+        return (*own, *built, self.given_distance_mm)
 
 
 class KindTable(NamedTuple):

@@ -21,14 +21,7 @@ from geneva_cli.motion.pivots import FIRST, AxisPlace, Layout, Pivot, ShaftPlace
 from geneva_cli.motion.registry import IN_FRONT
 from geneva_cli.motion.wheels.gearing import Output
 from geneva_cli.numerics.angles import sin_cos_pi
-from geneva_cli.numerics.arrays import (
-    Whole,
-    all_true,
-    choose,
-    choose_record,
-    larger,
-    library,
-)
+from geneva_cli.numerics.arrays import Whole, all_true, choose, choose_record, larger, library
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
 
 _AS_BUILT = (
@@ -177,20 +170,20 @@ def build(spec: Spec, like: Mechanism | None = None) -> Mechanism:
     Raises GenevaError, naming the key, if the values do not make a machine together.
     """
     refuse_conflicts(spec)
-    radius, L = spec.size.crank_radius_mm, spec.size.center_distance_mm
+    radius, given = spec.size.crank_radius_mm, spec.size.center_distance_mm
     if like and spec.moving == like.spec.moving:
         plan, own = Plan(*like[1:6]), like.plan
     else:
         built = None
-        if radius is not None and L is not None and spec.motion is None:
-            built = _as_built(spec, radius, L)
-        plan = own = built or spec.drive.plan(spec.wheel, spec.motion, spec.size.distance_mm)
+        if radius is not None and given is not None and spec.motion is None:
+            built = _as_built(spec, radius, given)
+        plan = own = built or spec.drive.plan(spec.wheel, spec.motion, spec.given_distance_mm)
         if spec.drive_before:
             plan = load_named(IN_FRONT)(plan, spec, spec.drive_before)
             own = plan._replace(engagements=tuple(map(attrgetter("own"), plan.engagements)))
-    refuse_sizes(spec, plan.center_distance_mm, plan.ratio)
-    refuse_tolerances(spec, plan.center_distance_mm, plan.ratio)
     L, wheel, wheels = plan.center_distance_mm, spec.wheel, spec.drive.wheels_on_carrier
+    refuse_sizes(spec, L, plan.ratio)
+    refuse_tolerances(spec, L, plan.ratio)
     cranks, steps = [], spec.drive.cranks
     for k, step in enumerate(steps):
         sine, cosine = sin_cos_pi(2 * int(step), wheel.z)

@@ -1,4 +1,7 @@
-"""Engagements with a known pin path and straight slot, whose motion is solved for."""
+"""Engagements with a known pin path and straight slot, whose motion is solved for.
+
+And the pitch curve of any slot: its tangent, curvature and pressure angle, in jets of any numbers.
+"""
 
 from __future__ import annotations
 
@@ -31,6 +34,9 @@ from geneva_cli.numerics.arrays import (
 )
 from geneva_cli.numerics.jet import Jet, Number, atan2, sqrt, turning
 
+# Where an anchor of an end takes over: this fraction of the span to it from the anchor inside.
+NEAR_END = 0.75
+
 
 class AnchoredPath(Batchable):
     """A pin path written about several anchors: entry, mid-motion, exit, and others between.
@@ -43,12 +49,12 @@ class AnchoredPath(Batchable):
     def __init__(self, anchors: tuple[Anchor, ...], ahead: float = 0.0) -> None:
         self.anchors, self.ahead = anchors, ahead
         self.middle = anchors[len(anchors) // 2]  # of mid-motion
-        # half-way, and nearer to both ends: at this fraction of the span from the anchor inside
-        near_end, (first, *inner, last) = 0.75, map(attrgetter("input_deg"), anchors)
-        self.cuts = [inner[0] + near_end * (first - inner[0])]
+        first, *inner, last = map(attrgetter("input_deg"), anchors)
+        # half-way, and nearer to both ends
+        self.cuts = [inner[0] + NEAR_END * (first - inner[0])]
         for before, after in pairwise(inner):
             self.cuts.append(0.5 * (before + after))
-        self.cuts.append(inner[-1] + near_end * (last - inner[-1]))
+        self.cuts.append(inner[-1] + NEAR_END * (last - inner[-1]))
 
     def __call__(self, input_deg: Number, order: int = 3) -> Vector:
         """Pin (x, y) on its path at input angles in degrees from mid-motion."""
@@ -86,7 +92,7 @@ class RadialSlot(Slot):
     def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
         along, across, _ = self.path.nearest(input_deg, order + 1)
         depth = sqrt(along * along + across * across)
-        return Jet(depth.c[:-1]), depth.derivative()
+        return depth.lower, depth.derivative()
 
 
 class StraightSlotMotion(WheelMotion):
@@ -144,7 +150,7 @@ class StraightSlotMotion(WheelMotion):
         return Peak(size, 0.0 - at_deg)
 
     def end_rates(self, input_deg: float) -> tuple[float, float]:
-        if self.closed is None or self.entry is None:
+        if self.closed is None:
             return super().end_rates(input_deg)
         jump = self.closed[1] / self.entry.along  # which is cos b
         return jump, 3.0 * jump * jump

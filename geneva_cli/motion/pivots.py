@@ -102,7 +102,9 @@ Layout: TypeAlias = tuple[Pivot | Dimension, ...]
 class PlaneMotion:
     """The motion of a body in its plane: here a wheel that turns about the origin.
 
-    Angles are in radians; arrays of points are (n, 2).
+    It changes one of two coordinates of a point, the place (radians; of a rack over its pinion's
+    radius), and leaves the other, the level: distance from the axis, or position across the rack.
+    Arrays of points are (n, 2).
     """
 
     # change of the place after which a body meets itself, radians; infinite for a rack

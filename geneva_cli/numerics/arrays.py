@@ -234,10 +234,10 @@ def record_taken(record: Record, which: Which) -> Record:
     for column in record:
         if isinstance(column, tuple):
             out.append(record_taken(column, which))
+        elif isinstance(which, slice):
+            out.append(cast("Array", column)[..., which])
         else:
-            values = cast("Array", column)
-            whole = isinstance(which, slice)
-            out.append(values[..., which] if whole else values.take(cast("Whole", which), axis=-1))
+            out.append(cast("Array", column).take(cast("Whole", which), axis=-1))
     return record_of(record, out)
 
 

@@ -47,12 +47,12 @@ _ends = np.where(_k % DEGREE == 0, 0.5, 1.0)  # the first and the last count hal
 SERIES = 2.0 / DEGREE * _ends[:, None] * np.cos(np.pi * np.outer(_k, DEGREE - _k) / DEGREE) * _ends
 _rise = _k - _k[:, None]
 # from the terms of a series to those of its derivative
-_SLOPES = np.where((_rise > 0) & (_rise % 2 == 1), 2.0 * _k, 0.0)
-_SLOPES[0] *= 0.5
+_DERIVED = np.where((_rise > 0) & (_rise % 2 == 1), 2.0 * _k, 0.0)
+_DERIVED[0] *= 0.5
 _TERMS = at(np.eye(DEGREE + 1)[..., None], GRID).T
-# to values and slopes at ``GRID``
+# from samples to values and to slopes at ``GRID``
 ON_GRID = product(_TERMS, SERIES)
-SLOPES = product(_TERMS, product(_SLOPES, SERIES))
+SLOPES = product(_TERMS, product(_DERIVED, SERIES))
 
 
 def remainder(values: Array) -> Array:
@@ -310,10 +310,8 @@ class Cutter:
     def _refined(self, kind: int, rows: Rows, sign: Array, t: Array) -> Array:
         """Zeros of the functions themselves, from the zeros of their series."""
         (_, x), half = rows.places(t, self.w), 0.5 * (rows.u[1] - rows.u[0])
-        known, live = (
-            np.where(np.arange(self.f.signs)[:, None] < kind, sign, np.nan),
-            np.arange(len(t)),
-        )
+        earlier, live = np.arange(self.f.signs)[:, None] < kind, np.arange(len(t))
+        known = np.where(earlier, sign, np.nan)
         for _ in range(NEWTON_STEPS):
             if not len(live):
                 break

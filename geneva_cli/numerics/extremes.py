@@ -131,8 +131,7 @@ def search(
         # the first places of the greatest values
         first = np.full(extremes.most.shape, np.inf)
         for side, of, design, x, value in extremes.known:
-            bars = bar(extremes.most[side, of, design], extremes.size[of, design])
-            near = value >= bars
+            near = value >= bar(extremes.most[side, of, design], extremes.size[of, design])
             np.fmin.at(first, (side[near], of[near], design[near]), x[near])
         first = np.where(np.isinf(first), extremes.at_sample, first)
         shape = -1, len(cutter.w)

@@ -2,9 +2,9 @@
 
 Intervals of a dyadic grid are halved until a polynomial of degree 10 keeps the last digits. It fits
 the values at 21 places, numbers of few bits, so that the places are not rounded, and the values'
-rounding is halved. Next to a seam, where another
-formula takes over or a value vanishes, intervals shrink with the distance: small values keep their
-digits too. Where an interval has few places, the function itself is evaluated.
+rounding is halved. Next to a seam, where another formula takes over or a value vanishes, intervals
+shrink with the distance: small values keep their digits too. Where an interval has few places, the
+function itself is evaluated.
 """
 
 from __future__ import annotations

@@ -1,6 +1,7 @@
 """Intervals of doubles: two bounds, rounded outwards at each step, for many numbers at once.
 
-R. E. Moore, R. B. Kearfott and M. J. Cloud, Introduction to Interval Analysis (2009).
+With them the rates of a curve are bounded on many cells. Source: R. E. Moore, R. B. Kearfott and M.
+J. Cloud, Introduction to Interval Analysis (2009).
 """
 
 from __future__ import annotations

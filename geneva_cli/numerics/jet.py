@@ -83,7 +83,7 @@ class Jet:
 
     def __mul__(self, other: Jet | Number) -> Jet:
         a, b = self.c, other.c if isinstance(other, Jet) else (other,)
-        if len(b) > 1 and not _is_constant(b):
+        if isinstance(other, Jet) and not _is_constant(b):
             if not _is_constant(a):
                 out = []
                 for k in range(len(a)):
@@ -102,7 +102,7 @@ class Jet:
     def __truediv__(self, other: Jet | Number) -> Jet:
         b = other.c if isinstance(other, Jet) else (other,)
         divisor, q = b[0], [self.c[0] / b[0]]
-        if len(b) == 1 or _is_constant(b):
+        if not isinstance(other, Jet) or _is_constant(b):
             for a in self.c[1:]:
                 q.append(a / divisor)
         else:
@@ -174,12 +174,11 @@ def cosines_after(sine: Number, cosine: Number, order: int) -> list[Number]:
 
 def sine_versine(x: Jet) -> tuple[Jet, Jet]:
     """sin x and 1 - cos x, the latter without cancellation."""
-    at, m = x.c[0], library(x.c[0])
-    half, sine = m.sin(0.5 * at), m.sin(at)
+    half = library(x.c[0]).sin(0.5 * x.c[0])
     versine = 2.0 * half * half
-    if len(x.c) == 1:  # a value alone needs no cosine
-        return Jet((sine,)), Jet((versine,))
-    s, c = _circle((0.0, *x.derivative().c), sine, m.cos(at))
+    if not x.order:
+        return sin(x), Jet((versine,))
+    s, c = sin_cos(x)
     return s, Jet((versine, *(c * -1).c[1:]))
 
 
@@ -265,7 +264,7 @@ def turning(x: Jet, y: Jet, less: Jet | None = None, square: Jet | None = None) 
             total = total + (more * (k - 2 * i) if k - 2 * i > 1 else more)
         out.append(total)
     moment = Jet(out) if less is None else Jet(out) - less.derivative()
-    low_x, low_y = Jet(a[:-1]), Jet(b[:-1])
+    low_x, low_y = x.lower, y.lower
     return moment / (low_x * low_x + low_y * low_y if square is None else square.lower)
 
 

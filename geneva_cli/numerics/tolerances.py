@@ -1,7 +1,8 @@
-"""Tolerances that several files share, each with its unit and its reason.
+"""Tolerances that several files share, each with its unit and its reason; and rounded sizes.
 
 Doubles carry 2e-16; a formula rounds by some 1e-15 of a size, a search by 1e-13, a chain of parts
-by 1e-11. Drawings and tables show 1e-6. Tolerances of equality lie between.
+by 1e-11. Drawings and tables show 1e-6. Tolerances of equality lie between. Default sizes are
+rounded numbers, or bores of standard bearings.
 """
 
 from __future__ import annotations
@@ -69,8 +70,8 @@ for _power in range(-20, 16):
         _ROUNDED.append(float(f"{_n}e{_power}"))
 # Bores of radial bearings by ISO 15, mm.
 _SMALL = (1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 12.0, 15.0, 17.0)
-_LARGE = map(float, (*range(20, 110, 5), *range(110, 200, 10), *range(200, 501, 20)))
-_BORES = [*_SMALL, *_LARGE]
+_LARGE = (*range(20, 110, 5), *range(110, 200, 10), *range(200, 501, 20))
+_BORES = [*_SMALL, *map(float, _LARGE)]
 
 
 def rounded_below(most: float) -> float:

@@ -27,8 +27,8 @@ from geneva_cli.numerics.jet import (
     Jet,
     Number,
     atan2,
+    rotation,
     sin_cos,
-    sine_versine,
     sine_versine_of,
 )
 from geneva_cli.spec.rules import POSITIVE, Z_MAX, Range
@@ -151,8 +151,7 @@ class FirstWheelRotation(NamedTuple):
 
     def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
         """sin d and 1 - cos d of its rotation d since then, ``tau`` input radians later."""
-        sine, versine = sine_versine(Jet.variable(tau, max(order, 1)))
-        along, across = self.pose.displacement(sine, versine)
+        along, across = classic.PinTravel(self.pose, rotation)(tau, max(order, 1))
         along = along + self.pose.along
         rate = atan2(across, along).derivative()
         return sine_versine_of(rate, across.c[0], along.c[0], order)

@@ -1,6 +1,7 @@
-"""The base of the motion laws s(u): fraction of the step by fraction of the motion's time.
+"""The base of the motion laws s(u), and the table of a spec that has one.
 
-The second half of a law is the remainder 1 - s by the time w = 1 - u left: both ends are exact.
+s is the fraction of the step by the fraction u of the motion's time. The second half of a law is
+the remainder 1 - s by the time w = 1 - u left: both ends are exact.
 """
 
 from __future__ import annotations

@@ -9,7 +9,6 @@ exit the slope across the ray is exactly 0.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple, cast
 
 from geneva_cli.errors import GenevaError, cut, refuse
@@ -17,7 +16,8 @@ from geneva_cli.numerics.angles import one_minus_sin_pi, sin_cos_pi
 from geneva_cli.numerics.arrays import choose, larger, library, smaller
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Jet, Number
+    from geneva_cli.numerics.jet import Number
+    from geneva_cli.numerics.jet_functions import Displacement, Vector
 
 
 class PinPose(NamedTuple):
@@ -29,19 +29,14 @@ class PinPose(NamedTuple):
     slope: tuple[float, float]  # d(position)/d(crank angle)
     bend: tuple[float, float]  # second derivative
 
-    def displacement(self, sine: Jet, versine: Jet) -> tuple[Jet, Jet]:
-        """Displacement since the pose, from sin d and 1 - cos d of the crank's rotation d."""
-        (along, across), (bend_along, bend_across) = self.slope, self.bend
-        return sine * along + versine * bend_along, sine * across + versine * bend_across
-
 
 class PinTravel(NamedTuple):
     """Displacement of a crank's pin from a pose, by the input angle."""
 
     pose: PinPose
-    advance: Callable[[Number, int], tuple[Jet, Jet]]  # of the crank: sin d and 1 - cos d
+    advance: Displacement  # of the crank: sin d and 1 - cos d
 
-    def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
+    def __call__(self, tau: Number, order: int) -> Vector:
         """Displacement along the pose's ray and across it, ``tau`` input radians later."""
         sine, versine = self.advance(tau, order)
         (along, across), (bend_along, bend_across) = self.pose.slope, self.pose.bend

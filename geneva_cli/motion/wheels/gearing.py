@@ -7,7 +7,7 @@ from dataclasses import field
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self
 
 from geneva_cli.motion.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
-from geneva_cli.motion.pivots import Layout, Pivot
+from geneva_cli.motion.pivots import Layout, Pivot, PlaneMotion
 from geneva_cli.motion.wheels import classic
 from geneva_cli.motion.wheels.classic import HalfStep, PinPose, Skew, radial
 from geneva_cli.numerics.angles import one_minus_sin_pi, sin_cos_pi
@@ -17,7 +17,6 @@ from geneva_cli.spec.schema import Example, SpecTable
 
 if TYPE_CHECKING:
     from geneva_cli.motion.engagement import AsBuilt, Slot, WheelMotion
-    from geneva_cli.motion.pivots import PlaneMotion
     from geneva_cli.numerics.jet_functions import Displacement
 
 
@@ -173,9 +172,6 @@ class Gearing(SpecTable):
 
     def plane_motion(self, center_distance_mm: float) -> PlaneMotion:
         """How the wheel moves in its plane, for lengths in millimetres."""
-        # imported here, as `table` starts without NumPy
-        from geneva_cli.motion.pivots import PlaneMotion
-
         return PlaneMotion()
 
     def matched_ratio(self, v: float) -> float:
