@@ -48,9 +48,9 @@ class _Bar(NamedTuple):
 
 def drawn_links(mechanism: Mechanism, parts: Outlines | None = None) -> Links:
     """Return the links of a machine as plates; ``parts`` are its outlines, if it has any."""
-    if not links_at(mechanism, np.zeros(1)):
-        return Links()
     links = links_at(mechanism, turn_deg(mechanism))
+    if not links:
+        return Links()
     sizes, L = link_sizes(mechanism, links, parts), mechanism.center_distance_mm
     linked = [link for link in links if not link.radius_mm]
     bars = [_bar(link, sizes, L) for link in linked]
