@@ -18,11 +18,7 @@ from geneva_cli.kinds.linear.rack import RackSizes, crank_arm, rack_bore, rack_s
 from geneva_cli.loads.strength.pin_arm_key import NO_ARM, NO_KEY, ArmDimensions
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import value_or
-from geneva_cli.parts.frame import (
-    hole_without_shaft,
-    mounted_plate,
-    shaft_holes,
-)
+from geneva_cli.parts.frame import hole_without_shaft, mounted_plate, shaft_holes
 from geneva_cli.parts.gears.gear_pair import gear_shafts, gear_span
 from geneva_cli.parts.parts import FrameAndShafts
 from geneva_cli.parts.shafts.arm_and_shafts import Shaft, shaft_ends

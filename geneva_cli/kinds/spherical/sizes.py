@@ -16,11 +16,7 @@ from geneva_cli.kinds.spherical.horn import sphere_horns
 from geneva_cli.kinds.spherical.regions import sectors
 from geneva_cli.loads.strength.horn import single_stress
 from geneva_cli.loads.strength.lock import dwell_torque_Nm
-from geneva_cli.loads.strength.part_loads import (
-    LoadedShaft,
-    shafts_under_load,
-    single_loads,
-)
+from geneva_cli.loads.strength.part_loads import LoadedShaft, shafts_under_load, single_loads
 from geneva_cli.loads.strength.pin_arm_key import NO_ARM, NO_KEY, ArmDimensions, arm_stress_MPa
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
@@ -37,13 +33,7 @@ from geneva_cli.parts.sized_by_load import (
     shaft_and_key_hold,
     shaft_of,
 )
-from geneva_cli.parts.sizes import (
-    LARGEST_HUB,
-    KeySizes,
-    arm_hub,
-    hub_and_eye,
-    within_hub,
-)
+from geneva_cli.parts.sizes import LARGEST_HUB, KeySizes, arm_hub, hub_and_eye, within_hub
 from geneva_cli.spec.defaults import eye_about, wall_min, wheel_material
 
 

@@ -19,12 +19,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Joint, Link
 from geneva_cli.numerics.tolerances import SAME_LENGTH, bore_radius
 from geneva_cli.parts.assembly import links_at, same, turn_deg
-from geneva_cli.parts.links.link_sizes import (
-    joined,
-    link_sizes,
-    places,
-    point_at_zero,
-)
+from geneva_cli.parts.links.link_sizes import joined, link_sizes, places, point_at_zero
 from geneva_cli.parts.links.links import LinkAxis, Links, LinkSizes
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.shafts.arm_and_shafts import bore_at
