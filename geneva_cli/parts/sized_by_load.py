@@ -150,13 +150,11 @@ def key_of(standard: str | None, bore: float, length: float) -> KeyDimensions:
     return KeyDimensions(2.0 * bore, fitted.width, fitted.height - fitted.in_shaft, length)
 
 
-def load_sizes(
-    of: Unloaded, loads: PartLoads, bent_MPa: float | None = None, link: float = 0.0
-) -> Sizes:
+def load_sizes(of: Unloaded, loads: PartLoads, bent_MPa: float | None, link: float) -> Sizes:
     """Return the sizes of a machine under its loads, from those without them.
 
     ``bent_MPa`` is the stress of ``horn_MPa``, if computed already; ``link`` is the thickness that
-    the loads need of a first wheel. A load without a bound leaves all sizes.
+    the loads need of a first wheel, 0 without one. A load without a bound leaves all sizes.
     """
     assembly, sizes, space, by = of
     machine, spec = assembly.full, assembly.full.spec
