@@ -18,7 +18,7 @@ from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.numerics.tolerances import sizes_from
 from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.sized_by_load import Stressed, shaft_holds, stressed
+from geneva_cli.parts.sized_by_load import Stressed, equivalent_Nm, shaft_and_key_hold, stressed
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.spec.tables import Load, Size
 
@@ -82,11 +82,10 @@ def first_sizes(
     for d in sizes_from(usual.crank_shaft.diameter, reach, bores=True):
         one = dimensions(size.replace(arm_bore_mm=size.arm_bore_mm or d))
         if one:
-            parts, shaft = one, one.crank_shaft
-            bent = spec.shaft.bending_factor * loads.crank_N * shaft.overhang / 1000.0
-            turned = spec.shaft.torsion_factor * loads.crank_Nm
+            parts = one
+            moment = equivalent_Nm(spec, one.crank_shaft, loads.crank_N, loads.crank_Nm)
             fixed = spec.size.arm_bore_mm is not None
-            if fixed or shaft_holds(spec, "crank", shaft.diameter, bent, turned):
+            if fixed or shaft_and_key_hold(spec, "crank", one, moment, loads.crank_Nm):
                 break
     assert parts is not None
     thick = max(parts.contact, float(parts.arm.thickness))

@@ -78,14 +78,19 @@ class FlatParts(EdgedParts):
 
     def past_mouth(self, motion: int, at: Array) -> Array:
         """Return how far a motion's roller is in its slot, beyond the mouth's corners, mm, (n,)."""
-        own, sizes, lost = self.outlines, self.outlines.sizes, 0.0
+        own, sizes = self.outlines, self.outlines.sizes
         # the corners are on the rim, half a slot's width from the slot's middle
         level = math.sqrt(max(sizes.rim**2 - sizes.half_width**2, 0.0))
-        if sizes.mouth_radius or sizes.horn_tip:  # the walls end deeper than at sharp mouths
-            each = [turned(own.slots[kind], turn) for kind, turn in own.assembly.slots]
-            lost = max(wall_lost(walls, own.wheel) for walls in each)
+        lost = self._wall_lost if sizes.mouth_radius or sizes.horn_tip else 0.0
         far = np.hypot(*own.assembly.pin(motion, at, drives=True).T)
         return own.assembly.sign * (level - far) - lost
+
+    @cached_property
+    def _wall_lost(self) -> float:
+        """By how much the walls of slots end deeper than at sharp mouths, mm."""
+        own = self.outlines
+        each = [turned(own.slots[kind], turn) for kind, turn in own.assembly.slots]
+        return max(wall_lost(walls, own.wheel) for walls in each)
 
     def pairs(self, target: float) -> FlatPairs:
         """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""

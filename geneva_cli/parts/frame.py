@@ -23,12 +23,7 @@ from geneva_cli.parts.assembly import is_bridged, links_at, same, turn_deg
 from geneva_cli.parts.links.links import Links, placed_holes
 from geneva_cli.parts.outlines.outlines import Outlines, wheel_hub
 from geneva_cli.parts.parts import FRAME, FrameAndShafts
-from geneva_cli.parts.shafts.arm_and_shafts import (
-    Shaft,
-    crank_arm,
-    shaft_ends,
-    shafts,
-)
+from geneva_cli.parts.shafts.arm_and_shafts import Shaft, crank_arm, shaft_ends, shafts
 from geneva_cli.parts.shafts.bores import SCREWS, around, bolt_radius, screw_through, tapped
 from geneva_cli.parts.sizes import HUB, bridge_low, drawn_thicknesses
 from geneva_cli.spec.defaults import wall_min

@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     from geneva_cli.parts.sized_by_load import Unloaded
 
 Layout: TypeAlias = tuple[Assembly, Sizes]  # of one machine
-OF_AXLE = (
+OF_AXLE = (  # keys that an internal wheel lacks, which is open in the middle
     *("wheel_bore_mm", "wheel_hub_mm", "wheel_hub_length_mm"),
     *("wheel_shaft_low_mm", "wheel_shaft_high_mm"),
 )

@@ -142,7 +142,7 @@ def shaft_of(spec: Spec, part: str, bore: float, to_frame: float, thick: float) 
 def key_of(standard: str | None, bore: float, length: float) -> KeyDimensions:
     """Return the dimensions of a key in a bore; NaN without one."""
     try:
-        fitted = key(standard, bore) if bore and standard else None
+        fitted = key(standard, bore) if bore else None
     except GenevaError:  # reported where the part is cut
         fitted = None
     if fitted is None:
@@ -150,13 +150,11 @@ def key_of(standard: str | None, bore: float, length: float) -> KeyDimensions:
     return KeyDimensions(2.0 * bore, fitted.width, fitted.height - fitted.in_shaft, length)
 
 
-def load_sizes(
-    of: Unloaded, loads: PartLoads, bent_MPa: float | None = None, link: float = 0.0
-) -> Sizes:
+def load_sizes(of: Unloaded, loads: PartLoads, bent_MPa: float | None, link: float) -> Sizes:
     """Return the sizes of a machine under its loads, from those without them.
 
     ``bent_MPa`` is the stress of ``horn_MPa``, if computed already; ``link`` is the thickness that
-    the loads need of a first wheel. A load without a bound leaves all sizes.
+    the loads need of a first wheel, 0 without one. A load without a bound leaves all sizes.
     """
     assembly, sizes, space, by = of
     machine, spec = assembly.full, assembly.full.spec
@@ -232,11 +230,8 @@ def _wheel_bored(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> Sizes:
         reach, hub = reach_and_hub(spec.size, "wheel", 0.5 * d, wall, end)
         sizes = sizes._replace(wheel_bore=0.5 * d, wheel_reach=reach, wheel_hub=hub)
         parts, torque = stressed(assembly, sizes), loads.wheel_Nm
-        shaft = parts.wheel_shaft
-        bent = spec.shaft.bending_factor * loads.wheel_shaft_N * shaft.overhang / 1000.0
-        turned = spec.shaft.torsion_factor * torque
-        holds = shaft_holds(spec, "wheel", shaft.diameter, bent, turned)
-        if holds and (parts.wheel_key is NO_KEY or key_holds(spec, parts.wheel_key, torque)):
+        moment = equivalent_Nm(spec, parts.wheel_shaft, loads.wheel_shaft_N, torque)
+        if shaft_and_key_hold(spec, "wheel", parts, moment, torque):
             break
     return sizes
 
@@ -270,13 +265,9 @@ def _crank_bored(
         reach, hub = reach_and_hub(size, "crank", bore, sizes.wall_min)
         arm = 0.5 * d if usual.arm_bore else 0.0
         sizes = usual._replace(crank_bore=bore, crank_reach=reach, crank_hub=hub, arm_bore=arm)
-        parts = stressed(assembly, sizes)
-        shaft = parts.crank_shaft
-        bent = spec.shaft.bending_factor * loads.crank_N * shaft.overhang / 1000.0
-        turned = spec.shaft.torsion_factor * loads.crank_Nm
-        holds = shaft_holds(spec, "crank", shaft.diameter, bent, turned)
-        free = not keyed or parts.crank_key is NO_KEY
-        if holds and (free or key_holds(spec, parts.crank_key, loads.crank_Nm)):
+        parts, torque = stressed(assembly, sizes), loads.crank_Nm
+        moment = equivalent_Nm(spec, parts.crank_shaft, loads.crank_N, torque)
+        if shaft_and_key_hold(spec, "crank", parts, moment, torque, keyed):
             break
     return sizes
 
@@ -308,16 +299,27 @@ def pin_that_holds(
     return 0.5 * d
 
 
-def shaft_holds(
-    spec: Spec, part: str, diameter: float, bent_Nm: float, turned_Nm: float = 0.0
-) -> bool:
-    """Return True if the shaft of wheel or crank holds a moment and a torque, greatest at once.
+def equivalent_Nm(spec: Spec, shaft: ShaftSize, force_N: float, torque_Nm: float) -> float:
+    """Return the equivalent torque of a shaft under a force and a torque, greatest at once."""
+    bent = spec.shaft.bending_factor * force_N * shaft.overhang / 1000.0
+    return math.hypot(bent, spec.shaft.torsion_factor * torque_Nm)
 
-    They have the factors of ``[shaft]`` already.
+
+def shaft_and_key_hold(
+    spec: Spec, part: str, parts: Stressed, moment_Nm: float, torque_Nm: float, keyed: bool = True
+) -> bool:
+    """Return True if the shaft of wheel or crank holds an equivalent torque, and its key a torque.
+
+    Unless ``keyed``, the key does not count.
     """
+    shaft, key = parts.crank_shaft, parts.crank_key
+    if part == "wheel":
+        shaft, key = parts.wheel_shaft, parts.wheel_key
     keyway = vars(spec.size)[f"{part}_keyway"] is not None
     allowed = float(shear_allowed_MPa(spec.shaft, keyway))
-    return keeps(shear_MPa(math.hypot(bent_Nm, turned_Nm), diameter), "at most", allowed)
+    if not keeps(shear_MPa(moment_Nm, shaft.diameter), "at most", allowed):
+        return False
+    return not keyed or key is NO_KEY or key_holds(spec, key, torque_Nm)
 
 
 def key_holds(spec: Spec, key: KeyDimensions, torque_Nm: float) -> bool:

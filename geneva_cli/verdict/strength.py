@@ -126,8 +126,8 @@ class Strength:
         None for a known value, or for one that the machine lacks, such as a horn's without a lock.
         """
         spec, load = self.spec, self.load
-        part, locked = name.removesuffix("_stress_MPa"), name.startswith("lock_")
-        part = part.removesuffix("_pressure_MPa")
+        part = name.removesuffix("_stress_MPa").removesuffix("_pressure_MPa")
+        locked = name.startswith("lock_")
         if not (spec.is_loaded or locked):
             return spec.load_keys  # nothing else helps
         bounded = locked or math.isfinite(load.force_N[0])
@@ -146,16 +146,16 @@ class Strength:
         elif locked or name == "horn_stress_MPa":
             return self._horn_reason(name, locked)
         elif part in ("arm", "wheel_key", "crank_key", "wheel_shaft", "crank_shaft"):
-            parts, shaft = load.parts, part.removesuffix("_shaft")
+            parts, is_shaft = load.parts, part.endswith("_shaft")
             # unknown parts count
             lacks = parts is not None and bool(np.isnan(getattr(parts, part)[0][0]))
-            if shaft == part:
-                return None if lacks else " and ".join(w for met, w in needs if not met) or None
-            if shaft == "wheel" and not spec.output.turns:
+            if lacks and not is_shaft:
+                return None
+            if part == "wheel_shaft" and not spec.output.turns:
                 return "a wheel that turns on a shaft"
             known = {"overhang": parts is not None, "diameter": parts is not None and not lacks}
-            for end, is_known in known.items() if bounded else ():
-                key = f"{shaft}_{end}_mm"
+            for end, is_known in known.items() if is_shaft and bounded else ():
+                key = f"{part.removesuffix('_shaft')}_{end}_mm"
                 needs.append((vars(spec.shaft)[key] is not None or is_known, f"{key} in [shaft]"))
         elif part == "pin":
             needs.append((load.contact_mm is not None, _WIDTH))

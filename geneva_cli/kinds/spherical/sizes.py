@@ -23,11 +23,7 @@ from geneva_cli.kinds.spherical.horn import sphere_horns
 from geneva_cli.kinds.spherical.regions import sectors
 from geneva_cli.loads.strength.horn import single_stress
 from geneva_cli.loads.strength.lock import dwell_torque_Nm
-from geneva_cli.loads.strength.part_loads import (
-    LoadedShaft,
-    shafts_under_load,
-    single_loads,
-)
+from geneva_cli.loads.strength.part_loads import LoadedShaft, shafts_under_load, single_loads
 from geneva_cli.loads.strength.pin_arm_key import NO_ARM, NO_KEY, ArmDimensions, arm_stress_MPa
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
@@ -41,16 +37,10 @@ from geneva_cli.parts.sized_by_load import (
     key_holds,
     key_of,
     pin_that_holds,
-    shaft_holds,
+    shaft_and_key_hold,
     shaft_of,
 )
-from geneva_cli.parts.sizes import (
-    LARGEST_HUB,
-    KeySizes,
-    arm_hub,
-    hub_and_eye,
-    within_hub,
-)
+from geneva_cli.parts.sizes import LARGEST_HUB, KeySizes, arm_hub, hub_and_eye, within_hub
 from geneva_cli.spec.defaults import eye_about, wall_min, wheel_material
 
 
@@ -188,10 +178,8 @@ def _wheel_bored(mechanism: Mechanism, ball: Ball) -> Ball:
         if trial.hub_mm > widest:
             break
         ball, parts = trial, sphere_stressed(spec, trial)
-        moment = _moment_Nm(mechanism, "wheel", parts.wheel_shaft.overhang)
-        shaft = shaft_holds(spec, "wheel", parts.wheel_shaft.diameter, max(moment, held))
-        key, torque = parts.wheel_key, single_loads(mechanism).wheel_Nm
-        if shaft and (key is NO_KEY or key_holds(spec, key, torque)):
+        moment = max(_moment_Nm(mechanism, "wheel", parts.wheel_shaft.overhang), held)
+        if shaft_and_key_hold(spec, "wheel", parts, moment, single_loads(mechanism).wheel_Nm):
             break
     return ball
 
@@ -228,9 +216,8 @@ def _crank_bored(mechanism: Mechanism, ball: Ball, keyed: bool) -> Ball:
             break
         sizes, parts = trial, sphere_stressed(spec, trial)
         moment = _moment_Nm(mechanism, "crank", parts.crank_shaft.overhang)
-        shaft = shaft_holds(spec, "crank", parts.crank_shaft.diameter, moment)
-        key, torque = parts.crank_key, single_loads(mechanism).crank_Nm
-        if shaft and (not keyed or key is NO_KEY or key_holds(spec, key, torque)):
+        torque = single_loads(mechanism).crank_Nm
+        if shaft_and_key_hold(spec, "crank", parts, moment, torque, keyed):
             break
     return sizes
 

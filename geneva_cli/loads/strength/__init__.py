@@ -1,1 +1,1 @@
-"""Strength and life of pin, horn, lock, shafts and roller."""
+"""Strength and life of pin, arm, keys, horn, lock, shafts and roller."""

@@ -268,10 +268,11 @@ def _over_a_half(mechanism: Mechanism, side: HornSide, start: float, width: floa
         i, j = np.divmod(first, count)
         rows = flat[every, first], places[every, i], inwards[every, j], thick[every, j]
         best = np.where(most > 0.0, rows, best)
-        low, high = np.maximum(i - 1, 0), np.minimum(i + 1, places.shape[1] - 1)
-        before, after = places[every, low, None], places[every, high, None]
-        places = before + (after - before) * finer
-        low, high = np.maximum(j - 1, 0), np.minimum(j + 1, count - 1)
-        before, after = sections[every, low, None], sections[every, high, None]
-        sections = before + (after - before) * finer
+        refined = list[Array]()
+        for samples, k in ((places, i), (sections, j)):
+            last = samples.shape[1] - 1
+            before = samples[every, np.maximum(k - 1, 0), None]
+            after = samples[every, np.minimum(k + 1, last), None]
+            refined.append(before + (after - before) * finer)
+        places, sections = refined
     return best

@@ -127,9 +127,11 @@ def shafts_under_load(
     for one in shafts:
         if mechanism.spec.is_loaded and one.overhang_mm is not None:
             torque = ShaftLoad(one.part, on_sphere, orbiting)
-            factors = table.bending_factor, table.torsion_factor
-            moment = ShaftLoad(*torque[:3], one.overhang_mm / 1000.0, *factors)
-            own[f"{one.part} moment"] = moment
+            own[f"{one.part} moment"] = torque._replace(
+                overhang_m=one.overhang_mm / 1000.0,
+                bending=table.bending_factor,
+                torsion=table.torsion_factor,
+            )
             if one.span_mm is not None and one.diameter_mm is not None:
                 own[f"{one.part} torque"] = torque
     peaks, each = load_peaks(mechanism, tuple(own), own) if own else {}, []

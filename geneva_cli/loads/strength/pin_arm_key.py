@@ -1,4 +1,4 @@
-"""Strength of the roller's pin, of the crank arm between shaft and pin, and of keys.
+"""Strength of the crank arm between shaft and pin, of keys, and of the roller's pin.
 
 The crank arm is a beam under the force on the roller.
 

@@ -19,12 +19,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Joint, Link
 from geneva_cli.numerics.tolerances import SAME_LENGTH, bore_radius
 from geneva_cli.parts.assembly import links_at, same, turn_deg
-from geneva_cli.parts.links.link_sizes import (
-    joined,
-    link_sizes,
-    places,
-    point_at_zero,
-)
+from geneva_cli.parts.links.link_sizes import joined, link_sizes, places, point_at_zero
 from geneva_cli.parts.links.links import LinkAxis, Links, LinkSizes
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.shafts.arm_and_shafts import bore_at
@@ -48,9 +43,9 @@ class _Bar(NamedTuple):
 
 def drawn_links(mechanism: Mechanism, parts: Outlines | None = None) -> Links:
     """Return the links of a machine as plates; ``parts`` are its outlines, if it has any."""
-    if not links_at(mechanism, np.zeros(1)):
-        return Links()
     links = links_at(mechanism, turn_deg(mechanism))
+    if not links:
+        return Links()
     sizes, L = link_sizes(mechanism, links, parts), mechanism.center_distance_mm
     linked = [link for link in links if not link.radius_mm]
     bars = [_bar(link, sizes, L) for link in linked]

@@ -1,6 +1,6 @@
-"""The sizes of links: those of the spec, or defaults that leave walls between their holes.
+"""The sizes of links, of the spec or by default with walls between holes; and places of joints.
 
-They are radii, in millimetres, where a key of the spec is a diameter or a width.
+Sizes are radii, in millimetres, where a key of the spec is a diameter or a width.
 """
 
 from __future__ import annotations

@@ -1,1 +1,1 @@
-"""Shafts, bores, fits, screws and hubs."""
+"""Bores, screws, shafts, hubs and the crank arm."""

@@ -258,7 +258,7 @@ def _bolts(parts: Outlines, count: int) -> list[Circle]:
     if circle is not None:
         radii = np.array([0.5 * circle])
     inner = sizes.arm_bore if parts.has_arm else sizes.crank_bore
-    edge, half, places = Polyarc(parts.crank), math.inf, list[Point]()
+    edge, half, places, holes = Polyarc(parts.crank), math.inf, list[Point](), list[Circle]()
     for turns in directions:
         x, y = np.outer(radii, np.cos(turns)).ravel(), np.outer(radii, np.sin(turns)).ravel()
         walls = -edge.signed(np.column_stack((x, y))).reshape(len(radii), len(turns))
@@ -268,7 +268,9 @@ def _bolts(parts: Outlines, count: int) -> list[Circle]:
         for turn in turns:
             places.append(polar(ORIGIN, float(radii[best]), turn))
     r = bolt_radius(size.lock_bolt_mm, parts.assembly.L, half, "lock_bolt", size.lock_bolts)
-    return [Circle("BORE", place, r) for place in places] if r else []
+    for place in places if r else ():
+        holes.append(Circle("BORE", place, r))
+    return holes
 
 
 def walls(arm: CrankArm, parts: Outlines) -> float:

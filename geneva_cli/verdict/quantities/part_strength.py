@@ -58,11 +58,9 @@ def pin(of: Designs) -> Columns:
     if allowed is not None:
         bending, shear, _ = pin_arm_key.pin_stress_MPa(size, width, d, load.roller_N)
         least = np.ravel(pin_arm_key.least_diameter_mm(bending, shear, d, allowed))
-        jump, rubbed = (
-            load.reversals.jump,
-            pin_arm_key.pin_stress_MPa(size, width, d, load.rubbed)[:2],
-        )
+        jump = load.reversals.jump
         if not np.isnan(jump).all():
+            rubbed = pin_arm_key.pin_stress_MPa(size, width, d, load.rubbed)[:2]
             struck = least_pin_mm(of.machine, jump[:, None], own, rubbed, allowed)
             least = np.maximum(least, np.nan_to_num(struck))
         out["least_diameter_mm"] = np.where(np.isfinite(np.ravel(allowed)), least, np.inf)
