@@ -1,7 +1,8 @@
 """Writing a file as a whole or not at all, under a name that every system takes.
 
-Locks, which two runs cannot hold at once, are on every system. A file that is renamed or removed
-stays locked until then, except on Windows, which renames and removes no open file.
+Locks, which two runs cannot hold at once, and signals that end a run, are on every system. A file
+that is renamed or removed stays locked until then, except on Windows, which renames and removes no
+open file.
 """
 
 from __future__ import annotations
