@@ -12,7 +12,6 @@ from geneva_cli.errors import clean
 from geneva_cli.output.text import WIDTH
 
 LABEL_MAX = 20  # letters; a longer label stands above its text
-DIM, PLAIN = "\x1b[2m", "\x1b[0m"
 SIGNS = {PASSES: "✓", WARNS: "!", FAILS: "✗"}
 INKS = {PASSES: "\x1b[32m", WARNS: "\x1b[33m", FAILS: "\x1b[31m"}  # green, yellow, red
 # a unit behind a number, from which it is not separated; units of several words
@@ -34,7 +33,7 @@ def chunks(summaries: Iterable[Summary], output: str, is_seen: bool) -> Iterator
         except (UnicodeEncodeError, LookupError):
             unicode = False
     if is_seen:
-        from geneva_cli.output.terminal.layout import window
+        from geneva_cli.output.terminal.layout import DIM, PLAIN, window
 
         terminal = window(False, False)
         # Lines of more than 100 letters are hard to read.
