@@ -1,4 +1,6 @@
-"""A command as Typer runs it: own conversion of values, help with examples; options of several.
+"""A command as Typer runs it: own conversion of values, help with examples.
+
+Also the options that several commands have, and the warnings that they print.
 
 Annotations are objects here and in the commands, for Typer.
 """
