@@ -56,7 +56,8 @@ def chunks(summaries: Iterable[Summary], output: str, is_seen: bool) -> Iterator
         for line in lines:
             if len(line.label) <= LABEL_MAX:
                 wide = max(wide, len(line.label))
-        width = columns - wide - 4
+        margin = " " * (wide + 4)
+        width = columns - len(margin)
         if lines:
             yield "\n"
         for line in lines:
@@ -65,13 +66,13 @@ def chunks(summaries: Iterable[Summary], output: str, is_seen: bool) -> Iterator
             first = f"  {label}{' ' * (wide - len(line.label))}  "
             if len(line.label) > wide:
                 yield f"  {label}\n"
-                first = " " * (wide + 4)
+                first = margin
             for text in _wrapped(line.text, width, unicode):
                 yield f"{first}{text}".rstrip() + "\n"
-                first = " " * (wide + 4)
+                first = margin
             for note in _wrapped(line.note, width, unicode):
                 yield f"{first}{dim}{note}{plain}".rstrip() + "\n"
-                first = " " * (wide + 4)
+                first = margin
 
 
 def _wrapped(text: str, width: int, unicode: bool) -> list[str]:
