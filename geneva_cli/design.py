@@ -140,6 +140,7 @@ class Design:
     """
 
     is_backwards = False  # True of a design made by ``backwards``
+    spec: Spec
     text: Text | None  # of the file that the design was read from; None for one made in Python
     is_drawn: bool  # drawings replace the outlines of its parts: [outline]
 
@@ -173,8 +174,7 @@ class Design:
     ) -> None:
         inputs = {name: value for name, value in locals().items() if value is not None}
         del inputs["self"]
-        self.spec, self.text = Spec(**inputs), None
-        self.is_drawn = bool(self.spec.outline.files)
+        vars(self).update(vars(Design.of(Spec(**inputs))))
 
     @classmethod
     def of(cls, spec: Spec, text: Text | None = None) -> Design:
@@ -918,6 +918,7 @@ class Design:
         )
         return self.spec.accept.applied([Notice("ideal-machine", text)] if self.is_drawn else [])
 
+    @question
     def refuse_drawn(self, what: str) -> None:
         """Raise GenevaError for a machine with drawings, whose parts are not ours.
 
@@ -926,12 +927,11 @@ class Design:
         >>> Design(External(6)).refuse_drawn("the files for a shop are those")
         """
         if self.is_drawn:
-            with self.text.located() if self.text else nullcontext():
-                raise GenevaError(
-                    f"{what} of our own parts, which the drawings in [outline] replace: leave out "
-                    "[outline]",
-                    ("outline",),
-                )
+            raise GenevaError(
+                f"{what} of our own parts, which the drawings in [outline] replace: leave out "
+                "[outline]",
+                ("outline",),
+            )
 
     @answer
     def unused_acceptances(self) -> list[str]:

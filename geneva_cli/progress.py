@@ -64,9 +64,6 @@ def tracked(
     items: Iterable[T], what: str, total: int, size: Callable[[T], int] | None = None
 ) -> Iterator[T]:
     """Yield the items and report how many of ``total`` are done; ``size`` of an item is 1."""
-    if total < 2 or not maker:  # as ``Meter`` decides, for most runs
-        yield from items
-        return
     meter, done = Meter(what, total), 0
     try:
         for item in items:

@@ -14,11 +14,10 @@ from typing import Annotated, Any, NoReturn
 import typer
 from typer.core import TyperCommand, TyperGroup
 
-import geneva_cli.progress as progress
+import geneva_cli.progress as progress  # ``from geneva_cli`` would load the lists of kinds
 from geneva_cli import __version__
 from geneva_cli.cli.command import HELP, USAGE, PlainValues, as_command, table_options
 from geneva_cli.errors import GenevaError, clean, cut
-from geneva_cli.progress import ProgressBar, close
 from geneva_cli.streams import leave, open_streams
 
 # The registry by task: the module in geneva_cli.cli.commands, and its line in --help.
@@ -154,7 +153,7 @@ class LazyGroup(PlainValues, TyperGroup):
             _fail("out of memory; ask for fewer samples or a coarser tolerance")
 
 
-def _bar(what: str, total: int) -> ProgressBar | None:
+def _bar(what: str, total: int) -> progress.ProgressBar | None:
     """A progress bar, if standard error is a terminal."""
     if not sys.stderr.isatty():
         return None
@@ -181,7 +180,7 @@ def _usage(path: str, error: Any) -> str:
 
 
 def _fail(message: str) -> NoReturn:
-    close()
+    progress.close()
     print(cut(clean(message), 1000), file=sys.stderr)  # at most 1000 characters
     raise typer.Exit(2) from None
 
@@ -226,7 +225,7 @@ def main() -> None:
 
 def _fault(error: Exception) -> int:
     """Report a fault of the program in one line; return its exit status."""
-    close()
+    progress.close()
     if os.environ.get("GENEVA_DEBUG"):
         import traceback
 

@@ -1,4 +1,6 @@
-"""A command as Typer runs it: own conversion of values, help with examples; options of several.
+"""A command as Typer runs it: own conversion of values, help with examples.
+
+Also the options that several commands have, and the warnings that they print.
 
 Annotations are objects here and in the commands, for Typer.
 """
@@ -43,17 +45,11 @@ class PlainValues:
 def _value(param: Any, kind: Any, refuse: Any, ctx: Any, typed: Any) -> Any:
     """Value of a parameter; what is required and missing is left to Typer, to ``refuse``.
 
-    While a shell completes words, nothing is refused. Long help goes through the pager.
+    While a shell completes words, nothing is refused.
     """
     if param.name == "help":
         if typed and not ctx.resilient_parsing:
-            if sys.stdout.isatty():
-                from geneva_cli.output.terminal import pager
-
-                pager.write([ctx.get_help() + "\n"])
-            else:
-                print(ctx.get_help())
-            ctx.exit()
+            _help(ctx)
         return typed
     if param.required and not typed and not ctx.resilient_parsing:
         return refuse(ctx, typed)
@@ -66,6 +62,17 @@ def _value(param: Any, kind: Any, refuse: Any, ctx: Any, typed: Any) -> Any:
                 message = f"{typed!r} is not {meaning}"
                 raise typer.BadParameter(message, ctx=ctx, param=param) from None
     return param.callback(ctx, param, value) if param.callback else value
+
+
+def _help(ctx: Any) -> None:
+    """Show the help of a command, through the pager if it is long."""
+    if sys.stdout.isatty():
+        from geneva_cli.output.terminal import pager
+
+        pager.write([ctx.get_help() + "\n"])
+    else:
+        print(ctx.get_help())
+    ctx.exit()
 
 
 class Command(PlainValues, TyperCommand):

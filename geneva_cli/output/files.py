@@ -1,7 +1,8 @@
 """Writing a file as a whole or not at all, under a name that every system takes.
 
-Locks, which two runs cannot hold at once, are on every system. A file that is renamed or removed
-stays locked until then, except on Windows, which renames and removes no open file.
+Locks, which two runs cannot hold at once, and signals that end a run, are on every system. A file
+that is renamed or removed stays locked until then, except on Windows, which renames and removes no
+open file.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ import signal
 import stat
 import sys
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager, nullcontext, suppress
+from contextlib import contextmanager, suppress
 from types import FrameType
 from typing import BinaryIO
 
@@ -244,9 +245,11 @@ def lock(descriptor: int, busy: str = "", alone: bool = False) -> bool:
 
 def remove(file: BinaryIO, path: str) -> None:
     """Remove an open, locked file."""
-    if not POSIX:  # Windows removes no open file
-        file.close()
-    with suppress(PermissionError) if not POSIX else nullcontext():  # another run has opened it
+    if POSIX:
+        os.unlink(path)
+        return
+    file.close()  # Windows removes no open file
+    with suppress(PermissionError):  # another run has opened it since, and will remove it
         os.unlink(path)
 
 

@@ -20,8 +20,9 @@ PICTURES = ("png", "pdf")  # for figures only
 DOCUMENTS = {"html": "html", "pdf": "document_pdf", "md": "document_markdown"}
 # for figures; the others get their points
 PLOTTED = {"svg": "plot_svg:chunks", "png": "plot_svg:png_chunks", "pdf": "plot_pdf:chunks"}
-_OWN = ("csv", "json", "md", *DRAWN, *PICTURES)  # extensions that are a format's name
+_OWN = (*FORMATS, *DRAWN, *PICTURES)
 EXTENSIONS = {"txt": "table", **dict(zip(_OWN, _OWN, strict=True))}
+del EXTENSIONS["table"]  # its extension is .txt
 EXTENSIONS |= {"stp": "step", "html": "html", "htm": "html"}
 # versions that ezdxf writes; R2000 is the first with LWPOLYLINE, SPLINE and a unit, and all read it
 DXF_VERSIONS = ("R12", "R2000", "R2004", "R2007", "R2010", "R2013", "R2018")

@@ -1,6 +1,7 @@
 """Tables as plain text, for a pipe or a file: every column, whatever the width.
 
-Also the last check of all output: no NaN is written, and infinity only where it has a meaning.
+Also, for every format, the choice of columns, and the last check: no NaN is written, and infinity
+only where it has a meaning.
 """
 
 from __future__ import annotations
@@ -23,117 +24,8 @@ from geneva_cli.table import (
     rows_table,
 )
 
-KIND = "row"  # column of a table whose rows are of several kinds, each with columns of its own
-
-
-def checked(table: Table, is_seen: bool = False) -> Table:
-    """The table, checked; a table that is computed while it is written is checked then.
-
-    Its progress is reported, unless the rows are seen as they come. Raises ArithmeticError as
-    ``refuse_nonsense`` does.
-    """
-    own = table.columns
-    if not (own and isinstance(own[0], Column)):
-        refuse_nonsense(table.names, own)
-        return table
-    meter, done = None if is_seen else Meter("rows", len(table)), 0
-
-    def make(start: int, stop: int) -> Sequence[Any]:
-        nonlocal done
-        columns = [column[start:stop] for column in own]
-        refuse_nonsense(table.names, columns)
-        if meter:
-            done += len(columns[0])
-            meter.report(done)
-        return columns
-
-    return table.replaced(columns=pieces(len(table), len(own), make))
-
-
-def refuse_nonsense(names: Iterable[str], columns: Iterable[Any]) -> None:
-    """Raise ArithmeticError for columns, lists or arrays, with a NaN or a misplaced infinity.
-
-    Such a number is always a fault of this program, and a file with it misleads.
-    """
-    for name, column in zip(names, columns, strict=True):
-        # Infinity is a valid radius of a straight line, a valid value of a check without a bound,
-        # and valid as motion over dwell without a dwell.
-        boundless = name.rpartition(".")[2] in {"curvature_radius_mm", "value", "k"}
-        if isinstance(column, (list, tuple)):
-            wrong, rest = False, [column]
-            while rest:
-                for value in rest.pop():
-                    if isinstance(value, Table):
-                        refuse_nonsense(value.names, value.columns)
-                    elif isinstance(value, (tuple, list)):
-                        rest.append(value)
-                    elif isinstance(value, float) and not math.isfinite(value):
-                        wrong = wrong or value != value or not boundless
-        elif boundless:
-            wrong = (column != column).any()
-        else:
-            ends = (column.min(), column.max()) if len(column) and column.dtype.kind == "f" else ()
-            wrong = not all(map(math.isfinite, ends))
-        if wrong:
-            raise ArithmeticError(f"{name}: a value is not a number")
-
-
-def refuse_nan(names: Iterable[str], columns: Iterable[Any]) -> None:
-    """Raise ArithmeticError for columns with a NaN where an infinity means no value."""
-    for name, column in zip(names, columns, strict=True):
-        if not isinstance(column, list):
-            wrong = (column != column).any()
-        else:
-            wrong = float in map(type, column) and any(v != v for v in column)
-        if wrong:
-            raise ArithmeticError(f"{name}: a value is not a number")
-
-
-def only(table: Table, names: Sequence[str]) -> Table:
-    """The columns with these names, in order; for a record its values and its tables' columns.
-
-    Raises GenevaError for an unknown name.
-    """
-    inner = [t for v in next(table.rows(), ()) for t in _tables(v)] if table.record else []
-    known = dict.fromkeys([*table.names, *(name for one in inner for name in one.names)])
-    for name in names:
-        if name not in known:
-            some = few(name, known)
-            raise GenevaError(f"--columns {cut(name)}: no such column; there are {some}")
-    if not table.record:
-        table = _of_kinds(table, names) if KIND in table.names else table
-        at = [table.names.index(name) for name in names]
-        return table.replaced(names=tuple(names), columns=[table.columns[i] for i in at])
-    values: dict[str, Any] = {}
-    for name, value in zip(table.names, next(table.rows()), strict=True):
-        parts = [t for t in _tables(value) if set(names) & set(t.names)]
-        if name in names:
-            values[name] = value
-        elif parts:
-            own = tuple(only(t, [n for n in names if n in t.names]) for t in parts)
-            values[name] = own[0] if isinstance(value, Table) else own
-    return table.replaced(names=tuple(values), columns=[(v,) for v in values.values()])
-
-
-def _tables(value: Any) -> list[Table]:
-    if isinstance(value, Table):
-        return [value]
-    return [v for v in value if isinstance(v, Table)] if isinstance(value, tuple) else []
-
-
-def _of_kinds(table: Table, names: Sequence[str]) -> Table:
-    """Return the rows of the kinds that have one of the columns."""
-    at = table.names.index(KIND)
-    has: dict[str, set[str]] = {}
-    for row in table.rows():
-        own = (name for name, value in zip(table.names, row, strict=True) if value is not None)
-        has.setdefault(row[at], set()).update(own)
-    special = set(names) - set[str].intersection(*has.values())
-    kept = [row for row in table.rows() if not special or special & has[row[at]]]
-    return table.replaced(columns=rows_table(table.names, kept).columns)
-
-
 WIDTH = 90  # letters of a line in a file or a pipe
+KIND = "row"  # column of a table whose rows are of several kinds, each with columns of its own
 
 
 def chunks(table: Table) -> Iterator[str]:
@@ -243,3 +135,110 @@ def apart(record: Table, plain_names: bool = False) -> Iterator[tuple[str, Table
         else:
             values[name] = value
     yield "", record_table(values)
+
+
+def checked(table: Table, is_seen: bool = False) -> Table:
+    """The table, checked; a table that is computed while it is written is checked then.
+
+    Its progress is reported, unless the rows are seen as they come. Raises ArithmeticError as
+    ``refuse_nonsense`` does.
+    """
+    own = table.columns
+    if not (own and isinstance(own[0], Column)):
+        refuse_nonsense(table.names, own)
+        return table
+    meter, done = None if is_seen else Meter("rows", len(table)), 0
+
+    def make(start: int, stop: int) -> Sequence[Any]:
+        nonlocal done
+        columns = [column[start:stop] for column in own]
+        refuse_nonsense(table.names, columns)
+        if meter:
+            done += len(columns[0])
+            meter.report(done)
+        return columns
+
+    return table.replaced(columns=pieces(len(table), len(own), make))
+
+
+def refuse_nonsense(names: Iterable[str], columns: Iterable[Any]) -> None:
+    """Raise ArithmeticError for columns, lists or arrays, with a NaN or a misplaced infinity.
+
+    Such a number is always a fault of this program, and a file with it misleads.
+    """
+    for name, column in zip(names, columns, strict=True):
+        # Infinity is a valid radius of a straight line, a valid value of a check without a bound,
+        # and valid as motion over dwell without a dwell.
+        boundless = name.rpartition(".")[2] in {"curvature_radius_mm", "value", "k"}
+        if isinstance(column, (list, tuple)):
+            wrong, rest = False, [column]
+            while rest:
+                for value in rest.pop():
+                    if isinstance(value, Table):
+                        refuse_nonsense(value.names, value.columns)
+                    elif isinstance(value, (tuple, list)):
+                        rest.append(value)
+                    elif isinstance(value, float) and not math.isfinite(value):
+                        wrong = wrong or value != value or not boundless
+        elif boundless:
+            wrong = (column != column).any()
+        else:
+            ends = (column.min(), column.max()) if len(column) and column.dtype.kind == "f" else ()
+            wrong = not all(map(math.isfinite, ends))
+        if wrong:
+            raise ArithmeticError(f"{name}: a value is not a number")
+
+
+def refuse_nan(names: Iterable[str], columns: Iterable[Any]) -> None:
+    """Raise ArithmeticError for columns with a NaN where an infinity means no value."""
+    for name, column in zip(names, columns, strict=True):
+        if not isinstance(column, list):
+            wrong = (column != column).any()
+        else:
+            wrong = float in map(type, column) and any(v != v for v in column)
+        if wrong:
+            raise ArithmeticError(f"{name}: a value is not a number")
+
+
+def only(table: Table, names: Sequence[str]) -> Table:
+    """The columns with these names, in order; for a record its values and its tables' columns.
+
+    Raises GenevaError for an unknown name.
+    """
+    inner = [t for v in next(table.rows(), ()) for t in _tables(v)] if table.record else []
+    known = dict.fromkeys([*table.names, *(name for one in inner for name in one.names)])
+    for name in names:
+        if name not in known:
+            some = few(name, known)
+            raise GenevaError(f"--columns {cut(name)}: no such column; there are {some}")
+    if not table.record:
+        table = _of_kinds(table, names) if KIND in table.names else table
+        at = [table.names.index(name) for name in names]
+        return table.replaced(names=tuple(names), columns=[table.columns[i] for i in at])
+    values: dict[str, Any] = {}
+    for name, value in zip(table.names, next(table.rows()), strict=True):
+        parts = [t for t in _tables(value) if set(names) & set(t.names)]
+        if name in names:
+            values[name] = value
+        elif parts:
+            own = tuple(only(t, [n for n in names if n in t.names]) for t in parts)
+            values[name] = own[0] if isinstance(value, Table) else own
+    return table.replaced(names=tuple(values), columns=[(v,) for v in values.values()])
+
+
+def _tables(value: Any) -> list[Table]:
+    if isinstance(value, Table):
+        return [value]
+    return [v for v in value if isinstance(v, Table)] if isinstance(value, tuple) else []
+
+
+def _of_kinds(table: Table, names: Sequence[str]) -> Table:
+    """Return the rows of the kinds that have one of the columns."""
+    at = table.names.index(KIND)
+    has: dict[str, set[str]] = {}
+    for row in table.rows():
+        own = (name for name, value in zip(table.names, row, strict=True) if value is not None)
+        has.setdefault(row[at], set()).update(own)
+    special = set(names) - set[str].intersection(*has.values())
+    kept = [row for row in table.rows() if not special or special & has[row[at]]]
+    return table.replaced(columns=rows_table(table.names, kept).columns)

@@ -133,17 +133,12 @@ def _material(own: Material, usual: Stock) -> Stock:
 
     A part of another stiffness is of another material, which has no default of its strength.
     """
-    modulus, poisson = own.youngs_modulus_GPa, own.poisson_ratio
-    density, allowed = own.density_kgm3, own.stress_max_MPa
-    if modulus is None:
-        modulus = usual.youngs_modulus_GPa
-    if allowed is None:
-        is_usual = modulus == usual.youngs_modulus_GPa
-        allowed = choose(is_usual, usual.allowed_MPa, math.inf)
+    modulus = value_or(own.youngs_modulus_GPa, usual.youngs_modulus_GPa)
+    is_usual = modulus == usual.youngs_modulus_GPa
     return Stock(
         own.grade or usual.grade,
         modulus,
-        usual.poisson_ratio if poisson is None else poisson,
-        usual.density_kgm3 if density is None else density,
-        allowed,
+        value_or(own.poisson_ratio, usual.poisson_ratio),
+        value_or(own.density_kgm3, usual.density_kgm3),
+        value_or(own.stress_max_MPa, choose(is_usual, usual.allowed_MPa, math.inf)),
     )

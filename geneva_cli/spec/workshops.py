@@ -2,7 +2,8 @@
 
 Clearances are the least that two parts need if they are as accurate as the source says. The gap
 between wheel and arm is as thick as a shim ring of DIN 988. Thermal cuts deviate by ISO 9013:2017,
-tolerance class 1, which lasers keep.
+tolerance class 1, which lasers keep. Turned parts have the fits of ISO 286: H7 is for holes, g6 and
+h6 for shafts. A pin is h6: parts on it are P7 if pressed, F7 if they turn.
 """
 
 from __future__ import annotations
@@ -177,10 +178,10 @@ def _range_of(nominal_mm: float) -> tuple[int, ...]:
     return ()
 
 
-def limits(nominal_mm: float, fit: str) -> tuple[int, int] | None:
-    """Return upper and lower deviation in micrometres; None beyond the standard's 3150 mm.
+def fit_limits(nominal_mm: float, fit: str) -> tuple[int, int] | None:
+    """Return a fit's upper and lower deviation in micrometres; None beyond the standard's 3150 mm.
 
-    >>> limits(20.0, "H7"), limits(20.0, "g6"), limits(20.0, "h6")
+    >>> fit_limits(20.0, "H7"), fit_limits(20.0, "g6"), fit_limits(20.0, "h6")
     ((21, 0), (-7, -20), (0, -13))
     """
     row = _range_of(nominal_mm)

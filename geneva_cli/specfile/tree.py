@@ -182,7 +182,7 @@ def _motion(values: dict[str, Any], files: list[str]) -> Motion | None:
     cls, of = registry.law(name), f'law = "{name}"'
     own = {field.key for field in fields(cls)}
     params = {key: values.pop(key) for key in own & set(values)}
-    _refuse_foreign(values, {field.key: field for field in LAWS.shared}, LAWS, of)
+    _refuse_foreign(values, [field.key for field in LAWS.shared], LAWS, of)
     law = cls(**_values(cls, params, files, f" for {of}"))
     return Motion(law, **_values(Motion, values, files, also=fields(cls)))
 
@@ -238,7 +238,7 @@ def _hint(typed: str, known: Iterable[Field]) -> str:
 
 
 def _refuse_foreign(
-    values: dict[str, Any], own: Mapping[str, Field], kinds: KindTable, of: str
+    values: dict[str, Any], own: Collection[str], kinds: KindTable, of: str
 ) -> None:
     """Raise GenevaError for a key of another kind; capitals make no difference to whose it is."""
     known = {key.casefold() for key in own}

@@ -8,7 +8,9 @@ import repo
 from typer.testing import CliRunner
 
 from geneva_cli.cli.app import COMMANDS, GROUPS, app
+from geneva_cli.cli.command import one_of
 from geneva_cli.manual import GROUPS as PAGES
+from geneva_cli.output.formats import FORMATS
 
 EXAMPLES = [
     (name, example)
@@ -48,6 +50,11 @@ def test_help_of_a_command_ends_with_its_examples(name):
     said = geneva(name, "-h")
     shown = said.partition("\nExamples:\n")[2].replace(" \\\n      ", " ").splitlines()
     assert [line.strip() for line in shown] == [e for n, e in EXAMPLES if n == name] != []
+
+
+def test_help_names_the_formats_of_a_table():
+    """The option writes them out, so that a run does not read the list of formats for its help."""
+    assert one_of(FORMATS) in geneva("keys", "-h")
 
 
 @pytest.mark.long

@@ -5,7 +5,7 @@ import math
 
 import pytest
 
-from geneva_cli.spec.workshops import ISO_286, limits
+from geneva_cli.spec.workshops import ISO_286, fit_limits
 
 # The main ranges of ISO 286; those between share their range's tolerances.
 MAIN = (1, 3, 6, 10, 18, 30, 50, 80, 120, 180, 250, 315, 400, 500, 630, 800, 1000, 1250, 1600)
@@ -51,4 +51,4 @@ def test_tables_are_their_formulas_rounded(above, up_to):
     ],
 )
 def test_limits(size, fit, wanted):
-    assert limits(size, fit) == wanted
+    assert fit_limits(size, fit) == wanted

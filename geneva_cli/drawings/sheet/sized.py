@@ -8,7 +8,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.shafts.bores import SCREWS, screw_through
 from geneva_cli.spec.tables import Size
-from geneva_cli.spec.workshops import WORKSHOPS, limits
+from geneva_cli.spec.workshops import WORKSHOPS, fit_limits
 from geneva_cli.spec.written import length, signed
 
 
@@ -18,7 +18,7 @@ def toleranced(nominal_mm: float, shown: str, fit: str) -> str:
     >>> toleranced(20.0, "Ø 20", "g6")
     'Ø 20 g6 (-0.007/-0.02)'
     """
-    deviations = limits(nominal_mm, fit)
+    deviations = fit_limits(nominal_mm, fit)
     if deviations is None:
         return shown
     upper, lower = (signed(1e-3 * one) for one in deviations)

@@ -12,7 +12,6 @@ from geneva_cli.errors import clean
 from geneva_cli.output.text import WIDTH
 
 LABEL_MAX = 20  # letters; a longer label stands above its text
-DIM, PLAIN = "\x1b[2m", "\x1b[0m"
 SIGNS = {PASSES: "✓", WARNS: "!", FAILS: "✗"}
 INKS = {PASSES: "\x1b[32m", WARNS: "\x1b[33m", FAILS: "\x1b[31m"}  # green, yellow, red
 # a unit behind a number, from which it is not separated; units of several words
@@ -34,7 +33,7 @@ def chunks(summaries: Iterable[Summary], output: str, is_seen: bool) -> Iterator
         except (UnicodeEncodeError, LookupError):
             unicode = False
     if is_seen:
-        from geneva_cli.output.terminal.layout import window
+        from geneva_cli.output.terminal.layout import DIM, PLAIN, window
 
         terminal = window(False, False)
         # Lines of more than 100 letters are hard to read.
@@ -57,7 +56,8 @@ def chunks(summaries: Iterable[Summary], output: str, is_seen: bool) -> Iterator
         for line in lines:
             if len(line.label) <= LABEL_MAX:
                 wide = max(wide, len(line.label))
-        width = columns - wide - 4
+        margin = " " * (wide + 4)
+        width = columns - len(margin)
         if lines:
             yield "\n"
         for line in lines:
@@ -66,13 +66,13 @@ def chunks(summaries: Iterable[Summary], output: str, is_seen: bool) -> Iterator
             first = f"  {label}{' ' * (wide - len(line.label))}  "
             if len(line.label) > wide:
                 yield f"  {label}\n"
-                first = " " * (wide + 4)
+                first = margin
             for text in _wrapped(line.text, width, unicode):
                 yield f"{first}{text}".rstrip() + "\n"
-                first = " " * (wide + 4)
+                first = margin
             for note in _wrapped(line.note, width, unicode):
                 yield f"{first}{dim}{note}{plain}".rstrip() + "\n"
-                first = " " * (wide + 4)
+                first = margin
 
 
 def _wrapped(text: str, width: int, unicode: bool) -> list[str]:
