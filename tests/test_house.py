@@ -259,7 +259,6 @@ CLASSES = {
     "PinPath",
     "Linkage",
     "StraightSlotMotion",
-    "ClassicMotion",
     "LawMotion",
     "SolvedSlot",
 }
