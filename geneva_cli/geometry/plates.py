@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
+from itertools import chain, combinations
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
@@ -23,7 +24,10 @@ from geneva_cli.geometry.shapes import (
     as_contour,
     at,
     backwards,
+    directions,
+    halved,
     mapped,
+    segment_length,
     turned,
 )
 
@@ -148,13 +152,8 @@ def moments(shape: Shape) -> Moments:
         area = math.pi * square
         return Moments(area, area * x, area * y, area * (x * x + y * y + 0.5 * square))
     rows: list[tuple[float, float, float, float]] = []
-    pieces = [*shape.segments]
-    while pieces:
-        piece = pieces.pop()
-        if isinstance(piece, Arc) and abs(piece.bulge) > RADIAN:
-            middle, bulge = at(piece, 0.5), math.tan(0.125 * piece.sweep)
-            pieces += Arc(piece.start, middle, bulge), Arc(middle, piece.end, bulge)
-            continue
+    short = (halved(piece, lambda bulge: bulge > RADIAN) for piece in shape.segments)
+    for piece in chain.from_iterable(short):
         if isinstance(piece, Line) or (isinstance(piece, Arc) and abs(piece.bulge) < STRAIGHT):
             (a, b), (c, d) = piece.start, piece.end
             cross = a * d - b * c
@@ -163,9 +162,7 @@ def moments(shape: Shape) -> Moments:
             rows.append((cross / 2.0, cross * x, cross * y, cross * squares / 12.0))
             continue
         if isinstance(piece, Arc):
-            (x0, y0), (x1, y1), sweep = piece.start, piece.end, piece.sweep
-            first = math.atan2(y1 - y0, x1 - x0) - 0.5 * sweep  # direction at the start
-            length = math.dist(piece.start, piece.end) * 0.5 * sweep / math.sin(0.5 * sweep)
+            (first, _), sweep, length = directions(piece), piece.sweep, segment_length(piece)
         own = []
         for node, weight in GAUSS:
             for t in (0.5 - 0.5 * node, 0.5 + 0.5 * node):
@@ -241,17 +238,11 @@ def least_wall(holes: Sequence[Shape], outline: Sequence[Contour] = ()) -> float
 
     The outline has its material on the left.
     """
-    whole, least = Polyarc(outline) if outline else None, math.inf
-    for i, hole in enumerate(holes):
-        for other in holes[:i]:
-            least = min(least, apart(other, hole))
-        if whole is None:
-            continue
-        if isinstance(hole, Circle):
-            least = min(least, -float(whole.signed(np.array([hole.centre]))[0]) - hole.radius)
-        else:
-            least = min(least, -float(whole.signed(Polyarc([hole]).samples(*SAMPLED)).max()))
-    return least
+    walls = [apart(one, other) for one, other in combinations(holes, 2)]
+    if outline:
+        whole = Polyarc(outline)
+        walls += [_wall(whole, hole, -1.0) for hole in holes]
+    return min(walls, default=math.inf)
 
 
 def plate_wall(plate: Plate) -> float:
@@ -261,14 +252,18 @@ def plate_wall(plate: Plate) -> float:
 
 def apart(one: Shape, two: Shape) -> float:
     """Return the wall between two holes, mm; negative where they overlap."""
+    if isinstance(one, Circle) and isinstance(two, Circle):
+        return math.dist(one.centre, two.centre) - one.radius - two.radius
     if isinstance(one, Circle):
-        if isinstance(two, Circle):
-            return math.dist(one.centre, two.centre) - one.radius - two.radius
         one, two = two, one
-    away = Polyarc([with_material_left(one, True)])
-    if isinstance(two, Circle):
-        return float(away.signed(np.array([two.centre]))[0]) - two.radius
-    return float(away.signed(Polyarc([two]).samples(*SAMPLED)).min())
+    return _wall(Polyarc([with_material_left(one, True)]), two, 1.0)
+
+
+def _wall(boundary: Polyarc, hole: Shape, side: float) -> float:
+    """Return the least distance of a hole from a boundary, outside of it (1) or inside (-1)."""
+    if isinstance(hole, Circle):
+        return side * float(boundary.signed(np.array([hole.centre]))[0]) - hole.radius
+    return float((side * boundary.signed(Polyarc([hole]).samples(*SAMPLED))).min())
 
 
 def with_material_left(shape: Shape, outside: bool) -> Contour:

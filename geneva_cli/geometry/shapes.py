@@ -300,38 +300,28 @@ def as_cubic(arc: Arc) -> Cubic:
     return Cubic(arc.start, first, second, arc.end)
 
 
-def mapped(
-    shape: S, point: Callable[[Point], Point], radius: Callable[[float], float] = lambda r: r
-) -> S:
-    """Move a shape by a similarity of points that keeps the sense, and of a circle's radius."""
+def mapped(shape: S, point: Callable[[Point], Point], scale: float = 1.0, sense: float = 1.0) -> S:
+    """Move a shape by a similarity of points, with its scale; ``sense`` is -1 for a mirror."""
     if isinstance(shape, Circle):
-        return shape._replace(centre=point(shape.centre), radius=radius(shape.radius))
+        return shape._replace(centre=point(shape.centre), radius=scale * shape.radius)
     pieces: list[Segment] = []
     for one in shape.segments:
         if isinstance(one, Arc):
-            pieces.append(Arc(point(one.start), point(one.end), one.bulge))
+            pieces.append(Arc(point(one.start), point(one.end), sense * one.bulge))
         else:
             pieces.append(type(one)(*map(point, one)))
     return shape._replace(segments=tuple(pieces))
 
 
-def turned(shape: S, radians: float, centre: Point = (0.0, 0.0)) -> S:
+def turned(shape: S, radians: float, centre: Point = ORIGIN) -> S:
     """Rotate a shape about a point, counterclockwise."""
     (x, y), c, s = centre, math.cos(radians), math.sin(radians)
-    if isinstance(shape, Circle):
-        u, v = shape.centre[0] - x, shape.centre[1] - y
-        return shape._replace(centre=(x + c * u - s * v, y + s * u + c * v))
-    pieces: list[Segment] = []
-    for one in shape.segments:
-        moved: list[Point] = []
-        for px, py in one[:2] if isinstance(one, Arc) else one:
-            u, v = px - x, py - y
-            moved.append((x + c * u - s * v, y + s * u + c * v))
-        if isinstance(one, Arc):
-            pieces.append(Arc(moved[0], moved[1], one.bulge))
-        else:
-            pieces.append(type(one)(*moved))
-    return shape._replace(segments=tuple(pieces))
+
+    def point(p: Point) -> Point:
+        u, v = p[0] - x, p[1] - y
+        return x + c * u - s * v, y + s * u + c * v
+
+    return mapped(shape, point)
 
 
 def turned_pieces(pieces: Iterable[Segment], radians: float) -> tuple[Segment, ...]:
@@ -339,16 +329,10 @@ def turned_pieces(pieces: Iterable[Segment], radians: float) -> tuple[Segment, .
     return turned(Contour("", tuple(pieces), closed=False), radians).segments
 
 
-def mirrored(pieces: Sequence[Segment]) -> list[Segment]:
+def mirrored(pieces: Iterable[Segment]) -> tuple[Segment, ...]:
     """Mirror pieces of an outline in the x axis, and run them backwards."""
-    over = mapped(Contour("", tuple(pieces), closed=False), lambda p: (p[0], -p[1]))
-    # backwards, but an arc's bulge changes its sign twice
-    return [
-        Arc(piece.end, piece.start, piece.bulge)
-        if isinstance(piece, Arc)
-        else type(piece)(*piece[::-1])
-        for piece in reversed(over.segments)
-    ]
+    own = Contour("", tuple(pieces), closed=False)
+    return backwards(mapped(own, lambda p: (p[0], -p[1]), sense=-1.0)).segments
 
 
 def _extremes(segment: Segment) -> Iterator[Point]:
@@ -367,9 +351,7 @@ def _extremes(segment: Segment) -> Iterator[Point]:
                 roots += [e / root] if root else []
                 yield from (at(segment, t) for t in roots if 0.0 < t < 1.0)
     elif isinstance(segment, Arc) and abs(segment.bulge) >= STRAIGHT:
-        (x0, y0), (x1, y1) = segment.start, segment.end
-        sweep, quarter = segment.sweep, 0.5 * math.pi
-        first = math.atan2(y1 - y0, x1 - x0) - 0.5 * sweep  # direction at the start
+        sweep, quarter, first = segment.sweep, 0.5 * math.pi, directions(segment)[0]
         low, high = sorted((first, first + sweep))
         for k in range(math.ceil(low / quarter), math.floor(high / quarter) + 1):
             yield at(segment, min(max((k * quarter - first) / sweep, 0.0), 1.0))

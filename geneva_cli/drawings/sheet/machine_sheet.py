@@ -200,7 +200,7 @@ def cut_faces(members: Iterable[Member], scale: float) -> list[Face]:
     for own, plate in in_place(members):
         crossings: list[float] = []
         for shape in (plate.outline, *plate.holes):
-            scaled = mapped(shape, lambda p: (scale * p[0], scale * p[1]), lambda r: scale * r)
+            scaled = mapped(shape, lambda p: (scale * p[0], scale * p[1]), scale)
             for x, y, u, v in chords(scaled).tolist():
                 # chords that follow each other share their ends within rounding, 1e-9 mm
                 if (round(y, 9) <= 0.0) != (round(v, 9) <= 0.0):

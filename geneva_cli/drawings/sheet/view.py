@@ -54,7 +54,7 @@ class View:
 
     def draw(self, shape: Shape, layer: Layer) -> None:
         """Draw a shape on a layer."""
-        self._draw(mapped(shape, self._at, self._long)._replace(layer=layer))
+        self._draw(mapped(shape, self._at, self.scale)._replace(layer=layer))
 
     def draw_all(self, shapes: Iterable[Shape]) -> None:
         """Draw shapes as outlines."""

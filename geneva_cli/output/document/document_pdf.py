@@ -270,7 +270,7 @@ def _drawing(drawn: Drawing) -> Item:
             return left + scale * (p[0] - around.x0), top - margin + scale * (p[1] - around.y1)
 
         def traced(shape: Shape) -> str:
-            return outline(mapped(shape, at, lambda radius: radius * scale))
+            return outline(mapped(shape, at, scale))
 
         out, every = "", rings(shown.solid) if shown.solid else []
         inked = inks(tuple(dict.fromkeys(layer for layer, _ in every)))

@@ -67,7 +67,7 @@ def read_dxf(data: bytes) -> Drawn:
             raise GenevaError(f"{kind} with the handle {handle} cannot be read: {error}") from None
         exact &= kind not in ("ELLIPSE", "SPLINE")
     if unit != 1.0 and pieces:
-        scaled = mapped(Contour("", tuple(pieces)), lambda p: (p[0] * unit, p[1] * unit), abs)
+        scaled = mapped(Contour("", tuple(pieces)), lambda p: (p[0] * unit, p[1] * unit))
         pieces = list(scaled.segments)  # type: ignore[arg-type]  # no cubics
     notes = () if code else ("has no unit ($INSUNITS): its numbers are taken as millimetres",)
     return Drawn(tuple(pieces), notes, exact)

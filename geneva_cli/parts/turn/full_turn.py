@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from operator import attrgetter, itemgetter
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -52,10 +53,9 @@ class Most(NamedTuple):
 class FullTurn(NamedTuple):
     """The results of a full turn, at input angles as ``Mechanism.shown_deg`` gives them.
 
-    ``driving``, ``idle`` and ``lock`` are the smallest gaps of driving rollers, of idle ones and of
-    the locking disc, and ``smallest`` is the smallest of all. ``dwell`` is the wheel's play in
-    either direction in the middle of a dwell, where the lock holds it best, and ``holds`` is True
-    if something does in every dwell. ``hand_over`` is the largest play while no roller is in its
+    ``gaps`` has the smallest gap of each pair of parts: of driving rollers, of idle ones, and of
+    the locking disc. ``dwell`` is the wheel's play in either direction in the middle of a dwell,
+    where the lock holds it best. ``hand_over`` is the largest play while no roller is in its
     slot. ``motion`` is the largest play in both directions while a roller is in its slot; a slot
     that drives from one wall only does not count as play. ``ahead`` and ``behind`` are the largest
     play there in each direction alone. ``push`` is the largest pressure angle at which a roller
@@ -64,12 +64,8 @@ class FullTurn(NamedTuple):
     ``free_deg``, half a step, means that nothing holds the wheel.
     """
 
-    driving: Gap
-    idle: Gap | None
-    lock: Gap | None
-    smallest: Gap
+    gaps: dict[str, Gap]
     dwell: Most
-    holds: bool
     hand_over: Most
     motion: Most
     ahead: Most
@@ -78,6 +74,16 @@ class FullTurn(NamedTuple):
     contact: tuple[float, float]
     free_deg: float
     play: Play
+
+    @property
+    def smallest(self) -> Gap:
+        """The smallest of all gaps."""
+        return min(self.gaps.values(), key=attrgetter("mm"))
+
+    @property
+    def holds(self) -> bool:
+        """True if something holds the wheel in every dwell."""
+        return self.dwell.deg < self.free_deg * (1.0 - SAME)
 
 
 def full_turn(parts: TurnedParts) -> FullTurn:
@@ -93,50 +99,38 @@ def full_turn(parts: TurnedParts) -> FullTurn:
         earlier = np.where(places > middle, places - assembly.turn_deg, places)
         return assembly.shown_deg(float(places[np.argmin(earlier)]))
 
-    at, idle, lock = _positions(parts), None, None
-    smallest = driving = _least(parts, DRIVING, at, first)
-    if len(assembly.rollers) > 1:
-        idle = _least(parts, IDLE, at, first)
-        smallest = idle if idle.mm < smallest.mm else smallest
-    if parts.locked:
-        lock = _least(parts, LOCK, at, first)
-        smallest = lock if lock.mm < smallest.mm else smallest
-    fits = smallest.mm >= -parts.close
-    resting, dwell = [], Most(0.0, first(np.zeros(1)))
-    for start, end, _, rests, _ in every:
-        if rests:
-            resting.append(0.5 * (start + end))
-    if resting:
-        leads, _ = wheel_stops(parts, np.array(resting), fits)
-        dwell = _most(np.degrees(leads.max(axis=0)), np.array(resting), first)
+    at, pairs = _positions(parts), [DRIVING]
+    pairs += [IDLE] if len(assembly.rollers) > 1 else []
+    pairs += [LOCK] if parts.locked else []
+    gaps = {pair: _least(parts, pair, at, first) for pair in pairs}
+    fits = min(gap.mm for gap in gaps.values()) >= -parts.close
+    resting = np.array([0.5 * (one.start + one.end) for one in every if one.rests])
+    dwell = Most(0.0, first(np.zeros(1)))
+    if len(resting):
+        leads, _ = wheel_stops(parts, resting, fits)
+        dwell = _most(np.degrees(leads.max(axis=0)), resting, first)
     play, push_deg = play_of(parts, fits)
     inside, outside = play.guided, ~play.guided
     guided_deg = play.input_deg[inside]
     either, both = np.maximum(play.back, play.on), np.minimum(play.back, play.on)
     # of each kind of motion, the first contact that is farthest off its slot's middle
-    offset, contact_deg, begin, known = -math.inf, 0.0, 0, set()
+    contact, begin, known = (-math.inf, 0.0), 0, set()
     for i, (engagement, _) in enumerate(assembly.motions):
         own = slice(begin, begin + len(engagement.passages))
         begin = own.stop
         if engagement not in known:
             known.add(engagement)
-            found, at_deg = _contact(parts, i, own)
-            offset, contact_deg = (found, at_deg) if found > offset else (offset, contact_deg)
-    free_deg = math.degrees(assembly.half_step)
+            contact = max(contact, _contact(parts, i, own), key=itemgetter(0))
     return FullTurn(
-        driving,
-        idle,
-        lock,
-        smallest,
+        gaps,
         dwell,
-        dwell.deg < free_deg * (1.0 - SAME),
         _most(either[outside], play.input_deg[outside], first),
         _most(both[inside], guided_deg, first),
         _most(play.on[inside], guided_deg, first),
         _most(play.back[inside], guided_deg, first),
         _most(push_deg, play.input_deg[:-1], first),
-        (offset, assembly.shown_deg(contact_deg)),
-        free_deg,
+        (contact[0], assembly.shown_deg(contact[1])),
+        math.degrees(assembly.half_step),
         play,
     )
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -20,11 +20,8 @@ from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.pivots import turned_points
 from geneva_cli.numerics.arrays import Array, rising
 from geneva_cli.parts.turn.gaps import Gaps
-from geneva_cli.parts.turn.stops import Pose
+from geneva_cli.parts.turn.stops import Clearances, Pose
 from geneva_cli.parts.turn.turned_parts import Intervals, TurnedParts, Window, windows
-
-if TYPE_CHECKING:
-    from geneva_cli.parts.turn.turned_parts import Clearances
 
 MOST = 20_000  # intervals of one pair of parts: ten times what the designs take; under a second
 UNKNOWN = 1e30  # mm: a bound that is not known, so large that no interval closes with it
