@@ -7,19 +7,8 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from geneva_cli.geometry.shapes import (
-    Arc,
-    Circle,
-    Contour,
-    Line,
-    Point,
-    Segment,
-    Shape,
-    legs,
-    points,
-    segment_length,
-    two_arcs,
-)
+from geneva_cli.geometry import shapes
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line, Point, Segment, Shape
 from geneva_cli.geometry.sheet import ABOVE, BELOW, Label, Measure
 from geneva_cli.numerics.arrays import Array
 
@@ -95,7 +84,7 @@ class Board:
         if isinstance(own, Arc):
             for other in self._swept:  # arcs side by side
                 same = math.dist(own.centre, other.centre) < IN_LINE
-                turn = 0.5 * (sum(legs(other)) - sum(legs(own))) % math.tau
+                turn = 0.5 * (sum(shapes.legs(other)) - sum(shapes.legs(own))) % math.tau
                 overlap = 0.5 * (abs(own.sweep) + abs(other.sweep)) - min(turn, math.tau - turn)
                 near = abs(own.radius - other.radius) < BESIDE
                 if same and near and overlap * own.radius > IN_LINE:
@@ -118,7 +107,7 @@ class Board:
 
 def chords(shape: Shape) -> Array:
     """Return the chords of a shape, (n, 4)."""
-    return _chords(two_arcs(shape) if isinstance(shape, Circle) else shape.segments)
+    return _chords(shapes.two_arcs(shape) if isinstance(shape, Circle) else shape.segments)
 
 
 def _beside(line: Line, lines: Array) -> tuple[float, Array, Array]:
@@ -160,8 +149,8 @@ def _chords(pieces: Iterable[Segment]) -> Array:
     rows: list[tuple[float, float, float, float]] = []
     for piece in pieces:
         # chords of at most 1.5 mm
-        count = 1 if isinstance(piece, Line) else max(1, math.ceil(segment_length(piece) / 1.5))
-        ends = points(piece, count)
+        long = 0.0 if isinstance(piece, Line) else shapes.segment_length(piece)
+        ends = shapes.points(piece, max(1, math.ceil(long / 1.5)))
         rows += [(*p, *q) for p, q in zip(ends, ends[1:], strict=False)]
     return np.array(rows).reshape(-1, 4)
 

@@ -11,24 +11,10 @@ import math
 import numpy as np
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.geometry import shapes
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.plates import Plate, plates, with_material_left
-from geneva_cli.geometry.shapes import (
-    Arc,
-    Circle,
-    Contour,
-    Layer,
-    Line,
-    Point,
-    Segment,
-    Shape,
-    as_contour,
-    at,
-    closed,
-    directions,
-    fraction_at,
-    segment_length,
-)
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Layer, Line, Point, Segment, Shape
 from geneva_cli.geometry.sheet import SHORTEST_MM, Drawing, prepared
 from geneva_cli.numerics.tolerances import SAME_CUT_MM
 from geneva_cli.spec.rules import TOOL_MM, require_mm
@@ -52,14 +38,14 @@ def paths(drawing: Drawing, kerf: float) -> Drawing:
     outside = {hole: False for plate in cut for hole in plate.holes}
     outside |= {plate.outline: True for plate in cut}
     try:
-        shapes = tuple(
+        moved = tuple(
             offset(shape, outside[shape], 0.5 * kerf) if shape in outside else shape
             for shape in drawing.shapes
         )
     except Closed as error:
         raise GenevaError(f"--kerf {kerf:g}: {error}; use a narrower one") from None
     title = f"{drawing.title}, kerf {kerf:g} mm"
-    return drawing._replace(title=title, shapes=shapes, solid=None, shells=None)
+    return drawing._replace(title=title, shapes=moved, solid=None, shells=None)
 
 
 def offset(shape: Contour | Circle, outside: bool, distance: float) -> Contour | Circle:
@@ -75,9 +61,9 @@ def offset(shape: Contour | Circle, outside: bool, distance: float) -> Contour |
     for piece in own:
         if isinstance(piece, Arc) and piece.bulge < 0.0 and piece.radius - distance <= SHORTEST_MM:
             text = f"a hollow of radius {piece.radius:.6g} mm on {layer} is narrower than the cut"
-            raise Closed(text, at(piece, 0.5))
-    path = closed(layer, _joined(layer, own, distance))
-    around = math.fsum(map(segment_length, path.segments))
+            raise Closed(text, shapes.at(piece, 0.5))
+    path = shapes.closed(layer, _joined(layer, own, distance))
+    around = math.fsum(map(shapes.segment_length, path.segments))
     # four samples in the offset's length, but at most 50,000 for the path
     points = Polyarc([path]).samples(SAME_CUT_MM, max(distance / 4, around / 50_000))
     away = Polyarc([contour]).signed(points)
@@ -102,7 +88,7 @@ def _joined(layer: Layer, own: list[Line | Arc], distance: float) -> list[Segmen
     around: dict[int, Arc] = {}
     for i, (piece, other) in enumerate(zip(moved, [*moved[1:], moved[0]], strict=True)):
         k = (i + 1) % len(moved)
-        turn = math.remainder(directions(other)[0] - directions(piece)[1], math.tau)
+        turn = math.remainder(shapes.directions(other)[0] - shapes.directions(piece)[1], math.tau)
         if math.dist(piece.end, other.start) < SHORTEST_MM:
             continue
         if turn > 0.0:
@@ -110,8 +96,8 @@ def _joined(layer: Layer, own: list[Line | Arc], distance: float) -> list[Segmen
             continue
         try:
             ends[i] = starts[k] = point = corner(own[i], own[k], -distance, 1e-3)
-            s, t = fraction_at(piece, point), fraction_at(other, point)
-            apart = math.dist(at(piece, s), at(other, t))
+            s, t = shapes.fraction_at(piece, point), shapes.fraction_at(other, point)
+            apart = math.dist(shapes.at(piece, s), shapes.at(other, t))
             meet = apart < SHORTEST_MM and 0.0 < s <= 1.0 and 0.0 <= t < 1.0
         except GenevaError:  # too sharp
             meet = False
@@ -120,7 +106,7 @@ def _joined(layer: Layer, own: list[Line | Arc], distance: float) -> list[Segmen
     segments: list[Segment] = []
     for i, (piece, start, end) in enumerate(zip(moved, starts, ends, strict=True)):
         if (start, end) != (piece.start, piece.end):
-            if fraction_at(piece, start) >= fraction_at(piece, end):
+            if shapes.fraction_at(piece, start) >= shapes.fraction_at(piece, end):
                 text = f"a piece of {layer} is shorter than the cut is wide"
                 raise Closed(text, piece.start)
             piece = between(piece, start, end)
@@ -130,7 +116,7 @@ def _joined(layer: Layer, own: list[Line | Arc], distance: float) -> list[Segmen
 
 def lines_and_arcs(shape: Shape, cubics: str) -> list[Line | Arc]:
     """Return the pieces of a closed shape; raises GenevaError with a text for a cubic."""
-    pieces = as_contour(shape).segments
+    pieces = shapes.as_contour(shape).segments
     plain = [piece for piece in pieces if isinstance(piece, Line | Arc)]
     if len(plain) < len(pieces):
         raise GenevaError(cubics)
@@ -162,7 +148,7 @@ def corner(before: Line | Arc, after: Line | Arc, depth: float, sharpest: float 
     and the cosine of its turn, by default an angle of 26 degrees.
     """
     x, y = after.start
-    one, two = directions(before)[1], directions(after)[0]
+    one, two = shapes.directions(before)[1], shapes.directions(after)[0]
     ax, ay, bx, by = -math.sin(one), math.cos(one), -math.sin(two), math.cos(two)
     both = 1.0 + ax * bx + ay * by
     if both < sharpest:
@@ -188,14 +174,14 @@ def parallel(piece: Line | Arc, depth: float) -> Line | Arc:
         raise _too_wide()
     # ends are moved along their own normals: a flat arc's centre is far away
     ends = []
-    for (x, y), direction in zip((piece.start, piece.end), directions(piece), strict=True):
+    for (x, y), direction in zip((piece.start, piece.end), shapes.directions(piece), strict=True):
         ends.append((x - depth * math.sin(direction), y + depth * math.cos(direction)))
     return piece._replace(start=ends[0], end=ends[1])
 
 
 def between(piece: Line | Arc, start: Point, end: Point) -> Line | Arc:
     """Return a piece between two points of its line or circle; GenevaError if it runs back."""
-    part = fraction_at(piece, end) - fraction_at(piece, start)
+    part = shapes.fraction_at(piece, end) - shapes.fraction_at(piece, start)
     if part <= 0.0:
         raise _too_wide()
     bend = {"bulge": math.tan(0.25 * piece.sweep * part)} if isinstance(piece, Arc) else {}
@@ -237,7 +223,7 @@ def _judge_plate(plate: Plate, radius: float, stops: list[str], notes: list[str]
         tightest = min(hollows, key=lambda arc: arc.radius, default=None)
         place, what = None, "a gap"
         if tightest and tightest.radius < radius - 0.5 * SAME_CUT_MM:
-            place, what = at(tightest, 0.5), f"an inner radius of {tightest.radius:.5g} mm"
+            place, what = shapes.at(tightest, 0.5), f"an inner radius of {tightest.radius:.5g} mm"
         else:
             try:
                 # of an arc that just fits, half of SAME_CUT_MM is left
@@ -254,7 +240,9 @@ def _judge_plate(plate: Plate, radius: float, stops: list[str], notes: list[str]
             continue
         for k, piece in enumerate(own):
             after = own[(k + 1) % len(own)]
-            turn = -math.remainder(directions(after)[0] - directions(piece)[1], math.tau)
+            turn = -math.remainder(
+                shapes.directions(after)[0] - shapes.directions(piece)[1], math.tau
+            )
             # less than 1e-4 mm of material is no corner
             if 0.0 < turn < math.pi and radius * (1.0 / math.cos(0.5 * turn) - 1.0) > 1e-4:
                 x, y = piece.end

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
+from geneva_cli.geometry import shapes
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.shapes import (
     STRAIGHT,
@@ -21,14 +22,6 @@ from geneva_cli.geometry.shapes import (
     Point,
     S,
     Shape,
-    as_contour,
-    at,
-    backwards,
-    directions,
-    halved,
-    mapped,
-    segment_length,
-    turned,
 )
 
 if TYPE_CHECKING:
@@ -109,7 +102,7 @@ def placed(shape: S, at: Point, turn: float) -> S:
     """Return a shape turned about its own origin, and then moved."""
     if at == (0.0, 0.0) and not turn:
         return shape
-    return mapped(turned(shape, turn), lambda p: (p[0] + at[0], p[1] + at[1]))
+    return shapes.mapped(shapes.turned(shape, turn), lambda p: (p[0] + at[0], p[1] + at[1]))
 
 
 def in_place(members: Iterable[Member]) -> Iterator[tuple[Plate, Plate]]:
@@ -152,7 +145,7 @@ def moments(shape: Shape) -> Moments:
         area = math.pi * square
         return Moments(area, area * x, area * y, area * (x * x + y * y + 0.5 * square))
     rows: list[tuple[float, float, float, float]] = []
-    short = (halved(piece, lambda bulge: bulge > RADIAN) for piece in shape.segments)
+    short = (shapes.halved(piece, lambda bulge: bulge > RADIAN) for piece in shape.segments)
     for piece in chain.from_iterable(short):
         if isinstance(piece, Line) or (isinstance(piece, Arc) and abs(piece.bulge) < STRAIGHT):
             (a, b), (c, d) = piece.start, piece.end
@@ -162,11 +155,12 @@ def moments(shape: Shape) -> Moments:
             rows.append((cross / 2.0, cross * x, cross * y, cross * squares / 12.0))
             continue
         if isinstance(piece, Arc):
-            (first, _), sweep, length = directions(piece), piece.sweep, segment_length(piece)
+            first, sweep = shapes.directions(piece)[0], piece.sweep
+            length = shapes.segment_length(piece)
         own = []
         for node, weight in GAUSS:
             for t in (0.5 - 0.5 * node, 0.5 + 0.5 * node):
-                x, y = at(piece, t)
+                x, y = shapes.at(piece, t)
                 if isinstance(piece, Cubic):
                     dx, dy = _velocity(piece, t)
                 else:
@@ -247,7 +241,7 @@ def least_wall(holes: Sequence[Shape], outline: Sequence[Contour] = ()) -> float
 
 def plate_wall(plate: Plate) -> float:
     """Return the least wall between the holes of a plate, and around them."""
-    return least_wall(plate.holes, [as_contour(plate.outline)])
+    return least_wall(plate.holes, [shapes.as_contour(plate.outline)])
 
 
 def apart(one: Shape, two: Shape) -> float:
@@ -268,8 +262,8 @@ def _wall(boundary: Polyarc, hole: Shape, side: float) -> float:
 
 def with_material_left(shape: Shape, outside: bool) -> Contour:
     """Contour that runs counterclockwise as an outline, and clockwise as a hole."""
-    contour = as_contour(shape)
-    return contour if (moments(contour).area > 0.0) is outside else backwards(contour)
+    contour = shapes.as_contour(shape)
+    return contour if (moments(contour).area > 0.0) is outside else shapes.backwards(contour)
 
 
 def oriented(outline: Shape, holes: Iterable[Shape]) -> list[Contour]:

@@ -104,7 +104,7 @@ def _fitted(slot: _CurvedSlot) -> Contour:
             back = points_at(two, d, c, 0.5 * (c + d))
             pairs = zip(there, back, strict=True)
             if all(math.hypot(v - x, w + y) <= 1e-10 * assembly.L for (x, y), (v, w) in pairs):
-                runs.append(mirrored(runs[other]))
+                runs.append([*mirrored(runs[other])])
                 continue
         runs.append(_segments(piece, half, curves))
     return Contour("WHEEL", joined(itertools.chain(*runs)), closed=False)

@@ -13,20 +13,8 @@ from itertools import chain
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.shapes import (
-    ORIGIN,
-    Arc,
-    Contour,
-    Line,
-    Point,
-    Segment,
-    about,
-    closed,
-    joined,
-    polar,
-    turned,
-    turned_pieces,
-)
+from geneva_cli.geometry import shapes
+from geneva_cli.geometry.shapes import ORIGIN, Arc, Contour, Line, Point, Segment
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_LENGTH
@@ -40,10 +28,8 @@ CURVED = CONTACT  # of the centre distance: accuracy of curved walls for the ful
 
 def turned_walls(assembly: Assembly, sizes: Sizes) -> dict[Engagement, Contour]:
     """Return the walls of each kind of slot, as accurate as the full turn needs them."""
-    walls = {}
-    for kind in assembly.kinds:
-        walls[kind] = slot_walls(assembly, sizes, kind, 0.5 * CURVED * assembly.L)
-    return walls
+    fine = 0.5 * CURVED * assembly.L
+    return {kind: slot_walls(assembly, sizes, kind, fine) for kind in assembly.kinds}
 
 
 def slot_walls(
@@ -97,11 +83,11 @@ def slot_walls(
     else:
         middle = (bottom - w, 0.0)
         quarter = math.tan(math.pi / 8.0)  # the bulge of a quarter of a circle
-        begin = turned_pieces([first, Arc(first.end, middle, -quarter)], -apart)
-        between = about(ORIGIN, middle[0], -apart, 2.0 * apart)
-        finish = turned_pieces([Arc(middle, last.start, -quarter), last], apart)
+        begin = shapes.turned_pieces([first, Arc(first.end, middle, -quarter)], -apart)
+        between = shapes.about(ORIGIN, middle[0], -apart, 2.0 * apart)
+        finish = shapes.turned_pieces([Arc(middle, last.start, -quarter), last], apart)
         pieces = (*begin, between, *finish)
-    return turned(Contour("WHEEL", joined(pieces), closed=False), angle)
+    return shapes.turned(Contour("WHEEL", shapes.joined(pieces), closed=False), angle)
 
 
 def wheel_contour(
@@ -115,7 +101,7 @@ def wheel_contour(
     """
     around, walls, rims = assembly.slots, list[list[Segment]](), list[list[Segment]]()
     for engagement, direction in around:
-        walls.append([*turned(slots[engagement], direction).segments])
+        walls.append([*shapes.turned(slots[engagement], direction).segments])
     for i, (_, start) in enumerate(around):
         following = (i + 1) % len(around)
         before, after = walls[i], walls[following]
@@ -130,51 +116,31 @@ def wheel_contour(
         rims.append(_rim(assembly, sizes, before, after, start + off))
     if sizes.mouth_radius:
         for i, rim in enumerate(rims):
-            _round_mouths(assembly, sizes, walls[i], rim, walls[(i + 1) % len(walls)])
-    return closed("WHEEL", chain.from_iterable(chain(*zip(walls, rims, strict=True))))
+            _round_mouth(assembly, sizes, walls[i], rim)
+            after = walls[(i + 1) % len(walls)]
+            wall, back = [*shapes.mirrored(after[:1])], [*shapes.mirrored(rim)]
+            _round_mouth(assembly, sizes, wall, back)
+            after[:1], rim[:] = shapes.mirrored(wall), shapes.mirrored(back)
+    return shapes.closed("WHEEL", chain.from_iterable(chain(*zip(walls, rims, strict=True))))
 
 
-def _round_mouths(
-    assembly: Assembly,
-    sizes: Sizes,
-    before: list[Segment],
-    rim: list[Segment],
-    after: list[Segment],
-) -> None:
-    """Round the corners at both ends of a rim, and of the walls of the slots beside it.
-
-    A mouth that is extended along the roller's circle has its corner at the rim.
-    """
-
-    def is_extension(piece: Segment) -> bool:
-        return isinstance(piece, Arc) and math.hypot(*piece.centre) > 0.1 * piece.radius
-
-    def corner(one: Segment, two: Segment) -> list[Segment]:
-        assert isinstance(one, Line | Arc) and isinstance(two, Line | Arc)  # slots are straight
-        return rounded(one, two, sizes.mouth_radius, assembly.sign)
-
-    if is_extension(rim[0]):
-        rim[:2] = corner(*rim[:2])
+def _round_mouth(assembly: Assembly, sizes: Sizes, wall: list[Segment], rim: list[Segment]) -> None:
+    """Round the corner of a wall and a rim; of a mouth that is extended, it is at the rim."""
+    first = rim[0]
+    if isinstance(first, Arc) and math.hypot(*first.centre) > 0.1 * first.radius:
+        rim[:2] = rounded(first, rim[1], sizes.mouth_radius, assembly.sign)
     else:
-        before[-1], *rim[:1] = corner(before[-1], rim[0])
-    if is_extension(rim[-1]):
-        rim[-2:] = corner(*rim[-2:])
-    else:
-        *rim[-1:], after[0] = corner(rim[-1], after[0])
+        wall[-1], *rim[:1] = rounded(wall[-1], first, sizes.mouth_radius, assembly.sign)
 
 
 def _rim(
     assembly: Assembly, sizes: Sizes, before: list[Segment], after: list[Segment], at: float
 ) -> list[Segment]:
-    """Return the rim from one slot's corner, through the recess, to the next slot's corner.
-
-    A mouth that the recess does not reach is extended along the roller's circle about the crank's
-    axis. Horns thinner than ``horn_tip_mm`` are cut back to flats, at which the walls then end.
-    """
-    L = assembly.L
-    flats: tuple[Line | None, Line | None] = None, None
-    if sizes.lock and sizes.horn_tip:
-        flats = _cut_back(sizes, before, after, polar(ORIGIN, L, at))
+    """Return the rim from one slot's corner, through the recess, to the next slot's corner."""
+    L, mirror = assembly.L, [*shapes.mirrored(after[:1])]
+    walls = (before, at), (mirror, -at)  # both run outwards
+    flats = [_cut_back(sizes, wall, shapes.polar(ORIGIN, L, turn)) for wall, turn in walls]
+    after[:1] = shapes.mirrored(mirror)
     start, end = before[-1].end, after[0].start
     first, last = math.atan2(start[1], start[0]), math.atan2(end[1], end[0])
     if math.remainder(last - first, math.tau) <= 0.0:
@@ -183,56 +149,55 @@ def _rim(
             f"{sizes.roller:g} leaves a rim between them",
             ("size", "roller_radius_mm"),
         )
-    last = first + (last - first) % math.tau
-    at = first + (at - first) % math.tau
-    axis = polar(ORIGIN, L, at)
-    distances = math.dist(start, axis), math.dist(end, axis)
-    near = math.inf if flats[0] else distances[0]
-    near = min(near, math.inf if flats[1] else distances[1])
-    if sizes.lock and near <= sizes.recess:
+    least = max(math.hypot(*start), math.hypot(*end))
+    if sizes.lock:
+        least = least_mouth(L, sizes.recess, sizes.rim)
+    rising, back = (
+        [flat] if flat else _beside(assembly, sizes, wall[-1].end, turn, least)
+        for flat, (wall, turn) in zip(flats, walls, strict=True)
+    )
+    falling = shapes.mirrored(back)
+    ends = rising[-1].end if rising else start, falling[0].start if falling else end
+    middle = _about(ORIGIN, *ends, 1.0)
+    if sizes.lock:
+        middle = _about(shapes.polar(ORIGIN, L, at), *ends, -assembly.sign)
+    return [*rising, middle, *falling]
+
+
+def _beside(
+    assembly: Assembly, sizes: Sizes, corner: Point, at: float, least: float
+) -> list[Segment]:
+    """Return the rim from a slot's corner to the recess, in the direction ``at`` of its axis.
+
+    A mouth that the recess does not reach is extended along the roller's circle about the crank's
+    axis, up to ``least``. Without a locking disc there is only this.
+    """
+    L, axis, rim = assembly.L, shapes.polar(ORIGIN, assembly.L, at), math.hypot(*corner)
+    away, out = math.dist(corner, axis), list[Segment]()
+    turn = at - (at - math.atan2(corner[1], corner[0])) % math.tau
+    if sizes.lock and away <= sizes.recess:
         raise GenevaError(
             f"no horn is left between slot and recess: lock_radius_mm = {sizes.lock:.6g} must be "
-            f"below {sizes.lock + min(distances) - sizes.recess:.6g}, or the roller smaller",
+            f"below {sizes.lock + away - sizes.recess:.6g}, or the roller smaller",
             ("size", "lock_radius_mm"),
         )
-    rims = [math.hypot(*start), math.hypot(*end)]
-    least = least_mouth(L, sizes.recess, sizes.rim) if sizes.lock else max(rims)
-    rising: list[Segment] = []
-    falling: list[Segment] = []
-    outside = assembly.sign > 0.0
-    if outside and not flats[0] and least > rims[0] + SAME_LENGTH * L:
-        rims[0], first = least, at - _opening(L, least, distances[0])
-        rising.append(_about(axis, start, polar(ORIGIN, least, first), 1.0))
-    if outside and not flats[1] and least > rims[1] + SAME_LENGTH * L:
-        rims[1], last = least, at + _opening(L, least, distances[1])
-        falling.append(_about(axis, polar(ORIGIN, least, last), end, 1.0))
-    if not sizes.lock:
-        return [*rising, about(ORIGIN, rims[0], first, last - first), *falling]
-    if flats[0]:
-        rising, first_edge = [flats[0]], flats[0].end
-    else:
-        low = at - _opening(L, rims[0], sizes.recess)
-        rising.append(about(ORIGIN, rims[0], first, low - first))
-        first_edge = polar(ORIGIN, rims[0], low)
-    if flats[1]:
-        falling, last_edge = [Line(flats[1].end, end)], flats[1].end
-    else:
-        high = at + _opening(L, rims[1], sizes.recess)
-        falling.insert(0, about(ORIGIN, rims[1], high, last - high))
-        last_edge = polar(ORIGIN, rims[1], high)
-    return [*rising, _about(axis, first_edge, last_edge, -assembly.sign), *falling]
+    if assembly.sign > 0.0 and least > rim + SAME_LENGTH * L:
+        rim, turn = least, at - _opening(L, least, away)
+        out.append(_about(axis, corner, shapes.polar(ORIGIN, least, turn), 1.0))
+    if sizes.lock:
+        low = at - _opening(L, rim, sizes.recess)
+        out.append(shapes.about(ORIGIN, rim, turn, low - turn))
+    return out
 
 
-def _cut_back(
-    sizes: Sizes, before: list[Segment], after: list[Segment], axis: Point
-) -> tuple[Line | None, Line | None]:
-    """Cut thin horns beside a recess about an axis, and the walls there; return their flats."""
-    one, other, k, flat = before[-1], after[0], sizes.recess, sizes.horn_tip
-    assert isinstance(one, Line) and isinstance(other, Line)
-    first, last = tip(one, axis, k, flat), tip(Line(other.end, other.start), axis, k, flat)
-    before[-1] = one._replace(end=first.start) if first else one
-    after[0] = other._replace(start=last.start) if last else other
-    return first, last
+def _cut_back(sizes: Sizes, wall: list[Segment], axis: Point) -> Line | None:
+    """Cut a thin horn beside a recess about an axis, and the wall there; return its flat."""
+    line = wall[-1]
+    if not (sizes.lock and sizes.horn_tip and isinstance(line, Line)):
+        return None
+    flat = tip(line, axis, sizes.recess, sizes.horn_tip)
+    wall[-1] = line._replace(end=flat.start) if flat else line
+    return flat
 
 
 def _about(axis: Point, start: Point, end: Point, sense: float) -> Arc:
