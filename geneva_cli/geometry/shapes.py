@@ -129,17 +129,16 @@ def polygon(layer: Layer, corners: Sequence[Point]) -> Contour:
     return closed(layer, [Line(p, q) for p, q in zip(corners, after, strict=True)])
 
 
+def flipped(piece: Segment) -> Segment:
+    """The segment with the opposite sense of travel."""
+    if isinstance(piece, Arc):
+        return Arc(piece.end, piece.start, -piece.bulge)
+    return type(piece)(*piece[::-1])
+
+
 def backwards(contour: Contour) -> Contour:
     """The contour with the opposite sense of travel."""
-    pieces: list[Segment] = []
-    for piece in reversed(contour.segments):
-        if isinstance(piece, Cubic):
-            pieces.append(Cubic(piece.end, piece.second, piece.first, piece.start))
-        elif isinstance(piece, Arc):
-            pieces.append(Arc(piece.end, piece.start, -piece.bulge))
-        else:
-            pieces.append(Line(piece.end, piece.start))
-    return contour._replace(segments=tuple(pieces))
+    return contour._replace(segments=tuple(map(flipped, reversed(contour.segments))))
 
 
 def convex_hull(layer: Layer, circles: Sequence[Circle]) -> Contour:

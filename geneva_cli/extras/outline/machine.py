@@ -220,7 +220,7 @@ def _round(roller: Circle) -> Contour:
 def _roller(loop: Loop) -> Circle | None:
     """An outline that is a full circle beside the crank's axis, as one."""
     first, *_ = pieces = loop.contour.segments
-    if loop.is_hole or not isinstance(first, Arc):
+    if loop.depth % 2 or not isinstance(first, Arc):
         return None
     near = 1e-6 * first.radius
     for p in pieces:
