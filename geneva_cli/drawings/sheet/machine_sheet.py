@@ -201,10 +201,11 @@ def cut_faces(members: Iterable[Member], scale: float) -> list[Face]:
         crossings: list[float] = []
         for shape in (plate.outline, *plate.holes):
             scaled = mapped(shape, lambda p: (scale * p[0], scale * p[1]), scale)
-            for x, y, u, v in chords(scaled).tolist():
+            for p, q in chords(scaled).tolist():
                 # chords that follow each other share their ends within rounding, 1e-9 mm
-                if (round(y, 9) <= 0.0) != (round(v, 9) <= 0.0):
-                    crossings.append((x - y * (u - x) / (v - y)) / scale)
+                if (round(p.imag, 9) <= 0.0) != (round(q.imag, 9) <= 0.0):
+                    slope = (q.real - p.real) / (q.imag - p.imag)
+                    crossings.append((p.real - p.imag * slope) / scale)
         ends = sorted(crossings)
         spans = zip(ends[::2], ends[1::2], strict=True)
         faces += [Face(own, a, b) for a, b in spans if b - a > 1e-6]
