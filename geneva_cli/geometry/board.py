@@ -194,12 +194,10 @@ def _ring(corners: Sequence[Point]) -> Array:
 def _crosses(label: Label, lines: Array, gap: float) -> bool:
     """Return True if chords come nearer to a text's box than ``gap`` mm."""
     near = np.ones(len(lines), dtype=bool)  # the few that may
-    for places, ends in zip(
-        zip(*label.corners, strict=True), (lines.real, lines.imag), strict=True
-    ):
-        one, other = ends.T
-        near &= np.minimum(one, other) < max(places) + 2.0 * gap
-        near &= np.maximum(one, other) > min(places) - 2.0 * gap
+    corners = _ring(label.corners)
+    for own, (one, other) in ((corners.real, lines.real.T), (corners.imag, lines.imag.T)):
+        near &= np.minimum(one, other) < own.max() + 2.0 * gap
+        near &= np.maximum(one, other) > own.min() - 2.0 * gap
     seen = (lines[near] - complex(*label.at)) * cmath.rect(1.0, -label.turn)
     low, high = np.zeros(len(seen)), np.ones(len(seen))
     limits = (

@@ -65,13 +65,9 @@ def extent(drawing: Drawing) -> Box:
 
 
 def prepared(drawing: Drawing) -> Drawing:
-    """Drawing without duplicate shapes and pieces shorter than ``SHORTEST_MM``.
-
-    Raises GenevaError for a coordinate that is not finite.
-    """
+    """Drawing without duplicate shapes and pieces shorter than ``SHORTEST_MM``."""
     seen: dict[Shape, None] = {}
     for shape in drawing.shapes:
-        _require_finite(shape)
         if isinstance(shape, Circle):
             if shape.radius > SHORTEST_MM:
                 seen[shape] = None
@@ -88,17 +84,6 @@ def prepared(drawing: Drawing) -> Drawing:
         elif kept:
             seen[Contour(shape.layer, shapes.joined(kept), closed=False)] = None
     return drawing._replace(shapes=tuple(seen))
-
-
-def _require_finite(shape: Shape) -> None:
-    for piece in shape.segments if isinstance(shape, Contour) else (shape,):
-        for value in piece:
-            numbers = value if isinstance(value, tuple) else (value,)
-            if not all(math.isfinite(n) for n in numbers if not isinstance(n, str)):
-                kind = type(piece).__name__.lower()
-                raise GenevaError(
-                    f"layer {shape.layer}: a {kind} at {value}: coordinates must be finite"
-                )
 
 
 CAPITALS = 0.718  # height of capital letters, over the font's size
