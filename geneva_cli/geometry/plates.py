@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import chain, combinations
+from functools import partial
+from itertools import chain, combinations, repeat, starmap
+from operator import lt
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
@@ -20,7 +22,6 @@ from geneva_cli.geometry.shapes import (
     Layer,
     Line,
     Point,
-    S,
     Shape,
 )
 
@@ -37,7 +38,7 @@ GAUSS = (
     (0.79666647741362674, 0.22238103445337447),
     (0.96028985649753623, 0.10122853629037626),
 )
-RADIAN = math.tan(0.25)  # the bulge of an arc of one
+OVER_A_RADIAN = partial(lt, math.tan(0.25))  # is the bulge of an arc above that of a radian?
 
 
 class Plate(NamedTuple):
@@ -98,13 +99,6 @@ def lowered(plate: Plate) -> Plate:
     return plate._replace(low=0.0, high=plate.high - plate.low)
 
 
-def placed(shape: S, at: Point, turn: float) -> S:
-    """Return a shape turned about its own origin, and then moved."""
-    if at == (0.0, 0.0) and not turn:
-        return shape
-    return shapes.mapped(shapes.turned(shape, turn), lambda p: (p[0] + at[0], p[1] + at[1]))
-
-
 def in_place(members: Iterable[Member]) -> Iterator[tuple[Plate, Plate]]:
     """Yield each plate in its own frame and at its position."""
     for one in members:
@@ -115,7 +109,7 @@ def in_place(members: Iterable[Member]) -> Iterator[tuple[Plate, Plate]]:
             inner = iter([(one.part, one.part)])
         for own, plate in inner:
             outline, *holes = (
-                placed(shape, one.at, one.turn) for shape in (plate.outline, *plate.holes)
+                shapes.placed(shape, one.at, one.turn) for shape in (plate.outline, *plate.holes)
             )
             yield own, plate._replace(outline=outline, holes=tuple(holes))
 
@@ -145,8 +139,7 @@ def moments(shape: Shape) -> Moments:
         area = math.pi * square
         return Moments(area, area * x, area * y, area * (x * x + y * y + 0.5 * square))
     rows: list[tuple[float, float, float, float]] = []
-    short = (shapes.halved(piece, lambda bulge: bulge > RADIAN) for piece in shape.segments)
-    for piece in chain.from_iterable(short):
+    for piece in chain.from_iterable(map(shapes.halved, shape.segments, repeat(OVER_A_RADIAN))):
         if isinstance(piece, Line) or (isinstance(piece, Arc) and abs(piece.bulge) < STRAIGHT):
             (a, b), (c, d) = piece.start, piece.end
             cross = a * d - b * c
@@ -155,8 +148,9 @@ def moments(shape: Shape) -> Moments:
             rows.append((cross / 2.0, cross * x, cross * y, cross * squares / 12.0))
             continue
         if isinstance(piece, Arc):
-            first, sweep = shapes.directions(piece)[0], piece.sweep
-            length = shapes.segment_length(piece)
+            (x0, y0), (x1, y1), sweep = piece.start, piece.end, piece.sweep
+            first = math.atan2(y1 - y0, x1 - x0) - 0.5 * sweep  # direction at the start
+            length = math.dist(piece.start, piece.end) * 0.5 * sweep / math.sin(0.5 * sweep)
         own = []
         for node, weight in GAUSS:
             for t in (0.5 - 0.5 * node, 0.5 + 0.5 * node):
@@ -232,10 +226,9 @@ def least_wall(holes: Sequence[Shape], outline: Sequence[Contour] = ()) -> float
 
     The outline has its material on the left.
     """
-    walls = [apart(one, other) for one, other in combinations(holes, 2)]
+    walls = [*starmap(apart, combinations(holes, 2))]
     if outline:
-        whole = Polyarc(outline)
-        walls += [_wall(whole, hole, -1.0) for hole in holes]
+        walls += map(_wall, repeat(Polyarc(outline)), holes, repeat(-1.0))
     return min(walls, default=math.inf)
 
 

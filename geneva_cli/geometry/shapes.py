@@ -6,6 +6,7 @@ Points are (x, y). Nothing is measured from an arc's centre, which may be far aw
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Literal, NamedTuple, TypeAlias, TypeVar
@@ -299,28 +300,35 @@ def as_cubic(arc: Arc) -> Cubic:
     return Cubic(arc.start, first, second, arc.end)
 
 
-def mapped(shape: S, point: Callable[[Point], Point], scale: float = 1.0, sense: float = 1.0) -> S:
-    """Move a shape by a similarity of points, with its scale; ``sense`` is -1 for a mirror."""
+def placed(
+    shape: S, at: Point = ORIGIN, turn: float = 0.0, scale: float = 1.0, mirror: bool = False
+) -> S:
+    """Scale a shape, rotate it about the origin, counterclockwise, and move it.
+
+    With ``mirror`` it is first mirrored in the x axis.
+    """
+    if (at, turn, scale, mirror) == (ORIGIN, 0.0, 1.0, False):
+        return shape
+    by, factor, over = complex(*at), cmath.rect(scale, turn), -1.0 if mirror else 1.0
     if isinstance(shape, Circle):
-        return shape._replace(centre=point(shape.centre), radius=scale * shape.radius)
+        z = factor * complex(shape.centre[0], over * shape.centre[1]) + by
+        return shape._replace(centre=(z.real, z.imag), radius=scale * shape.radius)
     pieces: list[Segment] = []
     for one in shape.segments:
+        corners: list[Point] = []
+        for x, y in one[:2] if isinstance(one, Arc) else one:
+            z = factor * complex(x, over * y) + by
+            corners.append((z.real, z.imag))
         if isinstance(one, Arc):
-            pieces.append(Arc(point(one.start), point(one.end), sense * one.bulge))
+            pieces.append(Arc(corners[0], corners[1], over * one.bulge))
         else:
-            pieces.append(type(one)(*map(point, one)))
+            pieces.append(type(one)(*corners))
     return shape._replace(segments=tuple(pieces))
 
 
-def turned(shape: S, radians: float, centre: Point = ORIGIN) -> S:
-    """Rotate a shape about a point, counterclockwise."""
-    (x, y), c, s = centre, math.cos(radians), math.sin(radians)
-
-    def point(p: Point) -> Point:
-        u, v = p[0] - x, p[1] - y
-        return x + c * u - s * v, y + s * u + c * v
-
-    return mapped(shape, point)
+def turned(shape: S, radians: float) -> S:
+    """Rotate a shape about the origin, counterclockwise."""
+    return placed(shape, turn=radians)
 
 
 def turned_pieces(pieces: Iterable[Segment], radians: float) -> tuple[Segment, ...]:
@@ -331,7 +339,7 @@ def turned_pieces(pieces: Iterable[Segment], radians: float) -> tuple[Segment, .
 def mirrored(pieces: Iterable[Segment]) -> tuple[Segment, ...]:
     """Mirror pieces of an outline in the x axis, and run them backwards."""
     own = Contour("", tuple(pieces), closed=False)
-    return backwards(mapped(own, lambda p: (p[0], -p[1]), sense=-1.0)).segments
+    return backwards(placed(own, mirror=True)).segments
 
 
 def _extremes(segment: Segment) -> Iterator[Point]:

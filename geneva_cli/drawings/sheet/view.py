@@ -23,7 +23,7 @@ from geneva_cli.geometry.shapes import (
     Segment,
     Shape,
     legs,
-    mapped,
+    placed,
     polar,
 )
 from geneva_cli.geometry.sheet import CENTRE, LARGE, OUTLINE, SMALL, Label, Measure, line
@@ -55,7 +55,7 @@ class View:
 
     def draw(self, shape: Shape, layer: Layer) -> None:
         """Draw a shape on a layer."""
-        self._draw(mapped(shape, self._at, self.scale)._replace(layer=layer))
+        self._draw(placed(shape, scale=self.scale)._replace(layer=layer))
 
     def draw_all(self, shapes: Iterable[Shape]) -> None:
         """Draw shapes as outlines."""

@@ -8,6 +8,7 @@ towards the other slot. So each keeps the wall on its recess's side, with an arc
 from __future__ import annotations
 
 import math
+from functools import partial
 from itertools import chain
 
 import numpy as np
@@ -29,7 +30,8 @@ CURVED = CONTACT  # of the centre distance: accuracy of curved walls for the ful
 def turned_walls(assembly: Assembly, sizes: Sizes) -> dict[Engagement, Contour]:
     """Return the walls of each kind of slot, as accurate as the full turn needs them."""
     fine = 0.5 * CURVED * assembly.L
-    return {kind: slot_walls(assembly, sizes, kind, fine) for kind in assembly.kinds}
+    walls = map(partial(slot_walls, assembly, sizes, tolerance=fine), assembly.kinds)
+    return dict(zip(assembly.kinds, walls, strict=True))
 
 
 def slot_walls(
@@ -137,10 +139,6 @@ def _rim(
     assembly: Assembly, sizes: Sizes, before: list[Segment], after: list[Segment], at: float
 ) -> list[Segment]:
     """Return the rim from one slot's corner, through the recess, to the next slot's corner."""
-    L, mirror = assembly.L, [*shapes.mirrored(after[:1])]
-    walls = (before, at), (mirror, -at)  # both run outwards
-    flats = [_cut_back(sizes, wall, shapes.polar(ORIGIN, L, turn)) for wall, turn in walls]
-    after[:1] = shapes.mirrored(mirror)
     start, end = before[-1].end, after[0].start
     first, last = math.atan2(start[1], start[0]), math.atan2(end[1], end[0])
     if math.remainder(last - first, math.tau) <= 0.0:
@@ -151,29 +149,34 @@ def _rim(
         )
     least = max(math.hypot(*start), math.hypot(*end))
     if sizes.lock:
-        least = least_mouth(L, sizes.recess, sizes.rim)
-    rising, back = (
-        [flat] if flat else _beside(assembly, sizes, wall[-1].end, turn, least)
-        for flat, (wall, turn) in zip(flats, walls, strict=True)
-    )
-    falling = shapes.mirrored(back)
-    ends = rising[-1].end if rising else start, falling[0].start if falling else end
+        least = least_mouth(assembly.L, sizes.recess, sizes.rim)
+    mirror = [*shapes.mirrored(after[:1])]
+    rising = _beside(assembly, sizes, before, at, least)
+    falling = shapes.mirrored(_beside(assembly, sizes, mirror, -at, least))
+    after[:1] = shapes.mirrored(mirror)
+    ends = (before + rising)[-1].end, falling[0].start if falling else end
     middle = _about(ORIGIN, *ends, 1.0)
     if sizes.lock:
-        middle = _about(shapes.polar(ORIGIN, L, at), *ends, -assembly.sign)
+        middle = _about(shapes.polar(ORIGIN, assembly.L, at), *ends, -assembly.sign)
     return [*rising, middle, *falling]
 
 
 def _beside(
-    assembly: Assembly, sizes: Sizes, corner: Point, at: float, least: float
+    assembly: Assembly, sizes: Sizes, wall: list[Segment], at: float, least: float
 ) -> list[Segment]:
-    """Return the rim from a slot's corner to the recess, in the direction ``at`` of its axis.
+    """Return the rim from a slot's wall to the recess, in the direction ``at`` of its axis.
 
     A mouth that the recess does not reach is extended along the roller's circle about the crank's
-    axis, up to ``least``. Without a locking disc there is only this.
+    axis, up to ``least``. Without a locking disc there is only this. A horn thinner than
+    ``horn_tip_mm`` is cut back to a flat, at which the wall then ends.
     """
-    L, axis, rim = assembly.L, shapes.polar(ORIGIN, assembly.L, at), math.hypot(*corner)
-    away, out = math.dist(corner, axis), list[Segment]()
+    L, axis, line, corner = assembly.L, shapes.polar(ORIGIN, assembly.L, at), wall[-1], wall[-1].end
+    rim, away, out = math.hypot(*corner), math.dist(corner, axis), list[Segment]()
+    if sizes.lock and sizes.horn_tip and isinstance(line, Line):
+        flat = tip(line, axis, sizes.recess, sizes.horn_tip)
+        if flat:
+            wall[-1] = line._replace(end=flat.start)
+            return [flat]
     turn = at - (at - math.atan2(corner[1], corner[0])) % math.tau
     if sizes.lock and away <= sizes.recess:
         raise GenevaError(
@@ -188,16 +191,6 @@ def _beside(
         low = at - _opening(L, rim, sizes.recess)
         out.append(shapes.about(ORIGIN, rim, turn, low - turn))
     return out
-
-
-def _cut_back(sizes: Sizes, wall: list[Segment], axis: Point) -> Line | None:
-    """Cut a thin horn beside a recess about an axis, and the wall there; return its flat."""
-    line = wall[-1]
-    if not (sizes.lock and sizes.horn_tip and isinstance(line, Line)):
-        return None
-    flat = tip(line, axis, sizes.recess, sizes.horn_tip)
-    wall[-1] = line._replace(end=flat.start) if flat else line
-    return flat
 
 
 def _about(axis: Point, start: Point, end: Point, sense: float) -> Arc:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import partial
 from operator import attrgetter, itemgetter
 from typing import NamedTuple, TypeAlias
 
@@ -102,13 +103,14 @@ def full_turn(parts: TurnedParts) -> FullTurn:
     at, pairs = _positions(parts), [DRIVING]
     pairs += [IDLE] if len(assembly.rollers) > 1 else []
     pairs += [LOCK] if parts.locked else []
-    gaps = {pair: _least(parts, pair, at, first) for pair in pairs}
-    fits = min(gap.mm for gap in gaps.values()) >= -parts.close
-    resting = np.array([0.5 * (one.start + one.end) for one in every if one.rests])
-    dwell = Most(0.0, first(np.zeros(1)))
-    if len(resting):
-        leads, _ = wheel_stops(parts, resting, fits)
-        dwell = _most(np.degrees(leads.max(axis=0)), resting, first)
+    gaps = dict(zip(pairs, map(partial(_least, parts, at=at, first=first), pairs), strict=True))
+    fits = min(gaps.values()).mm >= -parts.close
+    resting, dwell = [], Most(0.0, first(np.zeros(1)))
+    for start, end, _, rests, _ in every:
+        resting += [0.5 * (start + end)] if rests else []
+    if resting:
+        leads, _ = wheel_stops(parts, np.array(resting), fits)
+        dwell = _most(np.degrees(leads.max(axis=0)), np.array(resting), first)
     play, push_deg = play_of(parts, fits)
     inside, outside = play.guided, ~play.guided
     guided_deg = play.input_deg[inside]
