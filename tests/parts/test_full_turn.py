@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 import pytest
-from test_outline import STRAIGHT, L, made, name
+from test_outline import STRAIGHT, L, made
 from turn_witness import overlapping
 
 from geneva_cli.parts.parts import Parts
@@ -45,7 +45,7 @@ def test_the_wheel_goes_on_before_the_first_entry_and_after_a_turn() -> None:
 
 
 @pytest.mark.sampled(6)
-@pytest.mark.parametrize("case", SOUND, ids=name)
+@pytest.mark.parametrize("case", SOUND, ids=str)
 def test_straight_slots_turn_with_their_clearances(case: dict) -> None:
     """What touches without clearance has exactly the clearance with it: slot and lock. Only inside,
     and at the far mouth of an offset slot, the wall, which the clearance moves, runs past the foot

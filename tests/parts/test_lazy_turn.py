@@ -8,7 +8,7 @@ import shapely
 from drawn_wheels import corners, disc, drawn_wheel, outline
 from scipy.optimize import brentq
 
-from geneva_cli.parts.turn.free_ranges import FreeRanges, one_sector
+from geneva_cli.parts.turn.free_ranges import FreeRanges
 from geneva_cli.parts.turn.lazy_turn import Turner
 
 Z, L, R, ROLLER, CLEARANCE = 6, 60.0, 30.0, 3.0, 0.25
@@ -139,12 +139,6 @@ def test_a_loose_lock_leaves_the_play_of_its_triangle():
     assert at.is_free
     assert at.high + math.pi / 4 == pytest.approx(play, abs=1e-9)
     assert at.low + math.pi / 4 == pytest.approx(-play, abs=1e-9)
-
-
-def test_a_wheel_with_one_other_slot_has_no_sector():
-    wheel = outline(drawn_wheel(Z, L - R, HALF, 45.0))
-    assert len(one_sector(wheel, math.tau / Z, 1e-9)) == len(wheel) // Z
-    assert one_sector(wheel, math.tau / 12, 1e-9) is None
 
 
 def test_nothing_in_reach_leaves_the_wheel_free():
