@@ -89,16 +89,6 @@ def plates(part: Part) -> list[Plate]:
     return [one for one in solids(part) if isinstance(one, Plate)]
 
 
-def inwards(plate: Plate, outside: float) -> Plate:
-    """A plate whose heights count inwards from ``outside``, by distances instead."""
-    return plate._replace(low=outside - plate.high, high=outside - plate.low)
-
-
-def lowered(plate: Plate) -> Plate:
-    """A plate with its lower face at z = 0."""
-    return plate._replace(low=0.0, high=plate.high - plate.low)
-
-
 def in_place(members: Iterable[Member]) -> Iterator[tuple[Plate, Plate]]:
     """Yield each plate in its own frame and at its position."""
     for one in members:
