@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.geometry.fit.arcs import arcs
+from geneva_cli.geometry.fit import arcs
 from geneva_cli.geometry.shapes import Arc, Contour, Line, placed
 from geneva_cli.output.ezdxf_alone import Document, readfile
 from geneva_cli.output.foreign.drawn import CURVE_MM, Drawn, arc_pieces, ellipse_pieces

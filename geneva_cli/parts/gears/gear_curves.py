@@ -26,7 +26,7 @@ from geneva_cli.table import Table
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from geneva_cli.geometry.fit.arcs import Curve
+    from geneva_cli.geometry.fit import Curve
 
 NAMES = (
     *("input_deg", "crank_deg", "ratio", "driver_radius_mm", "driver_x_mm", "driver_y_mm"),
