@@ -69,10 +69,8 @@ class CurvePath:
             t0, p0 = np.where(first, t0, t), np.where(first, p0, at)
             t1, p1 = np.where(first, t, t1), np.where(first, at, p1)
         if (np.abs(p1 - p0) > tolerance).any():
-            raise GenevaError(
-                f"no smooth curve within {tolerance:g} mm: it leaps, as walls of a slot or "
-                "groove do if roller and slot overlap"
-            )
+            text = "it leaps, as walls of a slot or groove do if roller and slot overlap"
+            raise GenevaError(f"no smooth curve within {tolerance:g} mm: {text}")
         turn = np.abs(np.angle(tangents[1:] / tangents[:-1]))
         # below 0.1 radians the places on a curve follow its length alone
         w = np.cumsum(step / step.sum() + turn / max(float(turn.sum()), 0.1))

@@ -113,10 +113,8 @@ def _partners(ends: list[Point]) -> list[int]:
                 f"away, at {shown(nearest)}; ends are joined up to {JOINED_MM:g} mm"
             )
         if len(near) > 1:
-            raise GenevaError(
-                f"{len(near) + 1} ends meet at {shown(point)}: an outline does not branch; leave "
-                "out the lines that bound no part"
-            )
+            text = "an outline does not branch; leave out the lines that bound no part"
+            raise GenevaError(f"{len(near) + 1} ends meet at {shown(point)}: {text}")
         out.append(near[0])
     return out
 
@@ -136,9 +134,8 @@ def _refuse_crossings(contours: list[Contour]) -> None:
         i, j = i[j > i], j[j > i]
         place = _crossing(outline, i, j, (following[i] == j) | (following[j] == i))
         if place is not None:
-            raise GenevaError(
-                f"outlines cross at {shown(place)}: an outline must not cross itself or another"
-            )
+            text = "an outline must not cross itself or another"
+            raise GenevaError(f"outlines cross at {shown(place)}: {text}")
 
 
 def _crossing(outline: Polyarc, i: Whole, j: Whole, adjacent: Mask) -> Point | None:

@@ -20,6 +20,8 @@ from geneva_cli.geometry.sheet import SHORTEST_MM, Drawing, prepared
 from geneva_cli.numerics.tolerances import SAME_CUT_MM
 from geneva_cli.spec.rules import TOOL_MM, require_mm
 
+TOO_WIDE = "it is wider than a rounding, or cuts off a face of a part; use a smaller value"
+
 
 class Closed(GenevaError):
     """An offset that has no path: at a place, ``what`` is narrower than the cut."""
@@ -150,14 +152,14 @@ def corner(before: Line | Arc, after: Line | Arc, depth: float, sharpest: float 
     ax, ay, bx, by = -math.sin(one), math.cos(one), -math.sin(two), math.cos(two)
     both = 1.0 + ax * bx + ay * by
     if both < sharpest:
-        raise _too_wide()
+        raise GenevaError(TOO_WIDE)
     if abs(ax * by - ay * bx) < 1e-6:  # radians: tangent pieces meet in the common normal
         return x + depth * (ax + bx) / both, y + depth * (ay + by) / both
     for _ in range(40):  # Newton's digits double each time: five steps are usual
         (d, (ux, uy)), (e, (vx, vy)) = away(before, (x, y)), away(after, (x, y))
         det = ux * vy - uy * vx
         if not det:  # so deep that both pieces are in one direction, to rounding
-            raise _too_wide()
+            raise GenevaError(TOO_WIDE)
         d, e = depth - d, depth - e
         dx, dy = (d * vy - e * uy) / det, (e * ux - d * vx) / det
         x, y = x + dx, y + dy
@@ -169,7 +171,7 @@ def corner(before: Line | Arc, after: Line | Arc, depth: float, sharpest: float 
 def parallel(piece: Line | Arc, depth: float) -> Line | Arc:
     """Return a piece moved to the left; raises GenevaError for an arc that turns inside out."""
     if isinstance(piece, Arc) and piece.bulge > 0.0 and piece.radius <= depth:
-        raise _too_wide()
+        raise GenevaError(TOO_WIDE)
     # ends are moved along their own normals: a flat arc's centre is far away
     ends = []
     for (x, y), direction in zip((piece.start, piece.end), shapes.directions(piece), strict=True):
@@ -181,15 +183,9 @@ def between(piece: Line | Arc, start: Point, end: Point) -> Line | Arc:
     """Return a piece between two points of its line or circle; GenevaError if it runs back."""
     part = shapes.fraction_at(piece, end) - shapes.fraction_at(piece, start)
     if part <= 0.0:
-        raise _too_wide()
+        raise GenevaError(TOO_WIDE)
     bend = {"bulge": math.tan(0.25 * piece.sweep * part)} if isinstance(piece, Arc) else {}
     return piece._replace(start=start, end=end, **bend)
-
-
-def _too_wide() -> GenevaError:
-    return GenevaError(
-        "it is wider than a rounding, or cuts off a face of a part; use a smaller value"
-    )
 
 
 def judged(drawing: Drawing, cutter_mm: float) -> tuple[str, list[str]]:

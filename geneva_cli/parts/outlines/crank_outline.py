@@ -152,11 +152,8 @@ def crank_contours(
     for start, end, _ in around:
         covered += end - start
     if covered > math.tau - SAME_ANGLE:
-        raise GenevaError(
-            "nothing is left of the locking disc: its reliefs go all the way round; use fewer "
-            f"rollers, or a smaller one than {sizes.roller:g} mm",
-            ("size", "roller_radius_mm"),
-        )
+        text = f"reliefs leave no locking disc: use fewer rollers, or below {sizes.roller:g} mm"
+        raise GenevaError(text, ("size", "roller_radius_mm"))
     segments, locking = list[Segment](), dict(sectors(around))
     for start, end, _ in around:
         middle, half = 0.5 * (start + end), 0.5 * (end - start)
@@ -166,11 +163,8 @@ def crank_contours(
             begin, last = (shapes.polar(ORIGIN, sizes.lock, turn) for turn in (start, end))
             segments += [Line(begin, bottom.start), bottom, Line(bottom.end, last)]
         elif half > 0.5 * math.pi - SAME_ANGLE:
-            raise GenevaError(
-                f'relief = "arc": the wheel moves over {math.degrees(2.0 * half):.6g} deg of '
-                'the crank, but an arc relieves less than 180 deg; set relief = "sector"',
-                ("size", "relief"),
-            )
+            text = f"an arc relieves less than 180 deg, not {math.degrees(2.0 * half):.6g}"
+            raise GenevaError(f'{text}: set relief = "sector"', ("size", "relief"))
         else:
             # The arc meets the disc at right angles. For a radial slot entered without shock it is
             # the triangle of wheel, crank and roller at entry, scaled down to the disc.
@@ -222,11 +216,11 @@ def _rings(assembly: Assembly, sizes: Sizes, swept: Swept, spare: float) -> list
         # the least thickness of a sector is a tenth of the disc's radius
         half = widest(whole, lambda half: max(inner(half)) < 0.9 * sizes.lock)
         if half is None:
-            raise GenevaError(
-                "the wheel sweeps over the whole locking sector: a smaller roller, or another "
-                f"lock_radius_mm than {sizes.lock:.6g}, may leave part of it; 0 omits it",
-                ("size", "lock_radius_mm"),
+            text = (
+                "the wheel sweeps over a whole locking sector: use a smaller roller, or another"
             )
+            text = f"{text} lock_radius_mm than {sizes.lock:.6g}; 0 omits it"
+            raise GenevaError(text, ("size", "lock_radius_mm"))
         edge, floor = inner(half)
         low, high = middle - half, middle + half
         outer = shapes.about(ORIGIN, sizes.lock, low, 2.0 * half)

@@ -72,11 +72,8 @@ def slot_walls(
             rim = math.hypot(*corner(assembly, engagement, end, sizes.roller))
         start = math.sqrt(max((rim + (sizes.rim - widest)) ** 2 - across * across, 0.0))
         if not out * (start - bottom) > 0.0:
-            raise GenevaError(
-                f"wheel_radius_mm = {sizes.rim:g}: the rim does not reach the slots' ends, which "
-                f"lie at {bottom:.6g} mm",
-                ("size", "wheel_radius_mm"),
-            )
+            text = f"wheel_radius_mm = {sizes.rim:g}: the slots' ends lie at {bottom:.6g} mm"
+            raise GenevaError(text, ("size", "wheel_radius_mm"))
         starts.append(start)
     first = Line((starts[0], level - w), (bottom, level - w))
     last = Line((bottom, level + w), (starts[1], level + w))
@@ -142,11 +139,8 @@ def _rim(
     start, end = before[-1].end, after[0].start
     first, last = math.atan2(start[1], start[0]), math.atan2(end[1], end[0])
     if math.remainder(last - first, math.tau) <= 0.0:
-        raise GenevaError(
-            "the mouths of adjacent slots overlap; a roller_radius_mm below "
-            f"{sizes.roller:g} leaves a rim between them",
-            ("size", "roller_radius_mm"),
-        )
+        text = f"the mouths of adjacent slots overlap: reduce roller_radius_mm = {sizes.roller:g}"
+        raise GenevaError(text, ("size", "roller_radius_mm"))
     least = max(math.hypot(*start), math.hypot(*end))
     if sizes.lock:
         least = least_mouth(assembly.L, sizes.recess, sizes.rim)
@@ -179,11 +173,9 @@ def _beside(
             return [flat]
     turn = at - (at - math.atan2(corner[1], corner[0])) % math.tau
     if sizes.lock and away <= sizes.recess:
-        raise GenevaError(
-            f"no horn is left between slot and recess: lock_radius_mm = {sizes.lock:.6g} must be "
-            f"below {sizes.lock + away - sizes.recess:.6g}, or the roller smaller",
-            ("size", "lock_radius_mm"),
-        )
+        text = f"no horn is left between slot and recess: lock_radius_mm = {sizes.lock:.6g} must be"
+        text = f"{text} below {sizes.lock + away - sizes.recess:.6g}, or the roller smaller"
+        raise GenevaError(text, ("size", "lock_radius_mm"))
     if assembly.sign > 0.0 and least > rim + SAME_LENGTH * L:
         rim, turn = least, at - _opening(L, least, away)
         out.append(_about(axis, corner, shapes.polar(ORIGIN, least, turn), 1.0))
@@ -205,9 +197,7 @@ def _opening(L: float, rim: float, radius: float) -> float:
     """Return half the angle over which a circle about the crank's axis opens the rim."""
     cosine = (L * L + rim * rim - radius * radius) / (2.0 * L * rim)
     if not abs(cosine) < 1.0:
-        raise GenevaError(
-            f"wheel_radius_mm: a rim of {rim:.6g} mm does not meet the recess's circle of "
-            f"{radius:.6g} mm; it must be between {abs(L - radius):.6g} and {L + radius:.6g}",
-            ("size", "wheel_radius_mm"),
-        )
+        text = f"a rim of {rim:.6g} mm does not meet the recess's circle: wheel_radius_mm must be"
+        text = f"{text} between {abs(L - radius):.6g} and {L + radius:.6g}"
+        raise GenevaError(text, ("size", "wheel_radius_mm"))
     return math.acos(cosine)

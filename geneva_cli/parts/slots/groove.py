@@ -158,12 +158,9 @@ def groove_base(parts: Outlines, bars: Links) -> Plate:
     # where it fits, the rim around the groove is 1.5 roller radii wide
     rim = min(max(1.5 * sizes.roller, 4.0 * wall), space)
     if rim < 4.0 * wall:
-        raise GenevaError(
-            f"--part groove-plate: the groove reaches {far:.4g} mm and leaves {space:.4g} mm up to "
-            "the wheel's hub, less than four times wall_min_mm. Reduce roller, wheel_hub_mm or "
-            "wheel_bore_mm",
-            ("size", "wheel_hub_mm"),
-        )
+        text = f"{space:.4g} mm between groove and wheel's hub are less than four times wall_min_mm"
+        text = f"--part groove-plate: {text}: reduce roller, wheel_hub_mm or wheel_bore_mm"
+        raise GenevaError(text, ("size", "wheel_hub_mm"))
     screw, away = screw_through(0.5 * rim), far + 0.5 * rim
     mounts = [
         Circle("BORE", polar(ORIGIN, away, math.tau * (k + 0.5) / MOUNTS), 0.5 * screw.through)

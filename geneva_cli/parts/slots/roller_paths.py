@@ -178,11 +178,8 @@ def tip(wall: Line, centre: Point, recess: float, width: float) -> Line | None:
     if at >= long:
         return None
     if depth <= 0.0 or at <= 0.5 * long:
-        raise GenevaError(
-            f"horn_tip_mm = {width:g}: the horns would lose more than half of the slots; "
-            "use a smaller tip, or a smaller lock_radius_mm",
-            ("size", "horn_tip_mm"),
-        )
+        text = "the horns would lose more than half of the slots: reduce it, or lock_radius_mm"
+        raise GenevaError(f"horn_tip_mm = {width:g}: {text}", ("size", "horn_tip_mm"))
     across = math.copysign(width, side)
     on_wall = x + at * u, y + at * v
     return Line(on_wall, (on_wall[0] - across * v, on_wall[1] + across * u))
@@ -200,11 +197,8 @@ def rounded(before: Segment, after: Segment, radius: float, sign: float) -> list
         ends.append((centre[0] - distance * x, centre[1] - distance * y))
         parts.append(shapes.fraction_at(piece, ends[-1]))
     if not (0.0 < parts[0] <= 1.0 and 0.0 <= parts[1] < 1.0):
-        raise GenevaError(
-            f"mouth_radius_mm = {radius:g}: a mouth's corner has no space for this rounding, as "
-            "wall, rim or tip of the horn is too short beside it; use a smaller radius",
-            ("size", "mouth_radius_mm"),
-        )
+        text = f"mouth_radius_mm = {radius:g}: a mouth's corner has no space for this rounding"
+        raise GenevaError(f"{text}; use a smaller one", ("size", "mouth_radius_mm"))
     first, last = ends
     begin, end = (math.atan2(y - centre[1], x - centre[0]) for x, y in ends)
     sweep = math.remainder(end - begin, math.tau)

@@ -160,10 +160,8 @@ def _positions(parts: TurnedParts) -> Array:
     # parts move a quarter of the thinnest feature between two positions
     count = math.ceil(total[-1] / (min(sizes.roller, max(sizes.horn, 0.2 * sizes.roller)) * 0.25))
     if count > POSITIONS:
-        raise GenevaError(
-            f"the full turn is not proved: it takes {count:,} positions, more than {POSITIONS:,}; "
-            "a larger roller or horn takes fewer"
-        )
+        text = f"the full turn takes {count:,} positions, more than {POSITIONS:,}"
+        raise GenevaError(f"{text}: use a larger roller or horn")
     even = np.interp(np.linspace(0.0, total[-1], count + 1), total, grid)
     # A rim that is too large collides for less than a degree about entry and exit.
     ends = []
