@@ -216,9 +216,7 @@ def _rings(assembly: Assembly, sizes: Sizes, swept: Swept, spare: float) -> list
         # the least thickness of a sector is a tenth of the disc's radius
         half = widest(whole, lambda half: max(inner(half)) < 0.9 * sizes.lock)
         if half is None:
-            text = (
-                "the wheel sweeps over a whole locking sector: use a smaller roller, or another"
-            )
+            text = "the wheel sweeps over a whole locking sector: use a smaller roller, or another"
             text = f"{text} lock_radius_mm than {sizes.lock:.6g}; 0 omits it"
             raise GenevaError(text, ("size", "lock_radius_mm"))
         edge, floor = inner(half)
