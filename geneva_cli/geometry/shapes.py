@@ -331,11 +331,6 @@ def turned(shape: S, radians: float) -> S:
     return placed(shape, turn=radians)
 
 
-def turned_pieces(pieces: Iterable[Segment], radians: float) -> tuple[Segment, ...]:
-    """Rotate pieces of an outline about the origin, counterclockwise."""
-    return turned(Contour("", tuple(pieces), closed=False), radians).segments
-
-
 def mirrored(pieces: Iterable[Segment]) -> tuple[Segment, ...]:
     """Mirror pieces of an outline in the x axis, and run them backwards."""
     own = Contour("", tuple(pieces), closed=False)

@@ -82,9 +82,10 @@ def slot_walls(
     else:
         middle = (bottom - w, 0.0)
         quarter = math.tan(math.pi / 8.0)  # the bulge of a quarter of a circle
-        begin = shapes.turned_pieces([first, Arc(first.end, middle, -quarter)], -apart)
+        inwards, outwards = Arc(first.end, middle, -quarter), Arc(middle, last.start, -quarter)
+        begin = shapes.turned(Contour("", (first, inwards)), -apart).segments
         between = shapes.about(ORIGIN, middle[0], -apart, 2.0 * apart)
-        finish = shapes.turned_pieces([Arc(middle, last.start, -quarter), last], apart)
+        finish = shapes.turned(Contour("", (outwards, last)), apart).segments
         pieces = (*begin, between, *finish)
     return shapes.turned(Contour("WHEEL", shapes.joined(pieces), closed=False), angle)
 
