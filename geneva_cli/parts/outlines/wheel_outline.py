@@ -15,13 +15,21 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry import shapes
-from geneva_cli.geometry.shapes import ORIGIN, Arc, Contour, Line, Point, Segment
+from geneva_cli.geometry.shapes import ORIGIN, Arc, Contour, Line, Segment
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.sizes import Sizes
-from geneva_cli.parts.slots.roller_paths import corner, least_mouth, mouth, rest, rounded, tip
+from geneva_cli.parts.slots.roller_paths import (
+    arc_between,
+    corner,
+    least_mouth,
+    mouth,
+    rest,
+    rounded,
+    tip,
+)
 from geneva_cli.parts.turn.turned_parts import CONTACT
 
 CURVED = CONTACT  # of the centre distance: accuracy of curved walls for the full turn
@@ -106,7 +114,7 @@ def wheel_contour(
         following = (i + 1) % len(around)
         before, after = walls[i], walls[following]
         if convex and i == len(around) // 2:
-            rims.append([_about(ORIGIN, before[-1].end, after[0].start, 1.0)])
+            rims.append([arc_between(ORIGIN, before[-1].end, after[0].start, 1.0)])
             continue
         span = (around[following][1] - start) % math.tau
         for at in assembly.rests:  # the first between the two is the recess
@@ -150,9 +158,9 @@ def _rim(
     falling = shapes.mirrored(_beside(assembly, sizes, mirror, -at, least))
     after[:1] = shapes.mirrored(mirror)
     ends = (before + rising)[-1].end, falling[0].start if falling else end
-    middle = _about(ORIGIN, *ends, 1.0)
+    middle = arc_between(ORIGIN, *ends, 1.0)
     if sizes.lock:
-        middle = _about(shapes.polar(ORIGIN, assembly.L, at), *ends, -assembly.sign)
+        middle = arc_between(shapes.polar(ORIGIN, assembly.L, at), *ends, -assembly.sign)
     return [*rising, middle, *falling]
 
 
@@ -179,19 +187,11 @@ def _beside(
         raise GenevaError(text, ("size", "lock_radius_mm"))
     if assembly.sign > 0.0 and least > rim + SAME_LENGTH * L:
         rim, turn = least, at - _opening(L, least, away)
-        out.append(_about(axis, corner, shapes.polar(ORIGIN, least, turn), 1.0))
+        out.append(arc_between(axis, corner, shapes.polar(ORIGIN, least, turn), 1.0))
     if sizes.lock:
         low = at - _opening(L, rim, sizes.recess)
         out.append(shapes.about(ORIGIN, rim, turn, low - turn))
     return out
-
-
-def _about(axis: Point, start: Point, end: Point, sense: float) -> Arc:
-    """Return an arc about an axis, counterclockwise (+1) or clockwise (-1)."""
-    a = math.atan2(start[1] - axis[1], start[0] - axis[0])
-    b = math.atan2(end[1] - axis[1], end[0] - axis[0])
-    sweep = sense * (sense * (b - a) % math.tau)
-    return Arc(start, end, math.tan(0.25 * sweep))
 
 
 def _opening(L: float, rim: float, radius: float) -> float:

@@ -200,13 +200,19 @@ def rounded(before: Segment, after: Segment, radius: float, sign: float) -> list
         text = f"mouth_radius_mm = {radius:g}: a mouth's corner has no space for this rounding"
         raise GenevaError(f"{text}; use a smaller one", ("size", "mouth_radius_mm"))
     first, last = ends
-    begin, end = (math.atan2(y - centre[1], x - centre[0]) for x, y in ends)
-    sweep = math.remainder(end - begin, math.tau)
     return [
         offsets.between(before, before.start, first),
-        Arc(first, last, math.tan(0.25 * sweep)),
+        arc_between(centre, first, last, sign),
         offsets.between(after, last, after.end),
     ]
+
+
+def arc_between(axis: Point, start: Point, end: Point, sense: float) -> Arc:
+    """Return an arc about an axis, counterclockwise (+1) or clockwise (-1)."""
+    a = math.atan2(start[1] - axis[1], start[0] - axis[0])
+    b = math.atan2(end[1] - axis[1], end[0] - axis[0])
+    sweep = sense * (sense * (b - a) % math.tau)
+    return Arc(start, end, math.tan(0.25 * sweep))
 
 
 def cut_walls(walls: Contour, wheel: Contour) -> Contour:
