@@ -22,7 +22,7 @@ from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.slots.roller_paths import (
-    arc_between,
+    arc_about,
     corner,
     least_mouth,
     mouth,
@@ -114,7 +114,7 @@ def wheel_contour(
         following = (i + 1) % len(around)
         before, after = walls[i], walls[following]
         if convex and i == len(around) // 2:
-            rims.append([arc_between(ORIGIN, before[-1].end, after[0].start, 1.0)])
+            rims.append([arc_about(ORIGIN, before[-1].end, after[0].start, 1.0)])
             continue
         span = (around[following][1] - start) % math.tau
         for at in assembly.rests:  # the first between the two is the recess
@@ -158,9 +158,9 @@ def _rim(
     falling = shapes.mirrored(_beside(assembly, sizes, mirror, -at, least))
     after[:1] = shapes.mirrored(mirror)
     ends = (before + rising)[-1].end, falling[0].start if falling else end
-    middle = arc_between(ORIGIN, *ends, 1.0)
+    middle = arc_about(ORIGIN, *ends, 1.0)
     if sizes.lock:
-        middle = arc_between(shapes.polar(ORIGIN, assembly.L, at), *ends, -assembly.sign)
+        middle = arc_about(shapes.polar(ORIGIN, assembly.L, at), *ends, -assembly.sign)
     return [*rising, middle, *falling]
 
 
@@ -187,7 +187,7 @@ def _beside(
         raise GenevaError(text, ("size", "lock_radius_mm"))
     if assembly.sign > 0.0 and least > rim + SAME_LENGTH * L:
         rim, turn = least, at - _opening(L, least, away)
-        out.append(arc_between(axis, corner, shapes.polar(ORIGIN, least, turn), 1.0))
+        out.append(arc_about(axis, corner, shapes.polar(ORIGIN, least, turn), 1.0))
     if sizes.lock:
         low = at - _opening(L, rim, sizes.recess)
         out.append(shapes.about(ORIGIN, rim, turn, low - turn))

@@ -162,10 +162,9 @@ def groove_base(parts: Outlines, bars: Links) -> Plate:
         text = f"--part groove-plate: {text}: reduce roller, wheel_hub_mm or wheel_bore_mm"
         raise GenevaError(text, ("size", "wheel_hub_mm"))
     screw, away = screw_through(0.5 * rim), far + 0.5 * rim
-    mounts = [
-        Circle("BORE", polar(ORIGIN, away, math.tau * (k + 0.5) / MOUNTS), 0.5 * screw.through)
-        for k in range(MOUNTS if screw else 0)
-    ]
+    turns = [math.tau * (k + 0.5) / MOUNTS for k in range(MOUNTS)] if screw else []
+    through = 0.5 * screw.through if screw else 0.0
+    mounts = [Circle("BORE", polar(ORIGIN, away, turn), through) for turn in turns]
     shaft = bars.shaft((L, 0.0), L)
     if shaft:  # which turns in the base
         shaft = bore_at(full, (L, 0.0), shaft).bore.around

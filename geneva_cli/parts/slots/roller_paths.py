@@ -202,12 +202,12 @@ def rounded(before: Segment, after: Segment, radius: float, sign: float) -> list
     first, last = ends
     return [
         offsets.between(before, before.start, first),
-        arc_between(centre, first, last, sign),
+        arc_about(centre, first, last, sign),
         offsets.between(after, last, after.end),
     ]
 
 
-def arc_between(axis: Point, start: Point, end: Point, sense: float) -> Arc:
+def arc_about(axis: Point, start: Point, end: Point, sense: float) -> Arc:
     """Return an arc about an axis, counterclockwise (+1) or clockwise (-1)."""
     a = math.atan2(start[1] - axis[1], start[0] - axis[0])
     b = math.atan2(end[1] - axis[1], end[0] - axis[0])
