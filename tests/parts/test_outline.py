@@ -22,7 +22,7 @@ from geneva_cli.geometry.plates import moments
 from geneva_cli.geometry.shapes import Arc, Contour
 from geneva_cli.motion.laws.law import Motion as Given
 from geneva_cli.motion.mechanism import build
-from geneva_cli.parts.outlines.wheel_outline import CURVED
+from geneva_cli.parts.outlines.cut_outlines import CURVED
 from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.spec.tables import Size
 
