@@ -13,17 +13,7 @@ import numpy as np
 
 from geneva_cli.geometry import shapes
 from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.geometry.shapes import (
-    STRAIGHT,
-    Arc,
-    Circle,
-    Contour,
-    Cubic,
-    Layer,
-    Line,
-    Point,
-    Shape,
-)
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Layer, Point, Shape
 
 if TYPE_CHECKING:
     from geneva_cli.geometry.sphere import Rotation
@@ -130,7 +120,8 @@ def moments(shape: Shape) -> Moments:
         return Moments(area, area * x, area * y, area * (x * x + y * y + 0.5 * square))
     rows: list[tuple[float, float, float, float]] = []
     for piece in chain.from_iterable(map(shapes.halved, shape.segments, repeat(OVER_A_RADIAN))):
-        if isinstance(piece, Line) or (isinstance(piece, Arc) and abs(piece.bulge) < STRAIGHT):
+        bulge = piece.bulge if isinstance(piece, Arc) else 0.0
+        if not isinstance(piece, Cubic) and abs(bulge) < shapes.STRAIGHT:
             (a, b), (c, d) = piece.start, piece.end
             cross = a * d - b * c
             squares = (a * a + b * b) + (a * c + b * d) + (c * c + d * d)

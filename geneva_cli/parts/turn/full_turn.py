@@ -18,18 +18,12 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.numerics.arrays import Array, rising
 from geneva_cli.numerics.roots import boundary_by_sections
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG, SAME_LENGTH
-from geneva_cli.parts.turn.turned_parts import (
-    EXACT,
-    Play,
-    TurnedParts,
-    play_of,
-    wheel_stops,
-    windows,
-)
+from geneva_cli.parts.turn.turned_parts import Play, TurnedParts, play_of, wheel_stops, windows
 
 POSITIONS = 10_000  # at most: about 0.1 s of the parts alone; a turn that needs more is not proved
 DIP = 1e-9  # mm: gaps that differ by less count as equal
 FINER = 9  # positions in each refinement of a smallest gap
+EXACT = 1e-10  # radians: smaller angles are rounding
 SAME = 1e-7  # of a play: its relative accuracy
 DRIVING, IDLE, LOCK = "roller and slot", "idle roller and wheel", "locking disc and wheel"
 

@@ -27,7 +27,6 @@ CONTACT = 2e-6
 AROUND = 5  # parts into which an interval is divided about a peak
 SMALL = 1e-3  # degrees: the interval over which a roller's speed is computed
 MOST = 4  # intervals that are divided in a round for one peak
-EXACT = 1e-10  # radians: smaller angles are rounding
 
 
 class Window(NamedTuple):
