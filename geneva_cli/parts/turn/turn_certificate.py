@@ -134,7 +134,7 @@ class FlatPairs:
                     pieces.append(Arc(start, end, bulge) if sweep else Line(start, end))
                     start = end
         self.pieces = Polyarc([Contour("", tuple(pieces))]) if crank else None
-        self.disc = float(farthest(self.pieces, 0.0, 0.0).max()) if self.pieces else 0.0
+        self.disc = float(farthest(self.pieces, 0.0, 0.0).max()) if self.pieces is not None else 0.0
 
     def lock(self, window: Window, on: Intervals) -> tuple[Array, Array]:
         """Return the gap of locking disc and wheel: bounds up to ``apart``.
