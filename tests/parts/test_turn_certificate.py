@@ -15,22 +15,15 @@ import pytest
 import repo
 from other_shape import with_shape
 from sampling import some
+from test_outline import made
 from turn_witness import TO_MM, check_bounds, check_overlap, check_proof
 from words import load
 
-from geneva_cli.drives.crank import Crank
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.shapes import placed
-from geneva_cli.motion.laws.law import Motion
-from geneva_cli.motion.laws.standard import Cycloidal, ModifiedSine
-from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.mechanism import build
-from geneva_cli.motion.wheels.external import External
-from geneva_cli.motion.wheels.internal import Internal
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.turn import turn_certificate as halving
 from geneva_cli.parts.turn.full_turn import full_turn
-from geneva_cli.spec.tables import Size
 from geneva_cli.verdict.checks.motion_checks import proof as gap_proof
 
 MACHINES = some(300, 8)
@@ -46,25 +39,19 @@ def random_parts(seed):
     """A random machine with flat parts of a kind that has certificates; None if it cannot be."""
     rng = random.Random(seed)
     z = rng.randint(3, 12)
-    motion, drive = None, Crank()
-    wheel = rng.choice([External(z), External(z), External(z, offset_mm=rng.uniform(-3, 3))])
-    if rng.random() < 0.3:
-        wheel = Internal(z)
-    elif rng.random() < 0.3:
-        motion = Motion(rng.choice([Cycloidal(), ModifiedSine()]))
-        wheel = External(z)
-    elif z <= 4 and wheel.offset_mm == 0.0:
-        drive = Crank(rollers=rng.randint(1, 2))
     R = 100.0 * math.sin(math.pi / z)
-    size = Size(
-        center_distance_mm=100.0,
-        roller_radius_mm=min(R * rng.uniform(0.08, 0.2), 0.5 * (100.0 - R)),  # slots stay apart
-        slot_clearance_mm=rng.choice([0.0, 0.02]),
-        lock_clearance_mm=rng.choice([0.0, 0.03]),
-        relief=rng.choice([None, None, "sector"]),
-    )
+    own = rng.choice([
+        {}, {"offset": rng.uniform(-3, 3)}, {"gearing": "internal"},
+        {"law": rng.choice(["cycloidal", "modified-sine"])}, {"rollers": 2 if z <= 4 else 1},
+    ])  # fmt: skip
+    size = {
+        "roller_radius_mm": min(R * rng.uniform(0.08, 0.2), 0.5 * (100.0 - R)),  # slots stay apart
+        "slot_clearance_mm": rng.choice([0.0, 0.02]),
+        "lock_clearance_mm": rng.choice([0.0, 0.03]),
+        "relief": rng.choice([None, None, "sector"]),
+    }
     try:
-        return parts_of(build(Spec(wheel, drive, motion=motion, size=size))).turned
+        return made.__wrapped__(z, **own, **size)
     except GenevaError:
         return None
 
