@@ -148,11 +148,11 @@ class _Path:
         if self.begun is None:
             if self.exact:
                 # the crank angle from which on the wheel is not free, just before it
-                first, bad, free = good, crank, self.free.near(good, crank, wheel, SAME)
+                first, bad = good, crank
                 # 1e-13 radians with a slack of 1e-6 mm: events of facets are not known so closely
                 while abs(bad - good) > 1e-7 * self.free.slack:
                     places = np.linspace(good, bad, PARTS + 1)
-                    ranges, i = free.at(places[1:-1]), 0
+                    ranges, i = self.free.at(places[1:-1]), 0
                     while i < PARTS - 1 and ranges.around(i, wheel).is_free:
                         i += 1
                     if places[i] == good and places[i + 1] == bad:
@@ -176,7 +176,7 @@ class _Path:
         if step < SHORTEST:
             raise _Stuck(Jam(before, wheel, there.low, there.high))
         places = np.linspace(before, crank, PARTS + 1)[1:]
-        ranges = self.free.near(before, crank, wheel, STEEPEST * step).at(places)
+        ranges = self.free.at(places)
         for i in range(PARTS):
             self._follow(float(places[i]), partial(ranges.around, i), is_near=True)
 
@@ -200,10 +200,9 @@ class _Path:
         end, farthest, there = before, wheel, around
         if self.exact:
             low, high = self.rows[max(len(self.rows) - 2, 0)][0], crank
-            free = self.free.near(low, high, wheel, SLOW * abs(high - low))
             for _ in range(7 if self.free.slack < FACETED else 4):
                 places = np.linspace(low, high, PARTS + 1)
-                ranges = free.at(places)
+                ranges = self.free.at(places)
                 moved = [_pushed(ranges.around(i, wheel), wheel) for i in range(PARTS + 1)]
                 k = max(range(PARTS + 1), key=lambda i: abs(moved[i] - wheel))
                 if abs(moved[k] - wheel) > abs(farthest - wheel):
