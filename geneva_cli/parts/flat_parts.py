@@ -249,7 +249,7 @@ class FlatParts(EdgedParts):
     @cached_property
     def front(self) -> FlatParts:
         """The parts of the first of two wheels in series. Raises GenevaError without a second."""
-        from geneva_cli.parts.first_pair import first_pair
+        from geneva_cli.parts.first_wheel import first_pair
 
         return FlatParts(first_pair(self.mechanism, self.drawn))
 

@@ -15,7 +15,6 @@ from geneva_cli.kinds.spherical.ball import (
     Ball,
     PartDoesNotFit,
     flat_radius,
-    hole_radius,
     hub_about,
     usual_ball,
 )
@@ -40,7 +39,14 @@ from geneva_cli.parts.sized_by_load import (
     shaft_and_key_hold,
     shaft_of,
 )
-from geneva_cli.parts.sizes import LARGEST_HUB, KeySizes, arm_hub, hub_and_eye, within_hub
+from geneva_cli.parts.sizes import (
+    LARGEST_HUB,
+    KeySizes,
+    arm_hub,
+    hole_radius,
+    hub_and_eye,
+    within_hub,
+)
 from geneva_cli.spec.defaults import eye_about, wall_min, wheel_material
 
 

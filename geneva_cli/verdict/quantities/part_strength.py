@@ -125,12 +125,10 @@ wheel_shaft, crank_shaft = partial(_shaft, part="wheel"), partial(_shaft, part="
 def shafts(of: Designs) -> dict[str, Columns]:
     """The columns of the shafts of wheel and crank, which are searched together."""
     wheel, crank = _drawn(of, "wheel"), _drawn(of, "crank")
-    held = of.spec.load.dwell_torque_Nm is not None  # by the lock, in the dwell
-    torque_Nm = dwell_torque_Nm(of.machine) if held else np.zeros(1)
+    torque_Nm = dwell_torque_Nm(of.machine)
     if torque_Nm.any():
         sizes = under_load(of).lock_sizes  # without a disc something else holds it, by a couple
-        force = held_force_N(torque_Nm[:, None], sizes[1]) if sizes else 0.0 * torque_Nm
-        force = np.nan_to_num(np.ravel(force))
+        force = held_force_N(of.machine, sizes and sizes[1])
         carried = np.ravel(centrifugal_N(of.machine)) if of.machine.frame else 0.0
         wheel = wheel._replace(held_N=force + carried, held_Nm=torque_Nm)
         crank = crank._replace(held_N=force)  # the force passes through the crank's axis

@@ -157,7 +157,7 @@ class UnderLoad:
             if parts is None:
                 return None
             where = parts.assembly._replace(full=machines[i])
-            return where, loaded(parts._replace(assembly=where), self.part_loads.of(i), bent[i])
+            return where, loaded(parts, machines[i], self.part_loads.of(i), bent[i])
 
         return [_or_none(layout, i) for i in range(len(machines))]
 
