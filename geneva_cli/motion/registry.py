@@ -47,7 +47,6 @@ FRONT = "parts.flat_parts:FrontParts"
 _FLAT = Kind(
     "",
     parts="parts.flat_parts:FlatParts",
-    frame="parts.frame:framed",
     drawings=_DRAWINGS | _SHEET,
     tables=_TABLES,
 )

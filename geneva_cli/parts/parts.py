@@ -253,5 +253,7 @@ class EdgedParts(Parts):
 
 def parts_of(mechanism: Mechanism, advice: bool = True) -> Parts:
     """Return the parts of a machine; nothing is built yet."""
-    kind: type[Parts] = thing(mechanism.spec.wheel.NAME, "parts") or load_named(FRONT)
+    name = mechanism.spec.wheel.NAME
+    drawn = mechanism.spec.has_parts or named(name, "front")
+    kind: type[Parts] = (drawn and thing(name, "parts")) or load_named(FRONT)
     return kind(mechanism, advice)
