@@ -168,7 +168,7 @@ def _drawn(of: Designs, part: str) -> LoadedShaft:
             if overhang is None and not np.isnan(own.overhang).all():
                 # a design without parts has no diameter either, and so no stress
                 overhang = as_numbers(np.nan_to_num(own.overhang))
-    return LoadedShaft(part, overhang, diameter, table[f"{part}_span_mm"], allowed)
+    return LoadedShaft(part, overhang, diameter, allowed)
 
 
 def arm(of: Designs) -> Columns:
