@@ -19,7 +19,8 @@ velocity, -c e x u at the crank's rate c. The roller is thin: its cone presses o
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
@@ -36,17 +37,6 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import PeakArray, greater
 from geneva_cli.numerics.arrays import N, parameter
 from geneva_cli.numerics.jet import Array, Jet, Number, sqrt
-
-
-class LoadedShaft(NamedTuple):
-    """A shaft and its dimensions, floats or (m, 1); None for unknown ones."""
-
-    part: str  # on it: "wheel" or "crank"
-    overhang_mm: float | None
-    diameter_mm: float | None = None
-    allowed_MPa: float | None = None
-    held_N: Array | float = 0.0  # by the lock in the dwell, (m,)
-    held_Nm: Array | float = 0.0
 
 
 class ShaftLoad(NamedTuple):
@@ -112,39 +102,30 @@ def _shaft_load(mechanism: Mechanism, part: str, overhang_mm: float | None = Non
     return ShaftLoad(part, not mechanism.axes, orbiting, lever, *factors)
 
 
-def shafts_under_load(
-    mechanism: Mechanism, shafts: Sequence[LoadedShaft]
-) -> list[dict[str, Array]]:
-    """Shafts of m designs under the forces and torques of a cycle: columns (m,) by their names.
+def shaft_moments(
+    mechanism: Mechanism,
+    overhangs_mm: Mapping[str, float | None],
+    held: Mapping[str, tuple[Array, Array]] = MappingProxyType({}),
+) -> dict[str, PeakArray]:
+    """The greatest sqrt((Kb M)² + (Kt T)²) of shafts of m designs over a cycle, N m.
 
-    ``moment_Nm`` is the greatest sqrt((Kb M)² + (Kt T)²), at ``at_deg``. What needs unknown
-    dimensions is left out, and all of a shaft without an overhang or a load. What is held loads a
-    shaft in the dwell, from the first motion's end on.
+    By their parts, "wheel" and "crank", none without an overhang or a load. ``held`` are force, N,
+    and torque, N m, (m,) each, that load a shaft in the dwell, from the first motion's end on.
     """
     table, own = mechanism.spec.shaft, dict[str, LoadQuantity]()
-    for one in shafts:
-        if mechanism.spec.is_loaded and one.overhang_mm is not None:
-            own[one.part] = _shaft_load(mechanism, one.part, one.overhang_mm)
-    peaks, each = load_peaks(mechanism, tuple(own), own) if own else {}, []
-    for one in shafts:
-        out = dict[str, Array]()
-        each.append(out)
-        if one.part not in own or one.overhang_mm is None:
-            continue
-        both = peaks[one.part]
-        if np.any(np.asarray(one.held_N) > 0.0) or np.any(np.asarray(one.held_Nm) != 0.0):
-            bent = np.ravel(table.bending_factor) * one.held_N * np.ravel(one.overhang_mm / 1000.0)
-            square = bent**2 + (np.ravel(table.torsion_factor) * one.held_Nm) ** 2
+    for part, overhang_mm in overhangs_mm.items():
+        if mechanism.spec.is_loaded and overhang_mm is not None:
+            own[part] = _shaft_load(mechanism, part, overhang_mm)
+    out = load_peaks(mechanism, tuple(own), own) if own else {}
+    for part, (force_N, torque_Nm) in held.items():
+        if part in out:
+            bent = np.ravel(table.bending_factor) * force_N * np.ravel(overhangs_mm[part]) / 1000.0
+            square = bent**2 + (np.ravel(table.torsion_factor) * torque_Nm) ** 2
             first = mechanism.under_load.engagements[0]
             exit_deg = np.ravel(mechanism.shown_deg(first.mid_deg + first.exit_deg))
-            both = greater(both, PeakArray(square, np.broadcast_to(exit_deg, square.shape)))
-        most = np.sqrt(both.max)
-        out |= {"moment_Nm": most, "at_deg": both.at_deg}
-        if one.diameter_mm is not None:
-            out["stress_MPa"] = shear_MPa(most, np.ravel(one.diameter_mm))
-        if one.allowed_MPa is not None:
-            out["least_diameter_mm"] = np.cbrt(16e3 * most / (math.pi * np.ravel(one.allowed_MPa)))
-    return each
+            at_rest = PeakArray(square, np.broadcast_to(exit_deg, square.shape))
+            out[part] = greater(out[part], at_rest)
+    return {part: peak._replace(max=np.sqrt(peak.max)) for part, peak in out.items()}
 
 
 class PartLoads(NamedTuple):

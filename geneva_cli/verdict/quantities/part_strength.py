@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from functools import partial
 
@@ -11,7 +12,7 @@ from geneva_cli.loads.impacts.shock_force import least_pin_mm
 from geneva_cli.loads.load_case import centrifugal_N
 from geneva_cli.loads.strength import pin_arm_key
 from geneva_cli.loads.strength.lock import dwell_torque_Nm, held_force_N
-from geneva_cli.loads.strength.part_loads import LoadedShaft, shafts_under_load
+from geneva_cli.loads.strength.part_loads import shaft_moments, shear_MPa
 from geneva_cli.loads.strength.pin_arm_key import key_stress, shear_allowed_MPa
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.arrays import Array, Number, array, parameter
@@ -124,51 +125,51 @@ wheel_shaft, crank_shaft = partial(_shaft, part="wheel"), partial(_shaft, part="
 
 def shafts(of: Designs) -> dict[str, Columns]:
     """The columns of the shafts of wheel and crank, which are searched together."""
-    wheel, crank = _drawn(of, "wheel"), _drawn(of, "crank")
-    torque_Nm = dwell_torque_Nm(of.machine)
-    if torque_Nm.any():
-        sizes = under_load(of).lock_sizes  # without a disc something else holds it, by a couple
+    drawn = {part: _drawn(of, part) for part in ("wheel", "crank")}
+    torque_Nm, held = dwell_torque_Nm(of.machine), dict[str, tuple[Array, Array]]()
+    if torque_Nm.any():  # without a disc something else holds it, by a couple
+        sizes = under_load(of).lock_sizes
         force = held_force_N(of.machine, sizes and sizes[1])
         carried = np.ravel(centrifugal_N(of.machine)) if of.machine.frame else 0.0
-        wheel = wheel._replace(held_N=force + carried, held_Nm=torque_Nm)
-        crank = crank._replace(held_N=force)  # the force passes through the crank's axis
-    both, each = (wheel, crank), dict[str, Columns]()
-    for shaft, rows in zip(both, shafts_under_load(of.machine, both), strict=True):
-        out: dict[str, Number | None] = {"diameter_mm": shaft.diameter_mm}
-        each[shaft.part] = out
-        if not rows:
+        # the force passes through the crank's axis
+        held = {"wheel": (force + carried, torque_Nm), "crank": (force, 0.0 * force)}
+    overhangs = {part: overhang for part, (overhang, _) in drawn.items()}
+    moments, each = shaft_moments(of.machine, overhangs, held), dict[str, Columns]()
+    for part, (_, diameter) in drawn.items():
+        each[part] = {"diameter_mm": diameter}
+        if part not in moments:
             continue
-        moment = rows["moment_Nm"] * of.loaded
-        if shaft.allowed_MPa is not None:
-            allowed = np.ravel(shaft.allowed_MPa)
-            least = rows["least_diameter_mm"]
-            rows["allowed_MPa"] = allowed
-            rows["least_diameter_mm"] = np.where(np.isfinite(allowed), least, np.inf)
-            relative = margin(rows["stress_MPa"], allowed) if "stress_MPa" in rows else None
-            if relative is not None:
-                rows["margin"] = relative
+        most, allowed = moments[part].max * of.loaded, of.spec.shaft.shear_stress_max_MPa
+        rows: dict[str, Number | None] = {"moment_Nm": most, "at_deg": moments[part].at_deg}
+        if of.spec.is_loaded:
+            keyway = vars(of.spec.size)[f"{part}_keyway"] is not None
+            allowed = parameter(shear_allowed_MPa(of.spec.shaft, keyway))
+        if diameter is not None:
+            rows["stress_MPa"] = stress = shear_MPa(most, np.ravel(diameter))
+            rows["margin"] = margin(stress, allowed)
+        if allowed is not None:
+            rows["allowed_MPa"] = limit = np.ravel(allowed)
+            least = np.cbrt(16e3 * most / (math.pi * limit))
+            rows["least_diameter_mm"] = np.where(np.isfinite(limit), least, np.inf)
         for name, row in rows.items():
-            out[name] = np.where(np.isfinite(moment), row, moment)
+            rows[name] = None if row is None else np.where(np.isfinite(most), row, most)
+        each[part] = {**each[part], **rows}
     return each
 
 
-def _drawn(of: Designs, part: str) -> LoadedShaft:
-    """The shaft of wheel or crank, with the dimensions of its parts where the spec has none."""
+def _drawn(of: Designs, part: str) -> tuple[float | None, float | None]:
+    """Overhang and diameter of a shaft: of the spec, or else as its parts have them, mm."""
     table = vars(of.spec.shaft)
     overhang, diameter = table[f"{part}_overhang_mm"], table[f"{part}_diameter_mm"]
-    allowed = table["shear_stress_max_MPa"]
-    if of.spec.is_loaded:
-        keyway = vars(of.spec.size)[f"{part}_keyway"] is not None
-        allowed = parameter(shear_allowed_MPa(of.spec.shaft, keyway))
-        parts = under_load(of).parts if diameter is None or overhang is None else None
-        if parts is not None:
-            own = parts.wheel_shaft if part == "wheel" else parts.crank_shaft
-            if diameter is None and not np.isnan(own.diameter).all():
-                diameter = as_numbers(np.asarray(own.diameter))
-            if overhang is None and not np.isnan(own.overhang).all():
-                # a design without parts has no diameter either, and so no stress
-                overhang = as_numbers(np.nan_to_num(own.overhang))
-    return LoadedShaft(part, overhang, diameter, allowed)
+    parts = under_load(of).parts if diameter is None or overhang is None else None
+    if parts is not None:
+        own = parts.wheel_shaft if part == "wheel" else parts.crank_shaft
+        if diameter is None and not np.isnan(own.diameter).all():
+            diameter = as_numbers(np.asarray(own.diameter))
+        if overhang is None and not np.isnan(own.overhang).all():
+            # a design without parts has no diameter either, and so no stress
+            overhang = as_numbers(np.nan_to_num(own.overhang))
+    return overhang, diameter
 
 
 def arm(of: Designs) -> Columns:
