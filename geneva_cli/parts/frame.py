@@ -247,7 +247,6 @@ def _link_shafts(
 
             spans.append(gear_span(mechanism, outlines))
         low, high = min(low for low, _ in spans), max(high for _, high in spans)
-        bore, direction = axis.bore.bore, axis.bore.direction
         if axis.stands:
             turns, on_wheel = Joint.SHAFT in axis.kinds, same(axis.at, ORIGIN, L)
             on_crank = same(axis.at, (L, 0.0), L)
@@ -256,10 +255,10 @@ def _link_shafts(
             high = outlines.sizes.wheel_thickness if on_wheel else high
             low, high = shaft_ends(mechanism.spec.size, whose, low, high)
             name = f"{whose}'s {'shaft' if turns else 'pivot'}"
-            yield Shaft(name, whose, bore, low, high, axis.at, direction, turns=turns)
+            yield Shaft(name, whose, axis.bore, low, high, axis.at, turns=turns)
         elif len(axis.names) > 1 and Joint.PIN not in axis.kinds:  # those are pins between links
             name = f"shaft of {', '.join(axis.names)}"
-            yield Shaft(name, axis.names[0], bore, low, high, axis.at, turns=False)
+            yield Shaft(name, axis.names[0], axis.bore, low, high, axis.at, turns=False)
 
 
 def mounted_plate(

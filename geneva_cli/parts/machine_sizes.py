@@ -152,27 +152,25 @@ def keys_by_load(mechanism: Mechanism, locked: bool) -> tuple[str, ...]:
 
     ``locked`` is True for a wheel with recesses for a lock. A load without a bound chooses none.
     """
-    spec, size, keys = mechanism.spec, mechanism.spec.size, list[str]()
+    spec, size, load = mechanism.spec, mechanism.spec.size, mechanism.spec.load
     if not spec.is_loaded:
         return ()
     from geneva_cli.loads.strength.part_loads import single_loads
 
     if not all(map(math.isfinite, single_loads(mechanism))):
         return ()
-    if size.crank_bore_mm is size.arm_bore_mm is spec.shaft.crank_diameter_mm is None:
-        keys += ["crank_bore_mm", "arm_bore_mm"]
-    if size.wheel_bore_mm is spec.shaft.wheel_diameter_mm is None:
-        keys.append("wheel_bore_mm")
-    # loads with friction on the pin depend on the usual one
-    if size.pin_mm is None and not (spec.load.friction and spec.load.friction_at == "pin"):
-        keys.append("pin_mm")
-    if size.arm_thickness_mm is None:
-        keys.append("arm_thickness_mm")
-    if locked and size.wheel_thickness_mm is size.face_width_mm is None:
-        keys.append("wheel_thickness_mm")
-    if size.link_thickness_mm is None and mechanism.first_wheel:
-        keys.append("link_thickness_mm")
-    return tuple(keys)
+    crank = size.crank_bore_mm is size.arm_bore_mm is spec.shaft.crank_diameter_mm is None
+    chosen = {
+        "crank_bore_mm": crank,
+        "arm_bore_mm": crank,
+        "wheel_bore_mm": size.wheel_bore_mm is spec.shaft.wheel_diameter_mm is None,
+        # loads with friction on the pin depend on the usual one
+        "pin_mm": size.pin_mm is None and not (load.friction and load.friction_at == "pin"),
+        "arm_thickness_mm": size.arm_thickness_mm is None,
+        "wheel_thickness_mm": locked and size.wheel_thickness_mm is size.face_width_mm is None,
+        "link_thickness_mm": mechanism.first_wheel and size.link_thickness_mm is None,
+    }
+    return tuple(key for key, by_load in chosen.items() if by_load)
 
 
 def drawn_pin_radius(mechanism: Mechanism) -> float:

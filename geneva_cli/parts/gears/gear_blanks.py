@@ -23,10 +23,10 @@ from geneva_cli.geometry.shapes import (
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Link, Teeth
 from geneva_cli.parts.links.links import Gear, LinkSizes
-from geneva_cli.parts.shafts.bores import Bore, ShaftBore, bolt_circle
+from geneva_cli.parts.shafts.bores import Bore, bolt_circle
 
 
-def link_gear(link: Link, at: Point, on: ShaftBore, sizes: LinkSizes, mechanism: Mechanism) -> Gear:
+def link_gear(link: Link, at: Point, on: Bore, sizes: LinkSizes, mechanism: Mechanism) -> Gear:
     """Return the gear of a link that is a pitch circle, on a shaft.
 
     A gear that is fixed to the frame does not turn with the shaft, and is bored round.
@@ -35,17 +35,17 @@ def link_gear(link: Link, at: Point, on: ShaftBore, sizes: LinkSizes, mechanism:
     # the key that sets its bore
     shaft = {0.0: "wheel_bore_mm", L: "crank_bore_mm"}.get(math.hypot(*at), "link_bore_mm")
     if teeth.fixed:
-        on = ShaftBore(Bore(on.bore.around, on.bore.loose))
+        on = Bore(on.around, on.loose)
     outline: Circle | Contour = Circle("PITCH", ORIGIN, radius)
     holes: list[Shape] = []
     if teeth.inside:
         inner, outer = radius, radius + 2.0 * sizes.eye
         outline, holes = Circle("LINK", ORIGIN, outer), [Circle("PITCH", ORIGIN, inner)]
     else:
-        inner, outer = on.bore.reach, radius
+        inner, outer = on.reach, radius
         holes += [on.hole()] if inner else []
         if not teeth.all_round:
-            hub = sizes.hub(on.bore)
+            hub = sizes.hub(on)
             _refuse(link.name, radius - hub, "hub", shaft)
             outline = _sectors(radius, hub, teeth)
     _refuse(link.name, outer - inner, "bore", shaft)
@@ -56,7 +56,7 @@ def link_gear(link: Link, at: Point, on: ShaftBore, sizes: LinkSizes, mechanism:
         holes += screws.holes
     plate = Plate(link.name, "PITCH", outline, tuple(holes), *sizes.span(link.plane))
     _refuse(link.name, plate_wall(plate), "bolts" if teeth.fixed else "bore", shaft)
-    return Gear(at, radius, ShaftBore() if teeth.inside else on, teeth, plate, screws)
+    return Gear(at, radius, Bore(0.0) if teeth.inside else on, teeth, plate, screws)
 
 
 def _sectors(radius: float, hub: float, teeth: Teeth) -> Contour:

@@ -21,7 +21,7 @@ from geneva_cli.parts.links.link_plates import drawn_links
 from geneva_cli.parts.links.link_sizes import link_sizes
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.shafts.arm_and_shafts import Shaft, bore_at, shaft_ends
-from geneva_cli.parts.shafts.bores import Bore, ShaftBore, round_bore
+from geneva_cli.parts.shafts.bores import Bore, round_bore
 
 if TYPE_CHECKING:
     from geneva_cli.geometry.fit import Writer
@@ -54,18 +54,18 @@ def gear_pair(
     curves = pitch_curves(pair, mechanism.gear_shaft.sense)
     (axis, wide), (other, radius), bored = _shafts(mechanism, parts, on_crank)
     own = round_bore(mechanism.spec.size, radius if bored else 0.0)
-    bores = (axis, bore_at(mechanism, axis, wide)), (other, ShaftBore(own))
+    bores = (axis, bore_at(mechanism, axis, wide)), (other, own)
     keys, members = ("arm_bore_mm", "link_bore_mm"), []
     for name, curve, (at, on), (least, _), key in zip(
         GEARS, curves, bores, pitch_radii(pair), keys, strict=True
     ):
-        if on.bore.reach >= least:
+        if on.reach >= least:
             raise GenevaError(
-                f"no blank of the {name} is left: its bore of {2.0 * on.bore.reach:.6g} mm must be "
+                f"no blank of the {name} is left: its bore of {2.0 * on.reach:.6g} mm must be "
                 f"below {2.0 * least:.6g}, twice its least radius; reduce {key}",
                 ("size", key),
             )
-        holes = (on.hole(),) if on.bore.radius else ()
+        holes = (on.hole(),) if on.radius else ()
         outline = closed("PITCH", list(write(curve, -np.pi, np.pi)))
         members.append(Member(Plate(name, "PITCH", outline, holes, *span), at))
     return tuple(members)
@@ -91,7 +91,7 @@ def gear_shafts(
     if at_crank and not (crank_has_one or _on_links(mechanism, parts)):
         reach = shaft_ends(mechanism.spec.size, "crank", lowest, over)
         on = bore_at(mechanism, first, wide)
-        yield Shaft("crank's shaft", "crank", on.bore, *reach, first, on.direction)
+        yield Shaft("crank's shaft", "crank", on, *reach, first)
     top = over if bored else under  # or one piece with it
     yield Shaft("driver gear's shaft", "driver gear", Bore(radius), lowest, top, at)
 

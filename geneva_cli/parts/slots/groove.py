@@ -186,7 +186,7 @@ def groove_base(parts: Outlines, bars: Links) -> Plate:
     ]
     shaft = bars.shaft((L, 0.0), L)
     if shaft:  # which turns in the base
-        shaft = bore_at(full, (L, 0.0), shaft).bore.around
+        shaft = bore_at(full, (L, 0.0), shaft).around
     bore = [Circle("BORE", ORIGIN, shaft + bars.sizes.loose)] if shaft else []
     high, _ = bars.sizes.span(BELOW)
     low = high - sizes.arm_thickness

@@ -247,21 +247,10 @@ def wear(of: Designs) -> Columns:
     # an engagement has two of its own if one roller starts and one stops it
     by_roller = roller.passages(of.machine, by_roller=True) if paired else passages
     lasts = roller.lives(of.machine, by_roller)
-    force = np.ravel(lasts.equivalent_force_N)
+    force = lasts["equivalent_force_N"]
     with np.errstate(invalid="ignore"):  # without friction, of a force without a bound
         work = friction * sum(passage.work for passage in passages) / len(passages)
-    under: dict[str, Number | None] = {
-        "roller_turns_per_motion": lasts.turns_per_motion,
-        "equivalent_force_N": force,
-        "friction_work_J": np.where(friction > 0.0, work, np.inf),
-        "roller_life_turns": lasts.turns,
-        "roller_life_motions": lasts.motions,
-        "roller_life_h": lasts.hours,
-    }
+    under = lasts | {"friction_work_J": np.where(friction > 0.0, work, np.inf)}
     bound = np.where(np.isfinite(force), of.loaded, np.inf * of.loaded)
-    out: dict[str, Number | None] = {
-        name: np.where(np.isfinite(bound), value, bound)
-        for name, value in under.items()
-        if value is not None
-    }
+    out = {name: np.where(np.isfinite(bound), value, bound) for name, value in under.items()}
     return out | {"slot_travel_m": sum(passage.travel_m for passage in passages) / len(passages)}
