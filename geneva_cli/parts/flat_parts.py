@@ -296,23 +296,14 @@ class FlatParts(EdgedParts):
         return tuple(Member(plate, (self.outlines.assembly.L, 0.0)) for plate in stack)
 
     @cached_property
-    def _framed(self) -> FrameAndShafts:
+    def framed(self) -> FrameAndShafts:
+        """The frame, what is on it, and the shafts."""
         return framed(self.outlines, self.links, self._base, self.first)
-
-    @cached_property
-    def spacers(self) -> tuple[Member, ...]:
-        """The rings between the frame and parts that are screwed to it."""
-        return self._framed.spacers
-
-    @cached_property
-    def bridge(self) -> tuple[Member, ...]:
-        """The bridge that bears a crank's shaft from above; none where the frame bears it."""
-        return (self._framed.bridge,) if self._framed.bridge else ()
 
     @property
     def standing(self) -> tuple[Member, ...]:
         """The parts that stand still: a cam's groove plate, the frame, and what is on it."""
-        return (*self.groove_plate, *self.spacers, *self.bridge, self.frame)
+        return (*self.groove_plate, *self.framed.on_it, self.frame)
 
     @property
     def screws(self) -> tuple[Screws, ...]:
@@ -322,7 +313,7 @@ class FlatParts(EdgedParts):
             own.append(Screws("dial", len(dial), 2.0 * dial[0].radius, "the dial"))
         if locking and (some := bolts(drawn)):
             own.append(Screws(locking[0].name, len(some), 2.0 * some[0].radius, "the arm"))
-        return (*own, *self._framed.screws)
+        return (*own, *self.framed.screws)
 
     @property
     def required(self) -> tuple[Member, ...]:
@@ -360,7 +351,7 @@ class FlatParts(EdgedParts):
         yield "first wheel", lambda: [one.part for one in self.first]
         yield "shafts", lambda: [one.part for one in self.shafts]
         yield "groove plate", lambda: [one.part for one in self.groove_plate]
-        yield "frame", lambda: [one.part for one in (*self.spacers, *self.bridge, self.frame)]
+        yield "frame", lambda: [one.part for one in (*self.framed.on_it, self.frame)]
 
 
 class FrontParts(FlatParts):
@@ -377,7 +368,8 @@ class FrontParts(FlatParts):
         return self
 
     @property
-    def _framed(self) -> NoReturn:
+    def framed(self) -> NoReturn:
+        """Raise GenevaError: the frame is of all parts."""
         raise GenevaError("--part frame: no plate holds the shafts of a machine without its parts")
 
     @property

@@ -86,7 +86,7 @@ def framed(
         tuple(axles),
         tuple(spacers),
         tuple(screwed),
-        Member(bridge, (L, 0.0)) if bridge else None,
+        (Member(bridge, (L, 0.0)),) if bridge else (),
         tuple(unborne),
     )
 

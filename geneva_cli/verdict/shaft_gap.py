@@ -69,7 +69,7 @@ def gear_gaps(parts: FlatParts) -> Iterator[float]:
     """
     turning = rings_of((parts.wheel, parts.crank))
     rings = list(gear_rings(parts.mechanism, parts.drawn))
-    yield from ring_gaps(parts.mechanism, turning, rings, (*parts.shafts, *parts.spacers))
+    yield from ring_gaps(parts.mechanism, turning, rings, (*parts.shafts, *parts.framed.spacers))
 
 
 def ring_gaps(
