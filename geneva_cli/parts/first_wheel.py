@@ -12,19 +12,18 @@ from functools import lru_cache
 
 from geneva_cli.drives.crank import Crank
 from geneva_cli.errors import GenevaError
-from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
+from geneva_cli.loads.strength.part_loads import single_loads
 from geneva_cli.motion import registry
 from geneva_cli.motion.drive import FirstWheel
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.wheels.external import External
-from geneva_cli.numerics.tolerances import sizes_from
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.links.link_plates import drawn_links
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.projection import titled
 from geneva_cli.parts.shafts.bores import has_shape, round_bore
-from geneva_cli.parts.sized_by_load import Stressed, equivalent_Nm, shaft_and_key_hold, stressed
+from geneva_cli.parts.sized_by_load import stressed
 from geneva_cli.parts.sizes import CLEARANCES, Sizes
 from geneva_cli.spec.defaults import wall_min
 from geneva_cli.spec.tables import Load, Size
@@ -56,7 +55,7 @@ def first_spec(mechanism: Mechanism, first: FirstWheel) -> Spec:
 
 @lru_cache(maxsize=16)
 def first_sizes(
-    mechanism: Mechanism, sized: Callable[[Mechanism, PartLoads], tuple[Assembly, Sizes] | None]
+    mechanism: Mechanism, sized: Callable[[Mechanism], tuple[Assembly, Sizes] | None]
 ) -> tuple[float, float, float] | None:
     """Return what the load needs of a first wheel and its crank; None without either.
 
@@ -66,34 +65,12 @@ def first_sizes(
     spec = None if first is None else first_spec(mechanism, first)
     if spec is None or not spec.is_loaded:
         return None
-    try:
-        loads = single_loads(build(spec))  # which no bore changes
-    except GenevaError:
-        return None  # the check of the parts reports the error
-
-    def dimensions(size: Size) -> Stressed | None:
-        try:
-            flat = sized(build(spec.replace(size=size)), loads)
-        except GenevaError:
-            return None  # the check of the parts reports the error
-        return stressed(*flat) if flat else None
-
-    size = spec.size.replace(crank_bore_mm=0.0)
-    parts = usual = dimensions(size)
-    if usual is None or math.isnan(usual.arm.length):  # a crank without a pin has no arm
+    # the shaft ends in the first crank, below the plane of its locking disc
+    machine = build(spec.with_("size.crank_bore_mm", 0.0))
+    flat = sized(machine)
+    parts = stressed(*flat) if flat else None
+    if parts is None or math.isnan(parts.arm.length):  # a crank without a pin has no arm
         return None
-    reach = float(usual.arm.length - usual.arm.hole)
-    size = size.replace(wheel_thickness_mm=usual.contact)  # no bore changes it either
-    # half of the arm is left as a wall
-    for d in sizes_from(usual.crank_shaft.diameter, reach, bores=True):
-        one = dimensions(size.replace(arm_bore_mm=size.arm_bore_mm or d))
-        if one:
-            parts = one
-            moment = equivalent_Nm(spec, one.crank_shaft, loads.crank_N, loads.crank_Nm)
-            fixed = spec.size.arm_bore_mm is not None
-            if fixed or shaft_and_key_hold(spec, "crank", one, moment, loads.crank_Nm):
-                break
-    assert parts is not None
     thick = max(parts.contact, float(parts.arm.thickness))
     return thick, 0.5 * parts.pin, 0.5 * parts.crank_shaft.diameter
 

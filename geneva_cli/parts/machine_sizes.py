@@ -159,9 +159,9 @@ def keys_by_load(mechanism: Mechanism, locked: bool) -> tuple[str, ...]:
 
     if not all(map(math.isfinite, single_loads(mechanism))):
         return ()
-    crank = size.crank_bore_mm is size.arm_bore_mm is spec.shaft.crank_diameter_mm is None
+    crank = size.arm_bore_mm is spec.shaft.crank_diameter_mm is None and not size.crank_bore_mm
     chosen = {
-        "crank_bore_mm": crank,
+        "crank_bore_mm": crank and size.crank_bore_mm is None,
         "arm_bore_mm": crank,
         "wheel_bore_mm": size.wheel_bore_mm is spec.shaft.wheel_diameter_mm is None,
         # loads with friction on the pin depend on the usual one

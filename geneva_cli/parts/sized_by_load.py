@@ -10,6 +10,7 @@ wheels in series bears the greatest torque in the second's crank shaft.
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -84,6 +85,7 @@ class Stressed(NamedTuple):
     crank_key: KeyDimensions
 
 
+@lru_cache(maxsize=64)  # the designs of a sweep of loads have few different sizes
 def stressed(assembly: Assembly, sizes: Sizes) -> Stressed:
     """Return the dimensions of a machine's parts, for parts of these sizes."""
     spec, machine, size = assembly.full.spec, assembly.full, assembly.full.spec.size
@@ -231,7 +233,7 @@ def _crank_bored(of: Unloaded, spec: Spec, loads: PartLoads, usual: Sizes, keyed
     Unless ``keyed``, the bore is not sized by its key.
     """
     size, sizes = spec.size, usual
-    if not (size.crank_bore_mm is size.arm_bore_mm is spec.shaft.crank_diameter_mm is None):
+    if size.crank_bore_mm or not (size.arm_bore_mm is spec.shaft.crank_diameter_mm is None):
         return sizes
     trials = list[tuple[float, bool]]()  # diameters, and whether they are bored through the disc
     if sizes.crank_bore:
