@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from functools import lru_cache
+from functools import cache, lru_cache, partial
 from typing import TYPE_CHECKING, TypeAlias
 
 from geneva_cli.errors import GenevaError
@@ -25,6 +25,7 @@ from geneva_cli.parts.sizes import (
     Fault,
     KeySizes,
     Sizes,
+    Unloaded,
     arm_bore,
     drawn_thicknesses,
     hole_radius,
@@ -42,7 +43,6 @@ from geneva_cli.spec.tables import Size
 
 if TYPE_CHECKING:
     from geneva_cli.loads.strength.part_loads import PartLoads
-    from geneva_cli.parts.sized_by_load import Unloaded
 
 Layout: TypeAlias = tuple[Assembly, Sizes]  # of one machine
 OF_AXLE = (  # keys that an internal wheel lacks, which is open in the middle
@@ -65,22 +65,21 @@ def machine_sizes(mechanism: Mechanism, loads: PartLoads | None = None) -> Layou
 
     Raises GenevaError where these leave no parts.
     """
-    where, spec = assembly(mechanism), mechanism.spec
-    if not spec.is_loaded:
-        sizes, _ = _usual_sizes(where)
-        refuse(_faults(where, sizes))
-        return where, sizes
+    of = unloaded(mechanism)
+    if not mechanism.spec.is_loaded:
+        refuse(_faults(of.assembly, of.sizes))
+        return of.assembly, of.sizes
     from geneva_cli.loads.strength.part_loads import single_loads
 
-    return where, loaded(unloaded(where), mechanism, loads or single_loads(mechanism))
+    return of.assembly, loaded(of, mechanism, loads or single_loads(mechanism))
 
 
-def unloaded(assembly: Assembly) -> Unloaded:
-    """Return the parts of a machine without its load; raises GenevaError where there are none."""
-    from geneva_cli.parts.sized_by_load import Unloaded
-
-    usual, space = _usual_sizes(assembly)
-    return Unloaded(assembly, usual, space, cut_lock(assembly, usual) if usual.lock else None)
+@lru_cache(maxsize=16)
+def unloaded(mechanism: Mechanism) -> Unloaded:
+    """Return a machine's parts without its load. Raises GenevaError where a lock does not fit."""
+    where = assembly(mechanism)
+    sizes, space = _usual_sizes(where)
+    return Unloaded(where, sizes, space, cache(partial(cut_lock, where, sizes)))
 
 
 def loaded(

@@ -31,7 +31,6 @@ from geneva_cli.loads.strength.pin_arm_key import (
     pin_stress_MPa,
     shear_allowed_MPa,
 )
-from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import half_or, value_or
@@ -43,6 +42,7 @@ from geneva_cli.parts.shafts.bores import reach_or_bore
 from geneva_cli.parts.sizes import (
     LARGEST_HUB,
     Sizes,
+    Unloaded,
     arm_hub,
     bridge_low,
     hole_radius,
@@ -51,15 +51,6 @@ from geneva_cli.parts.sizes import (
     within_hub,
 )
 from geneva_cli.spec.defaults import eye_about, key, roller_material, wheel_material
-
-
-class Unloaded(NamedTuple):
-    """The parts of a machine as they are without a load."""
-
-    assembly: Assembly
-    sizes: Sizes
-    space: float  # radius about the crank's axis inside the relief, mm
-    lock: Lock | None  # as it is cut, which no load changes
 
 
 class ShaftSize(NamedTuple):

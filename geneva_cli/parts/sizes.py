@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
-from typing import NamedTuple, TypeAlias
+from collections.abc import Callable, Iterable, Iterator
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -12,10 +12,14 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.arrays import half_or, value_or
 from geneva_cli.numerics.tolerances import bore_radius, rounded_below, rounded_radius
+from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.shafts.bores import bore_of, has_shape, reach_or_bore
 from geneva_cli.spec.defaults import eye_about
 from geneva_cli.spec.tables import Size, Thicknesses
 from geneva_cli.spec.workshops import Allowances
+
+if TYPE_CHECKING:
+    from geneva_cli.loads.tolerance.locking import Lock
 
 HUB = 1.6  # outside diameter of a hub, as a multiple of its bore
 CLEARANCES = Allowances._fields[:-1]  # without their source
@@ -71,6 +75,20 @@ class Sizes(NamedTuple):
         keys = Sizes._fields[Sizes._fields.index("wheel_bore") :]
         none: dict[str, float] = dict.fromkeys(keys, 0.0)
         return self._replace(**none)  # type: ignore[arg-type]
+
+
+class Unloaded(NamedTuple):
+    """The parts of a machine as they are without a load."""
+
+    assembly: Assembly
+    sizes: Sizes
+    space: float  # radius about the crank's axis inside the relief, mm
+    cut: Callable[[], Lock]  # the lock as it is cut, which no load changes; for sizes with one
+
+    @property
+    def lock(self) -> Lock | None:
+        """The lock; None without one."""
+        return self.cut() if self.sizes.lock else None
 
 
 # The sizes of a machine's parts by keys of ``[size]``, mm and diameters as the keys say; and those

@@ -20,7 +20,7 @@ from geneva_cli.kinds.spherical.ball import (
 )
 from geneva_cli.kinds.spherical.horn import sphere_horns
 from geneva_cli.kinds.spherical.regions import sectors
-from geneva_cli.loads.strength.horn import single_stress
+from geneva_cli.loads.strength.horn import greatest_stress
 from geneva_cli.loads.strength.lock import dwell_torque_Nm
 from geneva_cli.loads.strength.part_loads import shaft_moments, single_loads
 from geneva_cli.loads.strength.pin_arm_key import NO_ARM, NO_KEY, ArmDimensions, arm_stress_MPa
@@ -162,7 +162,7 @@ def _horn_thickness_mm(mechanism: Mechanism, usual: Ball) -> float:
     least = usual.span_mm[1] - usual.span_mm[0]
     # a thicker wheel bends its pins more than its horns
     for thick in sizes_from(least, 2.0 * least):
-        horn = single_stress(sphere_horns, mechanism, angles, thick).single
+        horn = greatest_stress(sphere_horns, mechanism, angles, thick).single
         if keeps(horn.stress_MPa if horn else 0.0, "at most", allowed):
             break
     return thick

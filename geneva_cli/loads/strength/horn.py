@@ -192,11 +192,17 @@ def greatest_stress(
 ) -> HornStress:
     """Greatest stress of m designs, for a width of the contact, mm; sizes may be (m, 1).
 
-    NaN for a recess of 0, or without a load.
+    NaN for a recess of 0, or without a load. That of a single design is kept.
     """
     every, m = (mechanism, sizes, width), mechanism.designs
-    if m > 16:  # the stresses of 16 designs stay in the cache
-        return joined([greatest_stress(sides, *taken(every, some)) for some in blocks(m, 16)])
+    if isinstance(mechanism.design, int):
+        return _single_stress(sides, *every)
+    # the stresses of 16 designs stay in the cache
+    return joined([_greatest(sides, *taken(every, some)) for some in blocks(m, 16)])
+
+
+def _greatest(sides: Sides, mechanism: Mechanism, sizes: Sizes, width: float) -> HornStress:
+    m = mechanism.designs
     best = np.full((4, m), np.nan)
     for side in sides(mechanism, *sizes):
         # the roller runs along this horn's wall from its own end; in a straight slot from both
@@ -211,8 +217,7 @@ def greatest_stress(
     return HornStress(*map(parameter, (best[0], at_deg, *best[2:])))
 
 
-# Of a single design, cached for its sizes and its checks.
-single_stress = lru_cache(maxsize=64)(greatest_stress)
+_single_stress = lru_cache(maxsize=64)(_greatest)
 
 
 def _over_a_half(mechanism: Mechanism, side: Horn, start: float, width: float) -> Array:

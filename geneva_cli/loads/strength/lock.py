@@ -121,10 +121,9 @@ def horn_MPa(
 
     ``known`` is that under the roller, if computed already.
     """
-    from geneva_cli.loads.strength.horn import greatest_stress, horns, single_stress
+    from geneva_cli.loads.strength.horn import greatest_stress, horns
 
-    search = single_stress if isinstance(machine.design, int) else greatest_stress
-    own = known or search(horns, machine, (half_width, by.recess))
+    own = known or greatest_stress(horns, machine, (half_width, by.recess))
     held = loaded_locks(machine, half_width, by, 1.0)
     rows = np.broadcast_arrays(own.stress_MPa, *([held.horn_stress_MPa] if held else []))
     return np.fmax(0.0, np.fmax.reduce(rows))
