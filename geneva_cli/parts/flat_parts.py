@@ -178,7 +178,11 @@ class FlatParts(EdgedParts):
         """Return rollers about some points, with pins of a radius from ``low`` up to ``high``."""
         fit = self.mechanism.spec.size.allowances.shaft_fit_mm
         plates = roller_plates(self.mechanism.roller_radius_mm, pin, low, high, fit)
-        return tuple(Member(plate, centre) for centre in centres for plate in plates)
+        out = list[Member]()
+        for centre in centres:
+            for plate in plates:
+                out.append(Member(plate, centre))
+        return tuple(out)
 
     @property
     def horn_mm(self) -> float | None:

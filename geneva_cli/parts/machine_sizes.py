@@ -169,7 +169,7 @@ def keys_by_load(mechanism: Mechanism, locked: bool) -> tuple[str, ...]:
         "wheel_thickness_mm": locked and size.wheel_thickness_mm is size.face_width_mm is None,
         "link_thickness_mm": mechanism.first_wheel and size.link_thickness_mm is None,
     }
-    return tuple(key for key, by_load in chosen.items() if by_load)
+    return tuple(filter(chosen.get, chosen))
 
 
 def drawn_pin_radius(mechanism: Mechanism) -> float:

@@ -24,13 +24,13 @@ if TYPE_CHECKING:
 
 # Functions of the values that checks compare, by the names of their tables, or their whole names:
 # a check does not read the registry of all quantities.
-_PARTS = ["pin", "horn", "lock", "wheel_shaft", "crank_shaft", "arm", "wheel_key", "crank_key"]
 CHECKED: dict[str, Callable[[Designs], Columns]] = {
-    **{f"strength.{part}": vars(part_strength)[part] for part in _PARTS},
     "strength.arm.least_thickness_mm": part_strength.arm_thickness,
     "life.pv_max_W_m2": part_strength.pressure_speed,
     "life.roller_life_h": part_strength.wear,
 }
+for _part in ("pin", "horn", "lock", "wheel_shaft", "crank_shaft", "arm", "wheel_key", "crank_key"):
+    CHECKED[f"strength.{_part}"] = vars(part_strength)[_part]
 # Values of ``life``, in the order in which `geneva loads` lists their needs.
 OF_LIFE = (
     *("roller_life_turns", "roller_life_motions", "roller_life_h", "equivalent_force_N"),

@@ -22,7 +22,7 @@ from geneva_cli.kinds.spherical.horn import sphere_horns
 from geneva_cli.kinds.spherical.regions import sectors
 from geneva_cli.loads.strength.horn import greatest_stress
 from geneva_cli.loads.strength.lock import dwell_torque_Nm
-from geneva_cli.loads.strength.part_loads import shaft_moments, single_loads
+from geneva_cli.loads.strength.part_loads import shaft_squares, single_loads
 from geneva_cli.loads.strength.pin_arm_key import NO_ARM, NO_KEY, ArmDimensions, arm_stress_MPa
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
@@ -231,8 +231,8 @@ def _crank_bored(mechanism: Mechanism, ball: Ball, keyed: bool) -> Ball:
 @lru_cache(maxsize=64)
 def _moment_Nm(mechanism: Mechanism, part: str, overhang_mm: float) -> float:
     """Return the greatest equivalent torque of a shaft; it needs a search of the whole cycle."""
-    moments = shaft_moments(mechanism, {part: overhang_mm})
-    return moments[part].max.item() if moments else 0.0
+    squares = shaft_squares(mechanism, {part: overhang_mm})
+    return math.sqrt(squares[part].max.item()) if squares else 0.0
 
 
 def sphere_stressed(spec: Spec, ball: Ball) -> Stressed:

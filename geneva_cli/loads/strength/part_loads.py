@@ -102,12 +102,12 @@ def _shaft_load(mechanism: Mechanism, part: str, overhang_mm: float | None = Non
     return ShaftLoad(part, not mechanism.axes, orbiting, lever, *factors)
 
 
-def shaft_moments(
+def shaft_squares(
     mechanism: Mechanism,
     overhangs_mm: Mapping[str, float | None],
     held: Mapping[str, tuple[Array, Array]] = MappingProxyType({}),
 ) -> dict[str, PeakArray]:
-    """The greatest sqrt((Kb M)² + (Kt T)²) of shafts of m designs over a cycle, N m.
+    """The greatest squares (Kb M)² + (Kt T)² of shafts of m designs over a cycle, (N m)².
 
     By their parts, "wheel" and "crank", none without an overhang or a load. ``held`` are force, N,
     and torque, N m, (m,) each, that load a shaft in the dwell, from the first motion's end on.
@@ -125,7 +125,7 @@ def shaft_moments(
             exit_deg = np.ravel(mechanism.shown_deg(first.mid_deg + first.exit_deg))
             at_rest = PeakArray(square, np.broadcast_to(exit_deg, square.shape))
             out[part] = greater(out[part], at_rest)
-    return {part: peak._replace(max=np.sqrt(peak.max)) for part, peak in out.items()}
+    return out
 
 
 class PartLoads(NamedTuple):

@@ -12,10 +12,10 @@ from geneva_cli.loads.impacts.shock_force import least_pin_mm
 from geneva_cli.loads.load_case import centrifugal_N
 from geneva_cli.loads.strength import pin_arm_key
 from geneva_cli.loads.strength.lock import dwell_torque_Nm, held_force_N
-from geneva_cli.loads.strength.part_loads import shaft_moments, shear_MPa
+from geneva_cli.loads.strength.part_loads import shaft_squares, shear_MPa
 from geneva_cli.loads.strength.pin_arm_key import key_stress, shear_allowed_MPa
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.numerics.arrays import Array, Number, array, parameter
+from geneva_cli.numerics.arrays import Array, Number, array
 from geneva_cli.spec.defaults import roller_material, wheel_material
 from geneva_cli.spec.tables import Material
 from geneva_cli.spec.workshops import Stock
@@ -125,7 +125,9 @@ wheel_shaft, crank_shaft = partial(_shaft, part="wheel"), partial(_shaft, part="
 
 def shafts(of: Designs) -> dict[str, Columns]:
     """The columns of the shafts of wheel and crank, which are searched together."""
-    drawn = {part: _drawn(of, part) for part in ("wheel", "crank")}
+    overhangs, each = dict[str, float | None](), dict[str, Columns]()
+    for part in ("wheel", "crank"):
+        overhangs[part], each[part] = _drawn(of, part)
     torque_Nm, held = dwell_torque_Nm(of.machine), dict[str, tuple[Array, Array]]()
     if torque_Nm.any():  # without a disc something else holds it, by a couple
         sizes = under_load(of).lock_sizes
@@ -133,31 +135,27 @@ def shafts(of: Designs) -> dict[str, Columns]:
         carried = np.ravel(centrifugal_N(of.machine)) if of.machine.frame else 0.0
         # the force passes through the crank's axis
         held = {"wheel": (force + carried, torque_Nm), "crank": (force, 0.0 * force)}
-    overhangs = {part: overhang for part, (overhang, _) in drawn.items()}
-    moments, each = shaft_moments(of.machine, overhangs, held), dict[str, Columns]()
-    for part, (_, diameter) in drawn.items():
-        each[part] = {"diameter_mm": diameter}
-        if part not in moments:
-            continue
-        most, allowed = moments[part].max * of.loaded, of.spec.shaft.shear_stress_max_MPa
-        rows: dict[str, Number | None] = {"moment_Nm": most, "at_deg": moments[part].at_deg}
-        if of.spec.is_loaded:
-            keyway = vars(of.spec.size)[f"{part}_keyway"] is not None
-            allowed = parameter(shear_allowed_MPa(of.spec.shaft, keyway))
+    for part, peak in shaft_squares(of.machine, overhangs, held).items():
+        most, diameter = np.sqrt(peak.max) * of.loaded, each[part]["diameter_mm"]
+        keyway = vars(of.spec.size)[f"{part}_keyway"] is not None
+        allowed = np.ravel(shear_allowed_MPa(of.spec.shaft, keyway))
+        least = np.cbrt(16e3 * most / (math.pi * allowed))
+        rows: dict[str, Number | None] = {
+            "moment_Nm": most,
+            "at_deg": peak.at_deg,
+            "allowed_MPa": allowed,
+            "least_diameter_mm": np.where(np.isfinite(allowed), least, np.inf),
+        }
         if diameter is not None:
             rows["stress_MPa"] = stress = shear_MPa(most, np.ravel(diameter))
             rows["margin"] = margin(stress, allowed)
-        if allowed is not None:
-            rows["allowed_MPa"] = limit = np.ravel(allowed)
-            least = np.cbrt(16e3 * most / (math.pi * limit))
-            rows["least_diameter_mm"] = np.where(np.isfinite(limit), least, np.inf)
         for name, row in rows.items():
             rows[name] = None if row is None else np.where(np.isfinite(most), row, most)
         each[part] = {**each[part], **rows}
     return each
 
 
-def _drawn(of: Designs, part: str) -> tuple[float | None, float | None]:
+def _drawn(of: Designs, part: str) -> tuple[float | None, Columns]:
     """Overhang and diameter of a shaft: of the spec, or else as its parts have them, mm."""
     table = vars(of.spec.shaft)
     overhang, diameter = table[f"{part}_overhang_mm"], table[f"{part}_diameter_mm"]
@@ -169,7 +167,7 @@ def _drawn(of: Designs, part: str) -> tuple[float | None, float | None]:
         if overhang is None and not np.isnan(own.overhang).all():
             # a design without parts has no diameter either, and so no stress
             overhang = as_numbers(np.nan_to_num(own.overhang))
-    return overhang, diameter
+    return overhang, {"diameter_mm": diameter}
 
 
 def arm(of: Designs) -> Columns:
