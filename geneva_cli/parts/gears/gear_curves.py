@@ -66,20 +66,14 @@ def gears_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) 
 
 def required_gears(mechanism: Mechanism) -> Gears:
     """Return the noncircular gears of a machine; raises GenevaError if it has none."""
-    drive, gears = mechanism.spec.drive, mechanism.spec.gears
-    if gears is not None:
-        return gears
-    if mechanism.spec.drive_before:
-        raise GenevaError(f"--part gears: {mechanism.spec.no_parts}")
-    if drive.round_gears:
+    gears, kind = mechanism.spec.gears, mechanism.spec.drive.NAME
+    if gears is None:
+        geared = [*registry.drives_with("gears"), *registry.drives_with("round_gears")]
         raise GenevaError(
-            f'--part gears: the pitch curves of kind = "{drive.NAME}" are circles and have no '
-            "table; write .dxf or .svg, or --part parts for their radii"
+            f'--part gears: kind = "{kind}" has no gears with a table of their pitch curves; '
+            f"{', '.join(geared)} have gears, of which the round ones are only drawn"
         )
-    geared = [*registry.drives_with("gears"), *registry.drives_with("round_gears")]
-    raise GenevaError(
-        f'--part gears: kind = "{drive.NAME}" has no gears; {", ".join(geared)} have some'
-    )
+    return gears
 
 
 def convexity(gears: Gears) -> tuple[float, float]:
