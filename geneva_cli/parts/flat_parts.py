@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NoReturn, Self
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.plates import Group, Member, Plate
+from geneva_cli.geometry.plates import Group, Member, Plate, solids
 from geneva_cli.geometry.shapes import Contour, Point, turned
 from geneva_cli.kept import cached_property
 from geneva_cli.motion.engagement import Engagement
@@ -302,7 +302,16 @@ class FlatParts(EdgedParts):
     @cached_property
     def framed(self) -> FrameAndShafts:
         """The frame, what is on it, and the shafts."""
-        return framed(self.outlines, self.links, self._base, self.first)
+        moving = self.wheel, self.crank, *self.linked, *self.round_gears, *self.first
+        lows = [
+            solid.low for one in moving for solid in solids(one.part) if isinstance(solid, Plate)
+        ]
+        lows += [self._base.low] if self._base else []
+        if self.mechanism.spec.gears:
+            from geneva_cli.parts.gears.gear_pair import gear_span
+
+            lows.append(gear_span(self.mechanism, self.outlines)[0])
+        return framed(self.outlines, self.links, self._base, self.first, min(lows))
 
     @property
     def standing(self) -> tuple[Member, ...]:

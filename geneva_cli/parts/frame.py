@@ -21,7 +21,7 @@ from geneva_cli.numerics.arrays import half_or
 from geneva_cli.numerics.tolerances import SAME_LENGTH, bore_radius, rounded_radius
 from geneva_cli.parts.assembly import is_bridged, links_at, same, turn_deg
 from geneva_cli.parts.links.links import Links, placed_holes
-from geneva_cli.parts.outlines.outlines import Outlines, wheel_hub
+from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.parts import FRAME, FrameAndShafts
 from geneva_cli.parts.shafts.arm_and_shafts import Shaft, crank_arm, shaft_ends, shafts
 from geneva_cli.parts.shafts.bores import SCREWS, around, bolt_radius, screw_through, tapped
@@ -31,19 +31,18 @@ from geneva_cli.spec.tables import Size
 
 
 def framed(
-    outlines: Outlines, bars: Links, base: Plate | None = None, first: Sequence[Member] = ()
+    outlines: Outlines, bars: Links, base: Plate | None, first: Sequence[Member], low: float
 ) -> FrameAndShafts:
     """Return the frame and the shafts of a machine with its ``outlines``.
 
     ``bars`` are the links, ``base`` is the lowest plate with a cam's groove, ``first`` are the
-    first wheel and its locking disc of two in series.
+    first wheel and its locking disc of two in series. ``low`` is the lowest height of all parts.
     """
     mechanism, L, thick = outlines.assembly.full, outlines.assembly.L, outlines.sizes.arm_thickness
     size = mechanism.spec.size
-    top = _lowest(outlines, bars, base, first) - size.washer_mm
-    own = _all_shafts(outlines, bars, top - thick, first)
+    top = low - size.washer_mm
     bridge, unborne, axles = None, list[tuple[str, str]](), list[Member]()
-    for shaft in own:
+    for shaft in _all_shafts(outlines, bars, top - thick, first):
         borne = not shaft.turns or shaft.low < top
         if not (borne or bridge) and same(shaft.at, mechanism.crank_shaft.at, L):
             bridge = _bridge(outlines, bars, shaft)
@@ -91,27 +90,6 @@ def framed(
     )
 
 
-def _lowest(outlines: Outlines, bars: Links, base: Plate | None, first: Sequence[Member]) -> float:
-    """Return the lowest height of all parts above the frame."""
-    mechanism = outlines.assembly.full
-    arm = outlines.sizes.arm_thickness if outlines.has_arm else 0.0
-    lows = [-mechanism.spec.size.allowances.pin_gap_mm - arm]
-    for moving in (*bars.cut, *bars.joined, *first):
-        if isinstance(moving.part, Plate):
-            lows.append(moving.part.low)
-    for gear in bars.gears:
-        lows.append(gear.plate.low)
-    if base:
-        lows.append(base.low)
-    if mechanism.spec.gears:
-        from geneva_cli.parts.gears.gear_pair import gear_span
-
-        lows.append(gear_span(mechanism, outlines)[0])
-    if hub := wheel_hub(outlines.assembly, outlines.sizes):
-        lows.append(hub.low)
-    return min(lows)
-
-
 def _standing(mechanism: Mechanism, bars: Links) -> dict[Point, float | None]:
     """Return the positions of shafts, of the wheels, the crank, and its drive, each once.
 
@@ -127,9 +105,8 @@ def _standing(mechanism: Mechanism, bars: Links) -> dict[Point, float | None]:
         driver = mechanism.gear_shaft.x_mm + mechanism.spec.gears.distance_mm, 0.0
         standing[driver] = shaft.wheel_diameter_mm
     for axis in bars.axes:
-        if axis.stands and not any(
-            same(axis.at, one, mechanism.center_distance_mm) for one in standing
-        ):
+        L = mechanism.center_distance_mm
+        if axis.stands and not any(same(axis.at, one, L) for one in standing):
             standing[axis.at] = shaft.wheel_diameter_mm
     return standing
 

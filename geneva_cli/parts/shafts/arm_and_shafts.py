@@ -29,14 +29,7 @@ from geneva_cli.parts.outlines.crank_outline import (
     sectors,
 )
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.shafts.bores import (
-    Bore,
-    bolt_radius,
-    bore_of,
-    has_shape,
-    round_bore,
-    tapped,
-)
+from geneva_cli.parts.shafts.bores import Bore, bolt_radius, bore_of, has_shape, round_bore, tapped
 from geneva_cli.parts.sizes import hub_and_eye, lock_bolt_directions, pin_hole
 from geneva_cli.parts.slots.roller_paths import roller_centres
 from geneva_cli.spec.defaults import eye_about
