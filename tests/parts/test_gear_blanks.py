@@ -154,17 +154,6 @@ def test_the_screws_of_a_fixed_gear_are_in_the_frame(keys):
         assert {s[2] for s in screws} == {2.0}
 
 
-@pytest.mark.usefixtures("no_advice")
-def test_a_planet_that_would_meet_the_wheels_shaft_fails_its_check():
-    """z = 3: the planet reaches 1.01 L from the crank's axis, below the wheel."""
-    of = Design(External(3), SOFT)
-    (check,) = (c for c in of.checks if c.name == "link_gap_mm")
-    R0 = 100.0 * math.sin(math.pi / 3.0) * 49.0 / 48.0
-    shaft = of.parts.sizes.wheel_bore
-    assert check.value == pytest.approx(100.0 - R0 - R0 / 7.0 - shaft, rel=1e-9)
-    assert not check.passes
-
-
 @pytest.mark.sampled(2)
 @pytest.mark.usefixtures("no_advice")
 @pytest.mark.parametrize(
