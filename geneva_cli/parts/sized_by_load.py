@@ -267,13 +267,15 @@ def pin_that_holds(
     most = min(0.7 * roller - 0.5 * size.allowances.shaft_fit_mm, eye)
     allowed = roller_material(spec).allowed_MPa
     rubbed, jump = math.hypot(1.0, spec.load.friction), np.array([[loads.pin_jump]])
-    for d in sizes_from(2.0 * usual, 2.0 * most):
-        struck_N = forces_N(mechanism, jump, PinSize(d, contact)).item() if jump else 0.0
-        whole_N = max(loads.pin_N, struck_N) * rubbed  # with friction along the wall
-        stress = float(pin_stress_MPa(size, contact, d, whole_N)[2])
-        if keeps(stress, "at most", allowed):
+    trials, struck_N = np.array(sizes_from(2.0 * usual, 2.0 * most))[:, None], np.zeros(1)
+    if jump:
+        struck_N = forces_N(mechanism, jump, PinSize(trials, contact))[:, None]
+    whole_N = np.fmax(loads.pin_N, struck_N) * rubbed  # with friction along the wall
+    stresses = pin_stress_MPa(size, contact, trials, whole_N)[2]
+    for d, stress in zip(trials.flat, np.ravel(stresses), strict=True):
+        if keeps(float(stress), "at most", allowed):
             break
-    return 0.5 * d
+    return 0.5 * float(d)
 
 
 def equivalent_Nm(spec: Spec, shaft: ShaftSize, force_N: float, torque_Nm: float) -> float:
