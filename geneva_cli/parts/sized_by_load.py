@@ -192,8 +192,7 @@ def load_sizes(
             trial = _crank_bored(of, spec, loads, _wheel_bored(of, spec, loads, trial), keyed)
             parts = stressed(of.assembly, trial)
             arm_MPa = float(arm_stress_MPa(parts.arm, loads.wheel_N))
-            free = parts.crank_key is NO_KEY
-            key_lasts = free or key_holds(spec, parts.crank_key, loads.crank_Nm)
+            key_lasts = key_holds(spec, parts.crank_key, loads.crank_Nm)
             if key_lasts and keeps(arm_MPa, "at most", allowed):
                 return trial
     return trial
@@ -210,9 +209,8 @@ def _wheel_bored(of: Unloaded, spec: Spec, loads: PartLoads, sizes: Sizes) -> Si
     for d in sizes_from(2.0 * sizes.wheel_bore, 2.0 * most, bores=True):
         reach, hub = reach_and_hub(spec.size, "wheel", 0.5 * d, wall, end)
         sizes = sizes._replace(wheel_bore=0.5 * d, wheel_reach=reach, wheel_hub=hub)
-        parts, torque = stressed(of.assembly, sizes), loads.wheel_Nm
-        moment = equivalent_Nm(spec, parts.wheel_shaft, loads.wheel_shaft_N, torque)
-        if shaft_and_key_hold(spec, "wheel", parts, moment, torque):
+        parts = stressed(of.assembly, sizes)
+        if _shaft_holds(spec, "wheel", parts, loads.wheel_shaft_N, loads.wheel_Nm):
             break
     return sizes
 
@@ -242,9 +240,8 @@ def _crank_bored(of: Unloaded, spec: Spec, loads: PartLoads, usual: Sizes, keyed
         reach, hub = reach_and_hub(size, "crank", bore, sizes.wall_min)
         arm = 0.5 * d if usual.arm_bore else 0.0
         sizes = usual._replace(crank_bore=bore, crank_reach=reach, crank_hub=hub, arm_bore=arm)
-        parts, torque = stressed(of.assembly, sizes), loads.crank_Nm
-        moment = equivalent_Nm(spec, parts.crank_shaft, loads.crank_N, torque)
-        if shaft_and_key_hold(spec, "crank", parts, moment, torque, keyed):
+        parts = stressed(of.assembly, sizes)
+        if _shaft_holds(spec, "crank", parts, loads.crank_N, loads.crank_Nm, keyed):
             break
     return sizes
 
@@ -273,36 +270,37 @@ def pin_that_holds(
     whole_N = np.fmax(loads.pin_N, struck_N) * rubbed  # with friction along the wall
     stresses = pin_stress_MPa(size, contact, trials, whole_N)[2]
     for d, stress in zip(trials.flat, np.ravel(stresses), strict=True):
+        radius = 0.5 * float(d)
         if keeps(float(stress), "at most", allowed):
             break
-    return 0.5 * float(d)
+    return radius
 
 
-def equivalent_Nm(spec: Spec, shaft: ShaftSize, force_N: float, torque_Nm: float) -> float:
-    """Return the equivalent torque of a shaft under a force and a torque, greatest at once."""
+def _shaft_holds(
+    spec: Spec, part: str, parts: Stressed, force_N: float, torque_Nm: float, keyed: bool = True
+) -> bool:
+    """Return True if a shaft and its key hold a force and a torque, both greatest at once."""
+    shaft: ShaftSize = getattr(parts, f"{part}_shaft")
     bent = spec.shaft.bending_factor * force_N * shaft.overhang / 1000.0
-    return math.hypot(bent, spec.shaft.torsion_factor * torque_Nm)
+    moment = math.hypot(bent, spec.shaft.torsion_factor * torque_Nm)
+    return shaft_and_key_hold(spec, part, parts, moment, torque_Nm, keyed)
 
 
 def shaft_and_key_hold(
     spec: Spec, part: str, parts: Stressed, moment_Nm: float, torque_Nm: float, keyed: bool = True
 ) -> bool:
-    """Return True if the shaft of wheel or crank holds an equivalent torque, and its key a torque.
-
-    Unless ``keyed``, the key does not count.
-    """
-    shaft, key = parts.crank_shaft, parts.crank_key
-    if part == "wheel":
-        shaft, key = parts.wheel_shaft, parts.wheel_key
+    """Return True if a shaft holds an equivalent torque, and if ``keyed`` its key a torque."""
+    shaft: ShaftSize = getattr(parts, f"{part}_shaft")
     keyway = vars(spec.size)[f"{part}_keyway"] is not None
     allowed = float(shear_allowed_MPa(spec.shaft, keyway))
     if not keeps(shear_MPa(moment_Nm, shaft.diameter), "at most", allowed):
         return False
-    return not keyed or key is NO_KEY or key_holds(spec, key, torque_Nm)
+    return not keyed or key_holds(spec, getattr(parts, f"{part}_key"), torque_Nm)
 
 
 def key_holds(spec: Spec, key: KeyDimensions, torque_Nm: float) -> bool:
-    """Return True if a key holds a torque."""
+    """Return True if a key holds a torque, or for no key."""
     sides, shear = wheel_material(spec).allowed_MPa, shear_allowed_MPa(spec.shaft)
     torque = spec.shaft.torsion_factor * torque_Nm
-    return keeps(float(key.length), "at least", float(key_stress(key, torque, sides, shear)[2]))
+    least = float(key_stress(key, torque, sides, shear)[2])
+    return key is NO_KEY or keeps(float(key.length), "at least", least)

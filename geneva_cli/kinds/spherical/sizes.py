@@ -23,7 +23,7 @@ from geneva_cli.kinds.spherical.regions import sectors
 from geneva_cli.loads.strength.horn import greatest_stress
 from geneva_cli.loads.strength.lock import dwell_torque_Nm
 from geneva_cli.loads.strength.part_loads import shaft_squares, single_loads
-from geneva_cli.loads.strength.pin_arm_key import NO_ARM, NO_KEY, ArmDimensions, arm_stress_MPa
+from geneva_cli.loads.strength.pin_arm_key import NO_ARM, ArmDimensions, arm_stress_MPa
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import half_or, value_or
@@ -148,8 +148,7 @@ def ball(mechanism: Mechanism) -> Ball:
             trial = _crank_bored(mechanism, _wheel_bored(mechanism, trial), keyed)
             parts = sphere_stressed(spec, trial)
             arm_MPa = float(arm_stress_MPa(parts.arm, loads.wheel_N))
-            key = parts.crank_key
-            key_lasts = key is NO_KEY or key_holds(spec, key, loads.crank_Nm)
+            key_lasts = key_holds(spec, parts.crank_key, loads.crank_Nm)
             if key_lasts and keeps(arm_MPa, "at most", wheel_material(spec).allowed_MPa):
                 return trial
     return trial

@@ -161,7 +161,7 @@ def _drawn(of: Designs, part: str) -> tuple[float | None, Columns]:
     overhang, diameter = table[f"{part}_overhang_mm"], table[f"{part}_diameter_mm"]
     parts = under_load(of).parts if diameter is None or overhang is None else None
     if parts is not None:
-        own = parts.wheel_shaft if part == "wheel" else parts.crank_shaft
+        own = getattr(parts, f"{part}_shaft")
         if diameter is None and not np.isnan(own.diameter).all():
             diameter = as_numbers(np.asarray(own.diameter))
         if overhang is None and not np.isnan(own.overhang).all():
@@ -200,11 +200,10 @@ def _key(of: Designs, part: str) -> Columns:
     parts = under_load(of).parts
     if parts is None:
         return {}
-    key = parts.wheel_key if part == "wheel" else parts.crank_key
+    key = getattr(parts, f"{part}_key")
     if np.isnan(key.shaft).all():
         return {}
-    loads = under_load(of).part_loads
-    most = (loads.wheel_Nm if part == "wheel" else loads.crank_Nm) * of.loaded
+    most = getattr(under_load(of).part_loads, f"{part}_Nm") * of.loaded
     most = most * np.ravel(of.spec.shaft.torsion_factor)
     sides = np.ravel(wheel_material(of.spec).allowed_MPa)
     shear = np.ravel(shear_allowed_MPa(of.spec.shaft))
