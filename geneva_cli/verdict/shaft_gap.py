@@ -21,8 +21,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.gears.gear_curves import pitch_radii
-from geneva_cli.parts.gears.gear_pair import gear_span
+from geneva_cli.parts.gears.gear_pair import gear_span, pitch_radii
 from geneva_cli.parts.outlines.outlines import Outlines
 
 Measure = TypeVar("Measure", float, Array)  # one gap, or an array of one for each sphere

@@ -10,7 +10,7 @@ import repo
 
 from geneva_cli import Design, Epicyclic, External, load
 from geneva_cli.geometry.shapes import Arc, Circle
-from geneva_cli.parts.gears.gear_curves import gears_table
+from geneva_cli.parts.gears.gear_pair import gears_table
 from geneva_cli.parts.links.link_plates import drawn_links
 from geneva_cli.spec.tables import Size
 
