@@ -84,7 +84,7 @@ def dense_means(cycle, name, parts=2000):
     sums = np.zeros(2)
 
     def both(engagement, stretch, x):
-        value = cycle.plain(cycle.along(engagement, stretch, x.ravel()), name).reshape(x.shape)
+        value = cycle.moving(engagement, x.ravel(), [name], stretch).reshape(x.shape)
         value = np.abs(value) if name in NEVER_NEGATIVE else value  # told as a size
         return np.stack((value, value * value))
 

@@ -17,7 +17,7 @@ from geneva_cli.figure import Mark, Piece
 from geneva_cli.loads.contact import NEAR_CUSP
 from geneva_cli.loads.cycle import Cycle, Stretch
 from geneva_cli.loads.cycle_quantities import FORCE, WALL_FORCE
-from geneva_cli.loads.load_peaks import LoadSummary, load_summaries
+from geneva_cli.loads.load_peaks import LoadSummary, load_summaries, only
 from geneva_cli.motion import peaks
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
@@ -59,8 +59,7 @@ def drawn(cycle: Cycle, names: Sequence[str], window: Ends) -> dict[str, Drawn]:
     if loads:
         ends = {name: cycle.extremes[name] for name in loads}
         if FORCE in ends:  # drawn with the sign of the wall that bears
-            force = load_summaries(machine, [WALL_FORCE], means=False)[WALL_FORCE]
-            ends[FORCE] = LoadSummary(*(float(row[0]) for row in force[:4]))
+            ends[FORCE] = only(load_summaries(machine, [WALL_FORCE], means=False)[WALL_FORCE])
         bounds = _bounds(cycle, ends)
         stages = list(_load_stages(cycle, loads, bounds))
         curves = _pieces(stages, machine.period_deg, window, [0.0] * len(loads))
@@ -138,8 +137,7 @@ def _loaded(
     inside: Ends,
     x: Array,
 ) -> Array:
-    here = cycle.along(engagement, stretch, np.clip(x - engagement.mid_deg, *inside))
-    rows = np.broadcast_arrays(*(cycle.plain(here, name) for name in names), x)[:-1]
+    rows = cycle.moving(engagement, np.clip(x - engagement.mid_deg, *inside), names, stretch)
     each = zip(names, rows, strict=True)
     return np.array([np.clip(row, *bounds.get(n, (None, None))) for n, row in each])
 
@@ -219,8 +217,7 @@ def _bounds(cycle: Cycle, ends: Mapping[str, LoadSummary[float]]) -> dict[str, E
         sizes = []
         for engagement, stretch in cycle.stretches:
             middle = np.array([0.5 * (stretch.start + stretch.end)])
-            here = cycle.plain(cycle.along(engagement, stretch, middle), name)
-            sizes.append(abs(float(here[0])))
+            sizes.append(abs(cycle.moving(engagement, middle, [name], stretch).item()))
         # an unbounded load is visible up to three times its typical size
         high = 3.0 * max((size for size in sizes if math.isfinite(size)), default=1.0)
         out[name] = -high if math.isinf(low) else low, high if math.isinf(top) else top

@@ -11,13 +11,13 @@ roller, fixed to its body, rubs along the wall.
 
 from __future__ import annotations
 
-from typing import Any, Generic, NamedTuple, Protocol, cast
+from typing import Any, Generic, Protocol, cast
 
 import numpy as np
 
 from geneva_cli.kept import cached_property
 from geneva_cli.loads.contact import Contact, LoadCase, QuantityValue, lesser, value
-from geneva_cli.loads.cycle_quantities import FORCE, PRESSED, PV, STRESS, TORQUE, WALL_FORCE
+from geneva_cli.loads.cycle_quantities import FORCE, PRESSED, PV, TORQUE, WALL_FORCE
 from geneva_cli.numerics.arrays import all_true
 from geneva_cli.numerics.jet import Array, Jet, Number, V
 
@@ -217,49 +217,10 @@ def sign_of(jet: V, known: Number | None) -> Number:
     return own if known is None else np.where(np.isnan(known), own, known)
 
 
-class States(NamedTuple):
-    """The loads at input angles, (k,) each; None for what a machine lacks."""
-
-    omega_rad_s: Array
-    alpha_rad_s2: Array
-    wheel_torque_Nm: Array
-    pin_force_N: Array  # with the sign of the wall that bears
-    stress_squared: Array | None  # MPa²
-    sliding_m_s: Array
-    input_torque_Nm: Array
-    wheel_bearing_N: Array
-    crank_bearing_squared: Array  # N²
-    guide_squared: Array | None
-
-
-# each state's quantity
-STATES = dict(zip(States._fields, States._fields, strict=True)) | {
-    "pin_force_N": WALL_FORCE,
-    "stress_squared": STRESS,
-    "crank_bearing_squared": "crank_bearing_N",
-    "guide_squared": "guide_force_N",
-}
-
-
-def lacks(case: LoadCase, at: Contact[V]) -> list[str]:
-    """The names of the states that a machine does not have."""
-    stress, guide = ["stress_squared"], ["guide_squared"]
-    return stress * (case.hertz is None) + guide * (at.reactions is None)
-
-
-def bounded(here: Instant[Array]) -> States:
-    """Values with infinity where a force is unbounded, and 0 where no force is needed there."""
-    without = lacks(here.case, here.at)
-    out: dict[str, Any] = {}
-    with np.errstate(all="ignore"):
-        is_held = here.grip > 0.0
-        bound = np.where(here.wheel_torque_Nm == 0.0, 0.0, np.inf)
-        for state, name in STATES.items():
-            if state in without:
-                out[state] = None
-                continue
-            own, margin, sign = here.quantity(name)
-            if margin is not None:
-                own = np.where(is_held & (margin > 0.0), own, bound * sign)
-            out[state] = own
-    return States(**out)
+def bounded(here: Instant[Array], name: str) -> Array:
+    """A quantity, infinite where a force is unbounded, and 0 where no force is needed there."""
+    own, margin, sign = here.quantity(name)
+    if margin is None:
+        return own
+    bound = np.where(here.wheel_torque_Nm == 0.0, 0.0, np.inf)
+    return np.where((here.grip > 0.0) & (margin > 0.0), own, bound * sign)

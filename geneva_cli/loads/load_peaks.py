@@ -45,6 +45,11 @@ class LoadSummary(NamedTuple, Generic[S]):
     rms: S | None = None
 
 
+def only(one: LoadSummary[Array]) -> LoadSummary[float]:
+    """The summary of a single design."""
+    return LoadSummary(*[None if row is None else row.item() for row in one])
+
+
 Search: TypeAlias = tuple[LoadFunctions, SearchResult]  # of an engagement
 Found: TypeAlias = tuple[dict[str, LoadSummary[Array]], list[Search]]
 

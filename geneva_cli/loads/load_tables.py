@@ -12,7 +12,7 @@ import numpy as np
 from geneva_cli.errors import Notice
 from geneva_cli.loads.cycle import Cycle
 from geneva_cli.loads.cycle_quantities import PRESSED, PV, STRESS
-from geneva_cli.loads.load_case import known_quantities, multiples, sources
+from geneva_cli.loads.load_case import known_quantities, multiples
 from geneva_cli.loads.load_peaks import LoadSummary, reported_peaks
 from geneva_cli.table import Reading, Table, computed_table, record_table, rows_table
 
@@ -111,20 +111,19 @@ def cycle_table(cycle: Cycle, samples: int) -> Table:
     from geneva_cli.motion.motion_table import check_samples, derivatives, inputs, times_s
 
     check_samples(samples)
-    machine, known = cycle.mechanism, sources(cycle.mechanism)
+    machine = cycle.mechanism
+    known = [name for name in SHOWN_QUANTITIES if name in cycle.sources]
     names = ("time_s", "input_deg", machine.output.column, *SHOWN_QUANTITIES)
 
     def rows(begin: int, end: int) -> list[Any]:
         input_deg = inputs(machine, samples, begin, end)
-        states = cycle.states(input_deg)
+        loads = dict(zip(known, cycle.states(input_deg, known), strict=True))
         turned = derivatives(machine, input_deg, (0,))[0] * machine.output.per_radian
         out = [times_s(machine, input_deg), input_deg, turned]
         for name in SHOWN_QUANTITIES:
-            column: Any = [None] * len(input_deg)
-            if name in known:
-                column = cycle.plain(states, name)
-                if not np.isfinite(column).all():
-                    column = [x if math.isfinite(x) else None for x in column.tolist()]
+            column: Any = loads.get(name, [None] * len(input_deg))
+            if name in loads and not np.isfinite(column).all():
+                column = [*map(_finite, column.tolist())]
             out.append(column)
         return out
 

@@ -49,7 +49,7 @@ def sizing(
 ) -> tuple[Mapping[str, float | None], tuple[str, ...]]:
     """The values of one design in the order shown, and the keys that missing values need."""
     spec, lacks = cycle.mechanism.spec, cycle.mechanism.output.lacks
-    torque = cycle.known[TORQUE] if cycle.is_loaded else None
+    torque = cycle.extremes[TORQUE] if cycle.is_loaded else None
     rows = sizings(cycle.machine, SIZING_NAMES if torque else KNOWN_UNLOADED)
     values = {name: float(row[0]) for name, row in rows.items() if name not in lacks}
     out = {
@@ -59,7 +59,7 @@ def sizing(
     if torque is None:
         return out, ()
     needs = []
-    if not (np.isfinite(torque.max) & np.isfinite(torque.min)).all():
+    if math.isinf(torque.max) or math.isinf(torque.min):
         needs.append("sizing: nothing bounds the input's torque, so no motor or flywheel suffices")
     if out["inertia_kgm2"] is None and "inertia_kgm2" not in lacks:
         needs.append("inertia_kgm2: needs inertia_kgm2 in [load], or a [[mass]]")

@@ -80,10 +80,9 @@ def test_of_equal_extremes_the_first_is_told() -> None:
         x = np.unique([place for _, places in told for place in places])
         v, a, j = derivatives(mechanism, x, (1, 2, 3)) if len(x) else np.empty((3, 0))
         values = {"velocity": v, "acceleration": abs(a), "jerk": abs(j), "power": abs(v * a)}
-        states = cycle.states(x)
         for one, places in told:
             if one.name not in values:
-                values[one.name] = cycle.plain(states, one.name)
+                values[one.name] = cycle.states(x, [one.name])[0]
             at = values[one.name][np.searchsorted(x, places)] * one.sign
             tie = max(SAME * abs(one.value), ROUNDING * one.size)
             assert (at < one.value * one.sign - tie).all(), (design.stem, one, places)

@@ -80,11 +80,11 @@ def test_a_load_without_a_bound_leaves_the_panel():
     assert (word.word, word.x) == ("max", pytest.approx(0.0, abs=1e-6))
     low, high = panel.bounds
     end = design.mechanism.engagements[0].exit_deg
-    signed = design.cycle.states(np.linspace(-end, end, 4001)).pin_force_N
+    signed = design.cycle.states(np.linspace(-end, end, 4001), ["pin_force_N"])[0]
     assert low == pytest.approx(signed.min(), rel=1e-4)  # the square of the spacing
     # three times the force half-way between the ends and mid-motion
     x = np.array([-0.5, 0.5]) * design.mechanism.engagements[0].exit_deg
-    assert high == pytest.approx(3.0 * design.cycle.states(x).pin_force_N.max(), rel=1e-9)
+    assert high == pytest.approx(3.0 * design.cycle.states(x, ["pin_force_N"]).max(), rel=1e-9)
     ys = [y for _, y in points(curve)]
     assert max(ys) == high and all(math.isfinite(y) for y in ys)
     # no line runs along the edge
