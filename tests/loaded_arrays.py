@@ -3,8 +3,7 @@
 import numpy as np
 from design_arrays import MACHINES, drawn
 
-from geneva_cli.loads.contact import NEAR_CUSP
-from geneva_cli.loads.cycle_quantities import NEVER_NEGATIVE, SQUARED
+from geneva_cli.loads.contact import NEAR_CUSP, NEVER_NEGATIVE, SQUARED
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_functions import LoadFunctions
 from geneva_cli.loads.load_peaks import LoadSummary, load_summaries

@@ -16,8 +16,7 @@ import numpy as np
 
 from geneva_cli.errors import Notice
 from geneva_cli.kept import cached_property
-from geneva_cli.loads.contact import LoadCase, contact, contact_values
-from geneva_cli.loads.cycle_quantities import FORCE, STRESS, TORQUE, WALL_FORCE, plain_values
+from geneva_cli.loads.contact import LoadCase, contact, contact_values, plain_values
 from geneva_cli.loads.impacts.reversal import arrival
 from geneva_cli.loads.instant import Instant, bounded
 from geneva_cli.loads.load_case import load_case, sources, weight_kg
@@ -99,7 +98,7 @@ class Cycle:
                 drives[none] = Instant(case, beside, feeds=1.0).drives
                 here = Instant(case, at, drives)
             each = [self.sources[name] for name in names]
-            sought = [WALL_FORCE if source == FORCE else source for source, _ in each]
+            sought = ["wall_force_N" if source == "pin_force_N" else source for source, _ in each]
             rows = [bounded(here, source) for source in sought]
             # the limits where the pin crosses the slot without a torque
             middle = np.flatnonzero(input_deg == 0.0)
@@ -157,7 +156,7 @@ def cycle_warnings(mechanism: Mechanism) -> list[Notice]:
 
 def _unbounded(cycle: Cycle) -> Iterator[Notice]:
     """Warnings about loads that nothing bounds."""
-    case, force = cycle.case, cycle.ends[FORCE]
+    case, force = cycle.case, cycle.ends["pin_force_N"]
     endless_deg = math.inf
     for value, at_deg in ((force.max, force.max_at_deg), (force.min, force.min_at_deg)):
         if math.isinf(value):
@@ -172,7 +171,7 @@ def _unbounded(cycle: Cycle) -> Iterator[Notice]:
             f"friction of {of} holds the {held} at {endless_deg:.4g}°, however hard the roller "
             f"presses: it takes as much {more} gives. Use a smaller roller or less {less}",
         )
-    stress = cycle.ends.get(STRESS)
+    stress = cycle.ends.get("contact_stress_MPa")
     if stress is not None and not math.isfinite(stress.max) and endless_deg == math.inf:
         yield Notice(
             "sharp-wall",
@@ -185,7 +184,7 @@ def _unbounded(cycle: Cycle) -> Iterator[Notice]:
 def _driven(cycle: Cycle) -> Iterator[Notice]:
     """Warnings about a wheel that drives the motor, or lags behind its roller."""
     mechanism, ends = cycle.mechanism, cycle.ends
-    torque, noun = ends[TORQUE], mechanism.output.noun
+    torque, noun = ends["input_torque_Nm"], mechanism.output.noun
     stop = arrival(mechanism) if mechanism.engagements[0].paired else None
     least, largest = torque.min, max(abs(torque.max), abs(torque.min))
     # a torque without a bound is no measure of the rounding of another

@@ -16,8 +16,7 @@ from typing import Any, Generic, Protocol, cast
 import numpy as np
 
 from geneva_cli.kept import cached_property
-from geneva_cli.loads.contact import Contact, LoadCase, QuantityValue, lesser, value
-from geneva_cli.loads.cycle_quantities import FORCE, PRESSED, PV, TORQUE, WALL_FORCE
+from geneva_cli.loads.contact import PRESSED, Contact, LoadCase, QuantityValue, lesser, value
 from geneva_cli.numerics.arrays import all_true
 from geneva_cli.numerics.jet import Array, Jet, Number, V
 
@@ -177,11 +176,11 @@ class Instant(Generic[V]):
             return QuantityValue(at.acceleration * (w * w))
         if name == "wheel_torque_Nm":
             return QuantityValue(self.wheel_torque_Nm)
-        if name == TORQUE:
+        if name == "input_torque_Nm":
             return QuantityValue(self.input_torque_Nm, self.friction_margin)
-        if name == FORCE:
+        if name == "pin_force_N":
             return QuantityValue(self.force_N, self.grip)
-        if name == WALL_FORCE:
+        if name == "wall_force_N":
             return QuantityValue(self.force_N * self.drives, self.grip, self.drives)
         if name == "wheel_bearing_N":
             return QuantityValue(self.wheel_bearing_N, self.grip)
@@ -197,7 +196,7 @@ class Instant(Generic[V]):
         square = self.force_N * at.touches * case.hertz / self.edge
         friction = self.friction_margin
         margin = self.edge if friction is None else lesser(friction, self.edge)
-        if name == PV:  # W²/m⁴
+        if name == "pv_W_m2":  # W²/m⁴
             square = square * (sliding * sliding * 1e12)
         return QuantityValue(square, margin)
 

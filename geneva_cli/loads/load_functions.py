@@ -16,7 +16,6 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.contact import NEAR_CUSP, NEGLIGIBLE, LoadCase, contact, value
-from geneva_cli.loads.cycle_quantities import PV
 from geneva_cli.loads.instant import Instant, LoadQuantity, sign_of
 from geneva_cli.motion.batch import selection
 from geneva_cli.motion.engagement import Engagement
@@ -24,7 +23,7 @@ from geneva_cli.motion.path_and_slot import retraces
 from geneva_cli.motion.peak_search import breaks, pole_deg, spans
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Mask, Which, all_true, array
-from geneva_cli.numerics.extremes import SearchResult, Stretches, cuts
+from geneva_cli.numerics.extremes import SearchResult, Stretches, cuts, search
 from geneva_cli.numerics.jet import Array, Jet, Number
 
 # The functions whose signs matter, in order: each is smooth while those before it keep their signs.
@@ -56,7 +55,7 @@ class LoadFunctions:
         matters = {
             "drives": not all_true(case.inertia_Nm == 0.0),
             # p v is 0 where the sliding is, in a notch that may be near a pole
-            "slides": case.rubs or PV in names,
+            "slides": case.rubs or "pv_W_m2" in names,
             "feeds": not all_true(case.efficiency == 1.0),
             "grip": case.rubs or case.guided,
             "leans": case.guided,
@@ -101,10 +100,8 @@ class LoadFunctions:
         w = np.fmin(np.where(w > 0.0, w, np.inf), 10.0 * engagement.exit_deg)
         self.spread: Array = np.broadcast_to(w, (self.n, 1))
 
-    def to_search(
-        self, sized: bool = False
-    ) -> tuple[list[tuple[Array, Array]], list[tuple[int, Array, Array]]]:
-        """The spans of the motion to be searched, and values that none of them reaches."""
+    def search(self, sized: bool = False) -> SearchResult:
+        """The greatest values of the quantities and of their negatives, or their greatest sizes."""
         parts, case, engagement = self.spans, self.case, self.engagement
         is_curved = engagement.slot.curved
         # Without friction, for an inertia or a torque alone, the second half of the motion has no
@@ -116,9 +113,10 @@ class LoadFunctions:
         radial = all_true(engagement.slot.offset == 0.0)
         if sized and alone and radial and engagement.mirrored:
             parts = parts[: len(parts) // 2]
+        known = list[tuple[int, Array, Array]]()
         if is_curved:  # no span reaches mid-motion
-            return parts, at_mid_motion(engagement, case, self.quantities, self.n)
-        return parts, []
+            known = at_mid_motion(engagement, case, self.quantities, self.n)
+        return search(self, parts, sized, known, self.spread)
 
     def stretches(self, result: SearchResult | None = None) -> Stretches:
         """The motion, divided where signs change: as in a search, or without one."""

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.loads.contact import QuantityValue
-from geneva_cli.loads.cycle_quantities import TORQUE
 from geneva_cli.loads.instant import Instant, LoadQuantity
 from geneva_cli.loads.load_case import inertia_kgm2, load_case, resisting_torques_Nm
 from geneva_cli.loads.load_functions import LoadFunctions
@@ -56,7 +55,7 @@ def sizing(
 ) -> tuple[Mapping[str, float | None], tuple[str, ...]]:
     """The values of one design in the order shown, and the keys that missing values need."""
     spec, lacks = cycle.mechanism.spec, cycle.mechanism.output.lacks
-    torque = cycle.extremes[TORQUE] if cycle.is_loaded else None
+    torque = cycle.extremes["input_torque_Nm"] if cycle.is_loaded else None
     rows = sizings(cycle.machine, SIZING_NAMES if torque else KNOWN_UNLOADED)
     values = {name: float(row[0]) for name, row in rows.items() if name not in lacks}
     out = {
@@ -92,7 +91,7 @@ def sizings(mechanism: Mechanism, requested: Collection[str] = SIZING_NAMES) -> 
         **_by_formula(whole),
     }
     if names & {*SUMS, "motor_torque_max_Nm"}:
-        torque = load_summaries(mechanism, [TORQUE], bool(names & set(SUMS)))[TORQUE]
+        (torque,) = load_summaries(mechanism, ["input_torque_Nm"], bool(names & {*SUMS})).values()
         values |= _exact(whole, torque)
     if "inertia_ratio" in names:  # the wheel's inertia at its fastest over the motor's
         frame = whole.frame
@@ -277,6 +276,6 @@ def kinetic_power_W(mechanism: Mechanism, power_invariant: float) -> float:
         return inertia_kgm2(spec) * power_invariant * w**3 / spec.load.efficiency
     case = load_case(mechanism)._replace(resists_Nm=0.0, efficiency=1.0, guide=None)
     case = case.with_friction(0.0)
-    torque = load_peaks(mechanism, (TORQUE,), case=case)[TORQUE].max
+    torque = load_peaks(mechanism, ("input_torque_Nm",), case=case)["input_torque_Nm"].max
     one = isinstance(power_invariant, float)
     return (float(torque[0]) if one else parameter(torque[:, None])) * w / spec.load.efficiency

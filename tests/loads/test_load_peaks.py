@@ -13,8 +13,7 @@ from words import Drive, Keys, Motion, Spec, Wheel
 from geneva_cli.design import Design, load
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.cycle import Cycle, cycle_warnings
-from geneva_cli.loads.cycle_quantities import REPORTED_PEAKS
-from geneva_cli.loads.load_peaks import greatest_pressure
+from geneva_cli.loads.load_peaks import REPORTED_PEAKS, greatest_pressure
 from geneva_cli.loads.sizing import kinetic_power_W
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.peaks import worst

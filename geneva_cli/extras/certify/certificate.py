@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias, cast
 
 from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.loads.contact import contact
-from geneva_cli.loads.cycle_quantities import FORCE, TORQUE
 from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.motion.engagement import Engagement
@@ -37,7 +36,7 @@ DIGITS = 15  # that are printed: as many as every double keeps
 NARROW_DEG = 1e-6  # a narrower place is one angle for people
 DERIVED = {"velocity": 0, "acceleration": 1, "jerk": 2}  # derivatives of the velocity
 WHEEL_TORQUE = "wheel_torque_Nm"
-LOADS = (WHEEL_TORQUE, FORCE, TORQUE)
+LOADS = (WHEEL_TORQUE, "pin_force_N", "input_torque_Nm")
 
 
 class Place(NamedTuple):
