@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from functools import lru_cache
-from typing import Generic, NamedTuple, TypeAlias, TypeVar
+from typing import Generic, NamedTuple, TypeAlias, TypeVar, cast
 
 import numpy as np
 
@@ -55,7 +55,7 @@ class LoadSummary(NamedTuple, Generic[S]):
 
 def only(one: LoadSummary[Array]) -> LoadSummary[float]:
     """The summary of a single design."""
-    return LoadSummary(*[None if row is None else row.item() for row in one])
+    return LoadSummary(*[cast(float, None if row is None else row.item()) for row in one])
 
 
 Search: TypeAlias = tuple[LoadFunctions, SearchResult]  # of an engagement

@@ -60,10 +60,13 @@ def oscillator(
     shaft, spec = mechanism.spec.shaft, mechanism.spec
     if damping is not None and damping not in DAMPING:
         raise GenevaError(f"--damping {damping:g}: must be {DAMPING}: at 1 nothing oscillates")
-    ratios, key = f"must be {PERIOD_RATIO.low:g} to {PERIOD_RATIO.high:g}", ()
-    given = f"--period-ratio {period_ratio}"
+    ratios, given = (
+        f"{PERIOD_RATIO.low:g} to {PERIOD_RATIO.high:g}",
+        f"--period-ratio {period_ratio}",
+    )
+    key = STIFFNESS if period_ratio is None else ()
     if period_ratio is None:
-        key, inertia = STIFFNESS, inertia_kgm2(spec)
+        inertia = inertia_kgm2(spec)
         needed = "--period-ratio, the motion's time over the load's natural period"
         if not mechanism.output.turns:
             noun = mechanism.output.noun
@@ -86,7 +89,7 @@ def oscillator(
             f"ratio (motion time / natural period) of {period_ratio:.4g}"
         )
     if period_ratio not in PERIOD_RATIO:
-        raise GenevaError(f"{given}: {ratios}", key)
+        raise GenevaError(f"{given}: must be {ratios}", key)
     zeta = shaft.damping_ratio if damping is None else damping
     return Oscillator(np.array([period_ratio]), np.array([zeta]))
 
