@@ -60,10 +60,8 @@ def oscillator(
     shaft, spec = mechanism.spec.shaft, mechanism.spec
     if damping is not None and damping not in DAMPING:
         raise GenevaError(f"--damping {damping:g}: must be {DAMPING}: at 1 nothing oscillates")
-    ratios, given = (
-        f"{PERIOD_RATIO.low:g} to {PERIOD_RATIO.high:g}",
-        f"--period-ratio {period_ratio}",
-    )
+    ratios = f"{PERIOD_RATIO.low:g} to {PERIOD_RATIO.high:g}"
+    given = f"--period-ratio {period_ratio}"
     key = STIFFNESS if period_ratio is None else ()
     if period_ratio is None:
         inertia = inertia_kgm2(spec)
