@@ -213,15 +213,12 @@ def _driven(cycle: Cycle) -> Iterator[Notice]:
             "the input. There the play of slot and reducer changes sides, and a self-locking worm "
             f"jams: use a brake or a motor that brakes, {helps}",
         )
-    torque_Nm, _, lagging = stop or (0.0, 0.0, None)
-    if lagging:
-        lag, at_deg, struck = lagging
+    if stop and 0.0 < stop[0] <= stop[1]:
         yield Notice(
             "lags-behind",
-            f"a torque of {torque_Nm:.4g} N m takes the wheel off the roller that stops it. "
-            f"Once the gears let go the wheel lags, by up to {lag:.4g}° at {at_deg:.4g}°, "
-            f"and the roller strikes it at {struck:.4g}°. Less torque, more inertia or more "
-            "speed reduces the lag",
+            f"a torque of {stop[0]:.4g} N m takes the wheel off the roller that stops it: once the "
+            "gears let go the wheel lags, and the roller strikes it. Less torque, more inertia or "
+            "more speed reduces the lag",
         )
 
 
