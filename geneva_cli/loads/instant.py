@@ -11,8 +11,7 @@ roller, fixed to its body, rubs along the wall.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any, Generic, TypeAlias
+from typing import Any, Generic, Protocol
 
 import numpy as np
 
@@ -184,8 +183,11 @@ class Instant(Generic[V]):
         return found
 
 
-# a function without numbers, or a tuple whose numbers may be arrays (m, 1)
-LoadQuantity: TypeAlias = Callable[[Instant[Any]], QuantityValue[Any]]
+class LoadQuantity(Protocol):
+    """A quantity: a function without numbers, or a tuple whose numbers may be arrays (m, 1)."""
+
+    def __call__(self, i: Instant[Any], /) -> QuantityValue[Any]:
+        """The quantity, and the margin that bounds it."""
 
 
 def _pv(i: Instant[Any]) -> QuantityValue[Any]:

@@ -11,7 +11,7 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from geneva_cli import Cam, Design, External, Limits, Load, ModifiedSine, Motion, Size, Tolerance
-from geneva_cli.loads.impacts.entry import mouth_contacts
+from geneva_cli.loads.impacts.entry import RestingAxis, mouth_contacts
 from geneva_cli.loads.impacts.reversal import changes, drag_over
 from geneva_cli.parts.machine_sizes import built
 from geneva_cli.study.summary.load_lines import load_lines
@@ -52,7 +52,7 @@ def test_values_are_those_of_the_worst_machine():
     assert check.at_deg == contact.at_deg
     assert check.passes
     # and on its mouth's far corner where it has but 0.02 - 0.02/2
-    harder = mouth_contacts(engagement, 0.02 / 50.0, -0.03 / 100.0, 0.05, 1e-4)
+    harder = mouth_contacts(RestingAxis.of(engagement), 0.02 / 50.0, -0.03 / 100.0, 0.05, 1e-4)
     check = row(of, "entry_shock_N")
     assert check.value == force_of(of.mechanism, harder.jump[0])
     assert check.at_deg == harder.at_deg[0]
