@@ -120,7 +120,7 @@ def entry_jumps_worst(mechanism: Mechanism, use: Mapping[str, float]) -> Array |
         sizes = [use["center_distance_mm"], use["crank_radius_mm"], *[0.0] * 5]
         jumps = [one(corners(sizes))[0].reshape(-1, mechanism.designs) for one in built]
         return np.asarray(np.concatenate(jumps).max(axis=0))
-    sizes = []
+    sizes: list[Array] = []
     for axis in RestingAxis.each(mechanism):
         crank = use["crank_radius_mm"] / arm_mm(mechanism, axis.engagement)
         center = use["center_distance_mm"] / mechanism.center_distance_mm
