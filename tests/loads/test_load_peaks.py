@@ -188,25 +188,6 @@ def test_a_motion_between_two_angles_has_no_loads():
             Design.of(elliptical(6, near, "external")).loads  # noqa: B018
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("left", [1e-6, 3e-8, 1e-10])
-def test_forces_of_a_wheel_that_hurries_go_with_the_square_of_its_speed(left):
-    """Curved slots behind gears of e = 1 - left, whose wheel is 1 / left times as fast.
-
-    They do not hang on the wheel's angle, whose rounding would be 4e-4 of them at 1e-6.
-    """
-
-    def greatest(left):
-        drive = Drive("elliptical-gears")
-        keys = Keys("elliptical-gears", 1.0 - left, phase="slow")
-        motion = Motion("3-4-5", alpha0_deg=19.136)
-        spec = Spec(Wheel(12, "internal"), drive, keys, motion=motion, load=Load(0.0149))
-        found = Design.of(spec).loads["pin_force_N"]
-        return found.max * (1.0 - (1.0 - left)) ** 2
-
-    assert greatest(left) == pytest.approx(greatest(1e-5), rel=2e-5)
-
-
 def test_beside_a_cusp_the_stress_goes_to_nought():
     """At a pitch curve's cusp one wall turns away from the roller: 1/r + k/(1 - k r) goes to 0.
 
