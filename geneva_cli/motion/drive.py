@@ -10,7 +10,7 @@ from geneva_cli.errors import GenevaError, refuse_text
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.pivots import Layout, Link, ShaftPlace
 from geneva_cli.numerics.arrays import larger
-from geneva_cli.spec.rules import NOT_NEGATIVE, SPEED, Z_MAX, Range
+from geneva_cli.spec.rules import SPEED, Z_MAX, FromZero, Range
 from geneva_cli.spec.schema import Example, SpecTable
 
 if TYPE_CHECKING:
@@ -74,22 +74,14 @@ class Drive(SpecTable, kw_only=True):
     wheels_on_carrier: ClassVar[int] = 0  # that orbit on it, as the input turns it; 0 without one
     # places of the cranks about the wheel, in steps from the first one
     cranks: ClassVar[tuple[float, ...]] = (0.0,)
-    n_rpm: Annotated[
-        float,
-        SPEED,
-        "constant speed of the input shaft; to turn it the other way: --reverse",
-    ] = 60.0
+    n_rpm: Annotated[float, SPEED, "speed of the input shaft; the other way: --reverse"] = 60.0
     rollers: Annotated[int, Range(1, Z_MAX), "number of rollers (pins) on the crank, m"] = 1
     roller_angles_deg: Annotated[
-        tuple[float, ...] | None,
-        Range(0.0, 360.0, "[)"),
-        "angles of the rollers on the crank, if not evenly spaced or with equal dwells",
+        tuple[float, ...] | None, Range(0.0, 360.0, "[)"), "of rollers that are not evenly spaced"
     ] = None
-    stop_s: Annotated[
-        float, NOT_NEGATIVE, "time by which a stop of the input lengthens each dwell"
-    ] = 0.0
-    start_s: Annotated[float, NOT_NEGATIVE, "time in which the input starts after a stop"] = 0.0
-    brake_s: Annotated[float, NOT_NEGATIVE, "time in which the input brakes to a stop"] = 0.0
+    stop_s: Annotated[FromZero, "time by which a stop of the input lengthens each dwell"] = 0.0
+    start_s: Annotated[FromZero, "time in which the input starts after a stop"] = 0.0
+    brake_s: Annotated[FromZero, "time in which the input brakes to a stop"] = 0.0
 
     def __post_init__(self) -> None:
         super().__post_init__()

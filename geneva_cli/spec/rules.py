@@ -3,7 +3,7 @@
 import math
 import sys
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 from geneva_cli.errors import GenevaError
 
@@ -100,6 +100,11 @@ LENGTH = Range(-1e12, 1e12)
 TOOL_MM = Range(0.0, 1000.0, "(]")  # kerfs and cutters: no beam, no milling cutter is wider
 FINITE = Range(-math.inf, math.inf, "()")
 Z_MAX = 1_000_000  # most slots (and rollers) that are computed
+# types of usual keys
+Positive = Annotated[float | None, POSITIVE]
+NotNegative = Annotated[float | None, NOT_NEGATIVE]
+FromZero = Annotated[float, NOT_NEGATIVE]
+Height = Annotated[float | None, LENGTH]
 
 
 def require_mm(option: str, value: float, allowed: Range, of: str = "") -> None:

@@ -37,9 +37,7 @@ class Spherical(Gearing):
     )
     FLAT: ClassVar[bool] = False
     DISTANCE: ClassVar[str] = "sphere's radius"
-    axes_deg: Annotated[
-        float, Range(0.0, 180.0, "()"), "spherical: angle between the two shafts"
-    ] = 90.0
+    axes_deg: Annotated[float, Range(0.0, 180.0, "()"), "angle between the two shafts"] = 90.0
 
     def __post_init__(self) -> None:
         super().__post_init__()
