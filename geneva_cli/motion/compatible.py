@@ -79,7 +79,7 @@ def concerns(kind: Kind, spec: Spec) -> bool:
         return True
     for key in kind.keys:
         table, _, name = key.partition(".")
-        of = vars(spec)[table.replace(".", "_")]
+        of = vars(spec)[table]
         value, default = vars(of).get(name), getattr(type(of), name, None)
         if value is not default and (is_array(value) or value != default):
             return True

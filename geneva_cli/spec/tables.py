@@ -633,8 +633,7 @@ class Accept(SpecTable):
         return list(unused)
 
 
-# The tables of every kind of machine, in the order of a file. Each is a field of ``Spec``, with an
-# underscore for a dot. The tables in LISTS may be repeated.
+# The tables of every kind of machine, in the order of a file; those in LISTS may be repeated.
 PLAIN: dict[str, type[SpecTable]] = {
     "size": Size,
     "load": Load,

@@ -206,7 +206,7 @@ def read(path: str, set_keys: Iterable[str] = ()) -> Text:
 
     Raises GenevaError, with the message ready to print, if it cannot be read.
     """
-    name = path if path.strip() and path != "-" else shown_name(path)
+    name = shown_name(path)
     bytes_max = 1 << 20  # a spec is a page; a megabyte of it is a mistake
     try:
         if path == "-":
@@ -216,14 +216,8 @@ def read(path: str, set_keys: Iterable[str] = ()) -> Text:
                 data = file.read(bytes_max + 1)
     except OSError as error:
         what = "this is a folder, not a file" if os.path.isdir(path) else str(error.strerror)
-        advice = ""
-        if isinstance(error, FileNotFoundError):
-            from geneva_cli.specfile.designs import names
-
-            design = os.path.basename(path).removesuffix(".toml")
-            advice = "; `geneva new external -o spec.toml` writes an example"
-            if design in names():
-                advice = f"; `geneva new --from-design {design} -o {design}.toml` writes one"
+        is_missing = isinstance(error, FileNotFoundError)
+        advice = "; `geneva new external -o spec.toml` writes an example" if is_missing else ""
         raise GenevaError(f"{name}: cannot read: {what}{advice}") from None
     except ValueError as error:  # a NUL in the name
         raise GenevaError(f"{name!r}: cannot read: {error}") from None

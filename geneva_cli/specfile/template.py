@@ -1,8 +1,11 @@
-"""A commented spec to start from, with the keys that the reader knows."""
+"""Specs to start from: commented ones with the keys that the reader knows, and whole designs."""
 
 from __future__ import annotations
 
+import os
 from typing import Any
+
+import tomli
 
 from geneva_cli.drives.crank import Crank
 from geneva_cli.errors import GenevaError, cut, few, nearest
@@ -12,7 +15,7 @@ from geneva_cli.motion.wheels.external import External
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.spec.schema import REQUIRED, Example, Field, fields
 from geneva_cli.spec.tables import LISTS
-from geneva_cli.specfile.json_schema import FILE
+from geneva_cli.specfile.keys import FILE
 from geneva_cli.specfile.writer import keys_of, noted, quoted
 
 # common requests, in addition to the example of each kind of wheel and drive
@@ -89,8 +92,6 @@ def template(kind: str, schema: bool = True, whole: bool = True) -> str:
     GenevaError for an unknown kind.
     """
     if kind not in KINDS:
-        from geneva_cli.specfile.designs import titles  # only for messages
-
         if kind in titles():
             raise GenevaError(
                 f'"{kind}" is a design, not a KIND; use `geneva new --from-design {kind}`'
@@ -174,3 +175,42 @@ def _line(field: Field, values: dict[str, Any]) -> str:
         return f"{field.key} = {quoted(values[field.key])}{note}"
     default = "..." if field.default in (None, REQUIRED) else quoted(field.default)
     return f"# {field.key} = {default}{note}"
+
+
+def titles() -> dict[str, str]:
+    """Names of the designs, with their titles.
+
+    >>> from geneva_cli.specfile.template import titles
+    >>> titles()["side-crank-z6"]
+    'Side-crank, six slots, A = 0.6'
+    """
+    files = [file for file in sorted(os.listdir(_folder())) if file.endswith(".toml")]
+    return {file.removesuffix(".toml"): str(tomli.loads(_text(file))["title"]) for file in files}
+
+
+def design(name: str) -> tuple[str, dict[str, str]]:
+    """Text of a design's spec, and the texts of the files that it names, by name.
+
+    Raises GenevaError, with the nearest name, for an unknown design.
+    """
+    known = titles()
+    if name not in known:
+        raise GenevaError(
+            f"--from-design {cut(name)}: no such design{nearest(name, known)}; "
+            "`geneva new --list` lists them"
+        )
+    text = _text(f"{name}.toml")
+    points = [file for file in os.listdir(_folder()) if file.endswith(".csv")]
+    return text, {file: _text(file) for file in points if f'"{file}"' in text}
+
+
+def _folder() -> str:
+    """The folder of the designs: in the package if installed, else adjacent to it."""
+    package = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+    inside = os.path.join(package, "designs")
+    return inside if os.path.isdir(inside) else os.path.join(os.path.dirname(package), "designs")
+
+
+def _text(file: str) -> str:
+    with open(os.path.join(_folder(), file), encoding="utf-8") as opened:
+        return opened.read()

@@ -65,7 +65,7 @@ class Target(NamedTuple):
         """A wheel of a gearing and a number of slots, with a stop if the frame's has one."""
         wheel = registry.gearing(gearing)(z)
         stops = self.frame is not None and self.frame.wheel.stopped
-        return wheel.with_key("stop", True) if stops else wheel
+        return wheel.replace(stop=True) if stops else wheel
 
     @property
     def any_motion(self) -> bool:

@@ -249,11 +249,6 @@ def refused(spec, value):
     return str(caught.value)
 
 
-def test_a_key_in_other_capitals_is_named_with_the_kind_that_has_it():
-    said = refused(WHEEL + "[drive]\na = @", "0.3")
-    assert '(did you mean "A"?); A belongs to kind = "side-crank"' in said
-
-
 @pytest.mark.parametrize("group", GROUPS)
 def test_refused_with_line_condition_and_value(group):
     for param in GROUPS[group]:
