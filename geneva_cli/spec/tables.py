@@ -59,18 +59,19 @@ class Size(SpecTable):
     ] = field(default=None, kw_only=True)
     roller_radius_mm: Annotated[Positive, "roller radius r; default L/20"] = None
     process: Annotated[str | None, OneOf(PROCESSES), "sets clearances, fits and limits"] = None
-    slot_clearance_mm: Annotated[NotNegative, "roller to slot, per side; by process, or 0"] = None
-    lock_clearance_mm: Annotated[NotNegative, "disc to wheel, per side; by process, or 0"] = None
+    slot_clearance_mm: Annotated[NotNegative, "per side, in slot; default 0, or by process"] = None
+    lock_clearance_mm: Annotated[NotNegative, "per side, of disc; default 0, or by process"] = None
     face_width_mm: Annotated[Positive, "length of the contact line between roller and slot"] = None
     wheel_radius_mm: Annotated[
-        Positive, "rim radius; internal: of the opening; linear: of the edge; default: at entry"
+        Positive,
+        "rim radius; internal: of the opening; linear: the edge; default: roller at entry",
     ] = None
     wheel_outer_radius_mm: Annotated[Positive, "internal: outer radius; default slots + 2 r"] = None
     slot_bottom_clearance_mm: Annotated[NotNegative, "roller to a slot's end; default r/20"] = None
     lock_radius_mm: Annotated[NotNegative, "locking disc's radius; 0 none; default by horns"] = None
-    relief: Annotated[str | None, OneOf(("arc", "sector")), "relief of the locking disc"] = None
+    relief: Annotated[str | None, OneOf(("arc", "sector")), "default: the one that clears"] = None
     relief_clearance_mm: Annotated[NotNegative, "wheel to relief's bottom; default L/200"] = None
-    wall_min_mm: Annotated[NotNegative, "least wall that passes; default L/200, by process"] = None
+    wall_min_mm: Annotated[NotNegative, "least wall; default L/200, or by process"] = None
     wheel_bore_mm: Annotated[NotNegative, "diameter of the wheel's shaft; default up to L/6"] = None
     wheel_hub_mm: Annotated[NotNegative, "diameter of the wheel's hub, towards the arm"] = None
     wheel_hub_length_mm: Annotated[Positive, "below the wheel; default: past the crank arm"] = None
@@ -85,9 +86,9 @@ class Size(SpecTable):
     crank_shaft_low_mm: Annotated[Height, "shaft's lower end, from the wheel's lower face"] = None
     crank_shaft_high_mm: Annotated[Height, "shaft's upper end, from the wheel's lower face"] = None
     pin_mm: Annotated[NotNegative, "diameter of the roller's pin; default r, or by load"] = None
-    press_fit_mm: Annotated[NotNegative, "pin minus its hole in the arm; by process, or 0"] = None
-    shaft_fit_mm: Annotated[NotNegative, "bores minus shafts and pins; by process, or 0"] = None
-    arm_bore_mm: Annotated[Positive, "crank's shaft in the arm; by crank_bore_mm or load"] = None
+    press_fit_mm: Annotated[NotNegative, "pin minus its hole; default 0, or by process"] = None
+    shaft_fit_mm: Annotated[NotNegative, "bores minus shafts; default 0, or by process"] = None
+    arm_bore_mm: Annotated[Positive, "crank's shaft in the arm; default crank_bore_mm"] = None
     arm_hub_mm: Annotated[Positive, "width of the arm round its bore; default 1.6 bores"] = None
     arm_eye_mm: Annotated[Positive, "width of the arm round a pin; default up to 2 pins"] = None
     crank_keyway: Keyway = None
@@ -98,25 +99,25 @@ class Size(SpecTable):
     wheel_flat_mm: Annotated[Positive, "depth of a D bore's flat; default bore/10"] = None
     dial_bolts: Annotated[int, Range(0, 100), "number of bolts between dial and wheel"] = 0
     dial_bolt_mm: Annotated[Positive, "dial's bolt holes; default for a screw up to L/40"] = None
-    dial_bolt_circle_mm: Annotated[Positive, "dial's bolt circle; amid bore and slots"] = None
+    dial_bolt_circle_mm: Annotated[Positive, "dial's bolt circle; default amid bore, slots"] = None
     gear_bolts: Annotated[int, Range(0, 100), "screws between a fixed gear and the frame"] = 4
     gear_bolt_mm: Annotated[Positive, "fixed gear's screw holes; default up to L/40"] = None
-    gear_bolt_circle_mm: Annotated[Positive, "its screw circle; amid bore and pitch circle"] = None
-    lock_bolts: Annotated[int | None, Range(0, 100), "bolts through each sector; up to 2"] = None
+    gear_bolt_circle_mm: Annotated[Positive, "circle; default amid bore and pitch circle"] = None
+    lock_bolts: Annotated[int | None, Range(0, 100), "in each sector; default 2 if they fit"] = None
     lock_bolt_mm: Annotated[Positive, "lock's bolt holes; default for a screw up to L/40"] = None
     lock_bolt_circle_mm: Annotated[Positive, "its bolt circle; default where it is widest"] = None
     pin_held: Annotated[
         str, OneOf(("cantilever", "supported", "fixed")), "in one plate, loose in two, fixed in two"
     ] = "cantilever"
-    pin_gap_mm: Annotated[NotNegative, "from a pin's plate to the contact; by process, or 0"] = None
+    pin_gap_mm: Annotated[NotNegative, "pin's plate to contact; default 0, or by process"] = None
     mouth_radius_mm: Annotated[FromZero, "rounding radius of straight slots' mouths"] = 0.0
     horn_tip_mm: Annotated[FromZero, "horns thinner at their tips are cut to flats so wide"] = 0.0
     lock_edge_mm: Annotated[Positive, "rounding of recesses' ends; with stop the disc's too"] = None
-    wheel_thickness_mm: Annotated[Positive, "wheel and rollers; by face_width_mm or load"] = None
+    wheel_thickness_mm: Annotated[Positive, "wheel; default face_width_mm, L/10 or by load"] = None
     lock_thickness_mm: Annotated[Positive, "locking disc; default wheel plus pin_gap_mm"] = None
     arm_thickness_mm: Annotated[Positive, "crank arm; default the wheel's, or by load"] = None
     link_pin_mm: Annotated[Positive, "pins between links; default up to L/20"] = None
-    link_bore_mm: Annotated[Positive, "shafts that carry links only; up to L/10, by load"] = None
+    link_bore_mm: Annotated[Positive, "shafts of links only; default up to L/10, or by load"] = None
     link_width_mm: Annotated[Positive, "links round their pins; default 2 pin diameters"] = None
     link_thickness_mm: Annotated[Positive, "links; default the crank arm's, or by load"] = None
     washer_mm: Annotated[FromZero, "thickness of washers between stacked links"] = 0.0

@@ -7,8 +7,6 @@ from collections.abc import Iterable, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
-import tomli
-
 from geneva_cli.motion.drive import Drive
 from geneva_cli.motion.laws.law import Motion
 from geneva_cli.motion.machine_spec import BEFORE, DRIVES, LAWS, WHEELS, Spec, drives_before
@@ -134,6 +132,8 @@ def inserted(text: str, table: str, keys: Mapping[str, Written]) -> str | None:
     pin_mm = 6.0  # rule
     <BLANKLINE>
     """
+    import tomli  # not to list keys
+
     lines, left = text.rstrip("\n").split("\n"), dict(keys)
     header = re.compile(rf"\s*\[\s*{re.escape(table)}\s*\]\s*(#.*)?")
     start = next((i for i, line in enumerate(lines) if header.fullmatch(line)), len(lines))
@@ -149,9 +149,13 @@ def inserted(text: str, table: str, keys: Mapping[str, Written]) -> str | None:
     last = max(i for i in range(start, end) if _is_set(lines[i]))
     more = noted([(f"{key} = {quoted(one.value)}", one.note) for key, one in left.items()])
     lines[last + 1 : last + 1] = more
+    tree = node = tomli.loads(text)
+    for name in table.split("."):
+        node = node.setdefault(name, {})
+    node.update({key: one.value for key, one in keys.items()})
     out = "\n".join(lines) + "\n"
     try:
-        return out if tomli.loads(out) == _wanted(text, table, keys) else None
+        return out if tomli.loads(out) == tree else None
     except tomli.TOMLDecodeError:
         return None
 
@@ -160,15 +164,6 @@ def _with_value(line: str, value: Any) -> str:
     """Return a line ``key = value  # comment`` with another value."""
     parts = re.fullmatch(r"""([^=]*=\s*)("[^"]*"|'[^']*'|[^"'#]*?)(\s*#.*|\s*)""", line)
     return f"{parts[1]}{quoted(value)}{parts[3]}" if parts else line
-
-
-def _wanted(text: str, table: str, keys: Mapping[str, Written]) -> dict[str, Any]:
-    """Return the tree of a text with these keys."""
-    tree = node = tomli.loads(text)
-    for name in table.split("."):
-        node = node.setdefault(name, {})
-    node.update({key: one.value for key, one in keys.items()})
-    return tree
 
 
 def _is_set(line: str) -> bool:
