@@ -114,10 +114,7 @@ class _Slot(_Path, base.Slot):
     def __init__(self, own: base.Slot, timing: Timing) -> None:
         super().__init__(own, timing)
         self.curved, self.relieved, self.offset = own.curved, own.relieved, own.offset
-        self.walls_flat = own.walls_flat
-        if own.height is not None:
-            turn = _Displacement(own.height.turn, timing.advances[1])
-            self.height = own.height._replace(turn=turn)
+        self.walls_flat, self.spherical = own.walls_flat, own.spherical
 
     @property
     def seams_deg(self) -> tuple[float, ...]:

@@ -37,13 +37,6 @@ class Gears(NamedTuple):
     advance: Displacement
 
 
-class FirstWheel(NamedTuple):
-    """A wheel in front of the crank: its slots, and the distance of its axis from its own crank."""
-
-    z: int
-    distance_mm: float
-
-
 class Drive(SpecTable, kw_only=True):
     """A kind of drive; its fields are the keys of ``[drive]``."""
 
@@ -128,8 +121,11 @@ class Drive(SpecTable, kw_only=True):
         """Key of ``[drive]`` that its link reactions need and that is not set; empty if none."""
         return ""
 
-    def first_wheel(self, L: float) -> FirstWheel | None:
-        """External wheel that turns the crank, or None; L is the second wheel's centre distance."""
+    def first_wheel(self, L: float) -> tuple[int, float] | None:
+        """Slots and centre distance of an external wheel that turns the crank; None without.
+
+        ``L`` is the second wheel's centre distance.
+        """
         return None
 
     def matched_ratio(self, wheel: Gearing, law: Law, motion_deg: float) -> float:

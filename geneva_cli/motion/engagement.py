@@ -35,24 +35,6 @@ Load: TypeAlias = tuple[Vector, Jet]
 SlotAxis: TypeAlias = tuple[Jet, Jet]
 
 
-class Height(NamedTuple):
-    """A pin's position along a spherical wheel's axis: top - fall (1 - cos a)."""
-
-    top: float
-    fall: float
-    turn: Displacement  # of the crank
-
-    def __call__(self, tau: Number, order: int) -> Jet:
-        """Position ``tau`` input radians after mid-motion."""
-        out: Jet = self.top - self.turn(tau, order)[1] * self.fall
-        return out
-
-    @property
-    def hub(self) -> float:
-        """Position of the centre of the pin's circle."""
-        return self.top - self.fall
-
-
 def cross(a: Vector, b: Vector) -> Jet:
     """Third component of the vector product of two plane vectors."""
     return a[0] * b[1] - a[1] * b[0]
@@ -69,8 +51,8 @@ class Slot(Batchable, ABC):
     walls_flat = True
     # e: distance between a straight slot's axis and the wheel's centre, over L.
     offset: float = 0.0
-    # The pin's position along the wheel's axis on a sphere, where the path is a projection.
-    height: Height | None = None
+    # True on a sphere, where the path is a projection.
+    spherical = False
 
     @abstractmethod
     def __call__(self, input_deg: Number, order: int = 3) -> Vector:

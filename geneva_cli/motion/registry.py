@@ -130,7 +130,7 @@ _STANDARD = {
 STANDARD_LAWS = tuple(_STANDARD)
 LAWS = _STANDARD.copy()
 for _folder in EXTRAS:
-    LAWS.update(load_named(f"extras.{_folder}:EXTRA").laws)
+    LAWS.update(load_named(f"extras.{_folder}:LAWS"))
 LAWS |= {
     "scca": "motion.laws.standard:SineConstantCosine",
     "table": "motion.laws.table_law:TableLaw",

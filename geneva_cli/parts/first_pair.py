@@ -33,7 +33,7 @@ def first_pair(mechanism: Mechanism, outlines: Outlines | None) -> Mechanism:
             ("size", key),
         )
     bars = drawn_links(mechanism, outlines)
-    second, own = (L, 0.0), (L + first.distance_mm, 0.0)
+    second, own = (L, 0.0), (L + first[1], 0.0)
     bore = 0.0 if bars.one_piece(own, L) else bars.shaft(own, L)
     alone = first_spec(mechanism, first)
     size = alone.size.replace(

@@ -12,7 +12,6 @@ from functools import lru_cache
 from geneva_cli.drives.crank import Crank
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
-from geneva_cli.motion.drive import FirstWheel
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.wheels.external import External
@@ -23,12 +22,15 @@ from geneva_cli.parts.sizes import Sizes
 from geneva_cli.spec.tables import Load, Size
 
 
-def first_spec(mechanism: Mechanism, first: FirstWheel) -> Spec:
-    """Return the spec of the first wheel and its crank, with the sizes that it shares."""
+def first_spec(mechanism: Mechanism, first: tuple[int, float]) -> Spec:
+    """Return the spec of the first wheel and its crank, with the sizes that it shares.
+
+    ``first`` is its number of slots, and its distance from its own crank.
+    """
     spec, size = mechanism.spec, mechanism.spec.size
     shared = ("process", "slot_clearance_mm", "lock_clearance_mm", "press_fit_mm", "shaft_fit_mm")
     own = Size(
-        center_distance_mm=first.distance_mm,
+        center_distance_mm=first[1],
         roller_radius_mm=mechanism.roller_radius_mm,
         wheel_thickness_mm=size.link_thickness_mm,
         arm_thickness_mm=size.link_thickness_mm,
@@ -38,7 +40,7 @@ def first_spec(mechanism: Mechanism, first: FirstWheel) -> Spec:
     )
     torque = single_loads(mechanism).crank_Nm if spec.is_loaded else 0.0
     return Spec(
-        External(first.z),
+        External(first[0]),
         Crank(n_rpm=spec.drive.n_rpm),
         size=own,
         load=Load(torque_Nm=torque if math.isfinite(torque) else 0.0),

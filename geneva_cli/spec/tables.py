@@ -13,7 +13,7 @@ from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.kept import cached_property
 from geneva_cli.numerics.arrays import value_or
 from geneva_cli.spec.rules import POSITIVE, FromZero, Height, NotNegative, OneOf, Positive, Range
-from geneva_cli.spec.schema import SpecTable
+from geneva_cli.spec.schema import SpecTable, fields
 from geneva_cli.spec.workshops import PROCESSES, WORKSHOPS, Allowances
 
 Rounding = Callable[[float], float]
@@ -602,11 +602,12 @@ class Accept(SpecTable):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        reasons = vars(self)["reasons"] = self.as_dict()
-        for name, reason in [*reasons.items()]:
-            if reason is None:
-                del reasons[name]
-            elif not reason.strip():
+        reasons = vars(self)["reasons"] = dict[str, str]()
+        for name, attribute, *_ in fields(Accept):
+            reason = vars(self)[attribute]
+            if reason is not None:
+                reasons[name] = reason
+            if reason is not None and not reason.strip():
                 raise GenevaError(
                     f'{name} needs the reason for accepting it, as {name} = "agreed with the '
                     'customer"',

@@ -196,17 +196,12 @@ def _reason(message: str, line: str) -> str:
     return f'{reason}; write "{value}" in quotation marks, or a number with a point, as 12.5'
 
 
-def shown_name(path: str) -> str:
-    """Name of a spec file in messages."""
-    return "<stdin>" if path == "-" else path if path.strip() else repr(path)
-
-
 def read(path: str, set_keys: Iterable[str] = ()) -> Text:
     """Text of a spec file; ``-`` is standard input. ``set_keys`` are ``KEY=VALUE`` texts.
 
     Raises GenevaError, with the message ready to print, if it cannot be read.
     """
-    name = shown_name(path)
+    name = "<stdin>" if path == "-" else path if path.strip() else repr(path)
     bytes_max = 1 << 20  # a spec is a page; a megabyte of it is a mistake
     try:
         if path == "-":

@@ -13,11 +13,11 @@ from witness import LAWS as WITNESS
 from witness import krasniqi, mp, near
 from words import LAWS, Spec, Wheel, named, points
 
+from geneva_cli.motion.given_motion import LawMotion
 from geneva_cli.motion.laws.law import Motion
 from geneva_cli.motion.laws.standard import SineConstantCosine, SineGroup
 from geneva_cli.motion.laws.table_law import TableLaw
 from geneva_cli.motion.mechanism import build
-from geneva_cli.motion.path_and_motion import LawMotion
 from geneva_cli.motion.peak_search import QUANTITIES, search_peaks
 from geneva_cli.motion.peaks import peaks
 from geneva_cli.study.law_values import characteristic
