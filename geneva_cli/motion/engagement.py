@@ -11,7 +11,7 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, ClassVar, Generic, NamedTuple, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, NamedTuple, TypeAlias, TypeVar
 
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Batchable, Truth, all_true, array, blocks, choose, library
@@ -51,8 +51,8 @@ class Slot(Batchable, ABC):
     walls_flat = True
     # e: distance between a straight slot's axis and the wheel's centre, over L.
     offset: float = 0.0
-    # True on a sphere, where the path is a projection.
-    spherical = False
+    # The ``Height`` of the pin along the wheel's axis on a sphere, where the path is a projection.
+    height: Any = None
 
     @abstractmethod
     def __call__(self, input_deg: Number, order: int = 3) -> Vector:

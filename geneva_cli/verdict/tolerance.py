@@ -98,7 +98,7 @@ def needed_mm(
             (px, vx), (py, vy) = x.scalars(), y.scalars()
             # the roller runs along the slot there, which gives its normal; on a sphere the
             # meridian's
-            tx, ty = (px, py) if one.slot.spherical else (vx, vy)
+            tx, ty = (vx, vy) if one.slot.height is None else (px, py)
             far = math.hypot(tx, ty)
             nx, ny = -ty / far, tx / far
             of_arm = abs(nx * (px - one.hub) + ny * py) * L * fraction

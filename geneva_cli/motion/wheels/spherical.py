@@ -92,11 +92,14 @@ class Height(NamedTuple):
         out: Jet = self.top - self.turn(tau, order)[1] * self.fall
         return out
 
+    @property
+    def hub(self) -> float:
+        """Position of the centre of the pin's circle."""
+        return self.top - self.fall
+
 
 class MeridianSlot(Slot):
     """A spherical wheel's slot, a meridian."""
-
-    spherical = True
 
     def __init__(self, path: AnchoredPath, height: Height) -> None:
         self.path, self.height = path, height
