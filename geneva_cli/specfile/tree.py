@@ -170,7 +170,7 @@ def _motion(values: dict[str, Any], files: list[str]) -> Motion | None:
         return None
     cls = LAWS.find(name)
     own = {field.key: values.pop(field.key) for field in fields(cls) if field.key in values}
-    law = cls(**_arguments(cls, own, files, LAWS, name))
+    law: Any = cls(**_arguments(cls, own, files, LAWS, name))
     return Motion(law, **_arguments(Motion, values, files, LAWS, name))
 
 

@@ -122,8 +122,8 @@ def designs_of(
         paths = list(paths)
         twice = next((p for p in paths if paths.count(p) > 1), None)
         if twice:
-            text = "given twice; use --vary to compare changes of one spec"
-            raise GenevaError(f"{'<stdin>' if twice == '-' else cut(twice)}: {text}")
+            advice = "use --vary to compare changes of one spec"
+            raise GenevaError(f"{'<stdin>' if twice == '-' else cut(twice)}: given twice; {advice}")
         if len(paths) > DESIGNS_MAX:
             raise GenevaError(f"{len(paths)} designs; at most {DESIGNS_MAX} can be compared")
         # a file's name without folder and ending, if no other file shares it
