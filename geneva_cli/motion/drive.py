@@ -50,8 +50,6 @@ class Drive(SpecTable, kw_only=True):
     ONE_ARM: ClassVar[bool] = True
     # True if its crank can carry a locking disc about the line of centres
     LOCKS: ClassVar[bool] = True
-    # key that sets its size
-    LENGTH: ClassVar[str] = "center_distance_mm"
     # what turns the input shaft of another drive, in [drive.before]; empty if it cannot
     IN_FRONT: ClassVar[str] = ""
     # reason why no drive may stand before it; empty if one may
@@ -159,8 +157,7 @@ class Drive(SpecTable, kw_only=True):
     def distance_mm(self, wheel: Gearing, motion: Motion | None, radius_mm: float) -> float:
         """Centre distance L for a crank radius R, mm, where the kind's shape fixes R/L."""
         raise GenevaError(
-            f'kind = "{self.NAME}" has no crank of one radius: set {self.LENGTH} instead of '
-            "crank_radius_mm",
+            f'kind = "{self.NAME}" has no crank of one radius: remove crank_radius_mm',
             ("size", "crank_radius_mm"),
         )
 

@@ -79,18 +79,15 @@ class Csv:
         return ""
 
     def check(
-        self, pairs: Sequence[tuple[float, float]], file: str, place: tuple[str, ...]
+        self, pairs: Sequence[tuple[float, float]], name: str, place: tuple[str, ...]
     ) -> None:
-        """Raise GenevaError for pairs that break the rule."""
-        name = file or place[1]
+        """Raise GenevaError, which begins with ``name``, for pairs that break the rule."""
         for i in range(len(pairs)):
-            fault = self.fault(pairs, i)
-            if fault:
+            if fault := self.fault(pairs, i):
                 raise GenevaError(f"{name}, point {i + 1}: {fault}", place)
         if len(pairs) < self.POINTS_MIN:
-            raise GenevaError(
-                f"{name}: {len(pairs)} points; at least {self.POINTS_MIN} are needed", place
-            )
+            text = f"{name}: {len(pairs)} points; at least {self.POINTS_MIN} are needed"
+            raise GenevaError(text, place)
 
 
 POSITIVE = Range(1e-12, 1e12)

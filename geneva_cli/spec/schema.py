@@ -333,7 +333,7 @@ def _points(place: tuple[str, ...], field: Field, value: Any) -> Points:
         except (TypeError, ValueError):
             text = f"{field.key}: points must be pairs of numbers u,s"
             raise GenevaError(text, place) from None
-    field.rule.check(value.pairs, value.file, place)
+    field.rule.check(value.pairs, value.file or field.key, place)
     return value
 
 

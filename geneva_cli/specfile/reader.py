@@ -180,20 +180,12 @@ def _reason(message: str, line: str) -> str:
     """What is wrong with a line that is not TOML, and what is right instead."""
     if re.search(r"overwrite|twice|Duplicate", message):
         return "this key or table is set above already; keep one of the two"
-    if message == r"Illegal character '\n'":
-        return "a text ends without its quotation mark; write one behind its last letter"
-    reason = cut(message[:1].lower() + message[1:], 200)
-    if message == "Invalid statement" or message.startswith("Expected '=' after a key"):
-        return f'{reason}; write [table], or KEY = VALUE as in z = 6, or a comment behind "#"'
-    value = line.partition("=")[2].partition("#")[0].strip()
-    if not value:
-        return "the value is missing; write one behind the sign, as in z = 6"
-    if "'" in value or value[0] in '"[{=':
-        return reason
-    if value[-1] in '"”″':  # inches
-        value = f"{value[:-1].rstrip()} in"
-    value = cut(re.sub(r"(\d),(\d)", r"\1.\2", value))
-    return f'{reason}; write "{value}" in quotation marks, or a number with a point, as 12.5'
+    reason, value = cut(message[:1].lower() + message[1:], 200), line.partition("=")[2].strip()
+    if value[:1].isdigit():  # a number with a unit, or with a comma; a mark behind it is of inches
+        value = re.sub(r"(\d),(\d)", r"\1.\2", value.partition("#")[0].strip())
+        value = re.sub(r'["”″]$', " in", value)
+        return f'{reason}; write "{cut(value)}" in quotation marks, or a number with a point'
+    return f'{reason}; write [table], or KEY = VALUE as in z = 6, and a text between two marks "'
 
 
 def read(path: str, set_keys: Iterable[str] = ()) -> Text:
