@@ -20,52 +20,13 @@ from geneva_cli.specfile.writer import keys_of, noted, quoted
 
 # common requests, in addition to the example of each kind of wheel and drive
 EXAMPLES = {
-    "rollers": Example(
-        "several rollers: more indexes in a turn of the crank",
-        {"wheel": {"z": 4}, "drive": {"rollers": 3}},
-    ),
-    "cranks": Example(
-        "two cranks about one wheel, which move it in turn",
-        {"wheel": {"z": 8}, "drive": {"rollers": 2, "crank_steps": [0, 3]}},
-    ),
     "curved": Example(
         "curved slots for a motion law, at the mid condition",
         {"wheel": {"z": 6}, "motion": {"law": "modified-sine", "ratio": "matched"}},
     ),
-    "curved-internal": Example(
-        "curved slots of an internal wheel that a brake holds",
-        {
-            "wheel": {"z": 8, "gearing": "internal", "held_by": "brake"},
-            "motion": {"law": "modified-sine", "alpha0_deg": -50, "ratio": "matched"},
-            "size": {"lock_radius_mm": 0},
-        },
-    ),
-    "offset": Example(
-        "slots that miss the wheel's centre: one end gentler than the other",
-        {"wheel": {"z": 6, "offset_mm": 8}},
-    ),
-    "unequal-steps": Example(
-        "steps of two sizes, a roller for each", {"wheel": {"z": 6, "steps_deg": [72, 48]}}
-    ),
     "stop": Example(
         "a Geneva stop: the crank is blocked after four turns",
         {"wheel": {"z": 5, "stop": True}, "load": {"winding_torque_Nm": 0.5}},
-    ),
-    "elliptical-internal": Example(
-        "an internal wheel behind elliptical gears: a shorter motion",
-        {
-            "wheel": {"z": 6, "gearing": "internal"},
-            "drive": {"kind": "elliptical-gears", "eccentricity": 0.25, "phase": "quick"},
-        },
-    ),
-    "behind-gears": Example(
-        "a planet behind elliptical gears: no jump at entry, and a low peak",
-        {
-            "wheel": {"z": 4},
-            "drive": {"kind": "epicyclic", "planet_ratio": "shockless"},
-            BEFORE: {"kind": "elliptical-gears", "eccentricity": 0.2, "gear_distance_mm": 50.0},
-            "size": {"roller_radius_mm": 4.0},
-        },
     ),
     "turret": Example(
         "a turret with its load, its motor and its limits",
@@ -79,9 +40,19 @@ EXAMPLES = {
         },
     ),
 }
+# other requests, with the keys of a design
+DESIGNS = {
+    "rollers": "three-rollers-z4",
+    "cranks": "two-cranks",
+    "curved-internal": "internal-curved-z8",
+    "offset": "offset-slots",
+    "unequal-steps": "unequal-steps",
+    "elliptical-internal": "elliptical-internal",
+    "behind-gears": "behind-gears",
+}
 # the plain crank is in all of them
 DRIVES = tuple(name for name in registry.DRIVES if name != Crank.NAME)
-KINDS = (*registry.GEARINGS, *EXAMPLES, *DRIVES)
+KINDS = (*registry.GEARINGS, *EXAMPLES, *DESIGNS, *DRIVES)
 
 
 def template(kind: str, schema: bool = True, whole: bool = True) -> str:
@@ -161,6 +132,10 @@ def example(kind: str) -> Example:
     """Title of a kind's example, and the keys that it sets."""
     if kind in EXAMPLES:
         return EXAMPLES[kind]
+    if kind in DESIGNS:
+        tree = tomli.loads(_text(f"{DESIGNS[kind]}.toml"))
+        before = tree.get("drive", {}).pop("before", None)
+        return Example(tree.pop("title"), tree | ({BEFORE: before} if before else {}))
     is_wheel = kind in registry.GEARINGS
     about, tables = (registry.gearing(kind) if is_wheel else registry.drive(kind)).EXAMPLE
     table, key, usual = ("wheel", "gearing", External.NAME) if is_wheel else ("drive", "kind", "")

@@ -188,7 +188,7 @@ class Motion(SpecTable):
     law: Law
     alpha0_deg: Annotated[float, FINITE, "extra dwell angle of the crank"] = 0.0
     ratio: Annotated[
-        float | str | None, Range(0.0, 1.0, "()", ("matched",)), "R/L, or that of finite pressure"
+        float | str | None, Range(0.0, 1.0, "()", ("matched",)), "R/L; matched: of finite pressure"
     ] = None
 
     def __post_init__(self) -> None:
