@@ -134,8 +134,6 @@ def _write_rows(
         with closing(growing) as rows:
             if rows.message:
                 print(clean(rows.message), file=sys.stderr)
-            if rows.is_whole:
-                return
             if is_seen("-") and not (shows_all or rows.done):
                 digest = Digest(plan, output)
             blocks = plan.blocks(rows.done) if shows_all else _tracked(plan, rows.done)
