@@ -17,7 +17,7 @@ from repo import get, put
 from typer.testing import CliRunner
 
 from geneva_cli.cli.app import COMMANDS, app
-from geneva_cli.output.formats import DOCUMENTS, DRAWN, FORMATS, PICTURES, SHEETS
+from geneva_cli.output.formats import DOCUMENTS, DRAWN, FORMATS, PLOTTED, SHEETS
 
 # as in as_windows.py, whose import hides them
 MODULES = "fcntl", "resource", "termios", "pty", "pwd", "grp", "tty", "curses", "readline"
@@ -106,7 +106,7 @@ def test_every_command_and_format():
         assert status == 0, (line, said)
     files = {word for line in LINES for word in line.split() if "." in word} - {"symbols"}
     formats = {"txt" if name == "table" else name for name in FORMATS}
-    formats |= {*DRAWN, *SHEETS, *PICTURES, *DOCUMENTS}
+    formats |= {*DRAWN, *SHEETS, *PLOTTED, *DOCUMENTS}
     assert formats <= {name.rpartition(".")[2] for name in files}
     assert all(os.path.getsize(line.split()[-1]) for line in LINES if " -o " in line)
     assert unfinished() == []

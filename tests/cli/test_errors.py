@@ -283,7 +283,7 @@ OPTIONS = [
     ("table --z 6 --internal --rollers 2", "rollers = 2", "one roller"),
     ("table --zz 6", "--z"),
     ("profile --tolerance 0 spec.toml", "above 0"),
-    ("profile --part wheel spec.toml", "-o FILE.dxf (or .svg, .step, .stl, .3mf)", "--part slot"),
+    ("profile --part wheel spec.toml", "-o FILE.dxf", "dxf, svg, step, stl, 3mf"),
 ]
 
 
@@ -308,7 +308,7 @@ def test_wrong_option(line, wants):
         (["new", "external", "-o", "gone/spec.toml"], ["gone"]),
         (["peaks", "spec.toml", "other.toml"], ["other.toml"]),
         (["peaks", "spec.toml", "-o", "peaks.xyz"], ["peaks.xyz", ".csv", ".json"]),
-        (["peaks", "spec.toml", "-o", "peaks"], ["peaks", "extension", ".csv"]),
+        (["peaks", "spec.toml", "-o", "peaks"], ["peaks", ".csv", "--format"]),
         (["peaks", "spec.toml", "-o", ""], ["-o"]),
     ],
     ids=lambda words: " ".join(words),

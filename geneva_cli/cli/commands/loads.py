@@ -55,7 +55,8 @@ def run(
     called not proved. It needs geneva-cli[certify]. More: `geneva help accuracy`.
     """
     from geneva_cli.design import load
-    from geneva_cli.output import choice, is_for_people, show, show_answer, table_as
+    from geneva_cli.output import choice, is_for_people, show, show_answer
+    from geneva_cli.output.formats import chosen
     from geneva_cli.study.summary.load_lines import of_loads
 
     design = load(spec, settings or (), reverse)
@@ -64,7 +65,7 @@ def run(
         show(certificates, output, format, design.spec.files)
         say(design.spec.path, design.ideal_notes)
         return
-    name = table_as(output, format)
+    name = chosen(output, format)
     by_rows = name == "csv" or (samples is not None and name != "json")
     # before any output: a cycle whose loads are refused has no rows either
     warnings = design.loads_table.to_dict()["warnings"] if by_rows or output != "-" else ()

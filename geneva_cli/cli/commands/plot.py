@@ -41,10 +41,10 @@ def run(
     Without -o it prints points. png needs the extra geneva-cli[plot]. `geneva help plots`.
     """
     from geneva_cli.output import show_figure
-    from geneva_cli.output.formats import plotted_as
+    from geneva_cli.output.formats import FORMATS, PLOTTED, chosen
     from geneva_cli.study.figures import of_specs, of_table
 
-    plotted_as(output, format)  # refuse a wrong format before any computation
+    chosen(output, format, (*PLOTTED, *FORMATS))  # refuse a wrong format before any computation
     tables = [path for path in specs if path.lower().endswith(".csv")]
     if tables:
         name = cut(tables[0], 300)

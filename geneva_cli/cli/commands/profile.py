@@ -18,10 +18,10 @@ from geneva_cli.output import draw, draw_sheet, show
 from geneva_cli.output.formats import (
     DRAWN,
     FORMATS,
+    SHEETS,
+    chosen,
     curve_tolerance,
-    drawn_as,
-    is_drawn,
-    sheet_as,
+    named,
     usual_curves,
 )
 
@@ -76,8 +76,7 @@ def run(
     tolerance = curve_tolerance(tolerance, output, format)
     if curves not in WALLS:
         raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
-    sheet = is_sheet(part)
-    drawn = bool(sheet_as(output, format)) if sheet else is_drawn(output, format)
+    sheet, drawn = is_sheet(part), named(output, format) in DRAWN
     design = load(spec, settings or ())
     files = design.spec.files
     if not sheet and design.is_table(part, drawn):
@@ -89,8 +88,7 @@ def run(
         return
     if samples is not None:
         raise GenevaError("--samples is for tables of points; drawings take --tolerance")
-    if not sheet:
-        drawn_as(output, format)  # refused before the machine is turned
+    chosen(output, format, SHEETS if sheet else DRAWN)  # refused before the machine is turned
     require_tolerance(design.mechanism, tolerance)
     if design.spec.is_turned:
         require_written(design, design.judge(part), force)

@@ -98,7 +98,7 @@ def _inputs(target: "Target") -> Sequence[str]:
 
 
 def _show(target: "Target", check: int, buildable: bool, output: str, format: str) -> None:
-    from geneva_cli.output import is_for_people, is_watched, show
+    from geneva_cli.output import is_for_people, is_seen, show
     from geneva_cli.study.synth.shown import for_people
     from geneva_cli.study.synth.synth_table import synthesis_table
 
@@ -107,7 +107,7 @@ def _show(target: "Target", check: int, buildable: bool, output: str, format: st
     table = synthesis_table(target, check, buildable)
     if is_for_people(output, format):
         # a terminal shows no fewer than are turned by default
-        table = for_people(table, max(check, 20) if is_watched(output, format) else None)
+        table = for_people(table, max(check, 20) if is_seen(output) else None)
     show(table, output, format, _inputs(target))
 
 
