@@ -16,7 +16,7 @@ from geneva_cli.cli.app import app
 from geneva_cli.design import Design, load
 from geneva_cli.output import jsonfile
 from geneva_cli.output.document import document_pdf, html
-from geneva_cli.output.document.blocks import BAD, Document, Fact, Facts, Grid, Heading
+from geneva_cli.output.document.blocks import BAD, Document, Grid, Heading
 from geneva_cli.study.document import document, short_document
 
 pytestmark = pytest.mark.usefixtures("made_once")
@@ -241,6 +241,6 @@ def test_inputs_say_what_is_a_default() -> None:
     assert rows["load.inertia_kgm2"] == ("1.2", "kg m²")
     assert rows["drive.n_rpm"] == ("40", "rpm")
     appendix = found.blocks[-1]
-    assert isinstance(appendix, Facts)
-    assert Fact("load.friction_at", "slot") in appendix.facts
-    assert not {fact.name for fact in appendix.facts} & set(rows)
+    assert isinstance(appendix, Grid) and appendix.facts
+    assert ("load.friction_at", "slot") in appendix.rows
+    assert not {row[0] for row in appendix.rows} & set(rows)

@@ -4,21 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from geneva_cli.answer import value_text
 from geneva_cli.output.document.blocks import (
     Block,
     Curves,
     Document,
-    Facts,
     Grid,
     Heading,
     Picture,
     Prose,
     TextList,
-    is_number,
+    right_aligned,
     texts,
 )
-from geneva_cli.output.markdown import escaped
+from geneva_cli.output.markdown import escaped, lines_of
 from geneva_cli.output.notes import span_text
 from geneva_cli.output.plot.plot_layout import mark_text, named
 
@@ -38,9 +36,6 @@ def _block(block: Block) -> Iterator[str]:
         yield f"{escaped(block.text)}\n\n"
     elif isinstance(block, TextList):
         yield _list(block.texts)
-    elif isinstance(block, Facts):
-        rows = tuple((f.name, value_text(f.value, f.unit)) for f in block.facts)
-        yield from _grid(Grid(block.caption, ("Quantity", "Value"), rows), right=(False, True))
     elif isinstance(block, Grid):
         yield from _grid(block)
     elif isinstance(block, Picture):
@@ -59,14 +54,10 @@ def _block(block: Block) -> Iterator[str]:
         yield "The curves: `geneva plot SPEC -o FILE.svg`\n\n"
 
 
-def _grid(grid: Grid, right: tuple[bool, ...] = ()) -> Iterator[str]:
-    columns = list(zip(*grid.rows, strict=True)) or [()] * len(grid.heads)
-    sides = right or tuple(bool(c) and all(map(is_number, c)) for c in columns)
+def _grid(grid: Grid) -> Iterator[str]:
     yield f"**{escaped(grid.caption)}**\n\n" if grid.caption else ""
-    yield "| " + " | ".join(map(escaped, grid.heads)) + " |\n"
-    yield "| " + " | ".join("---:" if side else "---" for side in sides) + " |\n"
-    for row in texts(grid):
-        yield "| " + " | ".join(map(escaped, row)) + " |\n"
+    heads = ("Quantity", "Value") if grid.facts else grid.heads
+    yield from lines_of(heads, texts(grid), right_aligned(grid) or [False] * len(heads))
     yield "\n"
 
 

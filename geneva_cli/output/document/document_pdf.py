@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import zip_longest
 
-from geneva_cli.answer import FAILS, NO_BREAK, PASSES, WARNS, value_text
+from geneva_cli.answer import FAILS, NO_BREAK, PASSES, WARNS
 from geneva_cli.errors import clean
 from geneva_cli.geometry.shapes import Point, Shape, mapped
 from geneva_cli.geometry.sheet import Annotations, Drawing, extent, prepared
@@ -13,14 +14,13 @@ from geneva_cli.output.document.blocks import (
     Block,
     Curves,
     Document,
-    Facts,
     Grid,
     Heading,
     Picture,
     Prose,
     TextList,
-    is_number,
     is_short,
+    right_aligned,
     texts,
 )
 from geneva_cli.output.inks import CENTRE_LINES, inks
@@ -97,8 +97,6 @@ def _block(block: Block) -> Iterator[Item]:
                 yield _line(line, BODY, indent=MARK, mark="" if i else "•")
             yield _gap(0.8)
         yield _gap(2.0)
-    elif isinstance(block, Facts):
-        yield from _facts(block)
     elif isinstance(block, Grid):
         yield from _grid(block)
     elif isinstance(block, Picture):
@@ -144,33 +142,23 @@ def _barred(text: str, size: float, ink: str, bold: bool = False, mark: str = ""
 
 
 def _grid(table: Grid) -> Iterator[Item]:
-    """Yield a table with a head, which is repeated on each page."""
-    right = [all(map(is_number, column)) for column in zip(*table.rows, strict=True)]
-    rows = texts(table)
-    spaces = [NO_BREAK if is_short(column) else " " for column in zip(*rows, strict=True)]
-    rows = [[text.replace(" ", s) for text, s in zip(row, spaces, strict=True)] for row in rows]
-    widths = _widths(table.heads, rows)
-    head = _row(table.heads, right, widths, bold=True)
+    """Yield a table with a head, which is repeated on each page; facts in two columns."""
+    right, rows, heads = right_aligned(table), texts(table), table.heads
+    if table.facts:
+        half = (len(rows) + 1) // 2
+        pairs = zip_longest(rows[:half], rows[half:], fillvalue=["", ""])
+        rows, right = [[*one, "", *other] for one, other in pairs], [*right, False, *right]
+        widths = [part * WIDE for part in (0.31, 0.17, 0.04, 0.31, 0.17)]
+    else:
+        spaces = [NO_BREAK if is_short(column) else " " for column in zip(*rows, strict=True)]
+        rows = [[text.replace(" ", s) for text, s in zip(row, spaces, strict=True)] for row in rows]
+        widths = _widths(heads, rows)
+    head = _row(heads, right, widths, bold=True) if any(heads) else None
     yield from _caption(table.caption)
-    has_head = any(table.heads)
-    if has_head:
+    if head:
         yield head._replace(keeps=True)
     for row in rows:
-        yield _row(row, right, widths)._replace(head=head if has_head else None)
-    yield _gap(4.0)
-
-
-def _facts(table: Facts) -> Iterator[Item]:
-    """Yield names and values, in two columns read downwards."""
-    named = [(fact.name, value_text(fact.value, fact.unit)) for fact in table.facts]
-    half = (len(named) + 1) // 2
-    yield from _caption(table.caption)
-    gap = 6.0  # between facts side by side
-    long = 0.5 * (WIDE - gap)
-    for i in range(half):
-        pair = [(LEFT, named[i])]
-        pair += [(LEFT + long + gap, named[half + i])] if half + i < len(named) else []
-        yield _pair(pair, long)._replace(keeps=i == 0 and half > 1)
+        yield _row(row, right, widths)._replace(head=head)
     yield _gap(4.0)
 
 
@@ -232,25 +220,6 @@ def _cell(
         at = x + width - wide(text, SMALL, bold) if right else x
         out += words(text, (at, top - SPACE - 0.95 * SMALL - i * STEP), SMALL, bold, ink)
     return out
-
-
-def _pair(pair: list[tuple[float, tuple[str, str]]], long: float) -> Item:
-    cells = []
-    name_fraction = 0.62  # fraction of a fact's width for its name
-    for x, (name, value) in pair:
-        needs = min(wide(value, SMALL), (1.0 - 0.5 * name_fraction) * long)
-        width = long - 2.0 * PAD - needs
-        cells.append((x, lines(name, SMALL, width), lines(value, SMALL, needs + 1e-6)))
-    high = max(max(len(a), len(b)) for _, a, b in cells) * STEP + 2.0 * SPACE
-
-    def draw(top: float) -> str:
-        out = ""
-        for x, name, value in cells:
-            out += _cell(name, x, top, long, False) + _cell(value, x, top, long, True)
-            out += rule(x, top - high, long, ink=LINE)
-        return out
-
-    return Item(high, draw)
 
 
 def _drawing(drawn: Drawing) -> Item:

@@ -7,29 +7,27 @@ import re
 from collections.abc import Iterable, Iterator
 from html import escape
 
-from geneva_cli.answer import value_text
 from geneva_cli.errors import clean
 from geneva_cli.output import svg
 from geneva_cli.output.document.blocks import (
     BAD,
-    SHORT,
     Block,
     Curves,
     Document,
-    Facts,
     Grid,
     Heading,
     Picture,
     Prose,
     TextList,
-    is_number,
     is_short,
+    right_aligned,
     texts,
 )
 from geneva_cli.output.plot import plot_svg
 from geneva_cli.output.terminal.summary import SIGNS
 
 NUMBER = ' class="n"'
+LONG = 36  # letters; a longer value is broken into lines, from the left
 
 
 def chunks(document: Document) -> Iterator[str]:
@@ -47,11 +45,11 @@ def chunks(document: Document) -> Iterator[str]:
     )
     yield from _list(document.reasons)
     yield "</section>\n"
-    is_open = 0  # facts side by side
+    is_open = False  # facts side by side
     for number, block in enumerate(document.blocks):
-        if isinstance(block, Facts) != bool(is_open):
+        if (isinstance(block, Grid) and block.facts) != is_open:
             yield "</div>\n" if is_open else '<div class="facts">\n'
-            is_open = 1 - is_open
+            is_open = not is_open
         yield from _block(block, number)
     yield "</div>\n" if is_open else ""
     yield "</main>\n</body>\n</html>\n"
@@ -89,13 +87,6 @@ def _block(block: Block, number: int) -> Iterator[str]:
         yield f"<p>{_text(block.text)}</p>\n"
     elif isinstance(block, TextList):
         yield from _list(block.texts)
-    elif isinstance(block, Facts):
-        yield f"<table>\n<caption>{_text(block.caption)}</caption>\n<tbody>\n"
-        for fact in block.facts:
-            value = _text(value_text(fact.value, fact.unit))
-            side = "" if len(value) > 3 * SHORT else NUMBER
-            yield f'<tr><th scope="row">{_text(fact.name)}</th><td{side}>{value}</td></tr>\n'
-        yield "</tbody>\n</table>\n"
     elif isinstance(block, Grid):
         yield from _grid(block)
     elif isinstance(block, Picture):
@@ -109,25 +100,23 @@ def _block(block: Block, number: int) -> Iterator[str]:
 
 def _grid(grid: Grid) -> Iterator[str]:
     rows = texts(grid)
-    columns = zip(zip(*grid.rows, strict=True), zip(*rows, strict=True), strict=True)
-    sides = [NUMBER if all(map(is_number, c)) else ' class="s"' * is_short(t) for c, t in columns]
+    columns = zip(right_aligned(grid), zip(*rows, strict=True), strict=True)
+    sides = [NUMBER if right else ' class="s"' * is_short(cells) for right, cells in columns]
     heads = "".join(
         f'<th scope="col"{side if side == NUMBER else ""}>{_text(head)}</th>'
         for head, side in zip(grid.heads, sides, strict=True)
     )
     head = f"<thead><tr>{heads}</tr></thead>\n" if any(grid.heads) else ""
     wide = " wide" if len(grid.heads) > 4 else ""  # four columns fit on a phone
-    yield (
-        f'<div class="grid{wide}" tabindex="0">\n'
-        f"<table>\n<caption>{_text(grid.caption)}</caption>\n{head}<tbody>\n"
-    )
+    yield "" if grid.facts else f'<div class="grid{wide}" tabindex="0">\n'
+    yield f"<table>\n<caption>{_text(grid.caption)}</caption>\n{head}<tbody>\n"
     for first, *rest in rows:
         yield f'<tr><th scope="row">{_text(first)}</th>'
         for value, side in zip(rest, sides[1:], strict=True):
-            attribute = ' class="bad"' if value == BAD else side
+            attribute = ' class="bad"' if value == BAD else side if len(value) <= LONG else ""
             yield f"<td{attribute}>{_text(value)}</td>"
         yield "</tr>\n"
-    yield "</tbody>\n</table>\n</div>\n"
+    yield "</tbody>\n</table>\n" + ("" if grid.facts else "</div>\n")
 
 
 def _list(texts: tuple[str, ...]) -> Iterator[str]:
