@@ -226,11 +226,7 @@ SpecPath: TypeAlias = Annotated[
 ]
 Settings: TypeAlias = Annotated[
     list[str] | None,
-    option(
-        "KEY=VALUE",
-        "Set a key over the file's, as drive.n_rpm=90.",
-        name="--set",
-    ),
+    option("KEY=VALUE", "Set a key over the file's, as drive.n_rpm=90.", name="--set"),
 ]
 Reverse: TypeAlias = Annotated[bool, flag("--reverse", "Turn the input the other way.")]
 AlsoReverse: TypeAlias = Annotated[

@@ -193,10 +193,7 @@ def refuse_existing(output: str) -> None:
 
 
 def _put(
-    chunks: Iterable[str] | Iterable[bytes],
-    output: str,
-    inputs: Iterable[str] = (),
-    name: str = "",
+    chunks: Iterable[str] | Iterable[bytes], output: str, inputs: Iterable[str] = (), name: str = ""
 ) -> None:
     """Write chunks of the format ``name``; a table on standard output is for people."""
     if name not in FORMATS:

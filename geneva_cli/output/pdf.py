@@ -172,13 +172,7 @@ def triangle(corners: Sequence[Point]) -> str:
     return f"{a} m {b} l {c} l f\n"
 
 
-def words(
-    text: str,
-    at: Point,
-    size: float,
-    bold: bool = False,
-    ink: str = INK,
-) -> str:
+def words(text: str, at: Point, size: float, bold: bool = False, ink: str = INK) -> str:
     """A coloured text that starts at a point on its base line."""
     return f"{ink} rg\n" + _text(western(text), at, size, 0, 2 if bold else 1)
 

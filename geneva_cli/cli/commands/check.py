@@ -6,14 +6,7 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.cli.command import (
-    Format,
-    Output,
-    Reverse,
-    Settings,
-    option,
-    say,
-)
+from geneva_cli.cli.command import Format, Output, Reverse, Settings, option, say
 from geneva_cli.errors import clean, open_warnings
 
 EXAMPLES = ("geneva check spec.toml", "geneva check spec.toml --set size.slot_clearance_mm=0.05")

@@ -16,19 +16,11 @@ EXAMPLES = (
 def run(
     specs: Annotated[list[str], typer.Argument(metavar="SPEC...", help="Specs, TOML files.")],
     vary: Annotated[
-        list[str] | None,
-        option("KEY=VALUES", "One spec with several values: drive.A=0,0.3,0.6."),
+        list[str] | None, option("KEY=VALUES", "One spec with several values: drive.A=0,0.3,0.6.")
     ] = None,
-    pick: Annotated[
-        str,
-        option("FIELD,...", "Only these, as acceleration.max,dwell_s."),
-    ] = "",
+    pick: Annotated[str, option("FIELD,...", "Only these, as acceleration.max,dwell_s.")] = "",
     against: Annotated[
-        str,
-        option(
-            "NAME,...",
-            "One spec with cam, servo: the same step, time and load.",
-        ),
+        str, option("NAME,...", "One spec with cam, servo: the same step, time and load.")
     ] = "",
     ratio: Annotated[bool, flag("--ratio", "Numbers over the first design's.")] = False,
     differing: Annotated[bool, flag("--differing", "Only what differs.")] = False,

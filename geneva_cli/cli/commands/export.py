@@ -27,11 +27,7 @@ def run(
     output: Annotated[str, output_option("FOLDER", "Write into this folder (required).")] = "",
     trade: Annotated[
         str | None,
-        option(
-            "TRADE",
-            "What laser, mill or print needs.  [default: all files]",
-            name="--for",
-        ),
+        option("TRADE", "What laser, mill or print needs.  [default: all files]", name="--for"),
     ] = None,
     force: Annotated[
         bool, flag("--force", "Write a machine that jams; replace changed files.")

@@ -18,10 +18,7 @@ EXAMPLES = (
 def run(
     kind: Annotated[
         str,
-        typer.Argument(
-            metavar="[KIND]",
-            help="curved, turret, a kind of drive, ...: see --list.",
-        ),
+        typer.Argument(metavar="[KIND]", help="curved, turret, a kind of drive, ...: see --list."),
     ] = "",
     from_design: Annotated[str, option("NAME", "A copy of one of the designs, as it is.")] = "",
     list_: Annotated[bool, flag("--list", "All kinds and designs, and what they are.")] = False,

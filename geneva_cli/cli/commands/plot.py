@@ -19,15 +19,11 @@ def run(
         list[str],
         typer.Argument(metavar="SPEC...", help="Specs, TOML files; or one .csv, as of a sweep."),
     ],
-    pick: Annotated[
-        str,
-        option("QUANTITY,...", "Only these, as velocity,pin_force_N."),
-    ] = "",
+    pick: Annotated[str, option("QUANTITY,...", "Only these, as velocity,pin_force_N.")] = "",
     x: Annotated[str, option("COLUMN", "Column of a csv for the x axis.", name="--x")] = "",
     y: Annotated[str, option("COLUMN,...", "Columns of a csv for the y axis.", name="--y")] = "",
     vary: Annotated[
-        list[str] | None,
-        option("KEY=VALUES", "One spec with several values: wheel.z=4,6,8."),
+        list[str] | None, option("KEY=VALUES", "One spec with several values: wheel.z=4,6,8.")
     ] = None,
     reverse: AlsoReverse = False,
     settings: Settings = None,

@@ -40,8 +40,7 @@ DRAWING = "The drawing"
 def run(
     spec: SpecPath,
     part: Annotated[
-        str,
-        option("PART", "slot, wheel, crank, arm, assembly, parts, sheet or another."),
+        str, option("PART", "slot, wheel, crank, arm, assembly, parts, sheet or another.")
     ] = "slot",
     tolerance: Annotated[
         float | None,
@@ -49,16 +48,14 @@ def run(
     ] = None,
     samples: Annotated[int | None, option("N", "Number of rows of a table, evenly spaced.")] = None,
     curves: Annotated[
-        str | None,
-        option("KIND", "Curved walls as arcs or spline; .step has spline.", DRAWING),
+        str | None, option("KIND", "Curved walls as arcs or spline; .step has spline.", DRAWING)
     ] = None,
     kerf: Annotated[float | None, option("MM", "Paths for a cut of this width.", CUT)] = None,
     cutter: Annotated[
         float | None, option("MM", "Diameter of a milling cutter that must fit.", CUT)
     ] = None,
     dxf_version: Annotated[
-        str | None,
-        option("VERSION", "Version of .dxf, R12 to R2018.  [default: R2000]", DRAWING),
+        str | None, option("VERSION", "Version of .dxf, R12 to R2018.  [default: R2000]", DRAWING)
     ] = None,
     force: Annotated[bool, flag("--force", "Draw even a machine that jams.")] = False,
     settings: Settings = None,

@@ -31,8 +31,7 @@ def run(
         option("KEY=VALUES", "As drive.A=0..0.9:0.1 or motion.law=a,b; repeat.", DESIGNS),
     ] = None,
     pick: Annotated[
-        str,
-        option("FIELD,...", "Quantities, as acceleration.max,dwell_s.", DESIGNS),
+        str, option("FIELD,...", "Quantities, as acceleration.max,dwell_s.", DESIGNS)
     ] = "",
     random: Annotated[
         int | None, option("N", "N random designs from the ranges, not the grid.", DESIGNS)

@@ -29,8 +29,7 @@ def run(
     dwell_s: Annotated[str, option("S", "Seconds of dwell.", WANTED)] = "",
     cycle: Annotated[str, option("S", "Seconds from step to step.", WANTED)] = "",
     subject_to: Annotated[
-        list[str] | None,
-        option("BOUND", 'Of any quantity, as "jerk.max <= 5"; repeat.', WANTED),
+        list[str] | None, option("BOUND", 'Of any quantity, as "jerk.max <= 5"; repeat.', WANTED)
     ] = None,
     z: Annotated[str, option("Z", "Slots: 6, 3..12 or 3,4,6.", MACHINES, default="3..24")] = "",
     internal: Annotated[bool, flag("--internal", "Internal wheels.", MACHINES)] = False,
