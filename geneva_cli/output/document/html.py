@@ -9,20 +9,7 @@ from html import escape
 
 from geneva_cli.errors import clean
 from geneva_cli.output import svg
-from geneva_cli.output.document.blocks import (
-    BAD,
-    Block,
-    Curves,
-    Document,
-    Grid,
-    Heading,
-    Picture,
-    Prose,
-    TextList,
-    is_short,
-    right_aligned,
-    texts,
-)
+from geneva_cli.output.document import blocks
 from geneva_cli.output.plot import plot_svg
 from geneva_cli.output.terminal.summary import SIGNS
 
@@ -30,7 +17,7 @@ NUMBER = ' class="n"'
 LONG = 36  # letters; a longer value is broken into lines, from the left
 
 
-def chunks(document: Document) -> Iterator[str]:
+def chunks(document: blocks.Document) -> Iterator[str]:
     """The page's text; the same document gives the same bytes."""
     title = _text(document.title)
     with open(os.path.join(os.path.dirname(__file__), "page.css"), encoding="utf-8") as file:
@@ -47,7 +34,7 @@ def chunks(document: Document) -> Iterator[str]:
     yield "</section>\n"
     is_open = False  # facts side by side
     for number, block in enumerate(document.blocks):
-        if (isinstance(block, Grid) and block.facts) != is_open:
+        if (isinstance(block, blocks.Grid) and block.facts) != is_open:
             yield "</div>\n" if is_open else '<div class="facts">\n'
             is_open = not is_open
         yield from _block(block, number)
@@ -80,28 +67,28 @@ def inline(chunks: Iterable[str], name: str) -> str:
     return text.replace("<svg ", f'<svg id="{name}" ', 1)
 
 
-def _block(block: Block, number: int) -> Iterator[str]:
-    if isinstance(block, Heading):
+def _block(block: blocks.Block, number: int) -> Iterator[str]:
+    if isinstance(block, blocks.Heading):
         yield f"<h2>{_text(block.text)}</h2>\n"
-    elif isinstance(block, Prose):
+    elif isinstance(block, blocks.Prose):
         yield f"<p>{_text(block.text)}</p>\n"
-    elif isinstance(block, TextList):
+    elif isinstance(block, blocks.TextList):
         yield from _list(block.texts)
-    elif isinstance(block, Grid):
+    elif isinstance(block, blocks.Grid):
         yield from _grid(block)
-    elif isinstance(block, Picture):
+    elif isinstance(block, blocks.Picture):
         drawn = inline(svg.chunks(block.drawing), f"drawing-{number}")
         yield f'<figure class="drawing" tabindex="0">\n{drawn}</figure>\n'
     else:
-        assert isinstance(block, Curves)
+        assert isinstance(block, blocks.Curves)
         drawn = inline(plot_svg.chunks(block.figure), f"curves-{number}")
         yield f'<figure class="curves" tabindex="0">\n{drawn}</figure>\n'
 
 
-def _grid(grid: Grid) -> Iterator[str]:
-    rows = texts(grid)
-    columns = zip(right_aligned(grid), zip(*rows, strict=True), strict=True)
-    sides = [NUMBER if right else ' class="s"' * is_short(cells) for right, cells in columns]
+def _grid(grid: blocks.Grid) -> Iterator[str]:
+    rows = blocks.texts(grid)
+    columns = zip(blocks.right_aligned(grid), zip(*rows, strict=True), strict=True)
+    sides = [NUMBER if right else ' class="s"' * blocks.is_short(cells) for right, cells in columns]
     heads = "".join(
         f'<th scope="col"{side if side == NUMBER else ""}>{_text(head)}</th>'
         for head, side in zip(grid.heads, sides, strict=True)
@@ -113,7 +100,9 @@ def _grid(grid: Grid) -> Iterator[str]:
     for first, *rest in rows:
         yield f'<tr><th scope="row">{_text(first)}</th>'
         for value, side in zip(rest, sides[1:], strict=True):
-            attribute = ' class="bad"' if value == BAD else side if len(value) <= LONG else ""
+            attribute = (
+                ' class="bad"' if value == blocks.BAD else side if len(value) <= LONG else ""
+            )
             yield f"<td{attribute}>{_text(value)}</td>"
         yield "</tr>\n"
     yield "</tbody>\n</table>\n" + ("" if grid.facts else "</div>\n")
