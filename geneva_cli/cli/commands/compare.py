@@ -4,7 +4,16 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.cli.command import AlsoReverse, Format, Output, Settings, flag, option, say
+from geneva_cli.cli.command import (
+    AlsoReverse,
+    Format,
+    Output,
+    Settings,
+    flag,
+    option,
+    say,
+    words_in,
+)
 from geneva_cli.errors import GenevaError
 
 EXAMPLES = (
@@ -45,11 +54,9 @@ def run(
             raise GenevaError(
                 "--against: it compares one spec, without --vary, --pick, --ratio and --reverse"
             )
-        names = [name.strip() for name in against.split(",")]
-        table = load_extra("servo", "against")(specs[0], settings or [], names)
+        table = load_extra("servo", "against")(specs[0], settings or [], words_in(against))
     else:
-        picks = [name.strip() for name in pick.split(",")] if pick else []
-        table = compare(specs, settings or (), vary or (), picks, ratio, reverse)
+        table = compare(specs, settings or (), vary or (), words_in(pick), ratio, reverse)
         table = only_differing(table) if differing else table
     show(table, output, format, specs)
     for path in specs:

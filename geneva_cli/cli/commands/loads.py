@@ -1,13 +1,11 @@
 """``geneva loads``."""
 
-import sys
-from collections.abc import Sequence
 from typing import Annotated
 
 import typer
 
 from geneva_cli.cli.command import Format, Output, Reverse, Settings, SpecPath, flag, option, say
-from geneva_cli.errors import clean, is_warning
+from geneva_cli.errors import is_warning
 
 ROWS = 361
 
@@ -75,15 +73,4 @@ def run(
     else:
         answer = of_loads(design, name != "table" or verbose or bool(choice.columns))
         show_answer(answer, output, format, design.spec.files)
-    _say(design.spec.path, warnings)
-
-
-def _say(path: str, texts: Sequence[str]) -> None:
-    """Print warnings, one a line, and all notes on unknown values as one line."""
-    say(path, filter(is_warning, texts))
-    notes = [text for text in texts if not is_warning(text)]
-    if len(notes) > 1:
-        lists_keys = "`geneva loads SPEC` lists the keys that they need"
-        print(clean(f"{path}: note: some values are not known; {lists_keys}"), file=sys.stderr)
-    else:
-        say(path, notes)
+    say(design.spec.path, filter(is_warning, warnings))

@@ -4,7 +4,7 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.cli.command import AlsoReverse, Output, Settings, option, say
+from geneva_cli.cli.command import AlsoReverse, Output, Settings, option, say, words_in
 from geneva_cli.errors import GenevaError, cut
 
 EXAMPLES = (
@@ -49,18 +49,14 @@ def run(
         for option_, value in {"--pick": pick, "--set": settings, "--vary": vary}.items():
             if value:
                 raise GenevaError(f"{option_} is for specs; for {name} give --x and --y")
-        show_figure(of_table(tables[0], x, _names(y)), output, format, tables)
+        show_figure(of_table(tables[0], x, words_in(y)), output, format, tables)
         return
     if x or y:
         raise GenevaError(f"--x and --y are for a .csv; for {cut(specs[0], 300)} give --pick")
-    figure, designs, left_out = of_specs(specs, settings or (), _names(pick), vary or (), reverse)
+    figure, designs, left_out = of_specs(specs, settings or (), words_in(pick), vary or (), reverse)
     show_figure(figure, output, format, [file for d in designs for file in d.spec.files])
     for design in designs:
         say(design.spec.path, design.motion_warnings)
         say(design.spec.path, design.ideal_notes)
     for path, text in left_out:
         say(path, [text])
-
-
-def _names(texts: str) -> list[str]:
-    return [name.strip() for name in texts.split(",") if name.strip()]
