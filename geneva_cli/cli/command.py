@@ -8,6 +8,7 @@ Annotations are objects here and in the commands, for Typer.
 import sys
 from collections.abc import Iterable, Mapping
 from functools import partial
+from textwrap import wrap
 from typing import TYPE_CHECKING, Annotated, Any, TypeAlias, get_args
 
 import typer
@@ -128,9 +129,11 @@ class Command(PlainValues, TyperCommand):
                 formatter.write_dl(records)
 
     def format_epilog(self, ctx: Any, formatter: Any) -> None:
-        """Write the examples as typed."""
+        """Write the examples as typed, continued on the next line where they do not fit."""
         with formatter.section("Examples"):
-            formatter.write("".join(f"  {line}\n" for line in self.examples))
+            for line in self.examples:
+                parts = wrap(line, formatter.width - 4, break_on_hyphens=False)
+                formatter.write("  " + " \\\n      ".join(parts) + "\n")
 
 
 def _placeholder(argument: Any) -> str:

@@ -18,7 +18,7 @@ from geneva_cli.errors import GenevaError, cut
 from geneva_cli.output import refuse_columns
 from geneva_cli.output.delimited import one_line, text_of
 from geneva_cli.output.files import open_locked, place, remove, replacing, write_errors
-from geneva_cli.output.text import refuse_nan
+from geneva_cli.output.text import refuse_nonsense
 from geneva_cli.streams import use_utf8
 
 TITLE = b"geneva sweep state 2 "
@@ -117,7 +117,7 @@ class GrowingTable:
 
         Raises ArithmeticError for NaN.
         """
-        refuse_nan(self.names, columns)
+        refuse_nonsense(self.names, columns, endless=True)
         if self.parquet:
             from geneva_cli.output.parquet import block_of
 
