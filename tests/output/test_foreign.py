@@ -204,7 +204,7 @@ def test_svg_curves_and_their_smooth_continuations(tmp_path):
 
 def test_a_skewed_circle_is_the_ellipse_of_its_points():
     p, q = 8 + 0j, 4 * math.tan(math.radians(20.0)) - 4j
-    from geneva_cli.output.foreign.svg_paths import _axes
+    from geneva_cli.output.foreign.svg_pieces import _axes
 
     major, minor, (cosine, sine) = _axes(p, q)
     shift = math.atan2(sine, cosine)
