@@ -8,7 +8,6 @@ output is plain ASCII, and equal on every run. Lengths are in millimetres, y up.
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterator, Sequence
 from itertools import chain
 from typing import NamedTuple
@@ -31,10 +30,6 @@ from geneva_cli.table import in_decimals
 
 POINT = 72.0 / 25.4  # points per millimetre
 BEGIN = f"{POINT:.9f} 0 0 {POINT:.9f} 0 0 cm\n1 J 1 j\n"  # of a page's content
-# a power of ten is raised: its size and its height, over that of the text
-EXPONENT = re.compile(r"(?<=10)\^(-?\d+)")
-EXPONENT_SIZE, EXPONENT_RISE = 0.7, 0.33
-
 INK = "0.1 0.12 0.14"
 
 
@@ -127,12 +122,7 @@ def _text(words: str, at: Point, size: float, turn: float, font: int = 1) -> str
     """A text that starts at a point on its base line; ``turn`` is in radians."""
     c, s = math.cos(turn), math.sin(turn)
     matrix = " ".join(number(v) for v in (c, s, -s, c, *at))
-    first, *others = EXPONENT.split(words)
-    shown = f"({_escaped(first)}) Tj"
-    for i, part in enumerate(others):
-        tall, rise = (size, 0.0) if i % 2 else (EXPONENT_SIZE * size, EXPONENT_RISE * size)
-        shown += f" /F{font} {number(tall)} Tf {number(rise)} Ts ({_escaped(part)}) Tj"
-    return f"BT /F{font} {number(size)} Tf {matrix} Tm {shown}{' 0 Ts' * bool(others)} ET\n"
+    return f"BT /F{font} {number(size)} Tf {matrix} Tm ({_escaped(words)}) Tj ET\n"
 
 
 def _escaped(words: str) -> str:
@@ -144,10 +134,7 @@ def _escaped(words: str) -> str:
 
 def wide(text: str, size: float, bold: bool = False) -> float:
     """A text's width in Helvetica, as ``words`` shows it."""
-    parts = EXPONENT.split(western(text))
-    sizes = (EXPONENT_SIZE * size if i % 2 else size for i in range(len(parts)))
-    widths = (letters.width(part, bold) * tall for part, tall in zip(parts, sizes, strict=True))
-    return CAPITALS * sum(widths)
+    return CAPITALS * size * letters.width(western(text), bold)
 
 
 def box(x: float, y: float, long: float, high: float, ink: str) -> str:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import base64
 import os
-import re
 from collections.abc import Iterable, Iterator
 from html import escape
 
@@ -33,41 +33,16 @@ def chunks(document: blocks.Document) -> Iterator[str]:
     yield from _list(document.reasons)
     yield "</section>\n"
     is_open = False  # facts side by side
-    for number, block in enumerate(document.blocks):
+    for block in document.blocks:
         if (isinstance(block, blocks.Grid) and block.facts) != is_open:
             yield "</div>\n" if is_open else '<div class="facts">\n'
             is_open = not is_open
-        yield from _block(block, number)
+        yield from _block(block)
     yield "</div>\n" if is_open else ""
     yield "</main>\n</body>\n</html>\n"
 
 
-def inline(chunks: Iterable[str], name: str) -> str:
-    """The SVG element of a file, with ids that begin with ``name``, and styles for it alone."""
-    text = "".join(chunks)
-    text = text[text.index("<svg") :]
-    text = re.sub(r' id="([^"]+)"', rf' id="{name}-\1"', text)
-    text = text.replace("url(#", f"url(#{name}-")
-
-    def of_rule(match: re.Match[str]) -> str:
-        return ", ".join(f"#{name} {one.strip()}" for one in match[1].split(",")) + " {"
-
-    def scoped(match: re.Match[str]) -> str:
-        style = match[1].replace("[id='", f"[id='{name}-")
-        style = re.sub(r"#(?=[A-Z])", f"#{name}-", style)  # an id; colours have small letters
-        # a file's styles hold on any medium; a printed page is light
-        dark_mode = r"@media (?:screen and )?\(prefers-color-scheme: dark\)"
-        style = re.sub(dark_mode, "@media screen and (prefers-color-scheme: dark)", style)
-        lines = style.splitlines(keepends=True)
-        rule = re.compile(r"([^{}\n]+?) \{")
-        lines = [one if one.startswith("@") else rule.sub(of_rule, one) for one in lines]
-        return f"<style>\n{''.join(lines)}</style>\n"
-
-    text = re.sub(r"<style>\n(.*?)</style>\n", scoped, text, flags=re.DOTALL)
-    return text.replace("<svg ", f'<svg id="{name}" ', 1)
-
-
-def _block(block: blocks.Block, number: int) -> Iterator[str]:
+def _block(block: blocks.Block) -> Iterator[str]:
     if isinstance(block, blocks.Heading):
         yield f"<h2>{_text(block.text)}</h2>\n"
     elif isinstance(block, blocks.Prose):
@@ -77,12 +52,17 @@ def _block(block: blocks.Block, number: int) -> Iterator[str]:
     elif isinstance(block, blocks.Grid):
         yield from _grid(block)
     elif isinstance(block, blocks.Picture):
-        drawn = inline(svg.chunks(block.drawing), f"drawing-{number}")
-        yield f'<figure class="drawing" tabindex="0">\n{drawn}</figure>\n'
+        yield from _figure("drawing", block.drawing.title, svg.chunks(block.drawing))
     else:
         assert isinstance(block, blocks.Curves)
-        drawn = inline(plot_svg.chunks(block.figure), f"curves-{number}")
-        yield f'<figure class="curves" tabindex="0">\n{drawn}</figure>\n'
+        yield from _figure("curves", block.figure.title, plot_svg.chunks(block.figure))
+
+
+def _figure(name: str, title: str, chunks: Iterable[str]) -> Iterator[str]:
+    """A picture as a part of the page, whose names and styles are its own."""
+    data = base64.b64encode("".join(chunks).encode()).decode()
+    yield f'<figure class="{name}" tabindex="0">\n<img alt="{_text(title)}"'
+    yield f' src="data:image/svg+xml;base64,{data}">\n</figure>\n'
 
 
 def _grid(grid: blocks.Grid) -> Iterator[str]:
@@ -100,9 +80,8 @@ def _grid(grid: blocks.Grid) -> Iterator[str]:
     for first, *rest in rows:
         yield f'<tr><th scope="row">{_text(first)}</th>'
         for value, side in zip(rest, sides[1:], strict=True):
-            attribute = (
-                ' class="bad"' if value == blocks.BAD else side if len(value) <= LONG else ""
-            )
+            attribute = side if len(value) <= LONG else ""
+            attribute = ' class="bad"' if value == blocks.BAD else attribute
             yield f"<td{attribute}>{_text(value)}</td>"
         yield "</tr>\n"
     yield "</tbody>\n</table>\n" + ("" if grid.facts else "</div>\n")
