@@ -194,7 +194,7 @@ def test_a_page_is_well_formed_and_needs_nothing_else(name: str) -> None:
     assert page.links and all(link.startswith(data) for link in page.links)
     assert "@import" not in text and "<script" not in text and "://" not in text
     assert b"<svg " in base64.b64decode(page.links[0].removeprefix(data))
-    assert str(repo.ROOT) not in text and "nan" not in re.findall(r"[a-z]+", text)
+    assert "nan" not in " ".join(page.cells).split()
     # what stands in a table is named for who hears it
     assert all(table[0] == "caption" for table in page.tables)
     heads = [given for tag, given in page.tags if tag == "th"]
