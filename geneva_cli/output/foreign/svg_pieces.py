@@ -17,8 +17,6 @@ from geneva_cli.output.foreign.drawn import Drawn, bezier_pieces, ellipse_pieces
 UNITS = {"mm": 1.0, "cm": 10.0, "in": 25.4, "pt": 25.4 / 72.0, "pc": 25.4 / 6.0, "q": 0.25}
 HIDDEN = {"defs", "symbol", "clipPath", "mask", "marker", "pattern", "metadata", "title", "style"}
 LAYERS = {"center", "pitch", "dimension", "text", "engrave", "hidden"}  # ids of what bounds no part
-DEEPEST = 16  # <use> of <use>
-SHAPES_MAX = 100_000  # that <use> may make of a short file
 NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 # the numbers of each letter of a path
 COUNTS = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "S": 4, "Q": 4, "T": 2, "A": 7, "Z": 0}
@@ -49,12 +47,8 @@ def read_svg(data: bytes) -> Drawn:
             raise GenevaError("width and viewBox must be above 0")
         unit = size / box[2]
     traced = _Traced()
-    named = {element.get("id", ""): element for element in root.iter()}
     up = _matrix(unit, 0.0, 0.0, -unit)  # its y axis points down
-    for count, (element, frame) in enumerate(_shapes(root, up, named)):
-        if count > SHAPES_MAX:
-            raise GenevaError(f"it shows more than {SHAPES_MAX} shapes, with those of <use>")
-        traced.frame = frame
+    for element, traced.frame in _shapes(root, up):
         _trace(element, traced)
     return Drawn(tuple(traced.pieces), notes, traced.is_exact)
 
@@ -68,18 +62,13 @@ def _numbers(text: str) -> list[float]:
 
 
 def _shapes(
-    element: ElementTree.Element,
-    frame: _Affine,
-    named: dict[str, ElementTree.Element],
-    depth: int = 0,
+    element: ElementTree.Element, frame: _Affine
 ) -> Iterator[tuple[ElementTree.Element, _Affine]]:
-    """Yield the shapes that are shown, with the transforms of their groups and of <use>."""
+    """Yield the shapes that are shown, with the transforms of their groups."""
     style = element.get("style", "").replace(" ", "") + ";"
     hidden = element.get("display") == "none" or "display:none" in style
-    name, layer = _name(element), element.get("id", "").lower()
-    if hidden or layer in LAYERS or element.get("class", "").lower() in LAYERS:
-        return
-    if name in HIDDEN and not (name == "symbol" and depth):  # a symbol is shown by <use>
+    layers = {element.get("id", "").lower(), element.get("class", "").lower()}
+    if hidden or layers & LAYERS or _name(element) in HIDDEN:
         return
     text = element.get("transform", "")
     for function, values in re.findall(r"(\w+)\s*\(([^)]*)\)", text):
@@ -87,22 +76,10 @@ def _shapes(
             frame = frame.after(_transform(function, _numbers(values)))
         except (IndexError, TypeError):
             raise GenevaError(f'transform="{cut(text, 100)}" cannot be read') from None
-    if name == "use":
-        if depth >= DEEPEST:
-            raise GenevaError(f"<use> is nested more than {DEEPEST} deep")
-        link = element.get("href") or element.get("{http://www.w3.org/1999/xlink}href") or ""
-        target = named.get(link.removeprefix("#")) if link.startswith("#") else None
-        if target is None:
-            raise GenevaError(f'<use href="{cut(link, 40)}"> names nothing in the file')
-        if target.get("viewBox"):
-            raise GenevaError(f'<use href="{cut(link, 40)}"> has a viewBox of its own: convert it')
-        shift = _Affine(shift=complex(*_lengths(element, "x y")))
-        yield from _shapes(target, frame.after(shift), named, depth + 1)
-        return
     yield element, frame
     for child in element:
         if isinstance(child.tag, str):
-            yield from _shapes(child, frame, named, depth)
+            yield from _shapes(child, frame)
 
 
 def _transform(name: str, v: list[float]) -> _Affine:
@@ -145,8 +122,8 @@ def _trace(element: ElementTree.Element, out: _Traced) -> None:
         out.ellipse(complex(x, y), rx + 0j, ry * 1j, 0.0, math.tau)
     elif name in ("path", "line", "polygon", "polyline", "rect"):
         _trace_path(_path_of(element, name), out)
-    elif name == "image":
-        raise GenevaError("<image> is no outline: convert it to a path")
+    elif name in ("image", "use"):
+        raise GenevaError(f"<{name}> is no outline: convert it to a path")
 
 
 def _path_of(element: ElementTree.Element, name: str) -> str:
