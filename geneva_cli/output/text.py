@@ -13,15 +13,7 @@ from typing import Any
 
 from geneva_cli.errors import GenevaError, clean, cut, few
 from geneva_cli.progress import Meter
-from geneva_cli.table import (
-    Column,
-    Table,
-    flat,
-    in_digits,
-    pieces,
-    plain_rows,
-    record_table,
-)
+from geneva_cli.table import Column, Table, flat, in_digits, pieces, plain_rows, record_table
 
 WIDTH = 90  # letters of a line in a file or a pipe
 
