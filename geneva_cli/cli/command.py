@@ -103,13 +103,11 @@ class Command(PlainValues, TyperCommand):
 
     def invoke(self, ctx: Any) -> Any:
         """Run the command; its tables have the columns of --columns."""
-        columns, wide = ctx.params.pop("columns", None), ctx.params.pop("wide", False)
-        if not (columns or wide):
-            return super().invoke(ctx)
-        from geneva_cli.output import choosing
+        from geneva_cli.output import choice
 
-        with choosing(words_in(columns or ""), wide):
-            return super().invoke(ctx)
+        choice.columns = words_in(ctx.params.pop("columns", None) or "")
+        choice.wide = ctx.params.pop("wide", False)
+        return super().invoke(ctx)
 
     def collect_usage_pieces(self, ctx: Any) -> list[str]:
         """The words after the command's name in its help."""

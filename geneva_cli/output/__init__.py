@@ -9,8 +9,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Iterable, Iterator, Mapping
 from itertools import chain
 from types import SimpleNamespace
 from typing import TYPE_CHECKING
@@ -41,17 +40,6 @@ if TYPE_CHECKING:
 # The options --columns and --wide of this run: the columns that its tables show, some by name, or
 # all whatever their width.
 choice = SimpleNamespace(columns=(), wide=False)
-
-
-@contextmanager
-def choosing(columns: Sequence[str], wide: bool) -> Iterator[None]:
-    """Show tables by this choice of columns within the block."""
-    before = dict(vars(choice))
-    vars(choice).update(columns=columns, wide=wide)
-    try:
-        yield
-    finally:
-        vars(choice).update(before)
 
 
 def refuse_columns() -> None:

@@ -42,18 +42,13 @@ class Row(NamedTuple):
     sha256: str = ""
 
 
-class Filling(NamedTuple):
-    """The folder for the new files, and the old files that were changed by a person and stay."""
-
-    new: str
-    kept: list[str]
-
-
 @contextmanager
 def filling_folder(
     path: str, entries: Sequence[Row], inputs: Sequence[str] = (), force: bool = False
-) -> Iterator[Filling]:
+) -> Iterator[tuple[str, list[str]]]:
     """Give an empty folder whose files go to ``path`` if the block ends without an error.
+
+    Beside it stands a list: at the end it has the old files that a person has changed, which stay.
 
     The block writes the files of ``entries``; their list is added. Files of an earlier run that
     are no entries now are removed. All other files stay. Raises GenevaError if a file to replace
@@ -75,13 +70,13 @@ def filling_folder(
                 try:
                     shutil.rmtree(new, ignore_errors=True)
                     os.mkdir(new)
-                    filling = Filling(new, [])
-                    yield filling
+                    kept: list[str] = []
+                    yield new, kept
                     # a person may have changed a file meanwhile
                     _require_own(path, entries, inputs, force)
                     rows = [one._replace(sha256=_digest(below(new, one.file))) for one in entries]
                     with answering(signal.SIG_IGN):  # not half of them
-                        filling.kept.extend(_replace(real, new, rows))
+                        kept.extend(_replace(real, new, rows))
                         listing.writelines(_lines(rows))
                 finally:
                     shutil.rmtree(new, ignore_errors=True)

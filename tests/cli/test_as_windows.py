@@ -164,11 +164,11 @@ from contextlib import closing
 from geneva_cli.output.folder import Row, filling_folder
 from geneva_cli.output.growing import GrowingTable
 with closing(GrowingTable(["a", "b"], "request", "rows.csv")) as rows:
-    with filling_folder("shop", [Row("a.txt", "a text")]) as filling:
+    with filling_folder("shop", [Row("a.txt", "a text")]) as (new, _):
         rows.append([[1], [2]])
         print("held", flush=True)
         sys.stdin.readline()
-        open(filling.new + "/a.txt", "w").close()
+        open(new + "/a.txt", "w").close()
     rows.finish()
 """
 

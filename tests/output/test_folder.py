@@ -24,9 +24,9 @@ def replace(*paths):
         os.kill(os.getpid(), number)
     return usual(*paths)
 os.replace = replace
-with folder.filling_folder("out", [folder.Row(f, "") for f in "ab"]) as filling:
+with folder.filling_folder("out", [folder.Row(f, "") for f in "ab"]) as (new, kept):
     for name in "ab":
-        folder.write(os.path.join(filling.new, name), [text])
+        folder.write(os.path.join(new, name), [text])
 """
 
 
@@ -98,8 +98,8 @@ def test_a_list_leads_to_no_other_place(folder, name):
     put(f"out/{LIST}", get(f"out/{LIST}").replace("a,", f"{name},"))
     before = sorted(os.listdir(folder))
     with pytest.raises(GenevaError, match="not written by") if "/" in name else nullcontext():
-        with filling_folder("out", [Row("b", "")]) as filling:
-            put(os.path.join(filling.new, "b"), "new")
-        assert filling.kept == ["link"]
+        with filling_folder("out", [Row("b", "")]) as (new, kept):
+            put(os.path.join(new, "b"), "new")
+        assert kept == ["link"]
     assert get("kept") == "old"
     assert sorted(os.listdir(folder)) == before

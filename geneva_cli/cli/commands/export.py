@@ -58,14 +58,14 @@ def run(
         require_written(design, design.judge(), force)
     files, missing = export_files(design, needed)
     entries = [Row(file.name, file.content) for file in files]
-    with filling_folder(output, entries, design.spec.files, force) as filling:
+    with filling_folder(output, entries, design.spec.files, force) as (folder, kept):
         for file in files:
-            file.write(os.path.join(filling.new, file.name))
+            file.write(os.path.join(folder, file.name))
     rows = [(below(output, one.file), one.content) for one in entries]
     show(rows_table(("file", "content"), rows, design.spec.title))
     for one in missing:
         print(clean(f"{spec}: warning: {one.name}: not written: {one.why}"), file=sys.stderr)
-    for name in filling.kept:
+    for name in kept:
         text = "no file of this design now, but somebody changed it: it stays"
         print(clean(f"{below(output, name)}: warning: {text}"), file=sys.stderr)
     process = design.spec.size.process
