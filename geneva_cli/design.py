@@ -720,14 +720,13 @@ class Design:
         """
         from geneva_cli.drawings.catalogue import PARTS, is_sheet
         from geneva_cli.output import draw, draw_sheet, show
-        from geneva_cli.output.formats import curve_tolerance, is_drawn, sheet_as, usual_curves
+        from geneva_cli.output.formats import DRAWN, curve_tolerance, named, usual_curves
 
         tolerance_mm = curve_tolerance(tolerance_mm, path, "")
         stem = os.path.splitext(os.path.basename(path))[0]
         part = part or (stem if stem in PARTS else "assembly")
         sheet, files = is_sheet(part), self.spec.files
-        drawn = bool(sheet_as(path, "")) if sheet else is_drawn(path, "")
-        if not sheet and self.is_table(part, drawn):
+        if not sheet and self.is_table(part, named(path, "") in DRAWN):
             show(self.part_table(part, tolerance_mm), path, inputs=files)
             return
         curves = usual_curves(path, "")
