@@ -114,8 +114,7 @@ def gears(parts: EdgedParts) -> Drawing:
 
     The crank's axis is the origin. Raises GenevaError for a machine without gears.
     """
-    from geneva_cli.parts.gears.gear_curves import required_gears
-    from geneva_cli.parts.gears.gear_pair import FINE
+    from geneva_cli.parts.gears.gear_pair import FINE, required_gears
 
     mechanism, name = parts.mechanism, "gears"
     if mechanism.spec.gears or not mechanism.spec.drive.round_gears:

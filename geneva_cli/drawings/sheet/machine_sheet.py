@@ -65,7 +65,7 @@ def sheet(parts: FlatParts) -> Sheet:
     faces = cut_faces(parts.members, 500.0 / largest)
     marked = {items[face.plate] for face in faces}
     tables = [
-        *round_parts((*parts.links.joined, *parts.spacers), mechanism),
+        *round_parts((*parts.links.joined, *parts.framed.spacers), mechanism),
         *_layout(mechanism),
     ]
 
@@ -174,7 +174,7 @@ def _views(rows: list[dict[str, Any]], parts: FlatParts, scale: float) -> Iterat
         view = begin(part.name, thick=False)
         draw_shaft(view, part)
         yield view
-    for plate in _plates_among(parts.bridge):
+    for plate in _plates_among(parts.framed.bridge):
         view = begin(plate.name)
         _, *through = (hole for hole in plate.holes if isinstance(hole, Circle))
         screws = {hole: sized.screw_hole(hole.radius) for hole in through}
@@ -182,7 +182,7 @@ def _views(rows: list[dict[str, Any]], parts: FlatParts, scale: float) -> Iterat
         yield view
     (frame,) = _plates_among([parts.frame])
     view = begin(frame.name)
-    threads = {h: sized.screw_hole(h.radius, tapped=True) for h in parts.frame_threads}
+    threads = {h: sized.screw_hole(h.radius, tapped=True) for h in parts.framed.threads}
     draw_frame(view, frame, threads)
     yield view
 

@@ -167,7 +167,7 @@ def groove_base(parts: Outlines, bars: Links) -> Plate:
     mounts = [Circle("BORE", polar(ORIGIN, away, turn), through) for turn in turns]
     shaft = bars.shaft((L, 0.0), L)
     if shaft:  # which turns in the base
-        shaft = bore_at(full, (L, 0.0), shaft).bore.around
+        shaft = bore_at(full, (L, 0.0), shaft).around
     bore = [Circle("BORE", ORIGIN, shaft + bars.sizes.loose)] if shaft else []
     high, _ = bars.sizes.span(BELOW)
     # before another drive it fills its plane

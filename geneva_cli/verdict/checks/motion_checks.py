@@ -30,7 +30,7 @@ def motion(names: Collection[str], mechanism: Mechanism) -> Iterator[Check]:
     least = min(map(mechanism.dwell_deg, range(len(own))))
     yield compared("dwell_deg", least, "at least", 0.0)
     if spec.gears:
-        from geneva_cli.parts.gears.gear_curves import convexity
+        from geneva_cli.parts.gears.gear_pair import convexity
 
         driver, driven = convexity(spec.gears)  # the least curvatures
         yield compared("driver_gear_convexity", driver, "above", 0.0)
