@@ -147,7 +147,7 @@ def _summary(result: Turned) -> str:
     machine, turn = result.machine, result.senses[0].first
     index = math.degrees(turn.gained) / len(machine.assembly.motions)
     is_moving = turn.is_moving
-    free = np.nan_to_num(np.degrees(turn.high - turn.low))
+    free = np.degrees(turn.high - turn.low)
     rest = math.degrees(result.rest.high - result.rest.low)
     first = turn.pushes[0]
     begin, end = (

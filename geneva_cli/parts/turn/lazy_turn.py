@@ -53,7 +53,7 @@ class Jam(NamedTuple):
 
 
 class LazyTurn(NamedTuple):
-    """The wheel at crank angles (n,), radians, and its free range there; NaN between the grid's."""
+    """The wheel at crank angles (n,), radians, and its free range there."""
 
     crank: Array
     wheel: Array
@@ -164,27 +164,24 @@ class _Path:
             self.begun = good, wheel
         self._follow(crank, around)
 
-    def _follow(self, crank: float, around: Around, is_near: bool = False) -> None:
+    def _follow(self, crank: float, around: Around) -> None:
         """Go on to a crank angle to which the wheel is pushed."""
         before, wheel = self.rows[-1][:2]
         step, there = abs(crank - before), around(wheel)
         pushed = _pushed(there, wheel)
         steepest = STEEPEST if step < 1e-4 else SLOW
         if abs(pushed - wheel) <= steepest * step + SAME:
-            self._add(crank, pushed, around, is_near)
+            self._add(crank, pushed, around)
             return
         if step < SHORTEST:
             raise _Stuck(Jam(before, wheel, there.low, there.high))
         places = np.linspace(before, crank, PARTS + 1)[1:]
         ranges = self.free.at(places)
         for i in range(PARTS):
-            self._follow(float(places[i]), partial(ranges.around, i), is_near=True)
+            self._follow(float(places[i]), partial(ranges.around, i))
 
-    def _add(self, crank: float, wheel: float, around: Around, is_near: bool = False) -> None:
-        """Add a position that touches, with the free range on the other side, if that is known."""
-        if is_near or not self.exact:
-            self.rows.append((crank, wheel, math.nan, math.nan))
-            return
+    def _add(self, crank: float, wheel: float, around: Around) -> None:
+        """Add a position that touches, with the free range on the other side."""
         low, high = wheel, wheel
         for at in (wheel, wheel - SAME, wheel + SAME):
             there = around(at)
@@ -212,7 +209,7 @@ class _Path:
         if end != before:
             if (end - before) * self.way < 0.0:
                 del self.rows[-1]
-            self._add(end, farthest, there, is_near=there is not around)
+            self._add(end, farthest, there)
         self.pushes.append(Push(*self.begun, end, farthest))
         self.begun = None
         self._add(crank, farthest, around)
