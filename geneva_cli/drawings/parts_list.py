@@ -17,9 +17,8 @@ from typing import TypeAlias
 
 from geneva_cli.drives.transmission import places
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.plates import MM, Part, Solid, mass_properties
+from geneva_cli.geometry.plates import MM, Part, Shell, Solid, mass_properties
 from geneva_cli.geometry.shapes import bounds_of
-from geneva_cli.geometry.sphere_shell import Shell
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Dimension, Pivot

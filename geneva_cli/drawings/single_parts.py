@@ -6,10 +6,9 @@ import math
 from typing import NamedTuple
 
 from geneva_cli.drawings.sheet.packing import Block, packed_apart
-from geneva_cli.geometry.plates import Group, Member, Plate, Solid, solids
+from geneva_cli.geometry.plates import Group, Member, Plate, Shell, Solid, solids
 from geneva_cli.geometry.shapes import bounds_of
 from geneva_cli.geometry.sheet import Drawing
-from geneva_cli.geometry.sphere_shell import Shell
 from geneva_cli.parts.parts import EdgedParts, Parts
 from geneva_cli.parts.projection import Missing, alike, built_of, outlines_of, titled
 

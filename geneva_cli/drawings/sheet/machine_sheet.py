@@ -28,10 +28,9 @@ from geneva_cli.drawings.sheet.standing import draw_frame, draw_shaft
 from geneva_cli.drawings.sheet.view import View
 from geneva_cli.drawings.sheet.wheel_views import draw_wheel
 from geneva_cli.geometry.board import chords
-from geneva_cli.geometry.plates import Group, Member, Plate, in_place, plates
+from geneva_cli.geometry.plates import Group, Member, Plate, Shell, in_place, plates
 from geneva_cli.geometry.shapes import Circle, Point, at, bounds, bounds_of, placed, two_arcs
 from geneva_cli.geometry.sheet import HATCH, OUTLINE, Sheet, line, rectangle
-from geneva_cli.geometry.sphere_shell import Shell
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Dimension, Pivot
 from geneva_cli.parts.flat_parts import FlatParts
