@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, ClassVar
 
-from geneva_cli.drives.pin_path import PinPath
+from geneva_cli.drives.transmission import PinPath
 from geneva_cli.errors import GenevaError, refuse_text
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.engagement import Engagement, Load, Vector, cross

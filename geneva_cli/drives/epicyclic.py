@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, cast
 
-from geneva_cli.drives.pin_path import PinPath
+from geneva_cli.drives.transmission import PinPath
 from geneva_cli.errors import refuse_text
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.engagement import Anchor, Engagement, Load, Vector, cross

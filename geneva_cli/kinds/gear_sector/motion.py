@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, cast
 
-from geneva_cli.drives.pin_path import PinPath
+from geneva_cli.drives.transmission import PinPath
 from geneva_cli.motion import registry
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.engagement import Engagement, Slot, SlotAxis, Vector, WheelMotion

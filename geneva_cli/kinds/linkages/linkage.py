@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from functools import reduce
 from typing import TYPE_CHECKING, Annotated, ClassVar, Self, TypeAlias, TypeVar, cast
 
-from geneva_cli.drives.pin_path import PinPath
+from geneva_cli.drives.transmission import PinPath
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.kinds.linkages.link_path import LinkPath, LinkReactions
 from geneva_cli.motion.drive import Plan
