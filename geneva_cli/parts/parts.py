@@ -145,7 +145,7 @@ class Parts(TurnedParts):
 
     def within(self, tolerance: float, curves: str) -> Self:
         """Return these parts with curves of a kind within a tolerance, mm."""
-        finer = type(self)(self.mechanism, self.advice, tolerance, curves)
+        finer = type(self)(self.mechanism, tolerance, curves)
         vars(finer).update({k: v for k, v in vars(self).items() if k == "_shape"})
         return finer
 
@@ -251,7 +251,7 @@ class EdgedParts(Parts):
         return self._framed.unborne
 
 
-def parts_of(mechanism: Mechanism, advice: bool = True) -> Parts:
+def parts_of(mechanism: Mechanism) -> Parts:
     """Return the parts of a machine; nothing is built yet."""
     kind: type[Parts] = thing(mechanism.spec.wheel.NAME, "parts") or load_named(FRONT)
-    return kind(mechanism, advice)
+    return kind(mechanism)

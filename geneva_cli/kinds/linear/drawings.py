@@ -30,8 +30,7 @@ if TYPE_CHECKING:
 
 def arm(parts: RackParts) -> Drawing:
     """Return the arm, whose x is from the crank's axis to the roller."""
-    # without an arm the error says why
-    return drawing_of(parts.mechanism, "arm", parts.arm or parts.required_arm)
+    return drawing_of(parts.mechanism, "arm", parts.required_arm)
 
 
 def slot(parts: RackParts) -> Drawing:
@@ -65,7 +64,7 @@ def dimensions(parts: RackParts) -> Iterator[Dimension | Missing]:
     def listed() -> Iterator[Dimension]:
         sizes = parts.sizes
         yield Dimension("distance of the slots", 2.0 * sizes.arm, "mm")
-        yield Dimension("edge, from the deepest roller", sizes.edge, "mm")
+        yield Dimension("edge, from the deepest roller", sizes.rim, "mm")
         if sizes.lock:
             yield Dimension("recess radius", sizes.recess, "mm")
             yield Dimension("locking sector: outer radius", sizes.lock, "mm")

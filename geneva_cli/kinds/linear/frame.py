@@ -14,7 +14,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Plate
 from geneva_cli.geometry.shapes import Circle
 from geneva_cli.geometry.sheet import rectangle
-from geneva_cli.kinds.linear.rack import RackSizes, crank_arm, rack_bore, rack_sizes, slot_places
+from geneva_cli.kinds.linear.rack import RackSizes, crank_arm, rack_sizes, slot_places
 from geneva_cli.loads.strength.pin_arm_key import NO_ARM, NO_KEY, ArmDimensions
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import value_or
@@ -24,7 +24,6 @@ from geneva_cli.parts.parts import FrameAndShafts
 from geneva_cli.parts.shafts.arm_and_shafts import Shaft, shaft_ends
 from geneva_cli.parts.shafts.bores import bolt_radius, bore_of, reach_or_bore, tapped
 from geneva_cli.parts.sized_by_load import ShaftSize, Stressed, key_of, shaft_of
-from geneva_cli.parts.sizes import drawn_thicknesses, pin_radius
 from geneva_cli.spec.defaults import wall_min
 
 
@@ -34,40 +33,32 @@ class RackFrame(NamedTuple):
     plain: float  # lower face of a frame of plain shafts
     top: float  # upper face of the frame
     low: float  # lower face of what is on the crank's shaft: the arm, or gears below it
-    arm: float  # lower face of the arm
-    stands: float  # its upper face
-    rack: float  # upper face of the rack
-    cover: float  # thickness of the guide's cover
+    stands: float  # upper face of the arm
 
 
-def rack_frame(mechanism: Mechanism) -> RackFrame:
+def rack_frame(mechanism: Mechanism, sizes: RackSizes) -> RackFrame:
     """Return the heights of a machine's parts."""
-    size, R = mechanism.spec.size, mechanism.center_distance_mm
-    thick, gap = drawn_thicknesses(size, R), size.allowances.pin_gap_mm
-    arm = -gap - thick.arm
-    low = gear_span(mechanism, None)[0] if mechanism.spec.gears else arm
+    size = mechanism.spec.size
+    stands = 0.0 - size.allowances.pin_gap_mm  # no -0.0
+    low = gear_span(mechanism, None)[0] if mechanism.spec.gears else stands - sizes.thick.arm
     top = low - size.washer_mm
-    stands = 0.0 - gap  # no -0.0
-    return RackFrame(top - thick.arm, top, low, arm, stands, thick.wheel, thick.arm)
+    return RackFrame(top - sizes.thick.arm, top, low, stands)
 
 
-def shafts_and_frame(mechanism: Mechanism) -> FrameAndShafts:
+def shafts_and_frame(mechanism: Mechanism, sizes: RackSizes) -> FrameAndShafts:
     """Return the shafts and the frame, with holes for them and guide's screws."""
-    size, sizes, heights = mechanism.spec.size, rack_sizes(mechanism), rack_frame(mechanism)
-    axis, radius = mechanism.crank_shaft.at, rack_bore(mechanism)
-    L = 2.0 * sizes.arm  # as a wheel of 6 slots has it
+    size, heights = mechanism.spec.size, rack_frame(mechanism, sizes)
+    axis, L = mechanism.crank_shaft.at, 2.0 * sizes.arm  # as a wheel of 6 slots has it
     own: list[Shaft] = []
-    if radius:  # the crank's shaft, up to the arm's upper face
+    if sizes.bore:  # the crank's shaft, up to the arm's upper face
         low, high = shaft_ends(size, "crank", heights.plain, heights.stands)
-        bore = bore_of(size, "crank", radius)
+        bore = bore_of(size, "crank", sizes.bore)
         # the keyway is on the side of the locking sector, as in the arm
-        crank = Shaft("crank's shaft", "crank", bore, low, high, axis, math.pi, math.pi)
-        own.append(crank)
-    if mechanism.spec.gears:
-        own += gear_shafts(mechanism, None, heights.plain, True, radius)
+        own.append(Shaft("crank's shaft", "crank", bore, low, high, axis, math.pi, math.pi))
+    own += gear_shafts(mechanism, None, heights.plain, True, sizes.bore)
     axles = tuple(one.member for one in own)
     bored = shaft_holes(size, axles, heights.top)
-    if not radius:
+    if not sizes.bore:
         bored.insert(0, hole_without_shaft(mechanism.spec.shaft.crank_diameter_mm, axis, L))
     rows = zip(("guide rail", "guide wall"), _screws(sizes), strict=True)
     screwed = tuple((hole, name) for name, row in rows for hole in row)
@@ -84,10 +75,9 @@ def bar_bolts(sizes: RackSizes, count: int) -> tuple[Circle, ...]:
     return tuple(Circle("BORE", (sizes.guide.middle, y), _bolt(sizes)) for y in places)
 
 
-def guide(mechanism: Mechanism) -> tuple[Plate, ...]:
+def guide(mechanism: Mechanism, sizes: RackSizes) -> tuple[Plate, ...]:
     """Return rail, wall and cover of the guide."""
-    sizes, heights = rack_sizes(mechanism), rack_frame(mechanism)
-    place = sizes.guide
+    place, top = sizes.guide, rack_frame(mechanism, sizes).top
     x, bar, slide, half = place.back, place.bar, place.slide, place.half
     if half < bar:
         raise GenevaError(
@@ -95,16 +85,16 @@ def guide(mechanism: Mechanism) -> tuple[Plate, ...]:
             f"{2.0 * half:.4g} mm long, and its screws need {2.0 * bar:.4g}: use a smaller roller",
             ("size", "roller_radius_mm"),
         )
-    over = heights.rack + mechanism.spec.size.allowances.pin_gap_mm
+    over = sizes.thick.wheel + mechanism.spec.size.allowances.pin_gap_mm
     on_rail, on_wall = (tuple(one for one in row if one.radius) for row in _screws(sizes))
     rail = rectangle("FRAME", x + bar + slide, -half, x + 2.0 * bar + slide, half)
     wall = rectangle("FRAME", x - slide - 2.0 * bar, -half, x - slide, half)
     # the cover ends a tenth of a bar inside the edges of wall and bar
     cover = rectangle("FRAME", x - slide - 1.9 * bar, -half, x + 0.9 * bar, half)
     return (
-        Plate("guide rail", "FRAME", rail, on_rail, heights.top, 0.0),
-        Plate("guide wall", "FRAME", wall, on_wall, heights.top, over),
-        Plate("guide cover", "FRAME", cover, on_wall, over, over + heights.cover),
+        Plate("guide rail", "FRAME", rail, on_rail, top, 0.0),
+        Plate("guide wall", "FRAME", wall, on_wall, top, over),
+        Plate("guide cover", "FRAME", cover, on_wall, over, over + sizes.thick.arm),
     )
 
 
@@ -122,18 +112,17 @@ def _bolt(sizes: RackSizes) -> float:
 
 def rack_stressed(mechanism: Mechanism) -> Stressed:
     """Return the dimensions of the parts of a machine that their strength depends on."""
-    spec, heights, bore = mechanism.spec, rack_frame(mechanism), rack_bore(mechanism)
-    size, R = spec.size, mechanism.center_distance_mm
-    contact, thick = value_or(size.face_width_mm, heights.rack), heights.stands - heights.arm
-    bend = NO_ARM
+    spec, size, sizes = mechanism.spec, mechanism.spec.size, rack_sizes(mechanism)
+    heights, (rack, _, thick, _), bore = rack_frame(mechanism, sizes), sizes.thick, sizes.bore
+    contact, bend = value_or(size.face_width_mm, rack), NO_ARM
     if bore:
-        arm, bored = crank_arm(mechanism), reach_or_bore(size, "crank", bore)
+        arm, bored = crank_arm(size, sizes), reach_or_bore(size, "crank", bore)
         offset = 0.5 * (contact + thick) - heights.stands
-        bend = ArmDimensions(R, arm.hub, arm.eye, bored, arm.pins[0].radius, thick, offset)
-    to_frame = 0.5 * heights.rack - (heights.low - size.washer_mm)
+        bend = ArmDimensions(sizes.arm, arm.hub, arm.eye, bored, arm.pins[0].radius, thick, offset)
+    to_frame = 0.5 * rack - (heights.low - size.washer_mm)
     return Stressed(
         contact,
-        2.0 * pin_radius(size, mechanism.roller_radius_mm),
+        2.0 * sizes.pin,
         ShaftSize(math.nan, math.nan),
         shaft_of(spec, "crank", bore, to_frame, thick),
         bend,

@@ -22,7 +22,6 @@ from geneva_cli.kinds.linear.rack import (
     crank_arm,
     lock_bolts,
     locking_sector,
-    rack_bore,
     rack_contour,
     rack_ends,
     rack_sizes,
@@ -34,7 +33,6 @@ from geneva_cli.parts.parts import EdgedParts, FrameAndShafts, NamedBuilds
 from geneva_cli.parts.projection import NamedParts
 from geneva_cli.parts.shafts.arm_and_shafts import roller_plates
 from geneva_cli.parts.shafts.bores import Screws
-from geneva_cli.parts.sizes import drawn_thicknesses, pin_radius
 from geneva_cli.parts.turn.turn_certificate import FlatPairs
 from geneva_cli.spec.defaults import wall_min
 
@@ -64,11 +62,11 @@ class RackParts(EdgedParts):
 
     def past_mouth(self, motion: int, at: Array) -> Array:
         """Return how far the roller is in its slot, beyond the rack's edge, mm, (n,)."""
-        return self.sizes.edge - self.assembly.pin(motion, at, drives=True)[:, 0]
+        return self.sizes.rim - self.assembly.pin(motion, at, drives=True)[:, 0]
 
     def pairs(self, target: float) -> FlatPairs:
         """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""
-        return FlatPairs(self._shape.gaps, self._shape.crank, target, self.sizes.edge)
+        return FlatPairs(self._shape.gaps, self._shape.crank, target, self.sizes.rim)
 
     @property
     def axis(self) -> Point:
@@ -79,9 +77,8 @@ class RackParts(EdgedParts):
     def wheel(self) -> Member:
         """The rack, with holes for the bolts of its guide bar."""
         count, sizes = self.mechanism.spec.wheel.z, self.sizes
-        high = drawn_thicknesses(self.mechanism.spec.size, sizes.arm).wheel
         outline, holes = rack_contour(sizes, count), bar_bolts(sizes, count)
-        return Member(Plate("rack", "WHEEL", outline, holes, 0.0, high))
+        return Member(Plate("rack", "WHEEL", outline, holes, 0.0, sizes.thick.wheel))
 
     @cached_property
     def bar(self) -> Member:
@@ -89,20 +86,21 @@ class RackParts(EdgedParts):
         count, sizes, x = self.mechanism.spec.wheel.z, self.sizes, self.sizes.guide.back
         low, high = rack_ends(sizes, count)
         outline = rectangle("LINK", x, low, x + sizes.guide.bar, high)
-        under = 0.5 * rack_frame(self.mechanism).top
+        under = 0.5 * rack_frame(self.mechanism, sizes).top
         return Member(Plate("guide bar", "LINK", outline, bar_bolts(sizes, count), under, 0.0))
 
     @cached_property
     def arm(self) -> Plate | None:
         """The crank's arm, x to the roller; None without a pin for the roller."""
-        return self.required_arm if rack_bore(self.mechanism) else None
+        return self.required_arm if self.sizes.bore else None
 
     @property
     def required_arm(self) -> Plate:
         """The arm. Raises GenevaError, naming the key, where the sizes leave none."""
-        size, R, arm = self.mechanism.spec.size, self.sizes.arm, crank_arm(self.mechanism)
+        size, sizes = self.mechanism.spec.size, self.sizes
+        arm, high = crank_arm(size, sizes), -size.allowances.pin_gap_mm
         holes = (arm.bore, *arm.pins, *arm.bolts)
-        least, needed = least_wall(holes, [arm.outline]), wall_min(size, R)
+        least, needed = least_wall(holes, [arm.outline]), wall_min(size, sizes.arm)
         if least < needed:
             raise GenevaError(
                 f"--part arm: the least wall around the arm's holes is {least:.4g} mm, below "
@@ -110,9 +108,7 @@ class RackParts(EdgedParts):
                 "pin_mm or lock_bolt_mm",
                 ("size", "arm_bore_mm"),
             )
-        high = -size.allowances.pin_gap_mm
-        thick = drawn_thicknesses(size, R).arm
-        return Plate("arm", "ARM", arm.outline, holes, high - thick, high)
+        return Plate("arm", "ARM", arm.outline, holes, high - sizes.thick.arm, high)
 
     @cached_property
     def crank_without_arm(self) -> Member:
@@ -126,15 +122,14 @@ class RackParts(EdgedParts):
 
     def _crank(self, arm: Plate | None) -> Member:
         """The crank's parts in the arm's frame; the locking sector stands on the arm."""
-        size, sizes = self.mechanism.spec.size, self.sizes
-        thick, stands = drawn_thicknesses(size, sizes.arm), -size.allowances.pin_gap_mm
-        pin, fit = pin_radius(size, sizes.roller), size.allowances.shaft_fit_mm
-        turned = roller_plates(sizes.roller, pin, stands - thick.arm, thick.wheel, fit)
+        size, sizes, thick = self.mechanism.spec.size, self.sizes, self.sizes.thick
+        stands, fit = -size.allowances.pin_gap_mm, size.allowances.shaft_fit_mm
+        turned = roller_plates(sizes.roller, sizes.pin, stands - thick.arm, thick.wheel, fit)
         members = [Member(arm)] if arm else []
         members += [Member(one, (sizes.arm, 0.0)) for one in turned]
         sector = locking_sector(sizes)
         if sector is not None:
-            holes, high = tuple(lock_bolts(self.mechanism)), stands + thick.lock
+            holes, high = tuple(lock_bolts(size, sizes)), stands + thick.lock
             members.append(Member(Plate("locking sector", "CRANK", sector, holes, stands, high)))
         # the roller is on the rack's side
         return Member(Group("crank", tuple(members)), self.axis, math.pi)
@@ -142,18 +137,18 @@ class RackParts(EdgedParts):
     @cached_property
     def gear_pair(self) -> tuple[Member, ...]:
         """The noncircular gears that turn the crank, up to their pitch curves."""
-        return gear_pair(self.mechanism, None, self.writer, rack_bore(self.mechanism))
+        return gear_pair(self.mechanism, None, self.writer, self.sizes.bore)
 
     @cached_property
     def guide(self) -> tuple[Member, ...]:
         """Rail, wall and cover of the guide."""
         self._require_built()
-        return tuple(Member(plate) for plate in guide(self.mechanism))
+        return tuple(Member(plate) for plate in guide(self.mechanism, self.sizes))
 
     @cached_property
     def _framed(self) -> FrameAndShafts:
         self._require_built()
-        return shafts_and_frame(self.mechanism)
+        return shafts_and_frame(self.mechanism, self.sizes)
 
     def _require_built(self) -> None:
         """Raise GenevaError where the crank's shaft has no bearing in the frame."""
@@ -168,16 +163,13 @@ class RackParts(EdgedParts):
     @property
     def screws(self) -> tuple[Screws, ...]:
         """The screws of locking sector, guide bar, and what is fixed to the frame."""
-        count = self.mechanism.spec.wheel.z
-        own = [
-            Screws(fixed, len(holes), 2.0 * holes[0].radius, thread)
-            for fixed, holes, thread in (
-                ("locking sector", lock_bolts(self.mechanism) if self.arm else [], "the arm"),
-                ("rack", bar_bolts(self.sizes, count), "nuts under the guide bar"),
-            )
-            if holes
-        ]
-        return (*own, *(self._framed.screws if self.mechanism.spec.has_parts else ()))
+        spec, sizes, own = self.mechanism.spec, self.sizes, list[Screws]()
+        if self.arm and (bolts := lock_bolts(spec.size, sizes)):
+            own.append(Screws("locking sector", len(bolts), 2.0 * bolts[0].radius, "the arm"))
+        if bolted := bar_bolts(sizes, spec.wheel.z):
+            nuts = "nuts under the guide bar"
+            own.append(Screws("rack", len(bolted), 2.0 * bolted[0].radius, nuts))
+        return (*own, *(self._framed.screws if spec.has_parts else ()))
 
     @property
     def standing(self) -> tuple[Member, ...]:

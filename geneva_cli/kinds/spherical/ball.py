@@ -29,10 +29,6 @@ from geneva_cli.spec.defaults import wall_min
 from geneva_cli.spec.tables import Z_DRAWN, Size
 
 
-class PartDoesNotFit(GenevaError):
-    """Error for a part that does not fit, but would with a smaller roller."""
-
-
 class Ball(NamedTuple):
     """The sizes of a spherical machine, whose slots are meridians.
 
@@ -151,24 +147,15 @@ def usual_ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
     # the roller touches the wall that faces the crank's axis at the foot of the perpendicular
     rim = math.acos(math.cos(mouth) * math.cos(w))
     if bottom <= 0.0 or math.sin(bottom) * math.sin(math.pi / z) <= math.sin(w):
-        raise PartDoesNotFit(
-            "the slots meet near their ends: reduce roller_radius_mm, slot_clearance_mm or "
-            f"slot_bottom_clearance_mm, or use fewer than {z} slots",
-            ("size", "roller_radius_mm"),
-        )
+        text = "the slots meet near their ends: reduce roller_radius_mm, slot_clearance_mm or "
+        text += f"slot_bottom_clearance_mm, or use fewer than {z} slots"
+        raise GenevaError(text, ("size", "roller_radius_mm"))
     thick = drawn_thicknesses(size.replace(wheel_thickness_mm=thickness_mm), L)
     inside, outside = L - 0.5 * thick.wheel, L + 0.5 * thick.wheel
     under = outside + allowed.pin_gap_mm  # the arm's inner face, on which the sectors stand
-    for key, value, most in (
-        ("wheel_thickness_mm", thick.wheel, L),
-        ("lock_thickness_mm", thick.lock, under),
-    ):
-        if value >= most:
-            raise GenevaError(
-                f"{key} = {value:g}: the part would reach inwards to the sphere's centre; it must "
-                f"be below {most:g}",
-                ("size", key),
-            )
+    why = "the part would reach inwards to the sphere's centre"
+    refuse_above("wheel_thickness_mm", thick.wheel, L, why)
+    refuse_above("lock_thickness_mm", thick.lock, under, why)
     pin = pin_radius(size, radius_mm)
     thin = min(thick.wheel, thick.lock, thick.arm)
     refuse_pin_and_edges(size, pin, inside * math.sin(roller), thin)
@@ -208,42 +195,31 @@ def usual_ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
     end = ball.slot_end_mm
     bore = wheel_bore(spec, end, wall_min(size, L), L)
     hub = hub_about(size, L, bore, end)
-    for key, radius in (("wheel_bore_mm", bore), ("wheel_hub_mm", hub)):
-        if radius >= end:
-            raise GenevaError(
-                f"{key} = {2.0 * radius:g}: the slots reach this diameter; it must be below "
-                f"{2.0 * end:.6g}, or the roller smaller",
-                ("size", key),
-            )
+    why = "the slots of this roller reach this diameter"
+    refuse_above("wheel_bore_mm", 2.0 * bore, 2.0 * end, why)
+    refuse_above("wheel_hub_mm", 2.0 * hub, 2.0 * end, why)
     ball = ball._replace(bore_mm=bore, hub_mm=hub)
     if ball.inner <= 0.0:
-        raise PartDoesNotFit(
-            "the wheel's middle is not open: the slots end within a roller's width of its axis; "
-            "set a wheel_bore_mm or reduce the roller",
-            ("size", "wheel_bore_mm"),
-        )
+        text = "the wheel's middle is not open: the slots end within a roller's width of its axis; "
+        text += "set a wheel_bore_mm or reduce the roller"
+        raise GenevaError(text, ("size", "wheel_bore_mm"))
     # a horn thinner than a thousandth of half a step counts as none
     if ball.opened + ball.corner > (1.0 - 1e-3) * ball.half_step:
-        raise PartDoesNotFit(
-            "no horn is left between slot and recess at the rim: reduce lock_radius_mm",
-            ("size", "lock_radius_mm"),
-        )
+        text = "no horn is left between slot and recess at the rim: reduce lock_radius_mm"
+        raise GenevaError(text, ("size", "lock_radius_mm"))
     return ball
 
 
 def _refuse_undrawn(spec: Spec) -> None:
     """Raise GenevaError for too many slots, and for keys of parts that a sphere does not have."""
     if spec.wheel.z > Z_DRAWN:
-        raise GenevaError(
-            f"z = {spec.wheel.z}: parts are drawn up to {Z_DRAWN} slots", ("wheel", "z")
-        )
+        text = f"z = {spec.wheel.z}: parts are drawn up to {Z_DRAWN} slots"
+        raise GenevaError(text, ("wheel", "z"))
     for key in ("crank_bore_mm", "crank_hub_mm", "crank_hub_length_mm", "dial_bolts"):
         if vars(spec.size)[key]:
-            raise GenevaError(
-                f"{key}: a sphere's crank has its bore and hub in the arm (arm_bore_mm, "
-                f"arm_hub_mm), and its wheel no dial; remove {key}",
-                ("size", key),
-            )
+            text = f"{key}: a sphere's crank has its bore and hub in the arm (arm_bore_mm, "
+            text += f"arm_hub_mm), and its wheel no dial; remove {key}"
+            raise GenevaError(text, ("size", key))
 
 
 def _lock_mm(spec: Spec, L: float, least: float, limit: float, roller: float) -> float:
@@ -253,11 +229,9 @@ def _lock_mm(spec: Spec, L: float, least: float, limit: float, roller: float) ->
     """
     low, high = (L * math.sin(max(0.0, x)) for x in (least, limit))
     if limit <= least:
-        raise PartDoesNotFit(
-            f"the locking sector does not fit: lock_radius_mm must be above {low:.4g} to reach the "
-            f"rim, but the roller limits it to {high:.4g}; 0 omits it",
-            ("size", "lock_radius_mm"),
-        )
+        text = f"the locking sector does not fit: lock_radius_mm must be above {low:.4g} to reach "
+        text += f"the rim, but the roller limits it to {high:.4g}; 0 omits it"
+        raise GenevaError(text, ("size", "lock_radius_mm"))
     own = spec.size.lock_radius_mm
     if own is None:
         return L * math.sin(lock_between(least, limit, roller))
@@ -284,10 +258,12 @@ def flat_radius(inner: float, outer: float) -> float:
 
 def refuse_wide(key: str, radius: float, inner: float, outer: float) -> None:
     """Raise GenevaError for a hub with flat faces that is too wide for its curved shell."""
-    flat = flat_radius(inner, outer)
-    if radius >= flat:
-        raise GenevaError(
-            f"{key} = {2.0 * radius:g}: a hub with flat faces this wide misses its shell, which "
-            f"is {outer - inner:g} mm thick; it must be below {2.0 * flat:.6g}",
-            ("size", key),
-        )
+    why = f"a hub with flat faces this wide misses its shell, which is {outer - inner:g} mm thick"
+    refuse_above(key, 2.0 * radius, 2.0 * flat_radius(inner, outer), why)
+
+
+def refuse_above(key: str, value: float, most: float, why: str) -> None:
+    """Raise GenevaError for a size that is not below the most that its parts leave, mm."""
+    if value >= most:
+        text = f"{key} = {value:g}: {why}; it must be below {most:.6g}"
+        raise GenevaError(text, ("size", key))

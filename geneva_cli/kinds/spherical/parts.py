@@ -30,8 +30,8 @@ from geneva_cli.kept import cached_property
 from geneva_cli.kinds.spherical.arm import CapArm, crank_arm
 from geneva_cli.kinds.spherical.ball import Ball, refuse_wide
 from geneva_cli.kinds.spherical.gaps import BallGaps, SpherePairs
-from geneva_cli.kinds.spherical.regions import at_mid_motion, wheel_regions
-from geneva_cli.kinds.spherical.sizes import ball, fitted
+from geneva_cli.kinds.spherical.regions import at_mid_motion, sectors, wheel_regions
+from geneva_cli.kinds.spherical.sizes import ball
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.assembly import Assembly, assembly
@@ -40,7 +40,7 @@ from geneva_cli.parts.projection import NamedParts
 from geneva_cli.parts.shafts.arm_and_shafts import Shaft, shaft_ends
 from geneva_cli.parts.shafts.bores import bore_of, has_shape
 from geneva_cli.parts.sizes import refuse_thin_hub
-from geneva_cli.spec.defaults import wall_min, wheel_material
+from geneva_cli.spec.defaults import wheel_material
 from geneva_cli.spec.tables import Size
 
 
@@ -52,7 +52,6 @@ class BallLengths(NamedTuple):
     rim: float
     arm: float
     horn: float
-    wall_min: float
 
 
 class Shells(NamedTuple):
@@ -72,17 +71,11 @@ class SphereParts(Parts):
 
     @cached_property
     def _shape(self) -> Shells:
-        ball, locks = fitted(self.mechanism, self.advice)
-        L, where = ball.radius_mm, assembly(self.mechanism, flat=False)
-        lengths = BallLengths(
-            roller=L * ball.roller,
-            half_width=L * ball.half_width,
-            rim=L * math.sin(ball.rim),
-            arm=L * math.sin(ball.arm),
-            horn=L * ball.horn,
-            wall_min=wall_min(self.mechanism.spec.size, L),
-        )
-        return Shells(where, ball, lengths, locks, BallGaps(where, ball, locks))
+        own, where = ball(self.mechanism), assembly(self.mechanism, flat=False)
+        L, locks = own.radius_mm, sectors(own)
+        rim, arm = L * math.sin(own.rim), L * math.sin(own.arm)
+        lengths = BallLengths(L * own.roller, L * own.half_width, rim, arm, L * own.horn)
+        return Shells(where, own, lengths, locks, BallGaps(where, own, locks))
 
     @property
     def shells(self) -> Shells:
@@ -196,11 +189,9 @@ def wheel_hub(size: Size, ball: Ball) -> Plate | None:
     wide = ball.hub_mm > ball.bore_mm
     if has_shape(size, "wheel") and not (wide and ball.bore_mm):
         name = "wheel_bore" if size.wheel_keyway is None else "wheel_keyway"
-        raise GenevaError(
-            f"{name}: on a sphere only the wheel's hub has a bore that is not round; set "
-            f"wheel_bore_mm and wheel_hub_mm, or remove {name}",
-            ("size", name),
-        )
+        text = f"{name}: on a sphere only the wheel's hub has a bore that is not round; set "
+        text += f"wheel_bore_mm and wheel_hub_mm, or remove {name}"
+        raise GenevaError(text, ("size", name))
     if not wide:
         return None
     inside, outside = ball.span_mm

@@ -13,6 +13,7 @@ from functools import cache
 
 import numpy as np
 
+from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.sphere import (
     POLE,
     Cap,
@@ -24,7 +25,7 @@ from geneva_cli.geometry.sphere import (
     opposite,
     place,
 )
-from geneva_cli.kinds.spherical.ball import Ball, PartDoesNotFit
+from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.numerics.arrays import Array, within_half_turn
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.outlines.crank_outline import widest
@@ -123,11 +124,8 @@ def sectors(ball: Ball) -> list[Region]:
 
         half = widest(0.5 * (end - start), lambda half: nearest(half) <= most)
         if half is None:
-            raise PartDoesNotFit(
-                "the wheel sweeps over the whole locking sector: another lock_radius_mm may leave "
-                "part of it; 0 omits it",
-                ("size", "lock_radius_mm"),
-            )
+            text = "the wheel sweeps over the whole locking sector: another lock_radius_mm may "
+            raise GenevaError(text + "leave part of it; 0 omits it", ("size", "lock_radius_mm"))
         high, low, ends = ball.lock, nearest(half), (middle - half, middle + half)
         far, inner = ([place(polar, a) for a in ends] for polar in (high, low))
         sides = [(-math.sin(a), math.cos(a), 0.0) for a in ends]

@@ -193,7 +193,7 @@ def test_the_bolts_of_a_racks_arm_are_amid_its_locking_sector():
     """
     mechanism = design().mechanism
     far = 0.5 * (50.0 - 38.0 + 0.25 + 38.0)
-    arm, at = crank_arm(mechanism), far * math.sqrt(0.5)
+    arm, at = crank_arm(mechanism.spec.size, rack_sizes(mechanism)), far * math.sqrt(0.5)
     holes = [(*bolt.centre, bolt.radius) for bolt in arm.bolts]
     assert holes == [pytest.approx((-at, at, 0.8)), pytest.approx((-at, -at, 0.8))]
     on_sheet = {"50", "Ø 6 P7 (-0.008/-0.02)", "R 38", "R 6", "Ø 10 H7 (+0.015/0)"}
@@ -203,7 +203,8 @@ def test_the_bolts_of_a_racks_arm_are_amid_its_locking_sector():
 
 def test_screws_are_amid_the_guides_bars():
     """R = 50, half a slot 6.1: bars of R/10, whose screws are half a bar from their ends."""
-    for bar in guide(design(slot_clearance_mm=0.1).mechanism)[:2]:
+    rack = design(slot_clearance_mm=0.1).mechanism
+    for bar in guide(rack, rack_sizes(rack))[:2]:
         box = bounds(bar.outline)
         middle, far = 0.5 * (box.x0 + box.x1), 50.0 - 6.1 - 2.5
         places = [pytest.approx((middle, y)) for y in (-far, 0.0, far)]
