@@ -4,21 +4,17 @@ from __future__ import annotations
 
 import copy
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
-from typing import NamedTuple, Protocol, Self, cast
+from collections.abc import Callable, Sequence
+from typing import NamedTuple, Self, TypeAlias, cast
 
-from geneva_cli.motion.engagement import Vector, cross
+from geneva_cli.motion.engagement import Load, Vector, cross
 from geneva_cli.numerics.angles import radians, sin_cos_deg
 from geneva_cli.numerics.arrays import Array, Batchable, Which
 from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
 from geneva_cli.spec.rules import is_array
 
-
-class PointDisplacement(Protocol):
-    """The pin's displacement since a moment, as a function of the crank's rotation d since then."""
-
-    def __call__(self, sine: Jet, versine: Jet) -> tuple[Jet, Jet]:
-        """Displacement (x, y), from sin d and 1 - cos d."""
+# The pin's displacement (x, y) since a moment, from sin d and 1 - cos d of the crank's rotation d.
+PointDisplacement: TypeAlias = Callable[[Jet, Jet], Vector]
 
 
 class LinkPath(Batchable, ABC):
@@ -92,7 +88,7 @@ class LinkReactions(NamedTuple):
     y: float
 
     def __call__(
-        self, input_deg: Number, path: Vector, loads: Sequence[tuple[Vector, Jet]]
+        self, input_deg: Number, path: Vector, loads: Sequence[Load]
     ) -> list[tuple[Vector, Vector]]:
         """Reactions of the crank's shaft, equal to those at A, and of the third body."""
         tau = Jet.variable(radians(input_deg) + self.middle, path[0].order - 1)

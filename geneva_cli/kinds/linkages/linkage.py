@@ -8,12 +8,19 @@ from functools import reduce
 from typing import TYPE_CHECKING, Annotated, ClassVar, Self, TypeAlias, TypeVar, cast
 
 from geneva_cli.drives.transmission import PinPath
-from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.errors import refuse_text
 from geneva_cli.kinds.linkages.link_path import LinkPath, LinkReactions
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot
 from geneva_cli.numerics.angles import DEGREE, radians
-from geneva_cli.numerics.arrays import Array, array, larger, library, parameter, smaller
+from geneva_cli.numerics.arrays import (
+    Array,
+    array,
+    larger,
+    library,
+    parameter,
+    smaller,
+)
 from geneva_cli.numerics.jet import Jet, sin_cos
 from geneva_cli.spec.rules import Range
 from geneva_cli.spec.tables import DISTANCE_MM
@@ -43,18 +50,11 @@ class Linkage(PinPath, kw_only=True):
     def __post_init__(self) -> None:
         super().__post_init__()
         ratio = 1e4  # of two links: beyond it the path is a point, or rounding
-        lengths = {key: vars(self)[key] for key in self.LENGTHS.values() if key != "height_mm"}
-        limit = ratio * reduce(smaller, lengths.values())
-
-        def error() -> GenevaError:
-            name = max(lengths, key=lengths.__getitem__)
-            return GenevaError(
-                f"{name} = {lengths[name]:g}: links differ by more than {ratio:g} times: it must "
-                f"be at most {limit:g}",
-                ("drive", name),
-            )
-
-        refuse(reduce(larger, lengths.values()) > limit, error)
+        lengths = [vars(self)[key] for key in self.LENGTHS.values() if key != "height_mm"]
+        limit, text = ratio * reduce(smaller, lengths), "links differ by more than 10000 times: "
+        text += "the longest must be at most {limit:g} mm"
+        wrong = reduce(larger, lengths) > limit
+        refuse_text(wrong, ("drive", "crank_mm"), text, limit=limit)
 
     @property
     @abstractmethod
@@ -68,13 +68,8 @@ class Linkage(PinPath, kw_only=True):
         entry is nearest to ``entry_deg``. Raises GenevaError if there is none, or if the spec sets
         the centre distance, which follows from the linkage.
         """
-        refuse(
-            L != DISTANCE_MM,
-            lambda: GenevaError(
-                f'center_distance_mm follows from the linkage of kind = "{self.NAME}": remove it',
-                ("size", "center_distance_mm"),
-            ),
-        )
+        text = 'center_distance_mm follows from the linkage of kind = "{name}": remove it'
+        refuse_text(L != DISTANCE_MM, ("size", "center_distance_mm"), text, name=self.NAME)
         from geneva_cli.kinds.linkages.path_wheels import solve
 
         wanted = None if self.entry_deg is None else radians(self.entry_deg)

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.errors import refuse_text
 from geneva_cli.kinds.linkages.link_path import LinkPath, LinkRate, LinkReactions, PointDisplacement
 from geneva_cli.kinds.linkages.tangent_pairs import (
     SAME_ENTRY,
@@ -129,16 +129,12 @@ def solve(path: LinkPath, step: HalfStep, wanted: float | None) -> tuple[Engagem
         best = chosen(wheels, None if wanted is None else goal[part])
         found[:, part[wheels.which[best]], 0] = *wheels.phi[best].T, wheels.sense[best]
     entry, exit_, sense = found
-    none, z = entry != entry, step.q
-    refuse(
-        bool(none.any()) if single else none,
-        lambda: GenevaError(
-            f"no wheel of z = {z} slots fits this path: change the linkage, or z. The path needs "
-            f"two equally long tangents that meet at {360.0 / z:.6g} deg, with the roller nearer "
-            "to that point only between them",
-            ("drive", "kind"),
-        ),
-    )
+    none = entry != entry
+    text = "no wheel of z = {z} slots fits this path: change the linkage, or z. The path needs two "
+    text += "equally long tangents that meet at {angle:.6g} deg, with the roller nearer to that "
+    text += "point only between them"
+    where, key = bool(none.any()) if single else none, ("drive", "kind")
+    refuse_text(where, key, text, z=step.q, angle=360.0 / step.q)
     with np.errstate(all="ignore"):
         return _engagement(path, step, np.hstack((entry, exit_)), sense, single)
 
