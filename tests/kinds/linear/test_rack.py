@@ -16,7 +16,6 @@ from geneva_cli.design import load
 from geneva_cli.drawings.sheet.crank_views import draw_arm
 from geneva_cli.geometry.plates import moments, solids
 from geneva_cli.geometry.shapes import bounds
-from geneva_cli.kinds.linear.frame import guide
 from geneva_cli.kinds.linear.outlines import turned_rack
 from geneva_cli.kinds.linear.rack import crank_arm, locking_sector, rack_contour, rack_sizes
 from geneva_cli.parts.turn.full_turn import full_turn
@@ -203,8 +202,8 @@ def test_the_bolts_of_a_racks_arm_are_amid_its_locking_sector():
 
 def test_screws_are_amid_the_guides_bars():
     """R = 50, half a slot 6.1: bars of R/10, whose screws are half a bar from their ends."""
-    rack = design(slot_clearance_mm=0.1).mechanism
-    for bar in guide(rack, rack_sizes(rack))[:2]:
+    rack = design(slot_clearance_mm=0.1).parts
+    for bar in (one.part for one in rack.guide[:2]):
         box = bounds(bar.outline)
         middle, far = 0.5 * (box.x0 + box.x1), 50.0 - 6.1 - 2.5
         places = [pytest.approx((middle, y)) for y in (-far, 0.0, far)]
