@@ -42,10 +42,8 @@ class Cam(PinPath, kw_only=True):
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
         assert motion is not None  # ``compatible`` refuses a cam without a law
         if motion.ratio is not None:
-            raise GenevaError(
-                "ratio has no meaning with a cam, since the crank's length changes: remove ratio",
-                ("motion", "ratio"),
-            )
+            text = "ratio has no meaning with a cam, since the crank's length changes: remove ratio"
+            raise GenevaError(text, ("motion", "ratio"))
         natural = 2.0 * wheel.half_motion_deg(wheel.step)
         motion_deg = natural - motion.alpha0_deg
         refuse_alpha0(motion.alpha0_deg, natural)

@@ -78,20 +78,18 @@ def rack_sizes(mechanism: Mechanism) -> RackSizes:
     guide, allowed = guide_place(mechanism), size.allowances
     w = guide.slot
     if w >= arm:
-        raise GenevaError(
-            f"roller_radius_mm = {r:g}: the slots overlap; half a slot must be below {arm:.6g}, "
-            "half the distance of the slots",
-            ("size", "roller_radius_mm"),
-        )
+        text = f"roller_radius_mm = {r:g}: the slots overlap; half a slot must be below {arm:.6g}, "
+        text += "half the distance of the slots"
+        raise GenevaError(text, ("size", "roller_radius_mm"))
     relief, lock = value_or(size.relief_clearance_mm, arm / 200.0), size.lock_radius_mm
     # the locking sector must be wider than its inner radius
     least, limit = 0.5 * (arm + relief), arm - w - allowed.lock_clearance_mm
     if lock != 0.0 and limit <= least:
-        raise GenevaError(
+        text = (
             f"the locking sector does not fit: roller and clearances limit it to {limit:.4g} mm, "
-            f"and it must reach {least:.4g}; use a smaller roller, or lock_radius_mm = 0",
-            ("size", "lock_radius_mm"),
         )
+        text += f"and it must reach {least:.4g}; use a smaller roller, or lock_radius_mm = 0"
+        raise GenevaError(text, ("size", "lock_radius_mm"))
     if lock is None:
         lock = lock_between(least, limit, r)
     elif lock:
@@ -100,11 +98,9 @@ def rack_sizes(mechanism: Mechanism) -> RackSizes:
     floor = arm - recess + relief if lock else 0.0
     edge, pin = value_or(size.wheel_radius_mm, arm), pin_radius(size, r)
     if lock and abs(edge - arm) >= recess:
-        raise GenevaError(
-            f"wheel_radius_mm = {edge:g}: the rack's edge must meet its recesses, between "
-            f"{arm - recess:.6g} and {arm + recess:.6g} mm",
-            ("size", "wheel_radius_mm"),
-        )
+        text = f"wheel_radius_mm = {edge:g}: the rack's edge must meet its recesses, between "
+        text += f"{arm - recess:.6g} and {arm + recess:.6g} mm"
+        raise GenevaError(text, ("size", "wheel_radius_mm"))
     # as if R were L/2, as for 6 slots
     space = arm - (pin - 0.5 * allowed.press_fit_mm)
     bore = arm_bore(mechanism.spec, 0.0, 2.0 * arm, space) if pin else 0.0

@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from functools import partial
 from itertools import chain
 from typing import NamedTuple
 
@@ -78,14 +77,6 @@ class Cone(NamedTuple):
     def within(self, parts: SphereParts) -> Cone:
         """Return the cone with the accuracy of the parts."""
         return self._replace(tolerance_mm=parts.tolerance or 0.0, curves=parts.curves)
-
-    def turned(self, at: Point, azimuth: float) -> Point:
-        """Return a point of the flat cone after the sphere is turned about z."""
-        x, y = at
-        turn = azimuth * math.cos(self.polar)
-        moved = self.point(self.polar, azimuth)
-        c, s = math.cos(turn), math.sin(turn)
-        return moved[0] + x * c - y * s, moved[1] + x * s + y * c
 
     def region(self, layer: Layer, region: Region, about: float) -> Contour:
         """Return a region laid flat, whose azimuths are within half a turn of ``about``."""
@@ -202,17 +193,14 @@ def _drawing(parts: SphereParts, title: str, shapes: list[Shape], shells: Part) 
 def wheel_flat(parts: SphereParts) -> list[Shape]:
     """Return the wheel's outline on its flat cone, and the rollers' paths."""
     ball, cone = parts.ball, wheel_cone(parts.ball).within(parts)
-    b = ball.half_step
-    # the edge about the first slot, half-way to the adjacent slots on either side
-    slot = joined(chain(*(cone.segments(arc, 0.0) for arc in edge(ball))))
-    path = Line(*(cone.point(polar, 0.0) for polar in (_wall_mouth(ball), ball.bottom)))
-    both = Contour("PITCH", (*slot, path), closed=False)
+    b, ends = ball.half_step, (_wall_mouth(ball), ball.bottom)
     outer: list[Segment] = []
     pitch: list[Shape] = []
-    for k in range(ball.z):
-        *walls, axis = mapped(both, partial(cone.turned, azimuth=2 * k * b)).segments
-        outer += walls
-        pitch.append(Contour("PITCH", (axis,), closed=False))
+    for at in (2 * k * b for k in range(ball.z)):
+        # the edge about a slot, half-way to the adjacent slots on either side
+        outer += joined(chain(*(cone.segments(arc, at) for arc in edge(ball, at))))
+        path = Line(*(cone.point(polar, at) for polar in ends))
+        pitch.append(Contour("PITCH", (path,), closed=False))
     inner = [cone.point(ball.inner, (2 * k - 1) * b) for k in range(ball.z + 1)][::-1]
     back = [cone.level(p, q, -2.0 * b) for p, q in zip(inner, inner[1:], strict=False)]
     first, last = outer[0].start, outer[-1].end
