@@ -69,21 +69,6 @@ def with_cranks(z, places):
 built = pytest.mark.parametrize(("z", "places"), BUILT)
 
 
-@pytest.mark.long
-@built
-def test_motion_and_loads_are_those_of_one_crank(z, places):
-    """Equal to the last digit: the same engine, which other tests prove by closed forms."""
-    several = with_cranks(z, places)
-    one = Design(External(z), Crank(rollers=len(places)), load=LOAD)
-    moving, own = (design.motion(181).to_dict() for design in (several, one))
-    assert all(np.array_equal(moving[name], own[name]) for name in own)
-    answers, own = (design.report.table.to_dict() for design in (several, one))
-    for name in own:
-        in_turn = "crank_bearing_N" in name and name.endswith((".mean", ".rms"))
-        if name.startswith(("timing.", "jerk.", "loads.", "cycle.", "life.", "strength.")):
-            assert answers[name] == own[name] or in_turn
-
-
 def polygons(group):
     """The plates of a crank in its own frame, with their heights."""
     out = []

@@ -6,13 +6,10 @@ from typing import NamedTuple
 import mpmath
 import numpy as np
 import pytest
-from drawing_witness import polygon
 from mpmath import mp
-from shapely import affinity
 
 from geneva_cli import (
     Carousel,
-    Crank,
     Design,
     External,
     GenevaError,
@@ -25,7 +22,6 @@ from geneva_cli import (
     Spherical,
     Support,
 )
-from geneva_cli.geometry.plates import plates
 from geneva_cli.loads.sizing import sizing
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
@@ -104,14 +100,6 @@ def test_absolute_motion_at_50_digits(wheel, turns):
     assert moving > 10
 
 
-@every
-def test_a_turn_of_the_carrier(wheel):
-    """A step forward adds to the carrier's turn, one of an internal wheel takes from it."""
-    table = Design(wheel, Carousel(rollers=1)).motion(361).to_dict()
-    turned = table["absolute_deg"][-1] - table["absolute_deg"][0]
-    assert turned == pytest.approx(360.0 + wheel.SIGN * 360.0 / wheel.z, abs=1e-12)
-
-
 POINTS = 3  # point masses on the wheel: the fewest whose inertia has no direction
 HELD = 0.3  # metres, from the wheel's pivot
 
@@ -157,17 +145,6 @@ def test_loads_by_newton_s_law(wheel, fraction):
     here = design.cycle.states(np.array([c_deg]))
     assert abs(here.pin_force_N[0]) == pytest.approx(abs(float(force)), rel=1e-11)
     assert here.input_torque_Nm[0] == pytest.approx(float(torque), rel=1e-11)
-
-
-def test_resistance_acts_between_wheel_and_carrier():
-    """A torque alone loads the input as on a plain crank."""
-    loaded = Load(torque_Nm=3.0, friction=0.1, efficiency=0.8)
-    orbit, plain = (
-        Design(External(6), drive, load=loaded).loads for drive in (Carousel(), Crank())
-    )
-    for name in ("input_torque_Nm", "pin_force_N", "power_W"):
-        assert orbit[name].max == plain[name].max, name
-        assert orbit[name].rms == plain[name].rms, name
 
 
 def test_losses_count_where_the_input_drives():
@@ -303,34 +280,6 @@ def test_what_is_refused(tables, text):
     tables = {"wheel": External(6), "drive": Carousel(), **tables}
     with pytest.raises(GenevaError, match=text):
         build(Spec(**tables))
-
-
-@pytest.mark.long
-def test_wheels_pass_each_other_and_the_disc():
-    """Their polygons over a turn of the carrier, each turned as the witness says."""
-    design = Design(External(4), Carousel(wheels=3))
-    (wheel,) = plates(design.drawing("wheel").solid)
-    (disc,) = (one for one in plates(design.drawing("crank").solid) if one.layer == "CRANK")
-    own, lock = polygon(wheel.outline, 1e-3), polygon(disc.outline, 1e-3)
-    L, witness = design.mechanism.center_distance_mm, witness_of(design.spec.wheel)
-    half = witness.half_deg()
-    nearest = math.inf
-    for c in np.linspace(-60.0, 60.0, 61):  # then the next wheel is where the first one was
-        placed = []
-        for k in range(3):
-            at = (c - 120.0 * k + 180.0) % 360.0 - 180.0
-            moving = max(-half, min(half, at))
-            turn = math.degrees(float(witness.slot(mp.radians(moving)))) - moving
-            # the finger is at angle 0 from the fixed axis, which is the origin
-            there = affinity.rotate(own, turn + 180.0, (0.0, 0.0))
-            there = affinity.translate(there, L, 0.0)
-            placed.append(affinity.rotate(there, at, (0.0, 0.0)))
-        for i, one in enumerate(placed):
-            nearest = min([nearest, *(one.distance(other) for other in placed[:i])])
-            # a disc without clearance touches its recess
-            assert one.intersection(lock).area < 1e-3 * lock.area
-    (check,) = (c for c in design.checks if c.name == "wheels_apart_mm")
-    assert nearest >= check.value > 0.0
 
 
 @pytest.mark.long

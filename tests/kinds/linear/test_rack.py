@@ -198,13 +198,3 @@ def test_the_bolts_of_a_racks_arm_are_amid_its_locking_sector():
     on_sheet = {"50", "Ø 6 P7 (-0.008/-0.02)", "R 38", "R 6", "Ø 10 H7 (+0.015/0)"}
     on_sheet.add(f"2× Ø 1.6, tapped M2 on Ø {2.0 * far:g}")
     assert dimensions(draw_arm, mechanism, arm) == on_sheet
-
-
-def test_screws_are_amid_the_guides_bars():
-    """R = 50, half a slot 6.1: bars of R/10, whose screws are half a bar from their ends."""
-    rack = design(slot_clearance_mm=0.1).parts
-    for bar in (one.part for one in rack.guide[:2]):
-        box = bounds(bar.outline)
-        middle, far = 0.5 * (box.x0 + box.x1), 50.0 - 6.1 - 2.5
-        places = [pytest.approx((middle, y)) for y in (-far, 0.0, far)]
-        assert [one.centre for one in bar.holes] == places
