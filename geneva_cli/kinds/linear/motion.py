@@ -55,12 +55,9 @@ class Linear(Gearing):
             ("rack_acceleration_m_s2", "alpha_rad_s2", radius_m),
             ("rack_force_N", "wheel_torque_Nm", 1.0 / radius_m),
         )
-        lacks = (
-            *("omega_rad_s", "alpha_rad_s2", "wheel_torque_Nm", "wheel_bearing_N"),
-            *("inertia_kgm2", "acceleration_rad_s2", "inertia_torque_Nm", "friction_torque_Nm"),
-            *("total_torque_Nm", "design_torque_Nm", "moment_Nms", "drag_Nm"),
-            *("residual_deg", "windup_deg"),
-        )
+        lacks = "omega_rad_s alpha_rad_s2 wheel_torque_Nm wheel_bearing_N inertia_kgm2 "
+        lacks += "acceleration_rad_s2 inertia_torque_Nm friction_torque_Nm total_torque_Nm "
+        lacks += "design_torque_Nm moment_Nms drag_Nm residual_deg windup_deg"
         return Output(
             noun="rack",
             column="rack_mm",
@@ -70,7 +67,7 @@ class Linear(Gearing):
             rate_per_radian=radius_m,
             load_keys="mass_kg or force_N in [load]",
             loads=loads,
-            lacks=lacks,
+            lacks=tuple(lacks.split()),
             invariants="derivative of its travel over R",
             turns=False,
         )

@@ -21,11 +21,11 @@ import numpy as np
 from geneva_cli.kinds.linkages.four_bar import CouplerPath
 from geneva_cli.kinds.linkages.link_path import LinkPath
 from geneva_cli.kinds.linkages.path_wheels import top
-from geneva_cli.kinds.linkages.tangent_pairs import complex_of, taken
+from geneva_cli.kinds.linkages.tangent_pairs import complex_of
 from geneva_cli.motion.peak_search import ORDERS
 from geneva_cli.motion.timing import Timing, timing
 from geneva_cli.motion.wheels.gearing import Gearing
-from geneva_cli.numerics.arrays import Array, Complex, Number, Whole, parameter
+from geneva_cli.numerics.arrays import Array, Complex, Number, Whole, mapped, parameter
 from geneva_cli.numerics.jet import Jet, atan2, sin_cos
 from geneva_cli.study.sweep.constraints import Constraint
 from geneva_cli.study.synth.optimiser import Places, Zoom, sampled, zoom
@@ -65,6 +65,10 @@ class CouplerDrive(NamedTuple):
     motion: Array
     sense: Array
     w: Complex
+
+    def of(self, which: Whole) -> CouplerDrive:
+        """The drives of some of the wheels."""
+        return mapped(lambda column: column[which], self)
 
 
 class FourBars(NamedTuple):
@@ -147,7 +151,7 @@ def four_bars_at(goal: Goal, of: Whole, at: Array, places: int = FINE) -> FourBa
     )
     # the further tests run on few places
     able = np.flatnonzero((longest > 0.0) & np.isfinite(drive.w))
-    links, drive = links.of(able), taken(drive, able)
+    links, drive = links.of(able), drive.of(able)
     # coarse samples miss the nearest places, which a larger roller makes up for
     roller = radius[able] * (1.15 if places < FINE else 1.0)
     names = (goal.least, *(bound.name for bound in goal.bounds))
@@ -158,7 +162,7 @@ def four_bars_at(goal: Goal, of: Whole, at: Array, places: int = FINE) -> FourBa
     cost = goal.sign * costs.of(goal.least)
     within = (reach <= goal.target.space * distance) & np.isfinite(cost)
     violation = np.where(within, costs.broken(goal.bounds), np.inf)
-    return FourBars(able, links.of(which), taken(drive, which), distance, violation, cost)
+    return FourBars(able, links.of(which), drive.of(which), distance, violation, cost)
 
 
 def _coupler(links: LinkPath, phi: Array, order: int) -> tuple[Complex, Complex]:
@@ -214,7 +218,7 @@ def _driven(
     drives &= (near.min(axis=1, keepdims=True) * np.sin(b) >= (roller + half_wall) * L)[:, 0]
     which = np.flatnonzero(drives)
     # the way back is tested for these only
-    links, (entry, motion, sense, w) = links.of(which), taken(drive, which)
+    links, (entry, motion, sense, w) = links.of(which), drive.of(which)
     away = np.arange(1, 2 * places) / (2 * places)  # the way back has twice the motion's samples
     back, back_along = _coupler(links, entry + motion + (math.tau - motion) * away, 0)
     returns = back[0] + w * back_along[0]

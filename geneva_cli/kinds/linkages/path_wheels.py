@@ -22,13 +22,12 @@ from geneva_cli.kinds.linkages.tangent_pairs import (
     points,
     residual,
     sampled,
-    taken,
 )
 from geneva_cli.motion.engagement import Anchor, Engagement, Vector
 from geneva_cli.motion.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
 from geneva_cli.motion.wheels.classic import HalfStep
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Array, Complex, Mask, Whole, library, parameter
+from geneva_cli.numerics.arrays import Array, Complex, Mask, Whole, library, mapped, parameter
 from geneva_cli.numerics.jet import Jet, Number, sine_versine
 
 SAME_PEAK = 1e-8  # fraction by which two wheels' peak velocities may differ and count as equal
@@ -67,14 +66,15 @@ def driven(path: LinkPath, found: Pairs, samples: tuple[Array, Complex]) -> Path
     end = np.minimum(np.abs(since - motion), math.pi - np.abs(since - math.pi)) < SAME_ENTRY
     velocity, near = wheels.velocity(*samples[1][:2, which])
     good = np.where(since < motion, near & (velocity > 0.0), ~near) | end
-    wheels = taken(wheels, good.all(axis=1))
+    inside = good.all(axis=1)
+    wheels = mapped(lambda column: column[inside], wheels)
     (some, phi), even = (path.of(wheels.which), wheels.phi), np.arange(1, 2 * EVEN) / (2 * EVEN)
     motion = np.diff(phi)
     velocity, near = wheels.velocity(*points(some, phi[:, :1] + motion * even[1::2], 1))
     back = points(some, phi[:, 1:] + (math.tau - motion) * even, 0)[0]
     good = near & (velocity > 0.0)
     kept = good.all(axis=1) & (np.abs(back - wheels.centre) > wheels.distance).all(axis=1)
-    return taken(wheels._replace(peak=top(velocity)), kept)
+    return mapped(lambda column: column[kept], wheels._replace(peak=top(velocity)))
 
 
 def _centre(ends: Complex) -> tuple[Complex, Array]:
@@ -117,12 +117,10 @@ def chosen(wheels: PathWheels, wanted: Array | None = None) -> Whole:
 
 def solve(path: LinkPath, step: HalfStep, wanted: float | None) -> tuple[Engagement, float]:
     """Return the engagement of a path's wheel, and the centre distance in mm."""
-    numbers = (*path.numbers, step.b, 0.0 if wanted is None else wanted)
+    numbers = step.b, 0.0 if wanted is None else wanted, *path.numbers
     single = not any(np.ndim(x) for x in numbers)
-    shape = np.broadcast_shapes((1, 1), *(np.shape(x) for x in numbers))
-    half = np.broadcast_to(np.asarray(step.b, dtype=float), shape)
-    goal = np.broadcast_to(np.asarray(numbers[-1], dtype=float), shape)
-    found = np.full((3, *shape), np.nan)
+    half, goal, *_ = np.broadcast_arrays(*numbers, np.zeros((1, 1)))
+    found = np.full((3, *half.shape), np.nan)
     for start in range(0, len(half), 256):  # designs searched together, in the processor's cache
         part = np.arange(start, min(start + 256, len(half)))
         wheels = solved_wheels(path.of(part), half[part])

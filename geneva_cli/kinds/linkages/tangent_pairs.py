@@ -14,12 +14,12 @@ crossings. From there Newton's method leads to the pairs.
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple, TypeAlias, TypeVar
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
 from geneva_cli.kinds.linkages.link_path import LinkPath
-from geneva_cli.numerics.arrays import Array, Complex, Mask, Whole, record_of
+from geneva_cli.numerics.arrays import Array, Complex, Mask, Whole
 from geneva_cli.numerics.jet import Jet
 
 SAME_ENTRY = 1e-6  # radians: entries nearer to each other are one
@@ -29,7 +29,6 @@ DOUBLE_ROOT_SLOPE = 1e-5
 STEPS = 24  # samples of a turn that every path has
 CUBIC_ERROR = 0.01  # of an offset, as a fraction of its range in an arc
 
-R = TypeVar("R", bound=tuple[object, ...])
 # numbers of the designs (N,), crank angles (N,), and position, velocity, acceleration (3, N)
 Samples: TypeAlias = "tuple[Whole, Array, Complex]"
 
@@ -54,12 +53,6 @@ def complex_of(x: Jet, y: Jet) -> Complex:
 def points(path: LinkPath, phi: Array, order: int = 2) -> Complex:
     """Position, velocity and acceleration (3, n, k) at crank angles; a row is of one design."""
     return complex_of(*path.at(phi, order))
-
-
-def taken(record: R, where: Any) -> R:
-    """Select some rows of each array of a record."""
-    parts: Any = record
-    return record_of(record, [part[where] for part in parts])
 
 
 def turning_rate(at: Complex) -> Array:
@@ -188,12 +181,10 @@ def _starts(
     once = gap * last_gap <= 0.0
     # the difference may change its sign twice, or the cubics' error may hide a pair near an end
     error = CUBIC_ERROR * (np.abs(entry[5] - entry[4]) + np.abs(exit_[5] - exit_[4]))
-    near = np.minimum(
-        gap * (gap + slope * span / 3.0), last_gap * (last_gap - last_slope * span / 3.0)
-    )
-    begin = (~once & (near < 0.0)) | (np.abs(gap) < error)
-    stop = (~once & (near < 0.0)) | (np.abs(last_gap) < error)
+    twice = (gap * (gap + slope * span / 3.0) < 0.0) & ~once
+    twice |= (last_gap * (last_gap - last_slope * span / 3.0) < 0.0) & ~once
     chord = span * np.nan_to_num(gap / (gap - last_gap))
+    begin, stop = twice | (np.abs(gap) < error), twice | (np.abs(last_gap) < error)
     starts = ((once, low + chord), (begin, low), (stop, high))
     cells = np.concatenate([np.flatnonzero(where) for where, _ in starts])
     angles = np.concatenate([common[where] for where, common in starts])
@@ -235,11 +226,7 @@ class Residual(NamedTuple):
     excess: Array
     det: Array
     step: Array
-
-    @property
-    def double(self) -> Mask:
-        """True where two roots are nearly one: a step towards them would only be rounding."""
-        return np.abs(self.det) < DOUBLE_ROOT_SLOPE * np.abs(self.by_exit)
+    double: Mask  # two roots are nearly one: a step towards them would only be rounding
 
 
 def residual(at: Complex, b: Array, sense: Array) -> Residual:
@@ -253,7 +240,8 @@ def residual(at: Complex, b: Array, sense: Array) -> Residual:
     excess = np.angle(-u * t.conj() * np.exp(-2j * sense * b))
     det = by_entry * turn_out + by_exit * turn
     step = (excess * by_exit - away * turn_out, -excess * by_entry - away * turn)
-    return Residual(away, by_entry, by_exit, excess, det, (np.stack(step) / det).T)
+    double = np.abs(det) < DOUBLE_ROOT_SLOPE * np.abs(by_exit)
+    return Residual(away, by_entry, by_exit, excess, det, (np.stack(step) / det).T, double)
 
 
 def _solved(path: LinkPath, starts: Pairs, low: Array, wide: Array, b: Array) -> Pairs:

@@ -23,7 +23,7 @@ from geneva_cli.geometry.plates import (
     mass_properties,
 )
 from geneva_cli.geometry.shapes import ORIGIN, Circle
-from geneva_cli.geometry.sphere import POLE, Cap, Region, Rotation, axis_frame, place
+from geneva_cli.geometry.sphere import POLE, Cap, Region, axis_frame, place
 from geneva_cli.geometry.sphere_arcs import RoundHole
 from geneva_cli.geometry.sphere_shell import Shell
 from geneva_cli.kept import cached_property
@@ -38,7 +38,7 @@ from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.projection import NamedParts
 from geneva_cli.parts.shafts.arm_and_shafts import Shaft, shaft_ends
-from geneva_cli.parts.shafts.bores import bore_of, has_shape
+from geneva_cli.parts.shafts.bores import Bore, bore_of, has_shape
 from geneva_cli.parts.sizes import refuse_thin_hub
 from geneva_cli.spec.defaults import wheel_material
 from geneva_cli.spec.tables import Size
@@ -148,22 +148,20 @@ class SphereParts(Parts):
         ball, size, arm = self.ball, self.mechanism.spec.size, self.arm
         (inside, outside), (under, over) = ball.span_mm, ball.arm_span_mm
         lowest = outside - ball.shafts_end_mm(size) - (over - under)
-        own: list[tuple[Shaft, Rotation | None]] = []
+        members = []
+
+        def add(part: str, bore: Bore, ends: tuple[float, float], keyway: float) -> None:
+            own = Shaft(f"{part}'s shaft", part, bore, *ends, ORIGIN, keyway).member.part
+            assert isinstance(own, Plate)
+            frame = None if part == "wheel" else at_mid_motion(ball)
+            members.append(Member(inwards(own, outside), frame=frame))
+
         if ball.bore_mm:
             hub = ball.hub_mm > ball.bore_mm
-            bore, high = bore_of(size, "wheel", ball.bore_mm), outside - inside
-            ends = shaft_ends(size, "wheel", lowest if hub else 0.0, high)
-            wheel = Shaft("wheel's shaft", "wheel", bore, *ends, ORIGIN, ball.half_step)
-            own.append((wheel, None))
+            ends = shaft_ends(size, "wheel", lowest if hub else 0.0, outside - inside)
+            add("wheel", bore_of(size, "wheel", ball.bore_mm), ends, ball.half_step)
         if arm:
-            ends = shaft_ends(size, "crank", lowest, outside - under)
-            crank = Shaft("crank's shaft", "crank", arm.bore, *ends, ORIGIN, arm.keyway)
-            own.append((crank, at_mid_motion(ball)))
-        members = []
-        for one, frame in own:
-            part = one.member.part
-            assert isinstance(part, Plate)
-            members.append(Member(inwards(part, outside), frame=frame))
+            add("crank", arm.bore, shaft_ends(size, "crank", lowest, outside - under), arm.keyway)
         return tuple(members)
 
     @property
