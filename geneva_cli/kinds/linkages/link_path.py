@@ -20,8 +20,8 @@ PointDisplacement: TypeAlias = Callable[[Jet, Jet], Vector]
 class LinkPath(Batchable, ABC):
     """The closed path of a point of the link that crank pin A carries, about the crank's axis.
 
-    ``numbers`` are floats, or arrays (n, 1) of a batch: the lengths in mm, with the crank's a
-    first, and last the point's coordinates p along the link and q across it.
+    ``numbers`` are the lengths in mm, the crank's a first, and last the point's coordinates p along
+    the link and q across it: floats, or arrays (n, 1) of a batch.
     """
 
     def __init__(self, *lengths: float, reach_mm: float, angle_deg: float) -> None:
@@ -93,9 +93,8 @@ class LinkReactions(NamedTuple):
         """Reactions of the crank's shaft, equal to those at A, and of the third body."""
         tau = Jet.variable(radians(input_deg) + self.middle, path[0].order - 1)
         sine, cosine = sin_cos(tau)
-        ex, ey = self.path.link(sine, cosine)
-        px, py = self.path.place(sine, cosine)
-        ax, ay = self.path.joint(sine, cosine)
+        known = self.path.link, self.path.place, self.path.joint
+        (ex, ey), (px, py), (ax, ay) = (f(sine, cosine) for f in known)
         arm, h = self.path.hold(sine, cosine)
         place, lever = (px - ax, py - ay), cross((ex * arm, ey * arm), h)
         out = []

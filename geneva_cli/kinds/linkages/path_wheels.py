@@ -1,8 +1,7 @@
 """The wheel that a linkage's path can drive, and its engagement, for one design or a batch.
 
-A pair of entry and exit gives the wheel's centre. From entry to exit the roller must turn the wheel
-one way, nearer to its centre than at both ends; on the way back it must be farther away. This is
-tested at samples: a shorter excursion is left to the gaps of the parts.
+From entry to exit the roller must turn the wheel one way, nearer to its centre than at both ends,
+and be farther away on the way back. Shorter excursions than samples show are left to the gaps.
 """
 
 from __future__ import annotations
@@ -100,9 +99,8 @@ def top(values: Array) -> Array:
 def chosen(wheels: PathWheels, wanted: Array | None = None) -> Whole:
     """Numbers of one wheel of each design that has any, in the order of the designs.
 
-    Without ``wanted`` it is the gentlest, with the least peak velocity. ``wanted`` are entry angles
-    of all designs in radians, (n, 1): then it is the wheel with the nearest entry. Among equal
-    wheels, as on a symmetric path, it is the one with the first entry.
+    It has the least peak velocity, or the entry nearest to that ``wanted``, radians (n, 1). Among
+    equal wheels, as on a symmetric path, it is the one with the first entry.
     """
     which, entry, cost = wheels.which, wheels.phi[:, 0], wheels.peak
     if wanted is not None:
@@ -128,9 +126,8 @@ def solve(path: LinkPath, step: HalfStep, wanted: float | None) -> tuple[Engagem
         found[:, part[wheels.which[best]], 0] = *wheels.phi[best].T, wheels.sense[best]
     entry, exit_, sense = found
     none = entry != entry
-    text = "no wheel of z = {z} slots fits this path: change the linkage, or z. The path needs two "
-    text += "equally long tangents that meet at {angle:.6g} deg, with the roller nearer to that "
-    text += "point only between them"
+    text = "no wheel of z = {z} slots fits this path, which needs two equally long tangents that "
+    text += "meet at {angle:.6g} deg: change the linkage, or z"
     where, key = bool(none.any()) if single else none, ("drive", "kind")
     refuse_text(where, key, text, z=step.q, angle=360.0 / step.q)
     with np.errstate(all="ignore"):
@@ -145,9 +142,8 @@ def _engagement(
     def plain(x: Array) -> float:
         return parameter(x.item() if single else x)
 
-    # A roller that moves much more slowly than its links has few digits in its place at a crank
-    # angle, and in a short motion the angle itself has few. Its displacement from the place in the
-    # middle of the motion has them all.
+    # A slow roller's place has few digits at a crank angle, and so has the angle in a short motion.
+    # The displacement from the place in the middle of the motion has them all.
     middle = 0.5 * (ends[:, :1] + ends[:, 1:])
     ends, b = ends - middle, np.broadcast_to(step.b, sense.shape)[:, 0]
     move = path.about(parameter(middle))
