@@ -159,17 +159,6 @@ def test_cranks_that_meet_fail():
     assert check.value < 0.0
 
 
-@pytest.mark.long
-def test_a_report_lists_when_each_crank_moves_the_wheel():
-    design = Design(External(8), Crank(rollers=2, crank_steps=(0, 3), n_rpm=30))
-    names = ("crank", "place_deg", "behind_deg", "entry_deg", "exit_deg", "entry_s", "slot")
-    rows = [(1, 0.0, 0.0, -67.5, 67.5, 0.0, 0, 2), (2, 135.0, 180.0, 112.5, 247.5, 1.0, 0, 2)]
-    table = design.report.table.to_dict()["cranks"]
-    assert [list(row.values()) for row in table] == [pytest.approx(list(row)) for row in rows]
-    assert tuple(table[0]) == (*names, "slot_every")
-    assert Design(External(8), Crank(rollers=2)).report.table.to_dict()["cranks"] is None
-
-
 @pytest.mark.sampled(9)
 @pytest.mark.parametrize(("steps", "places", "slots"), MACHINES)
 def test_the_listed_slots_are_those_that_pins_enter(steps, places, slots):

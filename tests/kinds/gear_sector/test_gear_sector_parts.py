@@ -90,20 +90,6 @@ def test_no_roller_touches_what_is_not_its_wall(name):
         assert near.min() <= r + close + 1e-12 * L
 
 
-def test_the_other_wall_is_swept_away():
-    """A roller lags behind the wheel where the gears drive: it leaves its slot's axis at once, and
-    goes through where the wall of a plain slot would be."""
-    design = made(3, 60.0, roller_radius_mm=8.0)
-    b, u = solved(design)
-    x, (first, _) = turned(design, 4000)
-    axis = np.exp(1j * u * math.radians(30.0))  # of the slot that starts the wheel, at u D/2
-    place = first[np.abs(x) < math.radians(30.0)] / axis
-    assert place[0] == pytest.approx(100.0 * (1.0 - math.sin(b)), abs=1e-3)
-    assert np.all(np.diff(place.imag) < 0.0) and np.all(np.diff(place.real[:500]) > 0.0)
-    through = place[place.real < design.parts.sizes.rim]
-    assert through.imag.min() < -2.0 * 8.0
-
-
 def test_two_rollers_on_the_crank():
     """D apart; each where the engagement has the one that drives."""
     design = made(3, 100.0, roller_radius_mm=3.0)

@@ -9,15 +9,13 @@ import mpmath
 import pytest
 import repo
 from other_shape import with_shape
-from test_parts_by_hand import dimensions
 
 from geneva_cli import Design, Linear, Size
 from geneva_cli.design import load
-from geneva_cli.drawings.sheet.crank_views import draw_arm
 from geneva_cli.geometry.plates import moments, solids
 from geneva_cli.geometry.shapes import bounds
 from geneva_cli.kinds.linear.outlines import turned_rack
-from geneva_cli.kinds.linear.rack import crank_arm, locking_sector, rack_contour, rack_sizes
+from geneva_cli.kinds.linear.rack import locking_sector, rack_contour, rack_sizes
 from geneva_cli.parts.turn.full_turn import full_turn
 
 R, r = 50.0, 6.0
@@ -182,19 +180,3 @@ def test_the_horn_of_a_rack_is_its_formula():
     assert values["strength.horn.at_deg"] == pytest.approx(-90.0, abs=1e-6)
     assert values["life.horn_stress_MPa"] == values["strength.horn.stress_MPa"]
     assert "horn_stress_MPa" in {one.name for one in rack.checks}
-
-
-def test_the_bolts_of_a_racks_arm_are_amid_its_locking_sector():
-    """R = 50, r = 6: the sector reaches from R - rho + R/200 to rho = R - 2 r.
-
-    It lies over half a turn opposite the roller, so the bolts are at 135° and 225°. A hole of up to
-    2 R/40 = 2.5 mm is one of 2.4 mm for M2, whose pitch is 0.4 mm.
-    """
-    mechanism = design().mechanism
-    far = 0.5 * (50.0 - 38.0 + 0.25 + 38.0)
-    arm, at = crank_arm(mechanism.spec.size, rack_sizes(mechanism)), far * math.sqrt(0.5)
-    holes = [(*bolt.centre, bolt.radius) for bolt in arm.bolts]
-    assert holes == [pytest.approx((-at, at, 0.8)), pytest.approx((-at, -at, 0.8))]
-    on_sheet = {"50", "Ø 6 P7 (-0.008/-0.02)", "R 38", "R 6", "Ø 10 H7 (+0.015/0)"}
-    on_sheet.add(f"2× Ø 1.6, tapped M2 on Ø {2.0 * far:g}")
-    assert dimensions(draw_arm, mechanism, arm) == on_sheet

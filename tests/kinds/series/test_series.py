@@ -32,8 +32,6 @@ from geneva_cli.drives.retimed import retimed
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
-from geneva_cli.motion.pivots import Joint
-from geneva_cli.parts.assembly import links_at
 from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.outlines.cut_outlines import drawn
 from geneva_cli.specfile.tree import spec_of
@@ -156,21 +154,6 @@ def test_an_error_names_the_key_of_the_drive_before(before, message, key):
     with pytest.raises(GenevaError, match=message) as error:
         spec_of({"wheel": {"z": 4}, "drive": drive}, "spec.toml")
     assert error.value.key == key
-
-
-@pytest.mark.parametrize("drive", [PLANET, COUPLER], ids=repr)
-def test_the_roller_of_the_links_is_on_the_path(drive):
-    """Through a whole turn, dwell included: links and path count the same input angle."""
-    machine = Design(External(4), drive, drive_before=GEARS).mechanism
-    x = np.linspace(-179.0, 180.0, 360)
-    (joint,) = (
-        at
-        for link in links_at(machine, x)
-        for at, kind in zip(link.joints, link.kinds, strict=True)
-        if kind is Joint.ROLLER
-    )
-    px, py = (c.c[0] * machine.center_distance_mm for c in machine.engagements[0].path(x, 0))
-    assert np.hypot(joint[0] - px, joint[1] - py).max() <= 1e-11 * machine.center_distance_mm
 
 
 @pytest.mark.parametrize("A", [0.684, -0.31])
