@@ -131,7 +131,11 @@ class SphereParts(Parts):
             bolts = arm.bolts[k * each : (k + 1) * each] if arm else ()
             sector = Shell("locking sector", "CRANK", (region,), *ball.lock_span_mm, bolts)
             members.append(Member(sector))
-        members += map(Member, arm_solids(ball, arm) if arm else ())
+        if arm:
+            cap = Shell("arm", "ARM", (arm.boundary,), *ball.arm_span_mm, arm.holes)
+            hub, bore = Circle("ARM", ORIGIN, arm.hub), arm.bore.shape("BORE", arm.keyway)
+            hub_plate = Plate("arm's hub", "ARM", hub, (bore,), *ball.arm_span_mm)
+            members += [Member(cap), Member(hub_plate)]
         bored = ball.pin_mm + 0.5 * size.allowances.shaft_fit_mm
         hole = (RoundHole(POLE, bored),) if arm else ()
         roller = Shell("roller", "ROLLER", (Cap(POLE, ball.roller).region,), *ball.span_mm, hole)
@@ -209,13 +213,6 @@ def shell_body(mechanism: Mechanism) -> MassProperties:
     mass = density * shell.volume * MM**3
     rim = MassProperties(mass, (0.0, 0.0), density * shell.inertia(POLE) * MM**5)
     return added(rim, mass_properties(hub, density)) if hub else rim
-
-
-def arm_solids(ball: Ball, arm: CapArm) -> tuple[Shell, Plate]:
-    """Return the arm's cap and its hub, which has flat faces and the bore."""
-    cap = Shell("arm", "ARM", (arm.boundary,), *ball.arm_span_mm, arm.holes)
-    hub, bored = Circle("ARM", ORIGIN, arm.hub), arm.bore.shape("BORE", arm.keyway)
-    return cap, Plate("arm's hub", "ARM", hub, (bored,), *ball.arm_span_mm)
 
 
 def screw_sizes(mechanism: Mechanism) -> dict[str, float]:
