@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from typing import TYPE_CHECKING, ClassVar
 
 from geneva_cli.drives.transmission import PinPath
 from geneva_cli.errors import GenevaError, refuse_text
 from geneva_cli.motion.drive import Plan
-from geneva_cli.motion.engagement import Engagement, Load, Vector, cross
+from geneva_cli.motion.engagement import Engagement, Held, Loads, Vector, cross
 from geneva_cli.motion.path_and_motion import LawMotion, refuse_alpha0
 from geneva_cli.motion.slot_and_motion import SolvedPath, SolvedPathSlot
 from geneva_cli.numerics.angles import radians
@@ -67,7 +66,7 @@ class Cam(PinPath, kw_only=True):
         return self.planned(engagement, ratio, L, wheel.SIGN < 0.0)
 
 
-def _slide(input_deg: Number, path: Vector, loads: Sequence[Load]) -> list[tuple[Vector, Vector]]:
+def _slide(input_deg: Number, path: Vector, loads: Loads) -> Held:
     """Forces of each load on the crank's shaft, across its arm, and on the groove's wall."""
     x, y = path
     wall = y.derivative() * -1.0, x.derivative()

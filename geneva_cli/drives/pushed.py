@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
-from geneva_cli.motion.engagement import Load, Vector, cross
+from geneva_cli.motion.engagement import Held, Loads, Vector, cross
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Batchable
 from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
@@ -34,9 +33,7 @@ class PushedCrank(Batchable, ABC):
     def line(self, input_deg: Number, order: int) -> tuple[Vector, Vector]:
         """Point of the push from the crank's axis, over L, and a vector in its direction."""
 
-    def __call__(
-        self, input_deg: Number, path: Vector, loads: Sequence[Load]
-    ) -> list[tuple[Vector, Vector]]:
+    def __call__(self, input_deg: Number, path: Vector, loads: Loads) -> Held:
         """Reactions of the crank's shaft, and of the body that pushes the crank, to each load."""
         x, y = (jet.lower for jet in path)
         at, direction = self.line(input_deg, x.order)

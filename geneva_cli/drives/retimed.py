@@ -10,13 +10,12 @@ whatever the links.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import partial
 from typing import TYPE_CHECKING, ClassVar, NamedTuple, cast
 
 from geneva_cli.motion import engagement as base
 from geneva_cli.motion.drive import Drive, Plan
-from geneva_cli.motion.engagement import Load, Vector, cross
+from geneva_cli.motion.engagement import Held, Load, Loads, Vector, cross
 from geneva_cli.motion.path_and_slot import NEAR_END
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Array, Batchable, array, choose, library, narrowed
@@ -278,9 +277,7 @@ class DrivenShaft(Batchable):
         self.mirror = choose(sense == 0.0, 1.0, sense)
         self.clockwise = choose(sense == 0.0, sign, sense)  # -1 for one that turns the other way
 
-    def __call__(
-        self, input_deg: Number, path: Vector, loads: Sequence[Load]
-    ) -> list[tuple[Vector, Vector]]:
+    def __call__(self, input_deg: Number, path: Vector, loads: Loads) -> Held:
         """Reactions of the shaft's bearings, and of the guide, to each load."""
         assert self.own.reactions is not None  # ``retimed`` passes engagements with reactions only
         order = path[0].order - 1

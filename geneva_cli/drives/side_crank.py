@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated, ClassVar
 
-from geneva_cli.drives.pushed import CirclingPush
+from geneva_cli.drives.pushed import CirclingPush, PushedCrank
 from geneva_cli.drives.transmission import places
 from geneva_cli.drives.whitworth import Whitworth
 from geneva_cli.motion.drive import Plan
@@ -84,9 +84,7 @@ class SideCrank(Whitworth, kw_only=True):
         own = plan.ratio * plan.center_distance_mm
         return own if self.input_crank_mm is None else self.input_crank_mm
 
-    def reactions(
-        self, wheel: Gearing, path: Path, mid_deg: float, L: float
-    ) -> CirclingPush | None:
+    def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> PushedCrank | None:
         if self.input_crank_mm is None:
             return None
         r = self.input_crank_mm / L

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import copy
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import NamedTuple, Self, TypeAlias, cast
 
-from geneva_cli.motion.engagement import Load, Vector, cross
+from geneva_cli.motion.engagement import Held, Loads, Vector, cross
 from geneva_cli.numerics.angles import radians, sin_cos_deg
 from geneva_cli.numerics.arrays import Array, Batchable, Which
 from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
@@ -87,9 +87,7 @@ class LinkReactions(NamedTuple):
     x: float  # direction of the line of centres from the wheel's axis, on the path's axes
     y: float
 
-    def __call__(
-        self, input_deg: Number, path: Vector, loads: Sequence[Load]
-    ) -> list[tuple[Vector, Vector]]:
+    def __call__(self, input_deg: Number, path: Vector, loads: Loads) -> Held:
         """Reactions of the crank's shaft, equal to those at A, and of the third body."""
         tau = Jet.variable(radians(input_deg) + self.middle, path[0].order - 1)
         sine, cosine = sin_cos(tau)

@@ -83,18 +83,9 @@ def _arm(ball: Ball, sectors: Sequence[Region], size: Size, bolts_each: int) -> 
     for k, sector in enumerate(sectors if bolts else []):
         of_sector = bolts[k * bolts_each : (k + 1) * bolts_each]
         walls.append(least_wall(sector, of_sector, ball.lock_span_mm[0]))
-    return CapArm(
-        boundary=boundary,
-        bore=form,
-        keyway=next((0.5 * (a + b) for a, b in locked(ball)), 0.5 * ball.rollers[-1] + math.pi),
-        hub=hub,
-        pins=pins,
-        bolts=bolts,
-        cap=cap,
-        eye=eye,
-        reach=max(math.acos(dot(one.middle, POLE)) + one.angle for one in caps),
-        wall=min(walls),
-    )
+    keyway = next((0.5 * (a + b) for a, b in locked(ball)), 0.5 * ball.rollers[-1] + math.pi)
+    reach = max(math.acos(dot(one.middle, POLE)) + one.angle for one in caps)
+    return CapArm(boundary, form, keyway, hub, pins, bolts, cap, eye, reach, min(walls))
 
 
 def _bolts(ball: Ball, sectors: Sequence[Region], size: Size, count: int) -> tuple[RoundHole, ...]:
