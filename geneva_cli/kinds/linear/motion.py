@@ -207,12 +207,10 @@ class Sliding(PlaneMotion):
 def refuses(spec: Spec) -> Iterator[Conflict]:
     """Rules of a rack's load; and of tables and keys that only a wheel on a shaft has."""
     load, turns = spec.load, spec.output.turns
-    own, others = (load.mass_kg, load.force_N), (load.inertia_kgm2, load.torque_Nm)
-    text = (
-        "mass_kg and force_N are a rack's load; a wheel that turns has inertia_kgm2 and torque_Nm"
-    )
-    yield (turns & ((own[0] != 0.0) | (own[1] != 0.0)), ("load", "mass_kg"), text)
-    wrong = (not turns) & ((others[0] != 0.0) | (others[1] != 0.0))
+    text = "mass_kg and force_N are a rack's load, inertia_kgm2 and torque_Nm that of a wheel"
+    wrong = turns & ((load.mass_kg != 0.0) | (load.force_N != 0.0))
+    yield (wrong, ("load", "mass_kg"), text)
+    wrong = (not turns) & ((load.inertia_kgm2 != 0.0) | (load.torque_Nm != 0.0))
     yield (wrong, ("load", "inertia_kgm2"), text)
     text = "guide_friction is of the guide of a rack that a plain crank or gears drive: remove it"
     wrong = not guided(spec) and load.guide_friction is not None
