@@ -59,8 +59,7 @@ class BallGaps:
     def pose(self, input_deg: Array) -> Pose:
         """Return the positions at input angles (n,), degrees."""
         turn = np.radians(input_deg)
-        pins = np.stack([self._out(one, turn) for one in self._rollers], axis=1)
-        return Pose(self.assembly.wheel(input_deg), turn, pins)
+        return Pose(self.assembly.wheel(input_deg), turn, self._out_each(self._rollers, turn))
 
     def rollers(self, pose: Pose, lead: Array | float = 0.0, near: float | None = None) -> Array:
         """Return the gap of each roller, mm (n, m), at most ``near``."""

@@ -5,10 +5,7 @@ import math
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
-from geneva_cli.cli.app import app
-from geneva_cli.design import load
 from geneva_cli.kinds.linkages import four_bar_family as families
 from geneva_cli.kinds.linkages.four_bar import FourBar
 from geneva_cli.motion.machine_spec import Spec
@@ -18,7 +15,6 @@ from geneva_cli.motion.peaks import peak as peak_of
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.study.synth.reading import read_target
 from geneva_cli.study.synth.synth_search import search
-from geneva_cli.study.synth.synth_table import chosen
 
 KEYS = ("crank_mm", "ground_mm", "coupler_mm", "rocker_mm", "point_mm", "point_deg", "entry_deg")
 
@@ -64,24 +60,6 @@ def test_it_takes_one_roller_on_an_external_wheel():
     assert not four_bars(motion_deg="120", z="6", rollers=2)
     assert not four_bars(motion_deg="220", z="6", internal=True)
     assert not four_bars(motion_deg="120", z="6", spherical=True)
-
-
-@pytest.mark.long
-def test_its_row_written_is_what_check_says_and_is_cut(tmp_path):
-    """A long motion, whose gentlest four-bar without room for a roller ran into its wheel, and
-    whose coupler passes below the wheel's axis.
-    """
-    found = search(read_target(motion_deg="168", z="6", external=True))
-    (number,) = [i for i, row in enumerate(found.rows, 1) if row.cells["drive"] == "four-bar"]
-    assert found.rows[number - 1].cells["parts"] == "maybe"
-    made, text = chosen(found, number)
-    assert not made.trouble
-    file, wheel = tmp_path / "spec.toml", tmp_path / "wheel.dxf"
-    file.write_text(text, encoding="utf-8")
-    assert [c.name for c in load(str(file)).checks if c.passes is False] == []
-    words = ["profile", str(file), "--part", "wheel", "-o", str(wheel)]
-    assert CliRunner().invoke(app, words).exit_code == 0
-    assert wheel.stat().st_size > 1000
 
 
 @pytest.mark.long
