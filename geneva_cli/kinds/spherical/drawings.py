@@ -34,7 +34,6 @@ from geneva_cli.geometry.shapes import (
 )
 from geneva_cli.geometry.sheet import Annotations, Drawing
 from geneva_cli.geometry.sphere import Region, SphereArc
-from geneva_cli.geometry.sphere_arcs import RoundHole
 from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.kinds.spherical.parts import SphereParts
 from geneva_cli.kinds.spherical.regions import edge, locked, rollers
@@ -56,8 +55,8 @@ class Cone(NamedTuple):
     polar: float
     # of curves that are neither lines nor arcs: the greatest distance from them, mm, and "arcs" or
     # "cubics"
-    tolerance_mm: float = 0.0
-    curves: str = "arcs"
+    tolerance_mm: float
+    curves: str
 
     @property
     def apex_mm(self) -> float:
@@ -73,10 +72,6 @@ class Cone(NamedTuple):
         """Return the point of the flat cone, mm, that a point of the sphere is projected to."""
         points, _ = self._flat(*(np.array([v]) for v in (polar, azimuth, 0.0, 0.0)))
         return float(points[0, 0]), float(points[0, 1])
-
-    def within(self, parts: SphereParts) -> Cone:
-        """Return the cone with the accuracy of the parts."""
-        return self._replace(tolerance_mm=parts.tolerance or 0.0, curves=parts.curves)
 
     def region(self, layer: Layer, region: Region, about: float) -> Contour:
         """Return a region laid flat, whose azimuths are within half a turn of ``about``."""
@@ -130,9 +125,10 @@ class Cone(NamedTuple):
         )
 
 
-def wheel_cone(ball: Ball) -> Cone:
+def wheel_cone(parts: SphereParts) -> Cone:
     """Return the cone that touches the sphere in the middle of the slots' length."""
-    return Cone(ball.radius_mm, 0.5 * (ball.bottom + _wall_mouth(ball)))
+    ball, accuracy = parts.ball, (parts.tolerance or 0.0, parts.curves)
+    return Cone(ball.radius_mm, 0.5 * (ball.bottom + _wall_mouth(ball)), *accuracy)
 
 
 def _wall_mouth(ball: Ball) -> float:
@@ -140,20 +136,20 @@ def _wall_mouth(ball: Ball) -> float:
     return math.acos(math.cos(ball.rim) / math.cos(ball.half_width))
 
 
-def crank_cone(ball: Ball) -> Cone:
+def crank_cone(parts: SphereParts) -> Cone:
     """Return the cone that touches the sphere at the rollers."""
-    return Cone(ball.radius_mm, ball.arm)
+    return Cone(parts.ball.radius_mm, parts.ball.arm, parts.tolerance or 0.0, parts.curves)
 
 
 def wheel(parts: SphereParts) -> Drawing:
     """Return the wheel's cone, cut open between two slots; x is along the first slot."""
-    title = _titled(parts, "wheel", wheel_cone(parts.ball))
+    title = _titled(parts, "wheel", wheel_cone(parts))
     return _drawing(parts, title, wheel_flat(parts), parts.wheel.part)
 
 
 def crank(parts: SphereParts) -> Drawing:
     """Return the crank's cone: locking sectors, and the rollers where they pass through it."""
-    title = _titled(parts, "crank", crank_cone(parts.ball))
+    title = _titled(parts, "crank", crank_cone(parts))
     return _drawing(parts, title, crank_flat(parts), parts.crank.part)
 
 
@@ -192,7 +188,7 @@ def _drawing(parts: SphereParts, title: str, shapes: list[Shape], shells: Part) 
 
 def wheel_flat(parts: SphereParts) -> list[Shape]:
     """Return the wheel's outline on its flat cone, and the rollers' paths."""
-    ball, cone = parts.ball, wheel_cone(parts.ball).within(parts)
+    ball, cone = parts.ball, wheel_cone(parts)
     b, ends = ball.half_step, (_wall_mouth(ball), ball.bottom)
     outer: list[Segment] = []
     pitch: list[Shape] = []
@@ -210,7 +206,7 @@ def wheel_flat(parts: SphereParts) -> list[Shape]:
 
 def crank_flat(parts: SphereParts) -> list[Shape]:
     """Return locking sectors, rollers and the rollers' circle on the crank's flat cone."""
-    ball, cone = parts.ball, crank_cone(parts.ball).within(parts)
+    ball, cone = parts.ball, crank_cone(parts)
     locking = zip(parts.shells.crank, locked(ball), strict=True)
     shapes: list[Shape] = [cone.region("CRANK", one, 0.5 * (a + b)) for one, (a, b) in locking]
     rolling = zip(rollers(ball), ball.rollers, strict=True)
@@ -245,7 +241,7 @@ def _dimensions(parts: SphereParts) -> Iterator[Dimension | Missing]:
         yield _angle(f"locking sector {k}: begins", start)
         yield _angle(f"locking sector {k}: width", rim.sweep)
     yield from or_missing("arm's dimensions", lambda: _arm(parts))
-    for whose, cone in (("wheel", wheel_cone(ball)), ("crank", crank_cone(ball))):
+    for whose, cone in (("wheel", wheel_cone(parts)), ("crank", crank_cone(parts))):
         flat = f"{whose} laid flat"
         yield _angle(f"{flat}: cone touches the sphere at", cone.polar)
         yield Dimension(f"{flat}: from there to its apex", abs(cone.apex_mm), "mm")
@@ -262,7 +258,11 @@ def _arm(parts: SphereParts) -> Iterator[Dimension]:
     yield _angle("arm's eyes, half angle", arm.eye)
     yield Dimension("pins", 2.0 * ball.pin_mm, "mm")
     yield Dimension("pins' holes in the arm", 2.0 * arm.pins[0].radius, "mm")
-    yield from _bolts("lock's bolt", arm.bolts)
+    for k, bolt in enumerate(arm.bolts, 1):
+        x, y, z = bolt.axis
+        yield Dimension(f"lock's bolt {k}: hole", 2.0 * bolt.radius, "mm")
+        yield _angle(f"lock's bolt {k}: from the axis", math.acos(z))
+        yield _angle(f"lock's bolt {k}: azimuth", math.atan2(y, x))
 
 
 def _axle(part: str, bore: float, hub: float) -> Iterator[Dimension]:
@@ -270,14 +270,6 @@ def _axle(part: str, bore: float, hub: float) -> Iterator[Dimension]:
         yield Dimension(f"{part}'s bore", 2.0 * bore, "mm")
     if hub > bore:
         yield Dimension(f"{part}'s hub", 2.0 * hub, "mm")
-
-
-def _bolts(name: str, holes: tuple[RoundHole, ...]) -> Iterator[Dimension]:
-    for k, bolt in enumerate(holes, 1):
-        x, y, z = bolt.axis
-        yield Dimension(f"{name} {k}: hole", 2.0 * bolt.radius, "mm")
-        yield _angle(f"{name} {k}: from the axis", math.acos(z))
-        yield _angle(f"{name} {k}: azimuth", math.atan2(y, x))
 
 
 def _lengths(whose: str, span_mm: tuple[float, float]) -> Iterator[Dimension]:
