@@ -110,9 +110,10 @@ def _spec(target: Target, goal: Goal, places: Places, number: int) -> Spec | Non
     scale = (target.frame or BARE).given_distance_mm / float(machine.distance[0])
     at = complex(w[0, 0]) * scale
     lengths = [float(np.ravel(x)[0]) * scale for x in links.numbers[:4]]
+    sides: Any = dict(zip(_LENGTHS, lengths, strict=True))
     try:
         keys = FourBar(
-            **dict(zip(_LENGTHS, lengths, strict=True)),
+            **sides,
             point_mm=abs(at),
             point_deg=math.degrees(cmath.phase(at)),
             entry_deg=math.degrees(math.remainder(float(entry[0, 0]), math.tau)),

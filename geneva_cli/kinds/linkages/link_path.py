@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import copy
 from abc import ABC, abstractmethod
-from collections.abc import Callable
-from typing import NamedTuple, Self, TypeAlias, cast
+from typing import NamedTuple, Protocol, Self, cast
 
 from geneva_cli.motion.engagement import Held, Loads, Vector, cross
 from geneva_cli.numerics.angles import radians, sin_cos_deg
@@ -13,8 +12,12 @@ from geneva_cli.numerics.arrays import Array, Batchable, Which
 from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
 from geneva_cli.spec.rules import is_array
 
-# The pin's displacement (x, y) since a moment, from sin d and 1 - cos d of the crank's rotation d.
-PointDisplacement: TypeAlias = Callable[[Jet, Jet], Vector]
+
+class PointDisplacement(Protocol):
+    """The pin's displacement since a moment, by the crank's rotation d since then."""
+
+    def __call__(self, sine: Jet, versine: Jet) -> Vector:
+        """Displacement (x, y), from sin d and 1 - cos d."""
 
 
 class LinkPath(Batchable, ABC):
