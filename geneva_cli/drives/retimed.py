@@ -38,7 +38,7 @@ def retimed(plan: Plan, spec: Spec, in_front: Drive) -> Plan:
     for k in range(periods):
         for own in plan.engagements:
             timing, push = Timing(before, own, k * plan.period_deg), None
-            if spec.drive.turned_at_crank:
+            if spec.drive.direct or not spec.drive.crank:  # it turns about the crank's axis
                 path, mid_deg = ShaftPath(sign, timing), timing.within_deg
                 push = before.reactions(spec.wheel, path, mid_deg, plan.center_distance_mm)
             # a crank that carries its rollers is pushed itself, without a shaft between
@@ -246,15 +246,15 @@ class Timing(Batchable):
         return Jet((self.ends_deg[i] + library(angle).degrees(angle), *own.c[1:]))
 
 
-class ShaftPath(Batchable):
+class ShaftPath(NamedTuple):
     """A point of a shaft at the distance 1 from its axis, which turns as a wheel's crank does.
 
     At mid-motion it points at an external wheel's axis (``sign`` 1), or away from an internal
     wheel's.
     """
 
-    def __init__(self, sign: float, angle: Timing) -> None:
-        self.sign, self.angle = sign, angle
+    sign: float
+    angle: Timing
 
     def __call__(self, input_deg: Number, order: int = 3) -> Vector:
         """Point (x, y) in the fixed frame."""

@@ -38,8 +38,6 @@ LocalTransmission: TypeAlias = "tuple[float, Displacement]"
 class Transmission(Drive, kw_only=True):
     """A drive in front of the crank; a kind defines ``about``, and more only if it needs more."""
 
-    turned_at_crank: ClassVar[bool] = False
-
     @abstractmethod
     def about(self, crank_deg: float) -> LocalTransmission:
         """The transmission about a crank angle in degrees, which is 0 at mid-motion."""
@@ -174,7 +172,6 @@ class Direct(Transmission, kw_only=True):
     """A drive without a transmission: crank angle and input angle are equal."""
 
     direct: ClassVar[bool] = True
-    turned_at_crank: ClassVar[bool] = True
 
     def about(self, crank_deg: float) -> LocalTransmission:
         return crank_deg, rotation  # the crank turns as the input does
