@@ -39,12 +39,8 @@ class SideCrank(Whitworth, kw_only=True):
     EXAMPLE: ClassVar[Example] = Example(
         "a side-crank drive: a slower, softer index", {"wheel": {"z": 6}, "drive": {"A": 0.6}}
     )
-    A: Annotated[
-        float, Range(-1.0, 1.0, "()"), "side-crank: base offset / input crank length; > 0 is slower"
-    ]
-    input_crank_mm: Annotated[
-        float | None, POSITIVE, "input crank length r, for its forces (parts use R by default)"
-    ] = None
+    A: Annotated[float, Range(-1.0, 1.0, "()"), "side-crank: base offset / crank; > 0 is slower"]
+    input_crank_mm: Annotated[float | None, POSITIVE, "input crank length r, for its forces"] = None
 
     def as_built(self, wheel: Gearing, place: RollerPlace, L: float) -> Plan:
         return self.straight(wheel, places(wheel, self, L, place), L)

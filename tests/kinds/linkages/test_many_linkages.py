@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from test_path_wheels import FOUR_BAR
 from words import Drive, Keys, Spec, Wheel
 
 from geneva_cli.errors import GenevaError
@@ -14,20 +15,12 @@ from geneva_cli.motion.mechanism import build
 # direction from differences of rounded numbers.
 NEAR = 1e-13
 MOTION = 1e-11
-FOUR_BAR = {
-    "drive.crank_mm": (20.0, 60.0),
-    "drive.ground_mm": (60.0, 120.0),
-    "drive.coupler_mm": (60.0, 140.0),
-    "drive.rocker_mm": (60.0, 140.0),
-    "drive.point_mm": (20.0, 250.0),
-    "drive.point_deg": (-180.0, 180.0),
-}
 SLIDER_CRANK = {
-    "drive.crank_mm": (20.0, 90.0),
-    "drive.rod_mm": (80.0, 160.0),
-    "drive.point_mm": (20.0, 200.0),
-    "drive.point_deg": (-180.0, 180.0),
-    "drive.height_mm": (-30.0, 30.0),
+    "crank_mm": (20.0, 90.0),
+    "rod_mm": (80.0, 160.0),
+    "point_mm": (20.0, 200.0),
+    "point_deg": (-180.0, 180.0),
+    "height_mm": (-30.0, 30.0),
 }
 
 
@@ -50,7 +43,7 @@ def alone(spec, varied, i):
 
 def drawn(ranges, n, seed):
     random = np.random.default_rng(seed)
-    return {key: random.uniform(*ends, n) for key, ends in ranges.items()}
+    return {f"drive.{key}": random.uniform(*ends, n) for key, ends in ranges.items()}
 
 
 @pytest.mark.long

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 from strength_checks import standing_checks
+from test_spherical import turned
 
 from geneva_cli import Design, External, Size, Spherical
 from geneva_cli.kinds.spherical.regions import at_mid_motion
@@ -14,11 +15,6 @@ from geneva_cli.parts.turn.gaps import NEAR
 from geneva_cli.verdict.checks import checks
 
 CLEAR = {"slot_clearance_mm": 0.05, "lock_clearance_mm": 0.04}
-
-
-def turned(u, angle):
-    c, s = np.cos(angle), np.sin(angle)
-    return np.column_stack((u[:, 0] * c - u[:, 1] * s, u[:, 0] * s + u[:, 1] * c, u[:, 2]))
 
 
 EACH = 400  # samples of an arc
