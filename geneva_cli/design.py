@@ -281,8 +281,7 @@ class Design:
         >>> Design(External(6)).chosen["size.pin_mm"]
         Chosen(value=5.0, why='default r')
         """
-        from geneva_cli.parts.chosen import chosen
-        from geneva_cli.parts.detail_sizes import detail_sizes
+        from geneva_cli.parts.chosen import chosen, detail_sizes
 
         if self.spec.has_parts:
             _ = self.parts.built

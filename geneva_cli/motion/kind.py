@@ -35,7 +35,6 @@ class Kind(NamedTuple):
     keys: tuple[str, ...] = ()
     parts: str = ""  # class of the parts of wheel and crank
     no_parts: str = ""  # function that returns the reason why a spec has no parts, or ""
-    frame: str = ""  # function that builds the frame and the shafts of flat parts
     front: str = ""  # class of links and gears in front of a crank that is not flat
     drawings: Mapping[str, str] = _NONE  # or sheets, by the names of the parts that they show
     tables: Mapping[str, str] = _NONE  # of points, by the names of the parts

@@ -38,7 +38,7 @@ _DRAWINGS = {
 _SHEET = {"sheet": "drawings.sheet.machine_sheet:sheet"}
 _TABLES = {
     "slot": "parts.slots.slot_profile:profile_table",
-    "gears": "parts.gears.gear_curves:gears_table",
+    "gears": "parts.gears.gear_pair:gears_table",
     "groove": "parts.slots.groove:groove_table",
 }
 # class of the parts of a wheel without its own: the links and gears in front
@@ -47,7 +47,6 @@ FRONT = "parts.flat_parts:FrontParts"
 _FLAT = Kind(
     "",
     parts="parts.flat_parts:FlatParts",
-    frame="parts.frame:framed",
     drawings=_DRAWINGS | _SHEET,
     tables=_TABLES,
 )

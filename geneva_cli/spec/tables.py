@@ -477,7 +477,6 @@ class Shaft(SpecTable):
     ] = None
     bending_factor: Annotated[float, Range(1.0, 10.0), "ASME B17c: shock factor in bending"] = 1.5
     torsion_factor: Annotated[float, Range(1.0, 10.0), "ASME B17c: shock factor in torsion"] = 1.0
-    shear_modulus_GPa: Annotated[float, POSITIVE, "shear modulus G"] = 80.8
 
 
 class Material(SpecTable):

@@ -30,7 +30,7 @@ from geneva_cli.motion import motion_table as motion
 from geneva_cli.motion import registry
 from geneva_cli.motion.path_and_slot import WALLED
 from geneva_cli.motion.timing import CamFactors
-from geneva_cli.parts.gears import gear_curves
+from geneva_cli.parts.gears import gear_pair
 from geneva_cli.parts.slots import groove
 from geneva_cli.specfile.meanings import meanings, related
 from geneva_cli.specfile.template import EXAMPLES
@@ -125,7 +125,7 @@ def quantities() -> set[str]:
     }
     out |= {"acceleration.exit", "jerk.exit", *law_values.LAW_COLUMNS, *SYNTH, ERROR}
     out |= set(checks_table([]).names)
-    out |= {*WALLED, *groove.NAMES, *gear_curves.NAMES, *parts_list.NAMES}
+    out |= {*WALLED, *groove.NAMES, *gear_pair.NAMES, *parts_list.NAMES}
     return out | {f"tolerance.{name}" for name in tolerance_names()}
 
 

@@ -166,11 +166,9 @@ class RackParts(EdgedParts):
         sizes, place, top = self.sizes, self.sizes.guide, heights(self.mechanism, self.sizes).top
         x, bar, slide, half = place.back, place.bar, place.slide, place.half
         if half < bar:
-            text = (
-                f"roller_radius_mm = {sizes.roller:g}: a guide that the rack always covers would "
-            )
-            text += f"be {2.0 * half:.4g} mm long, and its screws need {2.0 * bar:.4g}: use a "
-            raise GenevaError(text + "smaller roller", ("size", "roller_radius_mm"))
+            text = f"roller_radius_mm = {sizes.roller:g}: use a smaller one: a guide that the rack "
+            text += f"always covers would be {2.0 * half:.4g} mm long, and its screws need "
+            raise GenevaError(text + f"{2.0 * bar:.4g}", ("size", "roller_radius_mm"))
         over = sizes.thick.wheel + self.mechanism.spec.size.allowances.pin_gap_mm
         on_rail, on_wall = (tuple(one for one in row if one.radius) for row in _screws(sizes))
         rail = rectangle("FRAME", x + bar + slide, -half, x + 2.0 * bar + slide, half)
@@ -184,19 +182,17 @@ class RackParts(EdgedParts):
         )
 
     @cached_property
-    def _framed(self) -> FrameAndShafts:
+    def framed(self) -> FrameAndShafts:
         """The shafts and the frame, with holes for them and the guide's screws."""
         self._require_built()
         mechanism, size, sizes = self.mechanism, self.mechanism.spec.size, self.sizes
         plain, top, _, stands = heights(mechanism, sizes)
         axis, L, own = self.axis, 2.0 * sizes.arm, list[Shaft]()  # as a wheel of 6 slots has it
         if sizes.bore:  # the crank's shaft, up to the arm's upper face
-            bore, ends = (
-                bore_of(size, "crank", sizes.bore),
-                shaft_ends(size, "crank", plain, stands),
-            )
+            ends = shaft_ends(size, "crank", plain, stands)
             # the keyway is on the side of the locking sector, as in the arm
-            own.append(Shaft("crank's shaft", "crank", bore, *ends, axis, math.pi, math.pi))
+            bore = bore_of(size, "crank", sizes.bore)._replace(direction=math.pi)
+            own.append(Shaft("crank's shaft", "crank", bore, *ends, axis, math.pi))
         own += gear_shafts(mechanism, None, plain, True, sizes.bore)
         axles = tuple(one.member for one in own)
         bored = shaft_holes(size, axles, top)
@@ -229,7 +225,7 @@ class RackParts(EdgedParts):
         if bolted := self._bar_bolts:
             nuts = "nuts under the guide bar"
             own.append(Screws("rack", len(bolted), 2.0 * bolted[0].radius, nuts))
-        return (*own, *(self._framed.screws if spec.has_parts else ()))
+        return (*own, *(self.framed.screws if spec.has_parts else ()))
 
     @property
     def standing(self) -> tuple[Member, ...]:

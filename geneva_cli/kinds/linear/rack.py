@@ -16,13 +16,14 @@ from geneva_cli.geometry.shapes import Circle, Contour, Line, Segment, about, cl
 from geneva_cli.kinds.linear.guide import GuidePlace, guide_place
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import half_or, value_or
-from geneva_cli.parts.machine_sizes import lock_between, require_lock_between
+from geneva_cli.parts.machine_sizes import lock_between
 from geneva_cli.parts.shafts.arm_and_shafts import CrankArm
 from geneva_cli.parts.shafts.bores import bolt_radius, bore_of, tapped
 from geneva_cli.parts.sizes import (
     KeySizes,
     arm_bore,
     drawn_thicknesses,
+    hole_radius,
     hub_and_eye,
     lock_bolt_directions,
     pin_hole,
@@ -85,15 +86,11 @@ def rack_sizes(mechanism: Mechanism) -> RackSizes:
     # the locking sector must be wider than its inner radius
     least, limit = 0.5 * (arm + relief), arm - w - allowed.lock_clearance_mm
     if lock != 0.0 and limit <= least:
-        text = (
-            f"the locking sector does not fit: roller and clearances limit it to {limit:.4g} mm, "
-        )
+        text = f"the locking sector does not fit: roller and clearances limit it to {limit:.4g} mm "
         text += f"and it must reach {least:.4g}; use a smaller roller, or lock_radius_mm = 0"
         raise GenevaError(text, ("size", "lock_radius_mm"))
-    if lock is None:
-        lock = lock_between(least, limit, r)
-    elif lock:
-        require_lock_between(lock, least, limit)
+    if lock != 0.0:
+        lock = lock_between(lock, least, limit, r)
     recess = lock + allowed.lock_clearance_mm if lock else 0.0
     floor = arm - recess + relief if lock else 0.0
     edge, pin = value_or(size.wheel_radius_mm, arm), pin_radius(size, r)
@@ -102,7 +99,7 @@ def rack_sizes(mechanism: Mechanism) -> RackSizes:
         text += f"{arm - recess:.6g} and {arm + recess:.6g} mm"
         raise GenevaError(text, ("size", "wheel_radius_mm"))
     # as if R were L/2, as for 6 slots
-    space = arm - (pin - 0.5 * allowed.press_fit_mm)
+    space = arm - hole_radius(size, pin)
     bore = arm_bore(mechanism.spec, 0.0, 2.0 * arm, space) if pin else 0.0
     widths = arm, r, w, edge, guide.bottom, lock, floor, recess, relief
     return RackSizes(*widths, guide, pin, bore, drawn_thicknesses(size, arm))

@@ -30,7 +30,7 @@ from geneva_cli.geometry.shapes import (
     bounds,
     closed,
     joined,
-    mapped,
+    placed,
 )
 from geneva_cli.geometry.sheet import Annotations, Drawing
 from geneva_cli.geometry.sphere import Region, SphereArc
@@ -159,7 +159,7 @@ def assembly(parts: SphereParts) -> Drawing:
     # wheel and crank are 0.1 of the sphere's radius apart
     shift = 0.1 * parts.ball.radius_mm + max(bounds(shape).x1 for shape in left)
     shift -= min(bounds(shape).x0 for shape in right)
-    moved = [mapped(shape, lambda p: (p[0] + shift, p[1])) for shape in right]
+    moved = [placed(shape, (shift, 0.0)) for shape in right]
     whole = Group(title, parts.members)
     return _drawing(parts, title, [*left, *moved], whole)._replace(look=Annotations())
 

@@ -19,7 +19,6 @@ from geneva_cli.geometry.plates import (
     Member,
     Plate,
     added,
-    inwards,
     mass_properties,
 )
 from geneva_cli.geometry.shapes import ORIGIN, Circle
@@ -39,7 +38,7 @@ from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.projection import NamedParts
 from geneva_cli.parts.shafts.arm_and_shafts import Shaft, shaft_ends
 from geneva_cli.parts.shafts.bores import Bore, bore_of, has_shape
-from geneva_cli.parts.sizes import refuse_thin_hub
+from geneva_cli.parts.sizes import hub_faults, refuse
 from geneva_cli.spec.defaults import wheel_material
 from geneva_cli.spec.tables import Size
 
@@ -158,7 +157,9 @@ class SphereParts(Parts):
             own = Shaft(f"{part}'s shaft", part, bore, *ends, ORIGIN, keyway).member.part
             assert isinstance(own, Plate)
             frame = None if part == "wheel" else at_mid_motion(ball)
-            members.append(Member(inwards(own, outside), frame=frame))
+            # heights become distances inwards
+            inwards = own._replace(low=outside - own.high, high=outside - own.low)
+            members.append(Member(inwards, frame=frame))
 
         if ball.bore_mm:
             hub = ball.hub_mm > ball.bore_mm
@@ -199,7 +200,7 @@ def wheel_hub(size: Size, ball: Ball) -> Plate | None:
     inside, outside = ball.span_mm
     refuse_wide("wheel_hub_mm", ball.hub_mm, inside, outside)
     form = bore_of(size, "wheel", ball.bore_mm)
-    refuse_thin_hub("wheel", ball.hub_mm, form.reach, ball.bore_mm)
+    refuse(hub_faults("wheel", ball.hub_mm, form.reach, ball.bore_mm))
     bored = (form.shape("BORE", ball.half_step),) if ball.bore_mm else ()
     span = inside, inside + ball.hub_length_mm(size)
     return Plate("wheel's hub", "HUB", Circle("HUB", ORIGIN, ball.hub_mm), bored, *span)

@@ -36,8 +36,8 @@ def test_nearly_parallel_shafts_are_a_flat_machine():
     found = parts_of(ball.mechanism).turn
     for name in ("dwell", "hand_over", "motion", "push"):
         assert getattr(found, name).deg == pytest.approx(getattr(flat, name).deg, rel=2e-3)
-    for name in ("driving", "lock"):
-        assert getattr(found, name).mm == pytest.approx(getattr(flat, name).mm, rel=1e-6)
+    for name, gap in flat.gaps.items():
+        assert found.gaps[name].mm == pytest.approx(gap.mm, rel=1e-6)
     assert found.hand_over.at_deg == pytest.approx(flat.hand_over.at_deg, abs=0.01)
 
 
