@@ -1,11 +1,8 @@
 """A machine whose input shaft another drive turns, by theta = g(phi): gears or a side-crank.
 
-Path, slot and motion are p(g(phi)), M(g(phi)) and psi(g(phi)), derived by the chain rule. A
-law holds by theta: whatever turns the shaft, wheel and crank stay the same.
-
-A load on the roller gives the shaft between both drives the power F . p' + C w per radian of input,
-its torque times its speed. So the push of the drive before follows from that and its own lever,
-whatever the links.
+Path, slot and motion are p(g(phi)), M(g(phi)) and psi(g(phi)), derived by the chain rule: a law
+holds by theta. A load on the roller gives the shaft between both drives the power F . p' + C w per
+radian of input. The push of the drive before follows from that and its own lever.
 """
 
 from __future__ import annotations
@@ -247,11 +244,7 @@ class Timing(Batchable):
 
 
 class ShaftPath(NamedTuple):
-    """A point of a shaft at the distance 1 from its axis, which turns as a wheel's crank does.
-
-    At mid-motion it points at an external wheel's axis (``sign`` 1), or away from an internal
-    wheel's.
-    """
+    """A point of a shaft, 1 from its axis: ahead at mid-motion, away from an internal wheel."""
 
     sign: float
     angle: Timing
@@ -265,8 +258,7 @@ class ShaftPath(NamedTuple):
 class DrivenShaft(Batchable):
     """Reactions on the shaft between two drives, and on the second one's guide, to loads.
 
-    ``push`` is the line of the push, written for a shaft that turns as a crank
-    of the wheel does. It is None for a couple, or for a shaft whose bearings are not computed.
+    ``push`` is None for a couple, or for a shaft whose bearings are not computed.
     """
 
     def __init__(

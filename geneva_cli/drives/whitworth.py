@@ -62,9 +62,8 @@ def refuse_near_one(key: str, value: float) -> None:
 class Coulisse(NamedTuple):
     """The coulisse's rotation from one of its angles f.
 
-    h = asin(A sin f) is the angle between input crank and coulisse. ``length`` is the coulisse's,
-    cos h + A cos f, and ``rest`` is cos h - A cos f. ``grows`` selects the form of W = x² + y² that
-    is a sum of positive terms on the line of centres.
+    h = asin(A sin f) is between input crank and coulisse, whose ``length`` is cos h + A cos f;
+    ``rest`` is cos h - A cos f. ``grows`` selects a sum of positive terms for W = x² + y².
     """
 
     A: float

@@ -103,11 +103,7 @@ class SlidingStops(Stops):
 
 
 class RackGaps(Gaps):
-    """The gaps between rack, locking sector and roller at any positions.
-
-    The rack has five slots: no part reaches more in one turn, even if the rack is half a step off.
-    A rack has its recesses up to both ends, so that its ends come no nearer to the crank.
-    """
+    """The gaps between rack, locking sector and roller; five slots are all that a turn reaches."""
 
     sizes: RackSizes
 

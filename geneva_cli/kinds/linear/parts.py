@@ -1,9 +1,8 @@
 """All parts of a rack's machine at their positions, at input angle 0.
 
 In the machine's frame the rack's slots run along x, the roller is at the origin, and the crank's
-axis is at (R, 0). A bar is bolted under the rack's back, and reaches a little beyond it. It slides
-between a rail, on which the rack lies, and a wall. A cover on the wall keeps the rack from lifting.
-All of them lie beyond the sweep of the crank's arm, and are screwed to the frame.
+axis is at (R, 0). A bar under the rack's back slides between a rail, on which the rack lies, and a
+wall with a cover, beyond the sweep of the crank's arm. They are screwed to the frame.
 """
 
 from __future__ import annotations

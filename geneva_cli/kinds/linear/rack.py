@@ -2,8 +2,7 @@
 
 In the rack's frame its slots run along x, and the roller is at the origin at mid-motion. The edge,
 by default x = R, passes through the crank's axis. So no disc can lock the rack: a ring does, half
-way round, opposite the roller. The recesses have the radius rho, and are R from the slots. At
-mid-motion the rack covers the edge but for R - rho to R + rho, where the ring's end lies.
+way round, opposite the roller. The recesses have the radius rho, and are R from the slots.
 """
 
 from __future__ import annotations

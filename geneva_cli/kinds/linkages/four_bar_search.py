@@ -195,9 +195,8 @@ def _driven(
 ) -> tuple[Whole, list[Array], Array, Array]:
     """Numbers of the wheels that are driven, at samples, and let the roller pass on its way back.
 
-    ``b`` is half the step and ``roller`` the roller's radius over the centre distance, (n, 1) each.
-    Also the derivatives of their angles to an order, (m, places + 1) each; the centre distance; and
-    the greatest distance of a joint or the roller from the crank's axis, (m,) each.
+    Also their angles' derivatives to an order, (m, places + 1) each; centre distances; and the
+    greatest distances of joints and roller from the crank's axis. ``roller`` is its radius over L.
     """
     entry, motion, sense, w = drive
     pin, along = _coupler(links, entry + motion * (np.arange(places + 1) / places), order)

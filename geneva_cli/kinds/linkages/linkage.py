@@ -60,11 +60,9 @@ class Linkage(PinPath, kw_only=True):
         """The roller's path about the crank's axis."""
 
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
-        """The engagement of the wheel that the path can drive.
+        """The engagement of the wheel that the path can drive: the gentlest, or by ``entry_deg``.
 
-        If there are several wheels, it is the one with the least peak velocity, or the one whose
-        entry is nearest to ``entry_deg``. Raises GenevaError if there is none, or if the spec sets
-        the centre distance, which follows from the linkage.
+        Raises GenevaError if there is none, or if the spec sets the centre distance.
         """
         text = 'center_distance_mm follows from the linkage of kind = "{name}": remove it'
         refuse_text(L != DISTANCE_MM, ("size", "center_distance_mm"), text, name=self.NAME)

@@ -1,9 +1,8 @@
 """The sizes of a spherical wheel and its crank: angles at the sphere's centre, in radians.
 
 All walls lead to the centre, and so does the surface of the roller, a cone. Its radius, the slots
-and the clearances are arcs on the sphere of radius ``center_distance_mm``. Radii of the lock and of
-bores are distances from their axes. Below the wheel on a plane is outside the wheel here: a height
-above the wheel's lower face is a distance inwards from its outer sphere.
+and the clearances are arcs on the sphere of radius ``center_distance_mm``; radii of lock and bores
+are distances from their axes. Below the wheel on a plane is outside the wheel here.
 """
 
 from __future__ import annotations

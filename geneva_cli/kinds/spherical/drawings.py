@@ -1,9 +1,8 @@
 """Drawings and dimensions of a spherical machine: its parts laid flat, and their solids.
 
-A shell is projected from the centre on a tangent cone and unrolled. All walls lead to the centre.
-So a sheet that is cut by this outline and rolled up to the cone lets the roller pass as the shell
-does. On the flat sheet a point keeps the distance from the apex that it has on the cone. The cone's
-sector is 2 pi cos(polar) wide; at 90 degrees it is a cylinder.
+A shell is projected from the centre on a tangent cone and unrolled: a sheet cut by this outline and
+rolled up lets the roller pass as the shell does. The cone's sector is 2 pi cos(polar) wide; at 90
+degrees it is a cylinder.
 
 Layers: WHEEL and CRANK are cut; ROLLER is the hole of a roller; PITCH is the rollers' path.
 """

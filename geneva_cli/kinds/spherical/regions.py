@@ -34,10 +34,9 @@ QUARTER = 0.5 * math.pi
 
 
 def wheel_regions(ball: Ball) -> list[Region]:
-    """Return the wheel: its slotted ring, a region for each slot, and the cap that closes it.
+    """Return the wheel: a region for each slot, up to the next, and the cap that closes the ring.
 
-    Adjacent regions share the meridian between their slots. A ring without a hole for shaft or hub
-    stays open.
+    A ring without a hole for shaft or hub stays open.
     """
     b, z = ball.half_step, ball.z
     inner = min(ball.inner, 1.0) if ball.opening_mm else ball.inner  # radian: far from the edge
@@ -165,8 +164,7 @@ def swept(ball: Ball) -> tuple[Array, Array]:
     """Return the paths of points of the wheel's edge in the crank's frame, in the first motion.
 
     These are polar angles from the crank's axis and azimuths about it, radians, one row for each
-    position. Only points that come within the locking edge are included. The crank turns clockwise
-    about its axis where the wheel turns counterclockwise.
+    position, of points that come within the locking edge.
     """
     frame = np.column_stack(at_mid_motion(ball))
     wheel = edge_points(ball, 100)
