@@ -142,18 +142,12 @@ def test_what_cannot_stand_in_series_is_refused(wheel, drive, before, motion, me
         _ = Design(wheel, drive, motion, drive_before=before).mechanism
 
 
-@pytest.mark.parametrize(
-    "before, message, key",
-    [
-        ({}, r"\[drive.before\] needs kind", ("drive", "before")),
-        ({"kind": "side-crank", "A": 2.0}, "A = 2 must be above -1", ("drive", "before", "A")),
-    ],
-)
-def test_an_error_names_the_key_of_the_drive_before(before, message, key):
+def test_an_error_names_the_key_of_the_drive_before():
+    before = {"kind": "side-crank", "A": 2.0}
     drive = {"kind": "epicyclic", "planet_ratio": "shockless", "before": before}
-    with pytest.raises(GenevaError, match=message) as error:
+    with pytest.raises(GenevaError, match="A = 2 must be above -1") as error:
         spec_of({"wheel": {"z": 4}, "drive": drive}, "spec.toml")
-    assert error.value.key == key
+    assert error.value.key == ("drive", "before", "A")
 
 
 @pytest.mark.parametrize("A", [0.684, -0.31])
