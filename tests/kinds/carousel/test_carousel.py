@@ -145,9 +145,9 @@ def test_loads_by_newton_s_law(wheel, fraction):
     c_deg = fraction * witness.half_deg()
     with mp.workdps(50):
         force, torque = by_newton(witness, c_deg, mass, L_mm / 1000, mp.mpf(n) * mp.pi / 30)
-    here = design.cycle.states(np.array([c_deg]))
-    assert abs(here.pin_force_N[0]) == pytest.approx(abs(float(force)), rel=1e-11)
-    assert here.input_torque_Nm[0] == pytest.approx(float(torque), rel=1e-11)
+    force_N, torque_Nm = design.cycle.states(np.array([c_deg]), ["pin_force_N", "input_torque_Nm"])
+    assert abs(force_N[0]) == pytest.approx(abs(float(force)), rel=1e-11)
+    assert torque_Nm[0] == pytest.approx(float(torque), rel=1e-11)
 
 
 SEVERAL = [(3, 2), (3, 5), (4, 3), (5, 3), (8, 2)]  # slots, wheels
@@ -168,7 +168,7 @@ def test_loads_of_several_wheels_are_the_sum_over_a_turn(z, wheels):
         own = (x - 360.0 * k / wheels + half) % 360.0 - half
         order = np.argsort(own)
         torque = np.empty(len(x))
-        torque[order] = one.cycle.states(own[order]).input_torque_Nm
+        torque[order] = one.cycle.states(own[order], ["input_torque_Nm"])[0]
         total += torque
     # a wheel's own bearings see one motion in a turn, the finger's see those of all wheels
     for key, times in (("wheel_bearing_N", 1), ("crank_bearing_N", wheels)):

@@ -69,12 +69,7 @@ def test_a_retimed_crank_is_the_crank_behind_that_drive(wheel, front):
     spins = [one.carrier(x, 1) for one in (ours, own)]
     assert abs(spins[0].c[1] - spins[1].c[1]).max() <= 16.0 * math.ulp(1.0)
     tau = np.radians(x - own.entry_deg)
-    moved = [one.motion.entry.displacement(tau, 1) for one in (ours, own)]
-    if own.slot.height:  # of the pin along a spherical wheel's axis
-        moved = [
-            (*jets, one.slot.height(np.radians(x), 1))
-            for one, jets in zip((ours, own), moved, strict=True)
-        ]
+    moved = [(*one.motion.entry.displacement(tau, 1), *one.slot(x, 1)) for one in (ours, own)]
     for a, b in zip(*moved, strict=True):
         for k in (0, 1):
             assert abs(a.c[k] - b.c[k]).max() <= 16.0 * math.ulp(1.0)
