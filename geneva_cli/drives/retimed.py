@@ -158,17 +158,9 @@ class Engagement(base.Engagement):
             early = Timing(timing.before, passage, late_deg)
             # as far ahead in angles of the input
             pair.append((Engagement(passage, early), timing.mid_deg - early.mid_deg))
-        super().__init__(
-            timing.mid_deg,
-            _Path(own.path, timing),
-            _Slot(own.slot, timing),
-            _Motion(own.motion, timing),
-            reactions=reactions,
-            crank_sense=own.crank_sense,
-            groove=own.groove,
-            hub=own.hub,
-            pair=tuple(pair),
-        )
+        path, slot = _Path(own.path, timing), _Slot(own.slot, timing)
+        held = None, reactions, own.crank_sense, own.groove, own.hub, None, tuple(pair)
+        super().__init__(timing.mid_deg, path, slot, _Motion(own.motion, timing), *held)
         self._own, self.timing = own, timing
 
     def carrier(self, input_deg: Number, order: int = 0) -> Jet:

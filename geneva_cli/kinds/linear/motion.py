@@ -49,7 +49,7 @@ class Linear(Gearing):
 
     def output(self, center_distance_mm: float) -> Output:
         """The travel, in millimetres."""
-        radius_m = center_distance_mm / 1000.0
+        R, radius_m, keys = center_distance_mm, center_distance_mm / 1000.0, "mass_kg or force_N"
         loads = (
             ("rack_speed_m_s", "omega_rad_s", radius_m),
             ("rack_acceleration_m_s2", "alpha_rad_s2", radius_m),
@@ -58,19 +58,9 @@ class Linear(Gearing):
         lacks = "omega_rad_s alpha_rad_s2 wheel_torque_Nm wheel_bearing_N inertia_kgm2 "
         lacks += "acceleration_rad_s2 inertia_torque_Nm friction_torque_Nm total_torque_Nm "
         lacks += "design_torque_Nm moment_Nms drag_Nm residual_deg windup_deg"
-        return Output(
-            noun="rack",
-            column="rack_mm",
-            unit="mm",
-            per_radian=center_distance_mm,
-            rate_unit="m",
-            rate_per_radian=radius_m,
-            load_keys="mass_kg or force_N in [load]",
-            loads=loads,
-            lacks=tuple(lacks.split()),
-            invariants="derivative of its travel over R",
-            turns=False,
-        )
+        named = loads, tuple(lacks.split()), "derivative of its travel over R"
+        units = "rack_mm", "mm", R, "m", radius_m
+        return Output("rack", *units, f"{keys} in [load]", *named, turns=False)
 
     @property
     def title(self) -> str:

@@ -169,30 +169,11 @@ def usual_ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
     bored = 0.0
     if spec.drive.crank and pin:
         bored = arm_bore(spec, 0.0, L, L * arm - hole_radius(size, pin))
-    ball = Ball(
-        radius_mm=L,
-        z=z,
-        axes=deepest + arm,
-        arm=arm,
-        half_motion=math.radians(first.half_motion_deg),
-        rollers=tuple(math.radians(t) for t in turns),
-        roller=roller,
-        half_width=w,
-        bottom=bottom,
-        bottom_mm=bottom_mm,
-        mouth=mouth,
-        rim=rim,
-        lock=lock,
-        lock_mm=lock_mm,
-        recess=lock + allowed.lock_clearance_mm / L if lock else 0.0,
-        span_mm=(inside, outside),
-        lock_span_mm=(under - thick.lock, under),
-        arm_span_mm=(under, under + thick.arm),
-        bore_mm=0.0,
-        hub_mm=0.0,
-        pin_mm=pin,
-        arm_bore_mm=bored,
-    )
+    crank = deepest + arm, arm, math.radians(first.half_motion_deg), tuple(map(math.radians, turns))
+    slots = roller, w, bottom, bottom_mm, mouth, rim
+    locks = lock, lock_mm, lock + allowed.lock_clearance_mm / L if lock else 0.0
+    spans = (inside, outside), (under - thick.lock, under), (under, under + thick.arm)
+    ball = Ball(L, z, *crank, *slots, *locks, *spans, 0.0, 0.0, pin, bored)
     end = ball.slot_end_mm
     bore = wheel_bore(spec, end, wall_min(size, L), L)
     hub = hub_about(size, L, bore, end)

@@ -221,15 +221,11 @@ def sphere_stressed(spec: Spec, ball: Ball) -> Stressed:
         off = middle - L * math.cos(ball.arm)
         radii = L * ball.arm, middle * cap, middle * eye / L, bored, hole
         arm = ArmDimensions(*radii, thick, off)
-    return Stressed(
-        value_or(size.face_width_mm, ball.span_mm[1] - ball.span_mm[0]),
-        2.0 * ball.pin_mm,
-        shaft_of(spec, "wheel", ball.bore_mm, *end),
-        shaft_of(spec, "crank", bore, *end),
-        arm,
-        key_of(size.wheel_keyway, ball.bore_mm, ball.hub_length_mm(size)),
-        key_of(size.crank_keyway, bore, thick),
-    )
+    contact = value_or(size.face_width_mm, ball.span_mm[1] - ball.span_mm[0])
+    shafts = shaft_of(spec, "wheel", ball.bore_mm, *end), shaft_of(spec, "crank", bore, *end)
+    in_wheel = key_of(size.wheel_keyway, ball.bore_mm, ball.hub_length_mm(size))
+    in_arm = key_of(size.crank_keyway, bore, thick)
+    return Stressed(contact, 2.0 * ball.pin_mm, *shafts, arm, in_wheel, in_arm)
 
 
 def ball_roller(mechanism: Mechanism) -> tuple[float, str]:
