@@ -13,14 +13,7 @@ from geneva_cli.numerics.arrays import Array, within_half_turn
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.turn.gaps import Gaps
-from geneva_cli.parts.turn.stops import (
-    Branches,
-    Pose,
-    Stops,
-    cut,
-    inset_ends,
-    masked,
-)
+from geneva_cli.parts.turn.stops import Branches, Pose, Stops, cut, inset_ends, masked
 
 
 class SlidingStops(Stops):

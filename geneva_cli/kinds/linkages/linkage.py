@@ -13,14 +13,7 @@ from geneva_cli.kinds.linkages.link_path import LinkPath, LinkReactions
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot
 from geneva_cli.numerics.angles import DEGREE, radians
-from geneva_cli.numerics.arrays import (
-    Array,
-    array,
-    larger,
-    library,
-    parameter,
-    smaller,
-)
+from geneva_cli.numerics.arrays import Array, array, larger, library, parameter, smaller
 from geneva_cli.numerics.jet import Jet, sin_cos
 from geneva_cli.spec.rules import Range
 from geneva_cli.spec.tables import DISTANCE_MM

@@ -21,14 +21,7 @@ from geneva_cli.motion.wheels import classic
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import of_each, radians, sin_cos_pi
 from geneva_cli.numerics.arrays import choose, choose_record, library
-from geneva_cli.numerics.jet import (
-    Array,
-    Jet,
-    Number,
-    atan2,
-    rotation,
-    sine_versine_of,
-)
+from geneva_cli.numerics.jet import Array, Jet, Number, atan2, rotation, sine_versine_of
 from geneva_cli.spec.rules import POSITIVE, Z_MAX, Range
 from geneva_cli.spec.schema import Example
 

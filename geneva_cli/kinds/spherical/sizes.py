@@ -10,12 +10,7 @@ from contextlib import suppress
 from functools import lru_cache
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinds.spherical.ball import (
-    Ball,
-    flat_radius,
-    hub_about,
-    usual_ball,
-)
+from geneva_cli.kinds.spherical.ball import Ball, flat_radius, hub_about, usual_ball
 from geneva_cli.kinds.spherical.horn import sphere_horns
 from geneva_cli.loads.strength.horn import greatest_stress
 from geneva_cli.loads.strength.lock import dwell_torque_Nm
