@@ -16,17 +16,8 @@ from geneva_cli.geometry.plates import Group, Member, Plate, least_wall
 from geneva_cli.geometry.shapes import Circle, Point
 from geneva_cli.geometry.sheet import rectangle
 from geneva_cli.kept import cached_property
+from geneva_cli.kinds.linear import rack
 from geneva_cli.kinds.linear.outlines import RackOutlines, turned_rack
-from geneva_cli.kinds.linear.rack import (
-    RackSizes,
-    crank_arm,
-    lock_bolts,
-    locking_sector,
-    rack_contour,
-    rack_ends,
-    rack_sizes,
-    slot_places,
-)
 from geneva_cli.loads.strength.pin_arm_key import NO_ARM, NO_KEY, ArmDimensions
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array, value_or
@@ -59,9 +50,9 @@ class RackParts(EdgedParts):
         return turned_rack(assembly(self.mechanism, flat=False), self.sizes)
 
     @cached_property
-    def sizes(self) -> RackSizes:
+    def sizes(self) -> rack.RackSizes:
         """The sizes of rack and locking sector."""
-        return rack_sizes(self.mechanism)
+        return rack.rack_sizes(self.mechanism)
 
     @property
     def built(self) -> Self:
@@ -91,14 +82,14 @@ class RackParts(EdgedParts):
     def _bar_bolts(self) -> tuple[Circle, ...]:
         """The holes that fix the guide's bar to the rack, behind each of its slots."""
         sizes, r = self.sizes, _bolt(self.sizes)
-        places = slot_places(sizes, self.mechanism.spec.wheel.z) if r else ()
+        places = rack.slot_places(sizes, self.mechanism.spec.wheel.z) if r else ()
         return tuple(Circle("BORE", (sizes.guide.middle, y), r) for y in places)
 
     @cached_property
     def wheel(self) -> Member:
         """The rack, with holes for the bolts of its guide bar."""
         outline, high = (
-            rack_contour(self.sizes, self.mechanism.spec.wheel.z),
+            rack.rack_contour(self.sizes, self.mechanism.spec.wheel.z),
             self.sizes.thick.wheel,
         )
         return Member(Plate("rack", "WHEEL", outline, self._bar_bolts, 0.0, high))
@@ -107,7 +98,7 @@ class RackParts(EdgedParts):
     def bar(self) -> Member:
         """The bar under the rack's back; half the height under it is free."""
         place, under = self.sizes.guide, 0.5 * heights(self.mechanism, self.sizes).top
-        low, high = rack_ends(self.sizes, self.mechanism.spec.wheel.z)
+        low, high = rack.rack_ends(self.sizes, self.mechanism.spec.wheel.z)
         outline = rectangle("LINK", place.back, low, place.back + place.bar, high)
         return Member(Plate("guide bar", "LINK", outline, self._bar_bolts, under, 0.0))
 
@@ -120,7 +111,7 @@ class RackParts(EdgedParts):
     def required_arm(self) -> Plate:
         """The arm. Raises GenevaError, naming the key, where the sizes leave none."""
         size, sizes = self.mechanism.spec.size, self.sizes
-        arm, high = crank_arm(size, sizes), -size.allowances.pin_gap_mm
+        arm, high = rack.crank_arm(size, sizes), -size.allowances.pin_gap_mm
         holes = (arm.bore, *arm.pins, *arm.bolts)
         least, needed = least_wall(holes, [arm.outline]), wall_min(size, sizes.arm)
         if least < needed:
@@ -146,9 +137,9 @@ class RackParts(EdgedParts):
         turned = roller_plates(sizes.roller, sizes.pin, stands - thick.arm, thick.wheel, fit)
         members = [Member(arm)] if arm else []
         members += [Member(one, (sizes.arm, 0.0)) for one in turned]
-        sector = locking_sector(sizes)
+        sector = rack.locking_sector(sizes)
         if sector is not None:
-            holes, high = tuple(lock_bolts(size, sizes)), stands + thick.lock
+            holes, high = tuple(rack.lock_bolts(size, sizes)), stands + thick.lock
             members.append(Member(Plate("locking sector", "CRANK", sector, holes, stands, high)))
         # the roller is on the rack's side
         return Member(Group("crank", tuple(members)), self.axis, math.pi)
@@ -219,7 +210,7 @@ class RackParts(EdgedParts):
     def screws(self) -> tuple[Screws, ...]:
         """The screws of locking sector, guide bar, and what is fixed to the frame."""
         spec, own = self.mechanism.spec, list[Screws]()
-        if self.arm and (bolts := lock_bolts(spec.size, self.sizes)):
+        if self.arm and (bolts := rack.lock_bolts(spec.size, self.sizes)):
             own.append(Screws("locking sector", len(bolts), 2.0 * bolts[0].radius, "the arm"))
         if bolted := self._bar_bolts:
             nuts = "nuts under the guide bar"
@@ -249,7 +240,7 @@ class RackParts(EdgedParts):
         yield "frame", lambda: [self.frame.part]
 
 
-def heights(mechanism: Mechanism, sizes: RackSizes) -> Heights:
+def heights(mechanism: Mechanism, sizes: rack.RackSizes) -> Heights:
     """Return the heights of a machine's parts."""
     stands = 0.0 - mechanism.spec.size.allowances.pin_gap_mm  # no -0.0
     low = gear_span(mechanism, None)[0] if mechanism.spec.gears else stands - sizes.thick.arm
@@ -257,7 +248,7 @@ def heights(mechanism: Mechanism, sizes: RackSizes) -> Heights:
     return Heights(top - sizes.thick.arm, top, low, stands)
 
 
-def _screws(sizes: RackSizes) -> list[tuple[Circle, ...]]:
+def _screws(sizes: rack.RackSizes) -> list[tuple[Circle, ...]]:
     """Return three screws' holes in rail and in wall; of no width where no screw is so thin."""
     place, r = sizes.guide, _bolt(sizes)
     far = place.half - 0.5 * place.bar  # half a bar's width from the ends
@@ -265,21 +256,21 @@ def _screws(sizes: RackSizes) -> list[tuple[Circle, ...]]:
     return [tuple(Circle("BORE", (x, y), r) for y in (-far, 0.0, far)) for x in rows]
 
 
-def _bolt(sizes: RackSizes) -> float:
+def _bolt(sizes: rack.RackSizes) -> float:
     return bolt_radius(None, 2.0 * sizes.arm, 0.5 * sizes.guide.bar)
 
 
 def rack_stressed(mechanism: Mechanism) -> Stressed:
     """Return the dimensions of the parts of a machine that their strength depends on."""
-    spec, size, sizes = mechanism.spec, mechanism.spec.size, rack_sizes(mechanism)
+    spec, size, sizes = mechanism.spec, mechanism.spec.size, rack.rack_sizes(mechanism)
     _, _, low, stands = heights(mechanism, sizes)
-    (rack, _, thick, _), bore, bend = sizes.thick, sizes.bore, NO_ARM
-    contact = value_or(size.face_width_mm, rack)
+    (deep, _, thick, _), bore, bend = sizes.thick, sizes.bore, NO_ARM
+    contact = value_or(size.face_width_mm, deep)
     if bore:
-        arm, bored = crank_arm(size, sizes), reach_or_bore(size, "crank", bore)
+        arm, bored = rack.crank_arm(size, sizes), reach_or_bore(size, "crank", bore)
         offset = 0.5 * (contact + thick) - stands
         bend = ArmDimensions(sizes.arm, arm.hub, arm.eye, bored, arm.pins[0].radius, thick, offset)
-    crank = shaft_of(spec, "crank", bore, 0.5 * rack - (low - size.washer_mm), thick)
+    crank = shaft_of(spec, "crank", bore, 0.5 * deep - (low - size.washer_mm), thick)
     key = key_of(size.crank_keyway, bore, thick)
     no_shaft = ShaftSize(math.nan, math.nan)
     return Stressed(contact, 2.0 * sizes.pin, no_shaft, crank, bend, NO_KEY, key)
@@ -288,7 +279,7 @@ def rack_stressed(mechanism: Mechanism) -> Stressed:
 def horn_sizes(mechanism: Mechanism) -> tuple[float, float]:
     """Return half the slot's width and the recess's radius, NaN for a rack that cannot be cut."""
     try:
-        sizes = rack_sizes(mechanism)
+        sizes = rack.rack_sizes(mechanism)
     except GenevaError:  # the check of the parts reports the error
         return math.nan, math.nan
     return sizes.half_width, sizes.recess

@@ -15,17 +15,8 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import value_or
+from geneva_cli.parts import sizes
 from geneva_cli.parts.machine_sizes import lock_between
-from geneva_cli.parts.sizes import (
-    arm_bore,
-    drawn_thicknesses,
-    hole_radius,
-    pin_and_edge_faults,
-    pin_radius,
-    reach_and_hub,
-    refuse,
-    wheel_bore,
-)
 from geneva_cli.spec.defaults import wall_min
 from geneva_cli.spec.tables import Z_DRAWN, Size
 
@@ -151,15 +142,15 @@ def usual_ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
         text = "the slots meet near their ends: reduce roller_radius_mm, slot_clearance_mm or "
         text += f"slot_bottom_clearance_mm, or use fewer than {z} slots"
         raise GenevaError(text, ("size", "roller_radius_mm"))
-    thick = drawn_thicknesses(size.replace(wheel_thickness_mm=thickness_mm), L)
+    thick = sizes.drawn_thicknesses(size.replace(wheel_thickness_mm=thickness_mm), L)
     inside, outside = L - 0.5 * thick.wheel, L + 0.5 * thick.wheel
     under = outside + allowed.pin_gap_mm  # the arm's inner face, on which the sectors stand
     why = "the part would reach inwards to the sphere's centre"
     refuse_above("wheel_thickness_mm", thick.wheel, L, why)
     refuse_above("lock_thickness_mm", thick.lock, under, why)
-    pin = pin_radius(size, radius_mm)
+    pin = sizes.pin_radius(size, radius_mm)
     thin = min(thick.wheel, thick.lock, thick.arm)
-    refuse(pin_and_edge_faults(size, pin, inside * math.sin(roller), thin))
+    sizes.refuse(sizes.pin_and_edge_faults(size, pin, inside * math.sin(roller), thin))
     # the locking sectors' edge is between the wheel's rim and the rollers
     limit, least = arm - w - allowed.lock_clearance_mm / L, abs(deepest + arm - rim)
     lock_mm = _lock_mm(spec, L, least, limit, roller) if spec.has_lock else 0.0
@@ -168,14 +159,14 @@ def usual_ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
     turns = [first.crank_deg, *(p.crank_deg for p in others)] if others else even
     bored = 0.0
     if spec.drive.crank and pin:
-        bored = arm_bore(spec, 0.0, L, L * arm - hole_radius(size, pin))
+        bored = sizes.arm_bore(spec, 0.0, L, L * arm - sizes.hole_radius(size, pin))
     crank = deepest + arm, arm, math.radians(first.half_motion_deg), tuple(map(math.radians, turns))
     slots = roller, w, bottom, bottom_mm, mouth, rim
     locks = lock, lock_mm, lock + allowed.lock_clearance_mm / L if lock else 0.0
     spans = (inside, outside), (under - thick.lock, under), (under, under + thick.arm)
     ball = Ball(L, z, *crank, *slots, *locks, *spans, 0.0, 0.0, pin, bored)
     end = ball.slot_end_mm
-    bore = wheel_bore(spec, end, wall_min(size, L), L)
+    bore = sizes.wheel_bore(spec, end, wall_min(size, L), L)
     hub = hub_about(size, L, bore, end)
     why = "the slots of this roller reach this diameter"
     refuse_above("wheel_bore_mm", 2.0 * bore, 2.0 * end, why)
@@ -223,7 +214,7 @@ def _lock_mm(spec: Spec, L: float, least: float, limit: float, roller: float) ->
 def hub_about(size: Size, L: float, bore: float, end: float) -> float:
     """Return the radius of the wheel's hub about a bore; ``end`` is that of the slots' ends."""
     wall = wall_min(size, L)
-    bored, hub = reach_and_hub(size, "wheel", bore, wall, end)
+    bored, hub = sizes.reach_and_hub(size, "wheel", bore, wall, end)
     return bore if size.wheel_hub_mm is None and hub < bored + wall else hub
 
 
