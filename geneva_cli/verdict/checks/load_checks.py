@@ -12,7 +12,7 @@ from geneva_cli.numerics.roots import boundary
 from geneva_cli.numerics.tolerances import to_digits
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.spec.tables import LIMITED
-from geneva_cli.verdict.checks import FIRST, Check, compared
+from geneva_cli.verdict.checks import FIRST, Check, compared, unknown
 
 if TYPE_CHECKING:  # a spec without limits or loads is checked without NumPy
     from geneva_cli.loads.impacts.shock_force import Impact
@@ -199,7 +199,7 @@ def strength_limits(names: Collection[str], mechanism: Mechanism) -> Iterator[Ch
             yield check if check.passes else check._replace(reason=words)
         # without a limit in the spec, a value that needs another key is not asked for
         elif (reason := of.reason(name)) and (own is not None or reason == BOUND):
-            yield Check(name, None, must_be, limit, None, f"not known: it needs {reason}")
+            yield unknown(name, f"not known: it needs {reason}", must_be, limit)
 
 
 def _needed(part: str, value: float, limit: float, of: Strength) -> str:
