@@ -138,16 +138,6 @@ class Check(NamedTuple):
         return f"{self.why}; {anew}" if self.why else anew
 
     @property
-    def not_computed(self) -> str:
-        """The reason why there is no value, in words; empty if there is one."""
-        return f"{self.name} is not computed: {self.why}" if self.value is None else ""
-
-    @property
-    def where(self) -> str:
-        """Input angle of the value in words, with a space before it."""
-        return "" if self.at_deg is None else f" at input angle {self.at_deg:.6g}°"
-
-    @property
     def spare(self) -> float:
         """The margin to the limit, negative if the check fails; infinite without a value."""
         if self.value is None or self.limit is None:
