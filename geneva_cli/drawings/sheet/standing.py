@@ -19,7 +19,7 @@ from geneva_cli.spec.written import length, number
 
 def draw_frame(
     view: View, plate: Plate, screws: Mapping[Circle, str], axis_name: str = "the wheel's axis"
-) -> None:
+) -> View:
     """Draw the frame: its size, and diameter and position of each hole from the axis.
 
     ``screws`` has the texts of holes for screws, without those for mounting.
@@ -51,6 +51,7 @@ def draw_frame(
     arcs = [piece for piece in plate.outline.segments if isinstance(piece, Arc)]
     if arcs:  # of one radius but for rounding, which may show in the last decimal
         view.of_arcs(arcs, times(len(arcs), sized.plain(arcs[0].radius, "R ")))
+    return view
 
 
 def draw_hub(view: View, hub: Plate) -> None:
@@ -60,7 +61,7 @@ def draw_hub(view: View, hub: Plate) -> None:
     view.diameter([whole], f"{hub.name} {sized.plain(2.0 * radius, 'Ø ')}")
 
 
-def draw_shaft(view: View, shaft: Plate) -> None:
+def draw_shaft(view: View, shaft: Plate) -> View:
     """Draw a shaft from the side; a hexagon has no fit, as its corners are free."""
     long, radius = shaft.thickness, around(shaft.outline)
     corners = [(0.0, -radius), (long, -radius), (long, radius), (0.0, radius)]
@@ -73,6 +74,7 @@ def draw_shaft(view: View, shaft: Plate) -> None:
     note = section_note(shaft.outline)
     if note:
         view.notes.append(note if view.fits.turned.is_iso else note.replace(" P9", ""))
+    return view
 
 
 def holes_of(plates: Iterable[Plate]) -> tuple[list[Shape], list[Circle]]:

@@ -20,7 +20,7 @@ from geneva_cli.parts.slots.roller_paths import cut_walls
 from geneva_cli.spec.written import degrees, length
 
 
-def draw_wheel(view: View, parts: FlatParts) -> None:
+def draw_wheel(view: View, parts: FlatParts) -> View:
     """Draw the wheel with all its dimensions but the flanks of curved slots."""
     outlines = parts.outlines
     assembly, sizes = outlines.assembly, outlines.sizes
@@ -55,7 +55,7 @@ def draw_wheel(view: View, parts: FlatParts) -> None:
         view.radial(at_rest, sized.plain(L, off=deviation))
         recess = sized.made(view.fits, assembly.mechanism, "recess", sizes.recess)
         view.of_arcs(own, times(len(own), recess), whole=True)
-        _radii(view, [arc for arc in about if arc not in own])
+        view.radii(arc for arc in about if arc not in own)
     for engagement in assembly.kinds:
         count = sum(1 for one, _ in assembly.slots if one is engagement)
         if not engagement.slot.curved:
@@ -67,7 +67,7 @@ def draw_wheel(view: View, parts: FlatParts) -> None:
     view.linear((0.0, -reach), (0.0, reach), up, sized.plain(2.0 * reach, "Ø "))
     _steps(view, outlines, reach)
     own = [arc for arc in arcs if math.hypot(*arc.centre) < SAME_ON_SHEET]
-    _radii(view, own, besides=reach)
+    view.radii(own, besides=reach)
     clear = assembly.mechanism.spec.size.allowances
     if clear.source and clear.slot_clearance_mm:  # of a process, whose fits do not say it
         text = f"clearance a side: {length(clear.slot_clearance_mm)} from roller to slot"
@@ -83,6 +83,7 @@ def draw_wheel(view: View, parts: FlatParts) -> None:
         draw_hub(view, hub)
     bored(view, bores, assembly.mechanism.spec.size, "wheel")
     bolted(view, screwed)
+    return view
 
 
 def _ends(walls: Contour) -> list[tuple[Point, Point]]:
@@ -152,15 +153,3 @@ def _steps(view: View, parts: Outlines, reach: float) -> None:
     halves = ((min((rest - angle) % math.tau for angle in angles), rest) for rest in rests)
     for text, pairs in grouped((degrees(half), (rest - half, rest)) for half, rest in halves):
         view.angular(pairs, reach, reach, text)
-
-
-def _radii(view: View, arcs: list[Arc], besides: float = -1.0) -> None:
-    """Draw each radius of some arcs, but one; rounding does not write one radius as two."""
-    groups: dict[float, list[Arc]] = {}
-    near = 5e-4  # mm: half of the last decimal that a sheet shows
-    for arc in arcs:
-        same = next((r for r in groups if abs(r - arc.radius) < near), arc.radius)
-        groups.setdefault(same, []).append(arc)
-    for radius, some in groups.items():
-        if abs(radius - besides) > SAME_ON_SHEET:
-            view.of_arcs(some, times(len(some), sized.plain(radius, "R ")))
