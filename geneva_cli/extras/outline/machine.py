@@ -18,9 +18,9 @@ from geneva_cli.geometry.shapes import (
     Circle,
     Contour,
     Cubic,
-    Line,
     Point,
     closed,
+    mirrored,
     turned_pieces,
     two_arcs,
 )
@@ -159,15 +159,9 @@ def _drawn(spec: Spec, part: str, notes: list[Notice]) -> tuple[tuple[Loop, ...]
     path = below(os.path.dirname(spec.path), file)
     drawn = read_drawing(path)
     notes += [Notice("outline-units", f"{cut(file, 100)}: {text}") for text in drawn.notes]
-    pieces = list(drawn.pieces)
-    if outline["mirror"] in (part, "both"):
-        for i, piece in enumerate(pieces):
-            (x0, y0), (x1, y1) = piece.start, piece.end
-            pieces[i] = Line((x0, -y0), (x1, -y1))
-            if isinstance(piece, Arc):
-                pieces[i] = Arc((x0, -y0), (x1, -y1), -piece.bulge)
-    turn = math.radians(outline[f"{part}_turn_deg"])
-    pieces = [p for p in turned_pieces(pieces, turn) if not isinstance(p, Cubic)]
+    turn, mirror = math.radians(outline[f"{part}_turn_deg"]), outline["mirror"] in (part, "both")
+    flat = turned_pieces(mirrored(drawn.pieces) if mirror else drawn.pieces, turn)
+    pieces = [piece for piece in flat if not isinstance(piece, Cubic)]
     try:
         own = tuple(loops(pieces))
     except GenevaError as error:
@@ -219,14 +213,13 @@ def _round(roller: Circle) -> Contour:
 
 def _roller(loop: Loop) -> Circle | None:
     """An outline that is a full circle beside the crank's axis, as one."""
-    first, *_ = pieces = loop.contour.segments
+    first, *others = loop.contour.segments
     if loop.is_hole or not isinstance(first, Arc):
         return None
-    near = 1e-6 * first.radius
-    for p in pieces:
-        if not isinstance(p, Arc) or abs(p.radius - first.radius) >= near:
+    centre, radius = first.centre, first.radius
+    for p in others:
+        if not isinstance(p, Arc):
             return None
-        if math.dist(p.centre, first.centre) >= near:
+        if max(abs(p.radius - radius), math.dist(p.centre, centre)) >= 1e-6 * radius:
             return None
-    circle = Circle("ROLLER", first.centre, first.radius)
-    return circle if math.hypot(*circle.centre) > circle.radius else None
+    return Circle("ROLLER", centre, radius) if math.hypot(*centre) > radius else None
