@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from operator import attrgetter
 from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError, Notice
@@ -70,7 +71,7 @@ def carried_warnings(mechanism: Mechanism, plate: MassProperties | None) -> Iter
             f"mm thick has {most:.3g} kg m². If it is in kg cm², write {1e-4 * inertia:.4g}",
         )
     # a [[mass]] of this name is the wheel itself; a twentieth is within what loads are known to
-    counted = "wheel" in [mass.name for mass in spec.mass]
+    counted = "wheel" in map(attrgetter("name"), spec.mass)
     if plate and inertia and not counted and plate.inertia_kgm2 > 0.05 * inertia:
         own = plate.inertia_kgm2
         helps = f"{own:.4g} on inertia_kgm2 in [load]"
@@ -112,7 +113,8 @@ def key_warnings(spec: Spec) -> Iterator[Notice]:
             "friction in [support] has no effect, because nothing presses on the support: set "
             "force_N there, or give the weight as [[mass]]"
         )
-    yield from (Notice("nothing-to-act-on", text) for text in texts)
+    for text in texts:
+        yield Notice("nothing-to-act-on", text)
 
 
 def _process_warnings(parts: Parts) -> Iterator[Notice]:
@@ -121,7 +123,7 @@ def _process_warnings(parts: Parts) -> Iterator[Notice]:
     if not spec.has_parts:
         return
     try:
-        unborne, named = parts.built.unborne, [*parts.built.by_name()]
+        unborne, named = parts.built.unborne, [*parts.built.by_name()] if spec.size.process else []
     except GenevaError:  # the check of the parts has the reason
         unborne, named = (), []
     for name, reason in unborne:

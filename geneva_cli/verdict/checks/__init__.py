@@ -1,6 +1,6 @@
 """The checks of a design: each has a value, a limit, and says whether the value keeps it.
 
-A check is a name in a table here, in the order shown, with the function that yields it. The
+A check is a name in a row here, in the order shown, with the function that yields it. The
 function gets the names that are asked for, and what it checks. It yields no check that does not
 apply. Its module is imported when the first of its checks is asked for.
 """
@@ -26,76 +26,51 @@ if TYPE_CHECKING:
 Checks: TypeAlias = dict[str, str]  # name -> module:function
 
 FIRST = "first_"  # of the first of two wheels in series, and of its crank
-
-
-def _made_by(function: str, names: str) -> Checks:
-    return dict.fromkeys(names.split(), f"verdict.checks.{function}")
-
-
-# Checks of the motion, if they apply.
-MOTION = _made_by(
-    "motion_checks:motion",
-    "dwell_deg driver_gear_convexity driven_gear_convexity velocity_min groove_pressure_deg "
-    "pressure_angle_deg driven_fraction undercut_mm",
-)
-MOTION |= _made_by(
-    "load_checks:shocks", "entry_shock_N reversal_shock_N reversal_stress_MPa stopping_torque_Nm"
-)
-# Checks of limits that the spec sets.
-LIMITS = _made_by(
-    "motion_checks:limits",
-    "velocity_max acceleration_max acceleration_entry_max jerk_max entry_velocity_max dwell_min_s "
-    "motion_max_s cycle_max_s pin_force_max_N input_torque_max_Nm contact_stress_max_MPa",
-)
-LIMITS |= _made_by(
-    "load_checks:strength_limits",
-    "pv_max_W_m2 roller_life_min_h pin_stress_MPa horn_stress_MPa lock_horn_stress_MPa "
-    "lock_stress_max_MPa lock_deflection_max_deg wheel_shaft_stress_MPa crank_shaft_stress_MPa "
-    "arm_stress_MPa wheel_key_pressure_MPa crank_key_pressure_MPa",
-)
-LIMITS |= _made_by("load_checks:product", "product_acceleration_max_m_s2 product_slip")
-# Checks of flat parts at rest.
-STATIC = _made_by(
-    "part_checks:walls",
-    "wall_between_slots_mm horn_mm rollers_apart_mm wheel_bore_wall_mm outer_wall_mm dial_wall_mm "
-    "crank_bore_wall_mm",
-)
-STATIC |= _made_by(
-    "part_checks:clearances",
-    "crank_shaft_mm crank_hub_mm wheel_shaft_mm beside_shafts_mm gear_gap_mm arm_wall_mm "
-    "arm_to_hub_mm link_wall_mm link_gap_mm",
-)
-STATIC |= _made_by(
-    "load_checks:first_stresses",
-    "first_pin_stress_MPa first_horn_stress_MPa first_crank_shaft_stress_MPa first_arm_stress_MPa",
-)
-STATIC |= _made_by(
-    "part_checks:places", "branches_apart_mm branches_crossed_mm wheels_apart_mm cranks_apart_mm"
-)
-# Checks of flat parts at rest, shown behind those that a kind adds.
-PROCESS = _made_by("part_checks:process", "cut_plate_mm cut_slot_mm")
-PROCESS |= _made_by("part_checks:built", "parts")
+# Checks that fail where a roller does not find its slot, or meets the rim next to it, and jams.
+JAMS = ("hand_over_play_deg", "hand_over_play_mm", "hand_over_pressure_deg", "hand_over_offset_mm")
+# Plays that the spec limits; a machine whose parts cannot be turned has no value of them. Then the
+# clearances of all the machines within the tolerances.
+PLAYS = ("index_play_max_deg", "dwell_play_max_deg", "dwell_position_max_deg")
+TOLERANCES = ("tolerance_slot_mm", "tolerance_lock_mm")
+# The checks of the motion, if they apply; of limits that the spec sets; of flat parts at rest, and
+# those shown behind what a kind adds; of plates or shells in a whole turn; and of flat parts at
+# every angle of the turn, made for a design's own answer. Each row: table, function, names.
+_ROWS = f"""
+MOTION motion_checks:motion dwell_deg driver_gear_convexity driven_gear_convexity velocity_min
+  groove_pressure_deg pressure_angle_deg driven_fraction undercut_mm
+MOTION load_checks:shocks entry_shock_N reversal_shock_N reversal_stress_MPa stopping_torque_Nm
+LIMITS motion_checks:limits velocity_max acceleration_max acceleration_entry_max jerk_max
+  entry_velocity_max dwell_min_s motion_max_s cycle_max_s pin_force_max_N input_torque_max_Nm
+  contact_stress_max_MPa
+LIMITS load_checks:strength_limits pv_max_W_m2 roller_life_min_h pin_stress_MPa horn_stress_MPa
+  lock_horn_stress_MPa lock_stress_max_MPa lock_deflection_max_deg wheel_shaft_stress_MPa
+  crank_shaft_stress_MPa arm_stress_MPa wheel_key_pressure_MPa crank_key_pressure_MPa
+LIMITS load_checks:product product_acceleration_max_m_s2 product_slip
+STATIC part_checks:walls wall_between_slots_mm horn_mm rollers_apart_mm wheel_bore_wall_mm
+  outer_wall_mm dial_wall_mm crank_bore_wall_mm
+STATIC part_checks:clearances crank_shaft_mm crank_hub_mm wheel_shaft_mm beside_shafts_mm
+  gear_gap_mm arm_wall_mm arm_to_hub_mm link_wall_mm link_gap_mm
+STATIC load_checks:first_stresses first_pin_stress_MPa first_horn_stress_MPa
+  first_crank_shaft_stress_MPa first_arm_stress_MPa
+STATIC part_checks:places branches_apart_mm branches_crossed_mm wheels_apart_mm cranks_apart_mm
+PROCESS part_checks:process cut_plate_mm cut_slot_mm
+PROCESS part_checks:built parts
+TURNING motion_checks:turning dwell_hold gap_mm idle_roller_mm dwell_play_deg dwell_play_mm
+  {" ".join(JAMS)} motion_play_deg motion_play_mm
+TURNING motion_checks:within_tolerances {" ".join((*PLAYS, *TOLERANCES))}
+PROOFS motion_checks:proof gap_proved_mm
+"""
+_TABLES: dict[str, Checks] = {}
+for _row in _ROWS.strip().replace("\n  ", " ").splitlines():
+    _table, _function, *_names = _row.split()
+    _TABLES.setdefault(_table, {}).update(dict.fromkeys(_names, f"verdict.checks.{_function}"))
+MOTION, LIMITS, STATIC, PROCESS, TURNING, PROOFS = _TABLES.values()
 # All checks of parts at rest, of whatever kind.
 STANDING: Checks = {**STATIC}
 for _kind in KINDS:
     MOTION |= _kind.motion_checks
     STANDING |= _kind.parts_checks
 STANDING |= PROCESS
-# Checks of plates or shells in a whole turn. JAMS are those that fail where a roller does not find
-# its slot, or meets the rim next to it, and jams.
-JAMS = ("hand_over_play_deg", "hand_over_play_mm", "hand_over_pressure_deg", "hand_over_offset_mm")
-TURNING = _made_by(
-    "motion_checks:turning",
-    "dwell_hold gap_mm idle_roller_mm dwell_play_deg dwell_play_mm "
-    f"{' '.join(JAMS)} motion_play_deg motion_play_mm",
-)
-# Plays that the spec limits; a machine whose parts cannot be turned has no value of them. Then the
-# clearances of all the machines within the tolerances.
-PLAYS = ("index_play_max_deg", "dwell_play_max_deg", "dwell_position_max_deg")
-TOLERANCES = ("tolerance_slot_mm", "tolerance_lock_mm")
-TURNING |= _made_by("motion_checks:within_tolerances", " ".join((*PLAYS, *TOLERANCES)))
-# Of flat parts at every angle of the turn, made for a design's own answer.
-PROOFS = _made_by("motion_checks:proof", "gap_proved_mm")
 # Of machines as built, by what touches.
 PUSHED = ("turns", "strike_velocity")
 # The names of all checks but those of the whole turn; ``parts``: they can be built.
