@@ -129,8 +129,9 @@ def compared(
     limit: float,
     at_deg: float | None = None,
     noise: float = 0.0,
+    reason: Callable[[], str] | None = None,
 ) -> Check:
-    """The check that a value is "at least", "at most" or "above" a limit.
+    """The check that a value is "at least", "at most" or "above" a limit, with why it fails.
 
     ``noise`` is the rounding error of the value, if it is larger than the limit's.
 
@@ -138,7 +139,8 @@ def compared(
     False
     """
     passes = keeps(value, must_be, limit, noise)
-    return Check(name, value, must_be, limit, passes, at_deg=at_deg)
+    own = None if passes else reason
+    return Check(name, value, must_be, limit, passes, at_deg=at_deg, reason=own)
 
 
 def unknown(
