@@ -155,7 +155,7 @@ def _small_holes(named: list[NamedParts], least: float) -> Iterator[Notice]:
     """A warning that names each part with a hole below ``least`` thicknesses."""
     if not least:
         return
-    from geneva_cli.drawings.single_parts import is_cut
+    from geneva_cli.drawings.parts_list import is_cut
     from geneva_cli.geometry.plates import Plate, solids
     from geneva_cli.geometry.sphere_shell import Shell
     from geneva_cli.parts.projection import built_of

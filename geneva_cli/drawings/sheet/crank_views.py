@@ -9,8 +9,8 @@ from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.packing import Block
 from geneva_cli.drawings.sheet.paper import table
 from geneva_cli.drawings.sheet.sized import Fits
-from geneva_cli.drawings.sheet.standing import bolted, bored, circle_of, draw_hub, holes_of
 from geneva_cli.drawings.sheet.view import View, grouped, times
+from geneva_cli.drawings.sheet.wheel_views import bolted, bored, circle_of, draw_hub, holes_of
 from geneva_cli.geometry.plates import Member, Plate, plates
 from geneva_cli.geometry.shapes import ORIGIN, Arc, Circle, Contour, Point, Shape, at, legs
 from geneva_cli.geometry.sheet import CENTRE, HIDDEN, OUTLINE

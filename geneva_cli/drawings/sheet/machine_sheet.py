@@ -24,9 +24,8 @@ from geneva_cli.drawings.sheet.crank_views import (
 from geneva_cli.drawings.sheet.packing import Block
 from geneva_cli.drawings.sheet.paper import on_paper, scale_name, smaller
 from geneva_cli.drawings.sheet.sized import Fits
-from geneva_cli.drawings.sheet.standing import draw_frame, draw_shaft
 from geneva_cli.drawings.sheet.view import View
-from geneva_cli.drawings.sheet.wheel_views import draw_wheel
+from geneva_cli.drawings.sheet.wheel_views import draw_frame, draw_shaft, draw_wheel
 from geneva_cli.geometry.board import chords
 from geneva_cli.geometry.plates import Member, Plate, in_place, plates
 from geneva_cli.geometry.shapes import Circle, Point, at, bounds, bounds_of, mapped, two_arcs
