@@ -14,13 +14,7 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.extras.outline.contact import contacts
 from geneva_cli.extras.outline.machine import crank_jet
-from geneva_cli.extras.outline.turning import (
-    LOOSE,
-    Turned,
-    moving,
-    struck_by,
-    turned,
-)
+from geneva_cli.extras.outline.turning import LOOSE, Turned, moving, struck_by, turned
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.motion_table import (
     check_samples,
