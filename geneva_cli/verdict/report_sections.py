@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from contextlib import suppress
-from typing import Any
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.cycle import cycle_of
@@ -114,15 +113,10 @@ def cranks(parts: Parts) -> Values:
     return {"cranks": rows_table((*names, "slot_every"), rows)}
 
 
-def cycle(parts: Parts) -> Values:
-    """Greatest and least over the motions, mean and rms over the period; None without a load."""
-    of, values = cycle_of(parts.mechanism), dict[str, Any]()
-    for name in ("input_torque_Nm", "power_W", "crank_bearing_N"):
-        for key in ("max", "min", "mean", "rms") if name in of.extremes else ():
-            value = getattr(of.extremes[name], key)
-            values[f"{name}.{key}"] = value if value is not None and math.isfinite(value) else None
-    values["reversals_deg"] = tuple(reversals_deg(of)) if of.is_loaded else None
-    return values
+def reversals(parts: Parts) -> Values:
+    """Where the wheel's torque changes its sign, input degrees; None without a load."""
+    of = cycle_of(parts.mechanism)
+    return {"reversals_deg": tuple(reversals_deg(of)) if of.is_loaded else None}
 
 
 def needs(parts: Parts) -> Values:

@@ -39,7 +39,7 @@ ROWS = {
     "wheel_torque_max_Nm": "loads.torque_Nm.max",
     "motor_torque_max_Nm": "sizing.motor_torque_max_Nm",
     "motor_torque_rms_Nm": "sizing.motor_torque_rms_Nm",
-    "power_max_W": "cycle.power_W.max",
+    "power_max_W": "loads.power_W.max",
     "inertia_ratio": "sizing.inertia_ratio",
     "residual_deg": "vibration.residual_deg",
 }
@@ -124,7 +124,7 @@ def _values(design: Design, name: str) -> dict[str, Cell]:
         return values
     motor = design.spec.motor
     rotating = alternative(design, name, rotor=True)
-    most, power = pick(("loads.torque_Nm.max", "cycle.power_W.max")).of(rotating)
+    most, power = pick(("loads.torque_Nm.max", "loads.power_W.max")).of(rotating)
     values |= {
         "motor_torque_max_Nm": over(most, motor.ratio),
         "motor_torque_rms_Nm": _servo_rms_Nm(design) if most is not None else None,

@@ -49,15 +49,6 @@ RATES = {
 }
 
 
-# The loads of a cycle: those whose ``max`` is the greatest size, which a report shows, and others.
-SIZED = ("pin_force_N", "contact_stress_MPa", "input_torque_Nm", "rack_force_N")
-_SIGNED = (
-    "omega_rad_s,alpha_rad_s2,wheel_torque_Nm,sliding_m_s,power_W,wheel_bearing_N,crank_bearing_N,"
-    "pv_W_m2,rack_speed_m_s,rack_acceleration_m_s2,guide_force_N,"
-    "wheel_near_bearing_N,wheel_far_bearing_N,crank_near_bearing_N,crank_far_bearing_N"
-)
-
-
 class QuantityGroup(NamedTuple):
     """Quantities that are computed together.
 
@@ -182,7 +173,9 @@ quantities.motion_quantities:peaks - velocity.{max at_deg max_rad_s max_m_s entr
 report_sections:stations -
 quantities.load_quantities:greatest loads
   torque_Nm,rack_force_N,pin_force_N,input_torque_Nm,contact_stress_MPa.{max at_deg} kinetic_power_W
-report_sections:cycle cycle input_torque_Nm,power_W,crank_bearing_N.{max min mean rms}
+quantities.load_quantities:summaries loads input_torque_Nm.{min mean rms}
+  power_W,crank_bearing_N.{max min mean rms}
+report_sections:reversals loads
 quantities.load_quantities:entry shock.entry at_deg jump force_N moment_Nms
 quantities.load_quantities:reversal shock.reversal
   at_deg jump force_N moment_Nms contact_stress_MPa drag_Nm
@@ -234,8 +227,14 @@ _INPUTS = " ".join(f"{table}.{{{' '.join(keys)}}}" for table, keys in ECHOED.ite
 _STUDY = f"""
 report_sections:machine - wheel.z wheel.gearing drive.kind drive.rollers drive.before.kind
   motion.law
-quantities.load_quantities:summaries loads
-  {",".join(SIZED)},{_SIGNED}.{{min min_at_deg mean rms}} {_SIGNED}.{{max max_at_deg}}
+quantities.load_quantities:summaries loads input_torque_Nm.min_at_deg
+  power_W,crank_bearing_N.{{min_at_deg max_at_deg}}
+  pin_force_N,contact_stress_MPa,rack_force_N.{{min min_at_deg mean rms}}
+  omega_rad_s,alpha_rad_s2,wheel_torque_Nm,sliding_m_s.{{max max_at_deg min min_at_deg mean rms}}
+  wheel_bearing_N,pv_W_m2,rack_speed_m_s.{{max max_at_deg min min_at_deg mean rms}}
+  rack_acceleration_m_s2,guide_force_N.{{max max_at_deg min min_at_deg mean rms}}
+  wheel_near_bearing_N,wheel_far_bearing_N.{{max max_at_deg min min_at_deg mean rms}}
+  crank_near_bearing_N,crank_far_bearing_N.{{max max_at_deg min min_at_deg mean rms}}
 quantities.load_quantities:sizing sizing inertia_kgm2 acceleration_rad_s2 inertia_torque_Nm
   friction_torque_Nm total_torque_Nm design_torque_Nm input_torque_Nm power_W Am Vm Qm
   energy_fluctuation_J flywheel_kgm2 motor_rpm motor_torque_max_Nm motor_torque_rms_Nm
