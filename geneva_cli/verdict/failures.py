@@ -103,7 +103,7 @@ def sentence(c: Check) -> str:
 
 def _in_words(c: Check, parts: str = "") -> str:
     shown, where = in_digits(c.value or 0.0, 6), _where(c)
-    general = f"{c.name} is {shown}{where}; it must be {c.must_be} {c.limit or 0.0:.6g}"
+    general = f"{c.name} = {shown}{where}; it must be {c.must_be} {c.limit or 0.0:.6g}"
     return meaning(c, parts) or general
 
 

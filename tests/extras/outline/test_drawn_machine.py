@@ -337,18 +337,6 @@ def test_rounded_arcs_get_the_slack_that_their_gaps_tell(tmp_path):
     assert "turns" in failing(design.with_("outline.slack_mm", 1e-6))
 
 
-def test_a_design_in_python_takes_drawings_too(tmp_path):
-    from geneva_cli import External, Outline, Size
-
-    file = written(tmp_path, drawn_wheel(6, 30.0, 3.25, 33.0))
-    design = Design(
-        External(6, held_by="pin"),
-        size=Size(60.0, 3.0, lock_radius_mm=0.0),
-        outline=Outline(wheel=str(file)),
-    )
-    assert (design.checks[0].name, design.checks[0].passes) == ("turns", False)
-
-
 def ring(x, y, radius, sides=360):
     turns = [math.tau * k / sides for k in range(sides)]
     return shapely.Polygon([(x + radius * math.cos(t), y + radius * math.sin(t)) for t in turns])
@@ -450,18 +438,6 @@ def test_what_takes_the_ideal_machine_says_so(tmp_path):
     assert not plain.ideal_notes
     with pytest.raises(GenevaError, match="our own parts, which the drawings"):
         design.tolerance()
-
-
-@pytest.mark.parametrize(("command", "status"), [("plot", 0), ("export", 2), ("tolerance", 2)])
-def test_commands_say_what_they_do_with_drawings(command, status, tmp_path):
-    spec(tmp_path, written(tmp_path, drawn_wheel(6, 30.0, 3.25, 45.0)))
-    options = {"export": ["-o", str(tmp_path / "out")], "plot": ["--pick", "velocity"]}
-    words = [command, str(tmp_path / "spec.toml"), *options.get(command, [])]
-    result = CliRunner().invoke(app, words)
-    assert result.exit_code == status
-    wanted = "[ideal-machine]" if status == 0 else "leave out [outline]"
-    assert wanted in result.stderr
-    assert not (tmp_path / "out").exists()
 
 
 def test_a_drawing_is_named_by_options_too(tmp_path):
