@@ -49,7 +49,7 @@ def test_failed_checks_stand_on_top_and_end_as_check_does(
     assert re.match(r"parts overlap by 9\.171 mm at input angle -?[\d.]+°; wheel_ra", failed)
     monkeypatch.setattr(advice, "TRIALS", 0)  # it is in the text above
     text = " ".join(run("report", spec).stdout.split())  # not as its lines are broken
-    places = [text.index(part) for part in ("overlap by 9.17", "geneva explain gap_mm", "timing")]
+    places = [text.index(part) for part in ("overlap by 9.17", "geneva explain gap_mm", "velocity")]
     assert places == sorted(places)
 
 
