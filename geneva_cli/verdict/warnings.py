@@ -197,15 +197,12 @@ def _narrow(mechanism: Mechanism, sizes: Sizes) -> Iterator[Notice]:
     for key in ("slot_clearance_mm", *(["lock_clearance_mm"] if sizes.lock else [])):
         own = getattr(size.allowances, key)
         needed = getattr(built.replace(**{key: None}).allowances, key)
-        if keeps(own, "at least", needed):
-            continue
-        why = f"is that of the default thickness; the wheel is {sizes.wheel_thickness:.4g} mm thick"
-        if getattr(size, key) is not None:
-            why = (
-                f'is less than process = "{size.process}" holds at these sizes, so that the parts '
-                "may not go together"
+        if not keeps(own, "at least", needed):
+            yield Notice(
+                "narrow-for-process",
+                f'{key} = {own:g} is less than process = "{size.process}" holds at these '
+                f"thicknesses, so that the parts may not go together: set {key} to {needed:g}",
             )
-        yield Notice("narrow-for-process", f"{key} = {own:g} {why}: set {key} to {needed:g}")
 
 
 def turn_warnings(parts: Parts) -> Iterator[Notice]:
