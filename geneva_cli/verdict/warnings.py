@@ -66,9 +66,8 @@ def carried_warnings(mechanism: Mechanism, plate: MassProperties | None) -> Iter
     if mechanism.output.turns and inertia > most:
         yield Notice(
             "heavy-inertia",
-            f"an inertia of {inertia:.4g} kg m² is large for a centre distance of {L:.4g} "
-            f"mm. A solid steel table {6.0 * L:.4g} mm across and {0.5 * L:.4g} "
-            f"mm thick has {most:.3g} kg m². If it is in kg cm², write {1e-4 * inertia:.4g}",
+            f"an inertia of {inertia:.4g} kg m² is large for a centre distance of {L:.4g} mm: a "
+            f"steel table six times as wide has less. If it is in kg cm², write {1e-4 * inertia:.4g}",
         )
     # a [[mass]] of this name is the wheel itself; a twentieth is within what loads are known to
     counted = "wheel" in map(attrgetter("name"), spec.mass)
@@ -91,9 +90,8 @@ def carried_warnings(mechanism: Mechanism, plate: MassProperties | None) -> Iter
             yield Notice(
                 "weight-to-one-side",
                 f"{mass.name or mass.shape} stands {mass.radius_mm:g} mm off a horizontal "
-                f"axis. Its weight puts up to {torque:.4g} N m on the wheel in either "
-                "direction. That is not counted: balance it with another body (count = 2), or "
-                "add the torque to torque_Nm in [load]",
+                f"axis. Its weight puts up to {torque:.4g} N m on the wheel, which is not counted: "
+                "balance it (count = 2), or add the torque to torque_Nm in [load]",
             )
 
 
@@ -218,9 +216,8 @@ def turn_warnings(parts: Parts) -> Iterator[Notice]:
         yield Notice(
             "steep-hand-over",
             f"the roller meets a wheel that is off by its play at a pressure angle of "
-            f"{turn.push.deg:.4g}°, at {turn.push.at_deg:.4g}°: from {most:.4g}° on, friction of "
-            f"{1.0 / math.tan(math.radians(most)):.3g} would hold it there. Less "
-            "lock_clearance_mm or a larger wheel_radius_mm makes it less steep",
+            f"{turn.push.deg:.4g}°, at {turn.push.at_deg:.4g}°: from {most:.4g}° on, friction "
+            "would hold it. Less lock_clearance_mm or a larger wheel_radius_mm helps",
         )
     # play to both sides has a limit of its own
     ahead, behind = turn.ahead, turn.behind
@@ -229,7 +226,6 @@ def turn_warnings(parts: Parts) -> Iterator[Notice]:
         yield Notice(
             "driven-by-one-wall",
             f"in its slot the wheel is free ahead by {ahead.deg:.4g}° at {ahead.at_deg:.4g}° and "
-            f"behind by {behind.deg:.4g}° at {behind.at_deg:.4g}°, where one wall alone drives it: "
-            "a load that overruns the roller, or holds back, meets a corner. Friction or a brake "
-            "keeps it on that wall",
+            f"behind by {behind.deg:.4g}° at {behind.at_deg:.4g}°, where one wall alone drives "
+            "it. Friction or a brake keeps it on that wall",
         )

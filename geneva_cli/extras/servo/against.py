@@ -77,18 +77,13 @@ def against(path: str, settings: Sequence[str], names: Sequence[str]) -> Table:
 def alternative(design: Design, name: str, rotor: bool = False) -> Mechanism:
     """The machine of a cam indexer or a servo with the step, the times and the load of a design."""
     times = design.timings
-    if design.spec.drive.wheels_on_carrier:
-        raise GenevaError(
-            f'--against: kind = "{design.spec.drive.NAME}" has wheels on a carrier, and an '
-            "alternative stands on the ground"
-        )
     steps = [t.index_deg for t in times if t.index_deg is not None]
-    if not steps:
-        raise GenevaError("--against: cam and servo turn a wheel, and this machine moves a rack")
     spans = [(round(t.motion_s, 12), round(t.cycle_s, 12)) for t in times]
-    if len({*zip(spans, [round(step, 9) for step in steps], strict=True)}) > 1:
+    differ = len({*zip(spans, [round(step, 9) for step in steps], strict=False)}) > 1
+    if design.spec.drive.wheels_on_carrier or not steps or differ:
         raise GenevaError(
-            "--against: this machine's engagements differ, and an alternative has one index a turn"
+            "--against: cam and servo turn one wheel on the ground by one index a turn; this "
+            "machine's engagements differ, it moves a rack, or its wheels are on a carrier"
         )
     first = times[0]
     z = round(360.0 / steps[0])  # equal steps fill a turn
