@@ -35,7 +35,7 @@ TOLERANCES = ("tolerance_slot_mm", "tolerance_lock_mm")
 # The checks of the motion, if they apply; of limits that the spec sets; of flat parts at rest, and
 # those shown behind what a kind adds; of plates or shells in a whole turn; and of flat parts at
 # every angle of the turn, made for a design's own answer. Each row: table, function, names.
-_ROWS = f"""
+_ROWS = """
 MOTION motion_checks:motion dwell_deg driver_gear_convexity driven_gear_convexity velocity_min
   groove_pressure_deg pressure_angle_deg driven_fraction undercut_mm
 MOTION load_checks:shocks entry_shock_N reversal_shock_N reversal_stress_MPa stopping_torque_Nm
@@ -56,8 +56,10 @@ STATIC part_checks:places branches_apart_mm branches_crossed_mm wheels_apart_mm 
 PROCESS part_checks:process cut_plate_mm cut_slot_mm
 PROCESS part_checks:built parts
 TURNING motion_checks:turning dwell_hold gap_mm idle_roller_mm dwell_play_deg dwell_play_mm
-  {" ".join(JAMS)} motion_play_deg motion_play_mm
-TURNING motion_checks:within_tolerances {" ".join((*PLAYS, *TOLERANCES))}
+  hand_over_play_deg hand_over_play_mm hand_over_pressure_deg hand_over_offset_mm motion_play_deg
+  motion_play_mm
+TURNING motion_checks:within_tolerances index_play_max_deg dwell_play_max_deg
+  dwell_position_max_deg tolerance_slot_mm tolerance_lock_mm
 PROOFS motion_checks:proof gap_proved_mm
 """
 _TABLES: dict[str, Checks] = {}
