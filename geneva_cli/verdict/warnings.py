@@ -66,7 +66,7 @@ def carried_warnings(mechanism: Mechanism, plate: MassProperties | None) -> Iter
     if mechanism.output.turns and inertia > most:
         yield Notice(
             "heavy-inertia",
-            f"an inertia of {inertia:.4g} kg m² is that of more than a steel table {6.0 * L:.4g} mm "
+            f"an inertia of {inertia:.4g} kg m² is more than that of a steel table {6 * L:.4g} mm "
             f"across: if it is in kg cm², write {1e-4 * inertia:.4g}",
         )
     # a [[mass]] of this name is the wheel itself; a twentieth is within what loads are known to
