@@ -270,19 +270,17 @@ def single_parts(
 
     A shell of a sphere has a solid and no outline.
     """
-    missing = list[Missing]()
+    missing, out = list[Missing](), list[SinglePart]()
     built = (build().within(tolerance_mm, curves) for _, build in parts.all_built)
     every = [part for one in built for part in built_of(one.by_name(), missing)]
-    return [_single(parts, kind[0], len(kind), tolerance_mm) for kind in alike(every)], missing
-
-
-def _single(parts: Parts, solid: Solid, count: int, tolerance_mm: float) -> SinglePart:
-    title = titled(parts.mechanism, solid.name)
-    shapes = () if isinstance(solid, Shell) else outlines_of(solid)
-    thickness = solid.outer - solid.inner if isinstance(solid, Shell) else solid.thickness
-    drawing = Drawing(title, shapes, solid=solid, tolerance=tolerance_mm)
-    cut = isinstance(solid, Plate) and is_cut(solid)
-    return SinglePart(solid.name, count, thickness, cut, drawing)
+    for solid, *others in alike(every):
+        title = titled(parts.mechanism, solid.name)
+        thickness = solid.outer - solid.inner if isinstance(solid, Shell) else solid.thickness
+        shapes = () if isinstance(solid, Shell) else outlines_of(solid)
+        drawing = Drawing(title, shapes, solid=solid, tolerance=tolerance_mm)
+        cut = isinstance(solid, Plate) and is_cut(solid)
+        out.append(SinglePart(solid.name, 1 + len(others), thickness, cut, drawing))
+    return out, missing
 
 
 def is_cut(plate: Plate) -> bool:

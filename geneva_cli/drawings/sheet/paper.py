@@ -101,22 +101,19 @@ def on_paper(
                 corner = _title_block(spec, rows, scale, paper).moved(right - TITLE_WIDTH, MARGIN)
                 fixed = [corner, items.moved(right - items.width, corner.y1)]
                 placed = packed(every, fixed, inside)
-                if placed is not None:
-                    return _composed(spec, paper, scale, [*fixed, *placed])
+                if placed is None:
+                    continue
+                whole = [*fixed, *placed]
+                return Sheet(
+                    spec.title or spec.wheel.title,
+                    paper.width,
+                    paper.height,
+                    scale,
+                    (*_frame(paper), *(shape for block in whole for shape in block.shapes)),
+                    tuple(label for block in whole for label in block.labels),
+                    tuple(measure for block in whole for measure in block.measures),
+                )
     raise GenevaError("--part sheet: the parts and their tables do not fit on one A1 sheet")
-
-
-def _composed(spec: Spec, paper: PaperSize, scale: float, blocks: list[Block]) -> Sheet:
-    """Return the sheet with blocks at their places."""
-    return Sheet(
-        spec.title or spec.wheel.title,
-        paper.width,
-        paper.height,
-        scale,
-        (*_frame(paper), *(shape for block in blocks for shape in block.shapes)),
-        tuple(label for block in blocks for label in block.labels),
-        tuple(measure for block in blocks for measure in block.measures),
-    )
 
 
 def _frame(paper: PaperSize) -> list[Shape]:

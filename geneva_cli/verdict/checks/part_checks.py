@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterator
-from itertools import combinations
+from itertools import combinations, product
 
 import numpy as np
 
@@ -105,7 +105,17 @@ def clearances(names: Collection[str], parts: FlatParts) -> Iterator[Check]:
             yield compared("crank_hub_mm", outlines.relief_depth - crank, "at least", 0.0)
     if wheel and assembly.sign > 0.0:  # to a roller at the bottom of its slot
         yield compared("wheel_shaft_mm", sizes.slot_end - wheel, "at least", 0.0)
-    yield from _passing(names, parts)
+    # default sizes of hubs and shafts always pass, except for a first wheel's
+    keys = product(("wheel", "crank"), ("hub", "hub_length", "shaft_low", "shaft_high"))
+    sized = [size[f"{part}_{key}_mm"] for part, key in keys] != [None] * 8
+    passing = {"beside_shafts_mm": sized or bool(parts.mechanism.first_wheel)}
+    passing["gear_gap_mm"] = parts.mechanism.spec.gears is not None
+    for name, is_there in passing.items():
+        if is_there and name in names:
+            from geneva_cli.verdict.shaft_gap import gear_gaps, shaft_gaps  # for few machines
+
+            gaps = shaft_gaps if name == "beside_shafts_mm" else gear_gaps
+            yield from least_gap(name, gaps(parts), assembly.L)
     arm = "arm_bore_mm", "arm_hub_mm", "arm_eye_mm", "press_fit_mm", "lock_bolts"
     shaped = has_shape(parts.mechanism.spec.size, "crank")
     if shaped or any(map(size.get, arm)):
@@ -127,24 +137,6 @@ def clearances(names: Collection[str], parts: FlatParts) -> Iterator[Check]:
         )
     if "link_gap_mm" in names:
         yield from _links_gap("link_gap_mm", parts)
-
-
-def _passing(names: Collection[str], parts: FlatParts) -> Iterator[Check]:
-    """Gaps of hubs, shafts and noncircular gears to what turns past them.
-
-    Default sizes of hubs and shafts always pass, except for a first wheel's.
-    """
-    spec, size = parts.mechanism.spec, vars(parts.mechanism.spec.size)
-    sized = bool(parts.mechanism.first_wheel)
-    for part in ("wheel", "crank"):
-        for key in ("hub", "hub_length", "shaft_low", "shaft_high"):
-            sized = sized or size[f"{part}_{key}_mm"] is not None
-    for name, is_there in (("beside_shafts_mm", sized), ("gear_gap_mm", spec.gears is not None)):
-        if is_there and name in names:
-            from geneva_cli.verdict.shaft_gap import gear_gaps, shaft_gaps  # for few machines
-
-            gaps = shaft_gaps if name == "beside_shafts_mm" else gear_gaps
-            yield from least_gap(name, gaps(parts), parts.outlines.assembly.L)
 
 
 def least_gap(name: str, gaps: Iterator[float], L: float) -> Iterator[Check]:
