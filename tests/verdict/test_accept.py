@@ -11,7 +11,7 @@ from click.testing import Result
 from repo import ROOT
 from typer.testing import CliRunner
 
-from geneva_cli import Accept, Design, External
+from geneva_cli import Accept
 from geneva_cli.cli.app import app
 from geneva_cli.spec.schema import fields
 
@@ -76,13 +76,6 @@ def test_lists_of_texts_have_the_reason(spec: str) -> None:
         assert any(text.startswith(f"accepted ({REASON}): z = 30") for text in tree["warnings"])
     written = run("peaks", spec, "--format", "csv", "-o", f"{spec}.csv").stderr
     assert f"warning, accepted ({REASON}): z = 30" in written
-
-
-def test_warnings_of_other_commands_are_accepted_there() -> None:
-    """``vibration`` and ``tolerance`` alone have them: check says nothing of them."""
-    accept = Accept(short_motion="a prototype", tolerance_left_out="agreed")
-    assert Design(External(6), accept=accept).unused_acceptances == []
-    assert Design(External(30), accept=Accept(loose_fit="x")).unused_acceptances == ["loose-fit"]
 
 
 @pytest.mark.parametrize(
