@@ -26,7 +26,6 @@ from geneva_cli.geometry.plates import (
     Part,
     Plate,
     Solid,
-    lowered,
     mass_properties,
     solids,
 )
@@ -248,8 +247,8 @@ def _laid(whole: list[Plate]) -> list[Member]:
         # the bed grows by a tenth until all parts fit
         side *= 1.1
     return [
-        Member(lowered(one), (block.x0 - before.x0, block.y0 - before.y0))
-        for one, before, block in zip(whole, blocks, placed, strict=True)
+        Member(one._replace(low=0.0, high=one.thickness), (to.x0 - before.x0, to.y0 - before.y0))
+        for one, before, to in zip(whole, blocks, placed, strict=True)
     ]
 
 

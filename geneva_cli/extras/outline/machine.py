@@ -20,8 +20,7 @@ from geneva_cli.geometry.shapes import (
     Cubic,
     Point,
     closed,
-    mirrored,
-    turned_pieces,
+    placed,
     two_arcs,
 )
 from geneva_cli.motion.machine_spec import Spec
@@ -159,9 +158,9 @@ def _drawn(spec: Spec, part: str, notes: list[Notice]) -> tuple[tuple[Loop, ...]
     path = below(os.path.dirname(spec.path), file)
     drawn = read_drawing(path)
     notes += [Notice("outline-units", f"{cut(file, 100)}: {text}") for text in drawn.notes]
-    turn, mirror = math.radians(outline[f"{part}_turn_deg"]), outline["mirror"] in (part, "both")
-    flat = turned_pieces(mirrored(drawn.pieces) if mirror else drawn.pieces, turn)
-    pieces = [piece for piece in flat if not isinstance(piece, Cubic)]
+    turn, over = math.radians(outline[f"{part}_turn_deg"]), outline["mirror"] in (part, "both")
+    shape = placed(Contour("", tuple(drawn.pieces)), turn=turn, mirror=over)
+    pieces = [p for p in shape.segments if not isinstance(p, Cubic)]
     try:
         own = tuple(loops(pieces))
     except GenevaError as error:
@@ -214,7 +213,7 @@ def _round(roller: Circle) -> Contour:
 def _roller(loop: Loop) -> Circle | None:
     """An outline that is a full circle beside the crank's axis, as one."""
     first, *others = loop.contour.segments
-    if loop.is_hole or not isinstance(first, Arc):
+    if loop.depth % 2 or not isinstance(first, Arc):
         return None
     centre, radius = first.centre, first.radius
     for p in others:

@@ -205,9 +205,9 @@ quantities.part_strength:horn strength.horn
 quantities.part_strength:lock strength.lock torque_Nm force_N contact_stress_MPa pressure_MPa
   allowed_MPa margin horn_stress_MPa play_deg approach_deg bending_deg deflection_deg
 quantities.part_strength:wheel_shaft strength.wheel_shaft
-  diameter_mm moment_Nm at_deg stress_MPa allowed_MPa margin least_diameter_mm twist_deg
+  diameter_mm moment_Nm at_deg stress_MPa allowed_MPa margin least_diameter_mm
 quantities.part_strength:crank_shaft strength.crank_shaft
-  diameter_mm moment_Nm at_deg stress_MPa allowed_MPa margin least_diameter_mm twist_deg
+  diameter_mm moment_Nm at_deg stress_MPa allowed_MPa margin least_diameter_mm
 quantities.part_strength:arm strength.arm thickness_mm stress_MPa allowed_MPa margin
 quantities.part_strength:arm_thickness strength.arm least_thickness_mm
 quantities.part_strength:wheel_key strength.wheel_key
