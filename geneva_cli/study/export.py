@@ -12,7 +12,7 @@ from typing import NamedTuple, TypeVar
 
 from geneva_cli.design import CURVES, Design
 from geneva_cli.drawings.catalogue import without_sheet
-from geneva_cli.drawings.single_parts import single_parts
+from geneva_cli.drawings.parts_list import single_parts
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.output import animate, draw, draw_sheet, show, show_document, show_text
 from geneva_cli.output.folder import LIST

@@ -15,7 +15,7 @@ from geneva_cli.verdict.quantities.quantity_names import WORDS, whole_name
 
 pytestmark = pytest.mark.usefixtures("made_once")
 LISTS = {  # of a report's names those of tables and lists, which are no quantities
-    *("stations", "cycle.reversals_deg", "vibration.speeds_to_avoid_rpm", "strength.needs"),
+    *("stations", "loads.reversals_deg", "vibration.speeds_to_avoid_rpm", "strength.needs"),
     *("tolerance.warnings", "wheels", "cranks"),
 }
 
