@@ -50,16 +50,10 @@ class Rows:
         """The rows with those of these numbers replaced."""
         columns: list[Column] = []
         for column, cells in zip(self.columns, zip(*rows, strict=True), strict=True):
-            new = column_of(cells)
-            if isinstance(column, list) or isinstance(new, list) or column.dtype != new.dtype:
-                changed = [*cells_of(column)]
-                for i, cell in zip(which.tolist(), cells, strict=True):
-                    changed[i] = cell
-                columns.append(changed)
-            else:
-                array = column.copy()
-                array[which] = new
-                columns.append(array)
+            changed = [*cells_of(column)]
+            for i, cell in zip(which.tolist(), cells, strict=True):
+                changed[i] = cell
+            columns.append(column_of(changed))
         return Rows(columns)
 
 

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from geneva_cli.study.sweep.front import front
+from geneva_cli.study.sweep.constraints import front
 
 
 def dominates(a, b):

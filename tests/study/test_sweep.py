@@ -33,7 +33,7 @@ def geneva(*args):
 
 
 def rows(found, **options):
-    return [row for block in found.blocks(**options) for row in block]
+    return [row for block in found._replace(**options).blocks() for row in block]
 
 
 def grid(*texts):
@@ -48,7 +48,7 @@ def test_a_pool_of_windows_has_61_processes_at_most(platform, count):
 
 def test_each_row_is_the_designs_own():
     picks = ["acceleration.max", "dwell_s", "sizes.rollers_max", "drive.kind"]
-    for A, z, *found, error in rows(sweep(read(SPEC), grid(*GRID), picks=picks), workers=1):
+    for A, z, *found, error in rows(sweep(read(SPEC), grid(*GRID), picks=picks), jobs=1):
         try:
             design = load(SPEC, [f"drive.A={A}", f"wheel.z={z}"])
         except GenevaError:
@@ -68,7 +68,7 @@ def test_locks_of_a_varied_drive(varied):
     name = "side-crank-z6.toml" if varied.startswith("drive.A") else "turret.toml"
     path, picks = os.path.join(DESIGNS, name), ["strength.lock.horn_stress_MPa"]
     for value, stress, error in rows(
-        sweep(read(path, settings), grid(varied), picks=picks), workers=1
+        sweep(read(path, settings), grid(varied), picks=picks), jobs=1
     ):
         key = varied.partition("=")[0]
         alone = load(path, [*settings, f"{key}={value}"]).strength[picks[0]]
@@ -85,8 +85,8 @@ def test_words_and_kinds_vary_too():
 
 def test_the_same_rows_whatever_the_processes_and_shares():
     some = grid("drive.A=-0.9..0.9:0.05", "wheel.z=4,6")
-    alone = rows(sweep(read(SPEC), some), workers=1)
-    assert rows(sweep(read(SPEC), some), workers=2) == alone
+    alone = rows(sweep(read(SPEC), some), jobs=1)
+    assert rows(sweep(read(SPEC), some), jobs=2) == alone
 
 
 def test_a_stopped_sweep_goes_on(tmp_path):

@@ -15,7 +15,7 @@ import numpy as np
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.numerics.tolerances import ROUNDED
-from geneva_cli.study.batches import BatchKey, built, columns, split
+from geneva_cli.study.batches import built, columns, split
 from geneva_cli.study.sweep.constraints import Objective
 from geneva_cli.study.synth.families.family import Family
 from geneva_cli.study.synth.optimiser import SETTLED, Places, Zoom, sampled, tops, zoom
@@ -95,8 +95,7 @@ class FamilyCosts:
         self.names = [self.goal.name, *(b.name for b in (*self.bounds, *self.soft))]
         each = [(f.low, f.high, f.plain) for f in families]
         self.low, self.high, self.plain = np.array(each).T
-        keys: dict[Any, list[BatchKey]] = {}
-        own = [split(f.spec, keys) for f in families]
+        own = split([f.spec for f in families])
         shapes = {shape: i for i, (shape, _) in enumerate(own)}
         self._own = [values for _, values in own]
         self._shape = np.array([shapes[shape] for shape, _ in own])
