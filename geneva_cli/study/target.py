@@ -49,7 +49,6 @@ class Target(NamedTuple):
     sort: Objective | None = None  # the goal by which rows are sorted
     bounds: tuple[Constraint, ...] = ()
     space: float = SPACE  # of a linkage: its joints' distance from the crank's axis, over L
-    bounded: frozenset[str] = frozenset()  # names of the ranges that bounds have narrowed
 
     @property
     def timed(self) -> bool:
@@ -104,8 +103,7 @@ class Target(NamedTuple):
                 least, most = bound.span
                 spans[name] = AllowedSpan(max(low, least), min(high, most))
         left = tuple(bound for bound in self.bounds if bound.name not in names)
-        bounded = frozenset(names[b.name] for b in self.bounds if b.name in names)
-        narrowed = self._replace(spans=spans, bounds=left, bounded=bounded)
+        narrowed = self._replace(spans=spans, bounds=left)
         return self if narrowed.allows_any_motion(1) else narrowed
 
     def cycle_s(self, m: float) -> AllowedSpan:
@@ -120,7 +118,7 @@ class Target(NamedTuple):
     def demands(self, m: float) -> Iterator[tuple[str, AllowedSpan]]:
         """The range of motion angles that each requirement leaves for m rollers, with its name."""
         spans, turn, cycle = self.spans, 360.0 / m, self.cycle_s(m)
-        options = {name: f"{self._option(name)} {_typed(s)}" for name, s in spans.items()}
+        options = {name: f"--{name.replace('_', '-')} {_typed(s)}" for name, s in spans.items()}
         speed = options.get("cycle", "the spec's n_rpm" if self.frame else "")
         if "motion_deg" in spans:
             yield options["motion_deg"], spans["motion_deg"]
@@ -191,27 +189,19 @@ class Target(NamedTuple):
         return [*several, *behind]
 
     def _contradiction(self, m: float) -> str:
-        for name, (low, high) in self.spans.items():
-            if low > high:
-                return f"{self._option(name)}: nothing is at least {low:.7g} and at most {high:.7g}"
+        for name, s in self.spans.items():
+            if s.empty:
+                return f"--{name}: nothing is at least {s.low:.7g} and at most {s.high:.7g}"
         demands = list(self.demands(m))
         for i, (one, first) in enumerate(demands):
             if first.high * m <= MOTION_MIN or first.low * m >= 360.0 - MOTION_MIN:
                 several = f" of {m} rollers" if m > 1 else ""
-                return (
-                    f"{one}: that leaves {_angles(first, m)}; a motion{several} must be above 0 "
-                    f"and below {360.0 / m:.7g} deg (tau below 1)"
-                )
+                limit = f"above 0 and below {360.0 / m:.7g} deg (tau below 1)"
+                return f"{one}: a motion{several} must be {limit}"
             for other, second in demands[:i]:
                 if first.within(second).empty:
-                    return (
-                        f"{other} and {one}: no machine does both; the first leaves "
-                        f"{_angles(second, m)}, the second {_angles(first, m)}"
-                    )
+                    return f"{other} and {one}: no machine does both"
         return ""
-
-    def _option(self, name: str) -> str:
-        return f"--subject-to {name}" if name in self.bounded else f"--{name.replace('_', '-')}"
 
 
 def _tau(k: float) -> float:
@@ -221,16 +211,6 @@ def _tau(k: float) -> float:
 def _typed(s: AllowedSpan) -> str:
     ends = ("" if abs(x) == math.inf else f"{x:.7g}" for x in s)
     return f"{s.low:.7g}" if s.exact else "..".join(ends)
-
-
-def _angles(s: AllowedSpan, m: float) -> str:
-    """The motion angles that a requirement leaves, for a message."""
-    if s.high * m <= MOTION_MIN:
-        return "no time to move"
-    if s.low * m >= 360.0 - MOTION_MIN:
-        return "no dwell"
-    low, high = s.low if s.low > 0.0 else -math.inf, s.high if s.high < 360.0 / m else math.inf
-    return AllowedSpan(low, high).words("a motion of", " deg")
 
 
 class AllowedSpan(NamedTuple):

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
 
@@ -22,7 +22,6 @@ from geneva_cli.study.synth.optimiser import SETTLED, Places, Zoom, sampled, top
 from geneva_cli.study.target import Target
 from geneva_cli.verdict.quantities.quantity_names import in_batch
 
-FamilyMachine: TypeAlias = tuple[Spec, Family]
 SOFT = 1e-60  # weight of the limits of a frame, which matter less than any bound
 BROKEN = 1e-40  # a violation below it is of such limits, or rounding
 GRID, TRACKS = 24, 3  # intervals of a span, sampled first; the best places that are improved
@@ -33,8 +32,8 @@ LINE = Zoom(lambda number: QUARTERS, 1.0 / GRID, 0.25, 0.25, 20)
 
 def best(
     families: Sequence[Family], target: Target, how_near: bool = False
-) -> tuple[list[FamilyMachine], list[FamilyMachine]]:
-    """The best machine of each family, with it: those that keep the bounds, and the others.
+) -> tuple[list[Spec], list[Spec]]:
+    """The best machine of each family: those that keep the bounds, and the others.
 
     The others break the bounds least, with ``how_near`` to the last digit.
     """
@@ -49,12 +48,12 @@ def best(
         kept = (found.violation < BROKEN).tolist()
         for of, x, keep in zip(found.of.tolist(), own, kept, strict=True):
             numbers[searched[of]], keeps[searched[of]] = x, keep
-    out: dict[bool | None, list[FamilyMachine]] = {True: [], False: []}
+    out: dict[bool | None, list[Spec]] = {True: [], False: []}
     for i, (f, x) in enumerate(zip(families, numbers, strict=True)):
         is_known = abs(x - f.known) <= 1e-4 * (f.high - f.low)  # of another family
         if keeps[i] is not None and not is_known:
             spec = f.at(x) if math.isnan(f.best) else f.spec
-            out[keeps[i]] += [(spec, f)] if spec else []
+            out[keeps[i]] += [spec] if spec else []
     return out[True], out[False]
 
 

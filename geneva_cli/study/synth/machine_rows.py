@@ -16,7 +16,7 @@ from geneva_cli.motion.registry import thing
 from geneva_cli.motion.timing import Timing, timing
 from geneva_cli.numerics.angles import omega
 from geneva_cli.study.batches import batch_machines, columns, numbers
-from geneva_cli.study.synth.families.family import Family, allows
+from geneva_cli.study.synth.families.family import allows
 from geneva_cli.study.synth.suiting import suiting, with_roller
 from geneva_cli.study.target import USUAL_RPM, Target
 
@@ -39,15 +39,11 @@ CELLS = (
 
 
 class MachineRow(NamedTuple):
-    """A machine: its spec, cells by their names, and further requested quantities.
-
-    ``family`` is that of which it is the best.
-    """
+    """A machine: its spec, cells by their names, and further requested quantities."""
 
     spec: Spec
     cells: dict[str, Any]
     extra: tuple[float | int | str | bool | None, ...] = ()
-    family: Family | None = None
 
     @property
     def peak(self) -> float:
@@ -61,21 +57,19 @@ class MachineRow(NamedTuple):
         return (self.cells["parts"] or "").partition(": ")[2]
 
 
-def rows(
-    target: Target, machines: Sequence[tuple[Spec, Family | None]], errors: list[str]
-) -> list[MachineRow]:
+def rows(target: Target, specs: Sequence[Spec], errors: list[str]) -> list[MachineRow]:
     """The rows of machines that can be built and have the required motion.
 
     The reasons against others are added to ``errors``.
     """
-    specs, limits = [spec for spec, _ in machines], target.soft_bounds
+    limits = target.soft_bounds
     # at the usual speed with one of its equal rollers a machine has the same peaks
     alone = [s.replace(drive=s.drive.replace(n_rpm=USUAL_RPM, rollers=1)) for s in specs]
     costs, sized = _costs_and_rollers(specs, alone)
     limited = numbers(batch_machines(specs), [b.name for b in limits.values()], len(specs))
     out: list[MachineRow] = []
-    each = zip(machines, alone, sized, limited.T.tolist(), strict=True)
-    for (spec, family), one, (radius, why), held in each:
+    each = zip(specs, alone, sized, limited.T.tolist(), strict=True)
+    for spec, one, (radius, why), held in each:
         cost, drive = costs.get(one), spec.drive
         *_, motion_deg, period, entry, end = cost or [math.nan] * 4
         dwell_deg = period / drive.rollers + entry - end
@@ -99,7 +93,7 @@ def rows(
         if why or (over and parts):
             parts = f"no: {why or ', '.join(over)}"
         cells = _cells(target, spec, cost, times, parts)
-        out.append(MachineRow(with_roller(spec, radius), cells, (), family))
+        out.append(MachineRow(with_roller(spec, radius), cells))
     return out
 
 

@@ -24,10 +24,10 @@ from geneva_cli.study.rows import Cell, rows_of
 from geneva_cli.study.sweep.constraints import Nearness, is_number
 from geneva_cli.study.synth.families.curved_slots import with_laws
 from geneva_cli.study.synth.families.family import Family, natural_deg, pieces
-from geneva_cli.study.synth.families.straight_slots import MOST, straight
+from geneva_cli.study.synth.families.straight_slots import straight
 from geneva_cli.study.synth.family_search import best
 from geneva_cli.study.synth.machine_rows import MachineRow, rows
-from geneva_cli.study.target import TURNS, Target
+from geneva_cli.study.target import Target
 from geneva_cli.verdict.quantities.quantity_names import in_batch
 
 KIND = ("gearing", "z", "drive", "law", "fixed", "rollers")
@@ -70,7 +70,7 @@ def search(target: Target) -> Ranking:
     if not every:
         raise GenevaError(_out_of_reach(target, errors))
     ranking = Ranking([], narrowed, target)
-    kept = sorted(bounded(target, every), key=ranking.rank)
+    kept = sorted(_bounded(target, every), key=ranking.rank)
     # without a search for the goal or a bound a family has several rows: the first of each kind,
     # and the first that may be built
     every_kind, can_be = in_batch(target.names), dict[object, bool]()
@@ -124,63 +124,48 @@ def _group(
     if not in_batch(target.names):
         # the search cannot see them: they are computed for the best of several pieces of a family
         families = pieces(families, 120)
-    machines, near = best(families, target, how_near)
+    specs, near = best(families, target, how_near)
     # the bounds that do not depend on the roller; what no batch computes may keep them
     bounds = [b for b in target.bounds if in_batch([b.name]) and not b.name.startswith("loads.")]
-    specs = [spec for spec, _ in machines]
     values = numbers(batch_machines(specs), [b.name for b in bounds], len(specs))
     keeps = np.full(len(specs), True)
     for bound, own in zip(bounds, values, strict=True):
         keeps &= bound.kept_by(own) | np.isnan(own)
-    shown = [machines[i] for i in np.flatnonzero(keeps).tolist()]
+    shown = [specs[i] for i in np.flatnonzero(keeps).tolist()]
     if how_near:
-        shown += [*(machines[i] for i in np.flatnonzero(~keeps).tolist()), *near]
+        shown += [*(specs[i] for i in np.flatnonzero(~keeps).tolist()), *near]
     errors: list[str] = []
-    found = rows(target, [*dict(shown).items()], errors)
-    return with_batch_values(names, found), errors
-
-
-def with_batch_values(names: Sequence[str], found: Sequence[MachineRow]) -> list[MachineRow]:
-    """The rows with their quantities from batches; without them if a row needs its own machine."""
+    found = rows(target, [*dict.fromkeys(shown)], errors)
     if not (names and in_batch(names)):
-        return list(found)
-    out = []
-    values = numbers(batch_machines([row.spec for row in found]), names, len(found))
+        return found, errors
+    out, values = [], numbers(batch_machines([row.spec for row in found]), names, len(found))
     for row, own in zip(found, values.T.tolist(), strict=True):
         cells = tuple(None if math.isinf(x) else x for x in own)
+        # a row without one of them needs its own machine
         out.append(row if any(map(math.isnan, own)) else row._replace(extra=cells))
-    return out
+    return out, errors
 
 
-def bounded(target: Target, found: Sequence[MachineRow]) -> list[MachineRow]:
+def _bounded(target: Target, found: list[MachineRow]) -> list[MachineRow]:
     """The rows, with the requested quantities, that keep the bounds."""
     names = target.names
     if not names:
-        return list(found)
+        return found
     alone = [row.spec for row in found if not row.extra]
     rest = mapped(partial(_values, Pick(names)), alone, min(cores(), len(alone)), "machines")
     rest = tracked(rest, "machines computed", len(alone))
     values = [row.extra or next(rest) for row in found]
-    known = [(row, cells) for row, cells in zip(found, values, strict=True) if cells is not None]
+    pairs = zip(found, values, strict=True)
+    known = [row._replace(extra=cells) for row, cells in pairs if cells is not None]
     bounds = [(names.index(b.name), b) for b in target.bounds]
-    kept = [
-        row._replace(extra=cells)
-        for row, cells in known
-        if all(b.kept(cells[i]) for i, b in bounds)
-    ]
-    if kept:
-        return kept
-    nearness = Nearness(bounds)
-    if known:
-        nearness.add(rows_of([cells for _, cells in known]).numbers)
-    phrases = [
-        f"{b} (not known)" if nearest is None else f"{b} (nearest {nearest:.6g})"
-        for (_, b), count, nearest in zip(bounds, nearness.kept, nearness.nearest, strict=True)
-        if not count
-    ]
-    each = " and ".join(phrases or [f"{b}" for _, b in bounds]) + " at once" * (not phrases)
-    others = f"none of {len(found)} machines that keep all other bounds"
-    raise GenevaError(f"--subject-to: {others} keeps {each}")
+    kept = [row for row in known if all(b.kept(row.extra[i]) for i, b in bounds)]
+    if not kept:
+        nearness = Nearness(bounds)
+        if known:
+            nearness.add(rows_of([row.extra for row in known]).numbers)
+        why = "; ".join(nearness.phrases())
+        raise GenevaError(f"--subject-to: none of {len(found)} machines keeps all bounds: {why}")
+    return kept
 
 
 def _values(of: Pick, spec: Spec) -> tuple[Cell, ...] | None:
@@ -191,37 +176,13 @@ def _values(of: Pick, spec: Spec) -> tuple[Cell, ...] | None:
 
 
 def _out_of_reach(target: Target, errors: list[str]) -> str:
-    """The error message if no machine was found: what would be within reach."""
-    counts = target.counts
-    m = target.rollers or next((int(m) for m in counts if m >= 1.0), 1)
-    motion = target.motion_for(m)
-    most = max(
-        rollers_max(natural_deg(target.wheel(g, z))) for z in target.z for g in target.gearings
-    )
+    """The error message if no machine was found."""
+    m = target.rollers or next((int(m) for m in target.counts if m >= 1.0), 1)
+    wheels = [target.wheel(g, z) for z in target.z for g in target.gearings]
+    most = max(rollers_max(natural_deg(wheel)) for wheel in wheels)
     first = f"; the first says: {errors[0]}" if errors else ""
-    if motion is None:
-        return f"--rollers {m}: they jam on every requested wheel; at most {most}"
-    if target.rollers is None and m > most:
-        why = (
-            f"it takes {m} rollers, but straight slots carry at most {most} here. No curved slots "
-            "or cam with so many can be built"
-        )
-    elif motion.low * m >= 360.0:
-        return (
-            f"{target.words}: {m} motions of {motion.low:.7g} deg leave no dwell in a turn of 360. "
-            f"With {m} rollers a motion must be below {360.0 / m:.7g} deg (tau below 1)"
-        )
-    elif max(counts) < 1.0:
-        why = (
-            "a wheel rests so long only behind a first wheel. That turns the crank once in "
-            f"{TURNS[0]} to {TURNS[-1]} turns: none of these rests so long"
-        )
-    else:
-        drives = f"no drive goes beyond A or eccentricity {MOST}"
-        return (
-            f"{target.words}: out of reach with {'one roller' if m == 1 else f'{m} rollers'}: "
-            "curved slots turn an internal wheel at most half as fast as the crank"
-            + (f", and {drives}" if m == 1 else "")
-            + f"; use more slots or a longer motion{first}"
-        )
-    return f"{target.words}: out of reach: {why}"
+    rollers = "one roller" if m == 1 else f"{m} rollers"
+    return (
+        f"{target.words}: out of reach with {rollers}; straight slots carry at most {most} here: "
+        f"use more slots or a longer motion{first}"
+    )

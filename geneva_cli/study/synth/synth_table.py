@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from contextlib import suppress
 from functools import partial
 
 import numpy as np
@@ -19,15 +18,9 @@ from geneva_cli.spec.tables import LIMITED
 from geneva_cli.specfile.writer import quoted, spec_lines
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.sweep.constraints import Constraint
-from geneva_cli.study.synth.machine_rows import CELLS, COSTS, MAYBE, YES, MachineRow, rows
+from geneva_cli.study.synth.machine_rows import CELLS, COSTS, MAYBE, YES, MachineRow
 from geneva_cli.study.synth.suiting import SPARE, USUAL, slot_paths, with_roller
-from geneva_cli.study.synth.synth_search import (
-    TURNED,
-    Ranking,
-    bounded,
-    search,
-    with_batch_values,
-)
+from geneva_cli.study.synth.synth_search import TURNED, Ranking, search
 from geneva_cli.study.target import Target
 from geneva_cli.table import Table, rows_table
 from geneva_cli.verdict.checks import (
@@ -49,7 +42,6 @@ _LIMITED = {
 # keys that conflict with a crank's bore
 SHAFT = {"crank_shaft_mm", "crank_hub_mm", "crank_bore_wall_mm"}
 UNSIZED = {*MOTION, *LIMITS} - {"undercut_mm"}  # checks that no other roller can mend
-HALVINGS = 5  # of the numbers between a machine that fails in its turn and the plain crank's
 
 
 def synthesis_table(target: Target, count: int = TURNED, buildable: bool = False) -> Table:
@@ -71,13 +63,12 @@ def turned(ranking: Ranking, count: int = TURNED, buildable: bool = False) -> li
     """The rows, the first ``count`` of them turned; with ``buildable`` the first that pass.
 
     A turned row says yes, with sizes that pass, or no. Others say maybe, or no if that is known
-    without turning. With ``buildable`` a row that fails is replaced, under its number, by a machine
-    of its family that passes, and stands where its own quantities belong.
+    without turning.
     """
     maybe = [row for row in ranking.rows if row.cells["parts"] == MAYBE]
     if not buildable:
         maybe = [row for row in maybe if row.cells["no"] <= count]
-    work = partial(_turned, ranking._replace(rows=[]), buildable)
+    work = partial(_turned, _fixed(ranking.target))
     done = mapped(work, maybe, min(len(maybe), cores()), "machines")
     results, passed = dict[int, MachineRow](), list[MachineRow]()
     for row in tracked(done, "machines turned", len(maybe)):
@@ -85,46 +76,21 @@ def turned(ranking: Ranking, count: int = TURNED, buildable: bool = False) -> li
         passed += [row] if row.cells["parts"] == YES else []
         if buildable and len(passed) >= count:
             break
-    if buildable:
-        return sorted(passed, key=ranking.rank)
-    return [results.get(row.cells["no"], row) for row in ranking.rows]
+    return passed if buildable else [results.get(row.cells["no"], row) for row in ranking.rows]
 
 
-def _turned(ranking: Ranking, buildable: bool, row: MachineRow) -> MachineRow:
-    """A row with sizes that pass a full turn, or with the checks that fail.
+def _fixed(target: Target) -> frozenset[str]:
+    """The sizes of the requirement's frame."""
+    sizes = target.frame.size.as_dict() if target.frame else {}
+    return frozenset(key for key, value in sizes.items() if value is not None)
 
-    With ``buildable`` a machine that fails is replaced by one of its family that passes, between it
-    and that which moves as the plain crank does.
-    """
-    sizes = ranking.target.frame.size.as_dict() if ranking.target.frame else {}
-    fixed = frozenset(key for key, value in sizes.items() if value is not None)
 
-    def with_result(one: MachineRow) -> MachineRow:
-        spec, trouble = built(one.spec, fixed)
-        parts = f"no: {trouble}" if trouble else YES
-        return one._replace(spec=spec, cells=one.cells | {"no": row.cells["no"], "parts": parts})
-
-    out, family = row if row.trouble else with_result(row), row.family
-    if not (buildable and out.trouble and family and family.is_free) or math.isnan(family.plain):
-        return out
-    low, high, plain = family.low, family.high, family.plain
-    is_high = abs(high - plain) > abs(low - plain)  # the end that is farther from the plain crank
-    fails, passing = (high, max(low, plain)) if is_high else (low, min(high, plain))
-    if not math.isnan(family.best):
-        fails = family.best
-    for _ in range(HALVINGS):
-        middle = 0.5 * (fails + passing)
-        spec, own = family.at(middle), None
-        other = rows(ranking.target, [(spec, family)], []) if spec else []
-        with suppress(GenevaError):  # it breaks a bound
-            other = with_batch_values(ranking.requested.names, other)
-            for kept in bounded(ranking.requested, other) if other else ():
-                own = None if kept.trouble else with_result(kept)
-        if own and not own.trouble:
-            out, passing = own, middle
-        else:
-            fails = middle
-    return out
+def _turned(fixed: frozenset[str], row: MachineRow) -> MachineRow:
+    """A row with sizes that pass a full turn, or with the checks that fail."""
+    if row.trouble:
+        return row
+    spec, trouble = built(row.spec, fixed)
+    return MachineRow(spec, row.cells | {"parts": f"no: {trouble}" if trouble else YES}, row.extra)
 
 
 def built(spec: Spec, fixed: frozenset[str] = frozenset()) -> tuple[Spec, str]:
@@ -178,14 +144,14 @@ def _passes(spec: Spec, failing: Sequence[str]) -> bool:
     return all_pass(every_check(machine, parts, quick=True))
 
 
-def chosen(ranking: Ranking, number: int, buildable: bool = False) -> tuple[MachineRow, str]:
+def chosen(ranking: Ranking, number: int) -> tuple[MachineRow, str]:
     """Row ``number``, and the text of its spec with comments, as ``turned`` shows it.
 
     The parts are turned through a whole turn, unless they are known to be impossible.
     """
     if not 1 <= number <= len(ranking.rows):
         raise GenevaError(f"--write {cut(number)}: the table has rows 1 to {len(ranking.rows)}")
-    row = _turned(ranking._replace(rows=[]), buildable, ranking.rows[number - 1])
+    row = _turned(_fixed(ranking.target), ranking.rows[number - 1])
     row = row._replace(spec=with_limits(ranking.requested, row.spec))
     return row, commented(ranking.target, number, row)
 
