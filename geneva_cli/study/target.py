@@ -16,10 +16,8 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.motion import registry
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.path_and_motion import MOTION_MIN
-from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.tolerances import ROUNDED
 from geneva_cli.spec.tables import LIMITED
 from geneva_cli.study.sweep.constraints import Constraint, Objective
@@ -59,12 +57,6 @@ class Target(NamedTuple):
     def peak(self) -> str:
         """The name of the peak acceleration, the default goal; per s² if times are required."""
         return f"{PEAK}_rad_s2" if self.timed else PEAK
-
-    def wheel(self, gearing: str, z: int) -> Gearing:
-        """A wheel of a gearing and a number of slots, with a stop if the frame's has one."""
-        wheel = registry.gearing(gearing)(z)
-        stops = self.frame is not None and self.frame.wheel.stopped
-        return wheel.with_key("stop", True) if stops else wheel
 
     @property
     def any_motion(self) -> bool:

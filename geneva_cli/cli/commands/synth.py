@@ -99,8 +99,7 @@ def _inputs(target: "Target") -> Sequence[str]:
 
 def _show(target: "Target", check: int, buildable: bool, output: str, format: str) -> None:
     from geneva_cli.output import is_for_people, is_watched, show
-    from geneva_cli.study.synth.shown import for_people
-    from geneva_cli.study.synth.synth_table import synthesis_table
+    from geneva_cli.study.synth.synth_table import for_people, synthesis_table
 
     if output.endswith(".toml") and not format:
         raise GenevaError(f"-o {cut(output, 300)}: a spec is one row of the table; add --write N")

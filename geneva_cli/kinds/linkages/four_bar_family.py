@@ -39,7 +39,7 @@ from geneva_cli.study.synth.families.family import (
     machine,
     natural_deg,
 )
-from geneva_cli.study.synth.optimiser import Places
+from geneva_cli.study.synth.family_search import Places
 from geneva_cli.study.target import AllowedSpan, Target
 
 _EXAMPLE: Any = FourBar.EXAMPLE.tables["drive"]

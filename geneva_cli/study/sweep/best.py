@@ -65,7 +65,7 @@ def best_spec(outcome: Outcome, goal: Objective, row_blocks: Iterable[Rows]) -> 
             "give a narrower range."
         )
     if spec.title:  # the spec's own title may describe what was varied
-        title = f"{str(goal).capitalize()}, varied from: {spec.title}"
+        title = f"The {goal}, varied from: {spec.title}"
         notes.append(f"title = {quoted(cut(title, TEXT_MAX))}")
     return [*notes, *spec_lines(spec)]
 

@@ -13,7 +13,7 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
-from geneva_cli.motion.registry import families_of_kinds
+from geneva_cli.motion.registry import families_of_kinds, gearing
 from geneva_cli.motion.wheels.classic import rollers_max
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.progress import tracked
@@ -119,7 +119,7 @@ def _group(
 ) -> tuple[list[MachineRow], list[str]]:
     """The rows of a group, and the reasons against the other machines."""
     kind, target = task
-    wheels = [target.wheel(gearing, z) for gearing in target.gearings for z in target.z]
+    wheels = [gearing(name)(z) for name in target.gearings for z in target.z]
     families: Sequence[Family] = [*kind(target, wheels)]
     if not in_batch(target.names):
         # the search cannot see them: they are computed for the best of several pieces of a family
@@ -178,7 +178,7 @@ def _values(of: Pick, spec: Spec) -> tuple[Cell, ...] | None:
 def _out_of_reach(target: Target, errors: list[str]) -> str:
     """The error message if no machine was found."""
     m = target.rollers or next((int(m) for m in target.counts if m >= 1.0), 1)
-    wheels = [target.wheel(g, z) for z in target.z for g in target.gearings]
+    wheels = [gearing(name)(z) for name in target.gearings for z in target.z]
     most = max(rollers_max(natural_deg(wheel)) for wheel in wheels)
     first = f"; the first says: {errors[0]}" if errors else ""
     rollers = "one roller" if m == 1 else f"{m} rollers"
