@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 import os
 from collections.abc import Collection, Sequence
 
@@ -106,18 +107,20 @@ def designs_of(
     texts: dict[str, Text] = {}
     if vary and len(paths) > 1:
         raise GenevaError("--vary is for one SPEC; leave it out to compare several")
+    axes = [axis(v) for v in vary]
+    count = math.prod(len(a.values) for a in axes) if vary else len(paths)
+    if count > DESIGNS_MAX:
+        raise GenevaError(
+            f"{count:,} designs; at most {DESIGNS_MAX} can be compared: `geneva sweep` has a row "
+            "for each"
+        )
     if vary:
-        text, axes = read(paths[0], settings), [axis(v) for v in vary]
+        text = read(paths[0], settings)
         refuse_twice(axes, text.set_keys)
         for one in itertools.product(*[a.values for a in axes]):
             words = [f"{a.key}={v}" for a, v in zip(axes, one, strict=True)]
             changes = tuple(setting(s, "--vary") for s in words)
             texts[" ".join(words)] = text._replace(set_keys=(*text.set_keys, *changes))
-            if len(texts) > DESIGNS_MAX:
-                raise GenevaError(
-                    f"--vary makes more than {DESIGNS_MAX} designs: `geneva sweep` has a row for "
-                    "each"
-                )
     else:
         paths = list(paths)
         twice = next((p for p in paths if paths.count(p) > 1), None)
@@ -125,8 +128,6 @@ def designs_of(
             raise GenevaError(
                 f"{cut(shown_name(twice))}: given twice; use --vary to compare changes of one spec"
             )
-        if len(paths) > DESIGNS_MAX:
-            raise GenevaError(f"{len(paths)} designs; at most {DESIGNS_MAX} can be compared")
         # a file's name without folder and ending, if no other file shares it
         stems = [os.path.splitext(os.path.basename(path))[0] for path in paths]
         for stem, path in zip(stems, paths, strict=True):

@@ -65,7 +65,10 @@ def test_rounding_is_no_difference(tmp_path):
         ({"vary": ["drive.A=0,2"]}, "--vary drive.A=2: A = 2 must be above -1, below 1"),
         ({"vary": ["drive.A=0", "drive.A=0.5"]}, "--vary drive.A: given twice"),
         ({"settings": ["outline.wheel=wheel.dxf"]}, "a comparison is of formulas, and turns no"),
-        ({"vary": ["drive.A=0..1:0.001"]}, "--vary makes more than 100 designs: `geneva sweep`"),
+        (
+            {"vary": ["drive.A=0..1:0.001"]},
+            "1,001 designs; at most 100 can be compared",
+        ),
     ],
 )
 def test_what_cannot_be_compared(arguments, said):

@@ -16,8 +16,7 @@ from geneva_cli.numerics.roots import boundary
 from geneva_cli.study.synth.families.family import (
     BARE,
     Family,
-    allowed_motions,
-    closed_span,
+    free_motions,
     is_compatible,
     machine,
     natural_deg,
@@ -28,7 +27,7 @@ from geneva_cli.study.target import Target
 
 def sectors(target: Target, wheel: Gearing) -> Iterator[Family]:
     """Gear sectors that take over without a jump, with a free half angle b of the slots."""
-    span = closed_span(allowed_motions(target, 1, natural_deg(wheel)), 1)
+    span = free_motions(target, 1, natural_deg(wheel))
     example = BARE.replace(wheel=wheel, drive=GearSector(sector_deg=90.0))
     if span is None or not is_compatible(example):
         return
@@ -43,11 +42,7 @@ def sectors(target: Target, wheel: Gearing) -> Iterator[Family]:
     low = max(ends[0], slot(sector_deg, 330.0))
     high = min(ends[1], slot(sector_deg, 1e-3))
     if low <= high:
-
-        def drive(n: float) -> GearSector:
-            return GearSector(sector_deg=90.0, n_rpm=n)
-
-        spec = machine(target, wheel, drive, 1, natural_deg(wheel))
+        spec = machine(target, wheel, GearSector(sector_deg=90.0), natural_deg(wheel))
         keys, plain = partial(_sectors, target, z), wheel.step.b
         yield Family(spec, keys, low, high, plain, plain)
 

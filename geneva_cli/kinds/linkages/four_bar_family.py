@@ -33,8 +33,7 @@ from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.study.synth.families.family import (
     BARE,
     Family,
-    allowed_motions,
-    closed_span,
+    free_motions,
     is_compatible,
     machine,
     natural_deg,
@@ -59,7 +58,7 @@ def four_bars(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
 
 def _task(target: Target, wheel: Gearing) -> WheelGoal | None:
     """The goal of the search for a wheel; None for a wheel that no four-bar drives."""
-    free = closed_span(allowed_motions(target, 1, natural_deg(wheel)), 1)
+    free = free_motions(target, 1, natural_deg(wheel))
     if free is None:
         return None
     if not is_compatible(_machine(target, wheel, FourBar(**_EXAMPLE), free.low)):
@@ -140,7 +139,7 @@ def _spec(target: Target, goal: Goal, places: Places, number: int) -> Spec | Non
 def _machine(target: Target, wheel: Gearing, drive: FourBar, motion_deg: float) -> Spec:
     """A machine with the requirement's frame; its centre distance follows from the links."""
     unlocked = wheel.replace(held_by="detent")  # there is no locking disc
-    spec = machine(target, unlocked, lambda n: drive.replace(n_rpm=n), 1, motion_deg)
+    spec = machine(target, unlocked, drive, motion_deg)
     # the coupler passes below the wheel's axis, where a shaft without a hub ends in the wheel
     hub = 0.0 if spec.size.wheel_hub_mm is None else spec.size.wheel_hub_mm
     return spec.replace(size=spec.size.replace(center_distance_mm=None, wheel_hub_mm=hub))

@@ -28,8 +28,4 @@ def pairs(target: Target, wheel: Gearing) -> Iterator[Family]:
         natural = build(spec).engagements[0].motion_deg
         m = 1.0 / first_z  # motions in a turn of the input
         if allows(allowed_motions(target, m, natural), natural):
-
-            def drive(n: float, first_z: int = first_z) -> GenevaPair:
-                return GenevaPair(first_z=first_z, n_rpm=n)
-
-            yield Family(machine(target, wheel, drive, m, natural))
+            yield Family(machine(target, wheel, GenevaPair(first_z=first_z), natural))

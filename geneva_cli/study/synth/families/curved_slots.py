@@ -25,9 +25,8 @@ from geneva_cli.study.batches import built
 from geneva_cli.study.synth.families.family import (
     OPEN_END,
     Family,
-    allowed_motions,
     allows,
-    closed_span,
+    free_motions,
     machine,
     natural_deg,
     speeds,
@@ -53,7 +52,7 @@ def with_laws(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
     for wheel, m in product(wheels, several):
         natural = natural_deg(wheel)
         if m <= rollers_max(natural) or target.rollers is None:
-            span = closed_span(allowed_motions(target, m, natural), m)
+            span = free_motions(target, m, natural)
             free |= {(wheel, m): span} if span else {}
     for name, is_cam in product(target.laws, (False, True)):
         lines, law = list[_LawLine](), registry.law(name)()
@@ -83,11 +82,8 @@ class _LawLine(NamedTuple):
     def spec(self, motion_deg: float) -> Spec:
         alpha0 = _alpha0(natural_deg(self.wheel), motion_deg)
         motion = Motion(self.law, alpha0_deg=alpha0, ratio=None if self.is_cam else "matched")
-
-        def drive(n_rpm: float) -> Cam | Crank:
-            return (Cam if self.is_cam else Crank)(n_rpm=n_rpm, rollers=self.m)
-
-        return machine(self.target, self.wheel, drive, self.m, motion_deg, motion)
+        drive = (Cam if self.is_cam else Crank)(rollers=self.m)
+        return machine(self.target, self.wheel, drive, motion_deg, motion)
 
     def families(self, longest: float) -> Iterator[Family]:
         """Those of the allowed motions, of which ``longest`` can be built; NaN if none can."""

@@ -82,19 +82,11 @@ def speeds(target: Target, m: float, motion_deg: Sequence[float]) -> dict[str, A
 
 
 def machine(
-    target: Target,
-    wheel: Gearing,
-    drive: Callable[[float], Drive],
-    m: float,
-    motion_deg: float,
-    motion: Motion | None = None,
+    target: Target, wheel: Gearing, drive: Drive, motion_deg: float, motion: Motion | None = None
 ) -> Spec:
-    """A machine with the sizes, loads and limits of the requirement's frame.
-
-    ``drive`` makes the drive for the input speed of m motions of ``motion_deg`` in a turn.
-    """
-    own, made = target.frame or BARE, drive(target.n_rpm(m, motion_deg))
-    size = own.size
+    """A machine with the sizes, loads and limits of the requirement's frame, at its speed."""
+    own, size = target.frame or BARE, (target.frame or BARE).size
+    made = drive.replace(n_rpm=target.n_rpm(drive.rollers / drive.turns, motion_deg))
     L = size.center_distance_mm
     if L is None and not made.ONE_ARM:  # it has no crank of one radius: the frame's distance
         L = size.derived_distance_mm
@@ -135,9 +127,9 @@ def allows(motion: AllowedSpan, natural: float) -> bool:
     return motion.low - slack <= natural <= motion.high + slack
 
 
-def closed_span(motion: AllowedSpan, m: int) -> AllowedSpan | None:
-    """The range with open ends replaced by values near their limits; None if it is empty."""
-    whole = 360.0 / m
+def free_motions(target: Target, m: int, natural: float) -> AllowedSpan | None:
+    """The allowed motion angles, with open ends near their limits; None if there are none."""
+    motion, whole = allowed_motions(target, m, natural), 360.0 / m
     if motion.low >= whole or motion.high <= 0.0 or motion.empty:
         return None
     low = motion.low if motion.low > 0.0 else OPEN_END * whole

@@ -33,7 +33,7 @@ from geneva_cli.study.synth.families.family import (
     Family,
     allowed_motions,
     allows,
-    closed_span,
+    free_motions,
     is_compatible,
     machine,
     natural_deg,
@@ -141,8 +141,7 @@ def _natural_rollers(target: Target, natural: float) -> list[int]:
 
 def plain(target: Target, wheel: Gearing, m: int) -> Spec:
     """The plain crank."""
-    natural = natural_deg(wheel)
-    return machine(target, wheel, lambda n: Crank(n_rpm=n, rollers=m), m, natural)
+    return machine(target, wheel, Crank(rollers=m), natural_deg(wheel))
 
 
 def offset_slots(target: Target, wheel: Gearing) -> Iterator[Family]:
@@ -175,10 +174,7 @@ def planets(target: Target, wheel: Gearing) -> Iterator[Family]:
         return
 
     def planet(fixed: str, ratio: float | str) -> Spec:
-        def drive(n: float) -> Epicyclic:
-            return Epicyclic(planet_ratio=ratio, fixed=fixed, n_rpm=n)
-
-        return machine(target, wheel, drive, 1, natural)
+        return machine(target, wheel, Epicyclic(planet_ratio=ratio, fixed=fixed), natural)
 
     for fixed in ("sun", "ring"):
         shockless = planet(fixed, "shockless")
@@ -200,7 +196,7 @@ def driven(target: Target, wheel: Gearing) -> Iterator[Family]:
     """Changes of the plain crank's motion by a drive in front of it."""
     natural = natural_deg(wheel)
     has_one = target.rollers in (None, 1)
-    motion = closed_span(allowed_motions(target, 1, natural), 1) if has_one else None
+    motion = free_motions(target, 1, natural) if has_one else None
     if motion is None or (motion.exact and allows(motion, natural)):
         return
     known = 0.0 if allows(motion, natural) else math.nan
@@ -208,11 +204,7 @@ def driven(target: Target, wheel: Gearing) -> Iterator[Family]:
         span = AllowedSpan(*(one.parameter(natural, x) for x in motion))
         span = span.within(AllowedSpan(one.low, one.high))
         if not span.empty:
-
-            def drive(n_rpm: float, kind: Drive = one.drive) -> Drive:
-                return kind.replace(n_rpm=n_rpm)
-
-            spec = machine(target, wheel, drive, 1, natural)
+            spec = machine(target, wheel, one.drive, natural)
             if one.parameter is eccentricity:  # gears are as far apart as wheel and crank
                 spec = spec.with_("drive.gear_distance_mm", spec.given_distance_mm)
             keys = partial(_in_front, target, natural, one)
@@ -230,7 +222,7 @@ def inclined(target: Target, wheel: Gearing) -> Iterator[Family]:
     z = wheel.z
     least = 2.0 * half_motion_deg(1.0, 1, z)
     for m in [target.rollers] if target.rollers else range(1, rollers_max(least) + 1):
-        free = closed_span(allowed_motions(target, m, 180.0), m)
+        free = free_motions(target, m, 180.0)
         if free is None or (free.exact and allows(free, 180.0)):
             continue
         span = AllowedSpan(*(axes(z, x) for x in free)).within(AXES)
