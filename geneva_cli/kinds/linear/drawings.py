@@ -20,8 +20,7 @@ from geneva_cli.parts.projection import (
     titled,
     with_frame,
 )
-from geneva_cli.study.animation.animated_turn import MachineTurn
-from geneva_cli.study.animation.tracks import still
+from geneva_cli.study.animation.animated_turn import MachineTurn, still
 from geneva_cli.study.animation.turning_scene import WheelScene
 
 if TYPE_CHECKING:

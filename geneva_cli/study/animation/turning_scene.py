@@ -12,16 +12,19 @@ import numpy as np
 
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.plates import Plate
 from geneva_cli.geometry.shapes import Circle, Contour, Line, Shape, at, bounds, polygon
 from geneva_cli.motion.drive import Gears
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.pivots import Joint
 from geneva_cli.motion.registry import thing
 from geneva_cli.numerics.angles import radians
 from geneva_cli.output.scene import (
     Bar,
     Body,
     Box,
+    CarriedShapes,
     Phase,
     Place,
     Rotation,
@@ -29,11 +32,12 @@ from geneva_cli.output.scene import (
     Track,
     pose,
 )
+from geneva_cli.parts.assembly import links_at
 from geneva_cli.parts.gears.gear_curves import gears_table
+from geneva_cli.parts.links.link_plates import drawn_links
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.specfile.writer import quoted, spec_lines
-from geneva_cli.study.animation.animated_turn import MachineTurn, pushes
-from geneva_cli.study.animation.tracks import still
+from geneva_cli.study.animation.animated_turn import MachineTurn, pushes, still
 from geneva_cli.study.summary.load_lines import title_of
 from geneva_cli.verdict.report import words
 
@@ -46,7 +50,7 @@ def scene(design: Design) -> Scene:
     outlines = None
     with suppress(GenevaError):  # no flat parts
         outlines = design.parts.outlines
-    bars, rollers = turn.bars(outlines), turn.rollers()
+    bars, rollers = turn.bars(_plates(mechanism, outlines)), turn.rollers()
     spec, title = design.spec, title_of(design)
     frame = _frame_rotation(mechanism, turn.start, turn.turn_deg)
     wheels = wheels_of(spec)
@@ -77,6 +81,26 @@ def scene(design: Design) -> Scene:
         stop_s=spec.drive.stop_s,
         frame=frame,
     )
+
+
+def _plates(
+    mechanism: Mechanism, outlines: Outlines | None
+) -> dict[str, tuple[CarriedShapes, ...]]:
+    """The plates of each link by its name; empty if the links' sizes allow none."""
+    out: dict[str, tuple[CarriedShapes, ...]] = {}
+    try:
+        plates = [m.part for m in drawn_links(mechanism, outlines).cut if isinstance(m.part, Plate)]
+    except GenevaError:
+        return out
+    for link in links_at(mechanism, np.zeros(1)):
+        slid = [j for j, kind in enumerate(link.kinds) if kind in (Joint.SLIDE, Joint.CARRIED)]
+        blocks = [plate for plate in plates if plate.name == f"{link.name}'s block"]
+        own = [plate for plate in plates if plate.name == link.name]
+        out[link.name] = tuple(
+            CarriedShapes(j, (plate.outline, *plate.holes))
+            for j, plate in zip([0] * len(own) + slid, [*own, *blocks], strict=False)
+        )
+    return out
 
 
 def _bodies(design: Design, turn: MachineTurn) -> Iterator[Body]:

@@ -85,7 +85,8 @@ def machine(
     target: Target, wheel: Gearing, drive: Drive, motion_deg: float, motion: Motion | None = None
 ) -> Spec:
     """A machine with the sizes, loads and limits of the requirement's frame, at its speed."""
-    own, size = target.frame or BARE, (target.frame or BARE).size
+    own = target.frame or BARE
+    size = own.size
     made = drive.replace(n_rpm=target.n_rpm(drive.rollers / drive.turns, motion_deg))
     L = size.center_distance_mm
     if L is None and not made.ONE_ARM:  # it has no crank of one radius: the frame's distance
