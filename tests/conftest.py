@@ -26,7 +26,7 @@ from geneva_cli.verdict import advice, motion_warnings
 from geneva_cli.verdict.checks import motion_checks
 
 SHARING = {"made_once", "read_once"}  # fixtures of what costs seconds
-LONGEST = "test_without"  # some minutes: it begins before all others
+LONGEST = "test_without"  # by the middle of a run, much that it copies is compiled
 
 
 def pytest_configure(config):
@@ -67,9 +67,8 @@ def pytest_collection_modifyitems(config, items):
         items[:] = [item for item in items if item not in out]
     items.sort(
         key=lambda item: (
-            item.path.stem != LONGEST,
             not SHARING & {*item.fixturenames},
-            str(item.path),
+            str(item.path.parent / "kinds" if item.path.stem == LONGEST else item.path),
         )
     )
 
