@@ -9,11 +9,11 @@ import pytest
 from sampling import some
 
 from bench import plots
+from bench.__main__ import SUBJECTS, bench_table, measure
 from bench.kinds import KINDS, values_of
 from bench.method import BenchRow, beats, with_frontier
-from bench.run import SUBJECTS, bench_table, measure
-from bench.subjects import start as bench_start
 from bench.timing_pairs import exponent, median_ratio, ratios
+from bench.whole_runs import SCRIPTS
 from geneva_cli.motion.mechanism import build
 
 # The greatest error that ours may show, in the subject's own measure; of the others none.
@@ -107,7 +107,7 @@ def test_costs_have_the_exponent_of_their_growth():
 
 def test_scripts_of_the_start_print_the_row():
     """The competitors do what they are there for."""
-    for code in bench_start.SCRIPTS.values():
+    for code in SCRIPTS.values():
         run = subprocess.run(
             [sys.executable, "-c", code, "table", "--z", "6"], capture_output=True, encoding="utf-8"
         )
