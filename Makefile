@@ -60,10 +60,10 @@ stress: stress-numbers
 
 stress-numbers: .venv/dev
 	PYTHONPATH=tests:tests/motion:tests/parts $(BIN)/python tests/stress/stress.py
-	PYTHONPATH=tests:tests/motion:tests/parts $(BIN)/python tests/stress/schema_agrees.py
+	$(FUZZ) schema --runs 2000
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_many.py
-	PYTHONPATH=tests $(BIN)/python tests/stress/stress_synth.py
-	PYTHONPATH=tests $(BIN)/python tests/stress/stress_loads_many.py --designs 5000
+	$(FUZZ) synth --runs 105
+	PYTHONPATH=tests $(BIN)/python tests/stress/stress_many.py --loads --designs 5000
 
 # Proved bounds of every peak of 1,000 random machines of each kind; two hours. `make stress` takes
 # the designs.

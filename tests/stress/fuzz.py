@@ -20,7 +20,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import fuzz_checks
-import fuzz_stops
+import fuzz_studies
 from fuzz_machines import machine_text
 from fuzz_texts import text_of
 
@@ -50,7 +50,9 @@ FUZZERS = {
     "specs": Fuzzer(text_of, fuzz_checks.motion, 10, 500),
     "parts": Fuzzer(machine_text, fuzz_checks.parts, 30, 20),
     "sheets": Fuzzer(machine_text, fuzz_checks.sheet, 60, 20),
-    "stops": Fuzzer(fuzz_stops.case, fuzz_stops.stops, 30, 20, strict=False),
+    "stops": Fuzzer(fuzz_studies.stop_case, fuzz_studies.stops, 30, 20, strict=False),
+    "schema": Fuzzer(fuzz_studies.schema_case, fuzz_studies.schema, 10, 500, strict=False),
+    "synth": Fuzzer(fuzz_studies.synth_case, fuzz_studies.synth, 120, 10, strict=False),
     "certificates": Fuzzer(
         fuzz_checks.machine_of_each_kind, fuzz_checks.certified, 60, 50, strict=False
     ),

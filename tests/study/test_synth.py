@@ -280,7 +280,7 @@ def test_the_angle_of_the_shafts_in_50_digits():
             assert angle == pytest.approx(float(mpmath.degrees(S)), rel=1e-11)
 
 
-# Turned, written, checked and exported: a sample of the trial in tests/stress/stress_synth.py
+# Turned, written, checked and exported, as `fuzz.py synth` does with random requirements
 
 
 @pytest.mark.sampled(2)
