@@ -10,7 +10,7 @@ import tomli
 from sampling import some
 from typer.testing import CliRunner
 
-from geneva_cli import Design, External, Load, load
+from geneva_cli import Design, load
 from geneva_cli.cli.app import app
 from geneva_cli.specfile.inserted import Written, inserted
 from geneva_cli.study.chosen_sizes import KEPT, sized_text
@@ -165,28 +165,6 @@ def test_every_run_says_what_its_load_chose(command, turret):
     assert found["size.pin_mm"]["why"].startswith("by load: ")
 
 
-@pytest.mark.long
-def test_a_run_of_a_sized_spec_chooses_nothing(turret):
-    assert run("size", "turret.toml", "-o", "sized.toml").exit_code == 0
-    assert "chosen" not in run("check", "sized.toml").stdout
-
-
-def test_a_size_that_an_option_sets_is_not_chosen(turret):
-    found = load("turret.toml", ["size.pin_mm=10"]).chosen_by_load.record
-    assert "size.pin_mm" not in found and "size.wheel_bore_mm" in found
-
-
-def test_without_a_load_nothing_is_chosen_by_load():
-    bare = Design(External(6))
-    assert bare.chosen_by_load == ({}, {}) and bare.chosen_by_load.words == ""
-    assert bare.chosen["size.pin_mm"] == (5.0, "default r")
-    assert "size.slot_clearance_mm" not in bare.chosen
-    laser = bare.with_("size.process", "laser")
-    assert laser.chosen["size.slot_clearance_mm"].why == "by process laser"
-    torn = Design(External(6), load=Load(torque_Nm=15.0, friction=0.1, friction_at="pin"))
-    assert "size.pin_mm" not in torn.chosen_by_load.sizes  # which the load leaves as it is
-
-
 def test_advice_says_which_sizes_it_changes(turret):
     repo.put("limited.toml", f"{TURRET}[drive]\nn_rpm = 90\n[limits]\npin_force_max_N = 500\n")
     anew = "crank shaft 17 → 15 mm"
@@ -248,13 +226,6 @@ def test_what_cannot_be_sized_is_refused_at_its_line(turret):
     assert wide.stderr.startswith("wide.toml:4: wheel_bore_mm = 190: the slots reach down to ")
     picture = run("size", "turret.toml", "-o", "sizes.svg")
     assert picture.exit_code == 2 and ".toml" in picture.stderr
-
-
-def test_a_distance_that_a_crank_radius_gives_is_not_chosen():
-    spec = Design(External(6)).with_("size.crank_radius_mm", 40.0)
-    assert "size.center_distance_mm" not in spec.chosen
-    assert math.isclose(spec.sized.mechanism.center_distance_mm, 80.0)
-    assert Design(External(6)).chosen["size.center_distance_mm"].value == 100.0
 
 
 @pytest.mark.long

@@ -179,13 +179,6 @@ def test_a_report_shows_limits_beside_loads_and_what_fails() -> None:
 
 @pytest.mark.long
 @pytest.mark.usefixtures("no_advice")
-def test_nothing_is_allowed_without_a_load() -> None:
-    bare = load(str(repo.DESIGNS / "four-bar-z4.toml"))
-    assert "allowed" not in "".join(html.chunks(document(bare))).casefold()
-
-
-@pytest.mark.long
-@pytest.mark.usefixtures("no_advice")
 @pytest.mark.parametrize("name", KINDS)
 def test_a_page_is_well_formed_and_needs_nothing_else(name: str) -> None:
     _, found = of(name)

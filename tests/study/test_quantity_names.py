@@ -5,13 +5,13 @@ import math
 import pytest
 import repo
 
-from geneva_cli import GenevaError, load
+from geneva_cli import load
 from geneva_cli.loads.cycle_quantities import REPORTED_PEAKS
 from geneva_cli.study.batches import batch_machines, numbers
 from geneva_cli.study.fields import pick
 from geneva_cli.table import Table
 from geneva_cli.verdict.quantities.groups import GROUPS
-from geneva_cli.verdict.quantities.quantity_names import WORDS, whole_name
+from geneva_cli.verdict.quantities.quantity_names import WORDS
 
 pytestmark = pytest.mark.usefixtures("made_once")
 LISTS = {  # of a report's names those of tables and lists, which are no quantities
@@ -60,20 +60,3 @@ def test_what_loads_shows_is_a_quantity(name):
         size = max(abs(shown.get(f"{key.rpartition('.')[0]}.{end}", own)) for end in ("min", "max"))
         near = 1e-6 if key.endswith("deg") else 1e-12 * max(size, abs(own))
         assert value == pytest.approx(own, rel=0.0, abs=near), key
-
-
-@pytest.mark.sampled(3)
-@pytest.mark.parametrize(
-    ("asked", "said"),
-    [
-        ("max", "it may be velocity.max or acceleration.max or jerk.max or power.max or"),
-        ("horn_stress_MPa", "it may be strength.lock.horn_stress_MPa or life.horn_stress_MPa; say"),
-        ("margin", "strength.crank_shaft.margin or 3 more; say which"),
-        ("acceleration.mx", '(did you mean "acceleration.max"?)'),
-    ],
-)
-def test_what_no_name_is(asked, said):
-    with pytest.raises(GenevaError) as error:
-        whole_name(asked, "--sort")
-    assert str(error.value).startswith(f"--sort {asked}: ") and said in str(error.value)
-    assert str(error.value).count(" or ") <= 5

@@ -61,21 +61,6 @@ def test_each_row_is_the_designs_own():
         assert error is None
 
 
-@pytest.mark.parametrize("varied", ["drive.A=0.1,0.2", "drive.stop_s=0,0.01"])
-def test_locks_of_a_varied_drive(varied):
-    """The lock's strength of a batch is that of each design alone, for every key of [drive]."""
-    settings = ["load.dwell_torque_Nm=3", "size.face_width_mm=10"]
-    name = "side-crank-z6.toml" if varied.startswith("drive.A") else "turret.toml"
-    path, picks = os.path.join(DESIGNS, name), ["strength.lock.horn_stress_MPa"]
-    for value, stress, error in rows(
-        sweep(read(path, settings), grid(varied), picks=picks), jobs=1
-    ):
-        key = varied.partition("=")[0]
-        alone = load(path, [*settings, f"{key}={value}"]).strength[picks[0]]
-        assert error is None
-        assert stress == pytest.approx(alone, rel=1e-13)
-
-
 def test_words_and_kinds_vary_too():
     found = sweep(read(SPEC), grid("wheel.gearing=external,internal"), picks=["dwell_deg"])
     assert [row[1] for row in rows(found)] == [
