@@ -15,7 +15,7 @@ from geneva_cli.motion.many import many, may_vary
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.spec.schema import SpecTable, fields
-from geneva_cli.study.rows import Cell, Rows, cells_of
+from geneva_cli.study.fields import Cell, Rows, cells_of
 from geneva_cli.verdict.quantities.batch_designs import Designs
 from geneva_cli.verdict.quantities.quantity_names import group_of, in_batch
 

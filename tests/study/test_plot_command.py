@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 
 from geneva_cli.cli.app import app
 from geneva_cli.figure import JOINED, POINTS
-from geneva_cli.study.figures import of_table
+from geneva_cli.study.compare import of_table
 
 SPEC = str(repo.DESIGNS / "side-crank-z6.toml")
 

@@ -10,6 +10,7 @@ from geneva_cli.design import Design, load
 from geneva_cli.loads.motor import RATED_kW, recommended_motor
 from geneva_cli.study.summary.load_lines import of_loads
 from geneva_cli.study.summary.report_summary import of_tolerance, of_vibration
+from geneva_cli.study.verdicts import tightest
 
 pytestmark = pytest.mark.usefixtures("made_once")
 
@@ -73,3 +74,17 @@ def test_tolerance_names_what_contributes_most() -> None:
     assert answer.page is not None
     assert "not_known" in answer.page.names
     assert answer.data is record
+
+
+def test_the_tightest_check_is_nearest_to_its_limit() -> None:
+    """No other passing check uses more of its limit; 61.41 of 82.5 MPa here."""
+    checks = design("turret").checks
+    (told,) = tightest(checks)
+    bounded = [c for c in checks if c.passes and not c.why and c.value and c.limit]
+    used = {
+        c.name: c.value / c.limit if c.must_be == "at most" else c.limit / c.value
+        for c in bounded
+        if c.name != "dwell_hold"  # yes or no
+    }
+    assert max(used, key=used.__getitem__) == "crank_shaft_stress_MPa"
+    assert told.text == "crank shaft stress 61.41 MPa at -17.24°, at most 82.5"

@@ -17,9 +17,8 @@ from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.peaks import peak, worst
 from geneva_cli.motion.timing import timings
 from geneva_cli.study.synth.families import straight_slots as closed
-from geneva_cli.study.synth.machine_rows import MachineRow
 from geneva_cli.study.synth.reading import read_target
-from geneva_cli.study.synth.synth_search import search
+from geneva_cli.study.synth.synth_search import MachineRow, search
 from geneva_cli.study.synth.synth_table import chosen, commented, synthesis_table
 from geneva_cli.verdict.checks import checks
 

@@ -12,10 +12,9 @@ from geneva_cli.motion.laws.standard import ModifiedSine
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.wheels.external import External
-from geneva_cli.study.synth.machine_rows import rows
 from geneva_cli.study.synth.reading import read_target
 from geneva_cli.study.synth.suiting import USUAL, with_roller
-from geneva_cli.study.synth.synth_search import search
+from geneva_cli.study.synth.synth_search import rows, search
 from geneva_cli.study.synth.synth_table import built
 from geneva_cli.verdict.checks import checks
 

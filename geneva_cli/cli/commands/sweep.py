@@ -10,7 +10,7 @@ from geneva_cli.errors import GenevaError, clean, cut
 from geneva_cli.progress import tracked
 
 if TYPE_CHECKING:
-    from geneva_cli.study.rows import Rows
+    from geneva_cli.study.fields import Rows
     from geneva_cli.study.sweep.request import Outcome
     from geneva_cli.study.sweep.run import Sweep
 
@@ -68,7 +68,7 @@ def run(
     """
     from geneva_cli.output import show, show_text
     from geneva_cli.output.formats import FORMATS
-    from geneva_cli.study.rows import joined, without_infinity
+    from geneva_cli.study.fields import joined, without_infinity
     from geneva_cli.study.sweep.request import Outcome, request
     from geneva_cli.table import Table
 

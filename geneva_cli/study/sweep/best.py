@@ -11,7 +11,7 @@ from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.progress import Meter, tracked
 from geneva_cli.spec.schema import TEXT_MAX
 from geneva_cli.specfile.writer import quoted, spec_lines
-from geneva_cli.study.rows import Cell, Column, Rows, joined, rows_of
+from geneva_cli.study.fields import Cell, Column, Rows, joined, rows_of
 from geneva_cli.study.sweep.constraints import Objective, is_number
 from geneva_cli.study.sweep.request import Outcome
 from geneva_cli.study.sweep.run import Sweep

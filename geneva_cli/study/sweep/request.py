@@ -11,9 +11,8 @@ from geneva_cli.errors import GenevaError, cut
 from geneva_cli.motion.mechanism import build
 from geneva_cli.parts.chosen import OF_SIZES, ByLoad, by_load
 from geneva_cli.specfile.reader import read
-from geneva_cli.study.fields import Pick
+from geneva_cli.study.fields import Cell, Pick, Rows, cells_of
 from geneva_cli.study.fields import pick as pick_of
-from geneva_cli.study.rows import Cell, Rows, cells_of
 from geneva_cli.study.sweep.constraints import (
     Nearness,
     Objective,

@@ -22,9 +22,8 @@ from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.specfile.columns import digest
 from geneva_cli.specfile.reader import Setting, Text, setting
 from geneva_cli.study.batches import Batch, batch_rows, numbers
-from geneva_cli.study.fields import Pick, pick
+from geneva_cli.study.fields import Cell, Column, Pick, Rows, joined, pick, rows_of
 from geneva_cli.study.pool import cores, mapped
-from geneva_cli.study.rows import Cell, Column, Rows, joined, rows_of
 from geneva_cli.study.sweep.constraints import Constraint, Objective, front
 from geneva_cli.study.sweep.values import POINTS_MAX, VariedKey
 from geneva_cli.verdict.quantities.batch_members import share

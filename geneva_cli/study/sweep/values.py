@@ -16,7 +16,7 @@ from geneva_cli.spec.rules import range_text
 from geneva_cli.spec.units import in_unit_of, unit_key
 from geneva_cli.specfile.keys import is_whole
 from geneva_cli.specfile.reader import Setting, read_value, whole_key
-from geneva_cli.study.rows import Column, column_of
+from geneva_cli.study.fields import Column, column_of
 
 Value: TypeAlias = float | int | str
 POINTS_MAX = 100_000_000  # rows of a sweep: some hours and some gigabytes

@@ -22,9 +22,17 @@ from geneva_cli.spec.tables import LIMITED
 from geneva_cli.specfile.writer import quoted, spec_lines
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.sweep.constraints import Constraint
-from geneva_cli.study.synth.machine_rows import CELLS, COSTS, MAYBE, YES, MachineRow
 from geneva_cli.study.synth.suiting import SPARE, USUAL, slot_paths, with_roller
-from geneva_cli.study.synth.synth_search import TURNED, Ranking, search
+from geneva_cli.study.synth.synth_search import (
+    CELLS,
+    COSTS,
+    MAYBE,
+    TURNED,
+    YES,
+    MachineRow,
+    Ranking,
+    search,
+)
 from geneva_cli.study.target import Target
 from geneva_cli.table import Reading, Table, rows_table
 from geneva_cli.verdict.checks import (
