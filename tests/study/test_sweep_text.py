@@ -13,7 +13,7 @@ from geneva_cli.study.sweep.constraints import (
     Objective,
     constraint,
     objective,
-    refuse_contradictions,
+    refuse_unsound,
 )
 from geneva_cli.study.sweep.run import BLOCK, plan
 from geneva_cli.study.sweep.values import VariedKey, axis
@@ -100,8 +100,8 @@ def test_no_bound(text):
 
 def test_contradictions():
     with pytest.raises(GenevaError, match=r"nothing is both timing\.k >= 2 and timing\.k <= 1"):
-        refuse_contradictions([constraint("k >= 2"), constraint("tau <= 1"), constraint("k <= 1")])
-    refuse_contradictions([constraint("k >= 2"), constraint("tau <= 1"), constraint("k <= 2")])
+        refuse_unsound([*map(constraint, ("k >= 2", "tau <= 1", "k <= 1"))], {}, "")
+    refuse_unsound([*map(constraint, ("k >= 2", "tau <= 1", "k <= 2"))], {}, "")
 
 
 def test_objectives():

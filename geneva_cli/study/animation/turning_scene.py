@@ -52,15 +52,24 @@ def scene(design: Design) -> Scene:
         outlines = design.parts.outlines
     bars, rollers = turn.bars(_plates(mechanism, outlines)), turn.rollers()
     spec, title = design.spec, title_of(design)
-    frame = _frame_rotation(mechanism, turn.start, turn.turn_deg)
     wheels = wheels_of(spec)
     loads = ("pin_force_N", "input_torque_Nm") if design.cycle.is_loaded else ()
     turning = tuple(body for body in parts if not body.travel)
     box = _box(turning, bars, rollers, mechanism.roller_radius_mm, turn.turn_deg)
-    if frame:  # it makes whole turns
-        x, y = frame.centre
-        reach = max(math.dist(b.centre, frame.centre) + max(map(_reach, b.shapes)) for b in parts)
+    frame = None
+    if mechanism.frame:  # the carrier makes whole turns
+        rate = mechanism.frame * radians(1.0)
+        ends = rate * turn.start, rate * turn.end
+        angle = Track((0.0, turn.turn_deg), ends, (rate, rate), ends[1] - ends[0])
+        x, y = centre = mechanism.center_distance_mm, 0.0
+        frame = Rotation(centre, angle)
+        reach = max(math.dist(b.centre, centre) + max(map(_reach, b.shapes)) for b in parts)
         box = x - reach, y - reach, x + reach, y + reach
+    pauses = []
+    if spec.drive.stop_s:  # in the middle of each dwell, also of one without length
+        entries = [*(one.entry for one in turn.passages[1:]), turn.end]
+        dwells = zip(turn.passages, entries, strict=True)
+        pauses = [0.5 * (one.exit + after) - turn.start for one, after in dwells]
     return Scene(
         title=title,
         caption=words(mechanism) + _remark(design, bars),
@@ -77,7 +86,7 @@ def scene(design: Design) -> Scene:
         figure=design.figure(("velocity", "acceleration", *loads)),
         box=wheels.view(parts[0], box, turn),
         stops=wheels.stops(outlines, turn),
-        pauses=tuple(_pauses(turn)) if spec.drive.stop_s else (),
+        pauses=tuple(pauses),
         stop_s=spec.drive.stop_s,
         frame=frame,
     )
@@ -150,13 +159,6 @@ def _shapes(design: Design, part: str) -> tuple[Shape, ...]:
     with suppress(GenevaError):
         return design.drawing(part).shapes
     return ()
-
-
-def _pauses(turn: MachineTurn) -> Iterator[float]:
-    """Yield the middle of each dwell, also of one without length, degrees from the start."""
-    entries = [*(one.entry for one in turn.passages[1:]), turn.end]
-    for one, after in zip(turn.passages, entries, strict=True):
-        yield 0.5 * (one.exit + after) - turn.start
 
 
 def _remark(design: Design, bars: tuple[Bar, ...]) -> str:
@@ -244,16 +246,6 @@ def _reach(shape: Shape) -> float:
         return math.hypot(*shape.centre) + shape.radius
     ends = (at(segment, t) for segment in shape.segments for t in (0.0, 0.25, 0.5, 0.75, 1.0))
     return max(math.hypot(*point) for point in ends)
-
-
-def _frame_rotation(mechanism: Mechanism, start: float, whole: float) -> Rotation | None:
-    """The carrier's rotation over ``whole`` degrees of the input from ``start``; None without."""
-    if not mechanism.frame:
-        return None
-    rate = mechanism.frame * radians(1.0)
-    ends = rate * start, rate * (start + whole)
-    angle = Track((0.0, whole), ends, (rate, rate), ends[1] - ends[0])
-    return Rotation((mechanism.center_distance_mm, 0.0), angle)
 
 
 class WheelScene:

@@ -108,24 +108,22 @@ class Nearness:
         return phrases
 
 
-def refuse_words(options: Mapping[str, str], instead: str) -> None:
-    """Raise GenevaError for a quantity whose values are words.
+def refuse_unsound(
+    constraints: Sequence[Constraint], options: Mapping[str, str], instead: str
+) -> None:
+    """Raise GenevaError for bounds that no value keeps together, and for values that are words.
 
     ``options`` are the options that request quantities, by the quantities' names; ``instead`` says
     what would be right.
     """
-    for name, option in options.items():
-        if name in WORDS:
-            raise GenevaError(f"{option} {name}: a word has no order; {instead}")
-
-
-def refuse_contradictions(constraints: Sequence[Constraint]) -> None:
-    """Raise GenevaError for two bounds that no value keeps together."""
     for low in constraints:
         for high in constraints:
             apart = low.sign == ">=" and high.sign == "<=" and low.bound > high.bound
             if apart and low.name == high.name:
                 raise GenevaError(f"--subject-to: nothing is both {low} and {high}")
+    for name, option in options.items():
+        if name in WORDS:
+            raise GenevaError(f"{option} {name}: a word has no order; {instead}")
 
 
 class Objective(NamedTuple):

@@ -19,8 +19,7 @@ from geneva_cli.study.sweep.constraints import (
     constraint,
     is_number,
     objective,
-    refuse_contradictions,
-    refuse_words,
+    refuse_unsound,
 )
 from geneva_cli.study.sweep.run import DEFAULT, Sweep, plan, sweep, with_values
 from geneva_cli.study.sweep.values import axis, refuse_twice
@@ -78,11 +77,10 @@ def request(
     names += ["checks.passes", "checks.failed"] if check else []
     of_best, picks = (pick_of(names), needed) if best else (Pick(), [*needed, *names])
     swept = sweep(text, plan(axes, random, seed or 0), picks)
-    refuse_contradictions(bounds)
     if len(by) < len({*goals}):
         twice = next(name for name in by if [o.name for o in {*goals}].count(name) > 1)
         raise GenevaError(f"--pareto {twice}: it cannot be both min and max; keep one of them")
-    refuse_words(dict.fromkeys(needed, "--subject-to") | by, "--vary or --set picks it")
+    refuse_unsound(bounds, dict.fromkeys(needed, "--subject-to") | by, "--vary or --set picks it")
     return swept._replace(
         bounds=tuple(bounds),
         objectives=() if best else tuple(goals),

@@ -6,6 +6,7 @@ import hashlib
 import math
 import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from functools import partial
 from itertools import chain
 from typing import NamedTuple
@@ -182,10 +183,10 @@ class Sweep(NamedTuple):
 
     def _rows_alone(self, designs: Rows, values: Array) -> list[list[Cell]]:
         """The rows of designs with quantities that are computed for each; ``values`` are known."""
-        keys = [*designs]
-        whole = np.flatnonzero(~np.isnan(values).any(axis=0)).tolist() if len(values) else []
-        cells = Rows([*values[:, whole]]) if whole else ()
-        known = dict(zip(whole, cells, strict=True))
+        keys, known = [*designs], dict[int, list[Cell]]()
+        if len(values):
+            whole = np.flatnonzero(~np.isnan(values).any(axis=0))
+            known = dict(zip(whole.tolist(), Rows([*values[:, whole]]), strict=True))
         out: dict[int, list[Cell]] = {}
         for i, own in known.items():
             if not self._keeps(by_name := dict(zip(self.pick.batched, own, strict=True))):
@@ -195,11 +196,9 @@ class Sweep(NamedTuple):
             part = left[start : start + KEPT]
             last: Parts | None = None
             for i, machine in zip(part, self._machines(designs.taken(np.array(part))), strict=True):
-                if isinstance(machine, GenevaError):
-                    out[i] = self.row(keys[i], machine)
-                    continue
-                last = last.following(machine) if last else parts_of(machine)
-                out[i] = self.row(keys[i], last, known.get(i))
+                if machine:
+                    last = last.following(machine) if last else parts_of(machine)
+                out[i] = self.row(keys[i], last if machine else None, known.get(i))
         return [out[i] for i in range(len(keys))]
 
     def _keeps(self, cells: Mapping[str, Cell]) -> bool:
@@ -207,35 +206,31 @@ class Sweep(NamedTuple):
         known = () if self.goal else self.bounds  # a search needs them to come nearer
         return all(bound.kept(cells[bound.name]) for bound in known if bound.name in cells)
 
-    def _machines(self, designs: Rows) -> list[Mechanism | GenevaError]:
-        """The machine of each row, or why it cannot be built."""
-        machines: list[Mechanism | GenevaError] = []
-        for values in designs:
-            try:
-                machines.append(self.machine(values))
-            except GenevaError as error:
-                machines.append(error)
+    def _machines(self, designs: Rows) -> list[Mechanism | None]:
+        """The machine of each row, None if it cannot be built."""
+        machines: list[Mechanism | None] = [None] * len(designs)
+        for i, values in enumerate(designs):
+            with suppress(GenevaError):  # its row says why
+                machines[i] = self.machine(values)
         # the loads of their checks are those of batches
-        for members, machine in self._batches(designs) if self._makes_parts else ():
-            own = [one for i in members.tolist() if isinstance(one := machines[i], Mechanism)]
+        for members, batch in self._batches(designs) if self._makes_parts else ():
+            own = [one for i in members.tolist() if (one := machines[i])]
             if len(own) == len(members) > 1:
-                share(machine, own)
+                share(batch, own)
         return machines
 
     def row(
         self,
         values: Sequence[Cell],
-        parts: Parts | GenevaError | None = None,
+        parts: Parts | None = None,
         known: Sequence[Cell] | None = None,
     ) -> list[Cell]:
-        """The row of the design with these values of the keys.
+        """The row of the design with these values of the keys, computed alone.
 
-        It is computed alone, with the parts of its machine or the reason for none, if they are
-        given; ``known`` are the quantities of ``pick.batched`` from a batch.
+        ``parts`` are those of its machine, if they are made, and ``known`` the quantities of
+        ``pick.batched`` from a batch.
         """
         try:
-            if isinstance(parts, GenevaError):
-                raise parts
             parts = parts or parts_of(self.machine(values))
             return [*values, *self.pick.of_parts(parts, known, self._keeps), None]
         except GenevaError as error:

@@ -12,11 +12,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
+from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
+from geneva_cli.motion.many import changed
 from geneva_cli.numerics.arrays import Array, Mask, Whole, joined
 from geneva_cli.numerics.tolerances import ROUNDED
 from geneva_cli.study.batches import built, columns, split
@@ -179,8 +182,10 @@ def best(
     for i, (f, x) in enumerate(zip(families, numbers, strict=True)):
         is_known = abs(x - f.known) <= 1e-4 * (f.high - f.low)  # of another family
         if keeps[i] is not None and not is_known:
-            spec = f.at(x) if math.isnan(f.best) else f.spec
-            out[keeps[i]] += [spec] if spec else []
+            values = f.keys(np.array([x])) if f.keys and math.isnan(f.best) else {}
+            with suppress(GenevaError):  # no machine at a number
+                spec = changed(f.spec, {key: float(v[0]) for key, v in values.items()})
+                out[keeps[i]].append(spec)
     return out[True], out[False]
 
 

@@ -13,8 +13,7 @@ from geneva_cli.study.survey import parse_z
 from geneva_cli.study.sweep.constraints import (
     constraint,
     objective,
-    refuse_contradictions,
-    refuse_words,
+    refuse_unsound,
 )
 from geneva_cli.study.target import GEARINGS, ROLLERS_MAX, SPACE, AllowedSpan, Target
 
@@ -60,8 +59,8 @@ def read_target(
     phrases = [spans[name].words(*SPANS[name][1:]) for name in spans]
     phrases = [w if w[:2] == "a " else " = ".join(w.split(" ", 1)) for w in phrases]
     bounds = tuple(constraint(text) for text in subject_to)
-    refuse_contradictions(bounds)
-    refuse_words(dict.fromkeys([b.name for b in bounds], "--subject-to"), "only numbers are bound")
+    options = dict.fromkeys([b.name for b in bounds], "--subject-to")
+    refuse_unsound(bounds, options, "only numbers are bound")
     phrases += [str(bound) for bound in bounds]
     chosen = dict(zip(GEARINGS, (external, internal, spherical), strict=True))
     gearings = tuple(name for name, is_chosen in chosen.items() if is_chosen)

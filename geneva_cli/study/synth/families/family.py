@@ -15,7 +15,6 @@ from geneva_cli.motion.compatible import refuse_conflicts
 from geneva_cli.motion.drive import Drive
 from geneva_cli.motion.laws.law import Motion
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.many import changed
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.study.target import AllowedSpan, Target
@@ -49,16 +48,6 @@ class Family(NamedTuple):
     def is_free(self) -> bool:
         """Return True if the family has more than one machine."""
         return self.low < self.high
-
-    def at(self, number: float) -> Spec | None:
-        """The machine at a number; None if it cannot be built."""
-        try:
-            if self.keys is None:
-                return self.spec
-            values = self.keys(np.array([number]))
-            return changed(self.spec, {key: float(value[0]) for key, value in values.items()})
-        except GenevaError:
-            return None
 
 
 def pieces(families: Sequence[Family], most: int) -> list[Family]:
