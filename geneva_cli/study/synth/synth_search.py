@@ -28,7 +28,7 @@ from geneva_cli.study.fields import Cell, Pick, rows_of
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.sweep.constraints import Nearness, is_number
 from geneva_cli.study.synth.families.curved_slots import with_laws
-from geneva_cli.study.synth.families.family import Family, allows, natural_deg, pieces
+from geneva_cli.study.synth.families.family import Family, natural_deg, pieces
 from geneva_cli.study.synth.families.straight_slots import straight
 from geneva_cli.study.synth.family_search import best
 from geneva_cli.study.synth.suiting import suiting, with_roller
@@ -96,8 +96,7 @@ def rows(target: Target, specs: Sequence[Spec], errors: list[str]) -> list[Machi
                 continue
         if cost is None:
             continue
-        motion = target.motion_for(drive.rollers / drive.turns)
-        if motion is not None and not allows(motion, motion_deg):
+        if not target.motions(drive.rollers / drive.turns, motion_deg).allows(motion_deg):
             continue
         dwell_deg = dwell_deg if dwell_deg > 1e-9 else 0.0
         index_deg = spec.wheel.index_deg(0)
