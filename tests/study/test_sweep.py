@@ -61,13 +61,6 @@ def test_each_row_is_the_designs_own():
         assert error is None
 
 
-def test_words_and_kinds_vary_too():
-    found = sweep(read(SPEC), grid("wheel.gearing=external,internal"), picks=["dwell_deg"])
-    assert [row[1] for row in rows(found)] == [
-        load(SPEC, [f"wheel.gearing={g}"]).timing.dwell_deg for g in ("external", "internal")
-    ]
-
-
 def test_the_same_rows_whatever_the_processes_and_shares():
     some = grid("drive.A=-0.9..0.9:0.05", "wheel.z=4,6")
     alone = rows(sweep(read(SPEC), some), jobs=1)
