@@ -76,6 +76,8 @@ def values(tree: Any) -> list[Any]:
 
 def has(cells: set[str], told: str, value: Any) -> bool:
     """Whether a value is in a cell, alone or before its unit; a text in any text."""
+    if isinstance(value, float) and abs(value) < 1e-9:  # an angle of rounding
+        return "0" in cells
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         return value in told if isinstance(value, str) else value_text(value) in cells
     texts = {value_text(value, unit).removesuffix(f" {unit}") for unit in ("", "mm")}

@@ -153,44 +153,27 @@ def test_every_row_as_a_spec_is_the_row(options, tmp_path):
         file.write_text(written(target, found_rows.rows, number), encoding="utf-8")
         machine = load(str(file))
         # the machine is chosen by its motion; the sizes of its parts come after that
-        found_checks = checks(machine, parts=False)
+        failing = [c for c in checks(machine, parts=False) if not c.passes]
         stands = candidate["parts"] is None or not candidate["parts"].startswith("no")
-        failing = [c for c in found_checks if not c.passes]
         # a search samples the walls: what lies between is left to the turn
         assert not stands or all(c.value < 1.1 * c.limit for c in failing), (candidate, failing)
-        assert {c.name for c in failing} <= {"undercut_mm", "groove_pressure_deg"}, (
-            candidate,
-            failing,
-        )
+        assert {c.name for c in failing} <= {"undercut_mm", "groove_pressure_deg"}, candidate
         found, time, spec = worst(machine), timings(machine)[0], machine.spec
-        wanted = (
-            found.velocity.max,
-            found.acceleration.max,
-            found.ends.acceleration_entry,
-            found.jerk.max,
-            found.power.max,
-        )
+        peaks = found.velocity.max, found.acceleration.max, found.jerk.max, found.power.max
+        wanted = (*peaks[:2], found.ends.acceleration_entry, *peaks[2:])
         assert costs(candidate) == pytest.approx(wanted, rel=1e-12, abs=1e-15)
-        shown = (
-            candidate["ratio"],
-            candidate["motion_deg"],
-            candidate["dwell_deg"],
-            candidate["tau"],
-            candidate["k"],
-        )
-        times = (machine.ratio, time.motion_deg, time.dwell_deg, time.tau, time.k)
+        shown = [candidate[name] for name in ("ratio", "motion_deg", "dwell_deg", "tau", "k")]
+        times = [machine.ratio, time.motion_deg, time.dwell_deg, time.tau, time.k]
         assert shown == pytest.approx(times, rel=1e-12)
-        assert (spec.wheel.z, spec.wheel.NAME, spec.drive.rollers) == tuple(
-            candidate[name] for name in ("z", "gearing", "rollers")
-        )
+        named = [candidate[name] for name in ("z", "gearing", "rollers")]
+        assert named == [spec.wheel.z, spec.wheel.NAME, spec.drive.rollers]
         if target.timed:
             assert candidate["n_rpm"] == spec.drive.n_rpm
-            rad_s = candidate["n_rpm"] * math.pi / 30.0
-            size = candidate["acceleration_max"] * rad_s**2
+            size = candidate["acceleration_max"] * (candidate["n_rpm"] * math.pi / 30.0) ** 2
             assert candidate["acceleration_max_rad_s2"] == pytest.approx(size, rel=1e-14)
             assert time.cycle_s == pytest.approx(float(options["cycle"]), rel=1e-12)
-            if options.get("motion_s"):
-                assert time.motion_s == pytest.approx(float(options["motion_s"]), rel=1e-12)
+            moved = float(options.get("motion_s", time.motion_s))
+            assert time.motion_s == pytest.approx(moved, rel=1e-12)
 
 
 # Refusals
