@@ -8,13 +8,14 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError, clean, cut
 from geneva_cli.numerics.arrays import Array, Whole
-from geneva_cli.progress import Meter, tracked
+from geneva_cli.progress import Meter
 from geneva_cli.spec.schema import TEXT_MAX
 from geneva_cli.specfile.writer import quoted, spec_lines
 from geneva_cli.study.fields import Cell, Column, Rows, joined, rows_of
 from geneva_cli.study.sweep.constraints import Objective, is_number
 from geneva_cli.study.sweep.request import Outcome
 from geneva_cli.study.sweep.run import Sweep
+from geneva_cli.study.synth.family_search import Zoom, sampled, zoom
 
 MOST = 300  # designs of one run of the optimiser, far more than it needs with one or two keys
 # The same where each design is computed alone, often with its parts: up to half a minute a run. It
@@ -132,25 +133,21 @@ class _SweepSearch:
         """
         if not (self.free and self.sweep.is_batched):
             return rows
-        draw = np.random.default_rng(0)
-        count = 48  # designs about each place in a round
-        width = 0.25  # half of the cloud's, as a fraction of the span; 16 rounds take it to 1e-4
-        of = np.arange(len(rows))
-        for _ in tracked(range(16), "rounds", 16):
-            parents = np.repeat(of, count)
-            steps = draw.uniform(-width, width, (len(parents), len(self.free)))
-            at = self.fractions(rows)[parents] + steps
-            every = joined([rows, self.sweep.rows_of(self.moved(rows.taken(parents), at))])
-            violations, costs = self.merits(every)
-            owner = np.concatenate((of, parents))
-            order = np.lexsort((costs, violations, owner))
-            rows = every.taken(_first_of_each(order, owner.tolist()))
-            width *= 0.6
-        violations, costs = self.merits(rows)
-        order = np.lexsort((costs, violations))
-        least = costs[order[0]]
+        draw, every = np.random.default_rng(0), np.arange(len(rows))
+
+        def cloud(number: int) -> Array:
+            return draw.uniform(-1.0, 1.0, (48, len(self.free)))
+
+        def evaluate(of: Whole, at: Array) -> tuple[Array, Array]:
+            return self.merits(self.sweep.rows_of(self.moved(rows.taken(of), at)))
+
+        # half a span wide at first; 16 rounds take it to 1e-4
+        near = Zoom(cloud, 0.25, 0.6, 0.6, 16)
+        found = zoom(evaluate, sampled(evaluate, every, self.fractions(rows)), near, keep=1)
+        found = found.take(np.lexsort((found.cost, found.violation)))
         # clouds come far closer to a minimum than 1 %, so that a place above it is no rival
-        return rows.taken(order[costs[order] <= least + 0.01 * abs(least)])
+        found = found.take(found.cost <= found.cost[0] + 0.01 * abs(found.cost[0]))
+        return self.sweep.rows_of(self.moved(rows.taken(found.of), found.at))
 
     def moved(self, rows: Rows, at: Array) -> list[Column]:
         """The keys of designs, with the free ones at the fractions (n, k)."""
