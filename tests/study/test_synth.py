@@ -14,7 +14,7 @@ from geneva_cli.cli.app import app
 from geneva_cli.drives.side_crank import SideCrank
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.mechanism import build
-from geneva_cli.motion.peaks import peak, worst
+from geneva_cli.motion.peaks import worst
 from geneva_cli.motion.timing import timings
 from geneva_cli.study.synth.families import straight_slots as closed
 from geneva_cli.study.synth.reading import read_target
@@ -98,39 +98,6 @@ def test_rollers_up_to_the_strict_bound(z, most):
         assert candidate["n_rpm"] == pytest.approx(60.0 / candidate["rollers"])
     with pytest.raises(GenevaError, match=f"at most {most}"):
         candidates(z=str(z), cycle="1", external=True, rollers=most + 1)
-
-
-# A greatest acceleration
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("gearing", GEARINGS)
-@pytest.mark.parametrize("z", [3, 6, 11])
-@pytest.mark.parametrize("share", [0.9, 0.6, 0.35])
-def test_no_drive_nearer_to_the_plain_crank_keeps_the_limit(z, gearing, share):
-    """Against a grid: the drive keeps the limit, and no smaller parameter does."""
-
-    def most(kind, x):
-        drive = _keys(kind, *(phased(x) if kind == "elliptical-gears" else (x,)))
-        return peak(build(Spec(Wheel(z, gearing), Drive(kind), drive)).engagements[0].motion,
-                    "acceleration").max  # fmt: skip
-
-    limit = share * most("side-crank", 0.0)
-    some_found = candidates(z=str(z), subject_to=[f"acceleration.max <= {limit!r}"])
-    own = [c for c in some_found if c["gearing"] == gearing and c["rollers"] == 1]
-    for kind in ("side-crank", "elliptical-gears"):
-        found = [c for c in own if c["drive"] == kind]
-        near = [x for x in (i / 50 for i in range(-49, 50)) if most(kind, x) <= limit]
-        if not found:
-            assert not near
-            continue
-        (one,) = found
-        x = one["A"]
-        if x is None:
-            x = one["eccentricity"] * (1.0 if one["phase"] == "slow" else -1.0)
-        assert one["acceleration_max"] <= limit * (1.0 + 1e-15)  # a unit in the last place
-        assert not near or abs(x) <= min(map(abs, near))
-        assert most(kind, x * (1.0 - 1e-9)) > limit
 
 
 # Costs
