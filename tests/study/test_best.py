@@ -1,9 +1,8 @@
 """The best of a sweep: against closed forms, brute force and the built design itself."""
 
-import os
-
 import numpy as np
 import pytest
+import repo
 from scipy.optimize import brentq
 
 from geneva_cli import GenevaError, load
@@ -11,7 +10,7 @@ from geneva_cli.parts.parts import Parts
 from geneva_cli.study.sweep.best import best_spec
 from geneva_cli.study.sweep.request import Outcome, request
 
-SPEC = os.path.join(os.path.dirname(__file__), *[os.pardir] * 2, "designs", "side-crank-z6.toml")
+SPEC = str(repo.DESIGNS / "side-crank-z6.toml")
 
 
 def best(tmp_path, *vary, **asked):

@@ -22,8 +22,7 @@ from geneva_cli.study.sweep.request import request
 from geneva_cli.study.sweep.run import plan, sweep
 from geneva_cli.study.sweep.values import axis
 
-DESIGNS = os.path.join(os.path.dirname(__file__), os.pardir, os.pardir, "designs")
-SPEC = os.path.join(DESIGNS, "side-crank-z6.toml")
+SPEC = str(repo.DESIGNS / "side-crank-z6.toml")
 GRID = ["drive.A=-0.4,0,0.6,1", "wheel.z=5,6"]
 
 

@@ -1,10 +1,10 @@
 """Wishes that combine: ranges, bounds, a frame, an order; against dense sweeps of every kind."""
 
 import math
-import os
 
 import numpy as np
 import pytest
+import repo
 from searched import searched
 from words import Drive, Keys, Motion, Spec, Wheel, load
 
@@ -18,7 +18,6 @@ from geneva_cli.study.synth.reading import read_target
 from geneva_cli.study.synth.synth_search import search
 
 pytestmark = pytest.mark.usefixtures("few_four_bars")
-DESIGNS = os.path.join(os.path.dirname(__file__), "..", "..", "designs")
 # A minimum found to a share d of its place is d² off in its value, and no dense sweep is nearer.
 NEAR = 1e-8
 
@@ -105,7 +104,7 @@ def test_no_dense_sweep_finds_a_gentler_machine(z, low, high, gearing):
             ratios = np.linspace(-0.2, 0.2, 2001)
             theirs["epicyclic", fixed] = swept(spec, "drive.planet_ratio", ratios, low, high)
     alpha = np.linspace(-170.0, 170.0, 1361)
-    # curved slots end at the longest motion whose parts can be built: test_synth_parts
+    # curved slots end at the longest motion whose parts can be built: test_synth
     spec = Spec(wheel, Drive("cam"), {}, Motion("modified-sine"))
     theirs["cam", "law"] = swept(spec, "motion.alpha0_deg", alpha, low, high)
     for kind, peak in theirs.items():
@@ -149,7 +148,7 @@ def test_of_what_no_array_has_several_machines_of_a_family_are_asked():
 @pytest.mark.long
 def test_a_frame_and_an_order():
     """Sizes, loads and speed of a spec in every row; each quantity is the built design's own."""
-    frame = os.path.join(DESIGNS, "press-345.toml")
+    frame = str(repo.DESIGNS / "press-345.toml")
     target = read_target(
         frame=load(frame).spec,
         motion_deg="100..130",
