@@ -63,10 +63,8 @@ ALONE = {
     "study.law_values",
     "kept",
     "specfile.template",
-    "specfile.designs",
     "specfile.keys",
     "specfile.meanings",
-    "specfile.json_schema",
     "drawings.catalogue",
 }
 # A kind's names; "table" is a law, and also what people are shown.

@@ -14,7 +14,7 @@ from geneva_cli.motion.machine_spec import BEFORE, Spec
 from geneva_cli.motion.many import many, may_vary
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array, Whole
-from geneva_cli.spec.schema import SpecTable, fields
+from geneva_cli.spec.schema import fields
 from geneva_cli.study.fields import Cell, Rows, cells_of
 from geneva_cli.verdict.quantities.batch_designs import Designs
 from geneva_cli.verdict.quantities.quantity_names import group_of, in_batch
@@ -130,8 +130,7 @@ def split(specs: Sequence[Spec]) -> list[tuple[Any, dict[str, float]]]:
         if kinds not in keys:
             keys[kinds] = []
             for table in ("wheel", "drive", BEFORE, "motion"):  # where machines of a target differ
-                place = table.replace(".", "_")
-                part: SpecTable | None = tables[place]
+                place, part = table.replace(".", "_"), spec.part(table)
                 for field in fields(type(part)) if part else ():
                     name = f"{table}.{field.key}"
                     keys[kinds].append((name, place, field.attribute, may_vary(spec, name)))

@@ -19,9 +19,9 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.drive import Drive
+from geneva_cli.motion.given_motion import MOTION_MIN
 from geneva_cli.motion.laws.law import Motion
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.path_and_motion import MOTION_MIN
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.arrays import Array

@@ -60,20 +60,18 @@ class BenchRow(NamedTuple):
     memory_exponent: float | None = None
 
 
-def beats(one, other, slack, floor):
-    """Return True if ``one`` is faster and as accurate."""
-    faster = one.time_ratio < (1.0 - slack) * other.time_ratio
-    return faster and max(one.error, floor) <= max(other.error, floor)
-
-
 def with_frontier(rows, slack, floor):
-    """Rows of a task, each marked as on the frontier unless another method beats it.
+    """Rows of a task, each marked as on the frontier unless another is faster and as accurate.
 
     Ours are different functions or inputs, and do not compete with each other.
     """
+
+    def beats(one, other):
+        faster = one.time_ratio < (1.0 - slack) * other.time_ratio
+        return faster and max(one.error, floor) <= max(other.error, floor)
+
     out = []
     for row in rows:
         rivals = [other for other in rows if not (other.ours and row.ours)]
-        is_beaten = any(beats(other, row, slack, floor) for other in rivals)
-        out.append(row._replace(frontier=not is_beaten))
+        out.append(row._replace(frontier=not any(beats(other, row) for other in rivals)))
     return out

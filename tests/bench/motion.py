@@ -38,21 +38,16 @@ def stable(l, x, orders):
     return out
 
 
-def differences(l, x, orders):
-    """Position, and repeated np.gradient of it, as scripts do."""
-    values = [np.arctan2(l * np.sin(x), 1.0 - l * np.cos(x))]
-    for _ in range(max(orders)):
-        values.append(np.gradient(values[-1], x))
-    return [values[k] for k in orders]
-
-
-def blocks(l, x, orders, size=8192):
-    """The stable formula in blocks of ``size`` angles, which stay in the cache."""
-    out = [np.empty(len(x)) for _ in orders]
+def in_blocks(formula, x, count=2, size=8192):
+    """The ``count`` arrays of a formula in blocks of angles that stay in the cache."""
+    out = np.empty((count, len(x)))
     for i in range(0, len(x), size):
-        for whole, part in zip(out, stable(l, x[i : i + size], orders), strict=True):
-            whole[i : i + size] = part
+        out[:, i : i + size] = formula(x[i : i + size])
     return out
+
+
+def stable_blocks(l, x, orders):
+    return in_blocks(lambda part: stable(l, part, orders), x, len(orders))
 
 
 def motion(quick):
@@ -81,8 +76,7 @@ def _task(count, orders):
     formulas = [
         ("textbook formula", textbook),
         ("stable formula, whole arrays", stable),
-        ("stable formula, in blocks", blocks),
-        ("numerical differentiation of the position", differences),
+        ("stable formula, in blocks", stable_blocks),
     ]
     methods = [Method(name, count, partial(formula, l, x, orders)) for name, formula in formulas]
     motion = engagement.motion
@@ -133,7 +127,7 @@ def _kind_task(kind, count):
     if kind.formula:
         argument = kind.argument(value, engagement)
         formula, radians = partial(kind.formula, argument), np.radians(angles)
-        script = partial(_in_blocks, formula, radians)
+        script = partial(in_blocks, formula, radians)
         methods.append(Method("a handbook's formulas, in blocks", count, script))
         fast = compiled(kind.formula)
         if fast:
@@ -156,14 +150,6 @@ def angle_task(what, angles, error, methods):
         error,
         methods,
     )
-
-
-def _in_blocks(formula, x, size=8192):
-    """Velocity and acceleration by a formula in blocks of angles that stay in the cache."""
-    out = np.empty((len(ORDERS), len(x)))
-    for i in range(0, len(x), size):
-        out[:, i : i + size] = formula(x[i : i + size])
-    return out
 
 
 def _jets(motion, angles, orders):

@@ -11,7 +11,7 @@ from fuzz import folder
 from typer.testing import CliRunner
 
 from geneva_cli.cli.app import app
-from geneva_cli.specfile.json_schema import FILE, schema
+from geneva_cli.specfile.keys import FILE, schema
 from geneva_cli.specfile.template import KINDS, template
 
 

@@ -28,7 +28,7 @@ from geneva_cli.parts.turn.full_turn import full_turn
 from geneva_cli.parts.turn.turned_parts import wheel_stops, windows
 from geneva_cli.spec.schema import Points, checked, fields
 from geneva_cli.spec.tables import PLAIN
-from geneva_cli.specfile.json_schema import schema as json_schema
+from geneva_cli.specfile.keys import schema as json_schema
 from geneva_cli.specfile.template import KINDS, template
 from geneva_cli.specfile.tree import spec_of
 from geneva_cli.study.synth.reading import read_target
@@ -61,7 +61,7 @@ def require_largest_plays(parts):
 def stops(arguments):
     """Return the result of a case: a seed, the step of the joints' weights, the machine's keys."""
     seed, step, case = arguments
-    with mock.patch("geneva_cli.geometry.fit.arcs.WEIGHT", step):
+    with mock.patch("geneva_cli.geometry.fit.WEIGHT", step):
         try:
             parts = made.__wrapped__(**case)
         except GenevaError:

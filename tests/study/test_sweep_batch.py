@@ -7,7 +7,7 @@ import pytest
 import repo
 
 from geneva_cli import External, load
-from geneva_cli.loads.cycle_quantities import REPORTED_PEAKS
+from geneva_cli.loads.load_peaks import REPORTED_PEAKS
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.spec.tables import Load, Size

@@ -33,7 +33,7 @@ from geneva_cli.output.scene import (
     pose,
 )
 from geneva_cli.parts.assembly import links_at
-from geneva_cli.parts.gears.gear_curves import gears_table
+from geneva_cli.parts.gears.gear_pair import gears_table
 from geneva_cli.parts.links.link_plates import drawn_links
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.specfile.writer import quoted, spec_lines

@@ -6,7 +6,6 @@ Its steps, one file each:
     families/      machines that may meet it, with free numbers in each family
     family_search  the best machine of each family: a grid and ever closer samples
     suiting        the roller that suits each machine, or the obstacle to its parts
-    machine_rows   description and costs of each
-    synth_search   the rows of all groups that keep the bounds, the best first
+    synth_search   the rows of all groups with their costs, the best first
     synth_table    the rows, the first of them turned, and a row as a spec
 """
