@@ -36,7 +36,7 @@ from geneva_cli.specfile.meanings import meanings, related
 from geneva_cli.specfile.template import DESIGNS, EXAMPLES
 from geneva_cli.study import law_values, survey
 from geneva_cli.study.sweep.run import ERROR
-from geneva_cli.study.synth.machine_rows import CELLS as SYNTH
+from geneva_cli.study.synth.synth_search import CELLS as SYNTH
 from geneva_cli.study.verdicts import checks_table
 from geneva_cli.verdict.checks import LIMITS, MOTION, STANDING, TURNING, checks
 from geneva_cli.verdict.checks import PROOFS as PROVED
