@@ -581,7 +581,7 @@ class Design:
 
         The oscillator is that of [shaft]. ``period_ratio`` (motion time over natural period) and
         ``damping`` (ratio) replace its values. Shares are fractions of the wheel's step. Raises
-        GenevaError if no stiffness is known.
+        GenevaError if no stiffness or no inertia is known.
 
         >>> round(Design(External(3)).vibration(0.5, damping=0.02)["residual_share"], 12)
         0.871288725706
@@ -603,9 +603,9 @@ class Design:
         >>> Design(External(6)).spectrum(3, period_ratio=10.0)["n_rpm"].round(9)
         array([ 30.,  60., 120.])
         """
-        from geneva_cli.loads.vibration.vibration import required_oscillator, spectrum
+        from geneva_cli.loads.vibration.vibration import oscillator, spectrum
 
-        shaft = required_oscillator(self.mechanism, period_ratio, damping)
+        shaft = oscillator(self.mechanism, period_ratio, damping)
         return spectrum(self.mechanism, shaft, samples)
 
     @question

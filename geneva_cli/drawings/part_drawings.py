@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.plates import Group, Member, in_place, placed
+from geneva_cli.geometry.plates import Group, Member, in_place
 from geneva_cli.geometry.shapes import (
     Arc,
     Circle,
@@ -21,6 +21,7 @@ from geneva_cli.geometry.shapes import (
     bounds,
     closed,
     joined,
+    placed,
     turned,
 )
 from geneva_cli.geometry.sheet import Annotations, Drawing, LevelDistance

@@ -23,9 +23,8 @@ from geneva_cli.parts.frame import framed
 from geneva_cli.parts.links.links import Links
 from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.outlines.crank_outline import crank_bore, is_whole
-from geneva_cli.parts.outlines.cut_outlines import drawn
+from geneva_cli.parts.outlines.cut_outlines import drawn, slot_walls, wheel_contour
 from geneva_cli.parts.outlines.outlines import Outlines, dial_circle, wheel_hub, wheel_plate
-from geneva_cli.parts.outlines.wheel_outline import slot_walls, wheel_contour
 from geneva_cli.parts.parts import EdgedParts, FrameAndShafts, NamedBuilds
 from geneva_cli.parts.shafts.arm_and_shafts import (
     CrankArm,

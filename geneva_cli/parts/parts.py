@@ -90,7 +90,10 @@ class Parts(TurnedParts):
 
     def of(self, mechanism: Mechanism) -> Self:
         """Return the parts of a machine whose wheel, crank and positions are equal."""
-        return self.over(self.assembly._replace(full=mechanism, to_input=input_of(mechanism)))
+        other = type(self)(mechanism, self.advice)
+        assembly = self.assembly._replace(full=mechanism, to_input=input_of(mechanism))
+        vars(other)["_shape"] = self._shape._replace(assembly=assembly)
+        return other
 
     def following(self, mechanism: Mechanism) -> Parts:
         """Return the parts of the next design, with these outlines and this turn if they are equal.

@@ -19,7 +19,6 @@ from geneva_cli.geometry.plates import (
     Member,
     Plate,
     added,
-    inwards,
     mass_properties,
 )
 from geneva_cli.geometry.shapes import ORIGIN, Circle
@@ -170,7 +169,9 @@ class SphereParts(Parts):
         for one, frame in own:
             part = one.member.part
             assert isinstance(part, Plate)
-            members.append(Member(inwards(part, outside), frame=frame))
+            # heights become distances inwards
+            part = part._replace(low=outside - part.high, high=outside - part.low)
+            members.append(Member(part, frame=frame))
         return tuple(members)
 
     @property

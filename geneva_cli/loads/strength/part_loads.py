@@ -27,7 +27,6 @@ import numpy as np
 
 from geneva_cli.kept import Known
 from geneva_cli.loads.contact import QuantityValue
-from geneva_cli.loads.cycle_quantities import FORCE
 from geneva_cli.loads.impacts.reversal import reversal_impacts
 from geneva_cli.loads.instant import Instant, LoadQuantity
 from geneva_cli.loads.load_case import centrifugal_N
@@ -151,8 +150,8 @@ def part_loads(mechanism: Mechanism) -> PartLoads:
         "wheel_Nm": wheel_shaft,
         "crank_Nm": _shaft_load(mechanism, "crank"),
     }
-    peaks = load_peaks(mechanism, (FORCE, "wheel_bearing_N", "crank_bearing_N", *own), own)
-    force, wheel = peaks[FORCE].max, peaks["wheel_bearing_N"].max
+    peaks = load_peaks(mechanism, ("pin_force_N", "wheel_bearing_N", "crank_bearing_N", *own), own)
+    force, wheel = peaks["pin_force_N"].max, peaks["wheel_bearing_N"].max
     jump = np.nan_to_num(reversal_impacts(mechanism).jump) + np.zeros(np.shape(force))
     wheel_Nm, crank_Nm = np.sqrt(peaks["wheel_Nm"].max), np.sqrt(peaks["crank_Nm"].max)
     wheel_Nm = np.maximum(wheel_Nm, dwell_torque_Nm(mechanism))

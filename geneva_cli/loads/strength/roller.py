@@ -17,7 +17,6 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.loads.contact import LoadCase, contact
-from geneva_cli.loads.cycle_quantities import FORCE
 from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_functions import LoadFunctions, refuse_noise
@@ -26,7 +25,6 @@ from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Array, Whole, array, parameter
-from geneva_cli.numerics.extremes import search
 from geneva_cli.numerics.quadrature import span_integrals
 
 LIFE_EXPONENT = 10.0 / 3.0  # p, of line contact
@@ -61,9 +59,8 @@ def passage(engagement: Engagement, case: LoadCase, half: float = 0.0) -> SlotPa
     # curved slot both branches begin at mid-motion. Spans end there.
     middle = curved or (engagement.on_arm and engagement.motion.symmetric)
     more = ("slides",) if middle else ("slides", "along")
-    load, n = LoadFunctions(engagement, case, (FORCE,), more=more), np.size(case.design)
-    parts, known = load.to_search()
-    result = search(load, parts, False, known, load.spread)
+    load, n = LoadFunctions(engagement, case, ("pin_force_N",), more=more), np.size(case.design)
+    result = load.search()
     bounded = np.isfinite(result.most[0])  # the integrals are, where the force is
     design, _, (a, b), positive = load.stretches(result)
     own = np.flatnonzero(half * (a + b) >= 0.0)

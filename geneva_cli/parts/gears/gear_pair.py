@@ -38,8 +38,7 @@ from geneva_cli.table import Table
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from geneva_cli.geometry.fit import Writer
-    from geneva_cli.geometry.fit.arcs import Curve
+    from geneva_cli.geometry.fit import Curve, Writer
 
 NAMES = (
     *("input_deg", "crank_deg", "ratio", "driver_radius_mm", "driver_x_mm", "driver_y_mm"),

@@ -13,8 +13,8 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.plates import Member, Plate, apart, placed, plate_wall
-from geneva_cli.geometry.shapes import ORIGIN, Circle, Layer, Shape, convex_hull
+from geneva_cli.geometry.plates import Member, Plate, apart, plate_wall
+from geneva_cli.geometry.shapes import ORIGIN, Circle, Layer, Shape, convex_hull, placed
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Joint, Link
 from geneva_cli.numerics.tolerances import SAME_LENGTH, bore_radius

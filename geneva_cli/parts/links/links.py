@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from geneva_cli.geometry.plates import Member, Plate, placed
-from geneva_cli.geometry.shapes import Circle, Point
+from geneva_cli.geometry.plates import Member, Plate
+from geneva_cli.geometry.shapes import Circle, Point, placed
 from geneva_cli.motion.pivots import Joint, Teeth
 from geneva_cli.numerics.tolerances import bore_radius, rounded_radius
 from geneva_cli.parts.assembly import same

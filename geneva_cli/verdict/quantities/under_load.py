@@ -10,7 +10,6 @@ import numpy as np
 from geneva_cli.errors import GenevaError, marking
 from geneva_cli.kept import cached_property
 from geneva_cli.loads.cycle import cycle_of
-from geneva_cli.loads.cycle_quantities import FORCE, PV
 from geneva_cli.loads.impacts.reversal import reversal_impacts
 from geneva_cli.loads.impacts.shock_force import Impacts, forces_N
 from geneva_cli.loads.load_peaks import load_peaks
@@ -56,7 +55,7 @@ class UnderLoad:
         """The greatest force on a roller, along the wall's normal."""
         if self.designs.single and not np.isnan(self.loaded[0]):
             return np.array([self.part_loads.pin_N])  # its cached loads have it
-        return self._peak(FORCE)
+        return self._peak("pin_force_N")
 
     @cached_property
     def roller_N(self) -> Array:
@@ -67,8 +66,8 @@ class UnderLoad:
     def pv_W_m2(self) -> Array:
         """The greatest contact pressure times sliding speed; it needs a face width."""
         if self.designs.single and not np.isnan(self.loaded[0]):
-            return np.array([cycle_of(self.machine).ends[PV].max])
-        return self._peak(PV)
+            return np.array([cycle_of(self.machine).ends["pv_W_m2"].max])
+        return self._peak("pv_W_m2")
 
     def _peak(self, name: str) -> Array:
         """The greatest size of a load; NaN without a load."""
