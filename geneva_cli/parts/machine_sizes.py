@@ -21,7 +21,6 @@ from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.outlines.crank_outline import arc_floor
 from geneva_cli.parts.outlines.cut_outlines import cut_lock
 from geneva_cli.parts.sizes import (
-    CLEARANCES,
     Fault,
     KeySizes,
     Sizes,
@@ -108,8 +107,9 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
     known: dict[str, float] = {
         "center_distance_mm": mechanism.center_distance_mm,
         "roller_radius_mm": mechanism.roller_radius_mm,
-        **dict(zip(CLEARANCES, mechanism.spec.size.allowances, strict=False)),
+        **mechanism.spec.size.allowances._asdict(),
     }
+    del known["source"]
     of_kind: Callable[[Mechanism], KeySizes] | None
     of_kind = thing(mechanism.spec.wheel.NAME, "sizes") if mechanism.spec.has_parts else None
     if of_kind:

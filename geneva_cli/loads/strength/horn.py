@@ -18,7 +18,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from functools import lru_cache
-from typing import NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -159,7 +159,7 @@ class Horn(NamedTuple):
 
 
 # Horns of a mechanism and its sizes; those of a sphere have the members that are used of a Horn.
-Sides: TypeAlias = Callable[..., Sequence[Horn]]
+Sides: TypeAlias = Callable[..., Sequence[Any]]
 
 
 def horns(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> list[Horn]:
