@@ -24,16 +24,12 @@ from geneva_cli.parts.outlines.cut_outlines import drawn
 from geneva_cli.parts.outlines.outlines import Outlines, dial_circle, wheel_hub_length
 from geneva_cli.parts.shafts.arm_and_shafts import bolts, crank_arm, crank_hub
 from geneva_cli.parts.shafts.bores import bore_of
+from geneva_cli.parts.sizes import CLEARANCES
 from geneva_cli.spec.schema import fields
 from geneva_cli.spec.tables import Size
 
 # Not sizes of a part, or sizes whose mere presence makes one: a hub, a limit of `check`.
 LEFT_OUT = ("wheel_hub_mm", "crank_hub_mm", "wall_min_mm")
-# Clearances and fits, which a process sets; without one they are 0, and no rule chose them.
-ALLOWED = (
-    *("slot_clearance_mm", "lock_clearance_mm", "press_fit_mm", "shaft_fit_mm"),
-    "pin_gap_mm",
-)
 # What people call the sizes that a load chooses, the first one that is to be looked at first.
 NAMES = {
     "size.crank_bore_mm": "crank shaft {:g}",
@@ -163,7 +159,7 @@ def _is_written(mechanism: Mechanism, key: str, values: Mapping[str, float | str
     spec, value = mechanism.spec, values[key]
     if key == "lock_bolts" or isinstance(value, str):
         return True
-    if key in LEFT_OUT or (key in ALLOWED and spec.size.process is None):
+    if key in LEFT_OUT or (key in CLEARANCES and spec.size.process is None):  # those are 0
         return False
     if key == "center_distance_mm":  # some drives solve for it, or it follows from R
         return value == spec.given_distance_mm and spec.size.crank_radius_mm is None
@@ -178,10 +174,7 @@ def _is_written(mechanism: Mechanism, key: str, values: Mapping[str, float | str
 
 
 def detail_sizes(mechanism: Mechanism) -> Values:
-    """Return the sizes of a machine's details by keys of ``[size]``: mm, diameters, or counts.
-
-    None where its parts cannot be drawn, which the checks report.
-    """
+    """Return the sizes of a machine's details by keys of ``[size]``; none where it is not drawn."""
     own_details, out = thing(mechanism.spec.wheel.NAME, "details"), Values()
     with suppress(GenevaError):
         if own_details:

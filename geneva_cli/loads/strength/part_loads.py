@@ -39,10 +39,7 @@ from geneva_cli.numerics.jet import Array, Jet, Number, sqrt
 
 
 class ShaftLoad(NamedTuple):
-    """A row for ``load_peaks``, which the grip bounds: the square (Kb M)² + (Kt T)² of a shaft.
-
-    Of the torque alone without an overhang.
-    """
+    """The square (Kb M)² + (Kt T)² of a shaft, for ``load_peaks``; T² without an overhang."""
 
     part: str
     on_sphere: bool

@@ -91,10 +91,7 @@ class UnderLoad:
 
     @cached_property
     def lock_sizes(self) -> tuple[float, Lock] | None:
-        """Half the slot's width, and the lock in its narrowest sector, mm; (m, 1) for m designs.
-
-        NaN for designs without a lock; None if none has one.
-        """
+        """Half the slot's width, and the lock in its narrowest sector, mm (m, 1)."""
         each = list[tuple[float, Lock] | None]()
         drawn = self.layouts if self.designs.are_built else self._unloaded
         for of, is_drawn in zip(self._unloaded, drawn, strict=True):
@@ -186,10 +183,7 @@ class UnderLoad:
         return reversal_impacts(self.machine)
 
     def pin_N(self, pin: PinSize) -> Array:
-        """The greatest force on a roller, with its friction, in the cycle or by an impact; (m, 1).
-
-        A pin of another size is struck by another force.
-        """
+        """The greatest force on a roller with its friction, in the cycle or by an impact, (m, 1)."""
         jump = self.reversals.jump[:, None]
         if np.isnan(jump).all():
             return self.roller_N
