@@ -183,7 +183,7 @@ class UnderLoad:
         return reversal_impacts(self.machine)
 
     def pin_N(self, pin: PinSize) -> Array:
-        """The greatest force on a roller with its friction, in the cycle or by an impact, (m, 1)."""
+        """The greatest force on a roller with its friction, in the cycle or by impact, (m, 1)."""
         jump = self.reversals.jump[:, None]
         if np.isnan(jump).all():
             return self.roller_N
