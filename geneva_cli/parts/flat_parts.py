@@ -301,11 +301,13 @@ class FlatParts(EdgedParts):
     @cached_property
     def framed(self) -> FrameAndShafts:
         """The frame, what is on it, and the shafts."""
-        moving = self.wheel, self.crank, *self.linked, *self.round_gears, *self.first
-        lows = [
-            solid.low for one in moving for solid in solids(one.part) if isinstance(solid, Plate)
-        ]
-        lows += [self._base.low] if self._base else []
+        lows = [self._base.low] if self._base else []
+        for gear in self.links.gears:
+            lows.append(gear.plate.low)
+        for one in (self.wheel, self.crank, *self.linked, *self.first):
+            for solid in solids(one.part):
+                assert isinstance(solid, Plate)
+                lows.append(solid.low)
         if self.mechanism.spec.gears:
             from geneva_cli.parts.gears.gear_pair import gear_span
 

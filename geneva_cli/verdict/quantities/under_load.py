@@ -85,7 +85,7 @@ class UnderLoad:
                 of.wheel, drive, of.motion, of.size, shaft=of.shaft, drive_before=of.drive_before
             )
         if self.designs.are_built or designs_in(bare) > 1:
-            return [_bare(one) for one in self.designs.each]
+            return [*map(_bare, self.designs.each)]
         # designs that differ in speed and loads only have the same
         return [_bare(build(taken(bare, 0)))] * count
 
