@@ -58,10 +58,3 @@ class Kind(NamedTuple):
     families: Mapping[str, str] = _NONE
     roller: str = ""  # function that returns the roller that suits a mechanism, for synth
     scene: str = ""  # class of what a page shows of the wheels
-
-
-class Extra(NamedTuple):
-    """What a folder of ``extras`` adds."""
-
-    answers: Mapping[str, str]  # functions by the names of their answers
-    laws: Mapping[str, str] = _NONE  # classes of motion laws by their names

@@ -14,7 +14,6 @@ from geneva_cli.drives.crank import Crank
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.strength.part_loads import single_loads
 from geneva_cli.motion import registry
-from geneva_cli.motion.drive import FirstWheel
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.wheels.external import External
@@ -29,11 +28,15 @@ from geneva_cli.spec.defaults import wall_min
 from geneva_cli.spec.tables import Load, Size
 
 
-def first_spec(mechanism: Mechanism, first: FirstWheel) -> Spec:
-    """Return the spec of the first wheel and its crank, with the sizes that it shares."""
+def first_spec(mechanism: Mechanism, first: tuple[int, float]) -> Spec:
+    """Return the spec of the first wheel and its crank, with the sizes that it shares.
+
+    ``first`` is its number of slots, and its distance from its own crank.
+    """
     spec, size = mechanism.spec, mechanism.spec.size
+    slots, distance_mm = first
     own = Size(
-        center_distance_mm=first.distance_mm,
+        center_distance_mm=distance_mm,
         roller_radius_mm=mechanism.roller_radius_mm,
         wheel_thickness_mm=size.link_thickness_mm,
         arm_thickness_mm=size.link_thickness_mm,
@@ -43,7 +46,7 @@ def first_spec(mechanism: Mechanism, first: FirstWheel) -> Spec:
     )
     torque = single_loads(mechanism).crank_Nm if spec.is_loaded else 0.0
     return Spec(
-        External(first.z),
+        External(slots),
         Crank(n_rpm=spec.drive.n_rpm),
         size=own,
         load=Load(torque_Nm=torque if math.isfinite(torque) else 0.0),
@@ -89,7 +92,7 @@ def first_pair(mechanism: Mechanism, outlines: Outlines | None) -> Mechanism:
             ("size", key),
         )
     bars = drawn_links(mechanism, outlines)
-    second, own = (L, 0.0), (L + first.distance_mm, 0.0)
+    second, own = (L, 0.0), (L + first[1], 0.0)
     bore = 0.0 if bars.one_piece(own, L) else bars.shaft(own, L)
     alone = first_spec(mechanism, first)
     size = alone.size.replace(
