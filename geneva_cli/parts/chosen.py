@@ -175,18 +175,20 @@ def _is_written(mechanism: Mechanism, key: str, values: Mapping[str, float | str
 
 def detail_sizes(mechanism: Mechanism) -> Values:
     """Return the sizes of a machine's details by keys of ``[size]``; none where it is not drawn."""
-    own_details, out = thing(mechanism.spec.wheel.NAME, "details"), Values()
+    own_details = thing(mechanism.spec.wheel.NAME, "details")
     with suppress(GenevaError):
         if own_details:
             return {**own_details(mechanism)}
         if mechanism.spec.is_flat:
-            parts = drawn(*machine_sizes(mechanism))
-            for own in (_arm_and_lock, _hubs_and_bores, _links):
-                out |= own(parts)
-    return out
+            return _flat_details(drawn(*machine_sizes(mechanism)))
+    return {}
 
 
-def _arm_and_lock(parts: Outlines) -> Values:
+def _flat_details(parts: Outlines) -> Values:
+    """Return the sizes of arm, lock, hubs, the flats of D bores, links, and gears that stand."""
+    from geneva_cli.parts.links.link_plates import drawn_links
+
+    size, sizes = parts.assembly.mechanism.spec.size, parts.sizes
     out: Values = {"relief": parts.relief} if parts.crank else {}
     if parts.has_arm:
         arm, screws = crank_arm(parts), bolts(parts)
@@ -196,13 +198,6 @@ def _arm_and_lock(parts: Outlines) -> Values:
             out["lock_bolts"] = len(screws) // each
         if screws:
             out["lock_bolt_mm"] = 2.0 * screws[0].radius
-    return out
-
-
-def _hubs_and_bores(parts: Outlines) -> Values:
-    """Return the lengths of hubs, the bolts of the dial, and the depths of the flats of D bores."""
-    size, sizes = parts.assembly.mechanism.spec.size, parts.sizes
-    out: Values = {}
     if size.has_hub("wheel") and sizes.wheel_hub > sizes.wheel_bore:
         out["wheel_hub_length_mm"] = wheel_hub_length(size, sizes)
     if size.dial_bolts:
@@ -214,14 +209,7 @@ def _hubs_and_bores(parts: Outlines) -> Values:
     for part, radius in radii.items():
         if radius and (flat := bore_of(size, part, radius).flat):
             out[f"{part}_flat_mm"] = flat
-    return out
-
-
-def _links(parts: Outlines) -> Values:
-    """Return pins and width of links, and the screws of gears that stand still."""
-    from geneva_cli.parts.links.link_plates import drawn_links
-
-    links, out = drawn_links(parts.assembly.full, parts), Values()
+    links = drawn_links(parts.assembly.full, parts)
     for gear in links.gears:
         if gear.screws and gear.screws.holes:
             out["gear_bolt_mm"] = 2.0 * gear.screws.hole
