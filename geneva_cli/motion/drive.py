@@ -56,8 +56,6 @@ class Drive(SpecTable, kw_only=True):
     FIRST: ClassVar[str] = ""
     # True if the input shaft carries the crank, so that the classic closed forms hold
     direct: ClassVar[bool] = False
-    # True if its own input shaft turns about the crank's axis, as the crank or another arm
-    turned_at_crank: ClassVar[bool] = True
     # names of its links that are gears with pitch circles
     round_gears: ClassVar[tuple[str, ...]] = ()
     # A kind whose keys decide these sets them as it is made:

@@ -231,7 +231,7 @@ class Spec(SpecTable):
             if before.gears and drive.gears:
                 why = "one pair of noncircular-gears with the ratio of both does the same"
                 return f"the parts of {pair}: {why}"
-            if not (before.gears or drive.turned_at_crank):
+            if not before.gears and drive.crank and not drive.direct:
                 why = "the shaft between them has no bearing, since the input crank turns below it"
                 return f"the parts of {pair}: {why}"
         own: Callable[[Spec], str] | None = thing(self.wheel.NAME, "no_parts")

@@ -74,7 +74,7 @@ def test_a_collision_of_known_depth_is_proved_to_no_less(name, depth):
 def checked(parts, turn_of=None, to_mm=None):
     """The check of parts whose sampled turn may be that of other parts."""
     own = with_shape(parts)
-    vars(own)["_turn"] = full_turn(turn_of or parts)
+    vars(own)["turn"] = full_turn(turn_of or parts)
     return next(gap_proof(["gap_proved_mm"], own, to_mm), None)
 
 
