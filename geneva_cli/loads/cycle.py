@@ -193,10 +193,9 @@ def _driven(cycle: Cycle) -> Iterator[Notice]:
     fed = math.isfinite(least) and least < -ROUNDED * (largest or abs(least))
     driven = back_driven_deg(cycle) if fed else []
     if driven:
-        each = [f"{round(a, 9):.4g} to {round(b, 9):.4g}" for a, b in driven]
-        more = len(each) - 6  # a line or two; a carousel may have many
-        where = ", ".join(each if more <= 0 else each[:6])
-        where += f"° and in {more} other intervals" if more > 0 else "°"
+        each = [f"{round(a, 9):.4g} to {round(b, 9):.4g}°" for a, b in driven]
+        where = ", ".join(each[:4])
+        where += f" and in {len(each) - 4} other intervals" if len(each) > 4 else ""
         # what brakes the wheel alone at its greatest deceleration
         braked_Nm = max(cycle.case.inertia_Nm * braking(one) for one in mechanism.engagements)
         brake = f"a resisting torque of {braked_Nm:.4g} N m"

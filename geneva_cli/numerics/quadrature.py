@@ -36,16 +36,6 @@ def rule(nodes: int) -> tuple[Array, Array]:
     return read_only((x, 2.0 / ((1.0 - x) * (1.0 + x) * slope * slope)))
 
 
-@cache
-def lobatto(nodes: int) -> tuple[Array, Array]:
-    """Nodes in [-1, 1], both ends included, and weights of Lobatto quadrature."""
-    x = np.cos(np.pi * np.arange(nodes) / (nodes - 1))
-    for _ in range(8):
-        before, here = legendre(x, nodes - 1)
-        x = x - (x * here - before) / (nodes * here)
-    return read_only((x, 2.0 / (nodes * (nodes - 1) * here * here)))
-
-
 def span_integrals(
     functions: Callable[[Array, Whole], Array],
     spans: tuple[Array, Array],
@@ -108,7 +98,7 @@ def _parts(
 
     With ``ends`` places are at the fraction t² (3 - 2 t) of the span.
     """
-    (a, b), (node, terms), rows = spans, _rule(ends), []
+    (a, b), (node, terms), rows = spans, _rule(), []
     for here in blocks(len(of), 1024):  # whose nodes fit in the processor's cache
         own, (low, high) = of[here], fractions[:, here]
         half = 0.5 * (high - low)[:, None]
@@ -127,11 +117,10 @@ def _parts(
 
 
 @cache
-def _rule(ends: bool) -> tuple[Array, Array]:
-    """Nodes in [-1, 1], with both ends or without; their weights, and those of the last terms."""
-    node, weight = lobatto(NODES) if ends else rule(NODES)
+def _rule() -> tuple[Array, Array]:
+    """Nodes in [-1, 1]; their weights, and those of the last terms."""
+    node, weight = rule(NODES)
     before, last = legendre(node, NODES - 1)
     # The last two terms together: every other term of an even or odd function is 0.
     terms = np.ones(NODES), (NODES - 1.5) * before, (NODES - 0.5) * last
-    sums = weight[:, None] * np.column_stack(terms)
-    return read_only((node, sums))
+    return read_only((node, weight[:, None] * np.column_stack(terms)))

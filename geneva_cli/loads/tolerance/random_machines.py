@@ -9,9 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.loads.tolerance.entry_jump import EntryJump
 from geneva_cli.loads.tolerance.locking import CutLock, Deviations, deviations, slope_of
-from geneva_cli.loads.tolerance.motion_error import MotionError
+from geneva_cli.loads.tolerance.motion_error import EntryJump, MotionError
 from geneva_cli.numerics.jet import Array, Jet, Number
 from geneva_cli.numerics.sobol import Sobol
 from geneva_cli.progress import tracked
