@@ -267,7 +267,7 @@ def record_taken(record: Record, which: Which) -> Record:
         elif isinstance(which, slice):
             out.append(cast("Array", column)[..., which])
         else:
-            out.append(cast("Array", column).take(cast("Whole", which), axis=-1))
+            out.append(cast("Array", column).take(which, axis=-1))
     return record_of(record, out)
 
 

@@ -7,11 +7,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cache
+from typing import TypeAlias
 
 import numpy as np
 
 from geneva_cli.numerics.arrays import Array, Mask, Whole, blocks, joined, matrix_product, read_only
 
+Integrands: TypeAlias = Callable[[Array, Whole], Array]
 NODES = 20  # nodes of a rule that suffice for most loads between two cuts
 # Fraction of a design's integral that the last terms may have; the error is a tenth at most.
 LAST_TERMS = 2e-12
@@ -37,7 +39,7 @@ def rule(nodes: int) -> tuple[Array, Array]:
 
 
 def span_integrals(
-    functions: Callable[[Array, Whole], Array],
+    functions: Integrands,
     spans: tuple[Array, Array],
     design: Whole,
     needed: Mask,
@@ -88,11 +90,7 @@ def span_integrals(
 
 
 def _parts(
-    functions: Callable[[Array, Whole], Array],
-    spans: tuple[Array, Array],
-    ends: bool,
-    of: Whole,
-    fractions: Array,
+    functions: Integrands, spans: tuple[Array, Array], ends: bool, of: Whole, fractions: Array
 ) -> tuple[Array, Array, Array]:
     """Integrals between two fractions of spans, their last terms, and integrals of the sizes.
 

@@ -285,10 +285,11 @@ def entry_jumps_worst(mechanism: Mechanism, use: Mapping[str, float]) -> Array |
         sizes = [use["center_distance_mm"], use["crank_radius_mm"], *[0.0] * 5]
         jumps = [one(corners(sizes))[0].reshape(-1, mechanism.designs) for one in built]
         return np.asarray(np.concatenate(jumps).max(axis=0))
-    sizes: list[Array] = []
+    worst: list[Array] = []
     for axis in RestingAxis.each(mechanism):
         crank = use["crank_radius_mm"] / arm_mm(mechanism, axis.engagement)
         center = use["center_distance_mm"] / mechanism.center_distance_mm
         for one, other in product((-1.0, 1.0), repeat=2):
-            sizes.append(np.nan_to_num(abs(first_contacts(axis, one * crank, other * center).jump)))
-    return np.max(np.broadcast_arrays(*sizes), axis=0) if sizes else None
+            contacts = first_contacts(axis, one * crank, other * center)
+            worst.append(np.nan_to_num(abs(contacts.jump)))
+    return np.max(np.broadcast_arrays(*worst), axis=0) if worst else None
