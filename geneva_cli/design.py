@@ -25,24 +25,9 @@ from geneva_cli.motion.laws.law import Motion
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.wheels.gearing import Gearing
+from geneva_cli.spec import tables
 from geneva_cli.spec.rules import plain
 from geneva_cli.spec.schema import SHOWN_MAX, refuse_keywords, shortly
-from geneva_cli.spec.tables import (
-    Accept,
-    Limits,
-    Load,
-    Mass,
-    Motor,
-    Outline,
-    Product,
-    RollerMaterial,
-    Shaft,
-    Size,
-    Support,
-    TitleBlock,
-    Tolerance,
-    WheelMaterial,
-)
 
 if TYPE_CHECKING:
     from geneva_cli.extras.certify.certificate import Certificate
@@ -90,7 +75,7 @@ def _form(curves: str) -> str:
     return CURVES[curves]
 
 
-def _with_chosen(size: Size, chosen: Mapping[str, Chosen]) -> Size:
+def _with_chosen(size: tables.Size, chosen: Mapping[str, Chosen]) -> tables.Size:
     """Sizes with chosen ones, which are by their keys with the table."""
     return size.replace(**{key.partition(".")[2]: one.value for key, one in chosen.items()})
 
@@ -155,20 +140,20 @@ class Design:
         drive: Drive | None = None,
         motion: Motion | None = None,
         *,
-        size: Size | None = None,
-        load: Load | None = None,
-        mass: Sequence[Mass] = (),
-        support: Support | None = None,
-        motor: Motor | None = None,
-        shaft: Shaft | None = None,
-        material_wheel: WheelMaterial | None = None,
-        material_roller: RollerMaterial | None = None,
-        tolerance: Tolerance | None = None,
-        product: Product | None = None,
-        limits: Limits | None = None,
-        accept: Accept | None = None,
-        drawing: TitleBlock | None = None,
-        outline: Outline | None = None,
+        size: tables.Size | None = None,
+        load: tables.Load | None = None,
+        mass: Sequence[tables.Mass] = (),
+        support: tables.Support | None = None,
+        motor: tables.Motor | None = None,
+        shaft: tables.Shaft | None = None,
+        material_wheel: tables.WheelMaterial | None = None,
+        material_roller: tables.RollerMaterial | None = None,
+        tolerance: tables.Tolerance | None = None,
+        product: tables.Product | None = None,
+        limits: tables.Limits | None = None,
+        accept: tables.Accept | None = None,
+        drawing: tables.TitleBlock | None = None,
+        outline: tables.Outline | None = None,
         title: str = "",
         drive_before: Drive | None = None,
     ) -> None:
@@ -260,7 +245,7 @@ class Design:
         return design
 
     @answer
-    def size(self) -> Size:
+    def size(self) -> tables.Size:
         """The sizes, with the machine's values for those that the spec leaves out; mm.
 
         None remains for sizes that the machine lacks, and for details that only its parts know.
@@ -281,8 +266,7 @@ class Design:
         >>> Design(External(6)).chosen["size.pin_mm"]
         Chosen(value=5.0, why='default r')
         """
-        from geneva_cli.parts.chosen import chosen
-        from geneva_cli.parts.detail_sizes import detail_sizes
+        from geneva_cli.parts.chosen import chosen, detail_sizes
 
         if self.spec.has_parts:
             _ = self.parts.built
@@ -737,14 +721,13 @@ class Design:
         """
         from geneva_cli.drawings.catalogue import PARTS, is_sheet
         from geneva_cli.output import draw, draw_sheet, show
-        from geneva_cli.output.formats import curve_tolerance, is_drawn, sheet_as, usual_curves
+        from geneva_cli.output.formats import DRAWN, curve_tolerance, named, usual_curves
 
         tolerance_mm = curve_tolerance(tolerance_mm, path, "")
         stem = os.path.splitext(os.path.basename(path))[0]
         part = part or (stem if stem in PARTS else "assembly")
         sheet, files = is_sheet(part), self.spec.files
-        drawn = bool(sheet_as(path, "")) if sheet else is_drawn(path, "")
-        if not sheet and self.is_table(part, drawn):
+        if not sheet and self.is_table(part, named(path, "") in DRAWN):
             show(self.part_table(part, tolerance_mm), path, inputs=files)
             return
         curves = usual_curves(path, "")

@@ -59,19 +59,6 @@ def contours(draw, kinds="lac"):
     return closed("WHEEL", segments)
 
 
-def sides_about_the_origin(corners):
-    """Sides (start, end, bulge) of a loop, from the radius of each corner and the bulge after it.
-
-    The corners stand at equal angles.
-    """
-    count = len(corners)
-    ends = [
-        (r * math.cos(math.tau * i / count), r * math.sin(math.tau * i / count))
-        for i, (r, _) in enumerate(corners)
-    ]
-    return [(p, q, b) for p, q, (_, b) in zip(ends, [*ends[1:], ends[0]], corners, strict=True)]
-
-
 def line(p, q):
     return p, q, lambda t: (p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1]))
 

@@ -116,11 +116,10 @@ class LazyGroup(PlainValues, TyperGroup):
             with formatter.section(name):
                 formatter.write_dl([(name.ljust(widest), line) for name, line in group.items()])
         from geneva_cli.manual import GROUPS as PAGES
-        from geneva_cli.manual import TITLES
 
         with formatter.section("Manual, geneva help TOPIC or WORD; geneva help: all topics"):
             for name, topics in PAGES.items():
-                text = f"  {TITLES[name].replace(': ', ', ')}: {', '.join(topics)}"
+                text = f"  {name.replace(': ', ', ')}: {', '.join(topics)}"
                 shorten = partial(textwrap.shorten, placeholder=" ...", break_on_hyphens=False)
                 formatter.write(f"  {shorten(text, formatter.width - 2)}\n")
 

@@ -8,6 +8,7 @@ Annotations are objects here and in the commands, for Typer.
 import sys
 from collections.abc import Iterable, Mapping
 from functools import partial
+from textwrap import wrap
 from typing import TYPE_CHECKING, Annotated, Any, TypeAlias, get_args
 
 import typer
@@ -102,62 +103,41 @@ class Command(PlainValues, TyperCommand):
 
     def invoke(self, ctx: Any) -> Any:
         """Run the command; its tables have the columns of --columns."""
-        columns, wide = ctx.params.pop("columns", None), ctx.params.pop("wide", False)
-        if not (columns or wide):
-            return super().invoke(ctx)
-        from geneva_cli.output import choosing
+        from geneva_cli.output import choice
 
-        names = [name.strip() for name in (columns or "").split(",")]
-        with choosing([*filter(None, names)], wide):
-            return super().invoke(ctx)
+        choice.columns = words_in(ctx.params.pop("columns", None) or "")
+        choice.wide = ctx.params.pop("wide", False)
+        return super().invoke(ctx)
 
     def collect_usage_pieces(self, ctx: Any) -> list[str]:
         """The words after the command's name in its help."""
-        return ["[OPTIONS]", *(_placeholder(p) for p in self.params if not _is_option(p))]
+        return ["[OPTIONS]", *filter(None, map(_placeholder, self.params))]
 
     def format_options(self, ctx: Any, formatter: Any) -> None:
         """Write arguments, then options under their headings, with shared options last."""
-        groups: dict[str, list[tuple[str, str]]] = {"Arguments": []}
-        shared: list[tuple[str, str]] = []
+        groups: dict[str, list[tuple[str, str]]] = {}
         for param in self.get_params(ctx):
-            record, heading = param.get_help_record(ctx), vars(param).get("rich_help_panel")
-            if record and not _is_option(param):
-                groups["Arguments"].append((_placeholder(param), record[1]))
-            elif record:
-                (groups.setdefault(heading, []) if heading else shared).append(record)
+            name, heading = _placeholder(param), vars(param).get("rich_help_panel") or "Options"
+            if record := param.get_help_record(ctx):
+                own = groups.setdefault("Arguments" if name else heading, [])
+                own.append((name, record[1]) if name else record)
+        shared = groups.pop("Options")
         for heading, records in (groups | {"Options": shared}).items():
-            if records:
-                with formatter.section(heading):
-                    formatter.write_dl(records)
+            with formatter.section(heading):
+                formatter.write_dl(records)
 
     def format_epilog(self, ctx: Any, formatter: Any) -> None:
-        """Write the examples as typed, each continued on the next line if needed."""
-        if self.examples:
-            with formatter.section("Examples"):
-                for line in self.examples:
-                    formatter.write(f"  {_continued(line, formatter.width)}\n")
-
-
-def _is_option(param: Any) -> bool:
-    return bool(param.param_type_name == "option")
+        """Write the examples as typed, continued on the next line where they do not fit."""
+        with formatter.section("Examples"):
+            for line in self.examples:
+                parts = wrap(line, formatter.width - 4, break_on_hyphens=False)
+                formatter.write("  " + " \\\n      ".join(parts) + "\n")
 
 
 def _placeholder(argument: Any) -> str:
-    """The word that stands for an argument in help."""
-    return str(argument.metavar or argument.name)
-
-
-def _continued(line: str, width: int) -> str:
-    """A command in lines of at most ``width`` letters, broken before options with a backslash."""
-    first, *options = line.split(" -")
-    lines = [first]
-    for option in options:
-        if len(lines[-1]) + len(option) + len("   - \\") > width:
-            lines[-1] += " \\"
-            lines.append(f"      -{option}")
-        else:
-            lines[-1] += f" -{option}"
-    return "\n".join(lines)
+    """The word that stands for an argument in help; "" for an option."""
+    is_option = argument.param_type_name == "option"
+    return "" if is_option else str(argument.metavar or argument.name)
 
 
 def table_options(
@@ -182,6 +162,11 @@ def as_command(name: str, run: Any) -> Any:
         if get_args(annotation):
             command.kinds[parameter] = get_args(annotation)[0]
     return command
+
+
+def words_in(text: str) -> list[str]:
+    """The words of a list between commas."""
+    return [word.strip() for word in text.split(",") if word.strip()]
 
 
 def one_of(names: Iterable[str]) -> str:
@@ -226,11 +211,7 @@ SpecPath: TypeAlias = Annotated[
 ]
 Settings: TypeAlias = Annotated[
     list[str] | None,
-    option(
-        "KEY=VALUE",
-        "Set a key over the file's, as drive.n_rpm=90.",
-        name="--set",
-    ),
+    option("KEY=VALUE", "Set a key over the file's, as drive.n_rpm=90.", name="--set"),
 ]
 Reverse: TypeAlias = Annotated[bool, flag("--reverse", "Turn the input the other way.")]
 AlsoReverse: TypeAlias = Annotated[

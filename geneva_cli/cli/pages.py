@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any, NamedTuple
 
 from geneva_cli import manual
+from geneva_cli.errors import cut
 from geneva_cli.manual import TOPICS, explained
 from geneva_cli.names import unit_of
 
@@ -106,46 +107,35 @@ PRINTED: dict[str, Callable[[], str]] = {
 }
 
 
-def search(word: str) -> list[Hit]:
-    """Sections of all pages in which a word begins so, in any case; one hit for each section.
+def search(text: str) -> list[Hit]:
+    """Sections of all pages in which each word of a text begins one, in any case.
 
-    Of words that stand nowhere together, the sections in which all of them stand.
-
-    Sections with the word in their heading come first. The output of examples is not searched.
+    Sections with a word in their heading come first. The output of examples is not searched.
     """
-    whole, words = _search(word), word.split()
-    if whole or len(words) < 2:
-        return whole
-    # sections with all of the words
-    first, *others = map(_search, words)
-    sections = [{hit[:2] for hit in hits} for hits in others]
-    return [hit for hit in first if all(hit[:2] in one for one in sections)]
-
-
-def _search(word: str) -> list[Hit]:
-    wanted = re.compile(rf"(?<![^\W\d_]){re.escape(word)}", re.IGNORECASE)
-    hits: dict[tuple[str, str], Hit] = {}
+    words = [re.compile(rf"(?<![^\W\d_]){re.escape(w)}", re.IGNORECASE) for w in text.split()]
+    hits: list[Hit] = []
     for topic in TOPICS:
-        section, fence = "", ""
-        text = explained.text(topic) if topic == "quantities" else page(topic)  # with formulas
-        for line in text.splitlines():
-            if line.startswith("```"):
-                fence = "" if fence else line
-            elif fence == "```console" and not line.startswith("$ "):
-                continue
-            elif not fence and line.startswith("#"):  # in code it is a comment
-                section = line.lstrip("# ")
-            if wanted.search(line):
-                hits.setdefault((topic, section), Hit(topic, section, _excerpt(line, wanted)))
-    return sorted(hits.values(), key=lambda hit: not wanted.search(hit.section))
+        for section, lines in _sections(topic):
+            found = [[line for line in lines if word.search(line)] for word in words]
+            if all(found):
+                hits.append(Hit(topic, section, _plain(found[0][0])))
+    return sorted(hits, key=lambda hit: not any(word.search(hit.section) for word in words))
 
 
-def _excerpt(line: str, wanted: re.Pattern[str]) -> str:
-    """The part of a line that has a word in it."""
-    plain = " ".join(line.replace("`", "").replace("*", "").lstrip("# ").split())
-    match = wanted.search(plain)
-    at, word = (match.start(), match.group()) if match else (0, "")
-    around = 24  # characters on each side of the word
-    start = max(0, plain.rfind(" ", 0, max(0, at - around)) + 1) if at > around else 0
-    end = plain.find(" ", at + len(word) + around)
-    return plain[start : end if end > 0 else len(plain)]
+def _sections(topic: str) -> Iterator[tuple[str, list[str]]]:
+    """The sections of a page: heading and lines."""
+    heading, lines, fence = "", list[str](), ""
+    text = explained.text(topic) if topic == "quantities" else page(topic)  # with formulas
+    for line in text.splitlines():
+        if not fence and line.startswith("#"):  # in code it is a comment
+            yield heading, lines
+            heading, lines = line.lstrip("# "), []
+        if line.startswith("```"):
+            fence = "" if fence else line
+        elif fence != "```console" or line.startswith("$ "):
+            lines.append(line)
+    yield heading, lines
+
+
+def _plain(line: str) -> str:
+    return cut(" ".join(line.replace("`", "").replace("*", "").lstrip("# ").split()), 76)

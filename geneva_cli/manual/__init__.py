@@ -12,8 +12,10 @@ from geneva_cli.errors import GenevaError, cut, nearest
 
 # Pages of each kind (https://diataxis.fr): learning by doing, one task, facts, reasons.
 GROUPS: dict[str, dict[str, str]] = {
-    "tutorial": {"first-turret": "ten minutes: a turret checked, drawn, cut and shown to the boss"},
-    "howto": {
+    "Tutorial: learn by doing": {
+        "first-turret": "ten minutes: a turret checked, drawn, cut and shown to the boss"
+    },
+    "How-to: one task each": {
         "dwell-time": "choose a machine for a dwell time",
         "compare-designs": "compare designs in one table",
         "reduce-acceleration": "reduce the acceleration",
@@ -35,7 +37,7 @@ GROUPS: dict[str, dict[str, str]] = {
         "sweep-front": "sweep a million designs and plot the front",
         "ci": "gate a CI job",
     },
-    "reference": {
+    "Reference: look it up": {
         "commands": "every command: usage, arguments, options, examples",
         "spec": "the file that describes a design, and its errors",
         "keys": "every key of a spec: unit, range, default, meaning",
@@ -50,7 +52,7 @@ GROUPS: dict[str, dict[str, str]] = {
         "search": "what synth and sweep try, and their rules",
         "python": "classes and functions; a page for browsers",
     },
-    "explanation": {
+    "Explanation: why it is so": {
         "symbols": "frame, zero and sign; z, L, R, psi and the rest",
         "curved-slots": "why curved slots cannot do everything; Am, Vm, Qm of a cam curve",
         "cycle": "forces, torques and power over the cycle, from the load to the motor",
@@ -60,12 +62,6 @@ GROUPS: dict[str, dict[str, str]] = {
         "accuracy": "what is promised, tested and proved, of peaks and of the full turn; run time",
         "numbers": "compare with published tables, and why ours differ",
     },
-}
-TITLES = {
-    "tutorial": "Tutorial: learn by doing",
-    "howto": "How-to: one task each",
-    "reference": "Reference: look it up",
-    "explanation": "Explanation: why it is so",
 }
 TOPICS = {topic: about for pages in GROUPS.values() for topic, about in pages.items()}
 
@@ -79,7 +75,7 @@ def contents() -> str:
     lines = []
     for group, pages in GROUPS.items():
         own = [f"- {topic}: {about}" for topic, about in pages.items()]
-        lines += [f"## {TITLES[group]}", "", *own, ""]
+        lines += [f"## {group}", "", *own, ""]
     return "\n".join(
         [*lines, "`geneva help TOPIC` shows a page; another word is searched for.", ""]
     )
@@ -88,7 +84,8 @@ def contents() -> str:
 def path(topic: str) -> str:
     """File of a topic's page, where it has one."""
     group = next(group for group, pages in GROUPS.items() if topic in pages)
-    return os.path.join(os.path.dirname(__file__), group, f"{topic}.md")
+    folder = group.partition(":")[0].lower().replace("-", "")
+    return os.path.join(os.path.dirname(__file__), folder, f"{topic}.md")
 
 
 def page(topic: str) -> str:

@@ -9,8 +9,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Iterable, Iterator, Mapping
 from itertools import chain
 from types import SimpleNamespace
 from typing import TYPE_CHECKING
@@ -22,13 +21,10 @@ from geneva_cli.output.formats import (
     DRAWN,
     FORMATS,
     MESHES,
+    PAGES,
     PLOTTED,
+    SHEETS,
     chosen,
-    document_as,
-    drawn_as,
-    named,
-    plotted_as,
-    sheet_as,
 )
 from geneva_cli.streams import use_utf8
 from geneva_cli.table import Table
@@ -46,37 +42,25 @@ if TYPE_CHECKING:
 choice = SimpleNamespace(columns=(), wide=False)
 
 
-@contextmanager
-def choosing(columns: Sequence[str], wide: bool) -> Iterator[None]:
-    """Show tables by this choice of columns within the block."""
-    before = dict(vars(choice))
-    vars(choice).update(columns=columns, wide=wide)
-    try:
-        yield
-    finally:
-        vars(choice).update(before)
-
-
 def refuse_columns() -> None:
     """Raise GenevaError if columns were chosen by name and no table is shown."""
     if choice.columns:
         raise GenevaError("--columns is for tables, and this run prints none; leave it out")
 
 
-def table_as(output: str, format: str) -> str:
-    """The format of a table. Raises GenevaError for an unknown one."""
-    name = format or ("table" if output == "-" else named(output, ""))
-    return name if name in FORMATS else chosen(output, format, FORMATS)
-
-
 def is_for_people(output: str, format: str) -> bool:
     """Return True for a table that people read, False for one for programs."""
-    return table_as(output, format) in ("table", "md")
+    return chosen(output, format) in ("table", "md")
+
+
+def is_seen(output: str) -> bool:
+    """Return True if output goes to a terminal."""
+    return output == "-" and sys.stdout.isatty()
 
 
 def show(table: Table, output: str = "-", format: str = "", inputs: Iterable[str] = ()) -> None:
     """Print the table, or write it to the file ``output``."""
-    name = table_as(output, format)
+    name = chosen(output, format)
     _put(_chunks(table, output, name), output, inputs, name)
 
 
@@ -95,26 +79,14 @@ def _chunks(table: Table, output: str, name: str) -> Iterator[str]:
     return load_named(f"output.{FORMATS[name]}:chunks")(table)
 
 
-def is_seen(output: str) -> bool:
-    """Return True if output goes to a terminal."""
-    return output == "-" and sys.stdout.isatty()
-
-
-def is_watched(output: str, format: str) -> bool:
-    """Return True if a table goes to a terminal, where a person reads it."""
-    return format in ("", "table") and is_seen(output)
-
-
 def show_answer(
     answer: Answer, output: str = "-", format: str = "", inputs: Iterable[str] = ()
 ) -> None:
-    """Print an answer, or write it to the file ``output``."""
-    name = table_as(output, format)
-    if name not in ("table", "md"):  # formats for people have a summary above the table
-        show(answer.data, output, format, inputs)
-        return
-    if choice.columns:  # with --columns, only those columns are wanted
-        show(answer.page or answer.data, output, format, inputs)
+    """Print an answer, or write it to the file ``output``: for people a summary above a table."""
+    name, people = chosen(output, format), is_for_people(output, format)
+    page = answer.page if people else None
+    if not people or choice.columns:  # only those columns are wanted
+        show(page or answer.data, output, format, inputs)
         return
     from geneva_cli.output.terminal import summary
 
@@ -122,9 +94,24 @@ def show_answer(
         first = summary.markdown(answer.summaries)
     else:
         first = summary.chunks(answer.summaries, output, is_seen(output))
-    page = answer.page
     rest = chain(["\n"] if name == "table" else (), _chunks(page, output, name)) if page else ()
     _put(chain(first, rest), output, inputs, name)
+
+
+def _write(
+    shown: object,
+    formats: Mapping[str, str],
+    output: str,
+    format: str,
+    inputs: Iterable[str],
+    version: str = "",
+) -> None:
+    """Print or write what is shown, in one of these formats."""
+    name = chosen(output, format, formats)
+    if version and name != "dxf":
+        raise GenevaError(f"--dxf-version is for .dxf, and this is {name}; leave it out")
+    more = (version,) if version else ()
+    _put(load_named(f"output.{formats[name]}")(shown, *more), output, inputs, name)
 
 
 def draw(
@@ -135,67 +122,47 @@ def draw(
     version: str = "",
 ) -> None:
     """Print the drawing, or write it; ``version`` is that of a DXF file."""
-    name = drawn_as(output, format)
-    own = _of_dxf(name, version)
-    refuse_columns()
-    _put(load_named(f"output.{DRAWN[name]}")(drawing, *own), output, inputs, name)
+    _write(drawing, DRAWN, output, format, inputs, version)
 
 
 def draw_sheet(
     sheet: Sheet, output: str = "-", format: str = "", inputs: Iterable[str] = (), version: str = ""
 ) -> None:
     """Print the drawing sheet, or write it to the file ``output``."""
-    name = sheet_as(output, format)
-    own = _of_dxf(name, version)
-    refuse_columns()
-    _put(load_named(f"output.{name}:sheet_chunks")(sheet, *own), output, inputs)
-
-
-def _of_dxf(name: str, version: str) -> tuple[str, ...]:
-    if version and name != "dxf":
-        raise GenevaError(f"--dxf-version is for .dxf, and this is {name}; leave it out")
-    return (version,) if version else ()
+    _write(sheet, SHEETS, output, format, inputs, version)
 
 
 def show_figure(
     figure: Figure, output: str = "-", format: str = "", inputs: Iterable[str] = ()
 ) -> None:
     """Print the figure, or write it to the file ``output``; formats of tables get its points."""
-    name = plotted_as(output, format)
-    if name not in PLOTTED:
-        show(figure.table(), output, name, inputs)
-        return
-    refuse_columns()
-    _put(load_named(f"output.plot.{PLOTTED[name]}")(figure), output, inputs, name)
+    if chosen(output, format, (*PLOTTED, *FORMATS)) in PLOTTED:
+        _write(figure, PLOTTED, output, format, inputs)
+    else:
+        show(figure.table(), output, format, inputs)
 
 
 def animate(scene: Scene, output: str, inputs: Iterable[str] = ()) -> None:
     """Write the scene as a page of HTML; ``-`` prints it."""
     if is_seen(output):
         raise GenevaError("a page is not for a terminal: give -o FILE.html, or --open to show it")
-    if output != "-" and os.path.splitext(output)[1].lower() not in (".html", ".htm"):
-        raise GenevaError(f'-o "{cut(output)}": it must end in .html or .htm')
-    _put(load_named("output.page:chunks")(scene), output, inputs)
+    _write(scene, PAGES, output, "html" if output == "-" else "", inputs)
 
 
 def show_document(
     document: Document, output: str = "-", format: str = "", inputs: Iterable[str] = ()
 ) -> None:
     """Print the document, or write it to the file ``output``."""
-    name = document_as(output, format)
-    refuse_columns()
-    _put(load_named(f"output.document.{DOCUMENTS[name]}:chunks")(document), output, inputs)
+    _write(document, DOCUMENTS, output, format, inputs)
 
 
 def show_text(text: str, output: str = "-", inputs: Iterable[str] = ()) -> None:
     """Print a text as it is, or write it to the file ``output``."""
-    refuse_columns()
     _put([text], output, inputs)
 
 
 def show_markdown(text: str) -> None:
     """Print a text in Markdown, laid out on a terminal and unchanged elsewhere."""
-    refuse_columns()
     if not is_seen("-"):
         _put([text], "-")
         return
@@ -214,12 +181,11 @@ def refuse_existing(output: str) -> None:
 
 
 def _put(
-    chunks: Iterable[str] | Iterable[bytes],
-    output: str,
-    inputs: Iterable[str] = (),
-    name: str = "",
+    chunks: Iterable[str] | Iterable[bytes], output: str, inputs: Iterable[str] = (), name: str = ""
 ) -> None:
     """Write chunks of the format ``name``; a table on standard output is for people."""
+    if name not in FORMATS:
+        refuse_columns()
     if output != "-":
         from geneva_cli.output.files import write
 

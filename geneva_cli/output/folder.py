@@ -7,33 +7,30 @@ another digest, is a person's, and is never replaced or removed unless that is f
 from __future__ import annotations
 
 import csv
-import io
+import hashlib
 import os
 import shutil
-from collections.abc import Iterable, Iterator
+import signal
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, below, cut, few
+from geneva_cli.output.delimited import one_line
 from geneva_cli.output.files import (
-    POSIX,
-    digest_of,
-    fault,
-    holding_signals,
-    lock,
+    answering,
     place,
     real_path,
-    stopping_cleanly,
+    refuse_name,
+    replacing,
     take_after,
     write,
     write_errors,
 )
 
 LIST = "contents.csv"
-LOCK = ".geneva-export.lock"  # on Windows, which opens no folder
-COLUMNS = ("file", "content", "sha256")
 # In the folder, so that renaming needs no copy even where the folder is a mount point. A run that
-# was killed leaves it; the next one, which has the folder's lock, removes it.
+# was killed leaves it; the next one removes it.
 TEMPORARY = ".geneva-export.tmp"
 
 
@@ -42,86 +39,62 @@ class Row(NamedTuple):
 
     file: str
     content: str
-    digest: str = ""
-
-
-class Filling(NamedTuple):
-    """The folder for the new files, and the old files that were changed by a person and stay."""
-
-    new: str
-    kept: list[str]
+    sha256: str = ""
 
 
 @contextmanager
 def filling_folder(
-    path: str, entries: Iterable[Row], inputs: Iterable[str] = (), force: bool = False
-) -> Iterator[Filling]:
+    path: str, entries: Sequence[Row], inputs: Sequence[str] = (), force: bool = False
+) -> Iterator[tuple[str, list[str]]]:
     """Give an empty folder whose files go to ``path`` if the block ends without an error.
+
+    Beside it stands a list: at the end it has the old files that a person has changed, which stay.
 
     The block writes the files of ``entries``; their list is added. Files of an earlier run that
     are no entries now are removed. All other files stay. Raises GenevaError if a file to replace
     is a person's, unless ``force`` is set, if one to replace or remove is among ``inputs``, if a
     file has a name that Windows does not take, or if ``path`` cannot be written.
     """
-    real, entries, inputs = real_path(path, "a folder"), list(entries), list(inputs)
     for entry in entries:
-        if why := fault(entry.file):  # others may have Windows
-            raise GenevaError(f'"{entry.file}": {why}; give another name')
+        refuse_name(entry.file)  # others may have Windows
+    real = real_path(path)
     if os.path.lexists(real) and not os.path.isdir(real):
         raise GenevaError(f"{cut(path, 300)}: this is a file; give -o the name of a folder")
-    filling = Filling(os.path.join(real, TEMPORARY), [])
-    says = (
-        f"{cut(path, 300)}: another run is writing into this folder; wait until it ends, or give "
-        "-o another folder"
-    )
-    with write_errors(path), stopping_cleanly(), _locked(real, says):
-        _require_own(path, real, entries, inputs, force)  # before the work
-        shutil.rmtree(filling.new, ignore_errors=True)
+    new, is_new = os.path.join(real, TEMPORARY), not os.path.isdir(real)
+    with write_errors(path), answering():
+        if is_new:
+            os.mkdir(real)
         try:
-            os.mkdir(filling.new)
-            yield filling
-            # a person may have changed a file meanwhile
-            _require_own(path, real, entries, inputs, force)
-            with holding_signals():
-                filling.kept.extend(_replace(real, filling.new, entries))
+            with replacing(below(path, LIST)) as listing:  # it keeps other runs out
+                _require_own(path, entries, inputs, force)  # before the work
+                try:
+                    shutil.rmtree(new, ignore_errors=True)
+                    os.mkdir(new)
+                    kept: list[str] = []
+                    yield new, kept
+                    # a person may have changed a file meanwhile
+                    _require_own(path, entries, inputs, force)
+                    rows = [one._replace(sha256=_digest(below(new, one.file))) for one in entries]
+                    with answering(signal.SIG_IGN):  # not half of them
+                        kept.extend(_replace(real, new, rows))
+                        listing.writelines(_lines(rows))
+                finally:
+                    shutil.rmtree(new, ignore_errors=True)
         finally:
-            shutil.rmtree(filling.new, ignore_errors=True)
+            with suppress(OSError):  # it has files now
+                if is_new:
+                    os.rmdir(real)
 
 
-@contextmanager
-def _locked(real: str, says: str) -> Iterator[None]:
-    """Make a folder that is missing, and lock it; it is removed if nothing was written."""
-    is_new, path = not os.path.isdir(real), real if POSIX else os.path.join(real, LOCK)
-    if is_new:
-        os.mkdir(real)
-    descriptor = None
-    try:
-        descriptor = os.open(path, os.O_RDONLY if POSIX else os.O_RDWR | os.O_CREAT)
-        lock(descriptor, says)
-        yield
-    finally:
-        if descriptor is not None:
-            os.close(descriptor)
-        with suppress(OSError):  # another run has opened it, and will remove it
-            if not POSIX:
-                os.unlink(path)
-        with suppress(OSError):  # it has files now
-            if is_new:
-                os.rmdir(real)
-
-
-def _require_own(path: str, real: str, entries: list[Row], inputs: list[str], force: bool) -> None:
+def _require_own(path: str, entries: Sequence[Row], inputs: Sequence[str], force: bool) -> None:
     """Raise GenevaError if a file that would be replaced is a person's, or an input."""
-    rows, files = _rows(real), [entry.file for entry in entries]
-    own = _own(real, rows or [])
+    rows, files = _rows(path), [entry.file for entry in entries]
+    own = _own(path, rows or [])
     for file in {*files, LIST, *own}:
-        shown = below(path, file)
-        with write_errors(shown):
-            place(shown, inputs)
-    others = [file for file in files if file not in own]
-    if rows is None:
-        others.insert(0, LIST)
-    others = [file for file in others if os.path.lexists(os.path.join(real, file))]
+        with write_errors(below(path, file)):
+            place(below(path, file), inputs)
+    others = [*([LIST] if rows is None else []), *(file for file in files if file not in own)]
+    others = [file for file in others if os.path.lexists(os.path.join(path, file))]
     if others and not force:
         raise GenevaError(
             f"{cut(path, 300)}: not written by `geneva export`, or changed since: "
@@ -129,62 +102,51 @@ def _require_own(path: str, real: str, entries: list[Row], inputs: list[str], fo
         )
 
 
-def _replace(real: str, new: str, entries: list[Row]) -> list[str]:
+def _replace(real: str, new: str, rows: Sequence[Row]) -> list[str]:
     """Move the new files to their places, and remove those of an earlier run; return the kept.
 
     Meanwhile the list has the old and the new digests, so that the next run knows the files of
     a run that was killed here.
     """
-
-    def move(file: str) -> None:
+    before = _rows(real) or []
+    own, files = _own(real, before), [row.file for row in rows]
+    write(os.path.join(new, LIST), _lines([*before, *rows]))
+    for file in (LIST, *files):
         source, target = os.path.join(new, file), os.path.join(real, file)
         if os.path.lexists(target):
             with open(source, "rb") as opened:
-                take_after(opened.fileno(), os.lstat(target))
+                take_after(opened, os.lstat(target))
         os.replace(source, target)
-
-    def move_list(rows: list[Row]) -> None:
-        write(os.path.join(new, LIST), [_text(rows)])
-        move(LIST)
-
-    before = _rows(real) or []
-    rows = [one._replace(digest=digest_of(os.path.join(new, one.file))) for one in entries]
-    own = _own(real, before)
-    move_list([*before, *rows])
-    for one in entries:
-        move(one.file)
     listed = {row.file for row in before if os.path.lexists(os.path.join(real, row.file))}
-    earlier = listed - {one.file for one in entries}
-    for file in earlier & own:
+    for file in (listed & own).difference(files):
         os.unlink(os.path.join(real, file))
-    move_list(rows)
-    return sorted(earlier - own)
+    return sorted((listed - own).difference(files))
 
 
-def _own(real: str, rows: list[Row]) -> set[str]:
+def _lines(rows: Sequence[Row]) -> Iterator[bytes]:
+    return (one_line(row).encode() for row in (Row._fields, *rows))
+
+
+def _own(folder: str, rows: Sequence[Row]) -> set[str]:
     """The listed files that nobody has changed."""
-    own = set()
-    for row in rows:
-        file = os.path.join(real, row.file)
-        if row.digest and not os.path.islink(file) and digest_of(file) == row.digest:
-            own.add(row.file)
-    return own
+    paths = {row: os.path.join(folder, row.file) for row in rows}
+    return {row.file for row, path in paths.items() if row.sha256 and _digest(path) == row.sha256}
 
 
-def _text(rows: list[Row]) -> str:
-    text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerows([COLUMNS, *rows])
-    return text.getvalue()
+def _digest(path: str) -> str:
+    """The checksum of a file; empty for a link, and for what is no file."""
+    if os.path.islink(path) or not os.path.isfile(path):
+        return ""
+    with open(path, "rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
 
 
-def _rows(real: str) -> list[Row] | None:
+def _rows(folder: str) -> list[Row] | None:
     """The rows of a folder's list; None if there is none, or if the file is something else."""
     with suppress(OSError, ValueError, TypeError, csv.Error):
-        with open(os.path.join(real, LIST), encoding="utf-8", newline="") as file:
-            text = file.read()
-        _, *lines = csv.reader(io.StringIO(text))
-        rows = [Row(*line) for line in lines]
-        # A list of names with folders, or in other letters than ours, was not written here.
-        if text == _text(rows) and all(os.path.basename(row.file) == row.file for row in rows):
+        with open(os.path.join(folder, LIST), encoding="utf-8", newline="") as file:
+            head, *rows = (Row(*line) for line in csv.reader(file))
+        # A list of names with folders was not written here.
+        if head == Row._fields and all(os.path.basename(row.file) == row.file for row in rows):
             return rows
     return None

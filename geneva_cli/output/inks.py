@@ -82,12 +82,5 @@ def colour(number: int, paper: Paper) -> str:
 
 def dashes(number: int) -> tuple[float, ...]:
     """Dash and gap of a curve by its number, px; none for a solid line."""
-    patterns = (
-        (),
-        (7.0, 3.0),
-        (2.0, 2.5),
-        (10.0, 3.0, 2.0, 3.0),
-        (14.0, 5.0),
-        (7.0, 2.5, 2.0, 2.5, 2.0, 2.5),
-    )
+    patterns = (), (7, 3), (2, 2.5), (10, 3, 2, 3), (14, 5), (7, 2.5, 2, 2.5, 2, 2.5)
     return patterns[(number + number // len(patterns)) % len(patterns)]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
 from geneva_cli.output.text import cell
 from geneva_cli.table import Table, flat
@@ -18,17 +18,21 @@ def chunks(table: Table) -> Iterator[str]:
     if table.prose:
         yield f"{escaped(table.prose)}\n\n"
     if table.record:
-        yield "| quantity | value |\n| --- | ---: |\n"
         table = flat(table)
-        for name, value in zip(table.names, next(table.rows()), strict=True):
-            yield f"| {escaped(name)} | {escaped(value)} |\n"
-        return
-    if not table.names:  # only its title and prose are left
-        return
-    yield "| " + " | ".join(map(escaped, table.names)) + " |\n"
-    yield "| " + " | ".join(["---:"] * len(table.names)) + " |\n"
-    for row in table.rows():
-        yield "| " + " | ".join(escaped(v) for v in row) + " |\n"
+        rows = zip(table.names, next(table.rows()), strict=True)
+        yield from lines_of(("quantity", "value"), rows, (False, True))
+    elif table.names:  # else only its title and prose are left
+        yield from lines_of(table.names, table.rows(), [True] * len(table.names))
+
+
+def lines_of(
+    heads: Sequence[str], rows: Iterable[Sequence[object]], right: Sequence[bool]
+) -> Iterator[str]:
+    """The lines of a table, whose columns stand left or ``right``."""
+    yield f"| {' | '.join(map(escaped, heads))} |\n"
+    yield f"| {' | '.join('---:' if side else '---' for side in right)} |\n"
+    for row in rows:
+        yield f"| {' | '.join(map(escaped, row))} |\n"
 
 
 def escaped(value: object) -> str:

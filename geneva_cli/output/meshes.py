@@ -48,9 +48,7 @@ class Body(NamedTuple):
 def bodies(drawing: Drawing, format: str) -> list[Body]:
     """Return the kinds of solids of a drawing; their chords keep the drawing's tolerance."""
     kinds: dict[Solid, list[Place]] = {}
-    rest: list[tuple[Part, Array, Array]] = [
-        (solid_part(drawing, format), np.eye(3), np.zeros(3)),
-    ]
+    rest: list[tuple[Part, Array, Array]] = [(solid_part(drawing, format), np.eye(3), np.zeros(3))]
     while rest:
         part, turn, shift = rest.pop()
         if not isinstance(part, Group):

@@ -8,8 +8,7 @@ output is plain ASCII, and equal on every run. Lengths are in millimetres, y up.
 from __future__ import annotations
 
 import math
-import re
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from itertools import chain
 from typing import NamedTuple
 
@@ -31,17 +30,7 @@ from geneva_cli.table import in_decimals
 
 POINT = 72.0 / 25.4  # points per millimetre
 BEGIN = f"{POINT:.9f} 0 0 {POINT:.9f} 0 0 cm\n1 J 1 j\n"  # of a page's content
-# a power of ten is raised: its size and its height, over that of the text
-EXPONENT = re.compile(r"(?<=10)\^(-?\d+)")
-EXPONENT_SIZE, EXPONENT_RISE = 0.7, 0.33
-
-WIDTH, HEIGHT = 210.0, 297.0
-LEFT, TOP, BOTTOM = 16.0, 281.0, 20.0
-WIDE = WIDTH - 2.0 * LEFT
-BODY, SMALL = 3.4, 2.8  # sizes of letters
-LEADING = 1.32  # distance of lines over the letters' size
-INK, SOFT, LINE, BAND = "0.1 0.12 0.14", "0.35 0.39 0.43", "0.8 0.83 0.86", "0.95 0.96 0.97"
-RED, AMBER, GREEN = "0.7 0.15 0.12", "0.48 0.31 0", "0.1 0.42 0.2"
+INK = "0.1 0.12 0.14"
 
 
 class Page(NamedTuple):
@@ -51,19 +40,6 @@ class Page(NamedTuple):
     height: float
     content: str
     fonts: int = 1
-
-
-class Item(NamedTuple):
-    """An unbreakable part of a page; ``draw(top)`` are its operators from a height downwards.
-
-    An item that ``keeps`` is on the page of the next one; ``head`` is repeated above it if a page
-    begins with it.
-    """
-
-    high: float
-    draw: Callable[[float], str]
-    keeps: bool = False
-    head: Item | None = None
 
 
 def pdf_text(title: str, pages: Sequence[Page]) -> Iterator[str]:
@@ -113,41 +89,6 @@ def sheet_chunks(sheet: Sheet) -> Iterator[str]:
     yield from pdf_text(sheet.title, [Page(sheet.width, sheet.height, content)])
 
 
-def pages(items: Iterable[Item], foot: str) -> list[Page]:
-    """Return items on as many A4 pages as they need, numbered."""
-    contents: list[str] = []
-    content, y = "", TOP
-    group: list[Item] = []
-    for item in [*items, None]:
-        if item:
-            group.append(item)
-        if not group or (item and item.keeps):
-            continue
-        if content and y - sum(one.high for one in group) < BOTTOM:
-            contents.append(content)
-            content, y = "", TOP
-            head = group[0].head
-            if head:
-                content, y = head.draw(y), y - head.high
-        for one in group:
-            if content and y - one.high < BOTTOM:  # a group higher than a page
-                contents.append(content)
-                content, y = "", TOP
-            content += one.draw(y)
-            y -= one.high
-        group = []
-    contents.append(content)
-    out, low = [], 11.0
-    if wide(foot, SMALL) > WIDE - 30.0:
-        foot = foot[: _fits(foot, SMALL, WIDE - 30.0, False) - 1] + "…"
-    for i, text in enumerate(contents, 1):
-        which = f"{i} / {len(contents)}"
-        end = words(foot, (LEFT, low), SMALL, ink=SOFT)
-        end += words(which, (LEFT + WIDE - wide(which, SMALL), low), SMALL, ink=SOFT)
-        out.append(Page(WIDTH, HEIGHT, BEGIN + text + end, fonts=2))
-    return out
-
-
 def outline(shape: Shape) -> str:
     """The operators that trace a shape, closed if the shape is."""
     shape = as_contour(shape)
@@ -172,13 +113,7 @@ def triangle(corners: Sequence[Point]) -> str:
     return f"{a} m {b} l {c} l f\n"
 
 
-def words(
-    text: str,
-    at: Point,
-    size: float,
-    bold: bool = False,
-    ink: str = INK,
-) -> str:
+def words(text: str, at: Point, size: float, bold: bool = False, ink: str = INK) -> str:
     """A coloured text that starts at a point on its base line."""
     return f"{ink} rg\n" + _text(western(text), at, size, 0, 2 if bold else 1)
 
@@ -187,12 +122,7 @@ def _text(words: str, at: Point, size: float, turn: float, font: int = 1) -> str
     """A text that starts at a point on its base line; ``turn`` is in radians."""
     c, s = math.cos(turn), math.sin(turn)
     matrix = " ".join(number(v) for v in (c, s, -s, c, *at))
-    first, *others = EXPONENT.split(words)
-    shown = f"({_escaped(first)}) Tj"
-    for i, part in enumerate(others):
-        tall, rise = (size, 0.0) if i % 2 else (EXPONENT_SIZE * size, EXPONENT_RISE * size)
-        shown += f" /F{font} {number(tall)} Tf {number(rise)} Ts ({_escaped(part)}) Tj"
-    return f"BT /F{font} {number(size)} Tf {matrix} Tm {shown}{' 0 Ts' * bool(others)} ET\n"
+    return f"BT /F{font} {number(size)} Tf {matrix} Tm ({_escaped(words)}) Tj ET\n"
 
 
 def _escaped(words: str) -> str:
@@ -204,49 +134,12 @@ def _escaped(words: str) -> str:
 
 def wide(text: str, size: float, bold: bool = False) -> float:
     """A text's width in Helvetica, as ``words`` shows it."""
-    parts = EXPONENT.split(western(text))
-    sizes = (EXPONENT_SIZE * size if i % 2 else size for i in range(len(parts)))
-    widths = (letters.width(part, bold) * tall for part, tall in zip(parts, sizes, strict=True))
-    return CAPITALS * sum(widths)
-
-
-def rule(x: float, y: float, long: float, width: float = 0.15, ink: str = LINE) -> str:
-    """A horizontal line."""
-    ends = f"{number(x)} {number(y)} m {number(x + long)} {number(y)} l"
-    return f"{ink} RG {number(width)} w [] 0 d {ends} S\n"
+    return CAPITALS * size * letters.width(western(text), bold)
 
 
 def box(x: float, y: float, long: float, high: float, ink: str) -> str:
     """A filled rectangle up from its lower left corner."""
     return f"{ink} rg {number(x)} {number(y)} {number(long)} {number(high)} re f\n"
-
-
-def lines(text: str, size: float, width_mm: float, bold: bool = False) -> list[str]:
-    """A text broken into lines that fit a width; a longer word is cut."""
-    out: list[str] = []
-    line = ""
-    for word in filter(None, text.split(" ")):
-        whole = f"{line} {word}" if line else word
-        if wide(whole, size, bold) <= width_mm:
-            line = whole
-            continue
-        if line:
-            out.append(line)
-        while wide(word, size, bold) > width_mm and len(word) > 1:
-            fits = _fits(word, size, width_mm, bold)
-            out.append(word[:fits])
-            word = word[fits:]
-        line = word
-    return [*out, line] if line or not out else out
-
-
-def _fits(word: str, size: float, width_mm: float, bold: bool) -> int:
-    """The number of letters that fit, up to a sign such as an underscore if one is near the end."""
-    many = 1
-    while many < len(word) and wide(word[: many + 1], size, bold) <= width_mm:
-        many += 1
-    place = max(word.rfind(sign, 1, many) for sign in "_./-") + 1
-    return place if place > 0.4 * many else many
 
 
 def tint(rgb: str, fraction: float = 1.0) -> str:

@@ -13,19 +13,9 @@ from typing import Any
 
 from geneva_cli.errors import GenevaError, clean, cut, few
 from geneva_cli.progress import Meter
-from geneva_cli.table import (
-    Column,
-    Table,
-    flat,
-    in_digits,
-    pieces,
-    plain_rows,
-    record_table,
-    rows_table,
-)
+from geneva_cli.table import Column, Table, flat, in_digits, pieces, plain_rows, record_table
 
 WIDTH = 90  # letters of a line in a file or a pipe
-KIND = "row"  # column of a table whose rows are of several kinds, each with columns of its own
 
 
 def chunks(table: Table) -> Iterator[str]:
@@ -37,7 +27,7 @@ def chunks(table: Table) -> Iterator[str]:
     if not table.record:
         yield from _plain(table)
         return
-    for _, piece in apart(table, plain_names=True):
+    for _, piece in apart(table):
         if not piece.record:
             yield "\n"
             yield from _plain(piece)
@@ -119,16 +109,12 @@ def _line(texts: Sequence[str], widths: list[int], left: list[bool]) -> str:
     return "  ".join(cells).rstrip() + "\n"
 
 
-def apart(record: Table, plain_names: bool = False) -> Iterator[tuple[str, Table]]:
-    """The parts of a record in order: each table with its name, and records between them.
-
-    With ``plain_names`` a table with dotted names stays in its record.
-    """
+def apart(record: Table) -> Iterator[tuple[str, Table]]:
+    """The parts of a record in order: each table with its name, and records between them."""
     values: dict[str, Any] = {}
     (row,) = plain_rows(record.columns) or [()]
     for name, value in zip(record.names, row, strict=True):
-        dotted = isinstance(value, Table) and any("." in n for n in value.names)
-        if isinstance(value, Table) and not (plain_names and dotted):
+        if isinstance(value, Table):
             yield "", record_table(values)
             yield name, value
             values = {}
@@ -161,43 +147,36 @@ def checked(table: Table, is_seen: bool = False) -> Table:
     return table.replaced(columns=pieces(len(table), len(own), make))
 
 
-def refuse_nonsense(names: Iterable[str], columns: Iterable[Any]) -> None:
+def refuse_nonsense(names: Iterable[str], columns: Iterable[Any], endless: bool = False) -> None:
     """Raise ArithmeticError for columns, lists or arrays, with a NaN or a misplaced infinity.
 
-    Such a number is always a fault of this program, and a file with it misleads.
+    Such a number is always a fault of this program, and a file with it misleads. Infinity is a
+    valid radius of a straight line, a valid value of a check without a bound, and valid as motion
+    over dwell without a dwell; of ``endless`` columns it means no value.
     """
     for name, column in zip(names, columns, strict=True):
-        # Infinity is a valid radius of a straight line, a valid value of a check without a bound,
-        # and valid as motion over dwell without a dwell.
-        boundless = name.rpartition(".")[2] in {"curvature_radius_mm", "value", "k"}
-        if isinstance(column, (list, tuple)):
-            wrong, rest = False, [column]
-            while rest:
-                for value in rest.pop():
-                    if isinstance(value, Table):
-                        refuse_nonsense(value.names, value.columns)
-                    elif isinstance(value, (tuple, list)):
-                        rest.append(value)
-                    elif isinstance(value, float) and not math.isfinite(value):
-                        wrong = wrong or value != value or not boundless
-        elif boundless:
-            wrong = (column != column).any()
-        else:
-            ends = (column.min(), column.max()) if len(column) and column.dtype.kind == "f" else ()
-            wrong = not all(map(math.isfinite, ends))
-        if wrong:
+        allowed = endless or name.rpartition(".")[2] in {"curvature_radius_mm", "value", "k"}
+        if _is_nonsense(column, allowed):
             raise ArithmeticError(f"{name}: a value is not a number")
 
 
-def refuse_nan(names: Iterable[str], columns: Iterable[Any]) -> None:
-    """Raise ArithmeticError for columns with a NaN where an infinity means no value."""
-    for name, column in zip(names, columns, strict=True):
-        if not isinstance(column, list):
-            wrong = (column != column).any()
-        else:
-            wrong = float in map(type, column) and any(v != v for v in column)
-        if wrong:
-            raise ArithmeticError(f"{name}: a value is not a number")
+def _is_nonsense(column: Any, endless: bool) -> bool:
+    if not isinstance(column, (list, tuple)):
+        if endless:
+            return bool((column != column).any())
+        ends = (column.min(), column.max()) if len(column) and column.dtype.kind == "f" else ()
+        return not all(map(math.isfinite, ends))
+    kinds = {*map(type, column)}
+    if any(issubclass(kind, float) for kind in kinds):
+        numbers = [value for value in column if isinstance(value, float)]
+        if any(v != v or not (endless or math.isfinite(v)) for v in numbers):
+            return True
+    for value in column if kinds & {tuple, list, Table} else ():
+        if isinstance(value, Table):
+            refuse_nonsense(value.names, value.columns)
+        elif isinstance(value, (tuple, list)) and _is_nonsense(value, endless):
+            return True
+    return False
 
 
 def only(table: Table, names: Sequence[str]) -> Table:
@@ -212,7 +191,6 @@ def only(table: Table, names: Sequence[str]) -> Table:
             some = few(name, known)
             raise GenevaError(f"--columns {cut(name)}: no such column; there are {some}")
     if not table.record:
-        table = _of_kinds(table, names) if KIND in table.names else table
         at = [table.names.index(name) for name in names]
         return table.replaced(names=tuple(names), columns=[table.columns[i] for i in at])
     values: dict[str, Any] = {}
@@ -230,15 +208,3 @@ def _tables(value: Any) -> list[Table]:
     if isinstance(value, Table):
         return [value]
     return [v for v in value if isinstance(v, Table)] if isinstance(value, tuple) else []
-
-
-def _of_kinds(table: Table, names: Sequence[str]) -> Table:
-    """Return the rows of the kinds that have one of the columns."""
-    at = table.names.index(KIND)
-    has: dict[str, set[str]] = {}
-    for row in table.rows():
-        own = (name for name, value in zip(table.names, row, strict=True) if value is not None)
-        has.setdefault(row[at], set()).update(own)
-    special = set(names) - set[str].intersection(*has.values())
-    kept = [row for row in table.rows() if not special or special & has[row[at]]]
-    return table.replaced(columns=rows_table(table.names, kept).columns)

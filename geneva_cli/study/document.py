@@ -21,13 +21,13 @@ from geneva_cli.output.document.blocks import (
     Curves,
     Document,
     Fact,
-    Facts,
     Grid,
     Heading,
     Picture,
     Prose,
     Row,
     TextList,
+    fact_grid,
 )
 from geneva_cli.output.text import only
 from geneva_cli.specfile.writer import keys_in, values_of
@@ -134,7 +134,7 @@ def document(design: Design) -> Document:
         blocks += (Heading(title), TextList(unknown))
     blocks += (Heading("Sources of the formulas"), TextList((*_sources(design.spec), *SOURCES)))
     defaults = [Fact(name, value, unit) for name, value, unit, _, is_default in keys if is_default]
-    blocks += (Heading("Appendix: keys at their defaults"), Facts("", tuple(defaults)))
+    blocks += (Heading("Appendix: keys at their defaults"), fact_grid("", defaults))
     return _document(design, blocks)
 
 
@@ -228,7 +228,7 @@ def _values(values: Mapping[str, Any]) -> Iterator[Block]:
             groups.setdefault(group, {})[own] = value
     for group, facts in groups.items():
         caption = capital(", ".join(described(part)[0] for part in group.split(".")))
-        yield Facts(caption, tuple(_fact(name, value) for name, value in facts.items()))
+        yield fact_grid(caption, (_fact(name, value) for name, value in facts.items()))
 
 
 def _table(caption: str, table: Table) -> Iterator[Grid]:

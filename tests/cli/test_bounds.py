@@ -88,23 +88,6 @@ def test_too_much_is_refused_at_once(arguments):
     refused(arguments, option)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(
-    ("L", "share"), [(1.0, 1e-9), (1e6, 1e-12), (1.0, 1e-16), (1e6, 1e-16)], ids="{:g}".format
-)
-def test_the_finest_tolerances_end_soon(L, share):
-    """Written or refused, but not after minutes, nor with a gigabyte. Sizes only scale it."""
-    put("large.toml", CURVED + f"[size]\ncenter_distance_mm = {L!r}\n")
-    status, said, megabytes, seconds = run(
-        "profile", "large.toml", "--format", "csv", "--tolerance", repr(L * share), timeout=300
-    )
-    assert status in (0, 2), f"ended by signal {-status} after {seconds:.0f} s: {said}"
-    if status:
-        assert said.startswith("--tolerance ")
-    # a million rows of ten columns, three times over; and a run that is still at hand
-    assert megabytes < 500.0
-
-
 def test_a_spec_of_a_gigabyte():
     with open("huge.toml", "wb") as file:
         file.truncate(1 << 30)  # sparse: it takes no room on the disk

@@ -33,7 +33,7 @@ def fails(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
 @pytest.fixture
 def watched(monkeypatch: pytest.MonkeyPatch) -> None:
     """A person looks at standard output, in a window of 60 columns, without colour."""
-    monkeypatch.setattr("geneva_cli.output.is_watched", lambda output, format: not format)
+    monkeypatch.setattr("geneva_cli.output.is_seen", lambda output: output == "-")
     monkeypatch.setenv("COLUMNS", "60")
     monkeypatch.setenv("NO_COLOR", "1")
 

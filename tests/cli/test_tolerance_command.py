@@ -1,7 +1,6 @@
 """``geneva tolerance`` as it is called: its formats, its bytes, what it refuses."""
 
 import json
-import re
 
 import pytest
 import repo
@@ -19,7 +18,9 @@ def run(*arguments):
 
 @pytest.mark.long
 def test_the_design_of_the_folder_turns_within_its_tolerances():
-    found = run(DESIGN, "--samples", "4096", "--radius", "150", "--format", "json")
+    words = [DESIGN, "--samples", "4096", "--radius", "150", "--format", "json"]
+    found = run(*words)
+    assert run(*words).stdout == found.stdout  # the same seed
     told = json.loads(found.stdout)
     assert list(told)[:2] == ["spec", "title"]
     for name in ("dwell_position", "motion_play"):
@@ -33,16 +34,6 @@ def test_the_design_of_the_folder_turns_within_its_tolerances():
     assert told["clearances"]["turns"] is True
     assert told["warnings"] == []
     assert found.exit_code == 0
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("format", ["table", "csv", "md", "json"])
-def test_the_same_seed_the_same_bytes(format):
-    one, other = (
-        run(DESIGN, "--samples", "999", "--seed", "5", "--format", format).stdout for _ in "ab"
-    )
-    assert one == other
-    assert "nan" not in re.sub("nance|within", "", one.lower())
 
 
 @pytest.mark.parametrize(

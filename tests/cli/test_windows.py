@@ -18,7 +18,7 @@ from geneva_cli import output
 from geneva_cli.cli.app import COMMANDS, app
 from geneva_cli.cli.pages import page
 from geneva_cli.manual import TOPICS
-from geneva_cli.output.terminal.layout import Window, value
+from geneva_cli.output.terminal.layout import Window
 from geneva_cli.output.terminal.terminal_tables import chunks
 from geneva_cli.table import Reading, record_table, rows_table
 
@@ -177,23 +177,6 @@ def test_any_table_fits(seed):
     table = rows_table(names, rows, mixed=seed % 3 == 0)
     look_at_table(table)
     look_at_table(record_table({"x": 1.0, "t": table, "g.y_mm": 2.0}, "Title " * 20, "Prose " * 50))
-
-
-@pytest.mark.parametrize(
-    ("number", "unit", "text"),
-    [
-        (0.123456789, "", "0.1235"),
-        (-0.0, "deg", "0 deg"),
-        (1234567, "", "1234567"),
-        (393.91305, "mm", "393.913 mm"),
-        (2.8e8, "h", "practically unlimited"),
-        (float("inf"), "mm", "no bound"),
-        (None, "mm", "-"),
-        (True, "", "yes"),
-    ],
-)
-def test_values_for_people(number, unit, text):
-    assert value(number, unit) == text
 
 
 def test_a_page_is_not_for_a_terminal(monkeypatch):

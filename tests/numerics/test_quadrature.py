@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from geneva_cli.motion.slot_and_motion import _sinc
+from geneva_cli.motion.given_motion import _sinc
 from geneva_cli.numerics import quadrature
 from geneva_cli.numerics.cuts import gathered, spread
 from geneva_cli.numerics.jet import Jet

@@ -127,13 +127,9 @@ def test_smooth_cubics_are_one_spline(joints):
 
 def test_the_header():
     document = dxf_document(text(MANY))
-    header = document.header
-    assert document.dxfversion == "AC1015"
-    assert (header["$INSUNITS"], header["$MEASUREMENT"]) == (4, 1)
     box = extent(MANY)
-    low, high = tuple(header["$EXTMIN"]), tuple(header["$EXTMAX"])
-    assert low == pytest.approx((box.x0, box.y0, 0.0), abs=1e-11)
-    assert high == pytest.approx((box.x1, box.y1, 0.0), abs=1e-11)
+    found = [*document.header["$EXTMIN"], *document.header["$EXTMAX"]]
+    assert found == pytest.approx([box.x0, box.y0, 0.0, box.x1, box.y1, 0.0], abs=1e-11)
     assert apart(dxf_shapes(text(MANY)), drawn_shapes(MANY)) < SAME
     center = document.linetypes.get("CENTER").simplified_line_pattern()
     assert sum(center) == pytest.approx(12.5, abs=1e-9)
@@ -157,24 +153,6 @@ def test_the_title_is_a_comment_in_plain_letters():
     assert text(of(bow())).startswith("  0\nSECTION\n")
 
 
-def test_the_comparison_can_fail():
-    """A bulge of the wrong sign, a point moved by a hundredth of a micrometre, a missing bore."""
-    read = dxf_shapes(text(MANY))
-    assert apart(read, drawn_shapes(MANY)) < SAME
-    others = MANY.shapes[1:]
-    assert apart(read, drawn_shapes(of(bow(-1.0), *others))) > 1.0
-    assert apart(read, drawn_shapes(of(*others))) == math.inf
-    moved = bow()._replace(segments=(bow().segments[0], Line((-10.0, 0.0), (10.0, 1e-5))))
-    assert apart(read, drawn_shapes(of(moved, *others))) > 1e-6
-
-
-def test_refusals():
-    with pytest.raises(GenevaError, match="layer BORE: a circle at nan: coordinates must be"):
-        text(of(Circle("BORE", (0.0, 0.0), math.nan)))
-    with pytest.raises(GenevaError, match="nothing to draw"):
-        text(of())
-
-
 # Every version, read back by two readers: ezdxf, and dxfgrabber's parser of its own
 
 NUMBERS = {"R12": "AC1009", "R2000": "AC1015", "R2018": "AC1032"}
@@ -182,18 +160,10 @@ ROUND = of(bow(), Circle("BORE", (0.0, 4.0), 2.0), bow(-0.3, "GROOVE"), title="Ã
 
 
 @pytest.mark.parametrize("version", NUMBERS)
-def test_each_version_holds_the_same_shapes(version):
-    drawing = ROUND if version == "R12" else MANY
-    document = dxf_document(text(drawing, version))
-    assert document.dxfversion == NUMBERS[version]
-    assert not document.audit().errors
-    if version != "R12":
-        assert document.header["$INSUNITS"] == 4
-        assert apart(dxf_shapes(text(drawing, version)), drawn_shapes(drawing)) < SAME
-
-
-@pytest.mark.parametrize("version", NUMBERS)
-def test_another_reader_finds_closed_contours_with_bulges(version):
+def test_each_version_holds_closed_contours_with_bulges(version):
+    document = dxf_document(text(ROUND if version == "R12" else MANY, version))
+    assert document.dxfversion == NUMBERS[version] and not document.audit().errors
+    assert version == "R12" or document.header["$INSUNITS"] == 4
     kind = "POLYLINE" if version == "R12" else "LWPOLYLINE"
     found = dxfgrabber.read(io.StringIO(text(ROUND, version)))
     first, circle, second = found.entities
@@ -208,7 +178,11 @@ def test_another_reader_finds_closed_contours_with_bulges(version):
         assert list(read.bulge) == pytest.approx(wanted, abs=1e-15)
 
 
-def test_refusals_of_versions():
+def test_refusals():
+    with pytest.raises(GenevaError, match="layer BORE: a circle at nan: coordinates must be"):
+        text(of(Circle("BORE", (0.0, 0.0), math.nan)))
+    with pytest.raises(GenevaError, match="nothing to draw"):
+        text(of())
     with pytest.raises(GenevaError, match="--dxf-version R12 has no splines: leave out --curves"):
         text(of(smooth()), "R12")
     with pytest.raises(GenevaError, match="--dxf-version R9: it must be one of R12, R2000, R2004"):

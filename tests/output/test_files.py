@@ -1,25 +1,25 @@
-"""Output files and streams: replaced whole or not at all, and quiet when nobody listens."""
+"""Files are replaced whole or not at all, and what they keep; what is never replaced; names."""
 
-import csv
-import json
+import errno
+import ntpath
 import os
-import re
 import signal
 import stat
 import subprocess
+import sys
 import time
 
 import pytest
 import repo
 from repo import GENEVA, get, posix, put
-from typer.testing import CliRunner
-from words import load
 
-from geneva_cli.cli.app import app
-from geneva_cli.motion.motion_table import motion_table
+from geneva_cli.errors import GenevaError
+from geneva_cli.output import files
+from geneva_cli.output.files import refuse_name, write
+from geneva_cli.output.folder import Row, filling_folder
+from geneva_cli.output.growing import GrowingTable
 
 OLD = "the old file, whole\n"
-TEMPORARY = re.compile(r"\.motion\.csv\.geneva-\d+\.tmp")
 LONG = ["motion", "spec.toml", "--samples", "500000"]  # seconds of writing, some 40 MB
 SHORT = ["peaks", "spec.toml"]
 
@@ -38,7 +38,6 @@ def geneva(*arguments, **settings):
 
 def clean_failure(found, *wants):
     assert found.returncode == 2, found.stderr
-    assert "Traceback" not in found.stderr
     assert len(found.stderr.splitlines()) == 1
     for want in wants:
         assert want in found.stderr
@@ -48,43 +47,87 @@ def leftovers():
     return [name for name in os.listdir() if name.endswith(".tmp")]
 
 
-# Where the file goes
-
-
-@posix("umask")
-def test_new_file_honours_the_umask():
+@posix("umask, and owners of files")
+def test_permissions_and_owner():
     found = geneva(*SHORT, "-o", "peaks.json", umask=0o027)
-    assert (found.returncode, found.stdout) == (0, "")
+    assert (found.returncode, found.stdout, leftovers()) == (0, "", [])
     assert stat.S_IMODE(os.stat("peaks.json").st_mode) == 0o640
-    assert leftovers() == []
+    if os.geteuid() == 0:  # only root can give files away
+        os.chown("peaks.json", 1234, 2345)
+    before = os.stat("peaks.json")
+    write("peaks.json", ["new"])
+    now = os.stat("peaks.json")
+    assert (now.st_uid, now.st_gid, now.st_mode) == (before.st_uid, before.st_gid, before.st_mode)
 
 
 @posix("links without the rights of an administrator")
-def test_symlink_stays_a_link():
+def test_a_link_stays_a_link():
     os.mkdir("store")
     put("store/real.csv", OLD)
     os.symlink("store/real.csv", "link.csv")
-    assert geneva(*SHORT, "-o", "link.csv").returncode == 0
+    write("link.csv", ["new"])
     assert os.readlink("link.csv") == "store/real.csv"
-    assert get("store/real.csv").startswith("spec,title,velocity.max,")
-    assert os.listdir("store") == ["real.csv"]
+    assert (get("store/real.csv"), os.listdir("store")) == ("new", ["real.csv"])
 
 
-def test_folder_missing():
-    clean_failure(geneva(*SHORT, "-o", "gone/peaks.csv"), "gone", "No such file", "make the folder")
-    clean_failure(geneva(*SHORT, "-o", "/proc/peaks.csv"), "the folder /proc takes no files")
+def test_folders():
+    os.mkdir("peaks.csv")
+    clean_failure(geneva(*SHORT, "-o", "peaks.csv"), "peaks.csv", "give a file's name")
+    clean_failure(geneva(*SHORT, "-o", "gone/peaks.csv"), "gone", "make the folder")
 
 
 @posix("links without the rights of an administrator")
-@pytest.mark.sampled(2)
-@pytest.mark.parametrize("name", ["spec.toml", "./sub/../spec.toml", "link.toml", "hard.toml"])
-def test_output_over_the_spec(name):
+@pytest.mark.parametrize("name", ["./sub/../spec.toml", "link.toml", "hard.toml"])
+def test_an_input_is_not_replaced(name):
     os.mkdir("sub")
     os.symlink("spec.toml", "link.toml")
     os.link("spec.toml", "hard.toml")
-    before = get("spec.toml")
-    clean_failure(geneva(*SHORT, "-o", name, "--format", "csv"), "input", "another name")
-    assert get("spec.toml") == before
+    with pytest.raises(GenevaError, match=r"is an input, .* another name"):
+        write(name, ["new"], ["spec.toml"])
+    with open("spec.toml", encoding="utf-8") as file:
+        clean_failure(geneva("motion", "-", "-o", name, "--format", "csv", stdin=file), "an input")
+    assert "z = 6" in get("spec.toml")
+
+
+def test_read_only_is_refused():
+    put("a.csv", OLD)
+    os.chmod("a.csv", 0o444)
+    with pytest.raises(GenevaError, match=r"a\.csv: this file is read-only; allow writing"):
+        write("a.csv", ["new"])
+    assert get("a.csv") == OLD
+
+
+@pytest.mark.parametrize("name", ["a b+(1)@.csv", "größe.csv", "x" * 250 + ".csv"])
+def test_what_a_killed_run_left_goes(name):
+    put(f".{name[:200]}.geneva.tmp", "half a file that is longer than the new one")
+    write(name, ["whole"])
+    assert sorted(os.listdir()) == sorted([name, "spec.toml"]) and get(name) == "whole"
+
+
+def test_two_writers_at_once():
+    """The second is refused, in another thread of the run too."""
+
+    def outer():
+        yield "outer"
+        with pytest.raises(GenevaError, match=r"a\.csv: another run is writing this"):
+            write("a.csv", ["inner"])
+
+    write("a.csv", outer())
+    assert (get("a.csv"), leftovers()) == ("outer", [])
+
+
+def test_a_file_that_another_program_holds(monkeypatch):
+    """On Windows a table that is open in a spreadsheet cannot be replaced."""
+
+    def refused(*paths):
+        raise PermissionError(errno.EACCES, "Zugriff verweigert")  # in the system's language
+
+    put("a.csv", OLD)
+    monkeypatch.setattr(os, "replace", refused)
+    monkeypatch.setattr(files, "POSIX", False)
+    with pytest.raises(GenevaError, match="Permission denied; close the file in other programs"):
+        write("a.csv", ["new"])
+    assert (get("a.csv"), leftovers()) == (OLD, [])
 
 
 # Runs that fail or are stopped
@@ -101,12 +144,14 @@ def test_failure_half_way_keeps_the_old_file():
     put("motion.csv", OLD)
     arguments = ["motion", "spec.toml", "--samples", "20000", "-o", "motion.csv"]
     clean_failure(geneva(*arguments, preexec_fn=small_files), "motion.csv", "cannot write")
-    assert get("motion.csv") == OLD
-    assert leftovers() == []
+    assert (get("motion.csv"), leftovers()) == (OLD, [])
 
 
-def stopped(number):
-    """A long export, stopped by a signal once its temporary file has appeared."""
+@posix("signals that one process sends another; test_as_windows.py has Ctrl-Break")
+@pytest.mark.sampled(3)
+@pytest.mark.parametrize(("name", "status"), [("SIGINT", 130), ("SIGTERM", 143), ("SIGHUP", 129)])
+def test_stopped_by_a_signal(name, status):
+    """A long export, stopped once its temporary file has appeared."""
     put("motion.csv", OLD)
     process = subprocess.Popen(
         [GENEVA, *LONG, "-o", "motion.csv"],
@@ -119,112 +164,44 @@ def stopped(number):
     while not leftovers() and process.poll() is None and time.monotonic() < deadline:
         time.sleep(0.005)
     assert process.poll() is None, "the export ended before it could be stopped"
-    assert TEMPORARY.fullmatch(leftovers()[0])
-    process.send_signal(number)
-    out, err = process.communicate(timeout=30)
-    assert (out, err) == ("", "")
-    assert get("motion.csv") == OLD
-    return process.returncode
+    process.send_signal(getattr(signal, name))
+    assert (*process.communicate(timeout=30), process.returncode) == ("", "", status)
+    assert (get("motion.csv"), leftovers()) == (OLD, [])
 
 
-@posix("signals that one process sends another; test_as_windows.py has Ctrl-Break")
-@pytest.mark.sampled(3)
-@pytest.mark.parametrize(("name", "status"), [("SIGINT", 130), ("SIGTERM", 143), ("SIGHUP", 129)])
-def test_stopped_by_a_signal(name, status):
-    assert stopped(getattr(signal, name)) == status
-    assert leftovers() == []
+# Names that Windows does not give to a file, as Microsoft lists them ("Naming Files, Paths, and
+# Namespaces"), tried on any system
+
+RESERVED = "nul nul.csv AUX.txt con prn.tar.gz Com1 LPT9.dxf com¹.csv CONIN$ ab:c.csv a. ... a* a?"
+RESERVED = [*RESERVED.split(), "nul .csv", "bad:name", "a ", 'a"b', "a|b", "a\tb"]
+TAKEN = "null.csv console aux-1.csv com0 com10.csv lpt.dxf .nul a.nul größe.csv .. . -1 wheel-1x-8"
 
 
-# Standard output that does not take what we write
+def test_names():
+    for name in RESERVED:
+        with pytest.raises(GenevaError, match=r"Windows .*; give another name"):
+            refuse_name(name)
+    for name in TAKEN.split():
+        refuse_name(name)
+    if hasattr(ntpath, "isreserved"):  # Python 3.13's own answer
+        for name in (*RESERVED, *TAKEN.split()):
+            assert (name in RESERVED) == ntpath.isreserved(name)
 
 
-@pytest.mark.sampled(6)
-@pytest.mark.parametrize(
-    "arguments",
-    [["table"], ["--help"], [*LONG, "--format", "csv"], [*LONG, "--format", "json"], SHORT],
-    ids=" ".join,
-)
-def test_closed_pipe(arguments):
-    """``geneva table | head -1``: the reader has what it wanted, and nobody is bothered."""
-    process = subprocess.Popen(
-        [GENEVA, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8"
-    )
-    process.stdout.readline()
-    process.stdout.close()
-    err = process.stderr.read()
-    process.stderr.close()
-    assert (err, process.wait(timeout=30) in (0, 141)) == ("", True)
-
-
-@pytest.mark.long
-def test_a_pipe_of_ascii():
-    """A title in any script, on a system that knows only ASCII, is no reason to fail."""
-    put("spec.toml", 'title = "Größe 六"\n' + ANSWERED)
-    ascii_only = os.environ | {"PYTHONIOENCODING": "ascii", "PYTHONUTF8": "0"}
-    for line in ("peaks spec.toml", "check spec.toml"):
-        run = subprocess.run(
-            [GENEVA, *line.split()], env=ascii_only, capture_output=True, encoding="utf-8"
-        )
-        assert run.returncode in (0, 1), run.stderr
-        assert "Traceback" not in run.stderr
-        assert len(run.stdout) > 200
-
-
-# What is written
-
-
-def strict(text):
-    def refuse(constant):
-        raise AssertionError(f"{constant} in json")
-
-    return json.loads(text, parse_constant=refuse)
-
-
-@pytest.mark.parametrize("samples", [2, 361, 8193])
-def test_csv_reads_back_equal(samples):
-    put("spec.toml", '[wheel]\nz = 7\n[drive]\nkind = "side-crank"\nA = 0.3\nn_rpm = 47\n')
-    words = ["motion", "spec.toml", "--samples", str(samples), "--format", "csv"]
-    lines = CliRunner().invoke(app, words).stdout.splitlines()
-    table = motion_table(load("spec.toml"), samples)
-    rows = list(csv.reader(lines))
-    assert tuple(rows[0]) == table.names
-    assert [[float(x) for x in row] for row in rows[1:]] == [list(row) for row in table.rows()]
-    assert not any(x in ("-0.0", "nan", "inf", "-inf") for row in rows for x in row)
-
-
-# What a title may not do
-
-HOSTILE = ["=HYPERLINK(1)", r"\u001b]0;x\u0007\u001b[31mred", r"one\r\ntwo", r"\u202ea|b`c<script>"]
-ANSWERED = "[wheel]\nz = 400\n"  # without parts that would be turned for each title
-
-
-@pytest.mark.sampled(3)
-@pytest.mark.parametrize("command", ["peaks", "check", "motion"])
-def test_hostile_title(command):
-    """In every format a title adds no line, no formula, no mark-up and no control character."""
-    plain = {}
-    for title in ["plain", *HOSTILE]:
-        put("spec.toml", f'title = "{title}"\n{ANSWERED}')
-        for format in ("table", "csv", "json", "md"):
-            found = CliRunner().invoke(app, [command, "spec.toml", "--format", format])
-            assert found.exit_code in (0, 1), (title, found.output, found.exception)
-            text = found.stdout
-            clean_title(text, format, title)
-            assert text.count("\n") == plain.setdefault(format, text).count("\n"), (title, format)
-
-
-def clean_title(text, format, title):
-    assert all(c.isprintable() or c == "\n" for c in text), (title, format)
-    if format == "csv":
-        for cell in (c for row in csv.reader(text.splitlines()) for c in row):
-            assert not cell.startswith(("=", "@", "+", "-")) or float(cell) <= 0, title
-    if format == "json":
-        strict(text)
-    if format == "md":
-        assert "<script>" not in text, title
-
-
-def test_output_is_a_folder():
-    os.mkdir("peaks.csv")
-    clean_failure(geneva(*SHORT, "-o", "peaks.csv"), "peaks.csv", "directory")
-    assert os.listdir("peaks.csv") == []
+def test_every_file_and_folder_is_asked_for(monkeypatch):
+    """A file, one that grows, and a folder of an export; elsewhere a folder for others alone."""
+    device = 'Windows reserves the name "aux" for a device'
+    if os.name != "nt":
+        assert files.real_path("aux.csv") == os.path.realpath("aux.csv")
+    with pytest.raises(GenevaError, match=device), filling_folder("b", [Row("aux.csv", "")]):
+        pass
+    monkeypatch.setattr(sys, "platform", "win32")
+    with pytest.raises(GenevaError, match=device):
+        write(r"C:\shop\aux\a.csv", ["a text"])
+    with pytest.raises(GenevaError, match=device):
+        GrowingTable(["a"], "request", "shop/aux.csv")
+    with pytest.raises(GenevaError, match=device), filling_folder("aux", []):
+        pass
+    for path in (r"C:\shop\a.csv", "../a.csv", r"\\server\share\a.csv", "C:a.csv"):
+        files.real_path(path)
+    assert os.listdir() == ["spec.toml"]

@@ -143,7 +143,4 @@ def test_a_fill_is_what_the_plates_are(assembly):
         assert area == pytest.approx(face(plate).area, rel=1e-3)  # of 96 chords a piece
     # the layers themselves are what they are without it
     assert apart(svg_shapes(text(assembly)), drawn_shapes(assembly)) < 1e-8
-
-
-def test_parts_to_cut_are_not_filled():
-    assert "FILL" not in groups(root(design().drawing("wheel", 0.01)))
+    assert "FILL" not in groups(root(design().drawing("wheel", 0.01)))  # which is cut

@@ -15,7 +15,7 @@ from typer.testing import CliRunner
 
 from geneva_cli import GenevaError, load
 from geneva_cli.cli.app import app
-from geneva_cli.output.growing import GrowingFile
+from geneva_cli.output.growing import GrowingTable
 from geneva_cli.specfile.reader import read
 from geneva_cli.study.pool import possible
 from geneva_cli.study.sweep.request import request
@@ -90,21 +90,22 @@ def test_the_same_rows_whatever_the_processes_and_shares():
 
 
 def test_a_stopped_sweep_goes_on(tmp_path):
-    """What a stopped run leaves is a beginning of the rows, maybe with half a line."""
+    """What a stopped run leaves is a beginning of the rows, maybe with half a block."""
     arguments = ["sweep", SPEC, "--vary", GRID[0], "--vary", GRID[1]]
     file = tmp_path / "rows.csv"
     assert geneva(*arguments, "-o", str(file)).exit_code == 0
     whole = file.read_text(encoding="utf-8")
     assert os.listdir(tmp_path) == ["rows.csv"]
     state = tmp_path / "rows.csv.geneva"
-    header, *rows = whole.splitlines(keepends=True)
-    with closing(GrowingFile(str(file), header, request(SPEC, GRID).key, False)) as left:
-        left.append("".join(rows[:2]).encode(), 2)
-        left.append(rows[2].encode(), 1)
+    plan = request(SPEC, GRID)
+    rows = next(plan.blocks()).columns
+    with closing(GrowingTable(plan.sweep.names, plan.key, str(file))) as left:
+        for start, stop in ((0, 2), (2, 3)):
+            left.append([column[start:stop] for column in rows])
     half = state.read_bytes()[:-20]
     state.write_bytes(half)
     resumed = geneva(*arguments, "-o", str(file), "--resume")
-    assert resumed.exit_code == 0 and "incomplete or damaged after row 2" in resumed.stderr
+    assert resumed.exit_code == 0 and "continues after row 2" in resumed.stderr
     assert file.read_text(encoding="utf-8") == whole
     state.write_bytes(half)
     other = geneva(*arguments, "--set", "drive.n_rpm=90", "-o", str(file), "--resume")
@@ -174,8 +175,6 @@ def test_parquet_of_no_rows_has_its_columns(tmp_path):
 
 def test_types_of_a_column_follow_from_all_blocks(tmp_path):
     """Numbers that one block has and words of another are words; whole numbers are numbers."""
-    from geneva_cli.output.growing import GrowingTable
-
     path = str(tmp_path / "rows.parquet")
     with closing(GrowingTable(["a", "b", "c", "d"], "key", path)) as rows:
         rows.append([np.array([4, 6]), [True, None], [None, None], np.array([1, 2])])

@@ -4,7 +4,6 @@ import os
 from typing import Annotated
 
 from geneva_cli.cli.command import Reverse, Settings, SpecPath, flag, output_option, say
-from geneva_cli.errors import GenevaError
 
 EXAMPLES = (
     "geneva animate spec.toml -o machine.html",
@@ -32,8 +31,6 @@ def run(
     from geneva_cli.output import animate
     from geneva_cli.study.animation.turning_scene import scene
 
-    if open_ and output != "-" and not output.endswith(".html"):
-        raise GenevaError(f'-o "{output}": --open opens a page: it must end in .html')
     design = load(spec, settings or (), reverse)
     place = output
     if open_ and output == "-":

@@ -6,14 +6,7 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.cli.command import (
-    Format,
-    Output,
-    Reverse,
-    Settings,
-    option,
-    say,
-)
+from geneva_cli.cli.command import Format, Output, Reverse, Settings, option, say
 from geneva_cli.errors import clean, open_warnings
 
 EXAMPLES = ("geneva check spec.toml", "geneva check spec.toml --set size.slot_clearance_mm=0.05")
@@ -46,10 +39,11 @@ def run(
     there is a row for each check. The exit status is 1 if a check fails. If one spec cannot be
     read, the others are still checked.
     """
-    from geneva_cli.output import show_answer, table_as
+    from geneva_cli.output import show_answer
+    from geneva_cli.output.formats import chosen
     from geneva_cli.study.verdicts import of_checks, verdicts
 
-    name, changes = table_as(output, format), list(settings or ())
+    name, changes = chosen(output, format), list(settings or ())
     for part, path in (("wheel", wheel), ("crank", crank)):  # files of this folder
         if path is not None:
             changes.append(f"outline.{part}={os.path.abspath(path)}")

@@ -4,7 +4,16 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.cli.command import AlsoReverse, Format, Output, Settings, flag, option, say
+from geneva_cli.cli.command import (
+    AlsoReverse,
+    Format,
+    Output,
+    Settings,
+    flag,
+    option,
+    say,
+    words_in,
+)
 from geneva_cli.errors import GenevaError
 
 EXAMPLES = (
@@ -16,19 +25,11 @@ EXAMPLES = (
 def run(
     specs: Annotated[list[str], typer.Argument(metavar="SPEC...", help="Specs, TOML files.")],
     vary: Annotated[
-        list[str] | None,
-        option("KEY=VALUES", "One spec with several values: drive.A=0,0.3,0.6."),
+        list[str] | None, option("KEY=VALUES", "One spec with several values: drive.A=0,0.3,0.6.")
     ] = None,
-    pick: Annotated[
-        str,
-        option("FIELD,...", "Only these, as acceleration.max,dwell_s."),
-    ] = "",
+    pick: Annotated[str, option("FIELD,...", "Only these, as acceleration.max,dwell_s.")] = "",
     against: Annotated[
-        str,
-        option(
-            "NAME,...",
-            "One spec with cam, servo: the same step, time and load.",
-        ),
+        str, option("NAME,...", "One spec with cam, servo: the same step, time and load.")
     ] = "",
     ratio: Annotated[bool, flag("--ratio", "Numbers over the first design's.")] = False,
     differing: Annotated[bool, flag("--differing", "Only what differs.")] = False,
@@ -53,11 +54,9 @@ def run(
             raise GenevaError(
                 "--against: it compares one spec, without --vary, --pick, --ratio and --reverse"
             )
-        names = [name.strip() for name in against.split(",")]
-        table = load_extra("servo", "against")(specs[0], settings or [], names)
+        table = load_extra("servo", "against")(specs[0], settings or [], words_in(against))
     else:
-        picks = [name.strip() for name in pick.split(",")] if pick else []
-        table = compare(specs, settings or (), vary or (), picks, ratio, reverse)
+        table = compare(specs, settings or (), vary or (), words_in(pick), ratio, reverse)
         table = only_differing(table) if differing else table
     show(table, output, format, specs)
     for path in specs:

@@ -27,11 +27,7 @@ def run(
     output: Annotated[str, output_option("FOLDER", "Write into this folder (required).")] = "",
     trade: Annotated[
         str | None,
-        option(
-            "TRADE",
-            "What laser, mill or print needs.  [default: all files]",
-            name="--for",
-        ),
+        option("TRADE", "What laser, mill or print needs.  [default: all files]", name="--for"),
     ] = None,
     force: Annotated[
         bool, flag("--force", "Write a machine that jams; replace changed files.")
@@ -62,14 +58,14 @@ def run(
         require_written(design, design.judge(), force)
     files, missing = export_files(design, needed)
     entries = [Row(file.name, file.content) for file in files]
-    with filling_folder(output, entries, design.spec.files, force) as filling:
+    with filling_folder(output, entries, design.spec.files, force) as (folder, kept):
         for file in files:
-            file.write(os.path.join(filling.new, file.name))
+            file.write(os.path.join(folder, file.name))
     rows = [(below(output, one.file), one.content) for one in entries]
     show(rows_table(("file", "content"), rows, design.spec.title))
     for one in missing:
         print(clean(f"{spec}: warning: {one.name}: not written: {one.why}"), file=sys.stderr)
-    for name in filling.kept:
+    for name in kept:
         text = "no file of this design now, but somebody changed it: it stays"
         print(clean(f"{below(output, name)}: warning: {text}"), file=sys.stderr)
     process = design.spec.size.process

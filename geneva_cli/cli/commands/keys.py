@@ -11,11 +11,7 @@ EXAMPLES = ("geneva keys drive", "geneva keys size.center_distance_mm")
 
 def run(
     word: Annotated[
-        str,
-        typer.Argument(
-            metavar="[TABLE|KEY]",
-            help="drive, drive.A or A; without one: all.",
-        ),
+        str, typer.Argument(metavar="[TABLE|KEY]", help="drive, drive.A or A; without one: all.")
     ] = "",
     output: Output = "-",
     format: Format = "",

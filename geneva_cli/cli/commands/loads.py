@@ -1,13 +1,11 @@
 """``geneva loads``."""
 
-import sys
-from collections.abc import Sequence
 from typing import Annotated
 
 import typer
 
 from geneva_cli.cli.command import Format, Output, Reverse, Settings, SpecPath, flag, option, say
-from geneva_cli.errors import clean, is_warning
+from geneva_cli.errors import is_warning
 
 ROWS = 361
 
@@ -55,7 +53,8 @@ def run(
     called not proved. It needs geneva-cli[certify]. More: `geneva help accuracy`.
     """
     from geneva_cli.design import load
-    from geneva_cli.output import choice, is_for_people, show, show_answer, table_as
+    from geneva_cli.output import choice, is_for_people, show, show_answer
+    from geneva_cli.output.formats import chosen
     from geneva_cli.study.summary.load_lines import of_loads
 
     design = load(spec, settings or (), reverse)
@@ -64,7 +63,7 @@ def run(
         show(certificates, output, format, design.spec.files)
         say(design.spec.path, design.ideal_notes)
         return
-    name = table_as(output, format)
+    name = chosen(output, format)
     by_rows = name == "csv" or (samples is not None and name != "json")
     # before any output: a cycle whose loads are refused has no rows either
     warnings = design.loads_table.to_dict()["warnings"] if by_rows or output != "-" else ()
@@ -74,15 +73,4 @@ def run(
     else:
         answer = of_loads(design, name != "table" or verbose or bool(choice.columns))
         show_answer(answer, output, format, design.spec.files)
-    _say(design.spec.path, warnings)
-
-
-def _say(path: str, texts: Sequence[str]) -> None:
-    """Print warnings, one a line, and all notes on unknown values as one line."""
-    say(path, filter(is_warning, texts))
-    notes = [text for text in texts if not is_warning(text)]
-    if len(notes) > 1:
-        lists_keys = "`geneva loads SPEC` lists the keys that they need"
-        print(clean(f"{path}: note: some values are not known; {lists_keys}"), file=sys.stderr)
-    else:
-        say(path, notes)
+    say(design.spec.path, filter(is_warning, warnings))

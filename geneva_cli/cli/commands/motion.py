@@ -30,12 +30,7 @@ def run(
     ] = None,
     controller: Annotated[
         str | None,
-        option(
-            "CONTROLLER",
-            f"{one_of(CONTROLLERS)}  [default: polynomial]",
-            CAM,
-            name="--for",
-        ),
+        option("CONTROLLER", f"{one_of(CONTROLLERS)}  [default: polynomial]", CAM, name="--for"),
     ] = None,
     tolerance: Annotated[
         float | None, option("DEG", "Greatest error of the wheel's angle.  [default: 0.0001]", CAM)

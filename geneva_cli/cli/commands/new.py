@@ -18,10 +18,7 @@ EXAMPLES = (
 def run(
     kind: Annotated[
         str,
-        typer.Argument(
-            metavar="[KIND]",
-            help="curved, turret, a kind of drive, ...: see --list.",
-        ),
+        typer.Argument(metavar="[KIND]", help="curved, turret, a kind of drive, ...: see --list."),
     ] = "",
     from_design: Annotated[str, option("NAME", "A copy of one of the designs, as it is.")] = "",
     list_: Annotated[bool, flag("--list", "All kinds and designs, and what they are.")] = False,
@@ -37,9 +34,8 @@ def run(
     stay. An existing file is kept, unless --force is given. For editors: `geneva help spec`.
     """
     from geneva_cli.output import show
-    from geneva_cli.specfile.designs import design, titles
-    from geneva_cli.specfile.json_schema import FILE
-    from geneva_cli.specfile.template import KINDS, example, template
+    from geneva_cli.specfile.keys import FILE
+    from geneva_cli.specfile.template import KINDS, design, example, template, titles
     from geneva_cli.table import Reading, rows_table
 
     if bool(kind) + bool(from_design) + list_ != 1:
@@ -69,16 +65,9 @@ def _write(text: str, output: str, files: dict[str, str], force: bool) -> None:
     """Write a spec, and the files that it names into its folder."""
     from geneva_cli.output import refuse_existing, show_text
 
-    places = {below(os.path.dirname(output), file): files[file] for file in files}
-    if not force:
-        refuse_existing(output)
-        for place, content in places.items():
-            is_equal = False
-            if os.path.isfile(place):
-                with open(place, encoding="utf-8", errors="replace") as file:
-                    is_equal = file.read() == content
-            if not is_equal:
-                refuse_existing(place)
+    places = {below(os.path.dirname(output), name): content for name, content in files.items()}
+    for place in () if force else (output, *places):
+        refuse_existing(place)
     for place, content in places.items():
         show_text(content, place)
     show_text(text, output)

@@ -4,7 +4,7 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.cli.command import AlsoReverse, Output, Settings, option, say
+from geneva_cli.cli.command import AlsoReverse, Output, Settings, option, say, words_in
 from geneva_cli.errors import GenevaError, cut
 
 EXAMPLES = (
@@ -19,15 +19,11 @@ def run(
         list[str],
         typer.Argument(metavar="SPEC...", help="Specs, TOML files; or one .csv, as of a sweep."),
     ],
-    pick: Annotated[
-        str,
-        option("QUANTITY,...", "Only these, as velocity,pin_force_N."),
-    ] = "",
+    pick: Annotated[str, option("QUANTITY,...", "Only these, as velocity,pin_force_N.")] = "",
     x: Annotated[str, option("COLUMN", "Column of a csv for the x axis.", name="--x")] = "",
     y: Annotated[str, option("COLUMN,...", "Columns of a csv for the y axis.", name="--y")] = "",
     vary: Annotated[
-        list[str] | None,
-        option("KEY=VALUES", "One spec with several values: wheel.z=4,6,8."),
+        list[str] | None, option("KEY=VALUES", "One spec with several values: wheel.z=4,6,8.")
     ] = None,
     reverse: AlsoReverse = False,
     settings: Settings = None,
@@ -41,10 +37,10 @@ def run(
     Without -o it prints points. png needs the extra geneva-cli[plot]. `geneva help plots`.
     """
     from geneva_cli.output import show_figure
-    from geneva_cli.output.formats import plotted_as
+    from geneva_cli.output.formats import FORMATS, PLOTTED, chosen
     from geneva_cli.study.figures import of_specs, of_table
 
-    plotted_as(output, format)  # refuse a wrong format before any computation
+    chosen(output, format, (*PLOTTED, *FORMATS))  # refuse a wrong format before any computation
     tables = [path for path in specs if path.lower().endswith(".csv")]
     if tables:
         name = cut(tables[0], 300)
@@ -53,18 +49,14 @@ def run(
         for option_, value in {"--pick": pick, "--set": settings, "--vary": vary}.items():
             if value:
                 raise GenevaError(f"{option_} is for specs; for {name} give --x and --y")
-        show_figure(of_table(tables[0], x, _names(y)), output, format, tables)
+        show_figure(of_table(tables[0], x, words_in(y)), output, format, tables)
         return
     if x or y:
         raise GenevaError(f"--x and --y are for a .csv; for {cut(specs[0], 300)} give --pick")
-    figure, designs, left_out = of_specs(specs, settings or (), _names(pick), vary or (), reverse)
+    figure, designs, left_out = of_specs(specs, settings or (), words_in(pick), vary or (), reverse)
     show_figure(figure, output, format, [file for d in designs for file in d.spec.files])
     for design in designs:
         say(design.spec.path, design.motion_warnings)
         say(design.spec.path, design.ideal_notes)
     for path, text in left_out:
         say(path, [text])
-
-
-def _names(texts: str) -> list[str]:
-    return [name.strip() for name in texts.split(",") if name.strip()]

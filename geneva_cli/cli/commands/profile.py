@@ -18,10 +18,10 @@ from geneva_cli.output import draw, draw_sheet, show
 from geneva_cli.output.formats import (
     DRAWN,
     FORMATS,
+    SHEETS,
+    chosen,
     curve_tolerance,
-    drawn_as,
-    is_drawn,
-    sheet_as,
+    named,
     usual_curves,
 )
 
@@ -40,8 +40,7 @@ DRAWING = "The drawing"
 def run(
     spec: SpecPath,
     part: Annotated[
-        str,
-        option("PART", "slot, wheel, crank, arm, assembly, parts, sheet or another."),
+        str, option("PART", "slot, wheel, crank, arm, assembly, parts, sheet or another.")
     ] = "slot",
     tolerance: Annotated[
         float | None,
@@ -49,16 +48,14 @@ def run(
     ] = None,
     samples: Annotated[int | None, option("N", "Number of rows of a table, evenly spaced.")] = None,
     curves: Annotated[
-        str | None,
-        option("KIND", "Curved walls as arcs or spline; .step has spline.", DRAWING),
+        str | None, option("KIND", "Curved walls as arcs or spline; .step has spline.", DRAWING)
     ] = None,
     kerf: Annotated[float | None, option("MM", "Paths for a cut of this width.", CUT)] = None,
     cutter: Annotated[
         float | None, option("MM", "Diameter of a milling cutter that must fit.", CUT)
     ] = None,
     dxf_version: Annotated[
-        str | None,
-        option("VERSION", "Version of .dxf, R12 to R2018.  [default: R2000]", DRAWING),
+        str | None, option("VERSION", "Version of .dxf, R12 to R2018.  [default: R2000]", DRAWING)
     ] = None,
     force: Annotated[bool, flag("--force", "Draw even a machine that jams.")] = False,
     settings: Settings = None,
@@ -76,8 +73,7 @@ def run(
     tolerance = curve_tolerance(tolerance, output, format)
     if curves not in WALLS:
         raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
-    sheet = is_sheet(part)
-    drawn = bool(sheet_as(output, format)) if sheet else is_drawn(output, format)
+    sheet, drawn = is_sheet(part), named(output, format) in DRAWN
     design = load(spec, settings or ())
     files = design.spec.files
     if not sheet and design.is_table(part, drawn):
@@ -89,8 +85,7 @@ def run(
         return
     if samples is not None:
         raise GenevaError("--samples is for tables of points; drawings take --tolerance")
-    if not sheet:
-        drawn_as(output, format)  # refused before the machine is turned
+    chosen(output, format, SHEETS if sheet else DRAWN)  # refused before the machine is turned
     require_tolerance(design.mechanism, tolerance)
     if design.spec.is_turned:
         require_written(design, design.judge(part), force)

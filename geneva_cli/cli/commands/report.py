@@ -33,10 +33,10 @@ def run(
     """
     from geneva_cli.design import load
     from geneva_cli.output import choice, show_answer, show_document
-    from geneva_cli.output.formats import is_document
+    from geneva_cli.output.formats import chosen
     from geneva_cli.study.summary.report_summary import of_report
 
-    is_whole = is_document(output, format)
+    is_whole = chosen(output, format, WRITTEN) in DOCUMENTS
     design = load(spec, settings or ())
     if is_whole:
         from geneva_cli.study.document import document, short_document

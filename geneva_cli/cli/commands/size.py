@@ -31,15 +31,15 @@ def run(
     json or md has the table instead.
     """
     from geneva_cli.design import load
-    from geneva_cli.output import show_answer, show_text, table_as
-    from geneva_cli.output.formats import FORMATS
+    from geneva_cli.output import show_answer, show_text
+    from geneva_cli.output.formats import FORMATS, chosen
     from geneva_cli.study.chosen_sizes import of_sizes, sized_text
 
     design = load(spec, settings or ())
     extension = os.path.splitext(output)[1].lower().removeprefix(".")
     if not output or format or extension in FORMATS:
         output = output or "-"
-        answer = of_sizes(design, table_as(output, format) == "json")
+        answer = of_sizes(design, chosen(output, format) == "json")
         show_answer(answer, output, format, design.spec.files)
         return
     if output != "-" and extension != "toml":

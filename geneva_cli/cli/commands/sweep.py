@@ -31,8 +31,7 @@ def run(
         option("KEY=VALUES", "As drive.A=0..0.9:0.1 or motion.law=a,b; repeat.", DESIGNS),
     ] = None,
     pick: Annotated[
-        str,
-        option("FIELD,...", "Quantities, as acceleration.max,dwell_s.", DESIGNS),
+        str, option("FIELD,...", "Quantities, as acceleration.max,dwell_s.", DESIGNS)
     ] = "",
     random: Annotated[
         int | None, option("N", "N random designs from the ranges, not the grid.", DESIGNS)
@@ -134,8 +133,6 @@ def _write_rows(
         with closing(growing) as rows:
             if rows.message:
                 print(clean(rows.message), file=sys.stderr)
-            if rows.is_whole:
-                return
             if is_seen("-") and not (shows_all or rows.done):
                 digest = Digest(plan, output)
             blocks = plan.blocks(rows.done) if shows_all else _tracked(plan, rows.done)

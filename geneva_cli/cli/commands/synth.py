@@ -29,8 +29,7 @@ def run(
     dwell_s: Annotated[str, option("S", "Seconds of dwell.", WANTED)] = "",
     cycle: Annotated[str, option("S", "Seconds from step to step.", WANTED)] = "",
     subject_to: Annotated[
-        list[str] | None,
-        option("BOUND", 'Of any quantity, as "jerk.max <= 5"; repeat.', WANTED),
+        list[str] | None, option("BOUND", 'Of any quantity, as "jerk.max <= 5"; repeat.', WANTED)
     ] = None,
     z: Annotated[str, option("Z", "Slots: 6, 3..12 or 3,4,6.", MACHINES, default="3..24")] = "",
     internal: Annotated[bool, flag("--internal", "Internal wheels.", MACHINES)] = False,
@@ -98,7 +97,7 @@ def _inputs(target: "Target") -> Sequence[str]:
 
 
 def _show(target: "Target", check: int, buildable: bool, output: str, format: str) -> None:
-    from geneva_cli.output import is_for_people, is_watched, show
+    from geneva_cli.output import is_for_people, is_seen, show
     from geneva_cli.study.synth.shown import for_people
     from geneva_cli.study.synth.synth_table import synthesis_table
 
@@ -107,7 +106,7 @@ def _show(target: "Target", check: int, buildable: bool, output: str, format: st
     table = synthesis_table(target, check, buildable)
     if is_for_people(output, format):
         # a terminal shows no fewer than are turned by default
-        table = for_people(table, max(check, 20) if is_watched(output, format) else None)
+        table = for_people(table, max(check, 20) if is_seen(output) else None)
     show(table, output, format, _inputs(target))
 
 

@@ -26,11 +26,12 @@ def run(
     how far it moves with a stiffness 20 % lower and higher.
     """
     from geneva_cli.design import load
-    from geneva_cli.output import show, show_answer, table_as
+    from geneva_cli.output import show, show_answer
+    from geneva_cli.output.formats import chosen
     from geneva_cli.study.summary.report_summary import of_vibration
 
     design = load(spec, settings or (), reverse)
-    if table_as(output, format) == "csv":
+    if chosen(output, format) == "csv":
         table = design.spectrum(samples, period_ratio, damping)
         show(table, output, format, design.spec.files)
         say(design.spec.path, design.ideal_notes)

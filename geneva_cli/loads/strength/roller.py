@@ -42,16 +42,6 @@ class SlotPassage(NamedTuple):
     load: float  # ∫ N^p |v_s| dt
 
 
-class Life(NamedTuple):
-    """Life of the most loaded roller; None without a capacity, infinite without a force."""
-
-    equivalent_force_N: float  # P
-    turns_per_motion: float
-    turns: float | None  # L10
-    motions: float | None  # of this roller
-    hours: float | None
-
-
 def passage(engagement: Engagement, case: LoadCase, half: float = 0.0) -> SlotPassage:
     """Integrals over one motion of m designs, (m,) each.
 
@@ -118,8 +108,11 @@ def passages(mechanism: Mechanism, by_roller: bool = False) -> list[SlotPassage]
     return out
 
 
-def lives(mechanism: Mechanism, each: Sequence[SlotPassage]) -> Life:
-    """Lives of m designs, (m,) each, or of one, from the passages of their rollers."""
+def lives(mechanism: Mechanism, each: Sequence[SlotPassage]) -> dict[str, Array]:
+    """Life of the most loaded roller of m designs, (m,) each, from the passages of their rollers.
+
+    Turns, motions of this roller and hours need a capacity; they are infinite without a force.
+    """
     spec = mechanism.spec
     m = len(spec.wheel.steps or spec.drive.roller_angles_deg or ()) or spec.drive.rollers
     m *= len(mechanism.engagements[0].passages)  # rollers on the crank
@@ -136,10 +129,14 @@ def lives(mechanism: Mechanism, each: Sequence[SlotPassage]) -> Life:
         every = np.stack(rows)
         worst = np.argmax(every[:, 0] ** LIFE_EXPONENT * every[:, 1] * every[:, 2], axis=0)
         force, turns, often = every[worst, :, np.arange(every.shape[2])].T
-        lasts: list[float | None] = [None] * 3
+        out = {"equivalent_force_N": force, "roller_turns_per_motion": turns}
         capacity = spec.material_roller.dynamic_capacity_N
-        if capacity is not None:  # without a force the life is unlimited
-            # C is rated for a million revolutions
+        if capacity is not None:  # rated for a million revolutions
             rated = 1e6 * (np.ravel(capacity) / force) ** LIFE_EXPONENT
-            lasts = [parameter(x) for x in (rated, rated / turns, rated / turns / often)]
-    return Life(parameter(force), parameter(turns), *lasts)
+            motions = rated / turns
+            out |= {
+                "roller_life_turns": rated,
+                "roller_life_motions": motions,
+                "roller_life_h": motions / often,
+            }
+    return out

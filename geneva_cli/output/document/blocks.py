@@ -41,19 +41,19 @@ class Fact(NamedTuple):
     unit: str = ""
 
 
-class Facts(NamedTuple):
-    """Named values under a caption."""
-
-    caption: str
-    facts: tuple[Fact, ...]
-
-
 class Grid(NamedTuple):
-    """A table whose first column names its rows."""
+    """A table whose first column names its rows; one of ``facts`` has a value in each."""
 
     caption: str
     heads: tuple[str, ...]
     rows: tuple[Row, ...]
+    facts: bool = False
+
+
+def fact_grid(caption: str, facts: Iterable[Fact]) -> Grid:
+    """Named values with their units, as texts."""
+    rows = tuple((fact.name, value_text(fact.value, fact.unit)) for fact in facts)
+    return Grid(caption, ("", ""), rows, facts=True)
 
 
 class Picture(NamedTuple):
@@ -68,7 +68,7 @@ class Curves(NamedTuple):
     figure: Figure
 
 
-Block: TypeAlias = Heading | Prose | TextList | Facts | Grid | Picture | Curves
+Block: TypeAlias = Heading | Prose | TextList | Grid | Picture | Curves
 
 
 class Document(NamedTuple):
@@ -85,6 +85,12 @@ class Document(NamedTuple):
 
 
 SHORT = 12  # letters that are not broken into lines
+
+
+def right_aligned(grid: Grid) -> list[bool]:
+    """Whether each column stands right: one of numbers, or the values of facts."""
+    columns = zip(*grid.rows, strict=True)
+    return [False, True] if grid.facts else [all(map(is_number, column)) for column in columns]
 
 
 def texts(grid: Grid) -> list[list[str]]:

@@ -4,26 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from geneva_cli.answer import value_text
-from geneva_cli.output.document.blocks import (
-    Block,
-    Curves,
-    Document,
-    Facts,
-    Grid,
-    Heading,
-    Picture,
-    Prose,
-    TextList,
-    is_number,
-    texts,
-)
-from geneva_cli.output.markdown import escaped
+from geneva_cli.output.document import blocks
+from geneva_cli.output.markdown import escaped, lines_of
 from geneva_cli.output.notes import span_text
 from geneva_cli.output.plot.plot_layout import mark_text, named
 
 
-def chunks(document: Document) -> Iterator[str]:
+def chunks(document: blocks.Document) -> Iterator[str]:
     """Yield the text, block by block."""
     yield f"# {escaped(document.title)}\n\n**{escaped(document.verdict)}**\n\n"
     yield _list(document.reasons)
@@ -31,42 +18,36 @@ def chunks(document: Document) -> Iterator[str]:
         yield from _block(block)
 
 
-def _block(block: Block) -> Iterator[str]:
-    if isinstance(block, Heading):
+def _block(block: blocks.Block) -> Iterator[str]:
+    if isinstance(block, blocks.Heading):
         yield f"## {escaped(block.text)}\n\n"
-    elif isinstance(block, Prose):
+    elif isinstance(block, blocks.Prose):
         yield f"{escaped(block.text)}\n\n"
-    elif isinstance(block, TextList):
+    elif isinstance(block, blocks.TextList):
         yield _list(block.texts)
-    elif isinstance(block, Facts):
-        rows = tuple((f.name, value_text(f.value, f.unit)) for f in block.facts)
-        yield from _grid(Grid(block.caption, ("Quantity", "Value"), rows), right=(False, True))
-    elif isinstance(block, Grid):
+    elif isinstance(block, blocks.Grid):
         yield from _grid(block)
-    elif isinstance(block, Picture):
+    elif isinstance(block, blocks.Picture):
         look = block.drawing.look
         yield _list([span_text(span) for span in look.spans] if look else [])
         yield "The drawing: `geneva profile SPEC --part assembly -o FILE.svg`\n\n"
     else:
-        assert isinstance(block, Curves)
+        assert isinstance(block, blocks.Curves)
         peaks = tuple(
             (named(panel.y), mark_text(mark))
             for panel in block.figure.panels
             for curve in panel.curves
             for mark in curve.marks
         )
-        yield from _grid(Grid(block.figure.title, ("Curve", "Peak"), peaks))
+        yield from _grid(blocks.Grid(block.figure.title, ("Curve", "Peak"), peaks))
         yield "The curves: `geneva plot SPEC -o FILE.svg`\n\n"
 
 
-def _grid(grid: Grid, right: tuple[bool, ...] = ()) -> Iterator[str]:
-    columns = list(zip(*grid.rows, strict=True)) or [()] * len(grid.heads)
-    sides = right or tuple(bool(c) and all(map(is_number, c)) for c in columns)
+def _grid(grid: blocks.Grid) -> Iterator[str]:
     yield f"**{escaped(grid.caption)}**\n\n" if grid.caption else ""
-    yield "| " + " | ".join(map(escaped, grid.heads)) + " |\n"
-    yield "| " + " | ".join("---:" if side else "---" for side in sides) + " |\n"
-    for row in texts(grid):
-        yield "| " + " | ".join(map(escaped, row)) + " |\n"
+    heads = ("Quantity", "Value") if grid.facts else grid.heads
+    right = blocks.right_aligned(grid) or [False] * len(heads)
+    yield from lines_of(heads, blocks.texts(grid), right)
     yield "\n"
 
 

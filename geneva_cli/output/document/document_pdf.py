@@ -2,186 +2,200 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import partial
+from itertools import zip_longest
+from typing import NamedTuple
 
-from geneva_cli.answer import FAILS, NO_BREAK, PASSES, WARNS, value_text
+from geneva_cli.answer import FAILS, NO_BREAK, PASSES, WARNS
 from geneva_cli.errors import clean
-from geneva_cli.geometry.shapes import Point, Shape, mapped
+from geneva_cli.geometry.shapes import ORIGIN, Point, Shape, placed
 from geneva_cli.geometry.sheet import Annotations, Drawing, extent, prepared
-from geneva_cli.output.document.blocks import (
-    BAD,
-    Block,
-    Curves,
-    Document,
-    Facts,
-    Grid,
-    Heading,
-    Picture,
-    Prose,
-    TextList,
-    is_number,
-    is_short,
-    texts,
-)
+from geneva_cli.output.document import blocks
 from geneva_cli.output.inks import CENTRE_LINES, inks
 from geneva_cli.output.letters import western
 from geneva_cli.output.notes import LETTERS, notes
 from geneva_cli.output.pdf import (
-    AMBER,
-    BAND,
-    BODY,
-    GREEN,
+    BEGIN,
     INK,
-    LEADING,
-    LEFT,
-    LINE,
-    RED,
-    SMALL,
-    SOFT,
-    WIDE,
-    Item,
+    Page,
     box,
-    lines,
+    number,
     outline,
-    pages,
     pdf_text,
-    rule,
     tint,
     triangle,
     wide,
     words,
 )
-from geneva_cli.output.plot import plot_pdf
+from geneva_cli.output.plot import plot_layout, plot_pdf
 from geneva_cli.output.svg import opacity, rings
 
-TITLE, HEAD, VERDICT = 6.4, 4.4, 4.2
+WIDTH, HEIGHT = 210.0, 297.0
+LEFT, TOP, BOTTOM = 16.0, 281.0, 20.0
+WIDE = WIDTH - 2.0 * LEFT
+TITLE, HEAD, VERDICT, BODY, SMALL = 6.4, 4.4, 4.2, 3.4, 2.8  # sizes of letters
+LEADING = 1.32  # distance of lines over the letters' size
 MARK = 4.0  # before a text of a list
 PAD = 1.3  # left and right of a cell's text
 SPACE = 0.55  # above and below it
 STEP = LEADING * SMALL
+SOFT, LINE, BAND = "0.35 0.39 0.43", "0.8 0.83 0.86", "0.95 0.96 0.97"
+RED, AMBER, GREEN = "0.7 0.15 0.12", "0.48 0.31 0", "0.1 0.42 0.2"
 
 
-def chunks(document: Document) -> Iterator[str]:
+class Item(NamedTuple):
+    """An unbreakable part of a page; ``draw(top)`` are its operators from a height downwards.
+
+    An item that ``keeps`` is on the page of the next one; ``head`` is repeated above it if a page
+    begins with it.
+    """
+
+    high: float
+    draw: Callable[[float], str]
+    keeps: bool = False
+    head: Item | None = None
+
+
+def chunks(document: blocks.Document) -> Iterator[str]:
     """Yield the file's text; the same document gives the same bytes."""
     title = clean(document.title)
-    yield from pdf_text(title, pages(_items(document), western(title)))
+    yield from pdf_text(title, _pages(_items(document), western(title)))
 
 
-def _items(document: Document) -> Iterator[Item]:
-    for text in lines(clean(document.title), TITLE, WIDE, bold=True):
+def _pages(items: Iterable[Item], foot: str) -> list[Page]:
+    """Return items on as many A4 pages as they need, numbered."""
+    contents: list[str] = []
+    content, y = "", TOP
+    group: list[Item] = []
+    for item in items:
+        group.append(item)
+        if item.keeps:
+            continue
+        if content and y - sum(one.high for one in group) < BOTTOM:
+            contents.append(content)
+            content, y = "", TOP
+            if head := group[0].head:
+                content, y = head.draw(y), y - head.high
+        for one in group:
+            if content and y - one.high < BOTTOM:  # a group higher than a page
+                contents.append(content)
+                content, y = "", TOP
+            content += one.draw(y)
+            y -= one.high
+        group = []
+    contents.append(content)
+    out, low = [], 11.0
+    if wide(foot, SMALL) > WIDE - 30.0:
+        foot = foot[: _fits(foot, SMALL, WIDE - 30.0, False) - 1] + "…"
+    for i, text in enumerate(contents, 1):
+        which = f"{i} / {len(contents)}"
+        end = words(foot, (LEFT, low), SMALL, ink=SOFT)
+        end += words(which, (LEFT + WIDE - wide(which, SMALL), low), SMALL, ink=SOFT)
+        out.append(Page(WIDTH, HEIGHT, BEGIN + text + end, fonts=2))
+    return out
+
+
+def _items(document: blocks.Document) -> Iterator[Item]:
+    for text in _lines(document.title, TITLE, WIDE, bold=True):
         yield _line(text, TITLE, bold=True)
     yield _gap(2.0)._replace(keeps=True)
     ink = {PASSES: GREEN, WARNS: AMBER, FAILS: RED}[document.state]
-    for text in lines(document.verdict, VERDICT, WIDE - 2.0 * MARK, bold=True):
-        yield _barred(text, VERDICT, ink, bold=True)
+    for text in _lines(document.verdict, VERDICT, WIDE - 2.0 * MARK, bold=True):
+        yield _line(text, VERDICT, bold=True, indent=MARK, ink=ink, bar=ink)
     for reason in document.reasons:
-        for i, text in enumerate(_wrapped(reason, WIDE - 3.0 * MARK)):
-            yield _barred(text, BODY, ink, mark="" if i else "•")
+        for i, text in enumerate(_lines(reason, BODY, WIDE - 3.0 * MARK)):
+            yield _line(text, BODY, indent=2.0 * MARK, mark="" if i else "•", bar=ink)
     yield _gap(3.0)
     for block in document.blocks:
         yield from _block(block)
 
 
-def _block(block: Block) -> Iterator[Item]:
-    if isinstance(block, Heading):
-        high = 4.0 + HEAD + 4.5
-        yield Item(high, lambda top: _heading(block.text, top - 4.0 - HEAD), keeps=True)
-    elif isinstance(block, Prose):
-        rows = _wrapped(block.text, WIDE)
+def _block(block: blocks.Block) -> Iterator[Item]:
+    if isinstance(block, blocks.Heading):
+        yield Item(8.5 + HEAD, lambda top: _heading(block.text, top - 4.0 - HEAD), keeps=True)
+    elif isinstance(block, blocks.Prose):
+        rows = _lines(block.text, BODY, WIDE)
         for i, text in enumerate(rows):  # no single line of it on a page
             yield _line(text, BODY)._replace(keeps=i in (0, len(rows) - 2))
         yield _gap(2.5)
-    elif isinstance(block, TextList):
+    elif isinstance(block, blocks.TextList):
         for text in block.texts:
-            for i, line in enumerate(_wrapped(text, WIDE - MARK)):
+            for i, line in enumerate(_lines(text, BODY, WIDE - MARK)):
                 yield _line(line, BODY, indent=MARK, mark="" if i else "•")
             yield _gap(0.8)
         yield _gap(2.0)
-    elif isinstance(block, Facts):
-        yield from _facts(block)
-    elif isinstance(block, Grid):
+    elif isinstance(block, blocks.Grid):
         yield from _grid(block)
-    elif isinstance(block, Picture):
+    elif isinstance(block, blocks.Picture):
         yield from _caption(block.drawing.title)
         yield _drawing(block.drawing)
     else:
-        assert isinstance(block, Curves)
-        yield from plot_pdf.items(block.figure)
-
-
-def _wrapped(text: str, width_mm: float) -> list[str]:
-    return lines(clean(text), BODY, width_mm)
+        assert isinstance(block, blocks.Curves)
+        scale, parts = WIDE / plot_layout.PAGE, list(plot_layout.blocks(block.figure))
+        for i, part in enumerate(parts):  # no title and no last panel stands alone
+            draw = partial(plot_pdf.drawn, part, LEFT, scale)
+            yield Item(scale * part.high, draw, keeps=i in (0, len(parts) - 2))
 
 
 def _gap(high: float) -> Item:
     return Item(high, lambda top: "")
 
 
-def _line(text: str, size: float, bold: bool = False, indent: float = 0.0, mark: str = "") -> Item:
-    def draw(top: float) -> str:
-        y = top - size
-        before = words(mark, (LEFT + 1.0, y), size) if mark else ""
-        return before + words(text, (LEFT + indent, y), size, bold)
-
-    return Item(LEADING * size, draw)
-
-
-def _heading(text: str, y: float) -> str:
-    return words(text, (LEFT, y), HEAD, bold=True) + rule(LEFT, y - 1.7, WIDE, 0.3, LINE)
-
-
-def _barred(text: str, size: float, ink: str, bold: bool = False, mark: str = "") -> Item:
+def _line(
+    text: str,
+    size: float,
+    bold: bool = False,
+    indent: float = 0.0,
+    mark: str = "",
+    ink: str = INK,
+    bar: str = "",
+) -> Item:
+    """A line of text behind a mark, and a ``bar`` of a colour at the left edge."""
     high = LEADING * size
-    x = LEFT + MARK + (0.0 if bold else MARK)
 
     def draw(top: float) -> str:
         y = top - size
-        before = words(mark, (LEFT + MARK + 1.0, y), size) if mark else ""
-        bar = box(LEFT, top - high, 1.6, high, ink)
-        return bar + before + words(text, (x, y), size, bold, ink if bold else INK)
+        before = box(LEFT, top - high, 1.6, high, bar) if bar else ""
+        before += words(mark, (LEFT + indent - MARK + 1.0, y), size) if mark else ""
+        return before + words(text, (LEFT + indent, y), size, bold, ink)
 
     return Item(high, draw)
 
 
-def _grid(table: Grid) -> Iterator[Item]:
-    """Yield a table with a head, which is repeated on each page."""
-    right = [all(map(is_number, column)) for column in zip(*table.rows, strict=True)]
-    rows = texts(table)
-    spaces = [NO_BREAK if is_short(column) else " " for column in zip(*rows, strict=True)]
-    rows = [[text.replace(" ", s) for text, s in zip(row, spaces, strict=True)] for row in rows]
-    widths = _widths(table.heads, rows)
-    head = _row(table.heads, right, widths, bold=True)
+def _heading(text: str, y: float) -> str:
+    return words(text, (LEFT, y), HEAD, bold=True) + _rule(LEFT, y - 1.7, WIDE, 0.3)
+
+
+def _grid(table: blocks.Grid) -> Iterator[Item]:
+    """Yield a table with a head, which is repeated on each page; facts in two columns."""
+    right, rows, heads = blocks.right_aligned(table), blocks.texts(table), table.heads
+    if table.facts:
+        half = (len(rows) + 1) // 2
+        pairs = zip_longest(rows[:half], rows[half:], fillvalue=["", ""])
+        rows, right = [[*one, "", *other] for one, other in pairs], [*right, False, *right]
+        widths = [part * WIDE for part in (0.31, 0.17, 0.04, 0.31, 0.17)]
+    else:
+        short = [blocks.is_short(column) for column in zip(*rows, strict=True)]
+        rows = [
+            [text.replace(" ", NO_BREAK) if s else text for text, s in zip(row, short, strict=True)]
+            for row in rows
+        ]
+        widths = _widths(heads, rows)
+    head = _row(heads, right, widths, bold=True) if any(heads) else None
     yield from _caption(table.caption)
-    has_head = any(table.heads)
-    if has_head:
+    if head:
         yield head._replace(keeps=True)
     for row in rows:
-        yield _row(row, right, widths)._replace(head=head if has_head else None)
-    yield _gap(4.0)
-
-
-def _facts(table: Facts) -> Iterator[Item]:
-    """Yield names and values, in two columns read downwards."""
-    named = [(fact.name, value_text(fact.value, fact.unit)) for fact in table.facts]
-    half = (len(named) + 1) // 2
-    yield from _caption(table.caption)
-    gap = 6.0  # between facts side by side
-    long = 0.5 * (WIDE - gap)
-    for i in range(half):
-        pair = [(LEFT, named[i])]
-        pair += [(LEFT + long + gap, named[half + i])] if half + i < len(named) else []
-        yield _pair(pair, long)._replace(keeps=i == 0 and half > 1)
+        yield _row(row, right, widths)._replace(head=head)
     yield _gap(4.0)
 
 
 def _caption(text: str) -> Iterator[Item]:
     """Yield the line above a table or a picture; nothing without a text."""
     if text:
-        yield Item(
-            STEP + 1.4,
-            lambda top: words(text, (LEFT, top - SMALL), SMALL, bold=True, ink=SOFT),
-            keeps=True,
-        )
+        line = _line(text, SMALL, bold=True, ink=SOFT)
+        yield line._replace(high=line.high + 1.4, keeps=True)
 
 
 def _widths(heads: Sequence[str], rows: list[list[str]]) -> list[float]:
@@ -195,8 +209,7 @@ def _widths(heads: Sequence[str], rows: list[list[str]]) -> list[float]:
         most = [min(wide(head, SMALL, True), head_max), *longest, *(wide(c, SMALL) for c in cells)]
         needs.append(min(max(least), whole_word) + 2.0 * PAD)
         wants.append(max(max(most) + 2.0 * PAD, needs[-1]))
-    more = sum(wants) - sum(needs)
-    left = WIDE - sum(needs)
+    more, left = sum(wants) - sum(needs), WIDE - sum(needs)
     if left < 0.0:
         return [need * WIDE / sum(needs) for need in needs]
     fraction = min(1.0, left / more) if more > 0.0 else 0.0
@@ -207,8 +220,8 @@ def _row(
     texts: Sequence[str], right: Sequence[bool], widths: Sequence[float], bold: bool = False
 ) -> Item:
     cells = [
-        lines(text, SMALL, wide_ - 2.0 * PAD + 1e-6, bold)
-        for text, wide_ in zip(texts, widths, strict=True)
+        _lines(text, SMALL, long - 2.0 * PAD + 1e-6, bold)
+        for text, long in zip(texts, widths, strict=True)
     ]
     high = max(map(len, cells)) * STEP + 2.0 * SPACE
 
@@ -216,39 +229,13 @@ def _row(
         out = box(LEFT, top - high, sum(widths), high, BAND) if bold else ""
         x = LEFT
         for cell, is_right, long in zip(cells, right, widths, strict=True):
-            out += _cell(cell, x + PAD, top, long - 2.0 * PAD, is_right, bold)
+            ink, heavy = (RED, True) if cell == [blocks.BAD] else (INK, bold)
+            for i, text in enumerate(cell):
+                at = x + (long - PAD - wide(text, SMALL, heavy) if is_right else PAD)
+                y = top - SPACE - 0.95 * SMALL - i * STEP
+                out += words(text, (at, y), SMALL, heavy, ink)
             x += long
-        return out + rule(LEFT, top - high, sum(widths), ink=LINE)
-
-    return Item(high, draw)
-
-
-def _cell(
-    texts: list[str], x: float, top: float, width: float, right: bool, bold: bool = False
-) -> str:
-    out = ""
-    ink, bold = (RED, True) if texts == [BAD] else (INK, bold)
-    for i, text in enumerate(texts):
-        at = x + width - wide(text, SMALL, bold) if right else x
-        out += words(text, (at, top - SPACE - 0.95 * SMALL - i * STEP), SMALL, bold, ink)
-    return out
-
-
-def _pair(pair: list[tuple[float, tuple[str, str]]], long: float) -> Item:
-    cells = []
-    name_fraction = 0.62  # fraction of a fact's width for its name
-    for x, (name, value) in pair:
-        needs = min(wide(value, SMALL), (1.0 - 0.5 * name_fraction) * long)
-        width = long - 2.0 * PAD - needs
-        cells.append((x, lines(name, SMALL, width), lines(value, SMALL, needs + 1e-6)))
-    high = max(max(len(a), len(b)) for _, a, b in cells) * STEP + 2.0 * SPACE
-
-    def draw(top: float) -> str:
-        out = ""
-        for x, name, value in cells:
-            out += _cell(name, x, top, long, False) + _cell(value, x, top, long, True)
-            out += rule(x, top - high, long, ink=LINE)
-        return out
+        return out + _rule(LEFT, top - high, sum(widths))
 
     return Item(high, draw)
 
@@ -270,7 +257,7 @@ def _drawing(drawn: Drawing) -> Item:
             return left + scale * (p[0] - around.x0), top - margin + scale * (p[1] - around.y1)
 
         def traced(shape: Shape) -> str:
-            return outline(mapped(shape, at, lambda radius: radius * scale))
+            return outline(placed(shape, at(ORIGIN), scale=scale))
 
         out, every = "", rings(shown.solid) if shown.solid else []
         inked = inks(tuple(dict.fromkeys(layer for layer, _ in every)))
@@ -288,3 +275,37 @@ def _drawing(drawn: Drawing) -> Item:
         return out + "".join(words(text, at(place), SMALL) for place, text in noted.texts)
 
     return Item(scale * (noted.box.y1 - noted.box.y0) + 2.0 * margin, draw)
+
+
+def _rule(x: float, y: float, long: float, width: float = 0.15) -> str:
+    """A horizontal line."""
+    ends = f"{number(x)} {number(y)} m {number(x + long)} {number(y)} l"
+    return f"{LINE} RG {number(width)} w [] 0 d {ends} S\n"
+
+
+def _lines(text: str, size: float, width_mm: float, bold: bool = False) -> list[str]:
+    """A text broken into lines that fit a width; a longer word is cut."""
+    out: list[str] = []
+    line = ""
+    for word in filter(None, clean(text).split(" ")):
+        whole = f"{line} {word}" if line else word
+        if wide(whole, size, bold) <= width_mm:
+            line = whole
+            continue
+        if line:
+            out.append(line)
+        while wide(word, size, bold) > width_mm and len(word) > 1:
+            fits = _fits(word, size, width_mm, bold)
+            out.append(word[:fits])
+            word = word[fits:]
+        line = word
+    return [*out, line] if line or not out else out
+
+
+def _fits(word: str, size: float, width_mm: float, bold: bool) -> int:
+    """The number of letters that fit, up to a sign such as an underscore if one is near the end."""
+    many = 1
+    while many < len(word) and wide(word[: many + 1], size, bold) <= width_mm:
+        many += 1
+    place = max(word.rfind(sign, 1, many) for sign in "_./-") + 1
+    return place if place > 0.4 * many else many

@@ -2,37 +2,22 @@
 
 from __future__ import annotations
 
+import base64
 import os
-import re
 from collections.abc import Iterable, Iterator
 from html import escape
 
-from geneva_cli.answer import value_text
 from geneva_cli.errors import clean
 from geneva_cli.output import svg
-from geneva_cli.output.document.blocks import (
-    BAD,
-    SHORT,
-    Block,
-    Curves,
-    Document,
-    Facts,
-    Grid,
-    Heading,
-    Picture,
-    Prose,
-    TextList,
-    is_number,
-    is_short,
-    texts,
-)
+from geneva_cli.output.document import blocks
 from geneva_cli.output.plot import plot_svg
 from geneva_cli.output.terminal.summary import SIGNS
 
 NUMBER = ' class="n"'
+LONG = 36  # letters; a longer value is broken into lines, from the left
 
 
-def chunks(document: Document) -> Iterator[str]:
+def chunks(document: blocks.Document) -> Iterator[str]:
     """The page's text; the same document gives the same bytes."""
     title = _text(document.title)
     with open(os.path.join(os.path.dirname(__file__), "page.css"), encoding="utf-8") as file:
@@ -47,87 +32,59 @@ def chunks(document: Document) -> Iterator[str]:
     )
     yield from _list(document.reasons)
     yield "</section>\n"
-    is_open = 0  # facts side by side
-    for number, block in enumerate(document.blocks):
-        if isinstance(block, Facts) != bool(is_open):
+    is_open = False  # facts side by side
+    for block in document.blocks:
+        if (isinstance(block, blocks.Grid) and block.facts) != is_open:
             yield "</div>\n" if is_open else '<div class="facts">\n'
-            is_open = 1 - is_open
-        yield from _block(block, number)
+            is_open = not is_open
+        yield from _block(block)
     yield "</div>\n" if is_open else ""
     yield "</main>\n</body>\n</html>\n"
 
 
-def inline(chunks: Iterable[str], name: str) -> str:
-    """The SVG element of a file, with ids that begin with ``name``, and styles for it alone."""
-    text = "".join(chunks)
-    text = text[text.index("<svg") :]
-    text = re.sub(r' id="([^"]+)"', rf' id="{name}-\1"', text)
-    text = text.replace("url(#", f"url(#{name}-")
-
-    def of_rule(match: re.Match[str]) -> str:
-        return ", ".join(f"#{name} {one.strip()}" for one in match[1].split(",")) + " {"
-
-    def scoped(match: re.Match[str]) -> str:
-        style = match[1].replace("[id='", f"[id='{name}-")
-        style = re.sub(r"#(?=[A-Z])", f"#{name}-", style)  # an id; colours have small letters
-        # a file's styles hold on any medium; a printed page is light
-        dark_mode = r"@media (?:screen and )?\(prefers-color-scheme: dark\)"
-        style = re.sub(dark_mode, "@media screen and (prefers-color-scheme: dark)", style)
-        lines = style.splitlines(keepends=True)
-        rule = re.compile(r"([^{}\n]+?) \{")
-        lines = [one if one.startswith("@") else rule.sub(of_rule, one) for one in lines]
-        return f"<style>\n{''.join(lines)}</style>\n"
-
-    text = re.sub(r"<style>\n(.*?)</style>\n", scoped, text, flags=re.DOTALL)
-    return text.replace("<svg ", f'<svg id="{name}" ', 1)
-
-
-def _block(block: Block, number: int) -> Iterator[str]:
-    if isinstance(block, Heading):
+def _block(block: blocks.Block) -> Iterator[str]:
+    if isinstance(block, blocks.Heading):
         yield f"<h2>{_text(block.text)}</h2>\n"
-    elif isinstance(block, Prose):
+    elif isinstance(block, blocks.Prose):
         yield f"<p>{_text(block.text)}</p>\n"
-    elif isinstance(block, TextList):
+    elif isinstance(block, blocks.TextList):
         yield from _list(block.texts)
-    elif isinstance(block, Facts):
-        yield f"<table>\n<caption>{_text(block.caption)}</caption>\n<tbody>\n"
-        for fact in block.facts:
-            value = _text(value_text(fact.value, fact.unit))
-            side = "" if len(value) > 3 * SHORT else NUMBER
-            yield f'<tr><th scope="row">{_text(fact.name)}</th><td{side}>{value}</td></tr>\n'
-        yield "</tbody>\n</table>\n"
-    elif isinstance(block, Grid):
+    elif isinstance(block, blocks.Grid):
         yield from _grid(block)
-    elif isinstance(block, Picture):
-        drawn = inline(svg.chunks(block.drawing), f"drawing-{number}")
-        yield f'<figure class="drawing" tabindex="0">\n{drawn}</figure>\n'
+    elif isinstance(block, blocks.Picture):
+        yield from _figure("drawing", block.drawing.title, svg.chunks(block.drawing))
     else:
-        assert isinstance(block, Curves)
-        drawn = inline(plot_svg.chunks(block.figure), f"curves-{number}")
-        yield f'<figure class="curves" tabindex="0">\n{drawn}</figure>\n'
+        assert isinstance(block, blocks.Curves)
+        yield from _figure("curves", block.figure.title, plot_svg.chunks(block.figure))
 
 
-def _grid(grid: Grid) -> Iterator[str]:
-    rows = texts(grid)
-    columns = zip(zip(*grid.rows, strict=True), zip(*rows, strict=True), strict=True)
-    sides = [NUMBER if all(map(is_number, c)) else ' class="s"' * is_short(t) for c, t in columns]
+def _figure(name: str, title: str, chunks: Iterable[str]) -> Iterator[str]:
+    """A picture as a part of the page, whose names and styles are its own."""
+    data = base64.b64encode("".join(chunks).encode()).decode()
+    yield f'<figure class="{name}" tabindex="0">\n<img alt="{_text(title)}"'
+    yield f' src="data:image/svg+xml;base64,{data}">\n</figure>\n'
+
+
+def _grid(grid: blocks.Grid) -> Iterator[str]:
+    rows = blocks.texts(grid)
+    columns = zip(blocks.right_aligned(grid), zip(*rows, strict=True), strict=True)
+    sides = [NUMBER if right else ' class="s"' * blocks.is_short(cells) for right, cells in columns]
     heads = "".join(
         f'<th scope="col"{side if side == NUMBER else ""}>{_text(head)}</th>'
         for head, side in zip(grid.heads, sides, strict=True)
     )
     head = f"<thead><tr>{heads}</tr></thead>\n" if any(grid.heads) else ""
     wide = " wide" if len(grid.heads) > 4 else ""  # four columns fit on a phone
-    yield (
-        f'<div class="grid{wide}" tabindex="0">\n'
-        f"<table>\n<caption>{_text(grid.caption)}</caption>\n{head}<tbody>\n"
-    )
+    yield "" if grid.facts else f'<div class="grid{wide}" tabindex="0">\n'
+    yield f"<table>\n<caption>{_text(grid.caption)}</caption>\n{head}<tbody>\n"
     for first, *rest in rows:
         yield f'<tr><th scope="row">{_text(first)}</th>'
         for value, side in zip(rest, sides[1:], strict=True):
-            attribute = ' class="bad"' if value == BAD else side
+            attribute = side if len(value) <= LONG else ""
+            attribute = ' class="bad"' if value == blocks.BAD else attribute
             yield f"<td{attribute}>{_text(value)}</td>"
         yield "</tr>\n"
-    yield "</tbody>\n</table>\n</div>\n"
+    yield "</tbody>\n</table>\n" + ("" if grid.facts else "</div>\n")
 
 
 def _list(texts: tuple[str, ...]) -> Iterator[str]:

@@ -5,20 +5,21 @@ from __future__ import annotations
 import cmath
 import math
 import re
-from collections.abc import Iterator
-from itertools import pairwise
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 from xml.etree import ElementTree
 
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.output.foreign.drawn import Drawn
-from geneva_cli.output.foreign.svg_paths import NUMBER, Affine, Traced, matrix, trace_path
+from geneva_cli.geometry.shapes import Arc, Line
+from geneva_cli.output.foreign.drawn import Drawn, bezier_pieces, ellipse_pieces
 
 # millimetres in a unit of a length; a CSS pixel is 1/96 inch
 UNITS = {"mm": 1.0, "cm": 10.0, "in": 25.4, "pt": 25.4 / 72.0, "pc": 25.4 / 6.0, "q": 0.25}
 HIDDEN = {"defs", "symbol", "clipPath", "mask", "marker", "pattern", "metadata", "title", "style"}
 LAYERS = {"center", "pitch", "dimension", "text", "engrave", "hidden"}  # ids of what bounds no part
-DEEPEST = 16  # <use> of <use>
-SHAPES_MAX = 100_000  # that <use> may make of a short file
+NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+# the numbers of each letter of a path
+COUNTS = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "S": 4, "Q": 4, "T": 2, "A": 7, "Z": 0}
 
 
 def read_svg(data: bytes) -> Drawn:
@@ -45,13 +46,9 @@ def read_svg(data: bytes) -> Drawn:
         if not (box[2] > 0.0 and size > 0.0):
             raise GenevaError("width and viewBox must be above 0")
         unit = size / box[2]
-    traced = Traced()
-    named = {element.get("id", ""): element for element in root.iter()}
-    up = matrix(unit, 0.0, 0.0, -unit)  # its y axis points down
-    for count, (element, frame) in enumerate(_shapes(root, up, named)):
-        if count > SHAPES_MAX:
-            raise GenevaError(f"it shows more than {SHAPES_MAX} shapes, with those of <use>")
-        traced.frame = frame
+    traced = _Traced()
+    up = _matrix(unit, 0.0, 0.0, -unit)  # its y axis points down
+    for element, traced.frame in _shapes(root, up):
         _trace(element, traced)
     return Drawn(tuple(traced.pieces), notes, traced.is_exact)
 
@@ -65,18 +62,13 @@ def _numbers(text: str) -> list[float]:
 
 
 def _shapes(
-    element: ElementTree.Element,
-    frame: Affine,
-    named: dict[str, ElementTree.Element],
-    depth: int = 0,
-) -> Iterator[tuple[ElementTree.Element, Affine]]:
-    """Yield the shapes that are shown, with the transforms of their groups and of <use>."""
+    element: ElementTree.Element, frame: _Affine
+) -> Iterator[tuple[ElementTree.Element, _Affine]]:
+    """Yield the shapes that are shown, with the transforms of their groups."""
     style = element.get("style", "").replace(" ", "") + ";"
     hidden = element.get("display") == "none" or "display:none" in style
-    name, layer = _name(element), element.get("id", "").lower()
-    if hidden or layer in LAYERS or element.get("class", "").lower() in LAYERS:
-        return
-    if name in HIDDEN and not (name == "symbol" and depth):  # a symbol is shown by <use>
+    layers = {element.get("id", "").lower(), element.get("class", "").lower()}
+    if hidden or layers & LAYERS or _name(element) in HIDDEN:
         return
     text = element.get("transform", "")
     for function, values in re.findall(r"(\w+)\s*\(([^)]*)\)", text):
@@ -84,37 +76,25 @@ def _shapes(
             frame = frame.after(_transform(function, _numbers(values)))
         except (IndexError, TypeError):
             raise GenevaError(f'transform="{cut(text, 100)}" cannot be read') from None
-    if name == "use":
-        if depth >= DEEPEST:
-            raise GenevaError(f"<use> is nested more than {DEEPEST} deep")
-        link = element.get("href") or element.get("{http://www.w3.org/1999/xlink}href") or ""
-        target = named.get(link.removeprefix("#")) if link.startswith("#") else None
-        if target is None:
-            raise GenevaError(f'<use href="{cut(link, 40)}"> names nothing in the file')
-        if target.get("viewBox"):
-            raise GenevaError(f'<use href="{cut(link, 40)}"> has a viewBox of its own: convert it')
-        shift = Affine(shift=complex(*_lengths(element, "x y")))
-        yield from _shapes(target, frame.after(shift), named, depth + 1)
-        return
     yield element, frame
     for child in element:
         if isinstance(child.tag, str):
-            yield from _shapes(child, frame, named, depth)
+            yield from _shapes(child, frame)
 
 
-def _transform(name: str, v: list[float]) -> Affine:
+def _transform(name: str, v: list[float]) -> _Affine:
     if name == "matrix" and len(v) == 6:
-        return matrix(*v)
+        return _matrix(*v)
     if name == "translate":
-        return Affine(shift=complex(v[0], v[1] if len(v) > 1 else 0.0))
+        return _Affine(shift=complex(v[0], v[1] if len(v) > 1 else 0.0))
     if name == "scale":
-        return matrix(v[0], 0.0, 0.0, v[1] if len(v) > 1 else v[0])
+        return _matrix(v[0], 0.0, 0.0, v[1] if len(v) > 1 else v[0])
     if name == "rotate":
         turn, centre = cmath.exp(1j * math.radians(v[0])), complex(*v[1:3])
-        return Affine(turn, 0j, centre - turn * centre)
+        return _Affine(turn, 0j, centre - turn * centre)
     if name in ("skewX", "skewY"):
         slope = math.tan(math.radians(v[0]))
-        return matrix(1.0, 0.0, slope, 1.0) if name == "skewX" else matrix(1.0, slope, 0.0, 1.0)
+        return _matrix(1.0, 0.0, slope, 1.0) if name == "skewX" else _matrix(1.0, slope, 0.0, 1.0)
     raise GenevaError(f"transform {cut(name, 20)}() is not known")
 
 
@@ -133,31 +113,29 @@ def _lengths(element: ElementTree.Element, keys: str) -> list[float]:
     return sizes
 
 
-def _trace(element: ElementTree.Element, out: Traced) -> None:
+def _trace(element: ElementTree.Element, out: _Traced) -> None:
     """Add the pieces of a path or of a basic shape."""
     name = _name(element)
-    if name == "path":
-        trace_path(element.get("d", ""), out)
-    elif name in ("circle", "ellipse"):
+    if name in ("circle", "ellipse"):
         x, y = _lengths(element, "cx cy")
         rx, ry = _lengths(element, "r r" if name == "circle" else "rx ry")
         out.ellipse(complex(x, y), rx + 0j, ry * 1j, 0.0, math.tau)
-    elif name == "line":
-        x1, y1, x2, y2 = _lengths(element, "x1 y1 x2 y2")
-        out.line(complex(x1, y1), complex(x2, y2))
-    elif name in ("polygon", "polyline"):
+    elif name in ("path", "line", "polygon", "polyline", "rect"):
+        _trace_path(_path_of(element, name), out)
+    elif name in ("image", "use"):
+        raise GenevaError(f"<{name}> is no outline: convert it to a path")
+
+
+def _path_of(element: ElementTree.Element, name: str) -> str:
+    """Return a basic shape as the data of a path."""
+    if name == "path":
+        return element.get("d", "")
+    if name == "line":
+        return "M {!r} {!r} {!r} {!r}".format(*_lengths(element, "x1 y1 x2 y2"))
+    if name != "rect":
         v = _numbers(element.get("points", ""))
-        points = [complex(*pair) for pair in zip(v[::2], v[1::2], strict=False)]
-        for p, q in pairwise([*points, *points[:1]] if name == "polygon" else points):
-            out.line(p, q)
-    elif name == "rect":
-        _rectangle(element, out)
-    elif name == "image":
-        raise GenevaError("<image> is no outline: convert it to a path")
-
-
-def _rectangle(element: ElementTree.Element, out: Traced) -> None:
-    """Add the edges of a rectangle, and its corners: quarters of ellipses, if any."""
+        text = " ".join(map(repr, v[: len(v) - len(v) % 2]))
+        return f"M {text}{' Z' * (name == 'polygon')}" if text else ""
     x, y, w, h = _lengths(element, "x y width height")
     rx = ry = 0.0
     # one half axis of the corners that is not given is as the other
@@ -166,15 +144,166 @@ def _rectangle(element: ElementTree.Element, out: Traced) -> None:
         rx, ry = _lengths(element, f"{given[0]} {given[-1]}")
         rx, ry = min(rx, 0.5 * w), min(ry, 0.5 * h)
     if not (rx > 0.0 and ry > 0.0):
-        rx = ry = 0.0
-    middle, inner = complex(x + 0.5 * w, y + 0.5 * h), complex(0.5 * w - rx, 0.5 * h - ry)
-    for k, (sx, sy) in enumerate(((1, -1), (1, 1), (-1, 1), (-1, -1))):
-        # corners from that at x + w, y on, each with the edge before it
-        centre = middle + complex(sx * inner.real, sy * inner.imag)
-        start = math.pi * (0.5 * k - 0.5)
-        along = 2.0 * inner.real if k % 2 == 0 else 2.0 * inner.imag
-        begin = centre + complex(rx * math.cos(start), ry * math.sin(start))
-        if along > 0.0:
-            out.line(begin - along * 1j**k, begin)
-        if rx > 0.0:
-            out.ellipse(centre, rx + 0j, ry * 1j, start, 0.5 * math.pi)
+        return f"M {x!r} {y!r} h {w!r} v {h!r} h {-w!r} Z"
+    corner, across, up = f"a {rx!r} {ry!r} 0 0 1", w - 2.0 * rx, h - 2.0 * ry
+    return (
+        f"M {x + rx!r} {y!r} h {across!r} {corner} {rx!r} {ry!r} v {up!r} {corner} {-rx!r} {ry!r}"
+        f" h {-across!r} {corner} {-rx!r} {-ry!r} v {-up!r} {corner} {rx!r} {-ry!r} Z"
+    )
+
+
+class _Affine(NamedTuple):
+    """A transform of points z: ``turn`` z + ``flip`` conj(z) + ``shift``."""
+
+    turn: complex = 1 + 0j
+    flip: complex = 0j
+    shift: complex = 0j
+
+    def __call__(self, z: complex) -> complex:
+        """The image of a point."""
+        return self.turned(z) + self.shift
+
+    def turned(self, z: complex) -> complex:
+        """The image of a direction."""
+        return self.turn * z + self.flip * z.conjugate()
+
+    def after(self, other: _Affine) -> _Affine:
+        """This one after another."""
+        turn = self.turn * other.turn + self.flip * other.flip.conjugate()
+        flip = self.turn * other.flip + self.flip * other.turn.conjugate()
+        return _Affine(turn, flip, self(other.shift))
+
+
+def _matrix(a: float, b: float, c: float, d: float, e: float = 0.0, f: float = 0.0) -> _Affine:
+    """The transform x' = a x + c y + e, y' = b x + d y + f."""
+    turn, flip = complex(a + d, b - c), complex(a - d, b + c)
+    return _Affine(0.5 * turn, 0.5 * flip, complex(e, f))
+
+
+class _Traced:
+    """The pieces of shapes, each with the transform of its place."""
+
+    def __init__(self) -> None:
+        self.pieces: list[Line | Arc] = []
+        self.is_exact = True
+        self.frame = _Affine()
+
+    def line(self, p: complex, q: complex) -> None:
+        """Add a line."""
+        p, q = self.frame(p), self.frame(q)
+        self.pieces.append(Line((p.real, p.imag), (q.real, q.imag)))
+
+    def curve(self, poles: Sequence[complex]) -> None:
+        """Add a quadratic or cubic Bézier curve, as arcs."""
+        self.pieces += bezier_pieces([self.frame(z) for z in poles])
+        self.is_exact = False
+
+    def ellipse(
+        self, centre: complex, major: complex, minor: complex, start: float, sweep: float
+    ) -> None:
+        """Add a part of an ellipse from its half axes, as arcs; angles are parameters, radians."""
+        p, q, (c, s) = _axes(self.frame.turned(major), self.frame.turned(minor))
+        if min(abs(p), abs(q)) <= 1e-9 * max(abs(p), abs(q)):
+            raise GenevaError("a circle or ellipse has no width: remove it")
+        shift = cmath.phase(complex(c, s))
+        self.pieces += ellipse_pieces(self.frame(centre), (p, q), (start - shift, sweep))
+
+
+def _axes(p: complex, q: complex) -> tuple[complex, complex, tuple[float, float]]:
+    """Return the half axes, at right angles, of the ellipse p cos t + q sin t.
+
+    The last pair has cosine and sine of the t at which the first of them is reached.
+    """
+    t = 0.5 * math.atan2(2.0 * (p.conjugate() * q).real, abs(p) ** 2 - abs(q) ** 2)
+    c, s = math.cos(t), math.sin(t)
+    return p * c + q * s, q * c - p * s, (c, s)
+
+
+def _trace_path(data: str, out: _Traced) -> None:
+    """Add the pieces of path data. Raises GenevaError, with the place, for what it cannot read."""
+    at = first = 0j
+    before = ("", 0j)  # the last letter, and the last pole of its curve
+    for letter, v in _commands(data):
+        kind, relative = letter.upper(), letter.islower()
+        base = at if relative else 0j
+        if kind == "M":
+            at = first = base + complex(*v)
+            before = ("M", at)
+            continue
+        pole = at
+        if kind == "Z":
+            end = first
+        elif kind == "H":
+            end = complex(v[0] + base.real, at.imag)
+        elif kind == "V":
+            end = complex(at.real, v[0] + base.imag)
+        else:
+            end = base + complex(*v[-2:])
+        if kind in "CSQT":
+            poles = [base + complex(*pair) for pair in zip(v[:-2:2], v[1:-2:2], strict=True)]
+            if kind in "ST":
+                alike = before[0] in ("CS" if kind == "S" else "QT")
+                poles.insert(0, 2.0 * at - before[1] if alike else at)
+            pole = poles[-1]
+            out.curve((at, *poles, end))
+        elif kind == "A":
+            _elliptical_arc(at, end, v, out)
+        elif end != at:
+            out.line(at, end)
+        at, before = end, (kind, pole)
+
+
+def _commands(data: str) -> Iterator[tuple[str, list[float]]]:
+    """Yield letters with their numbers; a letter may be left out where it repeats."""
+    text, place, letter = data.strip(), 0, ""
+    if text and text[0] not in "Mm":
+        raise GenevaError(f'a path must begin with M, not with "{cut(text, 20)}"')
+    while place < len(text):
+        if text[place].isspace() or text[place] == ",":
+            place += 1
+            continue
+        if text[place].isalpha():
+            letter = text[place]
+            place += 1
+        if letter.upper() not in COUNTS:
+            shown = cut(text[place - 1 : place + 20], 20)
+            raise GenevaError(f'a path has "{shown}": unknown letter')
+        values: list[float] = []
+        for k in range(COUNTS[letter.upper()]):
+            # the flags of an arc may stand without a space between them
+            form = r"[01]" if letter in "Aa" and k in (3, 4) else NUMBER
+            found = re.compile(rf"[\s,]*({form})").match(text, place)
+            if not found:
+                raise GenevaError(
+                    f'a path breaks off at "{cut(text[place : place + 20], 20)}", where {letter} '
+                    f"needs {COUNTS[letter.upper()]} numbers"
+                )
+            values.append(float(found[1]))
+            place = found.end()
+        yield letter, values
+        letter = {"M": "L", "m": "l", "Z": "", "z": ""}.get(letter, letter)
+
+
+def _elliptical_arc(start: complex, end: complex, v: list[float], out: _Traced) -> None:
+    """Add an elliptical arc by its centre, from both ends as in SVG 1.1, appendix F.6.5."""
+    rx, ry, turn = abs(v[0]), abs(v[1]), cmath.exp(1j * math.radians(v[2]))
+    if not (rx and ry) or start == end:
+        out.line(start, end)
+        return
+    half = 0.5 * (start - end) / turn
+    x, y = half.real / rx, half.imag / ry
+    size = math.hypot(x, y)
+    if size > 1.0:  # too small to reach both ends
+        rx, ry, x, y = rx * size, ry * size, x / size, y / size
+        size = 1.0
+    root = math.sqrt(max(1.0 - size * size, 0.0)) / size
+    side = 1.0 if bool(v[3]) != bool(v[4]) else -1.0
+    middle = complex(y, -x) * root * side  # in the frame in which it is the unit circle
+    first, last = complex(x, y) - middle, complex(-x, -y) - middle
+    sweep = cmath.phase(last / first)
+    if v[4] and sweep < 0.0:
+        sweep += math.tau
+    elif not v[4] and sweep > 0.0:
+        sweep -= math.tau
+    centre = 0.5 * (start + end) + complex(middle.real * rx, middle.imag * ry) * turn
+    out.ellipse(centre, rx * turn, ry * 1j * turn, cmath.phase(first), sweep)

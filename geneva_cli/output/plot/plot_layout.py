@@ -103,8 +103,8 @@ def blocks(figure: Figure) -> Iterator[FigureBlock]:
 
 
 def _block(figure: Figure, panel: Panel, wide: float, high: float, several: bool) -> FigureBlock:
-    """A panel of one curve or ``several``; the first names a dwell, the last has the axis."""
-    is_first, is_last = panel is figure.panels[0], panel is figure.panels[-1]
+    """A panel of one curve or ``several``; the last has the axis."""
+    is_last = panel is figure.panels[-1]
 
     def draw(pen: _Pen, top: float) -> None:
         frame = Frame(top + ABOVE, wide, high, figure.window, padded(panel))
@@ -117,15 +117,8 @@ def _block(figure: Figure, panel: Panel, wide: float, high: float, several: bool
             bottom = frame.top + high
             for value, label in zip(across, labels(across), strict=True):
                 pen.text((frame.x(value), bottom + 15.0), label, look="middle")
-            pen.text((LEFT + 0.5 * wide, bottom + 34.0), named(figure.x), look="middle")
-        if is_first:
-            # above the first dwell that is wide enough and clear of the panel's name
-            needs, taken = TEXT * width("dwell"), LEFT + TEXT * width(named(panel.y))
-            for a, b in figure.shaded:
-                middle = 0.5 * (frame.x(a) + frame.x(b))
-                if frame.x(b) - frame.x(a) > needs and middle - needs > taken:
-                    pen.text((middle, frame.top - 7.0), "dwell", look="middle")
-                    return
+            text = named(figure.x) + (", dwells shaded" if figure.shaded else "")
+            pen.text((LEFT + 0.5 * wide, bottom + 34.0), text, look="middle")
 
     return FigureBlock(ABOVE + high + (BELOW if is_last else 0.0), draw)
 

@@ -3,27 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from functools import partial
 from typing import ClassVar
 
 from geneva_cli.figure import Figure
 from geneva_cli.output.inks import LIGHT, colour, dashes
 from geneva_cli.output.letters import western
-from geneva_cli.output.pdf import (
-    BEGIN,
-    INK,
-    LEFT,
-    WIDE,
-    Item,
-    Page,
-    box,
-    number,
-    pdf_text,
-    point,
-    tint,
-    wide,
-    words,
-)
+from geneva_cli.output.pdf import BEGIN, INK, Page, box, number, pdf_text, point, tint, wide, words
 from geneva_cli.output.plot.plot_layout import (
     INCH,
     PAGE,
@@ -45,21 +30,13 @@ def chunks(figure: Figure) -> Iterator[str]:
     tall = mm * sum(block.high for block in parts)
     content, top = BEGIN, tall
     for block in parts:
-        content += _drawn(block, 0.0, mm, top)
+        content += drawn(block, 0.0, mm, top)
         top -= mm * block.high
     yield from pdf_text(western(figure.title), [Page(mm * PAGE, tall, content, fonts=2)])
 
 
-def items(figure: Figure) -> Iterator[Item]:
-    """Yield a figure's parts for a document, so that no title and no last panel stands alone."""
-    scale = WIDE / PAGE
-    parts = list(blocks(figure))
-    for i, block in enumerate(parts):
-        draw = partial(_drawn, block, LEFT, scale)
-        yield Item(scale * block.high, draw, keeps=i in (0, len(parts) - 2))
-
-
-def _drawn(block: FigureBlock, left: float, scale: float, top: float) -> str:
+def drawn(block: FigureBlock, left: float, scale: float, top: float) -> str:
+    """Return the operators of a part of a figure, from a height downwards."""
     pen = _PdfPen(left, scale, top)
     block.draw(pen, 0.0)
     return "".join(pen.out)

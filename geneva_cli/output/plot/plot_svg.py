@@ -48,7 +48,7 @@ def chunks(figure: Figure) -> Iterator[str]:
         "path { fill: none } .curve { stroke-width: 1.6; stroke-linejoin: round }\n"
         f"{dashed}.jump {{ stroke-width: 0.8; stroke-dasharray: none }}\n"
         ".points { stroke-width: 4; stroke-linecap: round; stroke-dasharray: none }\n"
-        f"@media (prefers-color-scheme: dark) {{\n{_style(DARK, known)}}}\n</style>\n"
+        f"@media screen and (prefers-color-scheme: dark) {{\n{_style(DARK, known)}}}\n</style>\n"
         f'<rect class="page" width="{_n(PAGE)}" height="{_n(tall)}"/>\n'
     )
     yield from pen.out

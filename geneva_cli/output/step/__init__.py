@@ -11,12 +11,12 @@ from collections.abc import Iterator
 from geneva_cli.errors import clean
 from geneva_cli.geometry.plates import Group, Part, solids
 from geneva_cli.geometry.sheet import Drawing
+from geneva_cli.geometry.sphere import POLE
 from geneva_cli.geometry.sphere_shell import Shell
 from geneva_cli.output.inks import inks
 from geneva_cli.output.solid_part import solid_part
+from geneva_cli.output.step.brep import plate_solid, shell_solid
 from geneva_cli.output.step.entities import Entities, listed, real, words
-from geneva_cli.output.step.plate import plate_solid
-from geneva_cli.output.step.shell import ShellWriter
 
 
 def chunks(drawing: Drawing) -> Iterator[str]:
@@ -77,7 +77,7 @@ class _Products:
                 self.known[part] = self._group(part)
             else:
                 if isinstance(part, Shell):
-                    body = ShellWriter(self.file, part).solid()
+                    body = shell_solid(self.file, part)
                 else:
                     body = plate_solid(self.file, part)
                 self._style(body, self.inks[part.layer].rgb)
@@ -90,12 +90,10 @@ class _Products:
         parts = [self.product(member.part) for member in group.members]
         places = []
         for member in group.members:
+            axis, ahead = POLE, (math.cos(member.turn), math.sin(member.turn), 0.0)
             if member.frame:
-                axis, ahead = (file.direction(*v) for v in (member.frame.z, member.frame.x))
-                places.append(file.placement(member.at, 0.0, axis, ahead))
-            else:
-                ahead = file.direction(math.cos(member.turn), math.sin(member.turn))
-                places.append(file.placement(member.at, 0.0, ahead=ahead))
+                axis, ahead = member.frame.z, member.frame.x
+            places.append(file.placement((*member.at, 0.0), axis, ahead))
         frames = listed(list(dict.fromkeys([file.origin, *places])))
         whole = self._defined(group.name, f"SHAPE_REPRESENTATION('',{frames},{self.space})")
         for i, (member, part, place) in enumerate(zip(group.members, parts, places, strict=True)):

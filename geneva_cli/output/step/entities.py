@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from geneva_cli.geometry.shapes import Point
+from geneva_cli.geometry.sphere import POLE, Vector, combined
 
 LENGTH = 12  # decimals of lengths in mm: with large coordinates more than a double has
 DIRECTION = 16  # decimals of directions, which act through a length
+ORIGIN, AHEAD = (0.0, 0.0, 0.0), (1.0, 0.0, 0.0)
 
 
 class Entities:
@@ -16,10 +17,7 @@ class Entities:
     def __init__(self) -> None:
         self.lines: list[str] = []
         self._shared: dict[str, str] = {}
-        self.up = self.direction(0.0, 0.0, 1.0)
-        self.ahead = self.direction(1.0, 0.0, 0.0)
-        self.rise = self.shared(f"VECTOR('',{self.up},1.)")
-        self.origin = self.placement((0.0, 0.0), 0.0)
+        self.origin = self.placement()
 
     def add(self, text: str) -> str:
         """Add an instance and return its number."""
@@ -36,26 +34,32 @@ class Entities:
             self._shared[text] = self.add(text)
         return self._shared[text]
 
-    def point(self, at: Point, z: float) -> str:
-        """A point at a height."""
-        place = ",".join(real(value, LENGTH) for value in (*at, z))
-        return self.shared(f"CARTESIAN_POINT('',({place}))")
+    def point(self, at: Vector) -> str:
+        """A point."""
+        return self.shared(f"CARTESIAN_POINT('',{listed([real(value) for value in at])})")
 
-    def direction(self, x: float, y: float, z: float = 0.0) -> str:
+    def direction(self, v: Vector) -> str:
         """A unit vector."""
-        parts = ",".join(real(value, DIRECTION) for value in (x, y, z))
-        return self.shared(f"DIRECTION('',({parts}))")
+        parts = listed([real(value, DIRECTION) for value in v])
+        return self.shared(f"DIRECTION('',{parts})")
 
-    def placement(self, at: Point, z: float, axis: str = "", ahead: str = "") -> str:
+    def placement(self, at: Vector = ORIGIN, axis: Vector = POLE, ahead: Vector = AHEAD) -> str:
         """A frame at a point, with its axis up and its x ahead by default."""
-        point = self.point(at, z)
-        return self.shared(
-            f"AXIS2_PLACEMENT_3D('',{point},{axis or self.up},{ahead or self.ahead})"
-        )
+        frame = self.point(at), self.direction(axis), self.direction(ahead)
+        return self.shared(f"AXIS2_PLACEMENT_3D('',{','.join(frame)})")
 
-    def vertex(self, point: str) -> str:
+    def line(self, at: Vector, along: Vector) -> str:
+        """A line's text, from a point on it and its direction."""
+        vector = self.shared(f"VECTOR('',{self.direction(along)},1.)")
+        return f"LINE('',{self.point(at)},{vector})"
+
+    def circle(self, at: Vector, radius: float, axis: Vector = POLE, ahead: Vector = AHEAD) -> str:
+        """A circle's text, counterclockwise about its axis."""
+        return f"CIRCLE('',{self.placement(at, axis, ahead)},{real(radius)})"
+
+    def vertex(self, at: Vector) -> str:
         """A vertex at a point."""
-        return self.add(f"VERTEX_POINT('',{point})")
+        return self.add(f"VERTEX_POINT('',{self.point(at)})")
 
     def edge(self, start: str, end: str, curve: str, along: bool = True) -> str:
         """An edge between two vertices, on a curve that is written once."""
@@ -72,6 +76,29 @@ class Entities:
         bounds = [self.add(f"FACE_OUTER_BOUND('',{first},.T.)")]
         bounds += [self.add(f"FACE_BOUND('',{loop},.T.)") for loop in inner]
         return self.add(f"ADVANCED_FACE('',{listed(bounds)},{surface},{_flag(same)})")
+
+    def tube(
+        self,
+        radius: float,
+        levels: Sequence[float],
+        outside: bool,
+        at: Vector = ORIGIN,
+        axis: Vector = POLE,
+        ahead: Vector = AHEAD,
+    ) -> tuple[str, str, str]:
+        """Circles between two levels on an axis, counterclockwise about it, and their wall."""
+        middles = [combined(axis, level, at, 1.0) for level in levels]
+        starts = [combined(ahead, radius, middle, 1.0) for middle in middles]
+        ends = [self.vertex(start) for start in starts]
+        seam = self.edge(ends[0], ends[1], self.line(starts[0], axis))
+        low, high = (
+            self.edge(end, end, self.circle(middle, radius, axis, ahead))
+            for end, middle in zip(ends, middles, strict=True)
+        )
+        around = self.loop([(low, outside), (seam, True), (high, not outside), (seam, False)])
+        place = self.placement(middles[0], axis, ahead)
+        surface = self.add(f"CYLINDRICAL_SURFACE('',{place},{real(radius)})")
+        return low, high, self.face([around], surface, outside)
 
     def closed_solid(self, faces: list[str]) -> str:
         """The solid within a closed shell of faces."""

@@ -174,21 +174,6 @@ def _line(texts: Sequence[str], sizes: Sequence[int], is_text: Sequence[bool]) -
     return GAP.join(cells).rstrip()
 
 
-def transposed(columns: Sequence[ShownColumn], width: int) -> list[str] | None:
-    """Columns as lines, with rows side by side; None if these do not fit either."""
-    labels = [f"{c.words}, {c.unit}" if c.unit else c.words for c in columns]
-    rows = list(zip(*(column.cells for column in columns), strict=True))
-    sides = [ShownColumn("", "", "", cells, True) for cells in (labels, *rows)]
-    sizes = widths(sides, width)
-    if sizes is None:
-        return None
-    lines: list[str] = []
-    for column, cells in zip(columns, zip(labels, *rows, strict=True), strict=True):
-        is_text = [column.is_text or len(rows) == 1] * len(rows)
-        lines += row(cells, sizes, [True, *is_text])
-    return lines
-
-
 def value(number: Any, unit: str = "") -> str:
     """A value for people at a terminal, with its unit.
 

@@ -22,7 +22,6 @@ from geneva_cli.output.terminal.layout import (
     paragraphs,
     row,
     styled,
-    transposed,
     value,
     width_of,
     widths,
@@ -46,7 +45,7 @@ def _record(table: Table, window: Window) -> Iterator[str]:
     """One line for each value, grouped by names; tables within it as tables."""
     is_first = True
     for name, part in apart(table):
-        lines = list(_values(part, window) if part.record else rows_of(part, window, True))
+        lines = list(_values(part, window) if part.record else rows_of(part, window))
         if not lines:
             continue
         if not is_first:
@@ -88,10 +87,10 @@ def _values(record: Table, window: Window) -> Iterator[str]:
             yield from (f"{indent}  {line}" for line in more)
 
 
-def rows_of(table: Table, window: Window, is_inner: bool = False) -> Iterator[str]:
+def rows_of(table: Table, window: Window) -> Iterator[str]:
     """Rows under their headings: as many columns as fit, and a note on the others.
 
-    A short table is transposed if that shows more: of one row, or of few rows in a record.
+    A single row that does not fit is a value a line.
     """
     layout_rows = 8192  # rows that determine the layout; later rows of a longer table follow it
     blocks = table.blocks(layout_rows)
@@ -111,10 +110,8 @@ def rows_of(table: Table, window: Window, is_inner: bool = False) -> Iterator[st
     width = 1_000_000 if window.wide else window.columns  # a million letters: without a limit
     kept, sizes = fitting(columns, order, width)
     lost = [column for column in columns if column not in kept]
-    # rows that may be transposed
-    few = 3 if is_inner or 3 * len(kept) < len(columns) else 1
-    if lost and not is_long and len(first) <= few and (lines := transposed(columns, width)):
-        yield from lines
+    if lost and len(first) == 1 and not table.reading.designs:
+        yield from _values(table, window)
         return
     if not is_long and not table.mixed:
         pointed = [column._replace(cells=_aligned(column.cells)) for column in kept]
