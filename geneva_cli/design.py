@@ -494,7 +494,8 @@ class Design:
         sizing, sized_by = sized(self.cycle, own)
         notes = (*self.warnings, *missing(self.cycle), *needed, *sized_by)
         impact = self.strength.reversal
-        table = loads_table(self.cycle, sizing, self.life, impact, notes, for_people)
+        answers = {"shock.reversal": impact, "sizing": sizing, "life": self.life}
+        table = loads_table(self.cycle, answers, notes, for_people)
         return table.replaced(
             names=(*table.names, "chosen"),
             columns=[*table.columns, (self.chosen_by_load.record,)],

@@ -115,7 +115,7 @@ def quantities() -> set[str]:
     out |= {f"loads.{name}" for name in of_loads} | {"loads.reversals_deg"}
     out |= {f"sizing.{name}" for name in SHOWN_SIZING}
     out |= {f"vibration.avoid.{name}" for name in vibration.AVOID_COLUMNS}
-    out |= {f"vibration.{name}" for name in (*vibration.STATION_COLUMNS, "avoid")}
+    out |= {f"vibration.{name}" for name in (*vibration.NAMES, "avoid")}
     out |= {
         *vibration.SPECTRUM_COLUMNS,
         *survey.NAMES,
