@@ -753,9 +753,7 @@ class Design:
     def _of_drawing(self, answer: str, *values: object) -> Any:
         """An answer about the drawings that replace the outlines."""
         if self.is_backwards:
-            raise GenevaError(
-                "--reverse: drawings are turned in both senses by `geneva check`; leave it out"
-            )
+            raise GenevaError("--reverse: `geneva check` turns drawings both ways; leave it out")
         return load_extra("outline", answer)(self.mechanism, *values)
 
     @question
@@ -910,11 +908,8 @@ class Design:
         >>> Design(External(6)).refuse_drawn("the files for a shop are those")
         """
         if self.is_drawn:
-            raise GenevaError(
-                f"{what} of our own parts, which the drawings in [outline] replace: leave out "
-                "[outline]",
-                ("outline",),
-            )
+            text = f"{what} of our own parts, which drawings replace: leave out [outline]"
+            raise GenevaError(text, ("outline",))
 
     @answer
     def unused_acceptances(self) -> list[str]:

@@ -125,10 +125,9 @@ class Spec(SpecTable):
             if limits[limit] is not None and self.table(of)[key] is None:
                 raise GenevaError(f"{limit} needs {what}: set {key} in [{of}]", ("limits", limit))
         if self.limits.product_acceleration_max_m_s2 is not None and not self.product.lies:
+            key = "product_acceleration_max_m_s2"
             raise GenevaError(
-                "product_acceleration_max_m_s2 needs the product's place: set radius_mm in "
-                "[product]",
-                ("limits", "product_acceleration_max_m_s2"),
+                f"{key} needs the product's place: set radius_mm in [product]", ("limits", key)
             )
         for key in LOADED:
             if limits[key] is not None:

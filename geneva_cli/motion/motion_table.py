@@ -280,14 +280,8 @@ def periods(mechanism: Mechanism, turns: int | None) -> int:
     count = 360.0 * turns / mechanism.period_deg
     if abs(count - round(count)) > 1e-9:
         whole = round(mechanism.period_deg / 360.0)
-        raise GenevaError(
-            f"--turns {turns}: this machine repeats after {whole} turns of its input; "
-            f"give a multiple of {whole}"
-        )
+        raise GenevaError(f"--turns {turns}: give a multiple of {whole}, this machine's period")
     z = mechanism.spec.wheel.z
     if mechanism.spec.wheel.stopped and turns > z - 2:
-        raise GenevaError(
-            f"--turns {turns}: the stop leaves {z - 2} whole motions, as the first and the last of "
-            f"{z} are blocked half-way; give at most {z - 2}"
-        )
+        raise GenevaError(f"--turns {turns}: the stop leaves {z - 2} whole motions; give no more")
     return round(count)

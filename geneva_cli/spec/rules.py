@@ -146,7 +146,5 @@ def range_text(text: str, option: str) -> tuple[str, str, str] | None:
     ends, colon, step = text.partition(":")
     low, dots, high = ends.partition("..")
     if colon and not (dots and step.strip()):
-        raise GenevaError(
-            f"{option}: a range is LOW..HIGH or LOW..HIGH:STEP, as 3..12 or 0..0.9:0.1"
-        )
+        raise GenevaError(f"{option}: a range is LOW..HIGH:STEP or LOW..HIGH, as 0..0.9:0.1")
     return (low.strip(), high.strip(), step.strip()) if dots else None

@@ -386,10 +386,8 @@ def free_text(key: str, text: str, place: tuple[str, ...]) -> str:
 def unknown(key: str, table: str, known: Sequence[str], hint: str = "") -> GenevaError:
     """Error for a key that a table does not have; without a hint it names the nearest key."""
     hint = hint or nearest(key, known)
-    return GenevaError(
-        f"unknown key {cut(key)} in [{table}]{hint}; known: {few(key, known)}",
-        (*table.split("."), key),
-    )
+    text = f"unknown key {cut(key)} in [{table}]{hint}; known: {few(key, known)}"
+    return GenevaError(text, (*table.split("."), key))
 
 
 def refuse_kind(value: object, name: str, kind: type, example: str) -> None:
@@ -402,10 +400,8 @@ def require(table: type[SpecTable], keys: Sequence[str], why: str = "") -> None:
     """Raise GenevaError if a key without a default is missing."""
     for field in fields(table):
         if field.default is REQUIRED and field.key not in keys:
-            raise GenevaError(
-                f"[{table.TABLE}] needs {field.key}{why}: {field.meaning}, {field.rule}",
-                tuple(table.TABLE.split(".")),
-            )
+            text = f"[{table.TABLE}] needs {field.key}{why}: {field.meaning}, {field.rule}"
+            raise GenevaError(text, tuple(table.TABLE.split(".")))
 
 
 def shown(value: Any) -> str:

@@ -427,16 +427,15 @@ class Product(SpecTable):
 
     def __post_init__(self) -> None:
         super().__post_init__()
+        fault, placed = "", self.radius_mm is not None
         if (self.sprocket_teeth is None) != (self.pitch_mm is None):
-            raise GenevaError("a sprocket needs sprocket_teeth and pitch_mm", (self.TABLE,))
-        if self.radius_mm is not None and self.pitch_mm is not None:
-            raise GenevaError(
-                "set either radius_mm, or sprocket_teeth and pitch_mm", (self.TABLE, "radius_mm")
-            )
-        if self.radius_mm is None and self.pitch_mm is None and self.friction is not None:
-            raise GenevaError(
-                "friction needs the product's place: set radius_mm", (self.TABLE, "friction")
-            )
+            fault = "a sprocket needs sprocket_teeth and pitch_mm"
+        elif placed and self.pitch_mm is not None:
+            fault = "set either radius_mm, or sprocket_teeth and pitch_mm"
+        elif not self.lies and self.friction is not None:
+            fault = "friction needs the product's place: set radius_mm"
+        if fault:
+            raise GenevaError(fault, (self.TABLE,))
 
     @property
     def lies(self) -> bool:
@@ -607,11 +606,8 @@ class Accept(SpecTable):
             if reason is not None:
                 reasons[name] = reason
             if reason is not None and not reason.strip():
-                raise GenevaError(
-                    f'{name} needs the reason for accepting it, as {name} = "agreed with the '
-                    'customer"',
-                    (self.TABLE, name),
-                )
+                text = f'{name} needs the reason for accepting it, as {name} = "agreed"'
+                raise GenevaError(text, (self.TABLE, name))
 
     def applied(self, notices: Iterable[Notice]) -> list[Notice]:
         """The warnings, the accepted ones with their reason.

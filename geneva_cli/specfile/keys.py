@@ -77,10 +77,8 @@ def about(word: str) -> list[Key]:
     some = some or [k for k in keys if word in (k.key, k.name)]
     if not some:
         known = sorted({text for k in keys for text in (k.whole_table, k.key, k.name)})
-        raise GenevaError(
-            f'"{cut(word)}" is not a table or key of a spec{nearest(word, known)}; '
-            "`geneva keys` lists all"
-        )
+        fault = f"is no table or key of a spec{nearest(word, known)}; `geneva keys` lists all"
+        raise GenevaError(f'"{cut(word)}" {fault}')
     return some
 
 

@@ -100,10 +100,8 @@ def unknown(word: str) -> GenevaError:
     known = names()
     known += [CHECKS + n for e in entries() if e.group == "check" for n in e.names]
     among = dict.fromkeys([*known, *(name.rpartition(".")[2] for name in known)])
-    return GenevaError(
-        f'"{cut(word)}" is not a check, quantity, kind, law, warning, part, choice or '
-        f"key{nearest(word, among)}; `geneva explain` lists them"
-    )
+    advice = "`geneva explain` lists what is explained"
+    return GenevaError(f'"{cut(word)}" is not explained{nearest(word, among)}; {advice}')
 
 
 def groups() -> list[tuple[str, int, str, str]]:

@@ -167,9 +167,8 @@ def _with(node: Any, path: tuple[str | int, ...], one: Setting) -> Any:
         several = list(node) if isinstance(node, list) else []
         if not head < len(several):
             name = ".".join(map(str, one.path[: one.path.index(head)]))
-            raise GenevaError(
-                f"{one.option}: the spec has {len(several)} [[{name}]], counted from 0"
-            )
+            count = f"the spec has {len(several)} [[{name}]], counted from 0"
+            raise GenevaError(f"{one.option}: {count}")
         several[head] = _with(several[head], tuple(rest), one)
         return several
     table = dict(node) if isinstance(node, dict) else {}
@@ -216,8 +215,6 @@ def read(path: str, set_keys: Iterable[str] = ()) -> Text:
     except UnicodeDecodeError as error:
         line = data[: error.start].count(b"\n") + 1
         # as PowerShell 5 writes UTF-16 for >
-        raise GenevaError(
-            f"{name}:{line}: not UTF-8 text; save the file as UTF-8, or write it with -o FILE in "
-            "place of > FILE"
-        ) from None
+        advice = "save the file as UTF-8, or write it with -o FILE in place of > FILE"
+        raise GenevaError(f"{name}:{line}: not UTF-8 text; {advice}") from None
     return Text(name, text, tuple(map(setting, set_keys)))

@@ -64,13 +64,10 @@ def template(kind: str, schema: bool = True, whole: bool = True) -> str:
     """
     if kind not in KINDS:
         if kind in titles():
-            raise GenevaError(
-                f'"{kind}" is a design, not a KIND; use `geneva new --from-design {kind}`'
-            )
-        raise GenevaError(
-            f'unknown KIND "{cut(kind)}"{nearest(kind, KINDS)}; it must be one of '
-            f"{few(kind, KINDS)}; `geneva new --list` has all"
-        )
+            use = f"use `geneva new --from-design {kind}`"
+            raise GenevaError(f'"{kind}" is a design, not a KIND; {use}')
+        known = f"{few(kind, KINDS)}; `geneva new --list` has all"
+        raise GenevaError(f'unknown KIND "{cut(kind)}"{nearest(kind, KINDS)}; it is one of {known}')
     about, own = example(kind)
     drive = registry.drive(str(own.get("drive", {}).get("kind", Crank.NAME)))
     behind = "have the default shown, or none" if whole else "show usual values"
@@ -170,10 +167,8 @@ def design(name: str) -> tuple[str, dict[str, str]]:
     """
     known = titles()
     if name not in known:
-        raise GenevaError(
-            f"--from-design {cut(name)}: no such design{nearest(name, known)}; "
-            "`geneva new --list` lists them"
-        )
+        fault = f"no such design{nearest(name, known)}; `geneva new --list` lists them"
+        raise GenevaError(f"--from-design {cut(name)}: {fault}")
     text = _text(f"{name}.toml")
     points = [file for file in os.listdir(_folder()) if file.endswith(".csv")]
     return text, {file: _text(file) for file in points if f'"{file}"' in text}
