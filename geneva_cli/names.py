@@ -91,11 +91,7 @@ LONG_WORDS = {
 
 
 def unit_of(name: str) -> str | None:
-    """The unit in the ending of a key's or a quantity's name; None without one.
-
-    >>> unit_of("loads.omega_rad_s"), unit_of("tau")
-    ('rad/s', None)
-    """
+    """The unit in the ending of a key's or a quantity's name; None without one."""
     last = "_" + name.rpartition(".")[2]  # a column may be its unit alone, such as rpm
     return UNITS.get(unit_end(last))
 
@@ -144,10 +140,6 @@ def unit_end(name: str) -> str:
 
 
 def heading(name: str) -> str:
-    """A name in one line, its unit behind a comma.
-
-    >>> heading("wheel_bore_mm"), heading("tau")
-    ('wheel bore, mm', 'tau')
-    """
+    """A name in one line, its unit behind a comma."""
     words, unit = spoken(name)
     return f"{words}, {unit}" if unit else words

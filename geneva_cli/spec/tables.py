@@ -128,31 +128,19 @@ class Size(SpecTable):
 
     @property
     def distance_mm(self) -> float:
-        """Centre distance L: its key, or derived from the crank radius, or the default.
-
-        >>> Size(center_distance_mm=160.0).distance_mm, Size().distance_mm
-        (160.0, 100.0)
-        """
+        """Centre distance L: its key, or derived from the crank radius, or the default."""
         if self.center_distance_mm is not None:
             return self.center_distance_mm
         return DISTANCE_MM if self.derived_distance_mm is None else self.derived_distance_mm
 
     @property
     def edge_mm(self) -> float:
-        """Height of a face that its chamfer or rounding takes at each edge; 0 for sharp edges.
-
-        >>> Size(edge_chamfer_mm=0.5).edge_mm
-        0.5
-        """
+        """Height of a face that its chamfer or rounding takes at each edge; 0 for sharp edges."""
         own = self.edge_fillet_mm if self.edge_chamfer_mm is None else self.edge_chamfer_mm
         return 0.0 if own is None else own
 
     def has_hub(self, part: str) -> bool:
-        """True if the spec has a size of a part's hub; otherwise only its space is kept free.
-
-        >>> Size(crank_hub_length_mm=20.0).has_hub("crank"), Size().has_hub("wheel")
-        (True, False)
-        """
+        """True if the spec has a size of a part's hub; otherwise only its space is kept free."""
         own = vars(self)
         return own[f"{part}_hub_mm"] is not None or own[f"{part}_hub_length_mm"] is not None
 
@@ -403,11 +391,7 @@ class Tolerance(SpecTable):
 
     @property
     def is_given(self) -> bool:
-        """True if a dimension deviates.
-
-        >>> Tolerance(slot_width_mm=0.02).is_given, Tolerance(distribution="normal").is_given
-        (True, False)
-        """
+        """True if a dimension deviates."""
         return self != Tolerance(distribution=self.distribution)
 
 
@@ -610,12 +594,7 @@ class Accept(SpecTable):
                 raise GenevaError(text, (self.TABLE, name))
 
     def applied(self, notices: Iterable[Notice]) -> list[Notice]:
-        """The warnings, the accepted ones with their reason.
-
-        >>> accept = Accept(many_slots="a dial of 30 stations")
-        >>> accept.applied([Notice("many-slots", "z = 30")])
-        ['accepted (a dial of 30 stations): z = 30']
-        """
+        """The warnings, the accepted ones with their reason."""
         reasons, out = self.reasons, list(notices)
         for i, one in enumerate(out):
             if one.name in reasons:

@@ -78,9 +78,6 @@ def related(word: str) -> list[tuple[str, str, str]]:
     """Group, name and a sentence of everything that a word is part of, as ``listed`` has them.
 
     The word may be a group, such as ``checks``. Names and headings come before texts.
-
-    >>> len(related("laws")), related("loads")[0][:2]
-    (11, ('quantity', 'loads.omega_rad_s'))
     """
     plain = word.casefold()
     everything = [*listed(), *(("key", key.name, key.meaning) for key in _keys())]

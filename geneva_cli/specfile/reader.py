@@ -53,11 +53,7 @@ class Setting(NamedTuple):
 
 
 def setting(text: str, option: str = "--set") -> Setting:
-    """One ``table.key=value`` setting; a word's quotation marks are optional.
-
-    >>> setting("drive.A=0.6")
-    Setting(option='--set drive.A=0.6', path=('drive', 'A'), value=0.6)
-    """
+    """One ``table.key=value`` setting; a word's quotation marks are optional."""
     key, sign, value = text.partition("=")
     typed = f"{option} {cut(text.strip())}"
     if not sign or not value.strip() or not all(key.strip().split(".")):
@@ -71,9 +67,6 @@ def whole_key(key: str, typed: str) -> str:
     """Return a key with its table; without one if it is the only table that has the key.
 
     Raises GenevaError, which begins with ``typed``, for a key that no table or several tables have.
-
-    >>> whole_key("n_rpm", "--set n_rpm=90"), whole_key("drive.A", "--set drive.A=0.6")
-    ('drive.n_rpm', 'drive.A')
     """
     if key == "title" or "." in key:
         return key

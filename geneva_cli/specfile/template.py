@@ -115,11 +115,7 @@ def _usual(
 
 
 def _note(meaning: str, gearing: str) -> str:
-    """The part of a meaning that is about a gearing, such as "linear: crank radius", or the first.
-
-    >>> _note("centre distance L; linear: crank radius", "linear")
-    'crank radius'
-    """
+    """The part of a meaning about a gearing, such as "linear: crank radius", or the first."""
     parts, named = meaning.split("; "), f"{gearing}: "
     own = next((part for part in parts if part.startswith(named)), parts[0])
     return own.removeprefix(named)
@@ -150,12 +146,7 @@ def _line(field: Field, values: dict[str, Any]) -> str:
 
 
 def titles() -> dict[str, str]:
-    """Names of the designs, with their titles.
-
-    >>> from geneva_cli.specfile.template import titles
-    >>> titles()["side-crank-z6"]
-    'Side-crank, six slots, A = 0.6'
-    """
+    """Names of the designs, with their titles."""
     files = [file for file in sorted(os.listdir(_folder())) if file.endswith(".toml")]
     return {file.removesuffix(".toml"): str(tomli.loads(_text(file))["title"]) for file in files}
 

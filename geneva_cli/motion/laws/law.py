@@ -197,12 +197,7 @@ class Motion(SpecTable):
 
     @property
     def backwards(self) -> Self:
-        """The motion that the same law gives a machine that turns the other way.
-
-        >>> motion = Motion(SineGroup(0.1))
-        >>> round(motion.law(0.5).c[0], 6), round(motion.backwards.law(0.5).c[0], 6)
-        (0.364188, 0.635812)
-        """
+        """The motion that the same law gives a machine that turns the other way."""
         return self.replace(law=self.law.backwards)
 
     @property
