@@ -410,13 +410,7 @@ class Design:
         >>> Design(External(6)).motion(at_deg=[0.0]).to_dict()["velocity"].tolist()
         [1.0]
         """
-        from geneva_cli.motion.motion_table import (
-            angles_table,
-            knots_deg,
-            motion_table,
-            periods,
-            turns_table,
-        )
+        from geneva_cli.motion.motion_table import angles_table, motion_table, turns_table
 
         if self.is_drawn:
             if turns is not None:
@@ -425,10 +419,9 @@ class Design:
             return own
         if at_deg is not None:
             return angles_table(self.mechanism, at_deg)
-        if turns is None:
-            return motion_table(self.mechanism, samples)
-        count = periods(self.mechanism, turns)
-        return turns_table(self.mechanism, samples, count, knots_deg(self.mechanism, count))
+        if turns is not None:
+            return turns_table(self.mechanism, samples, turns)
+        return motion_table(self.mechanism, samples)
 
     @question
     def figure(self, pick: Sequence[str] = ()) -> Figure:

@@ -57,14 +57,14 @@ def motion_table(mechanism: Mechanism, samples: int) -> Table:
     )
 
 
-def turns_table(mechanism: Mechanism, samples: int, count: int, knots: Array) -> Table:
-    """Rows as of ``motion_table`` over ``count`` periods, and one at each entry, exit and jump.
+def turns_table(mechanism: Mechanism, samples: int, turns: int) -> Table:
+    """Rows as of ``motion_table`` over some turns of the input, and at each entry, exit and jump.
 
-    ``knots`` are those of ``knots_deg``. ``samples`` rows are evenly spaced. The wheel's angle goes
-    on from period to period.
+    ``samples`` rows are evenly spaced. The wheel's angle goes on from period to period.
     """
     check_samples(samples)
-    period = mechanism.period_deg
+    period, count = mechanism.period_deg, periods(mechanism, turns)
+    knots = knots_deg(mechanism, count)
     even = np.linspace(0.0, count * period, samples)
     nearest = np.searchsorted(knots, even)
     apart = np.minimum(

@@ -411,12 +411,12 @@ class Product(SpecTable):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        fault, placed = "", self.radius_mm is not None
-        if (self.sprocket_teeth is None) != (self.pitch_mm is None):
+        fault, radius, pitch = "", self.radius_mm, self.pitch_mm
+        if (self.sprocket_teeth is None) != (pitch is None):
             fault = "a sprocket needs sprocket_teeth and pitch_mm"
-        elif placed and self.pitch_mm is not None:
+        elif radius is not None and pitch is not None:
             fault = "set either radius_mm, or sprocket_teeth and pitch_mm"
-        elif not self.lies and self.friction is not None:
+        elif radius is None and pitch is None and self.friction is not None:
             fault = "friction needs the product's place: set radius_mm"
         if fault:
             raise GenevaError(fault, (self.TABLE,))
