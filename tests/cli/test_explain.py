@@ -319,7 +319,7 @@ def test_a_word_without_an_entry_leads_to_what_it_is_part_of():
     assert ("quantity", "loads.wheel_bearing_N") in [one[:2] for one in related("bearings")]
     assert "page   help spec" in CliRunner().invoke(app, ["explain", "taplo"]).stdout
     refused = CliRunner().invoke(app, ["explain", "xyzzy"])
-    assert refused.exit_code == 2 and '"xyzzy" is not a check' in refused.stderr
+    assert refused.exit_code == 2 and '"xyzzy" is not explained' in refused.stderr
 
 
 def test_without_a_word_people_get_groups_and_programs_all_names():
