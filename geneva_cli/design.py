@@ -735,8 +735,15 @@ class Design:
         ...     Design(External(6)).save(f"{folder}/wheel.dxf")
         """
         from geneva_cli.drawings.catalogue import PARTS, is_sheet
-        from geneva_cli.output import draw, draw_sheet, show
-        from geneva_cli.output.formats import DRAWN, curve_tolerance, named, usual_curves
+        from geneva_cli.output import (
+            DRAWN,
+            curve_tolerance,
+            draw,
+            draw_sheet,
+            named,
+            show,
+            usual_curves,
+        )
 
         tolerance_mm = curve_tolerance(tolerance_mm, path, "")
         stem = os.path.splitext(os.path.basename(path))[0]

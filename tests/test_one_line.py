@@ -22,7 +22,7 @@ from geneva_cli.motion import registry
 from geneva_cli.motion.laws.law import Law, from_velocity
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.numerics.jet import Jet, Number
-from geneva_cli.output.formats import FORMATS
+from geneva_cli.output import FORMATS
 from geneva_cli.spec.rules import Range
 from geneva_cli.specfile import template
 from geneva_cli.table import Table, rows_table

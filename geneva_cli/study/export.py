@@ -14,9 +14,17 @@ from geneva_cli.design import CURVES, Design
 from geneva_cli.drawings.catalogue import without_sheet
 from geneva_cli.drawings.single_parts import single_parts
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.output import animate, draw, draw_sheet, show, show_document, show_text
+from geneva_cli.output import (
+    animate,
+    curve_tolerance,
+    draw,
+    draw_sheet,
+    show,
+    show_document,
+    show_text,
+    usual_curves,
+)
 from geneva_cli.output.folder import LIST
-from geneva_cli.output.formats import curve_tolerance, usual_curves
 from geneva_cli.parts.projection import Missing
 from geneva_cli.spec.schema import Points, SpecTable, fields
 from geneva_cli.study.chosen_sizes import written

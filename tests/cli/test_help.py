@@ -10,7 +10,7 @@ from typer.testing import CliRunner
 from geneva_cli.cli.app import COMMANDS, GROUPS, app
 from geneva_cli.cli.command import one_of
 from geneva_cli.manual import GROUPS as PAGES
-from geneva_cli.output.formats import FORMATS
+from geneva_cli.output import FORMATS
 
 EXAMPLES = [
     (name, example)

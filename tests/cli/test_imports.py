@@ -112,7 +112,7 @@ OWN = {
     # no spec, no registry of kinds, no record of either: of the wheels their closed forms alone
     "table --z 6": "cli cli.app cli.command errors progress streams table cli.commands "
     "motion motion.wheels cli.commands.table motion.wheels.classic motion.timing "
-    "kept extras output study output.formats output.text study.survey "
+    "kept extras output study output.text study.survey "
     "numerics motion.timing numerics.angles numerics.arrays spec spec.rules",
 }
 

@@ -14,14 +14,16 @@ from geneva_cli.cli.command import (
 )
 from geneva_cli.drawings.catalogue import is_sheet, require_tolerance
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.output import draw, draw_sheet, show
-from geneva_cli.output.formats import (
+from geneva_cli.output import (
     DRAWN,
     FORMATS,
     SHEETS,
     chosen,
     curve_tolerance,
+    draw,
+    draw_sheet,
     named,
+    show,
     usual_curves,
 )
 

@@ -12,7 +12,7 @@ from geneva_cli import GenevaError, load
 from geneva_cli.cli.app import app
 from geneva_cli.extras.servo.electronic_cam import cam, rounded_up
 from geneva_cli.manual import page
-from geneva_cli.output.formats import CONTROLLERS
+from geneva_cli.output import CONTROLLERS
 
 DESIGNS = repo.wheels()
 SOME = ("turret", "two-pins-z4", "unequal-steps", "side-crank-z6", "gear-sector", "sine-group")
