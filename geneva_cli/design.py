@@ -25,24 +25,9 @@ from geneva_cli.motion.laws.law import Motion
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.wheels.gearing import Gearing
+from geneva_cli.spec import tables
 from geneva_cli.spec.rules import plain
 from geneva_cli.spec.schema import SHOWN_MAX, refuse_keywords, shortly
-from geneva_cli.spec.tables import (
-    Accept,
-    Limits,
-    Load,
-    Mass,
-    Motor,
-    Outline,
-    Product,
-    RollerMaterial,
-    Shaft,
-    Size,
-    Support,
-    TitleBlock,
-    Tolerance,
-    WheelMaterial,
-)
 
 if TYPE_CHECKING:
     from geneva_cli.extras.certify.certificate import Certificate
@@ -90,7 +75,7 @@ def _form(curves: str) -> str:
     return CURVES[curves]
 
 
-def _with_chosen(size: Size, chosen: Mapping[str, Chosen]) -> Size:
+def _with_chosen(size: tables.Size, chosen: Mapping[str, Chosen]) -> tables.Size:
     """Sizes with chosen ones, which are by their keys with the table."""
     return size.replace(**{key.partition(".")[2]: one.value for key, one in chosen.items()})
 
@@ -155,20 +140,20 @@ class Design:
         drive: Drive | None = None,
         motion: Motion | None = None,
         *,
-        size: Size | None = None,
-        load: Load | None = None,
-        mass: Sequence[Mass] = (),
-        support: Support | None = None,
-        motor: Motor | None = None,
-        shaft: Shaft | None = None,
-        material_wheel: WheelMaterial | None = None,
-        material_roller: RollerMaterial | None = None,
-        tolerance: Tolerance | None = None,
-        product: Product | None = None,
-        limits: Limits | None = None,
-        accept: Accept | None = None,
-        drawing: TitleBlock | None = None,
-        outline: Outline | None = None,
+        size: tables.Size | None = None,
+        load: tables.Load | None = None,
+        mass: Sequence[tables.Mass] = (),
+        support: tables.Support | None = None,
+        motor: tables.Motor | None = None,
+        shaft: tables.Shaft | None = None,
+        material_wheel: tables.WheelMaterial | None = None,
+        material_roller: tables.RollerMaterial | None = None,
+        tolerance: tables.Tolerance | None = None,
+        product: tables.Product | None = None,
+        limits: tables.Limits | None = None,
+        accept: tables.Accept | None = None,
+        drawing: tables.TitleBlock | None = None,
+        outline: tables.Outline | None = None,
         title: str = "",
         drive_before: Drive | None = None,
     ) -> None:
@@ -260,7 +245,7 @@ class Design:
         return design
 
     @answer
-    def size(self) -> Size:
+    def size(self) -> tables.Size:
         """The sizes, with the machine's values for those that the spec leaves out; mm.
 
         None remains for sizes that the machine lacks, and for details that only its parts know.
@@ -281,8 +266,7 @@ class Design:
         >>> Design(External(6)).chosen["size.pin_mm"]
         Chosen(value=5.0, why='default r')
         """
-        from geneva_cli.parts.chosen import chosen
-        from geneva_cli.parts.detail_sizes import detail_sizes
+        from geneva_cli.parts.chosen import chosen, detail_sizes
 
         if self.spec.has_parts:
             _ = self.parts.built
@@ -582,7 +566,7 @@ class Design:
 
         The oscillator is that of [shaft]. ``period_ratio`` (motion time over natural period) and
         ``damping`` (ratio) replace its values. Shares are fractions of the wheel's step. Raises
-        GenevaError if no stiffness is known.
+        GenevaError if no stiffness or no inertia is known.
 
         >>> round(Design(External(3)).vibration(0.5, damping=0.02)["residual_share"], 12)
         0.871288725706
@@ -604,9 +588,9 @@ class Design:
         >>> Design(External(6)).spectrum(3, period_ratio=10.0)["n_rpm"].round(9)
         array([ 30.,  60., 120.])
         """
-        from geneva_cli.loads.vibration.vibration import required_oscillator, spectrum
+        from geneva_cli.loads.vibration.vibration import oscillator, spectrum
 
-        shaft = required_oscillator(self.mechanism, period_ratio, damping)
+        shaft = oscillator(self.mechanism, period_ratio, damping)
         return spectrum(self.mechanism, shaft, samples)
 
     @question

@@ -92,4 +92,4 @@ def load_extra(folder: str, answer: str) -> Any:
         from geneva_cli.errors import GenevaError
 
         raise GenevaError(f"not computed: needs extras/{folder}, which is not installed")
-    return load_named(load_named(f"extras.{folder}:EXTRA").answers[answer])
+    return load_named(load_named(f"extras.{folder}:ANSWERS")[answer])

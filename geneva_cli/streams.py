@@ -9,6 +9,7 @@ import errno
 import io
 import os
 import sys
+from collections.abc import Callable
 from typing import Any, NoReturn
 
 from geneva_cli.errors import cut
@@ -22,14 +23,14 @@ def open_streams() -> None:
     _fill_closed()
     sys.stdin = sys.stdin or open(0, closefd=False, encoding="utf-8")
     sys.stderr = _Messages(
-        io.BufferedWriter(_ErrorOutput(_raw(sys.stderr, 2))),
+        io.BufferedWriter(_Standard(_raw(sys.stderr, 2), _ignore)),
         encoding=sys.stderr.encoding if sys.stderr else "utf-8",
         errors=LACKING,
         newline="\n",
         line_buffering=True,
     )
     sys.stdout = io.TextIOWrapper(
-        io.BufferedWriter(_Output(_raw(sys.stdout, 1))),
+        io.BufferedWriter(_Standard(_raw(sys.stdout, 1), _end)),
         encoding=sys.stdout.encoding if sys.stdout else "utf-8",
         errors=LACKING,
         newline="\n",  # on Windows too, as in files
@@ -75,10 +76,10 @@ def leave(status: int) -> NoReturn:
 
 
 class _Standard(io.RawIOBase):
-    """A standard stream, over that of the interpreter."""
+    """A standard stream, over that of the interpreter; ``fails`` handles its write errors."""
 
-    def __init__(self, raw: Any):
-        self.raw = raw
+    def __init__(self, raw: Any, fails: Callable[[OSError], None]) -> None:
+        self.raw, self.fails = raw, fails
 
     def writable(self) -> bool:
         return True
@@ -89,31 +90,24 @@ class _Standard(io.RawIOBase):
     def isatty(self) -> bool:
         return self.raw.isatty()
 
-
-class _Output(_Standard):
-    """Standard output, for which a write error ends the run.
-
-    If the reader has left, the run ends as by SIGPIPE; otherwise with a message and status 2.
-    """
-
     def write(self, data: Any, /) -> int:
         try:
             return self.raw.write(data)
         except OSError as error:
-            if error.errno in (errno.EPIPE, errno.EINVAL):  # EINVAL: a closed pipe of Windows
-                os._exit(128 + 13)  # 13 is SIGPIPE's number
-            print(f"<stdout>: cannot write: {error.strerror}; try -o FILE", file=sys.stderr)
-            os._exit(2)
-
-
-class _ErrorOutput(_Standard):
-    """Standard error, which ignores write errors and leaves the exit status unchanged."""
-
-    def write(self, data: Any, /) -> int:
-        try:
-            return self.raw.write(data)
-        except OSError:
+            self.fails(error)
             return len(data)
+
+
+def _end(error: OSError) -> None:
+    """End a run whose output cannot be written: as by SIGPIPE if its reader has left."""
+    if error.errno in (errno.EPIPE, errno.EINVAL):  # EINVAL: a closed pipe of Windows
+        os._exit(128 + 13)  # 13 is SIGPIPE's number
+    print(f"<stdout>: cannot write: {error.strerror}; try -o FILE", file=sys.stderr)
+    os._exit(2)
+
+
+def _ignore(error: OSError) -> None:
+    """Leave the exit status as it is, although nobody sees the messages."""
 
 
 class _Messages(io.TextIOWrapper):

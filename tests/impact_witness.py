@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from geneva_cli.loads.impacts.entry import FirstContacts, first_contacts
+from geneva_cli.loads.impacts.entry import FirstContacts, RestingAxis, first_contacts
 from geneva_cli.loads.impacts.reversal import changes, impacts_of
 from geneva_cli.loads.impacts.shock_force import forces_N
 from geneva_cli.loads.strength.pin_arm_key import PinSize, pin_diameter_mm
@@ -11,7 +11,8 @@ from geneva_cli.parts.machine_sizes import built
 
 def contact_of(engagement, crank, center=0.0):
     """The first contact of one engagement; None if there is none."""
-    contacts = first_contacts(engagement, crank, center)
+    axis = RestingAxis.of(engagement)
+    contacts = axis and first_contacts(axis, crank, center)
     if contacts is None or np.isnan(contacts.jump).any():
         return None
     return FirstContacts(*(row.item() for row in contacts))

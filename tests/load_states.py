@@ -32,12 +32,14 @@ def state(mechanism, engagement, input_deg):
     """
     x = np.atleast_1d(input_deg)
     at = contact_values(contact(engagement, x, reactions=False))
+    case = load_case(mechanism)
     with np.errstate(all="ignore"):
-        loads = bounded(Instant(load_case(mechanism), at))
-    squared = loads.stress_squared
+        here = Instant(case, at)
+        names = ("wheel_torque_Nm", "pin_force_N", "input_torque_Nm")
+        loads = [bounded(here, name) for name in names]
+        stress = None if case.hertz is None else np.sqrt(bounded(here, "contact_stress_MPa"))
     pressure = np.degrees(np.arctan2(np.abs(at.offset), at.lever)) + 0.0 * x
-    stress = None if squared is None else np.sqrt(squared)
-    rows = (loads.wheel_torque_Nm, np.abs(loads.pin_force_N), loads.input_torque_Nm, stress)
+    rows = (*loads, stress)
     single = np.ndim(input_deg) == 0 and all(np.ndim(row) < 2 for row in rows)
     return LoadState(*(row[0] if single and row is not None else row for row in (*rows, pressure)))
 

@@ -3,8 +3,7 @@
 import numpy as np
 from design_arrays import MACHINES, drawn
 
-from geneva_cli.loads.contact import NEAR_CUSP
-from geneva_cli.loads.cycle_quantities import NEVER_NEGATIVE, SQUARED
+from geneva_cli.loads.contact import NEAR_CUSP, NEVER_NEGATIVE, SQUARED
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_functions import LoadFunctions
 from geneva_cli.loads.load_peaks import LoadSummary, load_summaries
@@ -23,37 +22,6 @@ CARRIED = [
 ]
 NAMES = ("pin_force_N", "sliding_m_s", "input_torque_Nm", "contact_stress_MPa")
 BLOCK = 512  # designs scanned together
-# Designs of which a search once missed an extreme, from ``make stress``: by machine, the values of
-# its varied keys (CARRIED last).
-MISSED = {
-    "tilted law": (
-        # the torque changes its sign twice between two samples, of one design and of many
-        (-0.0895133920, 0.1264198884, 1.8125471712, 26.317803141, 0.9225562, 0.28436529, 24.155923),
-        # the wheel goes back for a moment before it comes to rest, within one cell
-        (
-            *(-0.13199168018360924, 0.7000262317959413, 2.3695859425036523, 20.787223202156),
-            *(0.5589043052310345, 0.0, 25.310698818037014),
-        ),
-    ),
-    # two turns in a cell with slopes of one sign: a cubic's miss is a share of 5e-3 there
-    "sine-group": (
-        (
-            *(-37.08232899695389, 0.6599805032644457, 13, 1.6144683493084837),
-            *(5.868071882301105, 0.614383706603495, 0.1647248631957611, 67.62864563089963),
-        ),
-    ),
-    # a slope that is next to nothing at the entry, of the other sign soon after
-    "harmonic": (
-        (
-            *(-22.600192174813856, 0.1995259881037917, 9, 1.1399269188495558),
-            *(7.0802942475825255, 0.596724499761591, 0.17097596436023652, 24.986562053907978),
-        ),
-    ),
-    # a turn of a function without a bound, a little lower than its samples
-    "4-5-6-7": (
-        (-28.447257336, 0.98137220905, 9, 2.64940757, 24.57112872, 0.979643308, 0.0930286, 15.256),
-    ),
-}
 
 
 def loaded(name, n, seed, **changes):
@@ -62,16 +30,6 @@ def loaded(name, n, seed, **changes):
     spec = spec.replace(load=LOAD.replace(**changes), size=spec.size.replace(face_width_mm=10.0))
     kept = [rule for rule in CARRIED if rule[0] not in {f"load.{key}" for key in changes}]
     varied = drawn([*rules, *kept], n, seed)
-    return spec, varied, many(spec, varied)
-
-
-def missed(name):
-    """The designs of ``MISSED``."""
-    spec, rules = MACHINES[name]
-    spec = spec.replace(load=LOAD, size=spec.size.replace(face_width_mm=10.0))
-    keys = [key for key, _, _ in [*rules, *CARRIED]]
-    columns = zip(*MISSED[name], strict=True)
-    varied = {key: np.array(values) for key, values in zip(keys, columns, strict=False)}
     return spec, varied, many(spec, varied)
 
 
@@ -84,7 +42,7 @@ def dense_means(cycle, name, parts=2000):
     sums = np.zeros(2)
 
     def both(engagement, stretch, x):
-        value = cycle.plain(cycle.along(engagement, stretch, x.ravel()), name).reshape(x.shape)
+        value = cycle.moving(engagement, x.ravel(), [name], stretch).reshape(x.shape)
         value = np.abs(value) if name in NEVER_NEGATIVE else value  # told as a size
         return np.stack((value, value * value))
 

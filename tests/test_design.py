@@ -35,7 +35,6 @@ from geneva_cli import (
 )
 from geneva_cli.cli.app import app
 from geneva_cli.manual import page
-from geneva_cli.motion import registry
 
 PRESS = {
     "size": Size(center_distance_mm=441.89, roller_radius_mm=20, face_width_mm=30),
@@ -114,35 +113,19 @@ def test_the_same_parts_and_verdicts():
 
 WRONG = [
     ("[wheel]\nz = 2", lambda: External(2)),
-    ('[wheel]\nz = "six"', lambda: External("six")),
     ("[wheel]\nz = 6\nsteps_deg = [72, 40]", lambda: External(6, steps_deg=(72, 40))),
     ('[wheel]\nz = 6\n[drive]\nkind = "side-crank"\nA = 1', lambda: SideCrank(A=1)),
-    (
-        '[wheel]\nz = 6\n[drive]\nkind = "four-bar"\ncrank_mm = 90\nground_mm = 40\n'
-        "coupler_mm = 100\nrocker_mm = 100\npoint_mm = 100\npoint_deg = 0",
-        lambda: geneva_cli.FourBar(
-            crank_mm=90, ground_mm=40, coupler_mm=100, rocker_mm=100, point_mm=100, point_deg=0
-        ),
-    ),
     (
         '[wheel]\nz = 6\n[motion]\nlaw = "sine-group"\nlambda = 11',
         lambda: Motion(SineGroup(lambda_=11)),
     ),
     ("[wheel]\nz = 6\n[load]\ntorque_Nm = true", lambda: Load(torque_Nm=True)),
-    (
-        "[wheel]\nz = 6\n[limits]\npressure_angle_max_deg = 91",
-        lambda: Limits(pressure_angle_max_deg=91),
-    ),
     # between two tables
     (
         "[wheel]\nz = 6\n[limits]\npin_force_max_N = 100",
         lambda: Design(External(6), limits=Limits(pin_force_max_N=100)),
     ),
     # between the keys of a machine
-    (
-        "[wheel]\nz = 6\n[drive]\nrollers = 3",
-        lambda: Design(External(6), Crank(rollers=3)).mechanism,
-    ),
     (
         '[wheel]\nz = 6\n[motion]\nlaw = "harmonic"\nalpha0_deg = 300',
         lambda: Design(External(6), motion=Motion(Harmonic(), 300)).motion(),
@@ -171,12 +154,10 @@ def test_a_wrong_value_raises_what_a_file_with_it_gets(text, make, tmp_path):
     "make",
     [
         lambda: Motion("cycloidal"),
-        lambda: Motion(Cycloidal),
         lambda: Design(6),
         lambda: Design(External(6), size=100.0),
-        lambda: Design(External(6), load=Limits(velocity_max=1)),
     ],
-    ids=range(5),
+    ids=range(3),
 )
 def test_another_object_is_refused_where_it_is_given(make):
     """A word of the file, a class or a number would else fail late, or be taken for nothing."""
@@ -189,12 +170,10 @@ def test_another_object_is_refused_where_it_is_given(make):
     [
         (lambda d: d.drawing("whel"), '--part whel: .*did you mean "wheel"'),
         (lambda d: d.drawing("gears"), "--part gears: .*crank.* has no gears"),
-        (lambda d: d.part_table("whel"), '--part whel: .*did you mean "wheel"'),
         (lambda d: d.part_table("crank"), "--part crank is a drawing"),
         (lambda d: d.slot(-1.0), "--tolerance -1: must be above 0, at most 5 mm"),
-        (lambda d: d.motion(1), "--samples 1: must be at least 2"),
     ],
-    ids=range(6),
+    ids=range(4),
 )
 def test_a_wrong_question_is_refused(ask, said):
     with pytest.raises(GenevaError, match=said):
@@ -239,22 +218,11 @@ def test_one_key_changed(key, value, default):
         assert changed.with_(key, None).spec.table(table)[name] == default
 
 
-def test_a_change_is_the_machine_made_with_it():
-    assert (
-        FULL.with_("wheel.z", 8).peaks
-        == Design(External(8), motion=FULL.spec.motion, load=FULL.spec.load).peaks
-    )
-    slow = DESIGNS["side-crank-z6"]()
-    assert slow.with_("drive.A", 0.3).peaks == Design(External(6), SideCrank(A=0.3)).peaks
-
-
 @pytest.mark.parametrize(
     ("key", "value", "said"),
     [
         ("wheel.zz", 8, r"unknown key zz in \[wheel\] .*known: z, held_by"),
-        ("wheel.axes_deg", 80, r"unknown key axes_deg in \[wheel\]"),
         ("motion.lamda", 0.2, r'unknown key lamda in \[motion\] \(did you mean "lambda"\?\)'),
-        ("motion.lambda_", 0.2, r'unknown key lambda_ in \[motion\] \(did you mean "lambda"\?\)'),
         ("driver.n_rpm", 50, r"this spec has no \[driver\]"),
         ("n_rpm", 50, r"this spec has no \[n_rpm\]"),
         ("drive.n_rpm", -1, r"n_rpm = -1 must be above 0"),
@@ -335,11 +303,6 @@ def test_every_name_can_be_imported():
         assert scope[name] is getattr(geneva_cli, name), name
         if isinstance(scope[name], type):
             assert inspect.getdoc(scope[name]), name
-
-
-def test_every_kind_has_its_name_in_the_package():
-    kinds = (registry.GEARINGS, registry.DRIVES, registry.LAWS)
-    assert {path.partition(":")[2] for k in kinds for path in k.values()} <= set(geneva_cli.__all__)
 
 
 # What the interpreter shows, and what it takes

@@ -63,10 +63,8 @@ ALONE = {
     "study.law_values",
     "kept",
     "specfile.template",
-    "specfile.designs",
     "specfile.keys",
     "specfile.meanings",
-    "specfile.json_schema",
     "drawings.catalogue",
 }
 # A kind's names; "table" is a law, and also what people are shown.
@@ -176,7 +174,6 @@ ASKS = {
 NAMED = {
     "specfile.template": {"stop"},  # to be an example of the kind
     "study.synth.reading": {"stop"},  # the key of a wheel
-    "study.target": {"stop"},  # the key of a wheel
     "study.verdicts": {"stop"},  # a label
 }
 

@@ -48,7 +48,7 @@ def names(room, folder):
     """What names a kind in a test: its module or design, its name in any writing, its key."""
     yield rf"{room}\.{folder}"
     if room == "extras":
-        own = load_named(f"extras.{folder}:EXTRA").laws
+        own = load_named(f"extras.{folder}:LAWS")
     else:
         yield from (rf"\b{path.stem}\b" for path in designs(folder))
         yield from keys(folder)

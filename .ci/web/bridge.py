@@ -11,7 +11,7 @@ import zipfile
 from geneva_cli.design import Design, load
 from geneva_cli.errors import GenevaError
 from geneva_cli.output import animate, show_document
-from geneva_cli.specfile import designs
+from geneva_cli.specfile import template as designs
 from geneva_cli.specfile.template import KINDS, example, template
 from geneva_cli.study.animation.turning_scene import scene
 from geneva_cli.study.document import document

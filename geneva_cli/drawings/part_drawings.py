@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.plates import Group, Member, in_place, placed
+from geneva_cli.geometry.plates import Group, Member, in_place
 from geneva_cli.geometry.shapes import (
     Arc,
     Circle,
@@ -21,6 +21,7 @@ from geneva_cli.geometry.shapes import (
     bounds,
     closed,
     joined,
+    placed,
     turned,
 )
 from geneva_cli.geometry.sheet import Annotations, Drawing, LevelDistance
@@ -113,8 +114,7 @@ def gears(parts: EdgedParts) -> Drawing:
 
     The crank's axis is the origin. Raises GenevaError for a machine without gears.
     """
-    from geneva_cli.parts.gears.gear_curves import required_gears
-    from geneva_cli.parts.gears.gear_pair import FINE
+    from geneva_cli.parts.gears.gear_pair import FINE, required_gears
 
     mechanism, name = parts.mechanism, "gears"
     if mechanism.spec.gears or not mechanism.spec.drive.round_gears:

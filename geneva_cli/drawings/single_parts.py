@@ -6,7 +6,7 @@ import math
 from typing import NamedTuple
 
 from geneva_cli.drawings.sheet.packing import Block, packed_apart
-from geneva_cli.geometry.plates import Group, Member, Plate, Solid, lowered, solids
+from geneva_cli.geometry.plates import Group, Member, Plate, Solid, solids
 from geneva_cli.geometry.shapes import bounds_of
 from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.geometry.sphere_shell import Shell
@@ -39,8 +39,8 @@ def _laid(whole: list[Plate]) -> list[Member]:
         # the bed grows by a tenth until all parts fit
         side *= 1.1
     return [
-        Member(lowered(one), (block.x0 - before.x0, block.y0 - before.y0))
-        for one, before, block in zip(whole, blocks, placed, strict=True)
+        Member(one._replace(low=0.0, high=one.thickness), (to.x0 - before.x0, to.y0 - before.y0))
+        for one, before, to in zip(whole, blocks, placed, strict=True)
     ]
 
 

@@ -10,8 +10,7 @@ from geneva_cli.drives.pin_path import PinPath
 from geneva_cli.errors import GenevaError, refuse_text
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.engagement import Engagement, Load, Vector, cross
-from geneva_cli.motion.path_and_motion import LawMotion, refuse_alpha0
-from geneva_cli.motion.slot_and_motion import SolvedPath, SolvedPathSlot
+from geneva_cli.motion.given_motion import LawMotion, SolvedPath, SolvedPathSlot, refuse_alpha0
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import larger, parameter
 from geneva_cli.numerics.jet import Number

@@ -119,7 +119,7 @@ class Transmission(Drive, kw_only=True):
 
     def _curved(self, wheel: Gearing, motion: Motion, L: float) -> Plan:
         """Plan of curved slots, solved for from a law and the crank's circle."""
-        from geneva_cli.motion import path_and_motion as solved
+        from geneva_cli.motion import given_motion as solved
 
         half = wheel.half_motion_deg(wheel.step)
         self._refuse_reach(wheel, half)

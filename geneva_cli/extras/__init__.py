@@ -1,6 +1,7 @@
 """Answers that not every user needs.
 
-The list holds folders. Each has ``EXTRA``, its record, and imports nothing else.
+The list holds folders. Each names the functions of its ``ANSWERS`` and the classes of its ``LAWS``,
+and imports nothing.
 """
 
 FOLDERS = (

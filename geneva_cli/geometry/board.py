@@ -1,25 +1,18 @@
-"""The lines and texts that are already on a drawing, as chords, to keep new ones clear of them."""
+"""The lines and texts that are already on a drawing, as chords, to keep new ones clear of them.
+
+Chords are complex numbers, (n, 2): their starts and ends.
+"""
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from geneva_cli.geometry.shapes import (
-    Arc,
-    Circle,
-    Contour,
-    Line,
-    Point,
-    Segment,
-    Shape,
-    legs,
-    points,
-    segment_length,
-    two_arcs,
-)
+from geneva_cli.geometry import shapes
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line, Point, Segment, Shape
 from geneva_cli.geometry.sheet import ABOVE, BELOW, Label, Measure
 from geneva_cli.numerics.arrays import Array
 
@@ -33,7 +26,7 @@ class Board:
     def __init__(self) -> None:
         self._texts: list[Label] = []
         self._swept: list[Arc] = []  # dimension lines that are arcs
-        none: Array = np.empty((0, 4))
+        none: Array = np.empty((0, 2), dtype=complex)
         self._drawn, self._part = none, none  # straight lines of the part; all chords of it
         self._ruled = none  # straight dimension lines
         self._main = none  # dimension lines, leaders and arrows
@@ -48,11 +41,6 @@ class Board:
             lines = _chords(piece for piece in shape.segments if isinstance(piece, Line))
             self._drawn = np.concatenate((self._drawn, lines))
 
-    def write(self, label: Label) -> None:
-        """Add a text."""
-        self._texts.append(label)
-        self._all = np.concatenate((self._all, _ring(label.corners)))
-
     def put(self, measure: Measure) -> None:
         """Add a dimension: its lines, arrows and text."""
         self._all = np.concatenate((self._all, _lines(measure)))
@@ -63,7 +51,7 @@ class Board:
             self._ruled = np.concatenate((self._ruled, _chords([own])))
         elif isinstance(own, Arc):
             self._swept.append(own)
-        self.write(measure.label)
+        self._texts.append(measure.label)
 
     def first(self, candidates: Iterable[Measure], gap: float = 0.6) -> Measure | None:
         """Return the free dimension with the fewest crossings, and add it; None if none is free.
@@ -95,7 +83,7 @@ class Board:
         if isinstance(own, Arc):
             for other in self._swept:  # arcs side by side
                 same = math.dist(own.centre, other.centre) < IN_LINE
-                turn = 0.5 * (sum(legs(other)) - sum(legs(own))) % math.tau
+                turn = 0.5 * (sum(shapes.legs(other)) - sum(shapes.legs(own))) % math.tau
                 overlap = 0.5 * (abs(own.sweep) + abs(other.sweep)) - min(turn, math.tau - turn)
                 near = abs(own.radius - other.radius) < BESIDE
                 if same and near and overlap * own.radius > IN_LINE:
@@ -105,33 +93,32 @@ class Board:
                 return False
             if _runs_along(own, self._ruled, BESIDE):
                 return False
-        if crosses(measure.label, self._all, gap):
+        if _crosses(measure.label, self._all, gap):
             return False
-        lines = np.concatenate((_lines(measure), _ring(measure.label.corners)))
-        return not any(crosses(text, lines, 0.6) for text in self._texts)
+        lines = _lines(measure)
+        return not any(_crosses(text, lines, 0.6) for text in self._texts)
 
     def box(self) -> tuple[float, float, float, float]:
         """Return the bounding box of all lines and texts: x0, y0, x1, y1."""
-        x, y = self._all[:, ::2], self._all[:, 1::2]
+        x, y = self._all.real, self._all.imag
         return float(x.min()), float(y.min()), float(x.max()), float(y.max())
 
 
 def chords(shape: Shape) -> Array:
-    """Return the chords of a shape, (n, 4)."""
-    return _chords(two_arcs(shape) if isinstance(shape, Circle) else shape.segments)
+    """Return the chords of a shape."""
+    return _chords(shapes.two_arcs(shape) if isinstance(shape, Circle) else shape.segments)
 
 
 def _beside(line: Line, lines: Array) -> tuple[float, Array, Array]:
     """Return a line's length, and how far chords are along and across it, (n, 2) both."""
-    (x, y), (u, v) = line
-    long = math.dist(*line)
-    c, s = ((u - x) / long, (v - y) / long) if long else (1.0, 0.0)
-    dx, dy = lines[:, ::2] - x, lines[:, 1::2] - y
-    return long, dx * c + dy * s, dy * c - dx * s
+    start, long = complex(*line.start), math.dist(*line)
+    ahead = (complex(*line.end) - start) / long if long else 1.0
+    seen = (lines - start) * np.conj(ahead)
+    return long, seen.real, seen.imag
 
 
 def _runs_along(line: Line, lines: Array, apart: float) -> bool:
-    """Return True if a line runs beside one of others, (n, 4), with less than ``apart`` between."""
+    """Return True if a line runs beside one of others, with less than ``apart`` between."""
     long, along, across = _beside(line, lines)
     # a wheel of many slots has thousands of lines: reductions over pairs would take most of a sheet
     (start, end), (one, other) = along.T, np.abs(across).T
@@ -148,27 +135,26 @@ def _grazes(piece: Segment, lines: Array) -> bool:
     slope = rise / np.where(run == 0.0, 1.0, run)
     steep = np.abs(rise) > 0.2 * np.abs(run)  # above 11 degrees lines are seen to cross
     # the part of each chord between the ends of the line
-    first = np.clip(along.min(axis=1), 0.0, long)
-    last = np.clip(along.max(axis=1), 0.0, long)
-    levels = (across[:, 0] + slope * (end - along[:, 0]) for end in (first, last))
-    low, high = np.sort(np.stack(list(levels)), axis=0)
-    near = (low < 1.5) & (high > -1.5) & (last - first > IN_LINE)
-    return long >= IN_LINE and bool((near & ~steep).any())
+    ends = np.clip((along.min(axis=1), along.max(axis=1)), 0.0, long)
+    levels = across[:, 0] + slope * (ends - along[:, 0])
+    near = (levels.min(axis=0) < 1.5) & (levels.max(axis=0) > -1.5)
+    return long >= IN_LINE and bool((near & (ends[1] - ends[0] > IN_LINE) & ~steep).any())
 
 
 def _chords(pieces: Iterable[Segment]) -> Array:
-    rows: list[tuple[float, float, float, float]] = []
+    rows: list[tuple[complex, complex]] = []
     for piece in pieces:
         # chords of at most 1.5 mm
-        count = 1 if isinstance(piece, Line) else max(1, math.ceil(segment_length(piece) / 1.5))
-        ends = points(piece, count)
-        rows += [(*p, *q) for p, q in zip(ends, ends[1:], strict=False)]
-    return np.array(rows).reshape(-1, 4)
+        long = 0.0 if isinstance(piece, Line) else shapes.segment_length(piece)
+        ends = [complex(*p) for p in shapes.points(piece, max(1, math.ceil(long / 1.5)))]
+        rows += zip(ends, ends[1:], strict=False)
+    return np.array(rows, dtype=complex).reshape(-1, 2)
 
 
 def _lines(measure: Measure) -> Array:
-    """Return the chords of a dimension's lines and arrows."""
-    return np.concatenate([_chords(measure.lines), *(_ring(one.corners) for one in measure.arrows)])
+    """Return the chords of a dimension's lines, arrows and text."""
+    rings = [*(one.corners for one in measure.arrows), measure.label.corners]
+    return np.concatenate([_chords(measure.lines), *map(_ring, rings)])
 
 
 def _main(measure: Measure) -> Array:
@@ -177,52 +163,46 @@ def _main(measure: Measure) -> Array:
     tip = 0.5  # mm at an end that may lie on another line
     rows = [_chords([piece]) for piece in measure.main_lines]
     for arrow in measure.arrows:
-        _, left, right = arrow.corners
-        back = 0.5 * (left[0] + right[0]), 0.5 * (left[1] + right[1])
-        rows.append(_chords([Line(arrow.tip, back)]))
+        _, left, right = (complex(*corner) for corner in arrow.corners)
+        rows.append(np.array([[complex(*arrow.tip), 0.5 * (left + right)]]))
     for chain in rows:
-        for end, other in ((slice(0, 2), slice(2, 4)), (slice(2, 4), slice(0, 2))):
-            row = chain[0 if end.start == 0 else -1]
-            long = float(np.hypot(*(row[other] - row[end])))
-            if long > 2.0 * tip:
-                row[end] += tip / long * (row[other] - row[end])
+        for row, end in ((chain[0], 0), (chain[-1], 1)):
+            inwards = row[1 - end] - row[end]
+            if abs(inwards) > 2.0 * tip:
+                row[end] += tip * inwards / abs(inwards)
     return np.concatenate(rows)
 
 
 def _crossings(some: Array, others: Array) -> int:
-    """Return how many pairs of chords, (m, 4) and (n, 4), cross."""
-    a, b = some[:, None, :2], some[:, None, 2:]
-    c, d = others[None, :, :2], others[None, :, 2:]
+    """Return how many pairs of chords, m and n, cross."""
+    a, b, c, d = some[:, :1], some[:, 1:], others[:, 0], others[:, 1]
     apart = _side(a, b, c) * _side(a, b, d) < 0.0
     return int((apart & (_side(c, d, a) * _side(c, d, b) < 0.0)).sum())
 
 
 def _side(a: Array, b: Array, p: Array) -> Array:
     """Return on which side of lines from a to b points are: above 0 on the left."""
-    u, v = b - a, p - a
-    return np.asarray(u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0])
+    return np.asarray(((b - a).conj() * (p - a)).imag)
 
 
 def _ring(corners: Sequence[Point]) -> Array:
-    """Return the sides of a polygon, (n, 4)."""
-    return np.array([(*p, *q) for p, q in zip(corners, (*corners[1:], corners[0]), strict=True)])
+    """Return the sides of a polygon."""
+    ends = np.array([complex(*corner) for corner in corners])
+    return np.column_stack((ends, np.roll(ends, -1)))
 
 
-def crosses(label: Label, lines: Array, gap: float = 0.0) -> bool:
-    """Return True if chords, (n, 4), come nearer to a text's box than ``gap`` mm."""
+def _crosses(label: Label, lines: Array, gap: float) -> bool:
+    """Return True if chords come nearer to a text's box than ``gap`` mm."""
     near = np.ones(len(lines), dtype=bool)  # the few that may
-    for k, places in enumerate(zip(*label.corners, strict=True)):
-        one, other = lines[:, k], lines[:, k + 2]
-        near &= np.minimum(one, other) < max(places) + 2.0 * gap
-        near &= np.maximum(one, other) > min(places) - 2.0 * gap
-    lines = lines[near]
-    c, s = math.cos(label.turn), math.sin(label.turn)
-    x, y = lines[:, ::2] - label.at[0], lines[:, 1::2] - label.at[1]
-    along, up = c * x + s * y, c * y - s * x
-    low, high = np.zeros(len(lines)), np.ones(len(lines))
+    corners = _ring(label.corners)
+    for own, (one, other) in ((corners.real, lines.real.T), (corners.imag, lines.imag.T)):
+        near &= np.minimum(one, other) < own.max() + 2.0 * gap
+        near &= np.maximum(one, other) > own.min() - 2.0 * gap
+    seen = (lines[near] - complex(*label.at)) * cmath.rect(1.0, -label.turn)
+    low, high = np.zeros(len(seen)), np.ones(len(seen))
     limits = (
-        (along, -gap, label.width + gap),
-        (up, -BELOW * label.height - gap, ABOVE * label.height + gap),
+        (seen.real, -gap, label.width + gap),
+        (seen.imag, -BELOW * label.height - gap, ABOVE * label.height + gap),
     )
     for place, least, most in limits:
         start, step = place[:, 0], place[:, 1] - place[:, 0]

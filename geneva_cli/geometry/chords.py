@@ -57,13 +57,11 @@ def _smooth(curves: Curves, a: float, b: float, tolerance_mm: float, fewest: boo
     count = max(1, int(np.ceil(total / np.sqrt(tolerance_mm))))
     if count > MANY_NODES or not fewest:
         count += count // (50 if fewest else 10)  # so that the first attempt is enough
-    best, too_few = None, 0
+    best, too_few, asked = None, 0, f"--tolerance {tolerance_mm / AIM:g} mm"
     for _ in range(20):  # attempts; a few are enough but at the limit of double precision
         if not count < ROWS_MAX:
-            raise GenevaError(
-                f"--tolerance {tolerance_mm / AIM:g} mm takes more than {ROWS_MAX} rows: "
-                f"use for example {2.0 * (total / ROWS_MAX) ** 2:.1g} mm"
-            )
+            text = f"use for example {2.0 * (total / ROWS_MAX) ** 2:.1g} mm"
+            raise GenevaError(f"{asked} takes more than {ROWS_MAX} rows: {text}")
         places = np.interp(np.linspace(0.0, 1.0, count + 1), fraction, grid)
         for _ in range(6):  # rounds that move this number of nodes to where they are needed
             places[0], places[-1] = a, b
@@ -88,9 +86,7 @@ def _smooth(curves: Curves, a: float, b: float, tolerance_mm: float, fewest: boo
             return best
     if best is not None:
         return best
-    raise GenevaError(
-        f"--tolerance {tolerance_mm / AIM:g} mm is finer than doubles can show at this size"
-    )
+    raise GenevaError(f"{asked} is finer than doubles can show at this size")
 
 
 def _respread(places: Array, root: Array) -> tuple[Array, Array]:

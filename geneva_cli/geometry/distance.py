@@ -10,7 +10,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from geneva_cli.geometry.shapes import Arc, Contour, Line, Segment, about
+from geneva_cli.geometry.shapes import Arc, Contour, Line
 from geneva_cli.numerics.arrays import Array, Mask, Number, Whole
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 
@@ -191,26 +191,3 @@ def from_segments(outline: Polyarc, start: Array, end: Array, reach: float) -> A
     out = np.full(len(start), reach)
     np.minimum.at(out, row, np.minimum(from_ends.min(axis=0), corners.min(axis=0)))
     return out
-
-
-def short_pieces(contours: Iterable[Contour], step: float) -> Polyarc:
-    """Return an outline in short pieces: arcs of at most ``step`` radians, and parts of lines."""
-    pieces: list[Segment] = []
-    for contour in contours:
-        for segment in contour.segments:
-            if isinstance(segment, Arc):
-                (cx, cy), sweep = segment.centre, segment.sweep
-                start = math.atan2(segment.start[1] - cy, segment.start[0] - cx)
-                count = max(1, math.ceil(abs(sweep) / step))
-                for i in range(count):
-                    turn = start + sweep * i / count
-                    pieces.append(about((cx, cy), segment.radius, turn, sweep / count))
-                continue
-            (x0, y0), (x1, y1) = segment.start, segment.end
-            before, count = segment.start, math.ceil(0.5 * math.pi / step)
-            for i in range(1, count + 1):
-                share = i / count
-                after = x0 + (x1 - x0) * share, y0 + (y1 - y0) * share
-                pieces.append(Line(before, after))
-                before = after
-    return Polyarc([Contour("", tuple(pieces))])

@@ -15,7 +15,7 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.plates import with_material_left
-from geneva_cli.geometry.shapes import Arc, Contour, Line, Point, at, closed
+from geneva_cli.geometry.shapes import Arc, Contour, Line, Point, Segment, at, closed, flipped
 from geneva_cli.numerics.arrays import Array, Mask, Whole
 
 JOINED_MM = 1e-3  # ends that are nearer to each other are one
@@ -23,15 +23,11 @@ SHORTEST_MM = 1e-6  # shorter pieces are left out
 
 
 class Loop(NamedTuple):
-    """A closed outline with the material on its left; ``depth`` outlines lie around it."""
+    """A closed outline with the material on its left; ``depth`` outlines lie around it, an odd
+    number around a hole."""
 
     contour: Contour
     depth: int
-
-    @property
-    def is_hole(self) -> bool:
-        """True if the material lies outside."""
-        return self.depth % 2 == 1
 
 
 def loops(pieces: Sequence[Line | Arc]) -> list[Loop]:
@@ -46,15 +42,12 @@ def loops(pieces: Sequence[Line | Arc]) -> list[Loop]:
     partner = _partners([point for piece in kept for point in (piece.start, piece.end)])
     used, contours = [False] * len(kept), []
     for first in range(len(kept)):
-        chain: list[Line | Arc] = []
+        chain: list[Segment] = []
         end = 2 * first  # the end from which a piece is run through
         while not used[end // 2]:
             piece = kept[end // 2]
             used[end // 2] = True
-            if end % 2:
-                piece = piece._replace(start=piece.end, end=piece.start)
-                piece = piece._replace(bulge=-piece.bulge) if isinstance(piece, Arc) else piece
-            chain.append(piece._replace(start=chain[-1].end) if chain else piece)
+            chain.append(flipped(piece) if end % 2 else piece)
             end = partner[end ^ 1]
         if chain:
             contours.append(with_material_left(closed("", chain), True))
@@ -120,10 +113,8 @@ def _partners(ends: list[Point]) -> list[int]:
                 f"away, at {shown(nearest)}; ends are joined up to {JOINED_MM:g} mm"
             )
         if len(near) > 1:
-            raise GenevaError(
-                f"{len(near) + 1} ends meet at {shown(point)}: an outline does not branch; leave "
-                "out the lines that bound no part"
-            )
+            text = "an outline does not branch; leave out the lines that bound no part"
+            raise GenevaError(f"{len(near) + 1} ends meet at {shown(point)}: {text}")
         out.append(near[0])
     return out
 
@@ -143,57 +134,47 @@ def _refuse_crossings(contours: list[Contour]) -> None:
         i, j = i[j > i], j[j > i]
         place = _crossing(outline, i, j, (following[i] == j) | (following[j] == i))
         if place is not None:
-            raise GenevaError(
-                f"outlines cross at {shown(place)}: an outline must not cross itself or another"
-            )
+            text = "an outline must not cross itself or another"
+            raise GenevaError(f"outlines cross at {shown(place)}: {text}")
 
 
 def _crossing(outline: Polyarc, i: Whole, j: Whole, adjacent: Mask) -> Point | None:
     """Return a place at which pieces i and j cross away from a common end; None without one."""
-    one, two = outline.subset(i), outline.subset(j)
-    for x, y in _meetings(one, two):
-        known = np.isfinite(x) & np.isfinite(y)
-        px, py = np.where(known, x, 0.0), np.where(known, y, 0.0)
-        seen = [some.distances(px, py) for some in (one, two)]
-        inside = known & np.all([(away < SHORTEST_MM) & on for away, _, on, _ in seen], axis=0)
-        # at a joint that is rounded, two tangent pieces cross, but at hardly any angle
-        normals = []
-        for some in (one, two):
+    pairs = [outline.subset(i), outline.subset(j)]
+    for place in _meetings(*pairs):
+        known = np.isfinite(place)
+        p, inside, normals, ends = np.where(known, place, 0.0), known, [], []
+        for some in pairs:
+            away, _, on, _ = some.distances(p.real, p.imag)
+            inside = inside & on & (away < SHORTEST_MM)
+            # at a joint that is rounded, two tangent pieces cross, but at hardly any angle
             radius = np.where(some.arc, some.radius, 1.0)
-            normals.append(np.where(some.arc, (px - some.cx) / radius, some.mx))
-            normals.append(np.where(some.arc, (py - some.cy) / radius, some.my))
-        ax, ay, bx, by = normals
-        ends = [(s.x0, s.y0, s.x1, s.y1) for s in (one, two)]
-        near = [
-            np.minimum(np.hypot(a - px, b - py), np.hypot(c - px, d - py)) for a, b, c, d in ends
-        ]
-        depth = np.abs(ax * by - ay * bx) * np.maximum(*near)
+            from_centre = (p - some.cx - 1j * some.cy) / radius
+            normals.append(np.where(some.arc, from_centre, some.mx + 1j * some.my))
+            both = (some.x0 + 1j * some.y0, some.x1 + 1j * some.y1)
+            ends.append(np.minimum(*(np.abs(end - p) for end in both)))
+        depth = np.abs((normals[0].conj() * normals[1]).imag) * np.maximum(*ends)
         k = np.flatnonzero(inside & ~(adjacent & (depth < 4.0 * JOINED_MM)))
         if len(k):
-            return float(px[k[0]]), float(py[k[0]])
+            return float(p[k[0]].real), float(p[k[0]].imag)
     return None
 
 
 @np.errstate(all="ignore")
-def _meetings(one: Polyarc, two: Polyarc) -> list[tuple[Array, Array]]:
-    """Return the points at which whole lines and circles cross; not a number where they do not."""
-    both, lines = one.arc & two.arc, ~one.arc & ~two.arc
+def _meetings(one: Polyarc, two: Polyarc) -> list[Array]:
+    """Return the points, complex, at which whole lines and circles cross; NaN where they do not."""
     # the line through both points: a piece itself, or the common chord of two circles
-    dx, dy = two.cx - one.cx, two.cy - one.cy
-    square = dx * dx + dy * dy
-    along = 0.5 * (square + one.radius**2 - two.radius**2) / square
-    x0 = np.where(both, one.cx + along * dx, np.where(one.arc, two.x0, one.x0))
-    y0 = np.where(both, one.cy + along * dy, np.where(one.arc, two.y0, one.y0))
-    ux = np.where(both, -dy, np.where(one.arc, two.dx, one.dx))
-    uy = np.where(both, dx, np.where(one.arc, two.dy, one.dy))
-    size = np.hypot(ux, uy)
-    ux, uy = ux / size, uy / size
-    cx, cy = np.where(one.arc, one.cx, two.cx), np.where(one.arc, one.cy, two.cy)
-    radius = np.where(one.arc, one.radius, two.radius)
-    foot = (cx - x0) * ux + (cy - y0) * uy
-    off = (cx - x0) * uy - (cy - y0) * ux
-    half = np.sqrt(radius * radius - off * off)
-    cross = ux * two.dy - uy * two.dx
-    straight = ((two.x0 - x0) * two.dy - (two.y0 - y0) * two.dx) / cross
-    at = [np.where(lines, straight, foot + sign * half) for sign in (1.0, -1.0)]
-    return [(x0 + t * ux, y0 + t * uy) for t in at]
+    a, b = one.cx + 1j * one.cy, two.cx + 1j * two.cy
+    square = np.abs(b - a) ** 2
+    chord = a + 0.5 * (square + one.radius**2 - two.radius**2) / square * (b - a)
+    both, lines = one.arc & two.arc, ~one.arc & ~two.arc
+    first, second = one.x0 + 1j * one.y0, two.x0 + 1j * two.y0
+    start = np.where(both, chord, np.where(one.arc, second, first))
+    along, other = one.dx + 1j * one.dy, two.dx + 1j * two.dy
+    ahead = np.where(both, 1j * (b - a), np.where(one.arc, other, along))
+    ahead /= np.abs(ahead)
+    seen = (np.where(one.arc, a, b) - start) * ahead.conj()
+    half = np.sqrt(np.where(one.arc, one.radius, two.radius) ** 2 - seen.imag**2)
+    straight = ((second - start).conj() * other).imag / (ahead.conj() * other).imag
+    at = [np.where(lines, straight, seen.real + sign * half) for sign in (1.0, -1.0)]
+    return [start + t * ahead for t in at]

@@ -45,9 +45,7 @@ def linear(
     aside = (beyond or 0.5 * LENGTH) + CLEAR  # of a text
     turns = (turn + math.pi, turn) if inside else (turn, turn + math.pi)
     for level in levels:
-        arrows = tuple(
-            Arrow(at(along, level), out) for (along, _), out in zip((a, b), turns, strict=True)
-        )
+        arrows = Arrow(at(a[0], level), turns[0]), Arrow(at(b[0], level), turns[1])
         extensions = []
         for along, across in (a, b):
             side = math.copysign(1.0, level - across)
@@ -89,23 +87,16 @@ def angular(
     for radius in radii:
         inside = radius * wide > 3.0 * LENGTH
         spare = 0.0 if inside else 2.5 * LENGTH / radius
-        sides = [Line(polar(ORIGIN, begin, leg), polar(ORIGIN, radius + PAST, leg)) for leg in legs]
-        tilt = 0.5 * LENGTH / radius  # an arrow's back lies on the arc
-        quarter = 0.5 * math.pi
-        turns = (
-            (first - quarter + tilt, last + quarter - tilt)
-            if inside
-            else (first + quarter - tilt, last - quarter + tilt)
-        )
-        arrows = tuple(
-            Arrow(polar(ORIGIN, radius, leg), turn) for leg, turn in zip(legs, turns, strict=True)
-        )
+        starts = [polar(ORIGIN, begin, leg) for leg in legs]
+        sides = [
+            Line(p, polar(ORIGIN, radius + PAST, leg)) for p, leg in zip(starts, legs, strict=True)
+        ]
+        # an arrow's back lies on the arc
+        lean = (0.5 * math.pi - 0.5 * LENGTH / radius) * (1.0 if inside else -1.0)
+        turned = (first, first - lean), (last, last + lean)
+        arrows = tuple(Arrow(polar(ORIGIN, radius, leg), turn) for leg, turn in turned)
         middle = 0.5 * (first + last)
-        points = (
-            ORIGIN,
-            *(polar(ORIGIN, begin, leg) for leg in legs),
-            polar(ORIGIN, radius, middle),
-        )
+        points = ORIGIN, *starts, polar(ORIGIN, radius, middle)
         for fraction in (0.5, 0.3, 0.7, -0.3, 1.3):
             at = first + fraction * wide if inside else middle
             start, end = min(first - spare, at), max(last + spare, at)
@@ -147,10 +138,9 @@ def around() -> list[float]:
     return sorted(directions, key=lambda a: round(abs(abs(math.sin(2.0 * a)) - 0.9), 6))
 
 
-def within(start: float, end: float, count: int = 9) -> list[float]:
+def within(start: float, end: float) -> list[float]:
     """Return directions between two, the middle ones first."""
-    fractions = sorted(((k + 0.5) / count for k in range(count)), key=lambda s: abs(s - 0.5))
-    angles = [start + s * (end - start) for s in fractions]
+    angles = [start + k / 18 * (end - start) for k in (9, 7, 11, 5, 13, 3, 15, 1, 17)]
     # leaders within 0.14 radians of horizontal or vertical would lie on centre lines
     return sorted(angles, key=lambda a: abs(math.sin(2.0 * a)) < 2.0 * 0.14)
 

@@ -7,39 +7,29 @@ milling cutter reaches all of an outline if the offset by its radius keeps that 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 import numpy as np
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.geometry import shapes
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.plates import Plate, plates, with_material_left
-from geneva_cli.geometry.shapes import (
-    Arc,
-    Circle,
-    Contour,
-    Layer,
-    Line,
-    Point,
-    Segment,
-    Shape,
-    as_contour,
-    at,
-    closed,
-    directions,
-    fraction_at,
-    segment_length,
-)
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Layer, Line, Point, Segment
 from geneva_cli.geometry.sheet import SHORTEST_MM, Drawing, prepared
 from geneva_cli.numerics.tolerances import SAME_CUT_MM
 from geneva_cli.spec.rules import TOOL_MM, require_mm
 
+TOO_WIDE = "it is wider than a rounding, or cuts off a face of a part; use a smaller value"
+
 
 class Closed(GenevaError):
-    """An offset that has no path; ``at`` is the place."""
+    """An offset that has no path: at a place, ``what`` is narrower than the cut."""
 
-    def __init__(self, text: str, at: Point) -> None:
-        super().__init__(text)
-        self.at = at
+    def __init__(self, layer: Layer, at: Point, what: str = "a gap") -> None:
+        x, y = at
+        super().__init__(f"near x = {x:.4g}, y = {y:.4g} on {layer} {what} is narrower")
+        self.at, self.what = at, what
 
 
 def paths(drawing: Drawing, kerf: float) -> Drawing:
@@ -52,14 +42,14 @@ def paths(drawing: Drawing, kerf: float) -> Drawing:
     outside = {hole: False for plate in cut for hole in plate.holes}
     outside |= {plate.outline: True for plate in cut}
     try:
-        shapes = tuple(
+        moved = tuple(
             offset(shape, outside[shape], 0.5 * kerf) if shape in outside else shape
             for shape in drawing.shapes
         )
     except Closed as error:
         raise GenevaError(f"--kerf {kerf:g}: {error}; use a narrower one") from None
     title = f"{drawing.title}, kerf {kerf:g} mm"
-    return drawing._replace(title=title, shapes=shapes, solid=None, shells=None)
+    return drawing._replace(title=title, shapes=moved, solid=None, shells=None)
 
 
 def offset(shape: Contour | Circle, outside: bool, distance: float) -> Contour | Circle:
@@ -67,32 +57,44 @@ def offset(shape: Contour | Circle, outside: bool, distance: float) -> Contour |
     if isinstance(shape, Circle):
         radius = shape.radius + (distance if outside else -distance)
         if radius <= SHORTEST_MM:
-            text = f"the hole of {2.0 * shape.radius:.6g} mm on {shape.layer} is too narrow"
-            raise Closed(text, shape.centre)
+            raise Closed(shape.layer, shape.centre, f"a hole of {2.0 * shape.radius:.6g} mm")
         return shape._replace(radius=radius)
-    contour, layer = _cleaned(shape, outside), shape.layer
-    own = lines_and_arcs(contour, "--kerf works on lines and arcs only: omit --curves spline")
-    for piece in own:
-        if isinstance(piece, Arc) and piece.bulge < 0.0 and piece.radius - distance <= SHORTEST_MM:
-            text = f"a hollow of radius {piece.radius:.6g} mm on {layer} is narrower than the cut"
-            raise Closed(text, at(piece, 0.5))
-    path = closed(layer, _joined(layer, own, distance))
-    around = math.fsum(map(segment_length, path.segments))
+    contour, own = _cleaned(shape, outside)
+    hollows = [piece for piece in own if isinstance(piece, Arc) and piece.bulge < 0.0]
+    tightest = min(hollows, key=lambda arc: arc.radius, default=None)
+    if tightest and tightest.radius - distance <= SHORTEST_MM:
+        text = f"an inner radius of {tightest.radius:.5g} mm"
+        raise Closed(shape.layer, shapes.at(tightest, 0.5), text)
+    path = shapes.closed(shape.layer, _joined(shape.layer, own, distance))
+    around = math.fsum(map(shapes.segment_length, path.segments))
     # four samples in the offset's length, but at most 50,000 for the path
     points = Polyarc([path]).samples(SAME_CUT_MM, max(distance / 4, around / 50_000))
     away = Polyarc([contour]).signed(points)
     if float(away.min()) < distance - SAME_CUT_MM:
         x, y = points[int(np.argmin(away))].tolist()
-        text = f"near x = {x:.4g}, y = {y:.4g} on {contour.layer} a gap is narrower than the cut"
-        raise Closed(text, (x, y))
+        raise Closed(shape.layer, (x, y))
     return path
 
 
-def _cleaned(outline: Contour, outside: bool) -> Contour:
-    """Return an outline, or a hole, without pieces that no file shows, its material on the left."""
+def _cleaned(outline: Contour, outside: bool) -> tuple[Contour, list[Line | Arc]]:
+    """Return an outline, or a hole, without pieces that no file shows, its material on the left.
+
+    With it go its pieces. Raises GenevaError for a cubic.
+    """
     (cleaned,) = prepared(Drawing("", (outline,))).shapes
-    assert isinstance(cleaned, Contour)
-    return with_material_left(cleaned, outside)
+    contour = with_material_left(cleaned, outside)
+    own = [piece for piece in contour.segments if isinstance(piece, Line | Arc)]
+    if len(own) < len(contour.segments):
+        raise GenevaError("--kerf and --cutter work on lines and arcs only: use --curves arcs")
+    return contour, own
+
+
+def _turns(own: list[Line | Arc]) -> Iterator[tuple[int, int, float]]:
+    """Yield each piece and the next one, by index, and the left turn between them, radians."""
+    for i, piece in enumerate(own):
+        k = (i + 1) % len(own)
+        ahead, back = shapes.directions(own[k])[0], shapes.directions(piece)[1]
+        yield i, k, math.remainder(ahead - back, math.tau)
 
 
 def _joined(layer: Layer, own: list[Line | Arc], distance: float) -> list[Segment]:
@@ -100,41 +102,25 @@ def _joined(layer: Layer, own: list[Line | Arc], distance: float) -> list[Segmen
     moved = [parallel(piece, -distance) for piece in own]
     starts, ends = [piece.start for piece in moved], [piece.end for piece in moved]
     around: dict[int, Arc] = {}
-    for i, (piece, other) in enumerate(zip(moved, [*moved[1:], moved[0]], strict=True)):
-        k = (i + 1) % len(moved)
-        turn = math.remainder(directions(other)[0] - directions(piece)[1], math.tau)
-        if math.dist(piece.end, other.start) < SHORTEST_MM:
-            continue
-        if turn > 0.0:
-            around[i] = Arc(piece.end, other.start, math.tan(0.25 * turn))
-            continue
-        try:
-            ends[i] = starts[k] = point = corner(own[i], own[k], -distance, 1e-3)
-            s, t = fraction_at(piece, point), fraction_at(other, point)
-            apart = math.dist(at(piece, s), at(other, t))
-            meet = apart < SHORTEST_MM and 0.0 < s <= 1.0 and 0.0 <= t < 1.0
-        except GenevaError:  # too sharp
-            meet = False
-        if not meet:
-            raise Closed(f"an inner corner of {layer} is narrower than the cut", piece.end)
     segments: list[Segment] = []
-    for i, (piece, start, end) in enumerate(zip(moved, starts, ends, strict=True)):
-        if (start, end) != (piece.start, piece.end):
-            if fraction_at(piece, start) >= fraction_at(piece, end):
-                text = f"a piece of {layer} is shorter than the cut is wide"
-                raise Closed(text, piece.start)
-            piece = between(piece, start, end)
-        segments += [piece, around[i]] if i in around else [piece]
+    place = ends[0]
+    try:
+        for i, k, turn in _turns(moved):
+            place = ends[i]
+            if math.dist(place, starts[k]) < SHORTEST_MM:
+                continue
+            if turn > 0.0:
+                around[i] = Arc(place, starts[k], math.tan(0.25 * turn))
+            else:
+                ends[i] = starts[k] = corner(own[i], own[k], -distance, 1e-3)
+        for i, piece in enumerate(moved):
+            place = piece.start
+            if (starts[i], ends[i]) != piece[:2]:
+                piece = between(piece, starts[i], ends[i])
+            segments += [piece, around[i]] if i in around else [piece]
+    except GenevaError:  # too sharp, or shorter than the cut is wide
+        raise Closed(layer, place) from None
     return segments
-
-
-def lines_and_arcs(shape: Shape, cubics: str) -> list[Line | Arc]:
-    """Return the pieces of a closed shape; raises GenevaError with a text for a cubic."""
-    pieces = as_contour(shape).segments
-    plain = [piece for piece in pieces if isinstance(piece, Line | Arc)]
-    if len(plain) < len(pieces):
-        raise GenevaError(cubics)
-    return plain
 
 
 def away(piece: Line | Arc, at: Point) -> tuple[float, Point]:
@@ -162,18 +148,18 @@ def corner(before: Line | Arc, after: Line | Arc, depth: float, sharpest: float 
     and the cosine of its turn, by default an angle of 26 degrees.
     """
     x, y = after.start
-    one, two = directions(before)[1], directions(after)[0]
+    one, two = shapes.directions(before)[1], shapes.directions(after)[0]
     ax, ay, bx, by = -math.sin(one), math.cos(one), -math.sin(two), math.cos(two)
     both = 1.0 + ax * bx + ay * by
     if both < sharpest:
-        raise _too_wide()
+        raise GenevaError(TOO_WIDE)
     if abs(ax * by - ay * bx) < 1e-6:  # radians: tangent pieces meet in the common normal
         return x + depth * (ax + bx) / both, y + depth * (ay + by) / both
     for _ in range(40):  # Newton's digits double each time: five steps are usual
         (d, (ux, uy)), (e, (vx, vy)) = away(before, (x, y)), away(after, (x, y))
         det = ux * vy - uy * vx
         if not det:  # so deep that both pieces are in one direction, to rounding
-            raise _too_wide()
+            raise GenevaError(TOO_WIDE)
         d, e = depth - d, depth - e
         dx, dy = (d * vy - e * uy) / det, (e * ux - d * vx) / det
         x, y = x + dx, y + dy
@@ -185,27 +171,21 @@ def corner(before: Line | Arc, after: Line | Arc, depth: float, sharpest: float 
 def parallel(piece: Line | Arc, depth: float) -> Line | Arc:
     """Return a piece moved to the left; raises GenevaError for an arc that turns inside out."""
     if isinstance(piece, Arc) and piece.bulge > 0.0 and piece.radius <= depth:
-        raise _too_wide()
+        raise GenevaError(TOO_WIDE)
     # ends are moved along their own normals: a flat arc's centre is far away
     ends = []
-    for (x, y), direction in zip((piece.start, piece.end), directions(piece), strict=True):
+    for (x, y), direction in zip((piece.start, piece.end), shapes.directions(piece), strict=True):
         ends.append((x - depth * math.sin(direction), y + depth * math.cos(direction)))
     return piece._replace(start=ends[0], end=ends[1])
 
 
 def between(piece: Line | Arc, start: Point, end: Point) -> Line | Arc:
     """Return a piece between two points of its line or circle; GenevaError if it runs back."""
-    part = fraction_at(piece, end) - fraction_at(piece, start)
+    part = shapes.fraction_at(piece, end) - shapes.fraction_at(piece, start)
     if part <= 0.0:
-        raise _too_wide()
+        raise GenevaError(TOO_WIDE)
     bend = {"bulge": math.tan(0.25 * piece.sweep * part)} if isinstance(piece, Arc) else {}
     return piece._replace(start=start, end=end, **bend)
-
-
-def _too_wide() -> GenevaError:
-    return GenevaError(
-        "it is wider than a rounding, or cuts off a face of a part; use a smaller value"
-    )
 
 
 def judged(drawing: Drawing, cutter_mm: float) -> tuple[str, list[str]]:
@@ -223,42 +203,30 @@ def judged(drawing: Drawing, cutter_mm: float) -> tuple[str, list[str]]:
 
 def _judge_plate(plate: Plate, radius: float, stops: list[str], notes: list[str]) -> None:
     """Add narrow places, at most one per outline, and else round corners and narrow holes."""
-    for i, original in enumerate((plate.outline, *plate.holes)):
+    for original in (plate.outline, *plate.holes):
+        outside = original is plate.outline
         if isinstance(original, Circle):
-            if i and original.radius < radius - SAME_CUT_MM:
+            if not outside and original.radius < radius - SAME_CUT_MM:
                 x, y = original.centre
                 size = f"hole of {2.0 * original.radius:.6g} mm at x = {x:.6g}, y = {y:.6g}"
                 notes.append(f"{size} in {plate.name}: narrower than the cutter; drill it")
             continue
-        outside = i == 0
-        shape = _cleaned(original, outside)
-        own = lines_and_arcs(shape, "--cutter works on lines and arcs only: use --curves arcs")
-        hollows = [p for p in own if isinstance(p, Arc) and p.bulge < 0.0]
-        tightest = min(hollows, key=lambda arc: arc.radius, default=None)
-        place, what = None, "a gap"
-        if tightest and tightest.radius < radius - 0.5 * SAME_CUT_MM:
-            place, what = at(tightest, 0.5), f"an inner radius of {tightest.radius:.5g} mm"
-        else:
-            try:
-                # of an arc that just fits, half of SAME_CUT_MM is left
-                offset(shape, outside, radius - SAME_CUT_MM)
-            except Closed as error:
-                place = error.at
-        if place:
+        try:
+            offset(original, outside, radius - SAME_CUT_MM)
+        except Closed as error:
             # a micrometre's last digit moves with rounding; six decimals in mm are steady
-            x, y = (round(v, 6) + 0.0 for v in place)
+            x, y = (round(v, 6) + 0.0 for v in error.at)
             stops.append(
-                f"it does not enter {plate.name}, layer {shape.layer}, at x = {x:.5g}, "
-                f"y = {y:.5g}: {what} is narrower; use a smaller one"
+                f"it does not enter {plate.name}, layer {original.layer}, at x = {x:.5g}, "
+                f"y = {y:.5g}: {error.what} is narrower; use a smaller one"
             )
             continue
-        for k, piece in enumerate(own):
-            after = own[(k + 1) % len(own)]
-            turn = -math.remainder(directions(after)[0] - directions(piece)[1], math.tau)
+        _, own = _cleaned(original, outside)
+        for i, _, turn in _turns(own):
             # less than 1e-4 mm of material is no corner
-            if 0.0 < turn < math.pi and radius * (1.0 / math.cos(0.5 * turn) - 1.0) > 1e-4:
-                x, y = piece.end
+            if -math.pi < turn < 0.0 and radius * (1.0 / math.cos(0.5 * turn) - 1.0) > 1e-4:
+                x, y = own[i].end
                 notes.append(
                     f"it leaves a radius of {radius:.6g} mm in the corner of {plate.name}, layer "
-                    f"{shape.layer}, at x = {x:.5g}, y = {y:.5g}"
+                    f"{original.layer}, at x = {x:.5g}, y = {y:.5g}"
                 )

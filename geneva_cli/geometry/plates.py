@@ -4,28 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
+from functools import partial
+from itertools import chain, combinations, repeat, starmap
+from operator import lt
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
+from geneva_cli.geometry import shapes
 from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.geometry.shapes import (
-    STRAIGHT,
-    Arc,
-    Circle,
-    Contour,
-    Cubic,
-    Layer,
-    Line,
-    Point,
-    S,
-    Shape,
-    as_contour,
-    at,
-    backwards,
-    mapped,
-    turned,
-)
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Layer, Point, Shape
 
 if TYPE_CHECKING:
     from geneva_cli.geometry.sphere import Rotation
@@ -40,7 +28,7 @@ GAUSS = (
     (0.79666647741362674, 0.22238103445337447),
     (0.96028985649753623, 0.10122853629037626),
 )
-RADIAN = math.tan(0.25)  # the bulge of an arc of one
+OVER_A_RADIAN = partial(lt, math.tan(0.25))  # is the bulge of an arc above that of a radian?
 
 
 class Plate(NamedTuple):
@@ -91,23 +79,6 @@ def plates(part: Part) -> list[Plate]:
     return [one for one in solids(part) if isinstance(one, Plate)]
 
 
-def inwards(plate: Plate, outside: float) -> Plate:
-    """A plate whose heights count inwards from ``outside``, by distances instead."""
-    return plate._replace(low=outside - plate.high, high=outside - plate.low)
-
-
-def lowered(plate: Plate) -> Plate:
-    """A plate with its lower face at z = 0."""
-    return plate._replace(low=0.0, high=plate.high - plate.low)
-
-
-def placed(shape: S, at: Point, turn: float) -> S:
-    """Return a shape turned about its own origin, and then moved."""
-    if at == (0.0, 0.0) and not turn:
-        return shape
-    return mapped(turned(shape, turn), lambda p: (p[0] + at[0], p[1] + at[1]))
-
-
 def in_place(members: Iterable[Member]) -> Iterator[tuple[Plate, Plate]]:
     """Yield each plate in its own frame and at its position."""
     for one in members:
@@ -118,7 +89,7 @@ def in_place(members: Iterable[Member]) -> Iterator[tuple[Plate, Plate]]:
             inner = iter([(one.part, one.part)])
         for own, plate in inner:
             outline, *holes = (
-                placed(shape, one.at, one.turn) for shape in (plate.outline, *plate.holes)
+                shapes.placed(shape, one.at, one.turn) for shape in (plate.outline, *plate.holes)
             )
             yield own, plate._replace(outline=outline, holes=tuple(holes))
 
@@ -148,14 +119,9 @@ def moments(shape: Shape) -> Moments:
         area = math.pi * square
         return Moments(area, area * x, area * y, area * (x * x + y * y + 0.5 * square))
     rows: list[tuple[float, float, float, float]] = []
-    pieces = [*shape.segments]
-    while pieces:
-        piece = pieces.pop()
-        if isinstance(piece, Arc) and abs(piece.bulge) > RADIAN:
-            middle, bulge = at(piece, 0.5), math.tan(0.125 * piece.sweep)
-            pieces += Arc(piece.start, middle, bulge), Arc(middle, piece.end, bulge)
-            continue
-        if isinstance(piece, Line) or (isinstance(piece, Arc) and abs(piece.bulge) < STRAIGHT):
+    for piece in chain.from_iterable(map(shapes.halved, shape.segments, repeat(OVER_A_RADIAN))):
+        bulge = piece.bulge if isinstance(piece, Arc) else 0.0
+        if not isinstance(piece, Cubic) and abs(bulge) < shapes.STRAIGHT:
             (a, b), (c, d) = piece.start, piece.end
             cross = a * d - b * c
             squares = (a * a + b * b) + (a * c + b * d) + (c * c + d * d)
@@ -169,7 +135,7 @@ def moments(shape: Shape) -> Moments:
         own = []
         for node, weight in GAUSS:
             for t in (0.5 - 0.5 * node, 0.5 + 0.5 * node):
-                x, y = at(piece, t)
+                x, y = shapes.at(piece, t)
                 if isinstance(piece, Cubic):
                     dx, dy = _velocity(piece, t)
                 else:
@@ -241,40 +207,37 @@ def least_wall(holes: Sequence[Shape], outline: Sequence[Contour] = ()) -> float
 
     The outline has its material on the left.
     """
-    whole, least = Polyarc(outline) if outline else None, math.inf
-    for i, hole in enumerate(holes):
-        for other in holes[:i]:
-            least = min(least, apart(other, hole))
-        if whole is None:
-            continue
-        if isinstance(hole, Circle):
-            least = min(least, -float(whole.signed(np.array([hole.centre]))[0]) - hole.radius)
-        else:
-            least = min(least, -float(whole.signed(Polyarc([hole]).samples(*SAMPLED)).max()))
-    return least
+    walls = [*starmap(apart, combinations(holes, 2))]
+    if outline:
+        walls += map(_wall, repeat(Polyarc(outline)), holes, repeat(-1.0))
+    return min(walls, default=math.inf)
 
 
 def plate_wall(plate: Plate) -> float:
     """Return the least wall between the holes of a plate, and around them."""
-    return least_wall(plate.holes, [as_contour(plate.outline)])
+    return least_wall(plate.holes, [shapes.as_contour(plate.outline)])
 
 
 def apart(one: Shape, two: Shape) -> float:
     """Return the wall between two holes, mm; negative where they overlap."""
+    if isinstance(one, Circle) and isinstance(two, Circle):
+        return math.dist(one.centre, two.centre) - one.radius - two.radius
     if isinstance(one, Circle):
-        if isinstance(two, Circle):
-            return math.dist(one.centre, two.centre) - one.radius - two.radius
         one, two = two, one
-    away = Polyarc([with_material_left(one, True)])
-    if isinstance(two, Circle):
-        return float(away.signed(np.array([two.centre]))[0]) - two.radius
-    return float(away.signed(Polyarc([two]).samples(*SAMPLED)).min())
+    return _wall(Polyarc([with_material_left(one, True)]), two, 1.0)
+
+
+def _wall(boundary: Polyarc, hole: Shape, side: float) -> float:
+    """Return the least distance of a hole from a boundary, outside of it (1) or inside (-1)."""
+    if isinstance(hole, Circle):
+        return side * float(boundary.signed(np.array([hole.centre]))[0]) - hole.radius
+    return float((side * boundary.signed(Polyarc([hole]).samples(*SAMPLED))).min())
 
 
 def with_material_left(shape: Shape, outside: bool) -> Contour:
     """Contour that runs counterclockwise as an outline, and clockwise as a hole."""
-    contour = as_contour(shape)
-    return contour if (moments(contour).area > 0.0) is outside else backwards(contour)
+    contour = shapes.as_contour(shape)
+    return contour if (moments(contour).area > 0.0) is outside else shapes.backwards(contour)
 
 
 def oriented(outline: Shape, holes: Iterable[Shape]) -> list[Contour]:

@@ -6,6 +6,7 @@ Points are (x, y). Nothing is measured from an arc's centre, which may be far aw
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Literal, NamedTuple, TypeAlias, TypeVar
@@ -129,17 +130,16 @@ def polygon(layer: Layer, corners: Sequence[Point]) -> Contour:
     return closed(layer, [Line(p, q) for p, q in zip(corners, after, strict=True)])
 
 
+def flipped(piece: Segment) -> Segment:
+    """The segment with the opposite sense of travel."""
+    if isinstance(piece, Arc):
+        return Arc(piece.end, piece.start, -piece.bulge)
+    return type(piece)(*piece[::-1])
+
+
 def backwards(contour: Contour) -> Contour:
     """The contour with the opposite sense of travel."""
-    pieces: list[Segment] = []
-    for piece in reversed(contour.segments):
-        if isinstance(piece, Cubic):
-            pieces.append(Cubic(piece.end, piece.second, piece.first, piece.start))
-        elif isinstance(piece, Arc):
-            pieces.append(Arc(piece.end, piece.start, -piece.bulge))
-        else:
-            pieces.append(Line(piece.end, piece.start))
-    return contour._replace(segments=tuple(pieces))
+    return contour._replace(segments=tuple(map(flipped, reversed(contour.segments))))
 
 
 def convex_hull(layer: Layer, circles: Sequence[Circle]) -> Contour:
@@ -300,55 +300,41 @@ def as_cubic(arc: Arc) -> Cubic:
     return Cubic(arc.start, first, second, arc.end)
 
 
-def mapped(
-    shape: S, point: Callable[[Point], Point], radius: Callable[[float], float] = lambda r: r
+def placed(
+    shape: S, at: Point = ORIGIN, turn: float = 0.0, scale: float = 1.0, mirror: bool = False
 ) -> S:
-    """Move a shape by a similarity of points that keeps the sense, and of a circle's radius."""
+    """Scale a shape, rotate it about the origin, counterclockwise, and move it.
+
+    With ``mirror`` it is first mirrored in the x axis.
+    """
+    if (at, turn, scale, mirror) == (ORIGIN, 0.0, 1.0, False):
+        return shape
+    by, factor, over = complex(*at), cmath.rect(scale, turn), -1.0 if mirror else 1.0
     if isinstance(shape, Circle):
-        return shape._replace(centre=point(shape.centre), radius=radius(shape.radius))
+        z = factor * complex(shape.centre[0], over * shape.centre[1]) + by
+        return shape._replace(centre=(z.real, z.imag), radius=scale * shape.radius)
     pieces: list[Segment] = []
     for one in shape.segments:
+        corners: list[Point] = []
+        for x, y in one[:2] if isinstance(one, Arc) else one:
+            z = factor * complex(x, over * y) + by
+            corners.append((z.real, z.imag))
         if isinstance(one, Arc):
-            pieces.append(Arc(point(one.start), point(one.end), one.bulge))
+            pieces.append(Arc(corners[0], corners[1], over * one.bulge))
         else:
-            pieces.append(type(one)(*map(point, one)))
+            pieces.append(type(one)(*corners))
     return shape._replace(segments=tuple(pieces))
 
 
-def turned(shape: S, radians: float, centre: Point = (0.0, 0.0)) -> S:
-    """Rotate a shape about a point, counterclockwise."""
-    (x, y), c, s = centre, math.cos(radians), math.sin(radians)
-    if isinstance(shape, Circle):
-        u, v = shape.centre[0] - x, shape.centre[1] - y
-        return shape._replace(centre=(x + c * u - s * v, y + s * u + c * v))
-    pieces: list[Segment] = []
-    for one in shape.segments:
-        moved: list[Point] = []
-        for px, py in one[:2] if isinstance(one, Arc) else one:
-            u, v = px - x, py - y
-            moved.append((x + c * u - s * v, y + s * u + c * v))
-        if isinstance(one, Arc):
-            pieces.append(Arc(moved[0], moved[1], one.bulge))
-        else:
-            pieces.append(type(one)(*moved))
-    return shape._replace(segments=tuple(pieces))
+def turned(shape: S, radians: float) -> S:
+    """Rotate a shape about the origin, counterclockwise."""
+    return placed(shape, turn=radians)
 
 
-def turned_pieces(pieces: Iterable[Segment], radians: float) -> tuple[Segment, ...]:
-    """Rotate pieces of an outline about the origin, counterclockwise."""
-    return turned(Contour("", tuple(pieces), closed=False), radians).segments
-
-
-def mirrored(pieces: Sequence[Segment]) -> list[Segment]:
+def mirrored(pieces: Iterable[Segment]) -> tuple[Segment, ...]:
     """Mirror pieces of an outline in the x axis, and run them backwards."""
-    over = mapped(Contour("", tuple(pieces), closed=False), lambda p: (p[0], -p[1]))
-    # backwards, but an arc's bulge changes its sign twice
-    return [
-        Arc(piece.end, piece.start, piece.bulge)
-        if isinstance(piece, Arc)
-        else type(piece)(*piece[::-1])
-        for piece in reversed(over.segments)
-    ]
+    own = Contour("", tuple(pieces), closed=False)
+    return backwards(placed(own, mirror=True)).segments
 
 
 def _extremes(segment: Segment) -> Iterator[Point]:
@@ -367,9 +353,7 @@ def _extremes(segment: Segment) -> Iterator[Point]:
                 roots += [e / root] if root else []
                 yield from (at(segment, t) for t in roots if 0.0 < t < 1.0)
     elif isinstance(segment, Arc) and abs(segment.bulge) >= STRAIGHT:
-        (x0, y0), (x1, y1) = segment.start, segment.end
-        sweep, quarter = segment.sweep, 0.5 * math.pi
-        first = math.atan2(y1 - y0, x1 - x0) - 0.5 * sweep  # direction at the start
+        sweep, quarter, first = segment.sweep, 0.5 * math.pi, directions(segment)[0]
         low, high = sorted((first, first + sweep))
         for k in range(math.ceil(low / quarter), math.floor(high / quarter) + 1):
             yield at(segment, min(max((k * quarter - first) / sweep, 0.0), 1.0))

@@ -11,22 +11,8 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.shapes import (
-    Arc,
-    Box,
-    Circle,
-    Contour,
-    Layer,
-    Line,
-    Point,
-    Segment,
-    Shape,
-    bounds_of,
-    closed,
-    joined,
-    polygon,
-    segment_length,
-)
+from geneva_cli.geometry import shapes
+from geneva_cli.geometry.shapes import Arc, Box, Circle, Contour, Layer, Line, Point, Segment, Shape
 
 if TYPE_CHECKING:
     from geneva_cli.geometry.plates import Part
@@ -75,44 +61,29 @@ def extent(drawing: Drawing) -> Box:
     """Smallest box around all shapes; raises GenevaError if there are none."""
     if not drawing.shapes:
         raise GenevaError("nothing to draw: a drawing must have a shape")
-    return bounds_of(drawing.shapes)
+    return shapes.bounds_of(drawing.shapes)
 
 
 def prepared(drawing: Drawing) -> Drawing:
-    """Drawing without duplicate shapes and pieces shorter than ``SHORTEST_MM``.
-
-    Raises GenevaError for a coordinate that is not finite.
-    """
-    shapes: dict[Shape, None] = {}
+    """Drawing without duplicate shapes and pieces shorter than ``SHORTEST_MM``."""
+    seen: dict[Shape, None] = {}
     for shape in drawing.shapes:
-        _require_finite(shape)
         if isinstance(shape, Circle):
             if shape.radius > SHORTEST_MM:
-                shapes[shape] = None
+                seen[shape] = None
             continue
         kept = []
         for one in shape.segments:
-            if segment_length(one) > SHORTEST_MM:
+            if shapes.segment_length(one) > SHORTEST_MM:
                 # the centre of an arc that is so flat would only be noise
                 half = 0.5 * math.dist(one.start, one.end)
                 flat = isinstance(one, Arc) and half * abs(one.bulge) < SHORTEST_MM
                 kept.append(Line(one.start, one.end) if flat else one)
         if kept and shape.closed:
-            shapes[closed(shape.layer, kept)] = None
+            seen[shapes.closed(shape.layer, kept)] = None
         elif kept:
-            shapes[Contour(shape.layer, joined(kept), closed=False)] = None
-    return drawing._replace(shapes=tuple(shapes))
-
-
-def _require_finite(shape: Shape) -> None:
-    for piece in shape.segments if isinstance(shape, Contour) else (shape,):
-        for value in piece:
-            numbers = value if isinstance(value, tuple) else (value,)
-            if not all(math.isfinite(n) for n in numbers if not isinstance(n, str)):
-                kind = type(piece).__name__.lower()
-                raise GenevaError(
-                    f"layer {shape.layer}: a {kind} at {value}: coordinates must be finite"
-                )
+            seen[Contour(shape.layer, shapes.joined(kept), closed=False)] = None
+    return drawing._replace(shapes=tuple(seen))
 
 
 CAPITALS = 0.718  # height of capital letters, over the font's size
@@ -263,9 +234,9 @@ class Sheet(NamedTuple):
         """Yield the shapes of each layer, including the lines of dimensions."""
         lines = [Contour(DIMENSION, (p,), closed=False) for m in self.measures for p in m.lines]
         for layer in WIDTHS:
-            shapes = [shape for shape in (*self.shapes, *lines) if shape.layer == layer]
-            if shapes:
-                yield layer, shapes
+            own = [shape for shape in (*self.shapes, *lines) if shape.layer == layer]
+            if own:
+                yield layer, own
 
 
 def line(layer: Layer, *points: Point) -> Contour:
@@ -276,7 +247,7 @@ def line(layer: Layer, *points: Point) -> Contour:
 
 def rectangle(layer: Layer, x0: float, y0: float, x1: float, y1: float) -> Contour:
     """A rectangular frame."""
-    return polygon(layer, [(x0, y0), (x1, y0), (x1, y1), (x0, y1)])
+    return shapes.polygon(layer, [(x0, y0), (x1, y0), (x1, y1), (x0, y1)])
 
 
 def _turned(p: Point, turn: float, about: Point) -> Point:

@@ -1,4 +1,4 @@
-"""The roller in its slot at input angles, and what else the loads there depend on.
+"""The roller in its slot at input angles, what the loads there depend on, and their names.
 
 Jets are by the input angle in radians, lengths over L.
 The slot's tangent t points away from the wheel's axis: M . t > 0, M being the roller's centre.
@@ -16,8 +16,18 @@ from geneva_cli.motion.engagement import Engagement, Vector
 from geneva_cli.numerics.arrays import Mask, Truth, Whole, all_true, choose, library
 from geneva_cli.numerics.jet import Array, Jet, Number, V, sqrt
 
+PRESSED = ("contact_stress_MPa", "pv_W_m2")  # known only with a face width
+# Searched by their squares: a root has no slope where it is 0, nor has the size of a vector.
+SQUARED = (*PRESSED, "crank_bearing_N", "guide_force_N")
+# Quantities that are never negative.
+NEVER_NEGATIVE = (*SQUARED, "pin_force_N", "wheel_bearing_N")
 NEGLIGIBLE = 1e-12  # fraction of a torque, of a motion, or of a lever over L that is rounding
 NEAR_CUSP = 1e-4  # fraction of a half motion: nearer to a cusp, slopes are lost to rounding
+
+
+def plain_values(values: Array, name: str) -> Array:
+    """Values of a quantity, from the values that are searched."""
+    return np.sqrt(np.abs(values)) if name in SQUARED else values
 
 
 class Contact(NamedTuple, Generic[V]):

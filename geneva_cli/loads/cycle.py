@@ -7,25 +7,29 @@ at the entry of the next wheel. All loads are 0 in a dwell.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from functools import lru_cache
 from itertools import pairwise
-from typing import Any, NamedTuple, cast
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.errors import Notice
 from geneva_cli.kept import cached_property
-from geneva_cli.loads.contact import LoadCase, contact, contact_values
-from geneva_cli.loads.cycle_quantities import FORCE, PV, STRESS, TORQUE, WALL_FORCE, plain_values
+from geneva_cli.loads.contact import LoadCase, contact, contact_values, plain_values
 from geneva_cli.loads.impacts.reversal import arrival
-from geneva_cli.loads.instant import STATES, Instant, States, bounded
-from geneva_cli.loads.load_case import load_case, multiples, weight_kg
-from geneva_cli.loads.load_functions import LoadFunctions, on_breaks, refuse_noise
-from geneva_cli.loads.load_peaks import LoadSummary, single_extremes, single_summaries
-from geneva_cli.loads.mid_motion import at_crossing
+from geneva_cli.loads.instant import Instant, bounded
+from geneva_cli.loads.load_case import load_case, sources, weight_kg
+from geneva_cli.loads.load_functions import (
+    LoadFunctions,
+    at_mid_motion,
+    on_breaks,
+    refuse_noise,
+)
+from geneva_cli.loads.load_peaks import LoadSummary, only, single_extremes, single_summaries
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.path_and_slot import retraces
 from geneva_cli.motion.peak_search import braking
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.jet import Array
@@ -54,82 +58,70 @@ class Cycle:
         """True if an inertia or a resisting torque is known."""
         return self.mechanism.spec.is_loaded
 
-    def states(self, input_deg: Array) -> States:
-        """The loads at ascending input angles of a period from the first entry; 0 in the dwells."""
+    @cached_property
+    def sources(self) -> Mapping[str, tuple[str, float]]:
+        """Each known quantity by name: the one that is computed for it, and its ratio to that."""
+        return sources(self.mechanism)
+
+    def states(self, input_deg: Array, names: Sequence[str]) -> Array:
+        """Known quantities, (names, n), at ascending input angles of a period; 0 in the dwells."""
         from geneva_cli.motion.motion_table import spans
 
-        out: dict[str, Any] = {}
+        out = np.zeros((len(names), len(input_deg)))
         for span in spans(self.mechanism, input_deg):
-            if not len(span.local):
-                continue
-            for name, row in self.moving(span.engagement, span.local)._asdict().items():
-                total = out.setdefault(name, None if row is None else np.zeros(len(input_deg)))
-                if total is not None:
-                    total[span.moves] = row
-        still = np.zeros(len(input_deg))
-        return States(**{name: out.get(name, still) for name in States._fields})
-
-    def moving(self, engagement: Engagement, input_deg: Array) -> States:
-        """The loads at input angles (n,) of an engagement, degrees from its own mid-motion."""
-        with np.errstate(all="ignore"):
-            here = Instant(self.case, contact_values(contact(engagement, input_deg)))
-        drives = np.array(here.drives)
-        none = np.flatnonzero(~self.case.is_loaded(engagement, here.wheel_torque_Nm))
-        if len(none):  # where the torque is 0, its sign is that before, or at entry that after
-            x, step = input_deg[none], 1e-6 * engagement.motion_deg
-            near = np.where(x - step < engagement.entry_deg, x + step, x - step)
-            beside = contact(engagement, near, reactions=False)
-            drives = np.broadcast_to(drives, input_deg.shape).copy()
-            drives[none] = Instant(self.case, beside, feeds=1.0).drives
-            with np.errstate(all="ignore"):
-                here = Instant(self.case, here.at, drives)
-        out, middle = bounded(here), input_deg == 0.0
-        limits = at_crossing(engagement, self.case) if middle.any() else None
-        for name, limit in (limits or {}).items():
-            out = out._replace(**{name: np.where(middle, limit, getattr(out, name))})
+            if len(span.local):
+                out[:, span.moves] = self.moving(span.engagement, span.local, names)
         return out
 
-    def along(self, engagement: Engagement, stretch: Stretch, input_deg: Array) -> States:
-        """The loads at input angles (n,) of a stretch from mid-motion, with the stretch's signs."""
+    def moving(
+        self,
+        engagement: Engagement,
+        input_deg: Array,
+        names: Sequence[str],
+        stretch: Stretch | None = None,
+    ) -> Array:
+        """Known quantities, (names, n), at input angles of an engagement from its mid-motion.
+
+        The pin's force has the sign of the wall that bears. In a ``stretch`` its signs hold.
+        """
+        case = self.case
         with np.errstate(all="ignore"):
             at = contact_values(contact(engagement, input_deg))
-            return bounded(Instant(self.case, at, *stretch[2:]))
-
-    def plain(self, states: States, name: str) -> Array:
-        """A quantity of ``known``, or a multiple of one, at states of the cycle."""
-        source, factor, _ = multiples(self.mechanism).get(name, (name, 1.0, ""))
-        assert factor is not None  # known quantities have a factor
-        if source == PV:
-            assert states.stress_squared is not None  # it is known
-            values = states.stress_squared * (states.sliding_m_s * states.sliding_m_s * 1e12)
-        else:
-            signed = WALL_FORCE if source == FORCE else source
-            state = next(key for key, own in STATES.items() if own == signed)
-            values = getattr(states, state)
-        return plain_values(values, source) * factor
-
-    @cached_property
-    def known(self) -> Mapping[str, LoadSummary[Array]]:
-        """The summaries of all quantities that have a value, (1,) each."""
-        every = single_summaries(self.machine)
-        refuse_noise([one.rms for one in every.values()])
-        return every
+            here = Instant(case, at, *(stretch[2:] if stretch else ()))
+            none = np.flatnonzero(~case.is_loaded(engagement, here.wheel_torque_Nm))
+            if stretch is None and len(none):
+                # where the torque is 0, its sign is that before, or at entry that after
+                x, step = input_deg[none], 1e-6 * engagement.motion_deg
+                near = np.where(x - step < engagement.entry_deg, x + step, x - step)
+                beside = contact(engagement, near, reactions=False)
+                drives = np.broadcast_to(here.drives, input_deg.shape).copy()
+                drives[none] = Instant(case, beside, feeds=1.0).drives
+                here = Instant(case, at, drives)
+            each = [self.sources[name] for name in names]
+            sought = ["wall_force_N" if source == "pin_force_N" else source for source, _ in each]
+            rows = [bounded(here, source) for source in sought]
+            # the limits where the pin crosses the slot without a torque
+            middle = np.flatnonzero(input_deg == 0.0)
+            crosses = engagement.slot.curved and not retraces(engagement)
+            if stretch is None and len(middle) and crosses:
+                for i, _, limit in at_mid_motion(engagement, case, sought, 1):
+                    if np.isfinite(limit[0]) and not np.isfinite(rows[i][middle[0]]):
+                        rows[i][middle] = limit
+        both = zip(rows, each, strict=True)
+        values = [plain_values(row, source) * ratio for row, (source, ratio) in both]
+        return np.array(np.broadcast_arrays(*values, input_deg)[:-1])
 
     @cached_property
     def extremes(self) -> Mapping[str, LoadSummary[float]]:
-        """The summaries of all quantities that have a value, as numbers."""
-        out = dict[str, LoadSummary[float]]()
-        for name, one in self.known.items():
-            out[name] = LoadSummary(*np.concatenate(cast("tuple[Array, ...]", one)).tolist())
-        return out
+        """The summaries of all quantities that have a value."""
+        every = single_summaries(self.machine)
+        refuse_noise([one.rms for one in every.values()])
+        return {name: only(one) for name, one in every.items()}
 
     @cached_property
     def ends(self) -> Mapping[str, LoadSummary[float]]:
         """The same without mean and rms, which take longest."""
-        out = dict[str, LoadSummary[float]]()
-        for name, one in single_extremes(self.machine)[0].items():
-            out[name] = LoadSummary(*np.concatenate(one[:4]).tolist())
-        return out
+        return {name: only(one) for name, one in single_extremes(self.machine)[0].items()}
 
     @cached_property
     def stretches(self) -> list[tuple[Engagement, Stretch]]:
@@ -164,7 +156,7 @@ def cycle_warnings(mechanism: Mechanism) -> list[Notice]:
 
 def _unbounded(cycle: Cycle) -> Iterator[Notice]:
     """Warnings about loads that nothing bounds."""
-    case, force = cycle.case, cycle.ends[FORCE]
+    case, force = cycle.case, cycle.ends["pin_force_N"]
     endless_deg = math.inf
     for value, at_deg in ((force.max, force.max_at_deg), (force.min, force.min_at_deg)):
         if math.isinf(value):
@@ -179,7 +171,7 @@ def _unbounded(cycle: Cycle) -> Iterator[Notice]:
             f"friction of {of} holds the {held} at {endless_deg:.4g}°, however hard the roller "
             f"presses: it takes as much {more} gives. Use a smaller roller or less {less}",
         )
-    stress = cycle.ends.get(STRESS)
+    stress = cycle.ends.get("contact_stress_MPa")
     if stress is not None and not math.isfinite(stress.max) and endless_deg == math.inf:
         yield Notice(
             "sharp-wall",
@@ -192,7 +184,7 @@ def _unbounded(cycle: Cycle) -> Iterator[Notice]:
 def _driven(cycle: Cycle) -> Iterator[Notice]:
     """Warnings about a wheel that drives the motor, or lags behind its roller."""
     mechanism, ends = cycle.mechanism, cycle.ends
-    torque, noun = ends[TORQUE], mechanism.output.noun
+    torque, noun = ends["input_torque_Nm"], mechanism.output.noun
     stop = arrival(mechanism) if mechanism.engagements[0].paired else None
     least, largest = torque.min, max(abs(torque.max), abs(torque.min))
     # a torque without a bound is no measure of the rounding of another
@@ -221,15 +213,12 @@ def _driven(cycle: Cycle) -> Iterator[Notice]:
             "the input. There the play of slot and reducer changes sides, and a self-locking worm "
             f"jams: use a brake or a motor that brakes, {helps}",
         )
-    torque_Nm, _, lagging = stop or (0.0, 0.0, None)
-    if lagging:
-        lag, at_deg, struck = lagging
+    if stop and 0.0 < stop[0] <= stop[1]:
         yield Notice(
             "lags-behind",
-            f"a torque of {torque_Nm:.4g} N m takes the wheel off the roller that stops it. "
-            f"Once the gears let go the wheel lags, by up to {lag:.4g}° at {at_deg:.4g}°, "
-            f"and the roller strikes it at {struck:.4g}°. Less torque, more inertia or more "
-            "speed reduces the lag",
+            f"a torque of {stop[0]:.4g} N m takes the wheel off the roller that stops it: once the "
+            "gears let go the wheel lags, and the roller strikes it. Less torque, more inertia or "
+            "more speed reduces the lag",
         )
 
 

@@ -16,19 +16,19 @@ import numpy as np
 from geneva_cli.figure import Mark, Piece
 from geneva_cli.loads.contact import NEAR_CUSP
 from geneva_cli.loads.cycle import Cycle, Stretch
-from geneva_cli.loads.cycle_quantities import FORCE, WALL_FORCE
-from geneva_cli.loads.load_peaks import LoadSummary, load_summaries
+from geneva_cli.loads.load_peaks import LoadSummary, load_summaries, only
 from geneva_cli.motion import peaks
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.motion_table import first_entry_deg
 from geneva_cli.motion.peak_search import spans
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.numerics.sampling import ASPECT, CHORD_ERROR, places, refined, thinned
 from geneva_cli.numerics.tolerances import ROUNDED, SAME_INPUT_DEG
 
+ASPECT = 5.0  # width of a panel over its height
+CHORD_ERROR = 4e-4  # of a panel's height: less than 0.1 px of a panel of 200 px
 MOTION_QUANTITIES = ("velocity", "acceleration", "jerk", "power")  # besides the output itself
 Ends: TypeAlias = tuple[float, float]
+Curves: TypeAlias = Callable[[Array], Array]  # x (n,) -> a row a curve (q, n)
 # the curve of a quantity over a window: its pieces, its marks, and its bounds if it has none
 Drawn: TypeAlias = tuple[list[Piece], tuple[Mark, ...], Ends | None]
 
@@ -38,7 +38,7 @@ class Stage(NamedTuple):
 
     start: float
     end: float
-    of: Callable[[Array], Array]  # the curves at input angles (n,), one row each
+    of: Curves  # the curves at input angles (n,), one row each
     flat: bool = False  # True if they are constant, as in a dwell
 
 
@@ -53,14 +53,14 @@ def drawn(cycle: Cycle, names: Sequence[str], window: Ends) -> dict[str, Drawn]:
         step = sum(2.0 * e.half_step for e in machine.engagements) * machine.output.per_radian
         rise = [step if n == column else 0.0 for n in moves]
         curves = _pieces(stages, machine.period_deg, window, rise)
-        for i, (name, pieces) in enumerate(zip(moves, curves, strict=True)):
-            peak = () if name == column else (_peak(machine, name, i, stages, window),)
+        for name, pieces in zip(moves, curves, strict=True):
+            peak = () if name == column else (_peak(machine, name, pieces, window),)
             out[name] = pieces, peak, None
     if loads:
         ends = {name: cycle.extremes[name] for name in loads}
-        if FORCE in ends:  # drawn with the sign of the wall that bears
-            force = load_summaries(machine, [WALL_FORCE], means=False)[WALL_FORCE]
-            ends[FORCE] = LoadSummary(*(float(row[0]) for row in force[:4]))
+        if "pin_force_N" in ends:  # drawn with the sign of the wall that bears
+            (wall,) = load_summaries(machine, ["wall_force_N"], means=False).values()
+            ends["pin_force_N"] = only(wall)
         bounds = _bounds(cycle, ends)
         stages = list(_load_stages(cycle, loads, bounds))
         curves = _pieces(stages, machine.period_deg, window, [0.0] * len(loads))
@@ -84,6 +84,13 @@ def drawn(cycle: Cycle, names: Sequence[str], window: Ends) -> dict[str, Drawn]:
 def _motion_stages(mechanism: Mechanism, names: Sequence[str]) -> Iterator[Stage]:
     """Stages of the output and of ``MOTION_QUANTITIES`` over a period from the first entry."""
     column, per_radian = mechanism.output.column, mechanism.output.per_radian
+
+    def moved(engagement: Engagement, inside: Ends, up: float, x: Array) -> Array:
+        wheel, v, a, j = engagement.motion.derivatives(np.clip(x - engagement.mid_deg, *inside))
+        rows = (wheel + up) * per_radian, v, a, j, v * a
+        known = dict(zip((column, *MOTION_QUANTITIES), rows, strict=True))
+        return np.array([known[name] for name in names])
+
     base = -mechanism.engagements[0].half_step  # the wheel's angle before the step
     for i, engagement in enumerate(mechanism.engagements):
         mid, motion, up = engagement.mid_deg, engagement.motion, base + engagement.half_step
@@ -91,24 +98,20 @@ def _motion_stages(mechanism: Mechanism, names: Sequence[str]) -> Iterator[Stage
         both = zip(pairwise(motion.breaks_deg), spans(motion, 1), strict=True)
         for (a, b), (start, end) in both:
             inside = start.item(), end.item()
-            yield Stage(mid + a, mid + b, partial(_moved, mechanism, i, names, inside, up))
+            yield Stage(mid + a, mid + b, partial(moved, engagement, inside, up))
         base += 2.0 * engagement.half_step
         rest = [base * per_radian if n == column else 0.0 for n in names]
         yield from _dwell(mechanism, i, rest)
 
 
-def _moved(
-    mechanism: Mechanism, i: int, names: Sequence[str], inside: Ends, up: float, x: Array
-) -> Array:
-    engagement, output = mechanism.engagements[i], mechanism.output
-    wheel, v, a, j = engagement.motion.derivatives(np.clip(x - engagement.mid_deg, *inside))
-    rows = (wheel + up) * output.per_radian, v, a, j, v * a
-    known = dict(zip((output.column, *MOTION_QUANTITIES), rows, strict=True))
-    return np.array([known[name] for name in names])
-
-
 def _load_stages(cycle: Cycle, names: Sequence[str], bounds: Mapping[str, Ends]) -> Iterator[Stage]:
     """Stages of loads over a period; those with ``bounds`` are limited to them."""
+
+    def loaded(engagement: Engagement, stretch: Stretch, inside: Ends, x: Array) -> Array:
+        rows = cycle.moving(engagement, np.clip(x - engagement.mid_deg, *inside), names, stretch)
+        each = zip(names, rows, strict=True)
+        return np.array([np.clip(row, *bounds.get(n, (None, None))) for n, row in each])
+
     for i, engagement in enumerate(cycle.mechanism.engagements):
         mid = engagement.mid_deg
         for owner, stretch in cycle.stretches:
@@ -123,25 +126,9 @@ def _load_stages(cycle: Cycle, names: Sequence[str], bounds: Mapping[str, Ends])
                 before, after = NEAR_CUSP * engagement.entry_deg, NEAR_CUSP * engagement.exit_deg
                 start = after if abs(start) < after else start
                 end = before if abs(end) < -before else end
-
-            of = partial(_loaded, cycle, engagement, stretch, names, bounds, (start, end))
+            of = partial(loaded, engagement, stretch, (start, end))
             yield Stage(mid + stretch.start, mid + stretch.end, of)
         yield from _dwell(cycle.mechanism, i, [0.0] * len(names))
-
-
-def _loaded(
-    cycle: Cycle,
-    engagement: Engagement,
-    stretch: Stretch,
-    names: Sequence[str],
-    bounds: Mapping[str, Ends],
-    inside: Ends,
-    x: Array,
-) -> Array:
-    here = cycle.along(engagement, stretch, np.clip(x - engagement.mid_deg, *inside))
-    rows = np.broadcast_arrays(*(cycle.plain(here, name) for name in names), x)[:-1]
-    each = zip(names, rows, strict=True)
-    return np.array([np.clip(row, *bounds.get(n, (None, None))) for n, row in each])
 
 
 def _dwell(mechanism: Mechanism, i: int, values: Sequence[float]) -> Iterator[Stage]:
@@ -156,14 +143,17 @@ def _pieces(
 ) -> list[list[Piece]]:
     """The pieces of each curve over a window, with the period's stages repeated."""
     start, end = window
-    placed: list[tuple[Callable[[Array], Array], bool, float, float]] = []
-    tiny, last = ROUNDED * period, -math.inf
+    placed: list[tuple[Curves, bool, float, float]] = []
+    tiny, last, up = ROUNDED * period, -math.inf, np.array(rise)[:, None]
+
+    def shifted(stage: Stage, number: int, x: Array) -> Array:
+        return stage.of(x - number * period) + number * up
+
     first = math.floor((start - stages[-1].end) / period)
     for number in range(first, 2 + int((end - start) // period)):
-        shift = number * period
-        up = shift / period * np.array(rise)[:, None]
         for stage in stages:
-            a, b = max(stage.start + shift, start), min(stage.end + shift, end)
+            a = max(stage.start + number * period, start)
+            b = min(stage.end + number * period, end)
             a = last if abs(a - last) <= tiny else a  # one place, whatever its last digit
             if abs(b - a) <= tiny and (a == start or b == end):
                 a = b = start if a == start else end
@@ -171,37 +161,28 @@ def _pieces(
                 continue
             else:
                 last = b
-
-            def here(x: Array, stage: Stage = stage, shift: float = shift, up: Array = up) -> Array:
-                return stage.of(x - shift) + up
-
-            placed.append((here, stage.flat, a, b))
+            placed.append((partial(shifted, stage, number), stage.flat, a, b))
     rough = [of(places(a, b) if b > a else np.array([a])) for of, _, a, b in placed]
     heights = np.ptp(np.concatenate(rough, axis=1), axis=1)
     heights[heights == 0.0] = 1.0
-    width = end - start
     out: list[list[Piece]] = [[] for _ in rise]
     for of, is_flat, a, b in placed:
         x = np.array([a, b] if b > a else [a])
         if not is_flat and b > a:
-            x = refined(of, a, b, width, heights)
+            x = refined(of, a, b, end - start, heights)
         for curve, y, height in zip(out, of(x), heights, strict=True):
-            some = thinned(ASPECT / width * x, y / height, CHORD_ERROR / 4.0)
+            some = thinned(ASPECT / (end - start) * x, y / height, CHORD_ERROR / 4.0)
             curve.append((x[some].tolist(), (y[some] + 0.0).tolist()))
     return out
 
 
-def _peak(machine: Mechanism, name: str, row: int, stages: Sequence[Stage], window: Ends) -> Mark:
+def _peak(machine: Mechanism, name: str, pieces: Sequence[Piece], window: Ends) -> Mark:
     """The greatest size of a quantity of the motion, with its sign."""
-    peak, first = peaks.worst_of(machine, name), first_entry_deg(machine)
-    x = _placed(machine, peak.at_deg, (first, first))
-    values = [
-        float(stage.of(np.array([x]))[row, 0])
-        for stage in stages
-        if stage.start - SAME_INPUT_DEG <= x <= stage.end + SAME_INPUT_DEG
-    ]
-    nearest_to = min(values, key=lambda value: abs(abs(value) - peak.max))
-    return Mark("peak", _placed(machine, peak.at_deg, window), math.copysign(peak.max, nearest_to))
+    peak = peaks.worst_of(machine, name)
+    at = _placed(machine, peak.at_deg, window)
+    near = [(abs(x - at), y) for piece in pieces for x, y in zip(*piece, strict=True)]
+    _, sign = min((one for one in near if abs(one[1]) >= 0.99 * peak.max), default=(0.0, 1.0))
+    return Mark("peak", at, math.copysign(peak.max, sign))
 
 
 def _placed(machine: Mechanism, at_deg: float, window: Ends) -> float:
@@ -219,8 +200,7 @@ def _bounds(cycle: Cycle, ends: Mapping[str, LoadSummary[float]]) -> dict[str, E
         sizes = []
         for engagement, stretch in cycle.stretches:
             middle = np.array([0.5 * (stretch.start + stretch.end)])
-            here = cycle.plain(cycle.along(engagement, stretch, middle), name)
-            sizes.append(abs(float(here[0])))
+            sizes.append(abs(cycle.moving(engagement, middle, [name], stretch).item()))
         # an unbounded load is visible up to three times its typical size
         high = 3.0 * max((size for size in sizes if math.isfinite(size)), default=1.0)
         out[name] = -high if math.isinf(low) else low, high if math.isinf(top) else top
@@ -251,3 +231,60 @@ def rests(machines: Sequence[Mechanism], window: Ends) -> list[Ends]:
         both = [(max(a, c), min(b, d)) for a, b in common for c, d in own]
         common = [(a, b) for a, b in both if b - a > SAME_INPUT_DEG]
     return common
+
+
+def places(start: float, end: float) -> Array:
+    """The first points between two x, both included, denser towards both ends."""
+    fraction = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, 33))
+    x: Array = start + (end - start) * fraction
+    x[-1] = end
+    return x
+
+
+def refined(of: Curves, start: float, end: float, width: float, heights: Array) -> Array:
+    """Places (n,) at which to sample curves between two x, so that chords err by ``CHORD_ERROR``.
+
+    ``width`` and ``heights`` (q,) are the ranges of x and of each curve that a panel shows. A
+    chord's error is its distance from the curve in the panel, measured half-way.
+    """
+    x = places(start, end)
+    y = of(x)
+    scale = heights[:, None]
+    unmeasured = np.arange(len(x) - 1)  # numbers of chords
+    for _ in range(12):  # halvings: the shortest step is about 1e-5 of the piece
+        if not len(unmeasured) or len(x) > 3000:
+            break
+        middle = 0.5 * (x[unmeasured] + x[unmeasured + 1])
+        there = of(middle)
+        before, after = y[:, unmeasured], y[:, unmeasured + 1]
+        run = ASPECT / width * (x[unmeasured + 1] - x[unmeasured])
+        with np.errstate(invalid="ignore"):  # a curve without a bound has no chord
+            rise = (after - before) / scale
+            off = abs(there - 0.5 * (before + after)) / scale * run / np.hypot(run, rise)
+            far = (off > CHORD_ERROR).any(axis=0)
+        x = np.insert(x, unmeasured + 1, middle)
+        y = np.insert(y, unmeasured + 1, there, axis=1)
+        left = (unmeasured + np.arange(len(unmeasured)))[far]
+        unmeasured = np.sort(np.concatenate((left, left + 1)))
+    return x
+
+
+def thinned(x: Array, y: Array, miss: float) -> list[int]:
+    """The numbers of the points (n,) whose polyline is within ``miss`` of all of them.
+
+    ``miss`` has the unit of x and y. After Ramer (1972), and Douglas and Peucker (1973).
+    """
+    kept, stack = {0, len(x) - 1}, [(0, len(x) - 1)]
+    while stack:
+        a, b = stack.pop()
+        if b - a < 2:
+            continue
+        dx, dy = x[b] - x[a], y[b] - y[a]
+        length = float(np.hypot(dx, dy)) or 1.0
+        off = abs((x[a + 1 : b] - x[a]) * dy - (y[a + 1 : b] - y[a]) * dx) / length
+        far = int(np.argmax(off))
+        if off[far] > miss:
+            middle = a + 1 + far
+            kept.add(middle)
+            stack += [(a, middle), (middle, b)]
+    return sorted(kept)

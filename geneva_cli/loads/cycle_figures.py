@@ -8,10 +8,9 @@ from typing import TypeAlias
 
 from geneva_cli.errors import GenevaError, Notice, cut, few, nearest
 from geneva_cli.figure import Axis, Curve, Figure, Panel
-from geneva_cli.loads import load_tables
 from geneva_cli.loads.cycle import Cycle
 from geneva_cli.loads.cycle_curves import MOTION_QUANTITIES, Drawn, drawn, rests
-from geneva_cli.loads.load_case import sources
+from geneva_cli.loads.load_tables import no_load
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.motion_table import first_entry_deg
 
@@ -69,13 +68,13 @@ def figure(cycles: Mapping[str, Cycle], pick: Sequence[str] = ()) -> tuple[Figur
     outputs = tuple(dict.fromkeys(cycle.mechanism.output.column for cycle in cycles.values()))
     requested = tuple(dict.fromkeys(pick)) or (*outputs, *USUAL_QUANTITIES)
     has = {
-        design: {one.mechanism.output.column, *MOTION_QUANTITIES, *sources(one.mechanism)}
+        design: {one.mechanism.output.column, *MOTION_QUANTITIES, *one.sources}
         for design, one in cycles.items()
     }
     shown = [name for name in requested if any(name in known for known in has.values())]
     missing = [name for name in requested if name not in shown]
     if missing and pick:
-        raise GenevaError(f"--pick {missing[0]}: {_why(next(iter(cycles.values())), missing[0])}")
+        raise GenevaError(f"--pick {missing[0]}: {_why(next(iter(cycles.values())))}")
     machines = [cycle.mechanism for cycle in cycles.values()]
     start = min(first_entry_deg(m) for m in machines)
     window = start, start + max(m.period_deg for m in machines)
@@ -87,12 +86,9 @@ def figure(cycles: Mapping[str, Cycle], pick: Sequence[str] = ()) -> tuple[Figur
     left = list[LeftOut]()
     for design, cycle in cycles.items():
         names = requested if cycle.is_loaded else shown  # forces are not expected without a load
-        reasons: dict[str, list[str]] = {}
-        for name in names:
-            if name not in has[design] and name not in outputs:
-                reasons.setdefault(_why(cycle, name), []).append(name)
-        for why, lacking in reasons.items():
-            text = f"no curve of {', '.join(lacking)}: {why}"
+        lacking = [name for name in names if name not in has[design] and name not in outputs]
+        if lacking:
+            text = f"no curve of {', '.join(lacking)}: {_why(cycle)}"
             left.append((design, Notice("not-known", text)))
     spec, noun = machines[0].spec, machines[0].output.noun
     title = spec.title or spec.path or f"Geneva {noun} of {spec.wheel.z} slots"
@@ -102,18 +98,10 @@ def figure(cycles: Mapping[str, Cycle], pick: Sequence[str] = ()) -> tuple[Figur
     return Figure(title, axis, panels, window, still), left
 
 
-def _why(cycle: Cycle, name: str) -> str:
+def _why(cycle: Cycle) -> str:
     """The reason why a machine does not have a quantity."""
-    notices = load_tables.missing(cycle)
-    if not cycle.is_loaded:
-        return notices[0]
-    for line in notices:
-        names, _, why = line.partition(": ")
-        if name in names.split(", "):
-            return why
-    if name == "guide_force_N":
-        return "the crank itself carries the roller, and there is no guide"
-    return f'gearing = "{cycle.mechanism.spec.wheel.NAME}" has another quantity instead'
+    needs = "this machine has none, or needs a key that `geneva loads` names"
+    return needs if cycle.is_loaded else no_load(cycle)
 
 
 def _panel(

@@ -11,13 +11,12 @@ roller, fixed to its body, rubs along the wall.
 
 from __future__ import annotations
 
-from typing import Any, Generic, NamedTuple, Protocol, cast
+from typing import Any, Generic, Protocol
 
 import numpy as np
 
 from geneva_cli.kept import cached_property
 from geneva_cli.loads.contact import Contact, LoadCase, QuantityValue, lesser, value
-from geneva_cli.loads.cycle_quantities import FORCE, PRESSED, PV, STRESS, TORQUE, WALL_FORCE
 from geneva_cli.numerics.arrays import all_true
 from geneva_cli.numerics.jet import Array, Jet, Number, V
 
@@ -151,9 +150,9 @@ class Instant(Generic[V]):
         """The square of the reaction on the shaft whose crank carries the roller or link, N²."""
         if self.at.reactions is None:  # the crank is the roller's body, and its drive turns it
             return self.wheel_bearing_N * self.wheel_bearing_N
-        return self._reaction(0)
+        return self.reaction(0)
 
-    def _reaction(self, joint: int) -> V:
+    def reaction(self, joint: int) -> V:
         """The square of the reaction of a joint that holds the roller's body, N²."""
         assert self.at.reactions is not None
         normal, tangent, couple = self.at.reactions
@@ -165,48 +164,54 @@ class Instant(Generic[V]):
         )
         return self.force_N * self.force_N * (x * x + y * y)
 
-    def quantity(self, name: str | LoadQuantity) -> QuantityValue[V]:
-        """A quantity of the cycle, squared if it is one of ``SQUARED``, or a function's."""
-        at, case, w = self.at, self.case, self.case.speed_rad_s
-        if not isinstance(name, str):
-            known: QuantityValue[Any] = name(cast("Instant[Any]", self))
-            return known
-        if name == "omega_rad_s":
-            return QuantityValue(at.velocity * w)
-        if name == "alpha_rad_s2":
-            return QuantityValue(at.acceleration * (w * w))
-        if name == "wheel_torque_Nm":
-            return QuantityValue(self.wheel_torque_Nm)
-        if name == TORQUE:
-            return QuantityValue(self.input_torque_Nm, self.friction_margin)
-        if name == FORCE:
-            return QuantityValue(self.force_N, self.grip)
-        if name == WALL_FORCE:
-            return QuantityValue(self.force_N * self.drives, self.grip, self.drives)
-        if name == "wheel_bearing_N":
-            return QuantityValue(self.wheel_bearing_N, self.grip)
-        if name == "crank_bearing_N":
-            return QuantityValue(self.crank_bearing_squared, self.grip)
-        if name == "guide_force_N":  # of rocker, slider, groove or fixed gear
-            return QuantityValue(self._reaction(1), self.grip)
-        # of a roller that is fixed to its pin, m/s
-        sliding = self.slip * (case.L * w) * at.touches
-        if name not in PRESSED:
-            return QuantityValue(sliding)
+    @property
+    def sliding_m_s(self) -> V:
+        """Speed at which a roller that is fixed to its pin rubs along the wall."""
+        return self.slip * (self.case.L * self.case.speed_rad_s) * self.at.touches
+
+    @property
+    def stress_squared(self) -> QuantityValue[V]:
+        """The square of the Hertz stress on the wall, MPa²."""
+        case, friction = self.case, self.friction_margin
         assert case.hertz is not None  # there is a face width
-        square = self.force_N * at.touches * case.hertz / self.edge
-        friction = self.friction_margin
         margin = self.edge if friction is None else lesser(friction, self.edge)
-        if name == PV:  # W²/m⁴
-            square = square * (sliding * sliding * 1e12)
-        return QuantityValue(square, margin)
+        return QuantityValue(self.force_N * self.at.touches * case.hertz / self.edge, margin)
+
+    def quantity(self, of: str | LoadQuantity) -> QuantityValue[V]:
+        """A quantity of the cycle, squared if it is one of ``SQUARED``, or a function's."""
+        found: QuantityValue[Any] = (QUANTITIES[of] if isinstance(of, str) else of)(self)
+        return found
 
 
 class LoadQuantity(Protocol):
     """A quantity: a function without numbers, or a tuple whose numbers may be arrays (m, 1)."""
 
-    def __call__(self, i: Instant[Jet], /) -> QuantityValue[Jet]:
+    def __call__(self, i: Instant[Any], /) -> QuantityValue[Any]:
         """The quantity, and the margin that bounds it."""
+
+
+def _pv(i: Instant[Any]) -> QuantityValue[Any]:
+    """The square of the Hertz stress times the speed of sliding, W²/m⁴."""
+    stress, slid = i.stress_squared, i.sliding_m_s
+    return stress._replace(value=stress.value * (slid * slid * 1e12))
+
+
+QUANTITIES: dict[str, LoadQuantity] = {
+    "omega_rad_s": lambda i: QuantityValue(i.at.velocity * i.case.speed_rad_s),
+    "alpha_rad_s2": lambda i: QuantityValue(
+        i.at.acceleration * (i.case.speed_rad_s * i.case.speed_rad_s)
+    ),
+    "wheel_torque_Nm": lambda i: QuantityValue(i.wheel_torque_Nm),
+    "input_torque_Nm": lambda i: QuantityValue(i.input_torque_Nm, i.friction_margin),
+    "pin_force_N": lambda i: QuantityValue(i.force_N, i.grip),
+    "wall_force_N": lambda i: QuantityValue(i.force_N * i.drives, i.grip, i.drives),
+    "wheel_bearing_N": lambda i: QuantityValue(i.wheel_bearing_N, i.grip),
+    "crank_bearing_N": lambda i: QuantityValue(i.crank_bearing_squared, i.grip),
+    "guide_force_N": lambda i: QuantityValue(i.reaction(1), i.grip),  # of rocker, slider, groove
+    "sliding_m_s": lambda i: QuantityValue(i.sliding_m_s),
+    "contact_stress_MPa": lambda i: i.stress_squared,
+    "pv_W_m2": _pv,
+}
 
 
 def sign_of(jet: V, known: Number | None) -> Number:
@@ -217,49 +222,10 @@ def sign_of(jet: V, known: Number | None) -> Number:
     return own if known is None else np.where(np.isnan(known), own, known)
 
 
-class States(NamedTuple):
-    """The loads at input angles, (k,) each; None for what a machine lacks."""
-
-    omega_rad_s: Array
-    alpha_rad_s2: Array
-    wheel_torque_Nm: Array
-    pin_force_N: Array  # with the sign of the wall that bears
-    stress_squared: Array | None  # MPa²
-    sliding_m_s: Array
-    input_torque_Nm: Array
-    wheel_bearing_N: Array
-    crank_bearing_squared: Array  # N²
-    guide_squared: Array | None
-
-
-# each state's quantity
-STATES = dict(zip(States._fields, States._fields, strict=True)) | {
-    "pin_force_N": WALL_FORCE,
-    "stress_squared": STRESS,
-    "crank_bearing_squared": "crank_bearing_N",
-    "guide_squared": "guide_force_N",
-}
-
-
-def lacks(case: LoadCase, at: Contact[V]) -> list[str]:
-    """The names of the states that a machine does not have."""
-    stress, guide = ["stress_squared"], ["guide_squared"]
-    return stress * (case.hertz is None) + guide * (at.reactions is None)
-
-
-def bounded(here: Instant[Array]) -> States:
-    """Values with infinity where a force is unbounded, and 0 where no force is needed there."""
-    without = lacks(here.case, here.at)
-    out: dict[str, Any] = {}
-    with np.errstate(all="ignore"):
-        is_held = here.grip > 0.0
-        bound = np.where(here.wheel_torque_Nm == 0.0, 0.0, np.inf)
-        for state, name in STATES.items():
-            if state in without:
-                out[state] = None
-                continue
-            own, margin, sign = here.quantity(name)
-            if margin is not None:
-                own = np.where(is_held & (margin > 0.0), own, bound * sign)
-            out[state] = own
-    return States(**out)
+def bounded(here: Instant[Array], name: str) -> Array:
+    """A quantity, infinite where a force is unbounded, and 0 where no force is needed there."""
+    own, margin, sign = here.quantity(name)
+    if margin is None:
+        return own
+    bound = np.where(here.wheel_torque_Nm == 0.0, 0.0, np.inf)
+    return np.where((here.grip > 0.0) & (margin > 0.0), own, bound * sign)

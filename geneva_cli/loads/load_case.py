@@ -11,7 +11,6 @@ from collections.abc import Callable
 import numpy as np
 
 from geneva_cli.loads.contact import LoadCase
-from geneva_cli.loads.cycle_quantities import PRESSED, QUANTITIES, TORQUE, WALL_FORCE
 from geneva_cli.loads.strength.pin_arm_key import pin_diameter_mm
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
@@ -89,14 +88,15 @@ def known_quantities(mechanism: Mechanism) -> list[str]:
     """The names of the quantities that have a value for this machine and load."""
     if not mechanism.spec.is_loaded:
         return ["omega_rad_s", "alpha_rad_s2", "sliding_m_s"]
-    known = [*QUANTITIES]
-    known.remove(WALL_FORCE)
-    if load_case(mechanism).hertz is None:
-        for name in PRESSED:
-            known.remove(name)
-    if not mechanism.engagements[0].reactions:  # the joints of all engagements are alike
-        known.remove("guide_force_N")
-    return known
+    pressed = load_case(mechanism).hertz is not None
+    guided = mechanism.engagements[0].reactions is not None  # as the joints of all of them
+    return [
+        *("omega_rad_s", "alpha_rad_s2", "wheel_torque_Nm", "pin_force_N"),
+        *["contact_stress_MPa"] * pressed,
+        *("sliding_m_s", "input_torque_Nm", "wheel_bearing_N", "crank_bearing_N"),
+        *["pv_W_m2"] * pressed,
+        *["guide_force_N"] * guided,
+    ]
 
 
 def multiples(mechanism: Mechanism) -> dict[str, tuple[str, float | None, str]]:
@@ -108,7 +108,7 @@ def multiples(mechanism: Mechanism) -> dict[str, tuple[str, float | None, str]]:
     shaft, output = mechanism.spec.shaft, mechanism.output
     flat = mechanism.spec.wheel.FLAT or not output.turns
     out: dict[str, tuple[str, float | None, str]] = {
-        "power_W": (TORQUE, load_case(mechanism).speed_rad_s, "")
+        "power_W": ("input_torque_Nm", load_case(mechanism).speed_rad_s, "")
     }
     for name, source, factor in output.loads:
         out[name] = source, factor, ""

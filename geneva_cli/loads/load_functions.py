@@ -1,6 +1,8 @@
 """Loads of a batch of one engagement, as functions for searches and sums.
 
-They have a kink or a jump where a sign changes, and at breaks of the motion itself.
+They have a kink or a jump where a sign changes, and at breaks of the motion itself. At mid-motion
+of curved slots, where the pin reverses in a cusp of its pitch curve or crosses the radius, slopes
+are lost to rounding: there the loads are known by themselves.
 """
 
 from __future__ import annotations
@@ -13,16 +15,15 @@ from operator import attrgetter
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.loads.contact import NEAR_CUSP, NEGLIGIBLE, LoadCase, contact
-from geneva_cli.loads.cycle_quantities import PV
+from geneva_cli.loads.contact import NEAR_CUSP, NEGLIGIBLE, LoadCase, contact, value
 from geneva_cli.loads.instant import Instant, LoadQuantity, sign_of
-from geneva_cli.loads.mid_motion import at_mid_motion
 from geneva_cli.motion.batch import selection
 from geneva_cli.motion.engagement import Engagement
+from geneva_cli.motion.path_and_slot import retraces
 from geneva_cli.motion.peak_search import breaks, pole_deg, spans
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Mask, Which, all_true, array
-from geneva_cli.numerics.extremes import SearchResult, Stretches, cuts
+from geneva_cli.numerics.extremes import SearchResult, Stretches, cuts, search
 from geneva_cli.numerics.jet import Array, Jet, Number
 
 # The functions whose signs matter, in order: each is smooth while those before it keep their signs.
@@ -54,7 +55,7 @@ class LoadFunctions:
         matters = {
             "drives": not all_true(case.inertia_Nm == 0.0),
             # p v is 0 where the sliding is, in a notch that may be near a pole
-            "slides": case.rubs or PV in names,
+            "slides": case.rubs or "pv_W_m2" in names,
             "feeds": not all_true(case.efficiency == 1.0),
             "grip": case.rubs or case.guided,
             "leans": case.guided,
@@ -99,10 +100,8 @@ class LoadFunctions:
         w = np.fmin(np.where(w > 0.0, w, np.inf), 10.0 * engagement.exit_deg)
         self.spread: Array = np.broadcast_to(w, (self.n, 1))
 
-    def to_search(
-        self, sized: bool = False
-    ) -> tuple[list[tuple[Array, Array]], list[tuple[int, Array, Array]]]:
-        """The spans of the motion to be searched, and values that none of them reaches."""
+    def search(self, sized: bool = False) -> SearchResult:
+        """The greatest values of the quantities and of their negatives, or their greatest sizes."""
         parts, case, engagement = self.spans, self.case, self.engagement
         is_curved = engagement.slot.curved
         # Without friction, for an inertia or a torque alone, the second half of the motion has no
@@ -114,9 +113,10 @@ class LoadFunctions:
         radial = all_true(engagement.slot.offset == 0.0)
         if sized and alone and radial and engagement.mirrored:
             parts = parts[: len(parts) // 2]
+        known = list[tuple[int, Array, Array]]()
         if is_curved:  # no span reaches mid-motion
-            return parts, at_mid_motion(engagement, case, self.quantities, self.n)
-        return parts, []
+            known = at_mid_motion(engagement, case, self.quantities, self.n)
+        return search(self, parts, sized, known, self.spread)
 
     def stretches(self, result: SearchResult | None = None) -> Stretches:
         """The motion, divided where signs change: as in a search, or without one."""
@@ -193,6 +193,57 @@ class LoadFunctions:
                 values[0, i] = np.where(unbounded, np.inf * sign, values[0, i])
                 values[1:, i, unbounded] = 0.0
         return positive, values
+
+
+def at_mid_motion(
+    engagement: Engagement, case: LoadCase, quantities: Sequence[str | LoadQuantity], n: int
+) -> list[tuple[int, Array, Array]]:
+    """The quantities of n designs at mid-motion, which no stretch reaches.
+
+    They are numbers of quantities, with places and values (n,); NaN where undefined.
+
+    Where the pin crosses the radius, its lever is 0 and a torque takes an unbounded force; instead
+    of 0/0 the limits from both sides are returned. At a cusp the wall turns away from the roller on
+    one side. A law that jumps at its middle has another acceleration after it: the slot then has a
+    corner there, whose two sides are mirror images.
+    """
+    out: list[tuple[int, Array, Array]] = []
+    middle = np.zeros((n, 1))
+
+    def add(number: int, known: Number, where: Mask) -> None:
+        out.append((number, middle[:, 0], np.where(where, known, np.full((n, 1), np.nan))[:, 0]))
+
+    with np.errstate(all="ignore"):
+        near = np.broadcast_to(NEAR_CUSP * np.reshape(engagement.entry_deg, (-1, 1)), (n, 1))
+        at = contact(engagement, middle)
+        before = array(at.acceleration.c[0])
+        # just after mid-motion: 0 is exact, and a smaller number might become 0
+        after = array(engagement.motion(middle + 1e-300, 2).derivatives()[2])
+        # the two halves of a law are equal there to some roundings, or its acceleration jumps
+        jumps = np.abs(after - before) > 1e-6 * (np.abs(after) + engagement.usual_acceleration)
+        limits: list[list[Array]] = []
+        for x in (near, -near):  # the limits of 0/0, from values near mid-motion
+            instant, h = Instant(case, contact(engagement, x, 2)), np.radians(x)
+            jets = [instant.quantity(of).value.c for of in quantities]
+            limits.append([array(c[0] - h * (c[1] - h * c[2])) for c in jets])
+        # The tangent points away from the axis at entry and exit; at a cusp both are one.
+        crosses = ~np.asarray(retraces(engagement))
+        for sense, acceleration in ((1.0, at.acceleration), (-1.0, Jet([after]))):
+            turned = {name: getattr(at, name) * sense for name in ("along", "offset", "curvature")}
+            instant = Instant(case, at._replace(acceleration=acceleration, **turned))
+            loaded = case.is_loaded(engagement, value(instant.wheel_torque_Nm))
+            for k, of in enumerate(quantities):
+                row, margin, sign = instant.quantity(of)
+                known, bar = value(row), np.inf if margin is None else value(margin)
+                finite = np.isfinite(known)
+                add(k, known, np.isinf(bar) & finite)
+                for limit in limits:
+                    # on this side friction alone holds the wheel, whatever the torque
+                    none = np.where(bar < -NEGLIGIBLE, np.nan, limit[k])
+                    none = np.where(loaded, np.inf * sign, none)
+                    limited = np.where((bar > NEGLIGIBLE) & finite, known, none)
+                    add(k, limited, crosses | jumps | (sense > 0.0))
+    return out
 
 
 def on_breaks(x: Array, engagement: Engagement) -> Array:

@@ -4,18 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from functools import lru_cache
-from typing import Generic, NamedTuple, TypeAlias, TypeVar
+from typing import Generic, NamedTuple, TypeAlias, TypeVar, cast
 
 import numpy as np
 
-from geneva_cli.loads.contact import NEAR_CUSP, LoadCase, QuantityValue
-from geneva_cli.loads.cycle_quantities import (
-    FORCE,
+from geneva_cli.loads.contact import (
+    NEAR_CUSP,
     NEVER_NEGATIVE,
     PRESSED,
-    REPORTED_PEAKS,
     SQUARED,
-    STRESS,
+    LoadCase,
+    QuantityValue,
     plain_values,
 )
 from geneva_cli.loads.instant import Instant, LoadQuantity
@@ -28,8 +27,17 @@ from geneva_cli.motion.peak_search import PeakArray, greater
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Which, Whole, array, matrix_product, parameter
 from geneva_cli.numerics.cuts import gathered, spread
-from geneva_cli.numerics.extremes import SearchResult, bar, search
+from geneva_cli.numerics.extremes import SearchResult, bar
 from geneva_cli.numerics.jet import Array, Jet
+
+# Loads whose greatest size a report shows, and their names in the cycle.
+REPORTED_PEAKS = {
+    "torque_Nm": "wheel_torque_Nm",
+    "rack_force_N": "rack_force_N",
+    "pin_force_N": "pin_force_N",
+    "input_torque_Nm": "input_torque_Nm",
+    "contact_stress_MPa": "contact_stress_MPa",
+}
 
 S = TypeVar("S", float, "float | None", Array)  # of one design, as printed, of a batch
 
@@ -43,6 +51,11 @@ class LoadSummary(NamedTuple, Generic[S]):
     min_at_deg: S
     mean: S | None = None  # None if not requested
     rms: S | None = None
+
+
+def only(one: LoadSummary[Array]) -> LoadSummary[float]:
+    """The summary of a single design."""
+    return LoadSummary(*[cast(float, None if row is None else row.item()) for row in one])
 
 
 Search: TypeAlias = tuple[LoadFunctions, SearchResult]  # of an engagement
@@ -59,23 +72,21 @@ def load_peaks(
     mechanism = mechanism.under_load
     case, best = case or load_case(mechanism), dict[str, PeakArray]()
     # the square of the stress on a flat wall is proportional to the force
-    by_force = STRESS in names and case.hertz is not None
+    by_force = "contact_stress_MPa" in names and case.hertz is not None
     for engagement in mechanism.engagements:
         by_force = by_force and engagement.slot.walls_flat
-    sought = list(dict.fromkeys((*names, FORCE) if by_force else names))
+    sought = list(dict.fromkeys((*names, "pin_force_N") if by_force else names))
     if by_force:
-        sought.remove(STRESS)
+        sought.remove("contact_stress_MPa")
     for engagement in mechanism.engagements:
-        load = LoadFunctions(engagement, case, sought, own)
-        spans, known = load.to_search(sized=True)
-        result = search(load, spans, True, known, load.spread)
+        result = LoadFunctions(engagement, case, sought, own).search(sized=True)
         at_deg = shown_deg(mechanism, engagement, result.x)
         for name, *row in zip(sought, result.most, at_deg, strict=True):
             here = PeakArray(*row)
             best[name] = greater(best[name], here) if name in best else here
     if by_force and case.hertz is not None:
-        force = best[FORCE]
-        best[STRESS] = force._replace(max=force.max * np.ravel(case.hertz))
+        force = best["pin_force_N"]
+        best["contact_stress_MPa"] = force._replace(max=force.max * np.ravel(case.hertz))
     out = {}
     for name in names:
         one = best[name]
@@ -117,12 +128,7 @@ def reported_peaks(
     return _single_peaks(mechanism) if single else _reported(mechanism, names)
 
 
-@lru_cache(maxsize=16)
-def _single_peaks(mechanism: Mechanism) -> Mapping[str, PeakArray]:
-    return _reported(mechanism, REPORTED_PEAKS)
-
-
-def _reported(mechanism: Mechanism, names: Iterable[str]) -> dict[str, PeakArray]:
+def _reported(mechanism: Mechanism, names: Iterable[str] = REPORTED_PEAKS) -> dict[str, PeakArray]:
     known = sources(mechanism)
     factors = {name: known[own] for name in names if (own := REPORTED_PEAKS[name]) in known}
     peaks = load_peaks(mechanism, [s for s, _ in factors.values()]) if factors else {}
@@ -130,6 +136,9 @@ def _reported(mechanism: Mechanism, names: Iterable[str]) -> dict[str, PeakArray
         name: PeakArray(peaks[source].max * np.ravel(factor), peaks[source].at_deg)
         for name, (source, factor) in factors.items()
     }
+
+
+_single_peaks = lru_cache(maxsize=16)(_reported)
 
 
 def load_summaries(
@@ -169,8 +178,7 @@ def _extremes(mechanism: Mechanism, names: Sequence[str] | None = None) -> Found
     case, searches, places = load_case(mechanism), list[Search](), list[Array]()
     for engagement in mechanism.engagements:
         load = LoadFunctions(engagement, case, sought)
-        spans, beside = load.to_search()
-        result = search(load, spans, False, beside, load.spread)
+        result = load.search()
         searches.append((load, result))
         places.append(np.stack((result.most, shown_deg(mechanism, engagement, result.x))))
     # by value and place, engagement, quantity: first the values, then those of the negatives

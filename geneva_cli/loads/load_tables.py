@@ -1,27 +1,32 @@
-"""The loads as they are printed: a table of the cycle, and its summary."""
+"""The loads as they are printed: a table of the cycle, its summary, and the standard motor."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from geneva_cli.errors import Notice
+from geneva_cli.loads.contact import PRESSED
 from geneva_cli.loads.cycle import Cycle
-from geneva_cli.loads.cycle_quantities import PRESSED, PV, STRESS
-from geneva_cli.loads.load_case import known_quantities, multiples, sources
+from geneva_cli.loads.load_case import multiples
 from geneva_cli.loads.load_peaks import LoadSummary, reported_peaks
 from geneva_cli.table import Reading, Table, computed_table, record_table, rows_table
 
 SHOWN_QUANTITIES = (
-    *("omega_rad_s", "alpha_rad_s2", "wheel_torque_Nm", "pin_force_N", STRESS, "sliding_m_s"),
-    *("input_torque_Nm", "power_W", "wheel_bearing_N", "crank_bearing_N"),
+    *("omega_rad_s", "alpha_rad_s2", "wheel_torque_Nm", "pin_force_N", "contact_stress_MPa"),
+    *("sliding_m_s", "input_torque_Nm", "power_W", "wheel_bearing_N", "crank_bearing_N"),
     # what only some machines have stands behind the columns that scripts count
-    *(PV, "rack_speed_m_s", "rack_acceleration_m_s2", "rack_force_N", "guide_force_N"),
+    *("pv_W_m2", "rack_speed_m_s", "rack_acceleration_m_s2", "rack_force_N", "guide_force_N"),
     *("wheel_near_bearing_N", "wheel_far_bearing_N", "crank_near_bearing_N", "crank_far_bearing_N"),
+)
+# Rated outputs of motors, kW, by IEC 60072-1; 3 and 4 kW, common in catalogues, by EN 50347.
+RATED_kW = (
+    *(0.06, 0.09, 0.12, 0.18, 0.25, 0.37, 0.55, 0.75, 1.1, 1.5, 2.2, 3.0, 4.0, 5.5, 7.5, 11.0),
+    *(15.0, 18.5, 22.0, 30.0, 37.0, 45.0, 55.0, 75.0, 90.0, 110.0, 132.0, 160.0, 200.0, 250.0),
 )
 
 
@@ -81,6 +86,29 @@ def loads_table(
     return record_table(values)
 
 
+class RecommendedMotor(NamedTuple):
+    """A motor: the power needed from it, and the standard power that is enough."""
+
+    formula_W: float  # by the cam-indexer formula, with the service factor and both efficiencies
+    peak_W: float  # greatest over the exact cycle, behind the reducer, without the service factor
+    rpm: float
+    input_torque_Nm: float  # by the cam-indexer formula, with the service factor
+    needed_W: float  # the greater of both powers
+    rated_kW: float | None  # the least standard power that is enough; None if none is
+
+
+def recommended_motor(sizing: Mapping[str, float | None]) -> RecommendedMotor | None:
+    """The motor for the values of ``sizing``; None without a load, or for an unbounded one."""
+    names = ("power_W", "motor_torque_max_Nm", "motor_rpm", "input_torque_Nm")
+    formula_W, torque, rpm, with_factor = (sizing[name] for name in names)
+    if formula_W is None or torque is None or rpm is None or with_factor is None:
+        return None
+    peak_W = torque * rpm * math.tau / 60.0
+    needed = max(formula_W, peak_W)
+    rated = next((rated for rated in RATED_kW if 1e3 * rated >= needed), None)
+    return RecommendedMotor(formula_W, peak_W, rpm, with_factor, needed, rated)
+
+
 def no_load(cycle: Cycle) -> str:
     """What a cycle without a load needs."""
     return f"no force is known: set {cycle.mechanism.spec.load_keys}"
@@ -94,7 +122,7 @@ def missing(cycle: Cycle) -> list[Notice]:
     out = [] if wide else [f"{name}: needs face_width_mm in [size]" for name in PRESSED]
     spec, guide = cycle.mechanism.spec, "guide_force_N"
     missing = spec.drive.missing_length
-    if missing and spec.wheel.FLAT and guide not in known_quantities(cycle.mechanism):
+    if missing and spec.wheel.FLAT and guide not in cycle.sources:
         needs = f"needs {missing} in [drive]"
         out.append(f"{guide}, and the share of it in the crank's bearings: {needs}")
     unknown: dict[str, list[str]] = {}
@@ -111,20 +139,19 @@ def cycle_table(cycle: Cycle, samples: int) -> Table:
     from geneva_cli.motion.motion_table import check_samples, derivatives, inputs, times_s
 
     check_samples(samples)
-    machine, known = cycle.mechanism, sources(cycle.mechanism)
+    machine = cycle.mechanism
+    known = [name for name in SHOWN_QUANTITIES if name in cycle.sources]
     names = ("time_s", "input_deg", machine.output.column, *SHOWN_QUANTITIES)
 
     def rows(begin: int, end: int) -> list[Any]:
         input_deg = inputs(machine, samples, begin, end)
-        states = cycle.states(input_deg)
+        loads = dict(zip(known, cycle.states(input_deg, known), strict=True))
         turned = derivatives(machine, input_deg, (0,))[0] * machine.output.per_radian
         out = [times_s(machine, input_deg), input_deg, turned]
         for name in SHOWN_QUANTITIES:
-            column: Any = [None] * len(input_deg)
-            if name in known:
-                column = cycle.plain(states, name)
-                if not np.isfinite(column).all():
-                    column = [x if math.isfinite(x) else None for x in column.tolist()]
+            column: Any = loads.get(name, [None] * len(input_deg))
+            if name in loads and not np.isfinite(column).all():
+                column = [*map(_finite, column.tolist())]
             out.append(column)
         return out
 

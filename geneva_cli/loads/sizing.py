@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.loads.contact import QuantityValue
-from geneva_cli.loads.cycle_quantities import TORQUE
 from geneva_cli.loads.instant import Instant, LoadQuantity
 from geneva_cli.loads.load_case import inertia_kgm2, load_case, resisting_torques_Nm
 from geneva_cli.loads.load_functions import LoadFunctions
@@ -27,8 +26,8 @@ from geneva_cli.numerics.quadrature import span_integrals
 if TYPE_CHECKING:
     from geneva_cli.loads.cycle import Cycle
 
-CARRIED = ("inertia_kgm2", "motor_rpm")
-KNOWN_UNLOADED = (*CARRIED, "acceleration_rad_s2", "Am", "Vm", "Qm")  # known without a load
+# known without a load
+KNOWN_UNLOADED = ("inertia_kgm2", "motor_rpm", "acceleration_rad_s2", "Am", "Vm", "Qm")
 SUMS = ("energy_fluctuation_J", "flywheel_kgm2", "flywheel_to_add_kgm2", "motor_torque_rms_Nm")
 WHEEL_INERTIA = "wheel_inertia_kgm2"  # known from the parts, not from ``sizings``
 # In the order shown: the inertia at the wheel's shaft, and the wheel's own; the cam-indexer
@@ -40,6 +39,13 @@ SHOWN_SIZING = (
     *("energy_fluctuation_J", "flywheel_kgm2", "motor_rpm", "motor_torque_max_Nm"),
     *("motor_torque_rms_Nm", "inertia_ratio", "flywheel_to_add_kgm2"),
 )
+# the keys without which a value is unknown
+NEEDS = {
+    "inertia_kgm2": "inertia_kgm2 in [load], or a [[mass]]",
+    "friction_torque_Nm": "friction and radius_mm in [support]",
+    "flywheel_kgm2": "speed_variation in [motor], and an input torque with a bound",
+    "inertia_ratio": "inertia_kgm2 in [motor]",
+}
 SIZING_NAMES = tuple(name for name in SHOWN_SIZING if name != WHEEL_INERTIA)
 
 
@@ -49,7 +55,7 @@ def sizing(
 ) -> tuple[Mapping[str, float | None], tuple[str, ...]]:
     """The values of one design in the order shown, and the keys that missing values need."""
     spec, lacks = cycle.mechanism.spec, cycle.mechanism.output.lacks
-    torque = cycle.known[TORQUE] if cycle.is_loaded else None
+    torque = cycle.extremes["input_torque_Nm"] if cycle.is_loaded else None
     rows = sizings(cycle.machine, SIZING_NAMES if torque else KNOWN_UNLOADED)
     values = {name: float(row[0]) for name, row in rows.items() if name not in lacks}
     out = {
@@ -58,17 +64,12 @@ def sizing(
     out[WHEEL_INERTIA] = wheel_inertia_kgm2
     if torque is None:
         return out, ()
-    needs = []
-    if not (np.isfinite(torque.max) & np.isfinite(torque.min)).all():
+    needs = list[str]()
+    if math.isinf(torque.max) or math.isinf(torque.min):
         needs.append("sizing: nothing bounds the input's torque, so no motor or flywheel suffices")
-    if out["inertia_kgm2"] is None and "inertia_kgm2" not in lacks:
-        needs.append("inertia_kgm2: needs inertia_kgm2 in [load], or a [[mass]]")
-    if out["friction_torque_Nm"] is None and "friction_torque_Nm" not in lacks:
-        needs.append("friction_torque_Nm: needs friction and radius_mm in [support]")
-    if spec.motor.speed_variation is None:
-        needs.append("flywheel_kgm2, flywheel_to_add_kgm2: need speed_variation in [motor]")
-    if not spec.motor.inertia_kgm2:
-        needs.append("inertia_ratio: needs inertia_kgm2 in [motor]")
+    for name, why in NEEDS.items():
+        if out[name] is None and name not in lacks:
+            needs.append(f"{name}: needs {why}")
     if wheel_inertia_kgm2 is None:
         why = "needs a wheel that can be cut; `geneva profile` shows why it cannot"
         if not spec.is_flat:
@@ -87,11 +88,10 @@ def sizings(mechanism: Mechanism, requested: Collection[str] = SIZING_NAMES) -> 
     values: dict[str, Number] = {
         "inertia_kgm2": _some(own),
         "motor_rpm": spec.drive.n_rpm * spec.motor.ratio,
+        **_by_formula(whole),
     }
-    if names - {*CARRIED, *SUMS, "inertia_ratio", "motor_torque_max_Nm"}:
-        values |= _by_formula(whole)
     if names & {*SUMS, "motor_torque_max_Nm"}:
-        torque = load_summaries(mechanism, [TORQUE], bool(names & set(SUMS)))[TORQUE]
+        (torque,) = load_summaries(mechanism, ["input_torque_Nm"], bool(names & {*SUMS})).values()
         values |= _exact(whole, torque)
     if "inertia_ratio" in names:  # the wheel's inertia at its fastest over the motor's
         frame = whole.frame
@@ -153,9 +153,10 @@ def indexer_formula(
 
 def _by_formula(mechanism: Mechanism) -> dict[str, Number]:
     """The cam-indexer formula, for the engagement with the greatest torque at the input."""
-    spec, fc, best = mechanism.spec, mechanism.spec.motor.service_factor, None
+    spec, fc = mechanism.spec, mechanism.spec.motor.service_factor
     work, friction = resisting_torques_Nm(spec)
     load = inertia_kgm2(spec), friction, work
+    each: list[tuple[IndexerFormula, CamFactors]] = []
     for number, engagement in enumerate(mechanism.engagements):
         step, motion = mechanism.index_deg(number), engagement.motion_deg
         velocity, acceleration, power = _peaks(engagement, "velocity", "acceleration", "power")
@@ -163,14 +164,11 @@ def _by_formula(mechanism: Mechanism) -> dict[str, Number]:
         line = indexer_formula(factors, step, motion, spec.drive.n_rpm, load, fc)
         # a carrier also turns the wheel's frame, whose torque need not be greatest there
         line = line._replace(Tc=line.Tc + abs(mechanism.frame) * fc * line.Ti)
-        if best is None:
-            best = line, factors
-            continue
-        first = best[0]
-        more = (line.Tc > first.Tc) | ((line.Tc == first.Tc) & (line.alpha > first.alpha))
-        best = choose_record(more, (line, factors), best)
-    assert best is not None  # a machine has an engagement
-    line, factors = best
+        each.append((line, factors))
+    line, factors = best = each[0]
+    for other in each[1:]:
+        more = (other[0].Tc > line.Tc) | ((other[0].Tc == line.Tc) & (other[0].alpha > line.alpha))
+        line, factors = best = choose_record(more, other, best)
     losses = spec.load.efficiency * spec.motor.gear_efficiency
     return {
         "acceleration_rad_s2": line.alpha,
@@ -278,6 +276,6 @@ def kinetic_power_W(mechanism: Mechanism, power_invariant: float) -> float:
         return inertia_kgm2(spec) * power_invariant * w**3 / spec.load.efficiency
     case = load_case(mechanism)._replace(resists_Nm=0.0, efficiency=1.0, guide=None)
     case = case.with_friction(0.0)
-    torque = load_peaks(mechanism, (TORQUE,), case=case)[TORQUE].max
+    torque = load_peaks(mechanism, ("input_torque_Nm",), case=case)["input_torque_Nm"].max
     one = isinstance(power_invariant, float)
     return (float(torque[0]) if one else parameter(torque[:, None])) * w / spec.load.efficiency

@@ -31,6 +31,9 @@ _IN_WHEEL = (
 _IN_CRANK = (
     *("crank_bore_mm", "crank_hub_mm", "arm_bore_mm", "lock_bolt_mm", "lock_bolt_circle_mm"),
 )
+# kinds of a spec, in the text of a conflict
+GEARING, KIND = 'gearing = "{spec.wheel.NAME}"', 'kind = "{spec.drive.NAME}"'
+BEFORE = 'kind = "{spec.drive_before.NAME}"'
 
 
 # A combination that makes no machine if the first member is true (in a batch an array); the key to
@@ -58,19 +61,18 @@ def _conflicts(spec: Spec) -> Iterator[Conflict]:
             if kind.refuses and field == own and concerns(kind, spec):
                 yield from load_named(kind.refuses)(spec)
     size, wheel = spec.size, spec.wheel
+    has_horns = wheel.FLAT and spec.output.turns
     for key in ("mouth_radius_mm", "horn_tip_mm"):
-        is_cut = getattr(size, key) > 0.0
-        text = f"{key} is for external and internal wheels, not gearing = "
-        text += '"{spec.wheel.NAME}": remove it'
-        yield (is_cut & (not (wheel.FLAT and spec.output.turns)), ("size", key), text)
+        is_cut, place = getattr(size, key) > 0.0, ("size", key)
+        text = f"{key} is for external and internal wheels, not {GEARING}: remove it"
+        yield is_cut & (not has_horns), place, text
         text = f"{key} is for wheels with a recess behind every slot: remove it, or stop"
-        yield (is_cut & wheel.stopped, ("size", key), text)
+        yield is_cut & wheel.stopped, place, text
     if spec.limits.dwell_position_max_deg is not None:
         sizes = [key for key in spec.tolerance.as_dict() if key != "distribution"]
         exact = reduce(and_, (getattr(spec.tolerance, key) == 0.0 for key in sizes))
-        text = "dwell_position_max_deg limits the error of a wheel within its tolerances: set one "
-        text += f"or more of {', '.join(sizes)} in [tolerance]"
-        yield (exact, ("limits", "dwell_position_max_deg"), text)
+        text = f"dwell_position_max_deg needs one or more of {', '.join(sizes)} in [tolerance]"
+        yield exact, ("limits", "dwell_position_max_deg"), text
 
 
 def concerns(kind: Kind, spec: Spec) -> bool:
@@ -79,7 +81,7 @@ def concerns(kind: Kind, spec: Spec) -> bool:
         return True
     for key in kind.keys:
         table, _, name = key.partition(".")
-        of = vars(spec)[table.replace(".", "_")]
+        of = vars(spec)[table]
         value, default = vars(of).get(name), getattr(type(of), name, None)
         if value is not default and (is_array(value) or value != default):
             return True
@@ -89,20 +91,13 @@ def concerns(kind: Kind, spec: Spec) -> bool:
 def _of_drive_before(spec: Spec, before: Drive) -> Iterator[Conflict]:
     """Rules on a drive that turns the shaft of another."""
     drive, key = spec.drive, ("drive", "before")
-    text = 'kind = "{spec.drive_before.NAME}" cannot turn the shaft of another drive: remove '
-    yield (not before.IN_FRONT, (*key, "kind"), text + "[drive.before]")
-    text = 'kind = "{spec.drive_before.NAME}" cannot stand before kind = "{spec.drive.NAME}": '
-    yield (drive.FIRST, key, text + "{spec.drive.FIRST}")
-    text = (
-        "n_rpm, rollers and roller_angles_deg belong to the machine: set them in "
-        "[drive], not in [drive.before]"
-    )
-    yield (is_set(before, Drive), key, text)
-    text = (
-        'the crank of kind = "{spec.drive.NAME}" is on the shaft: set kind = '
-        '"{spec.drive_before.NAME}" in [drive] instead'
-    )
-    yield (drive.direct and not (spec.motion or len(drive.cranks) > 1), key, text)
+    text = f"{BEFORE} cannot turn the shaft of another drive: remove [drive.before]"
+    yield not before.IN_FRONT, (*key, "kind"), text
+    yield drive.FIRST, key, f"{BEFORE} cannot stand before {KIND}: {drive.FIRST}"
+    text = "n_rpm, rollers and roller_angles_deg: set them in [drive], not in [drive.before]"
+    yield is_set(before, Drive), key, text
+    text = f"the crank of {KIND} is on the shaft: set {BEFORE} in [drive] instead"
+    yield drive.direct and not (spec.motion or len(drive.cranks) > 1), key, text
 
 
 def is_set(table: SpecTable, kind: type[SpecTable] | None = None) -> object:
@@ -123,17 +118,17 @@ def refuse_sizes(spec: Spec, L: float, ratio: float) -> None:
     radius, given = size.crank_radius_mm, size.center_distance_mm
     if radius is not None and given is not None:  # a crank as built, of a kind that needs its R/L
         text = (
-            "{key} = {radius:.9g} and center_distance_mm = {L:.9g} have R/L = {given:.6g}, but "
-            "this machine needs {ratio:.6g}; straight slots of an external or internal wheel on a "
-            "crank or a side-crank are taken as built: {key} = {own:.9g}, or center_distance_mm = "
-            "{fitting_mm:.9g}, or leave one of them out"
+            "crank_radius_mm = {radius:.9g} and center_distance_mm = {L:.9g} have R/L = "
+            "{given:.6g}, but this machine needs {ratio:.6g}; straight slots of an external or "
+            "internal wheel on a crank or a side-crank are taken as built: crank_radius_mm = "
+            "{own:.9g}, or center_distance_mm = {fitting_mm:.9g}, or leave one of them out"
         )
         if spec.motion is not None:
             text += "; or set ratio = {given:.9g} in [motion]"
         values = {"radius": radius, "L": L, "given": radius / L, "ratio": ratio, "own": ratio * L}
         values["fitting_mm"] = spec.drive.distance_mm(spec.wheel, spec.motion, radius)
         off = abs(radius / L - ratio) > SAME_RATIO
-        refuse_text(off, ("size", "crank_radius_mm"), text, key="crank_radius_mm", **values)
+        refuse_text(off, ("size", "crank_radius_mm"), text, **values)
     farthest = "the roller's greatest distance from the wheel's axis"
     if not spec.output.turns:  # a rack has no axis: where its roller is farthest from the deepest
         farthest = f"twice {distance}"
@@ -164,25 +159,20 @@ def refuse_sizes(spec: Spec, L: float, ratio: float) -> None:
             value = allowed.get(key, own)
             if value is not None:
                 by = "" if own is not None else f'; the value comes from process = "{size.process}"'
-                text = "{key} = {value:g}: it must be below {below:.6g}, " + meaning + by
-                wrong, at = value >= below, ("size", key)
-                refuse_text(wrong, at, text, key=key, value=value, below=below)
+                text = f"{key} = {{value:g}}: it must be below {{below:.6g}}, {meaning}{by}"
+                refuse_text(value >= below, ("size", key), text, value=value, below=below)
     face, thick, edge = size.face_width_mm, size.wheel_thickness_mm, size.edge_mm
     if face is not None and thick is not None:
-        text = "{key} = {thick:g}: the contact line cannot be longer than the wheel is thick; use "
-        text += "at least face_width_mm = {face:g}"
-        if isinstance(edge, (int, float)) and edge > 0.0:
-            text += " and two edges of {edge:g}"
-        at, values = ("size", "wheel_thickness_mm"), {"thick": thick, "face": face, "edge": edge}
-        refuse_text(face + 2.0 * edge > thick, at, text, key=at[1], **values)
+        text = "wheel_thickness_mm = {thick:g}: use at least {least:g}, face_width_mm and two edges"
+        least = face + 2.0 * edge
+        at = ("size", "wheel_thickness_mm")
+        refuse_text(least > thick, at, text, thick=thick, least=least)
     for part in ("wheel", "crank"):
         bore, hub = getattr(size, f"{part}_bore_mm"), getattr(size, f"{part}_hub_mm")
         if bore is not None and hub is not None:
-            text = "{key} = {hub:g}: a hub must be larger than its bore: at least "
-            text += f"{part}_bore_mm = {{bore:g}}, or 0 for none"
-            inside = (hub > 0.0) & (hub < bore)
-            key = f"{part}_hub_mm"
-            refuse_text(inside, ("size", key), text, key=key, hub=hub, bore=bore)
+            text = f"{part}_hub_mm = {{hub:g}}: it must be at least {part}_bore_mm = {{bore:g}}, "
+            inside, at = (hub > 0.0) & (hub < bore), ("size", f"{part}_hub_mm")
+            refuse_text(inside, at, text + "or 0 for none", hub=hub, bore=bore)
 
 
 def refuse_tolerances(spec: Spec, L: float, ratio: float) -> None:
@@ -196,9 +186,9 @@ def refuse_tolerances(spec: Spec, L: float, ratio: float) -> None:
     slot = roller + 2.0 * spec.size.allowances.slot_clearance_mm
     disc = arm if lock is None else choose(lock == 0.0, arm, lock)
     for key in ("lock_radius_mm", "recess_radius_mm"):
-        text = "{key} = {value:g}: this machine has no locking disc; remove it"
-        wrong, at = unlocked & (given[key] != 0.0), ("tolerance", key)
-        refuse_text(wrong, at, text, key=key, value=given[key])
+        text = f"{key} = {{value:g}}: this machine has no locking disc; remove it"
+        wrong = unlocked & (given[key] != 0.0)
+        refuse_text(wrong, ("tolerance", key), text, value=given[key])
     for key, below, what in (
         ("center_distance_mm", L, "the centre distance"),
         ("crank_radius_mm", arm, "the crank's radius"),
@@ -208,38 +198,36 @@ def refuse_tolerances(spec: Spec, L: float, ratio: float) -> None:
         ("lock_radius_mm", disc, "the locking disc's radius, or the crank's"),
         ("recess_radius_mm", disc, "the locking disc's radius, or the crank's"),
     ):
-        text = "{key} = ±{value:g} is as large as the dimension itself: it must be below "
-        text, value, at = text + "{below:.6g}, " + what, given[key], ("tolerance", key)
-        refuse_text(value >= below, at, text, key=key, value=value, below=below)
+        text, value = f"{key} = ±{{value:g}}: it must be below {{below:.6g}}, {what}", given[key]
+        refuse_text(value >= below, ("tolerance", key), text, value=value, below=below)
 
 
 def other_wheels(spec: Spec) -> Conflict:
     """A wheel of another kind than those that the drive can drive."""
     able = next(kind.gearings for kind in KINDS if kind.drive and kind.name == spec.drive.NAME)
-    text = f'kind = "{{spec.drive.NAME}}" drives an {" or ".join(able)} wheel, not gearing = '
-    text += '"{spec.wheel.NAME}"'
-    return (spec.wheel.NAME not in able, ("wheel", "gearing"), text)
+    text = f"{KIND} drives an {' or '.join(able)} wheel, not {GEARING}"
+    return spec.wheel.NAME not in able, ("wheel", "gearing"), text
 
 
 def several_rollers(spec: Spec) -> Iterator[Conflict]:
     """More than one roller, with a drive that carries one."""
-    text = 'kind = "{spec.drive.NAME}" carries one roller only'
-    yield (spec.drive.rollers > 1, ("drive", "rollers"), text)
-    yield (spec.wheel.steps or spec.drive.roller_angles_deg, ("drive", "kind"), text)
+    text, several = f"{KIND} carries one roller only", spec.wheel.steps
+    yield spec.drive.rollers > 1, ("drive", "rollers"), text
+    yield several or spec.drive.roller_angles_deg, ("drive", "kind"), text
 
 
 def _not_radial(spec: Spec) -> Conflict:
-    text = 'kind = "{spec.drive.NAME}" needs one roller and radial slots: remove offset_mm, '
-    text += "steps_deg and roller_angles_deg"
-    return (spec.drive.roller_angles_deg or spec.wheel.skewed, ("drive", "kind"), text)
+    text = f"{KIND} needs one roller and radial slots: remove offset_mm, steps_deg and "
+    wrong = spec.drive.roller_angles_deg or spec.wheel.skewed
+    return wrong, ("drive", "kind"), text + "roller_angles_deg"
 
 
 def of_pin_path(spec: Spec) -> Iterator[Conflict]:
     """Rules of a drive whose roller has a path of its own."""
     yield _not_radial(spec)
     yield other_wheels(spec)
-    text = 'kind = "{spec.drive.NAME}" sets the path of the roller, and the slots are straight: '
-    yield (spec.motion is not None, ("motion", "law"), text + "remove law")
+    text = f"{KIND} sets the path of the roller, and the slots are straight: remove law"
+    yield spec.motion is not None, ("motion", "law"), text
     yield from several_rollers(spec)
 
 
@@ -247,33 +235,29 @@ def of_cam(spec: Spec) -> Iterator[Conflict]:
     """Rules of a roller in a groove that a law gives."""
     yield _not_radial(spec)
     yield other_wheels(spec)
-    text = 'kind = "{spec.drive.NAME}" needs a law in [motion]: the groove is cut for it'
-    yield (spec.motion is None, ("drive", "kind"), text)
+    text = f"{KIND} needs a law in [motion]: the groove is cut for it"
+    yield spec.motion is None, ("drive", "kind"), text
 
 
 def of_transmission(spec: Spec) -> Iterator[Conflict]:
     """Rules of a roller on a crank: of the slots that a law gives, then of several rollers."""
     drive, wheel, law = spec.drive, spec.wheel, spec.motion is not None
-    angles = ("drive", "roller_angles_deg")
+    angles, rollers = ("drive", "roller_angles_deg"), ("drive", "rollers")
     text = "{} is for straight slots, and a law makes curved slots: remove one of them"
-    yield (law and wheel.steps, ("wheel", "steps_deg"), text.format("steps_deg"))
-    yield (law and wheel.skewed, ("wheel", "offset_mm"), text.format("offset_mm"))
-    text = 'gearing = "{spec.wheel.NAME}" has straight slots only: remove law'
-    yield (law and not wheel.FLAT, ("motion", "law"), text)
+    yield law and wheel.steps, ("wheel", "steps_deg"), text.format("steps_deg")
+    yield law and wheel.skewed, ("wheel", "offset_mm"), text.format("offset_mm")
+    text = f"{GEARING} has straight slots only: remove law"
+    yield law and not wheel.FLAT, ("motion", "law"), text
     placed = len(wheel.steps or drive.roller_angles_deg or ())
     text = f"each of the {placed} steps has a roller: roller_angles_deg needs as many angles"
-    too_few = wheel.steps and len(drive.roller_angles_deg or wheel.steps) != placed
-    yield (too_few, angles, text)
-    text = f"rollers = {{spec.drive.rollers}}, but there are {placed} "
-    text += f"{'steps' if wheel.steps else 'angles'}: remove rollers"
-    yield (placed and drive.rollers not in (1, placed), ("drive", "rollers"), text)
-    text = "roller_angles_deg is for straight slots: remove law or roller_angles_deg"
-    yield (law and drive.roller_angles_deg, angles, text)
-    text = (
-        "{spec.drive.rollers} rollers on a {spec.drive.NAME} move the wheel differently, so one "
-        "curved slot cannot serve them all; use rollers = 1, or straight slots (no law)"
-    )
-    yield (law and drive.rollers > 1 and not drive.direct, ("drive", "rollers"), text)
+    yield wheel.steps and len(drive.roller_angles_deg or wheel.steps) != placed, angles, text
+    what = "steps" if wheel.steps else "angles"
+    text = f"rollers = {{spec.drive.rollers}}, but there are {placed} {what}: remove rollers"
+    yield placed and drive.rollers not in (1, placed), rollers, text
+    yield law and drive.roller_angles_deg, angles, "roller_angles_deg is for straight slots: remove"
+    text = "several rollers move the wheel differently, so one curved slot cannot serve them: use "
+    text += "rollers = 1, or straight slots (no law)"
+    yield law and drive.rollers > 1 and not drive.direct, rollers, text
 
 
 def of_crank(spec: Spec) -> Iterator[Conflict]:
@@ -282,28 +266,26 @@ def of_crank(spec: Spec) -> Iterator[Conflict]:
     drive, wheel, steps = spec.drive, spec.wheel, ("drive", "crank_steps")
     places = drive.cranks
     several = len(places) > 1
-    text = "crank_steps needs an external wheel, which has cranks around it, not gearing = "
-    text += '"{spec.wheel.NAME}": remove crank_steps'
+    text = f"crank_steps needs an external wheel, not {GEARING}: remove crank_steps"
     able = wheel.FLAT and spec.output.turns and wheel.SIGN > 0.0
-    yield (several and not able, steps, text)
-    text = "crank_steps must begin with 0 and hold different whole numbers below z = "
-    text += "{spec.wheel.z}: one for each crank"
+    yield several and not able, steps, text
+    text = "crank_steps must begin with 0 and hold different whole numbers below {spec.wheel.z}"
     broken = [*map(int, places)] != [*places]
     wrong = broken or places[0] != 0.0 or len({*places}) < len(places)
-    yield (wrong | (max(places) >= wheel.z), steps, text)
+    yield wrong | (max(places) >= wheel.z), steps, text
     if not several:
         return
-    text = "a wheel of unequal steps looks different from each crank of crank_steps: remove one of "
-    yield (wheel.steps, ("wheel", "steps_deg"), text + "them")
+    text = "a wheel of unequal steps looks different from each crank of crank_steps: remove one"
+    yield wheel.steps, ("wheel", "steps_deg"), text
     text = "the cranks of crank_steps are equal and work in even turns: remove roller_angles_deg"
-    yield (drive.roller_angles_deg, ("drive", "roller_angles_deg"), text)
-    text = f"crank_steps places {len(places)} cranks with one roller each: set rollers = "
-    yield (drive.rollers != len(places), ("drive", "rollers"), f"{text}{len(places)}")
+    yield drive.roller_angles_deg, ("drive", "roller_angles_deg"), text
+    count = len(places)
+    text = f"crank_steps places {count} cranks with one roller each: set rollers = {count}"
+    yield drive.rollers != count, ("drive", "rollers"), text
     text = (
-        "each crank of crank_steps pushes the wheel from another side, so that a body off its "
-        "axis would give each motion other loads: set count to 2 or more, or radius_mm = 0"
+        "each crank of crank_steps pushes the wheel from another side, and would move a body off "
     )
-    yield (spec.unbalanced, ("mass", "radius_mm"), text)
-    text = "[tolerance] has no key for the places of the cranks of crank_steps about the wheel, "
-    text += "which add to each step: remove one of them"
-    yield (is_set(spec.tolerance), ("tolerance",), text)
+    text += "its axis differently: set count to 2 or more, or radius_mm = 0"
+    yield spec.unbalanced, ("mass", "radius_mm"), text
+    text = "[tolerance] has no key for the places of the cranks of crank_steps: remove one of them"
+    yield is_set(spec.tolerance), ("tolerance",), text

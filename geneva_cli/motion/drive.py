@@ -10,7 +10,7 @@ from geneva_cli.errors import GenevaError, refuse_text
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.pivots import Layout, Link, ShaftPlace
 from geneva_cli.numerics.arrays import larger
-from geneva_cli.spec.rules import NOT_NEGATIVE, SPEED, Z_MAX, Range
+from geneva_cli.spec.rules import SPEED, Z_MAX, FromZero, Range
 from geneva_cli.spec.schema import Example, SpecTable
 
 if TYPE_CHECKING:
@@ -37,13 +37,6 @@ class Gears(NamedTuple):
     advance: Displacement
 
 
-class FirstWheel(NamedTuple):
-    """A wheel in front of the crank: its slots, and the distance of its axis from its own crank."""
-
-    z: int
-    distance_mm: float
-
-
 class Drive(SpecTable, kw_only=True):
     """A kind of drive; its fields are the keys of ``[drive]``."""
 
@@ -57,8 +50,6 @@ class Drive(SpecTable, kw_only=True):
     ONE_ARM: ClassVar[bool] = True
     # True if its crank can carry a locking disc about the line of centres
     LOCKS: ClassVar[bool] = True
-    # key that sets its size
-    LENGTH: ClassVar[str] = "center_distance_mm"
     # what turns the input shaft of another drive, in [drive.before]; empty if it cannot
     IN_FRONT: ClassVar[str] = ""
     # reason why no drive may stand before it; empty if one may
@@ -74,22 +65,14 @@ class Drive(SpecTable, kw_only=True):
     wheels_on_carrier: ClassVar[int] = 0  # that orbit on it, as the input turns it; 0 without one
     # places of the cranks about the wheel, in steps from the first one
     cranks: ClassVar[tuple[float, ...]] = (0.0,)
-    n_rpm: Annotated[
-        float,
-        SPEED,
-        "constant speed of the input shaft; to turn it the other way: --reverse",
-    ] = 60.0
+    n_rpm: Annotated[float, SPEED, "speed of the input shaft; the other way: --reverse"] = 60.0
     rollers: Annotated[int, Range(1, Z_MAX), "number of rollers (pins) on the crank, m"] = 1
     roller_angles_deg: Annotated[
-        tuple[float, ...] | None,
-        Range(0.0, 360.0, "[)"),
-        "angles of the rollers on the crank, if not evenly spaced or with equal dwells",
+        tuple[float, ...] | None, Range(0.0, 360.0, "[)"), "of rollers that are not evenly spaced"
     ] = None
-    stop_s: Annotated[
-        float, NOT_NEGATIVE, "time by which a stop of the input lengthens each dwell"
-    ] = 0.0
-    start_s: Annotated[float, NOT_NEGATIVE, "time in which the input starts after a stop"] = 0.0
-    brake_s: Annotated[float, NOT_NEGATIVE, "time in which the input brakes to a stop"] = 0.0
+    stop_s: Annotated[FromZero, "time by which a stop of the input lengthens each dwell"] = 0.0
+    start_s: Annotated[FromZero, "time in which the input starts after a stop"] = 0.0
+    brake_s: Annotated[FromZero, "time in which the input brakes to a stop"] = 0.0
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -136,8 +119,11 @@ class Drive(SpecTable, kw_only=True):
         """Key of ``[drive]`` that its link reactions need and that is not set; empty if none."""
         return ""
 
-    def first_wheel(self, L: float) -> FirstWheel | None:
-        """External wheel that turns the crank, or None; L is the second wheel's centre distance."""
+    def first_wheel(self, L: float) -> tuple[int, float] | None:
+        """Slots and centre distance of an external wheel that turns the crank; None without.
+
+        ``L`` is the second wheel's centre distance.
+        """
         return None
 
     def matched_ratio(self, wheel: Gearing, law: Law, motion_deg: float) -> float:
@@ -171,8 +157,7 @@ class Drive(SpecTable, kw_only=True):
     def distance_mm(self, wheel: Gearing, motion: Motion | None, radius_mm: float) -> float:
         """Centre distance L for a crank radius R, mm, where the kind's shape fixes R/L."""
         raise GenevaError(
-            f'kind = "{self.NAME}" has no crank of one radius: set {self.LENGTH} instead of '
-            "crank_radius_mm",
+            f'kind = "{self.NAME}" has no crank of one radius: remove crank_radius_mm',
             ("size", "crank_radius_mm"),
         )
 

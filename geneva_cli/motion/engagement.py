@@ -11,7 +11,7 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, ClassVar, Generic, NamedTuple, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, NamedTuple, TypeAlias, TypeVar
 
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Batchable, Truth, all_true, array, blocks, choose, library
@@ -35,24 +35,6 @@ Load: TypeAlias = tuple[Vector, Jet]
 SlotAxis: TypeAlias = tuple[Jet, Jet]
 
 
-class Height(NamedTuple):
-    """A pin's position along a spherical wheel's axis: top - fall (1 - cos a)."""
-
-    top: float
-    fall: float
-    turn: Displacement  # of the crank
-
-    def __call__(self, tau: Number, order: int) -> Jet:
-        """Position ``tau`` input radians after mid-motion."""
-        out: Jet = self.top - self.turn(tau, order)[1] * self.fall
-        return out
-
-    @property
-    def hub(self) -> float:
-        """Position of the centre of the pin's circle."""
-        return self.top - self.fall
-
-
 def cross(a: Vector, b: Vector) -> Jet:
     """Third component of the vector product of two plane vectors."""
     return a[0] * b[1] - a[1] * b[0]
@@ -69,8 +51,8 @@ class Slot(Batchable, ABC):
     walls_flat = True
     # e: distance between a straight slot's axis and the wheel's centre, over L.
     offset: float = 0.0
-    # The pin's position along the wheel's axis on a sphere, where the path is a projection.
-    height: Height | None = None
+    # The ``Height`` of the pin along the wheel's axis on a sphere, where the path is a projection.
+    height: Any = None
 
     @abstractmethod
     def __call__(self, input_deg: Number, order: int = 3) -> Vector:

@@ -35,7 +35,6 @@ class Kind(NamedTuple):
     keys: tuple[str, ...] = ()
     parts: str = ""  # class of the parts of wheel and crank
     no_parts: str = ""  # function that returns the reason why a spec has no parts, or ""
-    frame: str = ""  # function that builds the frame and the shafts of flat parts
     front: str = ""  # class of links and gears in front of a crank that is not flat
     drawings: Mapping[str, str] = _NONE  # or sheets, by the names of the parts that they show
     tables: Mapping[str, str] = _NONE  # of points, by the names of the parts
@@ -59,10 +58,3 @@ class Kind(NamedTuple):
     families: Mapping[str, str] = _NONE
     roller: str = ""  # function that returns the roller that suits a mechanism, for synth
     scene: str = ""  # class of what a page shows of the wheels
-
-
-class Extra(NamedTuple):
-    """What a folder of ``extras`` adds."""
-
-    answers: Mapping[str, str]  # functions by the names of their answers
-    laws: Mapping[str, str] = _NONE  # classes of motion laws by their names

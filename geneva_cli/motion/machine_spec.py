@@ -135,21 +135,24 @@ class Spec(SpecTable):
                 text = f"{key} needs a load, and without one there is nothing to limit: set "
                 refuse_text(nothing, ("limits", key), text + self.load_keys)
 
-    def table(self, name: str) -> dict[str, Any]:
-        """Values of a table by key; those of ``motion`` include the keys of its law.
+    def part(self, table: str) -> SpecTable | None:
+        """The table of a name, as ``material.wheel`` or ``mass.0`` of a list; None without it."""
+        one_of, _, number = table.partition(".")
+        if one_of in LISTS:
+            exists = number.isdecimal() and int(number) < len(vars(self)[one_of])
+            part = vars(self)[one_of][int(number)] if exists else None
+        else:
+            part = vars(self).get(table.replace(".", "_")) if "_" not in table else None
+        return part if isinstance(part, SpecTable) else None
 
-        A table that the spec does not have is empty.
+    def table(self, name: str) -> dict[str, Any]:
+        """Values of a table by key; empty for a table that the spec does not have.
 
         >>> Spec(External(6)).table("wheel")
         {'z': 6, 'held_by': None, 'offset_mm': 0.0, 'steps_deg': None, 'stop': False}
         """
-        if name == "motion":
-            return {} if self.motion is None else self.motion.law.as_dict() | self.motion.as_dict()
-        one_of, _, number = name.partition(".")  # ``mass.0`` is the first of a list
-        part = vars(self).get(name.replace(".", "_")) if "_" not in name else None
-        if one_of in LISTS and number.isdecimal() and int(number) < len(vars(self)[one_of]):
-            part = vars(self)[one_of][int(number)]
-        return part.as_dict() if isinstance(part, SpecTable) else {}
+        part = self.part(name)
+        return {} if part is None else part.as_dict()
 
     def with_(self, key: str, value: object) -> Self:
         """Return a copy with one key changed, written ``table.key``; None sets its default.
@@ -160,17 +163,15 @@ class Spec(SpecTable):
         8
         """
         table, _, name = key.rpartition(".")
-        one_of, _, number = table.partition(".")
-        several = [*vars(self)[one_of]] if one_of in LISTS else []
-        if number.isdecimal() and int(number) < len(several):
-            several[int(number)] = several[int(number)].with_key(name, value)
-            return self.replace(**{one_of: tuple(several)})
-        attribute = table.replace(".", "_")
-        part = vars(self).get(attribute) if "_" not in table else None
-        if not isinstance(part, SpecTable):
-            missing = table or key
-            raise GenevaError(f"{key}: this spec has no [{missing}]", tuple(key.split(".")))
-        return self.replace(**{attribute: part.with_key(name, value)})
+        part = self.part(table)
+        if part is None:
+            raise GenevaError(f"{key}: this spec has no [{table or key}]", tuple(key.split(".")))
+        changed, (one_of, _, number) = part.with_keys({name: value}), table.partition(".")
+        if one_of not in LISTS:
+            return self.replace(**{table.replace(".", "_"): changed})
+        several = [*vars(self)[one_of]]
+        several[int(number)] = changed
+        return self.replace(**{one_of: several})
 
     def input_deg(self, crank_deg: float) -> float:
         """Input angle from mid-motion at a crank angle from mid-motion, degrees."""

@@ -21,13 +21,12 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError, marking
 from geneva_cli.motion.batch import taken
-from geneva_cli.motion.laws.law import Motion
 from geneva_cli.motion.machine_spec import BEFORE, Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.peak_search import QUANTITIES, PeakArray, greater, motion_peaks
 from geneva_cli.numerics.arrays import Array, Mask, Number, Whole, parameter
 from geneva_cli.spec.rules import is_array
-from geneva_cli.spec.schema import Field, SpecTable, fields, unknown
+from geneva_cli.spec.schema import SpecTable, unknown
 
 # tables whose numbers may vary
 TABLES = (
@@ -92,7 +91,10 @@ def may_vary(spec: Spec, key: str) -> bool:
     table, _, name = key.rpartition(".")
     if table not in TABLES:
         return False
-    numeric = bool({int, float} & set(_field(spec, key).types))
+    known = _part(spec, table).own_keys
+    if name not in known:
+        raise unknown(name, table, tuple(known))
+    numeric = bool({int, float} & set(known[name].types))
     # the number of rollers decides how many engagements a machine has
     able = numeric and name != "rollers" and spec.drive.may_vary(table, name)
     if spec.motion is not None:
@@ -106,31 +108,19 @@ def changed(spec: Spec, values: Mapping[str, object]) -> Spec:
     """Return the spec with several keys changed at once; only the result must be valid."""
     tables: dict[str, dict[str, object]] = {}
     for key, value in values.items():
-        tables.setdefault(key.rpartition(".")[0], {})[_field(spec, key).attribute] = value
-    parts: dict[str, SpecTable] = {}
+        table, _, name = key.rpartition(".")
+        tables.setdefault(table, {})[name] = value
+    parts = {}
     for table, new in tables.items():
-        if spec.motion is not None and table == "motion":
-            law = {k: v for k, v in new.items() if k not in Motion.__dataclass_fields__}
-            own = {k: v for k, v in new.items() if k not in law}
-            parts[table] = spec.motion.replace(law=spec.motion.law.replace(**law), **own)
-        else:
-            name = table.replace(".", "_")  # of the field that holds the table
-            part: SpecTable = vars(spec)[name]
-            parts[name] = part.replace(**new)
+        parts[table.replace(".", "_")] = _part(spec, table).with_keys(new)
     return spec.replace(**parts)
 
 
-def _field(spec: Spec, key: str) -> Field:
-    table, _, name = key.rpartition(".")
-    part = vars(spec).get(table.replace(".", "_"))
-    if not isinstance(part, SpecTable):
-        raise GenevaError(f"{key}: this spec has no [{table or key}]", (table, name))
-    known = {field.key: field for field in fields(type(part))}
-    if isinstance(part, Motion):
-        known |= {field.key: field for field in fields(type(part.law))}
-    if name not in known:
-        raise unknown(name, table, tuple(known))
-    return known[name]
+def _part(spec: Spec, table: str) -> SpecTable:
+    part = spec.part(table)
+    if part is None:
+        raise GenevaError(f"this spec has no [{table}]", (table,))
+    return part
 
 
 def worst_peaks(

@@ -13,7 +13,7 @@ from geneva_cli.motion.compatible import (
     refuse_sizes,
     refuse_tolerances,
 )
-from geneva_cli.motion.drive import FirstWheel, Plan
+from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.laws.law import Law
 from geneva_cli.motion.machine_spec import Spec
@@ -47,7 +47,8 @@ class Mechanism(NamedTuple):
     law: Law | None  # by the angle of the drive's own input shaft; None for straight slots
     output: Output  # what the wheel gives out, with its unit
     axes: tuple[Pivot, ...]  # of wheel and crank in the plane of the parts; none if they meet
-    first_wheel: FirstWheel | None  # that turns the crank; None for a crank without one
+    # of a wheel that turns the crank: its slots, and its distance from its own crank
+    first_wheel: tuple[int, float] | None
     frame: float  # turns of the wheel's frame in a turn of the input: 0 but on a carrier
     wheel_places: tuple[AxisPlace, ...]  # more than one only on a carrier
     crank_places: tuple[AxisPlace, ...]  # about the wheel: several with ``crank_steps``

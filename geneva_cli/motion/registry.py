@@ -5,17 +5,14 @@ Their classes, and those of laws, are imported by name at their first use.
 
 from __future__ import annotations
 
-from functools import cache
-from typing import TYPE_CHECKING, Any
+from functools import cache, partial
+from typing import Any
 
 from geneva_cli.errors import GenevaError, cut, few, nearest
 from geneva_cli.extras import FOLDERS as EXTRAS
 from geneva_cli.kept import load_named
 from geneva_cli.kinds import FOLDERS
 from geneva_cli.motion.kind import Kind
-
-if TYPE_CHECKING:
-    from geneva_cli.motion.laws.law import Law
 
 CRANK = "drives.crank:Crank"  # the drive of a spec without one
 _CRANK, _PIN_PATH = "motion.compatible:of_transmission", "motion.compatible:of_pin_path"
@@ -35,22 +32,16 @@ _DRAWINGS = {
     "groove-plate": "drawings.part_drawings:groove_plate",
     "plate": "drawings.single_parts:plate",
 }
-_SHEET = {"sheet": "drawings.sheet.machine_sheet:sheet"}
 _TABLES = {
     "slot": "parts.slots.slot_profile:profile_table",
-    "gears": "parts.gears.gear_curves:gears_table",
+    "gears": "parts.gears.gear_pair:gears_table",
     "groove": "parts.slots.groove:groove_table",
 }
 # class of the parts of a wheel without its own: the links and gears in front
 FRONT = "parts.flat_parts:FrontParts"
 # What wheels in the plane have in common.
-_FLAT = Kind(
-    "",
-    parts="parts.flat_parts:FlatParts",
-    frame="parts.frame:framed",
-    drawings=_DRAWINGS | _SHEET,
-    tables=_TABLES,
-)
+_FLAT = Kind("", parts="parts.flat_parts:FlatParts", tables=_TABLES)
+_FLAT = _FLAT._replace(drawings=_DRAWINGS | {"sheet": "drawings.sheet.machine_sheet:sheet"})
 # The kinds of the core; those in ``kinds`` follow.
 _CORE = (
     _FLAT._replace(
@@ -95,11 +86,7 @@ IN_FRONT = "drives.retimed:retimed"
 
 def of_wheel(name: str) -> list[Kind]:
     """The records of a kind of wheel: its own, then those that add to it."""
-    out = []
-    for kind in KINDS:
-        if name == kind.adds_to or (kind.wheel and name == kind.name):
-            out.append(kind)
-    return out
+    return [k for k in KINDS if name == k.adds_to or (k.wheel and name == k.name)]
 
 
 def thing(wheel: str, field: str) -> Any:
@@ -123,8 +110,7 @@ def families_of_kinds(where: str, wheel: str = "") -> list[Any]:
     return [load_named(kind.families[where]) for kind in kinds if where in kind.families]
 
 
-GEARINGS: dict[str, str] = {}
-DRIVES: dict[str, str] = {}
+GEARINGS, DRIVES = dict[str, str](), dict[str, str]()
 for _kind in KINDS:
     if _kind.wheel:
         GEARINGS[_kind.name] = _kind.wheel
@@ -144,47 +130,32 @@ _STANDARD = {
 STANDARD_LAWS = tuple(_STANDARD)
 LAWS = _STANDARD.copy()
 for _folder in EXTRAS:
-    LAWS.update(load_named(f"extras.{_folder}:EXTRA").laws)
+    LAWS.update(load_named(f"extras.{_folder}:LAWS"))
 LAWS |= {
     "scca": "motion.laws.standard:SineConstantCosine",
     "table": "motion.laws.table_law:TableLaw",
 }
 
 
-def gearing(name: str) -> type[Any]:
-    """Class of a wheel. Raises GenevaError, naming the key, for an unknown name."""
-    if not isinstance(name, str) or name not in GEARINGS:
-        raise _unknown(GEARINGS, name, ("wheel", "gearing"))
-    kind: type[Any] = load_named(GEARINGS[name])
-    return kind
+def _class(kinds: dict[str, str], key: tuple[str, str], name: object) -> type[Any]:
+    """Class of a kind by its name in the spec. Raises GenevaError, naming the key, for another."""
+    if isinstance(name, str) and name in kinds:
+        found: type[Any] = load_named(kinds[name])
+        return found
+    known = few(name, [f'"{kind}"' for kind in kinds])
+    quoted, hint = cut(str(name)), ""
+    if isinstance(name, str):
+        synonyms = {word: kind.name for kind in KINDS for word in kind.synonyms}
+        quoted, hint = f'"{quoted}"', nearest(synonyms.get(name, name), kinds)
+    raise GenevaError(f"{key[1]} must be one of {known}, not {quoted}{hint}", key)
 
 
-def drive(name: str) -> type[Any]:
-    """Class of a drive. Raises GenevaError, naming the key, for an unknown name."""
-    if not isinstance(name, str) or name not in DRIVES:
-        raise _unknown(DRIVES, name, ("drive", "kind"))
-    kind: type[Any] = load_named(DRIVES[name])
-    return kind
+# classes of wheels, drives and motion laws by their names
+gearing = partial(_class, GEARINGS, ("wheel", "gearing"))
+drive = partial(_class, DRIVES, ("drive", "kind"))
+law = partial(_class, LAWS, ("motion", "law"))
 
 
 def drives_with(thing: str) -> list[str]:
     """Names of the drives that have a thing of their own, such as ``gears``."""
     return [name for name in DRIVES if vars(drive(name)).get(thing)]
-
-
-def law(name: str) -> type[Law]:
-    """Class of a motion law. Raises GenevaError, naming the key, for an unknown name."""
-    if not isinstance(name, str) or name not in LAWS:
-        raise _unknown(LAWS, name, ("motion", "law"))
-    kind: type[Law] = load_named(LAWS[name])
-    return kind
-
-
-def _unknown(kinds: dict[str, str], name: object, key: tuple[str, str]) -> GenevaError:
-    """The error for a name that is none of the kinds."""
-    known = few(name, [f'"{kind}"' for kind in kinds])
-    quoted, hint = cut(str(name)), ""
-    if isinstance(name, str):
-        synonyms = {word: kind.name for kind in KINDS for word in kind.synonyms}
-        quoted, hint = f'"{cut(name)}"', nearest(synonyms.get(name, name), kinds)
-    return GenevaError(f"{key[1]} must be one of {known}, not {quoted}{hint}", key)

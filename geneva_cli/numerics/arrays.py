@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_left
 from collections.abc import Callable, Iterable, Sequence
-from typing import TYPE_CHECKING, ClassVar, Protocol, Self, TypeAlias, TypeVar, cast
+from typing import TYPE_CHECKING, ClassVar, NoReturn, Protocol, Self, TypeAlias, TypeVar, cast
 
 if TYPE_CHECKING:
     from decimal import Decimal
@@ -67,9 +67,13 @@ class Undecided(ArithmeticError):
 
 
 class Enclosed:
-    """A number that is known by two bounds: a ``balls.Ball`` or an ``intervals.Interval``."""
+    """A number that is known by two bounds: a ``balls.Ball`` or an ``intervals.Interval``.
+
+    It never becomes a float, and never answers a comparison that it cannot decide.
+    """
 
     __slots__ = ()
+    __array_ufunc__ = None  # NumPy's numbers leave the arithmetic to the enclosure
     library: ClassVar[Library]
 
     # How far one may reach over the end of its piece of a formula, in the formula's own variable:
@@ -93,11 +97,38 @@ class Enclosed:
         """Enclosure of the values of a function that rises: between those at both ends."""
         raise NotImplementedError
 
-    def _decided(self, yes: bool, no: bool, other: object) -> bool:
-        """Return the answer to a comparison with ``other``; raises Undecided where it is open."""
-        if yes == no:
-            raise Undecided(f"{self!r} against {other!r}")
-        return yes
+    def __float__(self) -> NoReturn:
+        raise TypeError("an enclosure is no float")
+
+    def __bool__(self) -> NoReturn:
+        raise TypeError("an enclosure has no truth value")
+
+    def __rsub__(self, other: float) -> Self:
+        return cast("Self", -(self - other))  # type: ignore[operator]
+
+    def __rtruediv__(self, other: float) -> Self:
+        return cast("Self", self.exact(other) / self)  # type: ignore[operator]
+
+    def __gt__(self, other: float) -> bool:
+        return not self <= other  # type: ignore[operator]
+
+    def __ge__(self, other: float) -> bool:
+        return not self < other  # type: ignore[operator]
+
+    __hash__ = None  # type: ignore[assignment]
+
+
+class EnclosedLibrary:
+    """What the functions of ``math`` of enclosures share."""
+
+    def hypot(self, x: float, y: float) -> float:
+        return cast("Library", self).sqrt(x**2 + y**2)
+
+    def degrees(self, x: float) -> float:
+        return x * (180.0 / cast("Library", self).pi)
+
+    def copysign(self, x: float, y: float) -> float:
+        return abs(x) if y > 0.0 else -abs(x)
 
 
 SINGLE = (float, int, Enclosed)  # the kinds of a single number; any other is an array

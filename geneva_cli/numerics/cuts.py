@@ -51,15 +51,18 @@ _DERIVED = np.where((_rise > 0) & (_rise % 2 == 1), 2.0 * _k, 0.0)
 _DERIVED[0] *= 0.5
 _TERMS = at(np.eye(DEGREE + 1)[..., None], GRID).T
 # from samples to values and to slopes at ``GRID``
-ON_GRID = product(_TERMS, SERIES)
-SLOPES = product(_TERMS, product(_DERIVED, SERIES))
+_ON_GRID = product(_TERMS, SERIES)
+_SLOPES = product(_TERMS, product(_DERIVED, SERIES))
+
+
+def on_grid(values: Array) -> tuple[Array, Array]:
+    """Values and slopes at ``GRID`` of the series with these samples."""
+    return product(_ON_GRID, values), product(_SLOPES, values)
 
 
 def remainder(values: Array) -> Array:
-    """The greatest of the last terms, an estimate of the series' error: (..., m)."""
-    # The last three terms together: every other term of an even or odd function is 0.
-    greatest: Array = np.abs(product(SERIES[-3:], values)).max(axis=-2)
-    return greatest
+    """The greatest of the last three terms, an estimate of the series' error: (..., m)."""
+    return np.asarray(np.abs(product(SERIES[-3:], values)).max(axis=-2))
 
 
 def root(terms: Array, low: Array, high: Array, start: Array, slope: Array) -> Array:
@@ -81,10 +84,8 @@ def root(terms: Array, low: Array, high: Array, start: Array, slope: Array) -> A
 
 
 BLOCK = 1024  # rows sampled at a time: that many fit in the processor's cache
-MOST_ROWS = 100  # of a design at a time, beyond twice those of its spans: more are rounding
 AT_END = 1e-9  # fraction of a row: a zero this near to an end, such as a motion's, is the end's own
 LATER_TERMS = 4.0  # times the last terms of a series: a bound on all later terms
-NEWTON_STEPS = 6  # of Newton's method, from the zero of a series
 
 
 if TYPE_CHECKING:
@@ -93,11 +94,10 @@ if TYPE_CHECKING:
         """The functions of designs: first those whose signs matter, then the wanted ones.
 
         Each of the first is smooth while those before it keep their signs, the wanted ones while
-        all do. Called with places (m, k) of some designs, it returns masks of positive signs
-        (signs, m, k) and Taylor coefficients (order + 1, functions, m, k) by the place. ``held``
-        are known signs, 1.0 or -1.0, NaN where they are computed. ``requested`` are the numbers of
-        the wanted functions to evaluate, all by default. A function without a bound is infinite,
-        and its slope 0.
+        all do. At places (m, k) of some designs it returns masks of positive signs (signs, m, k)
+        and Taylor coefficients (order + 1, functions, m, k). ``held`` are known signs, 1.0 or -1.0,
+        NaN where they are computed; ``requested`` the numbers of the wanted functions to evaluate,
+        all by default. A function without a bound is infinite, and its slope 0.
         """
 
         signs: int  # number of the functions whose signs matter
@@ -123,13 +123,10 @@ class Rows(NamedTuple):
     x: Array  # both ends as places
 
     def places(self, t: Array, w: Array) -> tuple[Array, Array]:
-        """The spread places and the places at positions from -1 to 1 in the rows.
-
-        ``w`` are the spread widths of all designs.
-        """
+        """The spread places and the places at positions in the rows, from ``w`` of all designs."""
         (a, b), own = self.u, w[self.design]
         u = 0.5 * (a + b) + 0.5 * (b - a) * t
-        return u, np.clip(own * np.sinh(u / own), *self.x)
+        return u, np.clip(gathered(u, own), *self.x)
 
     def part(self, t: Array, w: Array) -> Rows:
         """The parts between two positions (2, m)."""
@@ -181,20 +178,16 @@ class Cutter:
     def level(self) -> list[Rows]:
         """The rows to be sampled at the next level, in blocks; none after the last.
 
-        Rows that ``again`` puts back are sampled at the level after it. A kink or a pole leaves
-        some rows at each level, noise twice as many as before.
+        A kink or a pole leaves some rows at each level, noise twice as many as before.
         """
         self.depth += 1
-        rows = joined(self.todo) if self.todo else None
-        self.todo = []
+        rows, self.todo = joined(self.todo) if self.todo else None, []
         if rows is None or not len(rows.design) or self.depth == 60:  # all rows are too narrow then
             return []
         count = np.bincount(rows.design, minlength=len(self.noisy))
-        self.noisy |= (count > MOST_ROWS + 2 * self.first) | (self.depth == 59)
-        out = []
-        for some in blocks(len(rows.design), BLOCK):
-            out.append(record_taken(rows, some))
-        return out
+        # more rows of a design than these are rounding
+        self.noisy |= (count > 100 + 2 * self.first) | (self.depth == 59)
+        return [record_taken(rows, some) for some in blocks(len(rows.design), BLOCK)]
 
     def again(self, rows: Rows, part: Array, which: Mask) -> Mask:
         """Sample some rows again: both halves of a whole row, or a part as a row of its own.
@@ -208,17 +201,14 @@ class Cutter:
             whole = part[1] - part[0] == 2.0
             halved = record_taken(rows, which & whole)
             ends = np.array([[-1.0], [0.0], [1.0]]).repeat(len(halved.design), axis=1)
-            self.todo += [halved.part(ends[:2], self.w), halved.part(ends[1:], self.w)]
-            self.todo.append(record_taken(rows, which & ~whole))
+            halves = halved.part(ends[:2], self.w), halved.part(ends[1:], self.w)
+            self.todo += [*halves, record_taken(rows, which & ~whole)]
         return which
 
     def pieces(self, rows: Rows) -> Pieces:
         """Pieces of rows, cut where a sign changes; parts with unknown zeros are sampled again."""
         f, count = self.f, len(rows.design)
-        first, last = int(rows.design[0]), int(rows.design[-1])
-        # a slice of all designs between two numbers
-        every = last - first == count - 1 and bool(np.all(np.diff(rows.design) == 1))
-        which: Which = slice(first, last + 1) if every else rows.design
+        which = rows.design
         _, x = rows.places(POINTS[:, None], self.w)
         x[0], x[-1] = rows.x
         own, part = np.arange(count), np.array([[-1.0], [1.0]]).repeat(count, axis=1)
@@ -265,7 +255,7 @@ class Cutter:
         self, kind: int, rows: Rows, sign: Array, part: Array, value: Array
     ) -> tuple[Mask, Whole, Array]:
         """A mask of parts with unknown zeros, and the zeros of the others' series."""
-        unsure, none = np.full(len(rows.design), False), (np.zeros(0, dtype=int), np.zeros(0))
+        unsure, none = np.full(len(rows.design), False), (np.arange(0), np.zeros(0))
         size, left = np.abs(value).max(axis=0), remainder(value)
         np.fmax.at(self.size[kind], rows.design, np.where(np.isfinite(size), size, 0.0))
         q = value * sign[kind]
@@ -274,7 +264,7 @@ class Cutter:
         if not len(some):
             return unsure, *none
         q, size, left = q.take(some, axis=1), size[some], left[some]
-        g, d = product(ON_GRID, q), product(SLOPES, q)
+        g, d = on_grid(q)
         # below 1e-12 of its size on a row, or some roundings of that in its design's whole motion,
         # a function has no sign
         rounding = 4e-15 * self.size[kind, rows.design[some]]
@@ -312,7 +302,7 @@ class Cutter:
         (_, x), half = rows.places(t, self.w), 0.5 * (rows.u[1] - rows.u[0])
         earlier, live = np.arange(self.f.signs)[:, None] < kind, np.arange(len(t))
         known = np.where(earlier, sign, np.nan)
-        for _ in range(NEWTON_STEPS):
+        for _ in range(6):  # Newton steps, from the zero of a series
             if not len(live):
                 break
             held = known[:, live, None]
@@ -334,11 +324,9 @@ def spread(x: Array, w: Array) -> Array:
     Poles at x = i w and -i w move to u = i w pi/2 and -i w pi/2; with a large w, u is x. Source: D.
     Elliott, P. R. Johnston, Int. J. Numer. Meth. Engng 62 (2005).
     """
-    u: Array = w * np.arcsinh(x / w)
-    return u
+    return np.asarray(w * np.arcsinh(x / w))
 
 
 def gathered(u: Array, w: Array) -> Array:
     """The places x at u."""
-    x: Array = w * np.sinh(u / w)
-    return x
+    return np.asarray(w * np.sinh(u / w))

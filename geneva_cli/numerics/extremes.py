@@ -7,6 +7,7 @@ values; there the function itself is evaluated, by Newton steps.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from math import factorial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -18,14 +19,13 @@ from geneva_cli.numerics.cuts import (
     GRID,
     LATER_TERMS,
     MIDDLE,
-    ON_GRID,
     POINTS,
     SERIES,
-    SLOPES,
     Cutter,
     Pieces,
     Rows,
     at,
+    on_grid,
     product,
     remainder,
 )
@@ -61,6 +61,7 @@ class SearchResult(NamedTuple):
         return _stretches(self.pieces)
 
 
+@dataclass
 class Smooth:
     """Functions of designs without kinks and jumps, from their derivatives.
 
@@ -69,16 +70,11 @@ class Smooth:
     is that of the places over the derivatives'.
     """
 
+    derivatives: Callable[[Array, Which, int, Sequence[int]], Sequence[Sequence[Array]]]
+    wanted: int = 1
+    signs: int = 0
+    unit: float = 1.0
     poled: Sequence[int] = ()
-
-    def __init__(
-        self,
-        derivatives: Callable[[Array, Which, int, Sequence[int]], Sequence[Sequence[Array]]],
-        wanted: int = 1,
-        signs: int = 0,
-        unit: float = 1.0,
-    ) -> None:
-        self.derivatives, self.wanted, self.signs, self.unit = derivatives, wanted, signs, unit
 
     def __call__(
         self,
@@ -107,10 +103,9 @@ def search(
 ) -> SearchResult:
     """The greatest values of n designs over their spans, whose ends are (n, 1).
 
-    A span that ends before it begins is empty. With ``sized`` the result has the greatest sizes,
-    else the greatest values of the functions and of their negatives. ``known`` are values that no
-    span reaches: the number of a wanted function, and for each design the place and the value, or
-    NaN. Samples are spread about 0 by ``w`` (n, 1), or evenly spaced.
+    With ``sized`` they are the greatest sizes, else those of the functions and of their negatives.
+    ``known`` are values that no span reaches: the number of a wanted function, and for each design
+    the place and the value, or NaN. Samples are spread about 0 by ``w`` (n, 1), or evenly spaced.
     """
     with np.errstate(all="ignore"):
         cutter = Cutter(f, np.array(spans), w, None)
@@ -121,10 +116,9 @@ def search(
         for part in blocks(len(cutter.w), GROUP // max(f.wanted, 2)):
             cutter.begin(part)
             while level := cutter.level():
-                every = []
-                for rows in level:
-                    every.append(cutter.pieces(rows))
-                    extremes.add_samples(every[-1])
+                every = [*map(cutter.pieces, level)]
+                for pieces in every:
+                    extremes.add_samples(pieces)
                 for pieces in every:
                     extremes.judge(pieces)
             extremes.refine()
@@ -138,15 +132,14 @@ def search(
         return SearchResult(extremes.most.reshape(shape), first.reshape(shape), extremes.pieces)
 
 
-def cuts(f: Functions, spans: Sequence[tuple[Array, Array]], w: Array | None = None) -> Stretches:
+def cuts(f: Functions, spans: Sequence[tuple[Array, Array]]) -> Stretches:
     """The parts of the spans of ``search`` on which no sign changes."""
     with np.errstate(all="ignore"):
-        cutter, out = Cutter(f, np.array(spans), w, ()), list[tuple[Rows, Array]]()
+        cutter, out = Cutter(f, np.array(spans), None, ()), list[tuple[Rows, Array]]()
         for part in blocks(len(cutter.w), BLOCK):
             cutter.begin(part)
             while level := cutter.level():
-                for rows in level:
-                    pieces = cutter.pieces(rows)
+                for pieces in map(cutter.pieces, level):
                     out.append((pieces.rows, pieces.sign))
         return _stretches(out)
 
@@ -257,7 +250,7 @@ class _Extremes:
             a, b = part[:, cut]
             t = 0.5 * (a + b) + 0.5 * (b - a) * POINTS[:, None]
             samples[:, cut] = at(product(SERIES, samples.take(cut, axis=1)), t)
-        value, slope = product(ON_GRID, samples), product(SLOPES, samples)
+        value, slope = on_grid(samples)
         terms, every = product(SERIES, samples), np.arange(len(number))
         size = np.abs(samples).max(axis=0)
         # of a constant the start alone: a range of rounding says nothing about places
@@ -353,12 +346,8 @@ def _raise(most: Array, index: tuple[Whole, ...], value: Array) -> None:
 
 
 def bar(most: Array, size: Array) -> Array:
-    """The least value that counts as equal to a greatest one.
-
-    ``size`` is the functions' typical size.
-    """
-    # Extremes within 1e-12 of their size are equal. So are values within 1e-13 of the function's
-    # size: at a computed root it is not exactly 0.
+    """The least value that counts as equal to a greatest one of functions of a typical ``size``."""
+    # within 1e-12 of their own size, or of 1e-13 of the function's: at a root it is not exactly 0
     tie = np.maximum(1e-12 * np.abs(most), 1e-13 * size)
     return most - np.where(np.isfinite(most), tie, 0.0)
 
@@ -366,8 +355,7 @@ def bar(most: Array, size: Array) -> Array:
 def _stretches(pieces: Sequence[tuple[Rows, Array]]) -> Stretches:
     """Adjacent pieces with equal signs joined into one."""
     if not pieces:
-        none, ends = np.zeros(0, dtype=int), np.zeros((2, 0))
-        return Stretches(none, none, ends, np.zeros((0, 0), dtype=bool))
+        return Stretches(np.arange(0), np.arange(0), np.zeros((2, 0)), np.full((0, 0), True))
     rows, sign = joined(pieces)
     order = np.lexsort((rows.x[0], rows.span, rows.design))
     design, span, _, (a, b) = record_taken(rows, order)

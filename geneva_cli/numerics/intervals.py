@@ -9,11 +9,19 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from functools import reduce
-from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self, TypeAlias, cast
+from typing import TYPE_CHECKING, Any, Self, TypeAlias, cast
 
 import numpy as np
 
-from geneva_cli.numerics.arrays import Array, Enclosed, Number, Truth, Undecided, Whole
+from geneva_cli.numerics.arrays import (
+    Array,
+    Enclosed,
+    EnclosedLibrary,
+    Number,
+    Truth,
+    Undecided,
+    Whole,
+)
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Library
@@ -43,8 +51,6 @@ class Interval(Enclosed):
     """Numbers, each between two bounds: arrays (n,), or floats for the same bounds of all."""
 
     __slots__ = ("high", "low")
-    __array_ufunc__ = None  # NumPy's numbers leave the arithmetic to the interval
-    library: ClassVar[Library]
 
     def __init__(self, low: Bound, high: Bound) -> None:
         self.low, self.high = low, high
@@ -79,12 +85,6 @@ class Interval(Enclosed):
     def __repr__(self) -> str:
         return f"Interval({self.low!r}, {self.high!r})"
 
-    def __float__(self) -> NoReturn:
-        raise TypeError("an interval is no float")
-
-    def __bool__(self) -> NoReturn:
-        raise TypeError("an interval has no truth value")
-
     def __neg__(self) -> Interval:
         return Interval(-self.high, -self.low)
 
@@ -102,9 +102,6 @@ class Interval(Enclosed):
         low, high = _ends(other)
         return _outwards(self.low - high, self.high - low)
 
-    def __rsub__(self, other: Interval | float) -> Interval:
-        return -(self - other)
-
     @_operator
     def __mul__(self, other: Interval | float) -> Interval:
         if other is self:
@@ -121,9 +118,6 @@ class Interval(Enclosed):
         low, high = other.low, other.high
         out = _between(self.low / low, self.low / high, self.high / low, self.high / high)
         return _unknown((low <= 0.0) & (high >= 0.0), out)
-
-    def __rtruediv__(self, other: Interval | float) -> Interval:
-        return Interval(*_ends(other)) / self
 
     def __pow__(self, power: int) -> Interval:
         if power < 0:
@@ -144,18 +138,10 @@ class Interval(Enclosed):
         low, high = _ends(other)
         return _decided(self.high <= low, self.low > high)
 
-    def __gt__(self, other: Interval | float) -> bool:
-        return not self <= other
-
-    def __ge__(self, other: Interval | float) -> bool:
-        return not self < other
-
     def __eq__(self, other: object) -> bool:
         low, high = _ends(cast("float", other))
         equal = (self.low == self.high) & (self.high == low) & (low == high)
         return _decided(equal, (self.high < low) | (self.low > high))
-
-    __hash__ = None  # type: ignore[assignment]
 
 
 def _answer(answers: Array) -> float:
@@ -222,7 +208,7 @@ def _rising(f: Callable[[float], float]) -> Callable[[object, Interval | float],
     return of
 
 
-class _Intervals:
+class _Intervals(EnclosedLibrary):
     """The functions of ``math``, of intervals."""
 
     sqrt, exp, asin = map(_rising, (math.sqrt, math.exp, math.asin))
@@ -250,9 +236,6 @@ class _Intervals:
             np.where(highest, 1.0, np.minimum(ends.high, 1.0)),
         )
 
-    def hypot(self, x: Interval | float, y: Interval | float) -> Interval:
-        return self.sqrt(Interval(*_ends(x)) ** 2 + Interval(*_ends(y)) ** 2)
-
     def atan2(self, y: Interval | float, x: Interval | float) -> Interval:
         """The angles of boxes that do not reach the negative x axis."""
         (a, b), (c, d) = _ends(x), _ends(y)
@@ -262,16 +245,9 @@ class _Intervals:
         low, high = np.min(angles, axis=0), np.max(angles, axis=0)
         return _outwards(low, high, LIBRARY_UNITS)
 
-    def degrees(self, x: Interval | float) -> Interval:
-        return x * (180.0 / self.pi)
-
     def floor(self, x: Interval) -> float:
         low, high = np.floor(x.low), np.floor(x.high)
         return _answer(np.where(low == high, low, math.nan))
-
-    def copysign(self, x: Interval | float, y: Interval | float) -> Interval:
-        size = abs(Interval(*_ends(x)))
-        return size if y > 0.0 else -size
 
 
 def _passes(low: Bound, high: Bound, at: float) -> Truth:

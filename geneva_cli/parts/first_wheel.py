@@ -1,6 +1,7 @@
-"""The first of two wheels in series, as a machine of its own: its spec, and what loads need of it.
+"""The first of two wheels in series with its crank, as a machine in front of the second one.
 
-It turns the second's crank shaft, and bears the greatest torque in it.
+It is fixed on the second's crank shaft, whose greatest torque it bears, in the plane below the
+crank arm. Its crank is a link.
 """
 
 from __future__ import annotations
@@ -11,34 +12,41 @@ from functools import lru_cache
 
 from geneva_cli.drives.crank import Crank
 from geneva_cli.errors import GenevaError
-from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
-from geneva_cli.motion.drive import FirstWheel
+from geneva_cli.loads.strength.part_loads import single_loads
+from geneva_cli.motion import registry
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.wheels.external import External
-from geneva_cli.numerics.tolerances import sizes_from
 from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.sized_by_load import Stressed, equivalent_Nm, shaft_and_key_hold, stressed
-from geneva_cli.parts.sizes import Sizes
+from geneva_cli.parts.links.link_plates import drawn_links
+from geneva_cli.parts.outlines.outlines import Outlines
+from geneva_cli.parts.projection import titled
+from geneva_cli.parts.shafts.bores import has_shape, round_bore
+from geneva_cli.parts.sized_by_load import stressed
+from geneva_cli.parts.sizes import CLEARANCES, Sizes
+from geneva_cli.spec.defaults import wall_min
 from geneva_cli.spec.tables import Load, Size
 
 
-def first_spec(mechanism: Mechanism, first: FirstWheel) -> Spec:
-    """Return the spec of the first wheel and its crank, with the sizes that it shares."""
+def first_spec(mechanism: Mechanism, first: tuple[int, float]) -> Spec:
+    """Return the spec of the first wheel and its crank, with the sizes that it shares.
+
+    ``first`` is its number of slots, and its distance from its own crank.
+    """
     spec, size = mechanism.spec, mechanism.spec.size
-    shared = ("process", "slot_clearance_mm", "lock_clearance_mm", "press_fit_mm", "shaft_fit_mm")
+    slots, distance_mm = first
     own = Size(
-        center_distance_mm=first.distance_mm,
+        center_distance_mm=distance_mm,
         roller_radius_mm=mechanism.roller_radius_mm,
         wheel_thickness_mm=size.link_thickness_mm,
         arm_thickness_mm=size.link_thickness_mm,
         arm_bore_mm=size.link_bore_mm,
         lock_bolts=0,  # the link below its disc has no holes for them
-        **{key: vars(size)[key] for key in (*shared, "pin_gap_mm", "pin_mm")},
+        **{key: vars(size)[key] for key in ("process", "pin_mm", *CLEARANCES)},
     )
     torque = single_loads(mechanism).crank_Nm if spec.is_loaded else 0.0
     return Spec(
-        External(first.z),
+        External(slots),
         Crank(n_rpm=spec.drive.n_rpm),
         size=own,
         load=Load(torque_Nm=torque if math.isfinite(torque) else 0.0),
@@ -50,7 +58,7 @@ def first_spec(mechanism: Mechanism, first: FirstWheel) -> Spec:
 
 @lru_cache(maxsize=16)
 def first_sizes(
-    mechanism: Mechanism, sized: Callable[[Mechanism, PartLoads], tuple[Assembly, Sizes] | None]
+    mechanism: Mechanism, sized: Callable[[Mechanism], tuple[Assembly, Sizes] | None]
 ) -> tuple[float, float, float] | None:
     """Return what the load needs of a first wheel and its crank; None without either.
 
@@ -60,33 +68,49 @@ def first_sizes(
     spec = None if first is None else first_spec(mechanism, first)
     if spec is None or not spec.is_loaded:
         return None
-    try:
-        loads = single_loads(build(spec))  # which no bore changes
-    except GenevaError:
-        return None  # the check of the parts reports the error
-
-    def dimensions(size: Size) -> Stressed | None:
-        try:
-            flat = sized(build(spec.replace(size=size)), loads)
-        except GenevaError:
-            return None  # the check of the parts reports the error
-        return stressed(*flat) if flat else None
-
-    size = spec.size.replace(crank_bore_mm=0.0)
-    parts = usual = dimensions(size)
-    if usual is None or math.isnan(usual.arm.length):  # a crank without a pin has no arm
+    # the shaft ends in the first crank, below the plane of its locking disc
+    machine = build(spec.with_("size.crank_bore_mm", 0.0))
+    flat = sized(machine)
+    parts = stressed(*flat) if flat else None
+    if parts is None or math.isnan(parts.arm.length):  # a crank without a pin has no arm
         return None
-    reach = float(usual.arm.length - usual.arm.hole)
-    size = size.replace(wheel_thickness_mm=usual.contact)  # no bore changes it either
-    # half of the arm is left as a wall
-    for d in sizes_from(usual.crank_shaft.diameter, reach, bores=True):
-        one = dimensions(size.replace(arm_bore_mm=size.arm_bore_mm or d))
-        if one:
-            parts = one
-            moment = equivalent_Nm(spec, one.crank_shaft, loads.crank_N, loads.crank_Nm)
-            fixed = spec.size.arm_bore_mm is not None
-            if fixed or shaft_and_key_hold(spec, "crank", one, moment, loads.crank_Nm):
-                break
-    assert parts is not None
     thick = max(parts.contact, float(parts.arm.thickness))
     return thick, 0.5 * parts.pin, 0.5 * parts.crank_shaft.diameter
+
+
+def first_pair(mechanism: Mechanism, outlines: Outlines | None) -> Mechanism:
+    """Return the first wheel and its crank as a machine, for the second pair's ``outlines``."""
+    spec, L = mechanism.spec, mechanism.center_distance_mm
+    first = mechanism.first_wheel
+    if first is None:
+        having = registry.drives_with("first_wheel")
+        raise GenevaError(
+            f'--part first-wheel, first-crank: kind = "{spec.drive.NAME}" has one wheel; '
+            f"{' or '.join(having)} has two"
+        )
+    if has_shape(spec.size, "crank"):
+        key = "crank_bore" if spec.size.crank_keyway is None else "crank_keyway"
+        raise GenevaError(
+            f"{key}: the first wheel on the crank's shaft has a round bore; remove {key}",
+            ("size", key),
+        )
+    bars = drawn_links(mechanism, outlines)
+    second, own = (L, 0.0), (L + first[1], 0.0)
+    bore = 0.0 if bars.one_piece(own, L) else bars.shaft(own, L)
+    alone = first_spec(mechanism, first)
+    size = alone.size.replace(
+        wall_min_mm=wall_min(spec.size, L),
+        crank_bore_mm=2.0 * bore,
+        wheel_bore_mm=2.0 * bars.shaft(second, L),
+    )
+    if bars.sizes:
+        link, shaft = bars.sizes, bars.shaft(own, L)
+        size = size.replace(
+            wheel_thickness_mm=link.thickness,
+            arm_thickness_mm=link.thickness,
+            pin_mm=2.0 * link.roller_stands,
+            arm_bore_mm=2.0 * shaft,
+            arm_hub_mm=2.0 * link.hub(round_bore(spec.size, shaft)),
+            arm_eye_mm=2.0 * link.roller_eye,
+        )
+    return build(alone.replace(size=size, title=f"{titled(mechanism)}, first pair"))

@@ -6,26 +6,25 @@ The wheel's axis is the origin, and the crank's is on the x axis.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, NoReturn, Self
 
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.plates import Group, Member, Plate
-from geneva_cli.geometry.shapes import Contour, turned
+from geneva_cli.geometry.plates import Group, Member, Plate, solids
+from geneva_cli.geometry.shapes import Contour, Point, turned
 from geneva_cli.kept import cached_property
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.registry import thing
-from geneva_cli.numerics.arrays import Array
+from geneva_cli.numerics.arrays import Array, value_or
 from geneva_cli.parts.assembly import links_at
+from geneva_cli.parts.frame import framed
 from geneva_cli.parts.links.links import Links
 from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.outlines.crank_outline import crank_bore, is_whole
-from geneva_cli.parts.outlines.cut_outlines import drawn
+from geneva_cli.parts.outlines.cut_outlines import drawn, slot_walls, wheel_contour
 from geneva_cli.parts.outlines.outlines import Outlines, dial_circle, wheel_hub, wheel_plate
-from geneva_cli.parts.outlines.wheel_outline import slot_walls, wheel_contour
 from geneva_cli.parts.parts import EdgedParts, FrameAndShafts, NamedBuilds
 from geneva_cli.parts.shafts.arm_and_shafts import (
     CrankArm,
@@ -44,11 +43,7 @@ if TYPE_CHECKING:
 
 
 class FlatParts(EdgedParts):
-    """The parts of a flat machine in the wheel's frame.
-
-    A wheel with too many slots is not drawn: then there are links and gears, with shafts and frame,
-    and the rollers on links.
-    """
+    """The parts of a flat machine in the wheel's frame."""
 
     @cached_property
     def _shape(self) -> Outlines:
@@ -66,15 +61,8 @@ class FlatParts(EdgedParts):
 
     @property
     def drawn(self) -> Outlines | None:
-        """The outlines of wheel and crank; None for a wheel that is not drawn."""
-        return self._shape if self.mechanism.spec.is_flat else None
-
-    @property
-    def built(self) -> Self:
-        """These parts. Raises GenevaError where the sizes leave no wheel or no crank."""
-        if self.mechanism.spec.is_flat:
-            _ = self._shape
-        return self
+        """The outlines of wheel and crank; None for links and gears alone."""
+        return self._shape
 
     def past_mouth(self, motion: int, at: Array) -> Array:
         """Return how far a motion's roller is in its slot, beyond the mouth's corners, mm, (n,)."""
@@ -175,25 +163,21 @@ class FlatParts(EdgedParts):
 
     @cached_property
     def rollers(self) -> tuple[Member, ...]:
-        """The rollers with their pins, which stand in the arm or in a link.
+        """The rollers with their pins in the arm or in a link; in the crank's frame."""
+        drawn, low = self.outlines, self.links.pin_low
+        if low is None:
+            arm = drawn.sizes.arm_thickness if drawn.has_arm else 0.0
+            low = -self.mechanism.spec.size.allowances.pin_gap_mm - arm
+        sizes, centres = drawn.sizes, roller_centres(drawn.assembly)
+        return self._rollers(centres, sizes.pin, low, sizes.wheel_thickness)
 
-        They are in the crank's frame. Of a wheel that is not drawn, they are those on links.
-        """
-        mechanism, low, drawn = self.mechanism, self.links.pin_low, self.drawn
-        size, r, arm = mechanism.spec.size, mechanism.roller_radius_mm, 0.0
-        if drawn:
-            sizes, centres = drawn.sizes, roller_centres(drawn.assembly)
-            pin, wide = sizes.pin, sizes.wheel_thickness
-            arm = sizes.arm_thickness if drawn.has_arm else 0.0
-        else:
-            from geneva_cli.parts.links.link_sizes import roller_pins
-
-            centres = tuple(at for link, at in roller_pins(mechanism) if link.plane == 1)
-            pin = pin_radius(size, r)
-            wide = drawn_thicknesses(size, mechanism.center_distance_mm).wheel
-        low = -size.allowances.pin_gap_mm - arm if low is None else low
-        plates = roller_plates(r, pin, low, wide, size.allowances.shaft_fit_mm)
-        out = []
+    def _rollers(
+        self, centres: Iterable[Point], pin: float, low: float, high: float
+    ) -> tuple[Member, ...]:
+        """Return rollers about some points, with pins of a radius from ``low`` up to ``high``."""
+        fit = self.mechanism.spec.size.allowances.shaft_fit_mm
+        plates = roller_plates(self.mechanism.roller_radius_mm, pin, low, high, fit)
+        out = list[Member]()
         for centre in centres:
             for plate in plates:
                 out.append(Member(plate, centre))
@@ -249,13 +233,13 @@ class FlatParts(EdgedParts):
     @cached_property
     def front(self) -> FlatParts:
         """The parts of the first of two wheels in series. Raises GenevaError without a second."""
-        from geneva_cli.parts.first_pair import first_pair
+        from geneva_cli.parts.first_wheel import first_pair
 
         return FlatParts(first_pair(self.mechanism, self.drawn))
 
     @property
     def in_front(self) -> tuple[FlatParts, ...]:
-        """Those parts; none without a second wheel, or for a wheel that is not drawn."""
+        """Those parts; none without a second wheel."""
         return (self.front,) if self.drawn and self.mechanism.first_wheel else ()
 
     @cached_property
@@ -291,11 +275,11 @@ class FlatParts(EdgedParts):
 
     @cached_property
     def _base(self) -> Plate | None:
-        if self.drawn is None or self.drawn.assembly.rollers[0][0].groove is None:
+        if self.outlines.assembly.rollers[0][0].groove is None:
             return None
         from geneva_cli.parts.slots.groove import groove_base
 
-        return groove_base(self.drawn, self.links)
+        return groove_base(self.outlines, self.links)
 
     @cached_property
     def groove(self) -> tuple[Contour, Contour, Contour]:
@@ -315,54 +299,43 @@ class FlatParts(EdgedParts):
         return tuple(Member(plate, (self.outlines.assembly.L, 0.0)) for plate in stack)
 
     @cached_property
-    def _framed(self) -> FrameAndShafts:
-        framed: Callable[..., FrameAndShafts] | None
-        framed = thing(self.mechanism.spec.wheel.NAME, "frame")
-        if framed is None:
-            raise GenevaError(
-                f'--part frame: the shafts of gearing = "{self.mechanism.spec.wheel.NAME}" are not '
-                "parallel, so one plate cannot hold them"
-            )
-        return framed(self.mechanism, self.drawn, self.links, self._base, self.first)
+    def framed(self) -> FrameAndShafts:
+        """The frame, what is on it, and the shafts."""
+        moving = self.wheel, self.crank, *self.linked, *self.round_gears, *self.first
+        lows = [
+            solid.low for one in moving for solid in solids(one.part) if isinstance(solid, Plate)
+        ]
+        lows += [self._base.low] if self._base else []
+        if self.mechanism.spec.gears:
+            from geneva_cli.parts.gears.gear_pair import gear_span
 
-    @cached_property
-    def spacers(self) -> tuple[Member, ...]:
-        """The rings between the frame and parts that are screwed to it."""
-        return self._framed.spacers
-
-    @cached_property
-    def bridge(self) -> tuple[Member, ...]:
-        """The bridge that bears a crank's shaft from above; none where the frame bears it."""
-        return (self._framed.bridge,) if self._framed.bridge else ()
+            lows.append(gear_span(self.mechanism, self.outlines)[0])
+        return framed(self.outlines, self.links, self._base, self.first, min(lows))
 
     @property
     def standing(self) -> tuple[Member, ...]:
         """The parts that stand still: a cam's groove plate, the frame, and what is on it."""
-        return (*self.groove_plate, *self.spacers, *self.bridge, self.frame)
+        return (*self.groove_plate, *self.framed.on_it, self.frame)
 
     @property
     def screws(self) -> tuple[Screws, ...]:
         """The screws of dial, locking disc, and what is fixed to the frame."""
-        own, drawn = list[Screws](), self.drawn
-        if drawn:
-            dial, locking = dial_circle(drawn.assembly, drawn.sizes).holes, self.locking
-            if dial:
-                own.append(Screws("dial", len(dial), 2.0 * dial[0].radius, "the dial"))
-            if locking and (some := bolts(drawn)):
-                own.append(Screws(locking[0].name, len(some), 2.0 * some[0].radius, "the arm"))
-        return (*own, *self._framed.screws)
+        own, drawn, locking = list[Screws](), self.outlines, self.locking
+        if dial := dial_circle(drawn.assembly, drawn.sizes).holes:
+            own.append(Screws("dial", len(dial), 2.0 * dial[0].radius, "the dial"))
+        if locking and (some := bolts(drawn)):
+            own.append(Screws(locking[0].name, len(some), 2.0 * some[0].radius, "the arm"))
+        return (*own, *self.framed.screws)
 
     @property
     def required(self) -> tuple[Member, ...]:
         """Wheel, crank, links and frame, whose curves need not be fitted."""
-        turning = (self.wheel, self.crank) if self.drawn else ()
-        return (*turning, *self.links.cut, self.frame)
+        return (self.wheel, self.crank, *self.links.cut, self.frame)
 
     @property
     def linked(self) -> tuple[Member, ...]:
-        """The links, with the pins and rollers between and on them."""
-        own = *self.links.cut, *self.links.joined
-        return own if self.drawn else (*own, *self.rollers)
+        """The links, with the pins and rollers between them."""
+        return *self.links.cut, *self.links.joined
 
     @property
     def _in_front(self) -> tuple[Member, ...]:
@@ -371,33 +344,35 @@ class FlatParts(EdgedParts):
     @property
     def members(self) -> tuple[Member, ...]:
         """All parts."""
-        turning = (self.wheel, *self.orbiting, *self.cranks) if self.drawn else ()
+        turning = self.wheel, *self.orbiting, *self.cranks
         return (*turning, *self._in_front, *self.first, *self.shafts, *self.standing)
+
+    def _links_and_gears(self) -> Iterator[NamedParts]:
+        yield "links", lambda: [one.part for one in self.linked]
+        yield "gears", lambda: [one.part for one in (*self.round_gears, *self.gear_pair)]
 
     def by_name(self) -> Iterator[NamedParts]:
         """Yield all parts in the order of a list, as names and functions that build them."""
-        if self.mechanism.spec.is_flat:
-            each = len(self.mechanism.crank_places)
-            yield "wheel", lambda: [one.part for one in (self.wheel, *self.orbiting)]
-            yield "locking disc", lambda: each * self.locking
-            yield "arm", lambda: each * [self.arm_plate] if self.arm_plate else []
-            yield "rollers", lambda: each * [one.part for one in self.rollers]
-            yield "crank's hub", lambda: each * [hub] if (hub := crank_hub(self.outlines)) else []
-        yield "links", lambda: [one.part for one in self.linked]
-        yield "gears", lambda: [one.part for one in (*self.round_gears, *self.gear_pair)]
+        each = len(self.mechanism.crank_places)
+        yield "wheel", lambda: [one.part for one in (self.wheel, *self.orbiting)]
+        yield "locking disc", lambda: each * self.locking
+        yield "arm", lambda: each * [self.arm_plate] if self.arm_plate else []
+        yield "rollers", lambda: each * [one.part for one in self.rollers]
+        yield "crank's hub", lambda: each * [hub] if (hub := crank_hub(self.outlines)) else []
+        yield from self._links_and_gears()
         yield "first wheel", lambda: [one.part for one in self.first]
         yield "shafts", lambda: [one.part for one in self.shafts]
         yield "groove plate", lambda: [one.part for one in self.groove_plate]
-        yield "frame", lambda: [one.part for one in (*self.spacers, *self.bridge, self.frame)]
+        yield "frame", lambda: [one.part for one in (*self.framed.on_it, self.frame)]
 
 
 class FrontParts(FlatParts):
     """Links and gears without frame and shafts; all parts of a machine with no others."""
 
     @property
-    def built(self) -> NoReturn:
-        """Raise GenevaError with the reason why wheel and crank have no parts."""
-        raise GenevaError(self.mechanism.spec.no_parts, ("wheel", "gearing"))
+    def drawn(self) -> None:
+        """None: wheel and crank are not drawn."""
+        return None
 
     @property
     def flat(self) -> Self:
@@ -405,14 +380,27 @@ class FrontParts(FlatParts):
         return self
 
     @property
+    def framed(self) -> NoReturn:
+        """Raise GenevaError: the frame is of all parts."""
+        raise GenevaError("--part frame: no plate holds the shafts of a machine without its parts")
+
+    @property
     def all_built(self) -> NamedBuilds:
         """Name and function of links and gears."""
         return [("all parts", lambda: self)]
 
     @property
-    def screws(self) -> tuple[Screws, ...]:
-        """The screws between the parts; none."""
-        return ()
+    def linked(self) -> tuple[Member, ...]:
+        """The links, with the pins and rollers between and on them."""
+        from geneva_cli.parts.links.link_sizes import roller_pins
+
+        mechanism, links = self.mechanism, self.links
+        size, r = mechanism.spec.size, mechanism.roller_radius_mm
+        centres = [at for link, at in roller_pins(mechanism) if link.plane == 1]
+        high = drawn_thicknesses(size, mechanism.center_distance_mm).wheel
+        low = value_or(links.pin_low, -size.allowances.pin_gap_mm)
+        own = *links.cut, *links.joined
+        return (*own, *self._rollers(centres, pin_radius(size, r), low, high))
 
     @property
     def members(self) -> tuple[Member, ...]:
@@ -421,5 +409,4 @@ class FrontParts(FlatParts):
 
     def by_name(self) -> Iterator[NamedParts]:
         """Yield links and gears in the order of a list, as names and functions that build them."""
-        yield "links", lambda: [one.part for one in self.linked]
-        yield "gears", lambda: [one.part for one in (*self.round_gears, *self.gear_pair)]
+        return self._links_and_gears()

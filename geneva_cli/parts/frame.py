@@ -21,40 +21,36 @@ from geneva_cli.numerics.arrays import half_or
 from geneva_cli.numerics.tolerances import SAME_LENGTH, bore_radius, rounded_radius
 from geneva_cli.parts.assembly import is_bridged, links_at, same, turn_deg
 from geneva_cli.parts.links.links import Links, placed_holes
-from geneva_cli.parts.outlines.outlines import Outlines, wheel_hub
+from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.parts import FRAME, FrameAndShafts
 from geneva_cli.parts.shafts.arm_and_shafts import Shaft, crank_arm, shaft_ends, shafts
 from geneva_cli.parts.shafts.bores import SCREWS, around, bolt_radius, screw_through, tapped
-from geneva_cli.parts.sizes import HUB, bridge_low, drawn_thicknesses
+from geneva_cli.parts.sizes import HUB, bridge_low
 from geneva_cli.spec.defaults import wall_min
 from geneva_cli.spec.tables import Size
 
 
 def framed(
-    mechanism: Mechanism,
-    outlines: Outlines | None,
-    bars: Links,
-    base: Plate | None = None,
-    first: Sequence[Member] = (),
+    outlines: Outlines, bars: Links, base: Plate | None, first: Sequence[Member], low: float
 ) -> FrameAndShafts:
-    """Return the frame and the shafts of a machine with its ``outlines``, if it has any.
+    """Return the frame and the shafts of a machine with its ``outlines``.
 
     ``bars`` are the links, ``base`` is the lowest plate with a cam's groove, ``first`` are the
-    first wheel and its locking disc of two in series.
+    first wheel and its locking disc of two in series. ``low`` is the lowest height of all parts.
     """
-    size, L = mechanism.spec.size, mechanism.center_distance_mm
-    top = _lowest(mechanism, outlines, bars, base, first) - size.washer_mm
-    thick = outlines.sizes.arm_thickness if outlines else drawn_thicknesses(size, L).arm
-    own = _all_shafts(mechanism, outlines, bars, top - thick, first)
+    mechanism, L, thick = outlines.assembly.full, outlines.assembly.L, outlines.sizes.arm_thickness
+    size = mechanism.spec.size
+    top = low - size.washer_mm
     bridge, unborne, axles = None, list[tuple[str, str]](), list[Member]()
-    for shaft in own:
+    for shaft in _all_shafts(outlines, bars, top - thick, first):
         borne = not shaft.turns or shaft.low < top
-        if outlines and not (borne or bridge) and same(shaft.at, mechanism.crank_shaft.at, L):
-            bridge = _bridge(mechanism, outlines, bars, shaft, thick)
+        if not (borne or bridge) and same(shaft.at, mechanism.crank_shaft.at, L):
+            bridge = _bridge(outlines, bars, shaft)
             borne, high = bool(bridge), bridge.high if bridge else shaft.high
             shaft = shaft._replace(high=high)
         if not borne:
-            unborne.append((shaft.name, _why_above(shaft, mechanism, bars, top)))
+            ends = f"it ends at {shaft.low:.4g} mm, above the frame at {top:.4g} mm"
+            unborne.append((shaft.name, ends))
         axles.append(shaft.member)
     standing, holes = _standing(mechanism, bars), list[Circle]()
     for at, diameter_mm in standing.items():
@@ -89,36 +85,9 @@ def framed(
         tuple(axles),
         tuple(spacers),
         tuple(screwed),
-        Member(bridge, (L, 0.0)) if bridge else None,
+        (Member(bridge, (L, 0.0)),) if bridge else (),
         tuple(unborne),
     )
-
-
-def _lowest(
-    mechanism: Mechanism,
-    outlines: Outlines | None,
-    bars: Links,
-    base: Plate | None,
-    first: Sequence[Member],
-) -> float:
-    """Return the lowest height of all parts above the frame."""
-    size = mechanism.spec.size
-    arm = outlines.sizes.arm_thickness if outlines and outlines.has_arm else 0.0
-    lows = [-size.allowances.pin_gap_mm - arm]
-    for moving in (*bars.cut, *bars.joined, *first):
-        if isinstance(moving.part, Plate):
-            lows.append(moving.part.low)
-    for gear in bars.gears:
-        lows.append(gear.plate.low)
-    if base:
-        lows.append(base.low)
-    if mechanism.spec.gears:
-        from geneva_cli.parts.gears.gear_pair import gear_span
-
-        lows.append(gear_span(mechanism, outlines)[0])
-    if outlines and (hub := wheel_hub(outlines.assembly, outlines.sizes)):
-        lows.append(hub.low)
-    return min(lows)
 
 
 def _standing(mechanism: Mechanism, bars: Links) -> dict[Point, float | None]:
@@ -136,9 +105,8 @@ def _standing(mechanism: Mechanism, bars: Links) -> dict[Point, float | None]:
         driver = mechanism.gear_shaft.x_mm + mechanism.spec.gears.distance_mm, 0.0
         standing[driver] = shaft.wheel_diameter_mm
     for axis in bars.axes:
-        if axis.stands and not any(
-            same(axis.at, one, mechanism.center_distance_mm) for one in standing
-        ):
+        L = mechanism.center_distance_mm
+        if axis.stands and not any(same(axis.at, one, L) for one in standing):
             standing[axis.at] = shaft.wheel_diameter_mm
     return standing
 
@@ -163,23 +131,10 @@ def _screwed(bars: Links, plates: Iterable[Plate | None], L: float) -> list[tupl
     return fixed
 
 
-def _why_above(shaft: Shaft, mechanism: Mechanism, bars: Links, top: float) -> str:
-    """Return the reason why a shaft ends above the frame's upper face ``top``."""
-    ends = f"it ends at {shaft.low:.4g} mm, above the frame at {top:.4g} mm"
-    key = f"{shaft.part}_shaft_low_mm"
-    if vars(mechanism.spec.size).get(key) is not None:
-        return f"{ends}, because {key} = {shaft.low:g}"
-    if shaft.part == "wheel":
-        return f"{ends}, because wheel_hub_mm = 0 ends it in the wheel"
-    below = [plate.name for plate in bars.plates if plate.high <= shaft.low]
-    return f"{ends}, because the {' and the '.join(below)} passes below it"
-
-
-def _bridge(
-    mechanism: Mechanism, parts: Outlines, bars: Links, shaft: Shaft, thick: float
-) -> Plate | None:
+def _bridge(parts: Outlines, bars: Links, shaft: Shaft) -> Plate | None:
     """Return the bridge about the crank's axis; None where there is no place for one."""
-    size, sizes, L = mechanism.spec.size, parts.sizes, mechanism.center_distance_mm
+    mechanism, sizes, L = parts.assembly.full, parts.sizes, parts.assembly.L
+    size, thick = mechanism.spec.size, sizes.arm_thickness
     if not (sizes.crank_bore and is_bridged(mechanism)):
         return None
     from geneva_cli.parts.links.link_sizes import places
@@ -210,39 +165,34 @@ def _bridge(
 
 
 def _all_shafts(
-    mechanism: Mechanism,
-    outlines: Outlines | None,
-    bars: Links,
-    lowest: float,
-    first: Sequence[Member],
+    outlines: Outlines, bars: Links, lowest: float, first: Sequence[Member]
 ) -> list[Shaft]:
     """Return all shafts and pivots, as ``framed``; ``lowest`` is the frame's lower face."""
-    L, stop, out = mechanism.center_distance_mm, None, list[Shaft]()
-    known: list[Point] = []  # axes whose shafts carry wheel or crank
-    if outlines:
-        if bars.sizes:
-            from geneva_cli.parts.links.link_shafts import crank_stop
+    mechanism, own, L = outlines.assembly.full, outlines.sizes, outlines.assembly.L
+    stop, out = None, list[Shaft]()
+    if bars.sizes:
+        from geneva_cli.parts.links.link_shafts import crank_stop
 
-            stop = crank_stop(outlines, bars)
-        own = outlines.sizes
-        known += [(L, 0.0)] if (own.arm_bore if outlines.has_arm else own.crank_bore) else []
-        known += [ORIGIN] if own.wheel_bore else []
-        half = mechanism.engagements[0].half_step
-        for one in shafts(outlines, lowest, stop):
-            out.append(one)
-            if same(one.at, ORIGIN, L):
-                for place in mechanism.wheel_places[1:]:
-                    turn = one.turn + place.turn - half
-                    out.append(one._replace(at=place.at, turn=turn))
-                continue
-            for place in mechanism.crank_places[1:]:
-                turn = 0.0
-                if not one.bore.is_plain:  # a plain one has no direction
-                    crank = outlines.assembly.crank(np.array([-place.behind_deg, 0.0]))
-                    turn = one.turn + place.turn + float(crank[0] - crank[1])
+        stop = crank_stop(outlines, bars)
+    known: list[Point] = []  # axes whose shafts carry wheel or crank
+    known += [(L, 0.0)] if (own.arm_bore if outlines.has_arm else own.crank_bore) else []
+    known += [ORIGIN] if own.wheel_bore else []
+    half = mechanism.engagements[0].half_step
+    for one in shafts(outlines, lowest, stop):
+        out.append(one)
+        if same(one.at, ORIGIN, L):
+            for place in mechanism.wheel_places[1:]:
+                turn = one.turn + place.turn - half
                 out.append(one._replace(at=place.at, turn=turn))
+            continue
+        for place in mechanism.crank_places[1:]:
+            turn = 0.0
+            if not one.bore.is_plain:  # a plain one has no direction
+                crank = outlines.assembly.crank(np.array([-place.behind_deg, 0.0]))
+                turn = one.turn + place.turn + float(crank[0] - crank[1])
+            out.append(one._replace(at=place.at, turn=turn))
     if bars.axes:
-        out += _link_shafts(mechanism, outlines, bars, (lowest, stop), known, first)
+        out += _link_shafts(outlines, bars, (lowest, stop), known, first)
     if mechanism.spec.gears:
         from geneva_cli.parts.gears.gear_pair import gear_shafts
 
@@ -251,8 +201,7 @@ def _all_shafts(
 
 
 def _link_shafts(
-    mechanism: Mechanism,
-    outlines: Outlines | None,
+    outlines: Outlines,
     bars: Links,
     ends: tuple[float, float | None],
     known: Sequence[Point],
@@ -264,8 +213,7 @@ def _link_shafts(
     """
     from geneva_cli.parts.links.link_shafts import carried
 
-    size, L, (lowest, stop) = mechanism.spec.size, mechanism.center_distance_mm, ends
-    wheel = outlines.sizes.wheel_thickness if outlines else drawn_thicknesses(size, L).wheel
+    mechanism, L, (lowest, stop) = outlines.assembly.full, outlines.assembly.L, ends
     for axis in bars.axes:
         if any(same(axis.at, at, L) for at in known):
             continue
@@ -276,18 +224,18 @@ def _link_shafts(
 
             spans.append(gear_span(mechanism, outlines))
         low, high = min(low for low, _ in spans), max(high for _, high in spans)
-        bore, direction = axis.bore.bore, axis.bore.direction
         if axis.stands:
             turns, on_wheel = Joint.SHAFT in axis.kinds, same(axis.at, ORIGIN, L)
             on_crank = same(axis.at, (L, 0.0), L)
             whose = "crank" if on_crank else "wheel" if on_wheel else axis.names[0]
             low = stop if on_crank and stop is not None else lowest
-            low, high = shaft_ends(size, whose, low, wheel if on_wheel else high)
+            high = outlines.sizes.wheel_thickness if on_wheel else high
+            low, high = shaft_ends(mechanism.spec.size, whose, low, high)
             name = f"{whose}'s {'shaft' if turns else 'pivot'}"
-            yield Shaft(name, whose, bore, low, high, axis.at, direction, turns=turns)
+            yield Shaft(name, whose, axis.bore, low, high, axis.at, turns=turns)
         elif len(axis.names) > 1 and Joint.PIN not in axis.kinds:  # those are pins between links
             name = f"shaft of {', '.join(axis.names)}"
-            yield Shaft(name, axis.names[0], bore, low, high, axis.at, turns=False)
+            yield Shaft(name, axis.names[0], axis.bore, low, high, axis.at, turns=False)
 
 
 def mounted_plate(

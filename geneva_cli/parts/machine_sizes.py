@@ -7,8 +7,8 @@ the rim. The locking disc reaches past the rim and leaves a horn next to the slo
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from functools import lru_cache
+from collections.abc import Callable, Iterator
+from functools import cache, lru_cache, partial
 from typing import TYPE_CHECKING, TypeAlias
 
 from geneva_cli.errors import GenevaError
@@ -16,18 +16,24 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.registry import thing
 from geneva_cli.numerics.arrays import value_or
-from geneva_cli.numerics.tolerances import SAME_LENGTH, bore_radius, rounded_below
+from geneva_cli.numerics.tolerances import SAME_LENGTH, bore_radius
 from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.outlines.crank_outline import arc_floor
 from geneva_cli.parts.outlines.cut_outlines import cut_lock
 from geneva_cli.parts.sizes import (
+    CLEARANCES,
+    Fault,
     KeySizes,
     Sizes,
+    Unloaded,
     arm_bore,
+    drawn_thicknesses,
+    hole_radius,
+    hub_faults,
+    pin_and_edge_faults,
     pin_radius,
     reach_and_hub,
-    refuse_pin_and_edges,
-    refuse_thin_hub,
+    refuse,
     wheel_bore,
     within_hub,
 )
@@ -37,7 +43,6 @@ from geneva_cli.spec.tables import Size
 
 if TYPE_CHECKING:
     from geneva_cli.loads.strength.part_loads import PartLoads
-    from geneva_cli.parts.sized_by_load import Unloaded
 
 Layout: TypeAlias = tuple[Assembly, Sizes]  # of one machine
 OF_AXLE = (  # keys that an internal wheel lacks, which is open in the middle
@@ -47,56 +52,51 @@ OF_AXLE = (  # keys that an internal wheel lacks, which is open in the middle
 
 
 def sized(mechanism: Mechanism, loads: PartLoads | None = None) -> Layout | None:
-    """Return ``machine_sizes``, for known loads; None where no flat parts can be cut."""
-    if not mechanism.spec.is_flat:
-        return None
+    """Return ``machine_sizes``; None where no flat parts can be cut."""
     try:
-        if loads is None:
-            return machine_sizes(mechanism)
-        where = assembly(mechanism)
-        return where, loaded(unloaded(where), loads)
+        return machine_sizes(mechanism, loads) if mechanism.spec.is_flat else None
     except GenevaError:
         return None  # the check of the parts reports the error
 
 
 @lru_cache(maxsize=16)
-def machine_sizes(mechanism: Mechanism) -> Layout:
-    """Return a machine's assembly and sizes; raises GenevaError where these leave no parts."""
-    where = assembly(mechanism)
+def machine_sizes(mechanism: Mechanism, loads: PartLoads | None = None) -> Layout:
+    """Return a machine's assembly and sizes, for its own loads or known ones.
+
+    Raises GenevaError where these leave no parts.
+    """
+    of = unloaded(mechanism)
     if not mechanism.spec.is_loaded:
-        return where, sizes(where)
+        refuse(_faults(of.assembly, of.sizes))
+        return of.assembly, of.sizes
     from geneva_cli.loads.strength.part_loads import single_loads
 
-    return where, loaded(unloaded(where), single_loads(mechanism))
+    return of.assembly, loaded(of, mechanism, loads or single_loads(mechanism))
 
 
-def sizes(assembly: Assembly) -> Sizes:
-    """Return the sizes without a load; raises GenevaError where they leave no wheel or no lock."""
-    usual, _ = _usual_sizes(assembly)
-    _refuse(assembly, usual)
-    return usual
+@lru_cache(maxsize=16)
+def unloaded(mechanism: Mechanism) -> Unloaded:
+    """Return a machine's parts without its load. Raises GenevaError where a lock does not fit."""
+    where = assembly(mechanism)
+    sizes, space = _usual_sizes(where)
+    return Unloaded(where, sizes, space, cache(partial(cut_lock, where, sizes)))
 
 
-def unloaded(assembly: Assembly) -> Unloaded:
-    """Return the parts of a machine without its load; raises as ``sizes`` does."""
-    from geneva_cli.parts.sized_by_load import Unloaded
-
-    usual, space = _usual_sizes(assembly)
-    return Unloaded(assembly, usual, space, cut_lock(assembly, usual) if usual.lock else None)
-
-
-def loaded(of: Unloaded, loads: PartLoads, horn_MPa: float | None = None) -> Sizes:
-    """Return the sizes of a machine under its loads, as ``load_sizes``; raises as ``sizes``."""
+def loaded(
+    of: Unloaded, mechanism: Mechanism, loads: PartLoads, horn_MPa: float | None = None
+) -> Sizes:
+    """Return the sizes of a machine under its loads, as ``load_sizes``; raises as ``unloaded``."""
     from geneva_cli.parts.sized_by_load import load_sizes
 
     first = None
-    if of.assembly.full.first_wheel:
+    if mechanism.first_wheel:
         from geneva_cli.parts.first_wheel import first_sizes
 
-        first = first_sizes(of.assembly.full, sized)
+        first = first_sizes(mechanism, sized)
     link, pin, shaft = first or (0.0, 0.0, 0.0)
-    out = load_sizes(of, loads, horn_MPa, link)._replace(first_pin=pin, first_shaft=shaft)
-    _refuse(of.assembly, out)
+    out = load_sizes(of, mechanism, loads, horn_MPa, link)
+    out = out._replace(first_pin=pin, first_shaft=shaft)
+    refuse(_faults(of.assembly, out))
     return out
 
 
@@ -105,15 +105,10 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
 
     Without parts there are only centre distance, roller and clearances.
     """
-    allowed = mechanism.spec.size.allowances
     known: dict[str, float] = {
         "center_distance_mm": mechanism.center_distance_mm,
         "roller_radius_mm": mechanism.roller_radius_mm,
-        "slot_clearance_mm": allowed.slot_clearance_mm,
-        "lock_clearance_mm": allowed.lock_clearance_mm,
-        "press_fit_mm": allowed.press_fit_mm,
-        "shaft_fit_mm": allowed.shaft_fit_mm,
-        "pin_gap_mm": allowed.pin_gap_mm,
+        **dict(zip(CLEARANCES, mechanism.spec.size.allowances, strict=False)),
     }
     of_kind: Callable[[Mechanism], KeySizes] | None
     of_kind = thing(mechanism.spec.wheel.NAME, "sizes") if mechanism.spec.has_parts else None
@@ -130,16 +125,11 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
         "lock_radius_mm": own.lock,
         "relief_clearance_mm": own.relief,
         "wall_min_mm": own.wall_min,
-        "wheel_thickness_mm": own.wheel_thickness,
-        "lock_thickness_mm": own.lock_thickness,
-        "arm_thickness_mm": own.arm_thickness,
-        "link_thickness_mm": own.link_thickness,
-        "wheel_bore_mm": 2.0 * own.wheel_bore,
-        "wheel_hub_mm": 2.0 * own.wheel_hub,
-        "crank_bore_mm": 2.0 * own.crank_bore,
-        "crank_hub_mm": 2.0 * own.crank_hub,
-        "pin_mm": 2.0 * own.pin,
     }
+    for part in ("wheel", "lock", "arm", "link"):
+        known[f"{part}_thickness_mm"] = getattr(own, f"{part}_thickness")
+    for radius in ("wheel_bore", "wheel_hub", "crank_bore", "crank_hub", "pin"):
+        known[f"{radius}_mm"] = 2.0 * getattr(own, radius)
     if own.outer:
         known["wheel_outer_radius_mm"] = own.outer
     if own.arm_bore:
@@ -161,27 +151,25 @@ def keys_by_load(mechanism: Mechanism, locked: bool) -> tuple[str, ...]:
 
     ``locked`` is True for a wheel with recesses for a lock. A load without a bound chooses none.
     """
-    spec, size, keys = mechanism.spec, mechanism.spec.size, list[str]()
+    spec, size, load = mechanism.spec, mechanism.spec.size, mechanism.spec.load
     if not spec.is_loaded:
         return ()
     from geneva_cli.loads.strength.part_loads import single_loads
 
     if not all(map(math.isfinite, single_loads(mechanism))):
         return ()
-    if size.crank_bore_mm is size.arm_bore_mm is spec.shaft.crank_diameter_mm is None:
-        keys += ["crank_bore_mm", "arm_bore_mm"]
-    if size.wheel_bore_mm is spec.shaft.wheel_diameter_mm is None:
-        keys.append("wheel_bore_mm")
-    # loads with friction on the pin depend on the usual one
-    if size.pin_mm is None and not (spec.load.friction and spec.load.friction_at == "pin"):
-        keys.append("pin_mm")
-    if size.arm_thickness_mm is None:
-        keys.append("arm_thickness_mm")
-    if locked and size.wheel_thickness_mm is size.face_width_mm is None:
-        keys.append("wheel_thickness_mm")
-    if size.link_thickness_mm is None and mechanism.first_wheel:
-        keys.append("link_thickness_mm")
-    return tuple(keys)
+    crank = size.arm_bore_mm is spec.shaft.crank_diameter_mm is None and not size.crank_bore_mm
+    chosen = {
+        "crank_bore_mm": crank and size.crank_bore_mm is None,
+        "arm_bore_mm": crank,
+        "wheel_bore_mm": size.wheel_bore_mm is spec.shaft.wheel_diameter_mm is None,
+        # loads with friction on the pin depend on the usual one
+        "pin_mm": size.pin_mm is None and not (load.friction and load.friction_at == "pin"),
+        "arm_thickness_mm": size.arm_thickness_mm is None,
+        "wheel_thickness_mm": locked and size.wheel_thickness_mm is size.face_width_mm is None,
+        "link_thickness_mm": mechanism.first_wheel and size.link_thickness_mm is None,
+    }
+    return tuple(filter(chosen.get, chosen))
 
 
 def drawn_pin_radius(mechanism: Mechanism) -> float:
@@ -223,11 +211,9 @@ def _usual_sizes(assembly: Assembly) -> tuple[Sizes, float]:
     axle = wheel_bore(full, end, wall, L) if outside or size.wheel_bore_mm else 0.0
     wheel_reach, wheel_hub = reach_and_hub(size, "wheel", axle, wall, end)
     crank_reach, crank_hub = reach_and_hub(size, "crank", bore, wall)
-    thick, pin = size.thicknesses(L, rounded_below), 0.5 * value_or(size.pin_mm, rounded_below(r))
-    armed = 0.0
+    thick, pin, armed = drawn_thicknesses(size, L), pin_radius(size, r), 0.0
     if full.drive.ONE_ARM and pin:  # without pins there is no arm
-        hole = pin - 0.5 * allowed.press_fit_mm
-        armed = arm_bore(full, bore, L, min(reaches) - hole)
+        armed = arm_bore(full, bore, L, min(reaches) - hole_radius(size, pin))
     usual = Sizes(
         roller=r,
         half_width=w,
@@ -288,105 +274,93 @@ def _lock(assembly: Assembly, arm: float, w: float, rim: float) -> float:
             + ("lock_radius_mm = 0" if size.wheel_radius_mm is None else "no wheel_radius_mm"),
             ("size", "lock_radius_mm"),
         )
-    if size.lock_radius_mm is None:
-        return lock_between(least, limit, r)
     # a horn that is cut back may have no thickness where its tip would be
     spare = limit * SAME_LENGTH if size.horn_tip_mm else 0.0
-    require_lock_between(size.lock_radius_mm, least, limit + spare)
-    return size.lock_radius_mm
+    return lock_between(size.lock_radius_mm, least, limit, r, spare)
 
 
-def lock_between(least: float, limit: float, roller: float) -> float:
-    """Return the default reach of a lock: into the rim, and a horn's thickness off the slot.
+def lock_between(
+    own_mm: float | None, least: float, limit: float, roller: float, spare: float = 0.0
+) -> float:
+    """Return the reach of a lock, of the spec or by default: into the rim, and off the slot.
 
-    The horn is as thick as the roller's radius, and at most a fifth of the available radius.
+    By default the horn is as thick as the roller's radius, and at most a fifth of the available
+    radius. Raises GenevaError where the spec's lock does not reach the rim, or leaves no horn.
     """
-    return max(limit - min(roller, limit / 5.0), 0.5 * (limit + least))
-
-
-def require_lock_between(lock_radius_mm: float, least: float, limit: float) -> None:
-    """Raise GenevaError where the spec's lock does not reach the rim, or leaves no horn."""
-    if not least < lock_radius_mm < limit:
+    if own_mm is None:
+        return max(limit - min(roller, limit / 5.0), 0.5 * (limit + least))
+    if not least < own_mm < limit + spare:
         raise GenevaError(
-            f"lock_radius_mm = {lock_radius_mm:g}: it must be above {least:.6g} to reach the rim, "
-            f"and below {limit:.6g} to leave a horn; 0 means no lock",
+            f"lock_radius_mm = {own_mm:g}: it must be above {least:.6g} to reach the rim, and "
+            f"below {limit + spare:.6g} to leave a horn; 0 means no lock",
             ("size", "lock_radius_mm"),
         )
+    return own_mm
 
 
-def _refuse(assembly: Assembly, sizes: Sizes) -> None:
-    """Raise GenevaError, naming the key, where a size leaves no wheel or no lock."""
+def _faults(assembly: Assembly, sizes: Sizes) -> Iterator[Fault]:
+    """Yield the keys of sizes that leave no wheel or no lock, or that it lacks, with the reason."""
     size, outside = assembly.mechanism.spec.size, assembly.sign > 0.0
     if sizes.lock and not abs(assembly.L - sizes.rim) < sizes.recess:
-        raise GenevaError(
+        yield (
+            "wheel_radius_mm",
             f"wheel_radius_mm = {sizes.rim:g}: the rim lies beyond the locking disc's reach; it "
             f"must be below {assembly.L + sizes.recess:.6g}",
-            ("size", "wheel_radius_mm"),
         )
     if outside and sizes.slot_end <= 0.0:
-        raise GenevaError(
+        yield (
+            "roller_radius_mm",
             "the slots meet in the wheel's centre: reduce roller_radius_mm, slot_clearance_mm and "
             f"slot_bottom_clearance_mm together by more than {-sizes.slot_end:.4g} mm",
-            ("size", "roller_radius_mm"),
         )
     if outside and sizes.wheel_bore >= sizes.slot_end:
-        raise GenevaError(
+        yield (
+            "wheel_bore_mm",
             f"wheel_bore_mm = {2.0 * sizes.wheel_bore:g}: the slots reach down to "
             f"{sizes.slot_end:.6g} mm; it must be below {2.0 * sizes.slot_end:.6g}",
-            ("size", "wheel_bore_mm"),
         )
     own, through = size.arm_bore_mm, 2.0 * sizes.crank_bore  # of one shaft; 0 ends it in the arm
     stepped = own and through and abs(own - through) > 2.0 * SAME_LENGTH * assembly.L
     if assembly.full.spec.drive.ONE_ARM and stepped:
-        raise GenevaError(
+        yield (
+            "arm_bore_mm",
             f"arm_bore_mm = {own:g}: the shaft runs through the arm and on, so crank_bore_mm = "
             f"{through:g} must be equal, or 0 to end it in the arm",
-            ("size", "arm_bore_mm"),
         )
     if sizes.lock and sizes.crank_bore >= sizes.lock:
-        raise GenevaError(
+        yield (
+            "crank_bore_mm",
             f"crank_bore_mm = {2.0 * sizes.crank_bore:g}: it must be below the locking disc's "
             f"{2.0 * sizes.lock:.6g}",
-            ("size", "crank_bore_mm"),
         )
     thin = min(sizes.wheel_thickness, sizes.lock_thickness, sizes.arm_thickness)
-    refuse_pin_and_edges(size, sizes.pin, sizes.roller, thin)
-    _refuse_keys(assembly, sizes)
-    refuse_thin_hub("wheel", sizes.wheel_hub, sizes.wheel_reach, sizes.wheel_bore)
-    refuse_thin_hub("crank", sizes.crank_hub, sizes.crank_reach, sizes.crank_bore)
-
-
-def _refuse_keys(assembly: Assembly, sizes: Sizes) -> None:
-    """Raise GenevaError for keys of mouths, horns, outer radii and axles that a wheel lacks."""
-    size, outside = assembly.mechanism.spec.size, assembly.sign > 0.0
-    if sizes.mouth_radius or sizes.horn_tip:
-        key = "mouth_radius_mm" if sizes.mouth_radius else "horn_tip_mm"
-        for kind in assembly.kinds:
-            if kind.slot.curved or kind.apart:
-                raise GenevaError(
-                    f"{key} is for straight slots, each of which a roller enters and leaves: "
-                    "remove it",
-                    ("size", key),
-                )
+    yield from pin_and_edge_faults(size, sizes.pin, sizes.roller, thin)
+    key = "mouth_radius_mm" if sizes.mouth_radius else "horn_tip_mm"
+    shaped = sizes.mouth_radius or sizes.horn_tip
+    if shaped and any(kind.slot.curved or kind.apart for kind in assembly.kinds):
+        yield (
+            key,
+            f"{key} is for straight slots, each of which a roller enters and leaves: remove it",
+        )
     if sizes.horn_tip and not sizes.lock:
-        raise GenevaError(
+        yield (
+            "horn_tip_mm",
             "horn_tip_mm blunts the horns between slots and recesses, and without a locking disc "
             "there are none: remove it",
-            ("size", "horn_tip_mm"),
         )
     if not outside and sizes.outer <= max(sizes.slot_end, assembly.L + sizes.recess):
-        raise GenevaError(
+        yield (
+            "wheel_outer_radius_mm",
             f"wheel_outer_radius_mm = {sizes.outer:g}: it must be larger: the slots reach "
             f"{sizes.slot_end:.6g} mm",
-            ("size", "wheel_outer_radius_mm"),
         )
     if outside and size.wheel_outer_radius_mm is not None:
-        raise GenevaError(
+        yield (
+            "wheel_outer_radius_mm",
             "wheel_outer_radius_mm is for internal wheels only; here set wheel_radius_mm",
-            ("size", "wheel_outer_radius_mm"),
         )
     for key in OF_AXLE if sizes.outer else ():
         if vars(size)[key]:
-            raise GenevaError(
-                f"{key}: an internal wheel is open in the middle; remove it", ("size", key)
-            )
+            yield key, f"{key}: an internal wheel is open in the middle; remove it"
+    yield from hub_faults("wheel", sizes.wheel_hub, sizes.wheel_reach, sizes.wheel_bore)
+    yield from hub_faults("crank", sizes.crank_hub, sizes.crank_reach, sizes.crank_bore)

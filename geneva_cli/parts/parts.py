@@ -90,7 +90,10 @@ class Parts(TurnedParts):
 
     def of(self, mechanism: Mechanism) -> Self:
         """Return the parts of a machine whose wheel, crank and positions are equal."""
-        return self.over(self.assembly._replace(full=mechanism, to_input=input_of(mechanism)))
+        other = type(self)(mechanism, self.advice)
+        assembly = self.assembly._replace(full=mechanism, to_input=input_of(mechanism))
+        vars(other)["_shape"] = self._shape._replace(assembly=assembly)
+        return other
 
     def following(self, mechanism: Mechanism) -> Parts:
         """Return the parts of the next design, with these outlines and this turn if they are equal.
@@ -171,8 +174,13 @@ class FrameAndShafts(NamedTuple):
     shafts: tuple[Member, ...]
     spacers: tuple[Member, ...] = ()  # below the parts that are screwed to it
     screwed: tuple[tuple[Circle, str], ...] = ()  # clearance holes of screws, and what they fix
-    bridge: Member | None = None  # bears the crank's shaft from above
+    bridge: tuple[Member, ...] = ()  # one that bears the crank's shaft from above, or none
     unborne: tuple[tuple[str, str], ...] = ()  # shafts that do not reach it, and why
+
+    @property
+    def on_it(self) -> tuple[Member, ...]:
+        """The parts on the frame that stand still."""
+        return (*self.spacers, *self.bridge)
 
     @property
     def threads(self) -> tuple[Circle, ...]:
@@ -227,31 +235,28 @@ class EdgedParts(Parts):
 
     @property
     @abstractmethod
-    def _framed(self) -> FrameAndShafts:
-        """The frame and the shafts, computed once."""
+    def framed(self) -> FrameAndShafts:
+        """The frame, what is on it, and the shafts."""
 
     @cached_property
     def shafts(self) -> tuple[Member, ...]:
         """All shafts, whether they reach the frame or not."""
-        return self._framed.shafts
+        return self.framed.shafts
 
     @cached_property
     def frame(self) -> Member:
         """The frame, which holds the shafts."""
-        return Member(self._framed.plate)
-
-    @property
-    def frame_threads(self) -> tuple[Circle, ...]:
-        """The tapped holes of the frame."""
-        return self._framed.threads
+        return Member(self.framed.plate)
 
     @property
     def unborne(self) -> tuple[tuple[str, str], ...]:
         """The shafts that turn and have no bearing, each with the reason."""
-        return self._framed.unborne
+        return self.framed.unborne
 
 
 def parts_of(mechanism: Mechanism, advice: bool = True) -> Parts:
     """Return the parts of a machine; nothing is built yet."""
-    kind: type[Parts] = thing(mechanism.spec.wheel.NAME, "parts") or load_named(FRONT)
+    name = mechanism.spec.wheel.NAME
+    drawn = mechanism.spec.has_parts or named(name, "front")
+    kind: type[Parts] = (drawn and thing(name, "parts")) or load_named(FRONT)
     return kind(mechanism, advice)

@@ -10,6 +10,7 @@ wheels in series bears the greatest torque in the second's crank shaft.
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -30,11 +31,10 @@ from geneva_cli.loads.strength.pin_arm_key import (
     pin_stress_MPa,
     shear_allowed_MPa,
 )
-from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import half_or, value_or
-from geneva_cli.numerics.tolerances import keeps, rounded_below, sizes_from
+from geneva_cli.numerics.tolerances import keeps, sizes_from
 from geneva_cli.parts.assembly import Assembly, gear_plane, is_bridged, links_at
 from geneva_cli.parts.outlines.crank_outline import is_whole
 from geneva_cli.parts.outlines.outlines import wheel_hub_length
@@ -42,22 +42,15 @@ from geneva_cli.parts.shafts.bores import reach_or_bore
 from geneva_cli.parts.sizes import (
     LARGEST_HUB,
     Sizes,
+    Unloaded,
     arm_hub,
     bridge_low,
+    hole_radius,
     plane_span,
     reach_and_hub,
     within_hub,
 )
 from geneva_cli.spec.defaults import eye_about, key, roller_material, wheel_material
-
-
-class Unloaded(NamedTuple):
-    """The parts of a machine as they are without a load."""
-
-    assembly: Assembly
-    sizes: Sizes
-    space: float  # radius about the crank's axis inside the relief, mm
-    lock: Lock | None  # as it is cut, which no load changes
 
 
 class ShaftSize(NamedTuple):
@@ -83,6 +76,7 @@ class Stressed(NamedTuple):
     crank_key: KeyDimensions
 
 
+@lru_cache(maxsize=64)  # the designs of a sweep of loads have few different sizes
 def stressed(assembly: Assembly, sizes: Sizes) -> Stressed:
     """Return the dimensions of a machine's parts, for parts of these sizes."""
     spec, machine, size = assembly.full.spec, assembly.full, assembly.full.spec.size
@@ -109,7 +103,7 @@ def stressed(assembly: Assembly, sizes: Sizes) -> Stressed:
     arm = NO_ARM
     if sizes.arm_bore and sizes.pin:
         _, long = sizes.reaches
-        hole = sizes.pin - 0.5 * size.allowances.press_fit_mm
+        hole = hole_radius(size, sizes.pin)
         bored = reach_or_bore(size, "crank", sizes.arm_bore)
         standing = 0.0 if is_whole(assembly, sizes) else sizes.lock
         hub = arm_hub(size, bored, sizes.arm_bore, sizes.wall_min, standing)
@@ -150,77 +144,63 @@ def key_of(standard: str | None, bore: float, length: float) -> KeyDimensions:
     return KeyDimensions(2.0 * bore, fitted.width, fitted.height - fitted.in_shaft, length)
 
 
-def load_sizes(of: Unloaded, loads: PartLoads, bent_MPa: float | None, link: float) -> Sizes:
+def load_sizes(
+    of: Unloaded, machine: Mechanism, loads: PartLoads, bent_MPa: float | None, link: float
+) -> Sizes:
     """Return the sizes of a machine under its loads, from those without them.
 
     ``bent_MPa`` is the stress of ``horn_MPa``, if computed already; ``link`` is the thickness that
     the loads need of a first wheel, 0 without one. A load without a bound leaves all sizes.
     """
-    assembly, sizes, space, by = of
-    machine, spec = assembly.full, assembly.full.spec
+    spec, size, sizes = machine.spec, machine.spec.size, of.sizes
     if not all(map(math.isfinite, loads)):
         return sizes
     if link:
         sizes = sizes._replace(link_thickness=link)
+    linked = machine.first_wheel or size.link_thickness_mm is not None  # links have their own
     # the force between disc and wheel in the dwell loads both shafts
-    held = 0.0
-    if by and spec.load.dwell_torque_Nm:
-        held = float(lock.held_force_N(lock.dwell_torque_Nm(machine), by).item())
+    held = lock.held_force_N(machine, of.lock).item()
     carried = float(np.max(centrifugal_N(machine))) if machine.frame else 0.0
     loads = loads._replace(
         wheel_shaft_N=max(loads.wheel_shaft_N, held + carried), crank_N=max(loads.crank_N, held)
     )
     allowed = wheel_material(spec).allowed_MPa
-    if by and spec.size.wheel_thickness_mm is None and spec.size.face_width_mm is None:
+    if of.lock and size.wheel_thickness_mm is None and size.face_width_mm is None:
         if bent_MPa is None:
-            bent_MPa = float(lock.horn_MPa(machine, sizes.half_width, by)[0])
-        usual = sizes.wheel_thickness
+            bent_MPa = float(lock.horn_MPa(machine, sizes.half_width, of.lock)[0])
         # a thicker wheel bends its pins more than its horns
-        for wide in sizes_from(usual, 2.0 * usual):
+        for wide in sizes_from(sizes.wheel_thickness, 2.0 * sizes.wheel_thickness):
             if keeps(bent_MPa / wide, "at most", allowed):
                 break
-        sizes = _thick(assembly, sizes, wheel=wide)
+        _, disc, arm, bar = size.thicknesses(of.assembly.L, lambda _: wide)
+        bar = sizes.link_thickness if linked else bar
+        sizes = sizes._replace(
+            wheel_thickness=wide, lock_thickness=disc, arm_thickness=arm, link_thickness=bar
+        )
     wide, eye = sizes.wheel_thickness, math.inf
-    if assembly.sign > 0.0 and sizes.arm_bore:  # about the pin, where it passes the largest hub
+    if of.assembly.sign > 0.0 and sizes.arm_bore:  # about the pin, where it passes the largest hub
         hub = max(sizes.wheel_hub, LARGEST_HUB * sizes.slot_end)
-        eye = assembly.L - sizes.reaches[1] - hub - sizes.wall_min
+        eye = of.assembly.L - sizes.reaches[1] - hub - sizes.wall_min
     sizes = sizes._replace(pin=pin_that_holds(machine, sizes.pin, wide, sizes.roller, eye, loads))
-    if not (sizes.arm_bore and sizes.pin) or spec.size.arm_thickness_mm is not None:
-        sizes = _wheel_bored(assembly, sizes, loads)
-        return _crank_bored(assembly, sizes, loads, space, keyed=True)
+    if not (sizes.arm_bore and sizes.pin) or size.arm_thickness_mm is not None:
+        return _crank_bored(of, spec, loads, _wheel_bored(of, spec, loads, sizes), keyed=True)
     # a thicker arm, up to twice the wheel, is better for a key than a thicker shaft
-    for keyed in (False, True) if spec.size.crank_keyway else (True,):
+    for keyed in (False, True) if size.crank_keyway else (True,):
         for thick in sizes_from(wide, 2.0 * wide):
-            trial = _wheel_bored(assembly, _thick(assembly, sizes, arm=thick), loads)
-            trial = _crank_bored(assembly, trial, loads, space, keyed)
-            parts = stressed(assembly, trial)
+            bar = sizes.link_thickness if linked else thick
+            trial = sizes._replace(arm_thickness=thick, link_thickness=bar)
+            trial = _crank_bored(of, spec, loads, _wheel_bored(of, spec, loads, trial), keyed)
+            parts = stressed(of.assembly, trial)
             arm_MPa = float(arm_stress_MPa(parts.arm, loads.wheel_N))
-            free = parts.crank_key is NO_KEY
-            key_lasts = free or key_holds(spec, parts.crank_key, loads.crank_Nm)
+            key_lasts = key_holds(spec, parts.crank_key, loads.crank_Nm)
             if key_lasts and keeps(arm_MPa, "at most", allowed):
                 return trial
     return trial
 
 
-def _thick(
-    assembly: Assembly, sizes: Sizes, wheel: float | None = None, arm: float | None = None
-) -> Sizes:
-    """Return the sizes with another thickness of the wheel, or of the arm."""
-    size = assembly.full.spec.size.replace(
-        wheel_thickness_mm=wheel or sizes.wheel_thickness,
-        **({"arm_thickness_mm": arm} if arm else {}),
-    )
-    thick = size.thicknesses(assembly.L, rounded_below)
-    out = sizes._replace(
-        wheel_thickness=thick.wheel, lock_thickness=thick.lock, arm_thickness=thick.arm
-    )
-    # a first wheel's own thickness stays
-    return out if assembly.full.first_wheel else out._replace(link_thickness=thick.link)
-
-
-def _wheel_bored(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> Sizes:
+def _wheel_bored(of: Unloaded, spec: Spec, loads: PartLoads, sizes: Sizes) -> Sizes:
     """Return the sizes with a bore of the wheel whose shaft and key hold."""
-    spec, end, wall = assembly.full.spec, sizes.slot_end, sizes.wall_min
+    end, wall = sizes.slot_end, sizes.wall_min
     fixed = spec.size.wheel_bore_mm is not None or spec.shaft.wheel_diameter_mm is not None
     if fixed or not sizes.wheel_bore:
         return sizes
@@ -229,35 +209,30 @@ def _wheel_bored(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> Sizes:
     for d in sizes_from(2.0 * sizes.wheel_bore, 2.0 * most, bores=True):
         reach, hub = reach_and_hub(spec.size, "wheel", 0.5 * d, wall, end)
         sizes = sizes._replace(wheel_bore=0.5 * d, wheel_reach=reach, wheel_hub=hub)
-        parts, torque = stressed(assembly, sizes), loads.wheel_Nm
-        moment = equivalent_Nm(spec, parts.wheel_shaft, loads.wheel_shaft_N, torque)
-        if shaft_and_key_hold(spec, "wheel", parts, moment, torque):
+        parts = stressed(of.assembly, sizes)
+        if _shaft_holds(spec, "wheel", parts, loads.wheel_shaft_N, loads.wheel_Nm):
             break
     return sizes
 
 
-def _crank_bored(
-    assembly: Assembly, sizes: Sizes, loads: PartLoads, space: float, keyed: bool
-) -> Sizes:
+def _crank_bored(of: Unloaded, spec: Spec, loads: PartLoads, usual: Sizes, keyed: bool) -> Sizes:
     """Return the sizes with the crank's bore, through the disc if a shaft that holds fits there.
 
     Otherwise the shaft ends in the arm, whose bore may be larger, unless links are in its way.
     Unless ``keyed``, the bore is not sized by its key.
     """
-    spec = assembly.full.spec
-    size = spec.size
-    if not (size.crank_bore_mm is size.arm_bore_mm is spec.shaft.crank_diameter_mm is None):
+    size, sizes = spec.size, usual
+    if size.crank_bore_mm or not (size.arm_bore_mm is spec.shaft.crank_diameter_mm is None):
         return sizes
-    # diameters, and whether they are bored through the disc
-    trials, usual = list[tuple[float, bool]](), sizes
+    trials = list[tuple[float, bool]]()  # diameters, and whether they are bored through the disc
     if sizes.crank_bore:
         # a larger bore leaves no space for its default hub, of 1.5 bores
-        most = min(0.6 * space, within_hub(size, "crank"))
+        most = min(0.6 * of.space, within_hub(size, "crank"))
         for d in sizes_from(2.0 * sizes.crank_bore, 2.0 * most, bores=True):
             trials.append((d, True))
     # past links and gears the shaft may have no other way out
-    if sizes.arm_bore and not (links_at(assembly.full, np.zeros(1)) or spec.gears):
-        left = sizes.reaches[0] - (sizes.pin - 0.5 * size.allowances.press_fit_mm)
+    if sizes.arm_bore and not (links_at(of.assembly.full, np.zeros(1)) or spec.gears):
+        left = sizes.reaches[0] - hole_radius(size, sizes.pin)
         for d in sizes_from(2.0 * sizes.arm_bore, left, bores=True):  # half of it is left as a wall
             trials.append((d, False))
     for d, through in trials:
@@ -265,9 +240,8 @@ def _crank_bored(
         reach, hub = reach_and_hub(size, "crank", bore, sizes.wall_min)
         arm = 0.5 * d if usual.arm_bore else 0.0
         sizes = usual._replace(crank_bore=bore, crank_reach=reach, crank_hub=hub, arm_bore=arm)
-        parts, torque = stressed(assembly, sizes), loads.crank_Nm
-        moment = equivalent_Nm(spec, parts.crank_shaft, loads.crank_N, torque)
-        if shaft_and_key_hold(spec, "crank", parts, moment, torque, keyed):
+        parts = stressed(of.assembly, sizes)
+        if _shaft_holds(spec, "crank", parts, loads.crank_N, loads.crank_Nm, keyed):
             break
     return sizes
 
@@ -290,40 +264,43 @@ def pin_that_holds(
     most = min(0.7 * roller - 0.5 * size.allowances.shaft_fit_mm, eye)
     allowed = roller_material(spec).allowed_MPa
     rubbed, jump = math.hypot(1.0, spec.load.friction), np.array([[loads.pin_jump]])
-    for d in sizes_from(2.0 * usual, 2.0 * most):
-        struck_N = forces_N(mechanism, jump, PinSize(d, contact)).item() if jump else 0.0
-        whole_N = max(loads.pin_N, struck_N) * rubbed  # with friction along the wall
-        stress = float(pin_stress_MPa(size, contact, d, whole_N)[2])
-        if keeps(stress, "at most", allowed):
+    trials, struck_N = np.array(sizes_from(2.0 * usual, 2.0 * most))[:, None], np.zeros(1)
+    if jump:
+        struck_N = forces_N(mechanism, jump, PinSize(trials, contact))[:, None]
+    whole_N = np.fmax(loads.pin_N, struck_N) * rubbed  # with friction along the wall
+    stresses = pin_stress_MPa(size, contact, trials, whole_N)[2]
+    for d, stress in zip(trials.flat, np.ravel(stresses), strict=True):
+        radius = 0.5 * float(d)
+        if keeps(float(stress), "at most", allowed):
             break
-    return 0.5 * d
+    return radius
 
 
-def equivalent_Nm(spec: Spec, shaft: ShaftSize, force_N: float, torque_Nm: float) -> float:
-    """Return the equivalent torque of a shaft under a force and a torque, greatest at once."""
+def _shaft_holds(
+    spec: Spec, part: str, parts: Stressed, force_N: float, torque_Nm: float, keyed: bool = True
+) -> bool:
+    """Return True if a shaft and its key hold a force and a torque, both greatest at once."""
+    shaft: ShaftSize = getattr(parts, f"{part}_shaft")
     bent = spec.shaft.bending_factor * force_N * shaft.overhang / 1000.0
-    return math.hypot(bent, spec.shaft.torsion_factor * torque_Nm)
+    moment = math.hypot(bent, spec.shaft.torsion_factor * torque_Nm)
+    return shaft_and_key_hold(spec, part, parts, moment, torque_Nm, keyed)
 
 
 def shaft_and_key_hold(
     spec: Spec, part: str, parts: Stressed, moment_Nm: float, torque_Nm: float, keyed: bool = True
 ) -> bool:
-    """Return True if the shaft of wheel or crank holds an equivalent torque, and its key a torque.
-
-    Unless ``keyed``, the key does not count.
-    """
-    shaft, key = parts.crank_shaft, parts.crank_key
-    if part == "wheel":
-        shaft, key = parts.wheel_shaft, parts.wheel_key
+    """Return True if a shaft holds an equivalent torque, and if ``keyed`` its key a torque."""
+    shaft: ShaftSize = getattr(parts, f"{part}_shaft")
     keyway = vars(spec.size)[f"{part}_keyway"] is not None
     allowed = float(shear_allowed_MPa(spec.shaft, keyway))
     if not keeps(shear_MPa(moment_Nm, shaft.diameter), "at most", allowed):
         return False
-    return not keyed or key is NO_KEY or key_holds(spec, key, torque_Nm)
+    return not keyed or key_holds(spec, getattr(parts, f"{part}_key"), torque_Nm)
 
 
 def key_holds(spec: Spec, key: KeyDimensions, torque_Nm: float) -> bool:
-    """Return True if a key holds a torque."""
+    """Return True if a key holds a torque, or for no key."""
     sides, shear = wheel_material(spec).allowed_MPa, shear_allowed_MPa(spec.shaft)
     torque = spec.shaft.torsion_factor * torque_Nm
-    return keeps(float(key.length), "at least", float(key_stress(key, torque, sides, shear)[2]))
+    least = float(key_stress(key, torque, sides, shear)[2])
+    return key is NO_KEY or keeps(float(key.length), "at least", least)

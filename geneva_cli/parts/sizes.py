@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
-from typing import NamedTuple, TypeAlias
+from collections.abc import Callable, Iterable, Iterator
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -12,11 +12,17 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.arrays import half_or, value_or
 from geneva_cli.numerics.tolerances import bore_radius, rounded_below, rounded_radius
+from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.shafts.bores import bore_of, has_shape, reach_or_bore
 from geneva_cli.spec.defaults import eye_about
 from geneva_cli.spec.tables import Size, Thicknesses
+from geneva_cli.spec.workshops import Allowances
+
+if TYPE_CHECKING:
+    from geneva_cli.loads.tolerance.locking import Lock
 
 HUB = 1.6  # outside diameter of a hub, as a multiple of its bore
+CLEARANCES = Allowances._fields[:-1]  # without their source
 LARGEST_HUB = 0.75  # of the slots' ends: a quarter of the wheel up to them stays free
 
 
@@ -71,9 +77,30 @@ class Sizes(NamedTuple):
         return self._replace(**none)  # type: ignore[arg-type]
 
 
+class Unloaded(NamedTuple):
+    """The parts of a machine as they are without a load."""
+
+    assembly: Assembly
+    sizes: Sizes
+    space: float  # radius about the crank's axis inside the relief, mm
+    cut: Callable[[], Lock]  # the lock as it is cut, which no load changes; for sizes with one
+
+    @property
+    def lock(self) -> Lock | None:
+        """The lock; None without one."""
+        return self.cut() if self.sizes.lock else None
+
+
 # The sizes of a machine's parts by keys of ``[size]``, mm and diameters as the keys say; and those
 # of the keys that the spec leaves out and the load chooses.
 KeySizes: TypeAlias = tuple[dict[str, float], tuple[str, ...]]
+Fault: TypeAlias = tuple[str, str]  # a key of ``[size]``, and what is wrong with it
+
+
+def refuse(faults: Iterable[Fault]) -> None:
+    """Raise GenevaError for the first fault, if there is one."""
+    for key, text in faults:
+        raise GenevaError(text, ("size", key))
 
 
 def drawn_thicknesses(size: Size, L: float) -> Thicknesses:
@@ -113,17 +140,15 @@ def hub_and_eye(
     deep = bore_of(size, "crank", bore).reach
     hub = arm_hub(size, deep, bore, wall, standing)
     eye = half_or(size.arm_eye_mm, eye_about(hole, wall, passing))
-    if hub <= deep:
-        raise GenevaError(
-            f"arm_hub_mm = {2.0 * hub:g}: the hub must be above {2.0 * deep:.6g}, the diameter "
-            "over its bore and keyway",
-            ("size", "arm_hub_mm"),
-        )
-    if eye <= hole:
-        raise GenevaError(
-            f"arm_eye_mm = {2.0 * eye:g}: the eye must be above {2.0 * hole:.6g}, the pin's hole",
-            ("size", "arm_eye_mm"),
-        )
+    inner = {"hub": (hub, deep, "the diameter over its bore and keyway")}
+    inner["eye"] = eye, hole, "the pin's hole"
+    for part, (radius, least, what) in inner.items():
+        if radius <= least:
+            raise GenevaError(
+                f"arm_{part}_mm = {2.0 * radius:g}: the {part} must be above {2.0 * least:.6g}, "
+                f"{what}",
+                ("size", f"arm_{part}_mm"),
+            )
     return hub, eye
 
 
@@ -132,43 +157,47 @@ def arm_hub(size: Size, bored: float, bore: float, wall: float, standing: float 
     return half_or(size.arm_hub_mm, max(rounded_radius(HUB * bore), bored + wall, standing))
 
 
+def hole_radius(size: Size, pin: float) -> float:
+    """Return the radius of the hole that holds a pin, not above 0 where none is left."""
+    return pin - 0.5 * size.allowances.press_fit_mm
+
+
 def pin_hole(size: Size, pin: float) -> float:
     """Return the radius of the hole that holds a pin. Raises GenevaError where none is left."""
-    fit = size.allowances.press_fit_mm
-    hole = pin - 0.5 * fit
+    hole = hole_radius(size, pin)
     if hole <= 0.0:
         raise GenevaError(
-            f"there is no hole for a pin of pin_mm = {2.0 * pin:g} with press_fit_mm = {fit:g}; "
-            "the pin must be the larger",
+            f"there is no hole for a pin of pin_mm = {2.0 * pin:g} with press_fit_mm = "
+            f"{2.0 * (pin - hole):g}; the pin must be the larger",
             ("size", "press_fit_mm" if pin else "pin_mm"),
         )
     return hole
 
 
-def refuse_pin_and_edges(size: Size, pin: float, roller: float, thin: float) -> None:
-    """Raise GenevaError for a pin and for edges that leave nothing of a part.
+def pin_and_edge_faults(size: Size, pin: float, roller: float, thin: float) -> Iterator[Fault]:
+    """Yield the faults of a pin and of edges that leave nothing of a part.
 
     The pin's hole is in a roller with its least radius; the thinnest plate is ``thin`` mm thick.
     """
     loose, chamfer = size.allowances.shaft_fit_mm, size.edge_chamfer_mm is not None
     if pin and 2.0 * pin + loose >= 2.0 * roller:
-        raise GenevaError(
+        yield (
+            "pin_mm",
             f"pin_mm = {2.0 * pin:g}: it must be below {2.0 * roller - loose:.6g}, the roller's "
             "least diameter less shaft_fit_mm",
-            ("size", "pin_mm"),
         )
     if chamfer and size.edge_fillet_mm is not None:
-        raise GenevaError(
+        yield (
+            "edge_fillet_mm",
             "edge_fillet_mm: edges are either chamfered or rounded; remove one of edge_chamfer_mm "
             "and edge_fillet_mm",
-            ("size", "edge_fillet_mm"),
         )
     if 2.0 * size.edge_mm >= thin:
         key = "edge_chamfer_mm" if chamfer else "edge_fillet_mm"
-        raise GenevaError(
+        yield (
+            key,
             f"{key} = {size.edge_mm:g}: it must be below {0.5 * thin:.6g}, half of the thinnest "
             "plate",
-            ("size", key),
         )
 
 
@@ -201,13 +230,13 @@ def wheel_bore(spec: Spec, end: float, wall: float, L: float) -> float:
     return half_or(size.wheel_bore_mm, usual)
 
 
-def refuse_thin_hub(part: str, hub: float, bored: float, bore: float) -> None:
-    """Raise GenevaError for a hub that its bore, which reaches to ``bored``, cuts through."""
+def hub_faults(part: str, hub: float, bored: float, bore: float) -> Iterator[Fault]:
+    """Yield the fault of a hub that its bore, which reaches to ``bored``, cuts through."""
     if bore < hub <= bored:
-        raise GenevaError(
+        yield (
+            f"{part}_hub_mm",
             f"{part}_hub_mm = {2.0 * hub:g}: it must be above {2.0 * bored:.6g}, the diameter "
             f"over bore and keyway; a smaller {part}_bore_mm leaves more of it",
-            ("size", f"{part}_hub_mm"),
         )
 
 

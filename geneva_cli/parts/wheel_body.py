@@ -9,8 +9,8 @@ from geneva_cli.geometry.plates import MassProperties, added, mass_properties
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.registry import thing
 from geneva_cli.parts.machine_sizes import machine_sizes
+from geneva_cli.parts.outlines.cut_outlines import turned_walls, wheel_contour
 from geneva_cli.parts.outlines.outlines import wheel_hub, wheel_plate
-from geneva_cli.parts.outlines.wheel_outline import turned_walls, wheel_contour
 from geneva_cli.spec.defaults import wheel_material
 
 

@@ -3,7 +3,7 @@
 import math
 import sys
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 from geneva_cli.errors import GenevaError
 
@@ -79,18 +79,15 @@ class Csv:
         return ""
 
     def check(
-        self, pairs: Sequence[tuple[float, float]], file: str, place: tuple[str, ...]
+        self, pairs: Sequence[tuple[float, float]], name: str, place: tuple[str, ...]
     ) -> None:
-        """Raise GenevaError for pairs that break the rule."""
-        name = file or place[1]
+        """Raise GenevaError, which begins with ``name``, for pairs that break the rule."""
         for i in range(len(pairs)):
-            fault = self.fault(pairs, i)
-            if fault:
+            if fault := self.fault(pairs, i):
                 raise GenevaError(f"{name}, point {i + 1}: {fault}", place)
         if len(pairs) < self.POINTS_MIN:
-            raise GenevaError(
-                f"{name}: {len(pairs)} points; at least {self.POINTS_MIN} are needed", place
-            )
+            text = f"{name}: {len(pairs)} points; at least {self.POINTS_MIN} are needed"
+            raise GenevaError(text, place)
 
 
 POSITIVE = Range(1e-12, 1e12)
@@ -100,6 +97,11 @@ LENGTH = Range(-1e12, 1e12)
 TOOL_MM = Range(0.0, 1000.0, "(]")  # kerfs and cutters: no beam, no milling cutter is wider
 FINITE = Range(-math.inf, math.inf, "()")
 Z_MAX = 1_000_000  # most slots (and rollers) that are computed
+# types of usual keys
+Positive = Annotated[float | None, POSITIVE]
+NotNegative = Annotated[float | None, NOT_NEGATIVE]
+FromZero = Annotated[float, NOT_NEGATIVE]
+Height = Annotated[float | None, LENGTH]
 
 
 def require_mm(option: str, value: float, allowed: Range, of: str = "") -> None:

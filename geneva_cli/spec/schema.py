@@ -13,7 +13,7 @@ from __future__ import annotations
 import dataclasses
 import inspect
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from types import NoneType, UnionType
 from typing import (
     Annotated,
@@ -173,22 +173,28 @@ class SpecTable:
             out[field.key] = own[field.attribute]
         return out
 
-    def with_key(self, key: str, value: Any) -> Self:
-        """Return a copy with one key changed, written as in the file; None sets its default.
+    @property
+    def own_keys(self) -> dict[str, Field]:
+        """Fields by their keys in the file."""
+        return {field.key: field for field in fields(type(self))}
+
+    def with_keys(self, values: Mapping[str, Any]) -> Self:
+        """Return a copy with keys changed, written as in the file; None sets a key's default.
 
         Raises GenevaError for a key that the table does not have, or a value out of its range.
 
-        >>> SideCrank(A=0.6).with_key("A", 0.5).A
+        >>> SideCrank(A=0.6).with_keys({"A": 0.5}).A
         0.5
         """
-        known = {field.key: field for field in fields(type(self))}
-        if key not in known:
-            raise unknown(key, self.TABLE, tuple(known))
-        field = known[key]
-        if value is None:
-            require(type(self), [k for k in known if k != key])
-            value = field.default
-        return self.replace(**{field.attribute: value})
+        known, changes = self.own_keys, {}
+        for key, value in values.items():
+            if key not in known:
+                raise unknown(key, self.TABLE, tuple(known))
+            if value is None:
+                require(type(self), [k for k in known if k != key])
+                value = known[key].default
+            changes[known[key].attribute] = value
+        return self.replace(**changes)
 
     def replace(self, **changes: Any) -> Self:
         """Return a copy with some fields changed and checked.
@@ -327,7 +333,7 @@ def _points(place: tuple[str, ...], field: Field, value: Any) -> Points:
         except (TypeError, ValueError):
             text = f"{field.key}: points must be pairs of numbers u,s"
             raise GenevaError(text, place) from None
-    field.rule.check(value.pairs, value.file, place)
+    field.rule.check(value.pairs, value.file or field.key, place)
     return value
 
 

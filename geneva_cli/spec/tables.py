@@ -12,14 +12,14 @@ from typing import Annotated, ClassVar, NamedTuple
 from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.kept import cached_property
 from geneva_cli.numerics.arrays import value_or
-from geneva_cli.spec.rules import LENGTH, NOT_NEGATIVE, POSITIVE, OneOf, Range
-from geneva_cli.spec.schema import SpecTable
+from geneva_cli.spec.rules import POSITIVE, FromZero, Height, NotNegative, OneOf, Positive, Range
+from geneva_cli.spec.schema import SpecTable, fields
 from geneva_cli.spec.workshops import PROCESSES, WORKSHOPS, Allowances
 
 Rounding = Callable[[float], float]
-# types of usual keys
-Positive = Annotated[float | None, POSITIVE]
-NotNegative = Annotated[float | None, NOT_NEGATIVE]
+# types of keys that wheel and crank have alike, with their meaning
+Keyway = Annotated[str | None, OneOf(("DIN 6885-1",)), "keyway in the bores on this shaft"]
+BoreShape = Annotated[str, OneOf(("round", "D", "hex")), "shape of its bores; hex: across flats"]
 
 DISTANCE_MM = 100.0  # the centre distance of a spec that gives none
 Z_DRAWN = 360  # slots of a wheel that is drawn: one a degree
@@ -52,189 +52,75 @@ class Size(SpecTable):
     TABLE: ClassVar[str] = "size"
 
     center_distance_mm: Annotated[
-        Positive,
-        "centre distance L; spherical: sphere radius; linear: crank radius; default 100; linkages "
-        "solve for it",
+        Positive, "centre distance L; spherical: sphere radius; linear: crank radius; default 100"
     ] = None
     crank_radius_mm: Annotated[
-        Positive,
-        "crank radius R, to the roller's centre; alone it sets L, with center_distance_mm and "
-        "another R/L than straight slots need the machine is taken as built",
+        Positive, "crank radius R, to the roller's centre; with another R/L than needed: as built"
     ] = field(default=None, kw_only=True)
     roller_radius_mm: Annotated[Positive, "roller radius r; default L/20"] = None
-    mouth_radius_mm: Annotated[
-        float, NOT_NEGATIVE, "rounding radius of the corners of straight slots' mouths"
-    ] = field(default=0.0, kw_only=True)
-    horn_tip_mm: Annotated[
-        float, NOT_NEGATIVE, "horns thinner than this at their tips are cut back to flats so wide"
-    ] = field(default=0.0, kw_only=True)
-    process: Annotated[
-        str | None, OneOf(PROCESSES), "manufacturing process; sets clearances, fits and limits"
-    ] = None
-    slot_clearance_mm: Annotated[
-        NotNegative, "clearance per side, roller to slot; default 0, or by process"
-    ] = None
-    lock_clearance_mm: Annotated[
-        NotNegative, "clearance per side, disc to wheel; default 0, or by process"
-    ] = None
+    process: Annotated[str | None, OneOf(PROCESSES), "sets clearances, fits and limits"] = None
+    slot_clearance_mm: Annotated[NotNegative, "per side, in slot; default 0, or by process"] = None
+    lock_clearance_mm: Annotated[NotNegative, "per side, of disc; default 0, or by process"] = None
     face_width_mm: Annotated[Positive, "length of the contact line between roller and slot"] = None
     wheel_radius_mm: Annotated[
         Positive,
-        "rim radius (internal: of the opening; linear: distance of the edge); default: roller at "
-        "entry",
+        "rim radius; internal: of the opening; linear: the edge; default: roller at entry",
     ] = None
-    wheel_outer_radius_mm: Annotated[
-        Positive, "internal: outer radius of the wheel; default: slots plus a roller's width"
-    ] = None
-    slot_bottom_clearance_mm: Annotated[
-        NotNegative, "straight slots: roller's clearance at their ends; default r/20"
-    ] = None
-    lock_radius_mm: Annotated[
-        NotNegative,
-        "radius of the locking disc, 0 for none; default: horns as thick as r, if possible",
-    ] = None
-    relief: Annotated[
-        str | None,
-        OneOf(("arc", "sector")),
-        "locking disc's relief; default: the one that clears wheel, bore and hub",
-    ] = None
-    relief_clearance_mm: Annotated[
-        NotNegative, "clearance from wheel to bottom of the relief; default L/200"
-    ] = None
-    wall_min_mm: Annotated[
-        NotNegative, "least wall that passes `check`; default L/200, or by process"
-    ] = None
-    wheel_bore_mm: Annotated[
-        NotNegative, "diameter of the wheel's shaft in its bore; default up to L/6, or by load"
-    ] = None
-    wheel_hub_mm: Annotated[
-        NotNegative, "diameter of the wheel's hub, on the side of the crank arm"
-    ] = None
-    wheel_hub_length_mm: Annotated[
-        Positive, "wheel's hub: length below the wheel; default: past the crank arm"
-    ] = None
-    wheel_shaft_low_mm: Annotated[
-        float | None, LENGTH, "lower end of the wheel's shaft, from the wheel's lower face"
-    ] = None
-    wheel_shaft_high_mm: Annotated[
-        float | None, LENGTH, "upper end of the wheel's shaft, from the wheel's lower face"
-    ] = None
+    wheel_outer_radius_mm: Annotated[Positive, "internal: outer radius; default slots + 2 r"] = None
+    slot_bottom_clearance_mm: Annotated[NotNegative, "roller to a slot's end; default r/20"] = None
+    lock_radius_mm: Annotated[NotNegative, "locking disc's radius; 0 none; default by horns"] = None
+    relief: Annotated[str | None, OneOf(("arc", "sector")), "default: the one that clears"] = None
+    relief_clearance_mm: Annotated[NotNegative, "wheel to relief's bottom; default L/200"] = None
+    wall_min_mm: Annotated[NotNegative, "least wall; default L/200, or by process"] = None
+    wheel_bore_mm: Annotated[NotNegative, "diameter of the wheel's shaft; default up to L/6"] = None
+    wheel_hub_mm: Annotated[NotNegative, "diameter of the wheel's hub, towards the arm"] = None
+    wheel_hub_length_mm: Annotated[Positive, "below the wheel; default: past the crank arm"] = None
+    wheel_shaft_low_mm: Annotated[Height, "shaft's lower end, from the wheel's lower face"] = None
+    wheel_shaft_high_mm: Annotated[Height, "shaft's upper end, from the wheel's lower face"] = None
     crank_bore_mm: Annotated[
         NotNegative,
-        "diameter of the crank's shaft in its bore; default arm_bore_mm; 0: the shaft ends below",
+        "diameter of the crank's shaft in the disc; default arm_bore_mm; 0: it ends below",
     ] = None
     crank_hub_mm: Annotated[NotNegative, "diameter of the crank's hub in the wheel's plane"] = None
-    crank_hub_length_mm: Annotated[
-        Positive, "length of the crank's hub, from the arm up; default: to the wheel's upper face"
-    ] = None
-    crank_shaft_low_mm: Annotated[
-        float | None, LENGTH, "lower end of the crank's shaft, from the wheel's lower face"
-    ] = None
-    crank_shaft_high_mm: Annotated[
-        float | None, LENGTH, "upper end of the crank's shaft, from the wheel's lower face"
-    ] = None
+    crank_hub_length_mm: Annotated[Positive, "from the arm up; default: wheel's upper face"] = None
+    crank_shaft_low_mm: Annotated[Height, "shaft's lower end, from the wheel's lower face"] = None
+    crank_shaft_high_mm: Annotated[Height, "shaft's upper end, from the wheel's lower face"] = None
     pin_mm: Annotated[NotNegative, "diameter of the roller's pin; default r, or by load"] = None
-    press_fit_mm: Annotated[
-        NotNegative,
-        "diameter of the pin minus that of its hole in the crank arm; default 0, or by process",
-    ] = None
-    shaft_fit_mm: Annotated[
-        NotNegative,
-        "diameter by which bores are wider than their shafts and pins; default 0, or by process",
-    ] = None
-    arm_bore_mm: Annotated[
-        Positive, "diameter of the crank's shaft in the arm; default crank_bore_mm, or by load"
-    ] = None
-    arm_hub_mm: Annotated[Positive, "width of the crank arm round its bore; default 1.6 bores"] = (
-        None
-    )
-    arm_eye_mm: Annotated[
-        Positive, "width of the crank arm round a pin; default up to 2 pin diameters"
-    ] = None
-    crank_keyway: Annotated[
-        str | None,
-        OneOf(("DIN 6885-1",)),
-        "keyway in the bores of all that turns with the crank's shaft",
-    ] = None
-    crank_bore: Annotated[
-        str,
-        OneOf(("round", "D", "hex")),
-        "shape of the bores on the crank's shaft; a hex bore is across flats",
-    ] = "round"
-    crank_flat_mm: Annotated[
-        Positive, "depth of the flat in the crank's D bore; default bore/10"
-    ] = None
-    wheel_keyway: Annotated[
-        str | None, OneOf(("DIN 6885-1",)), "keyway in the bores on the wheel's shaft"
-    ] = None
-    wheel_bore: Annotated[
-        str,
-        OneOf(("round", "D", "hex")),
-        "shape of the bores on the wheel's shaft; a hex bore is across flats",
-    ] = "round"
-    wheel_flat_mm: Annotated[
-        Positive, "depth of the flat in the wheel's D bore; default bore/10"
-    ] = None
+    press_fit_mm: Annotated[NotNegative, "pin minus its hole; default 0, or by process"] = None
+    shaft_fit_mm: Annotated[NotNegative, "bores minus shafts; default 0, or by process"] = None
+    arm_bore_mm: Annotated[Positive, "crank's shaft in the arm; default crank_bore_mm"] = None
+    arm_hub_mm: Annotated[Positive, "width of the arm round its bore; default 1.6 bores"] = None
+    arm_eye_mm: Annotated[Positive, "width of the arm round a pin; default up to 2 pins"] = None
+    crank_keyway: Keyway = None
+    crank_bore: BoreShape = "round"
+    crank_flat_mm: Annotated[Positive, "depth of a D bore's flat; default bore/10"] = None
+    wheel_keyway: Keyway = None
+    wheel_bore: BoreShape = "round"
+    wheel_flat_mm: Annotated[Positive, "depth of a D bore's flat; default bore/10"] = None
     dial_bolts: Annotated[int, Range(0, 100), "number of bolts between dial and wheel"] = 0
-    dial_bolt_mm: Annotated[
-        Positive, "dial's bolt holes: diameter; default for a screw, up to L/40"
-    ] = None
-    dial_bolt_circle_mm: Annotated[
-        Positive, "dial's bolt circle: diameter; default: amid bore and slots"
-    ] = None
-    gear_bolts: Annotated[
-        int, Range(0, 100), "number of screws between a fixed gear and the frame, evenly spaced"
-    ] = 4
-    gear_bolt_mm: Annotated[Positive, "fixed gear's screw holes: diameter; default up to L/40"] = (
-        None
-    )
-    gear_bolt_circle_mm: Annotated[
-        Positive, "fixed gear's screw circle; default: amid bore and pitch circle"
-    ] = None
-    lock_bolts: Annotated[
-        int | None,
-        Range(0, 100),
-        "bolts through each sector of the locking disc and the arm; default 2 where they fit",
-    ] = None
-    lock_bolt_mm: Annotated[
-        Positive, "lock's bolt holes: diameter; default for a screw, up to L/40"
-    ] = None
-    lock_bolt_circle_mm: Annotated[
-        Positive, "locking disc's bolt circle; default: where the disc is widest"
-    ] = None
+    dial_bolt_mm: Annotated[Positive, "dial's bolt holes; default for a screw up to L/40"] = None
+    dial_bolt_circle_mm: Annotated[Positive, "dial's bolt circle; default amid bore, slots"] = None
+    gear_bolts: Annotated[int, Range(0, 100), "screws between a fixed gear and the frame"] = 4
+    gear_bolt_mm: Annotated[Positive, "fixed gear's screw holes; default up to L/40"] = None
+    gear_bolt_circle_mm: Annotated[Positive, "circle; default amid bore and pitch circle"] = None
+    lock_bolts: Annotated[int | None, Range(0, 100), "in each sector; default 2 if they fit"] = None
+    lock_bolt_mm: Annotated[Positive, "lock's bolt holes; default for a screw up to L/40"] = None
+    lock_bolt_circle_mm: Annotated[Positive, "its bolt circle; default where it is widest"] = None
     pin_held: Annotated[
-        str,
-        OneOf(("cantilever", "supported", "fixed")),
-        "support of the roller's pin: fixed in one plate, loose in two, or fixed in two",
+        str, OneOf(("cantilever", "supported", "fixed")), "in one plate, loose in two, fixed in two"
     ] = "cantilever"
-    pin_gap_mm: Annotated[
-        NotNegative, "gap from a pin's plate to the contact line; default 0, or by process"
-    ] = None
-    lock_edge_mm: Annotated[
-        Positive, "rounding radius at recesses' ends; with stop, also at the disc's"
-    ] = None
-    wheel_thickness_mm: Annotated[
-        Positive, "thickness of wheel and rollers; default face_width_mm, L/10 or by load"
-    ] = None
-    lock_thickness_mm: Annotated[
-        Positive, "thickness of the locking disc; default: wheel plus pin_gap_mm"
-    ] = None
-    arm_thickness_mm: Annotated[
-        Positive, "thickness of the crank arm; default: the wheel's, or by load"
-    ] = None
-    link_pin_mm: Annotated[Positive, "diameter of the pins between links; default up to L/20"] = (
-        None
-    )
-    link_bore_mm: Annotated[
-        Positive, "diameter of shafts that carry links only; default up to L/10, or by load"
-    ] = None
-    link_width_mm: Annotated[
-        Positive, "width of the links round their pins; default 2 pin diameters"
-    ] = None
-    link_thickness_mm: Annotated[
-        Positive, "thickness of the links; default: the crank arm's, or by load"
-    ] = None
-    washer_mm: Annotated[float, NOT_NEGATIVE, "thickness of washers between stacked links"] = 0.0
+    pin_gap_mm: Annotated[NotNegative, "pin's plate to contact; default 0, or by process"] = None
+    mouth_radius_mm: Annotated[FromZero, "rounding radius of straight slots' mouths"] = 0.0
+    horn_tip_mm: Annotated[FromZero, "horns thinner at their tips are cut to flats so wide"] = 0.0
+    lock_edge_mm: Annotated[Positive, "rounding of recesses' ends; with stop the disc's too"] = None
+    wheel_thickness_mm: Annotated[Positive, "wheel; default face_width_mm, L/10 or by load"] = None
+    lock_thickness_mm: Annotated[Positive, "locking disc; default wheel plus pin_gap_mm"] = None
+    arm_thickness_mm: Annotated[Positive, "crank arm; default the wheel's, or by load"] = None
+    link_pin_mm: Annotated[Positive, "pins between links; default up to L/20"] = None
+    link_bore_mm: Annotated[Positive, "shafts of links only; default up to L/10, or by load"] = None
+    link_width_mm: Annotated[Positive, "links round their pins; default 2 pin diameters"] = None
+    link_thickness_mm: Annotated[Positive, "links; default the crank arm's, or by load"] = None
+    washer_mm: Annotated[FromZero, "thickness of washers between stacked links"] = 0.0
     edge_chamfer_mm: Annotated[Positive, "chamfer of all edges, at 45 degrees"] = None
     edge_fillet_mm: Annotated[Positive, "rounding radius of all edges"] = None
     # no key: L of a machine that is given by crank_radius_mm, which its ``Spec`` computes
@@ -323,26 +209,16 @@ class Load(SpecTable):
 
     TABLE: ClassVar[str] = "load"
 
-    inertia_kgm2: Annotated[float, NOT_NEGATIVE, "inertia of everything the wheel turns"] = 0.0
-    torque_Nm: Annotated[float, NOT_NEGATIVE, "torque that resists the wheel's motion"] = 0.0
-    mass_kg: Annotated[float, NOT_NEGATIVE, "linear: mass of the rack and all it moves"] = 0.0
-    force_N: Annotated[float, NOT_NEGATIVE, "linear: force that resists the rack's motion"] = 0.0
-    dwell_torque_Nm: Annotated[
-        NotNegative, "torque that the lock holds during the dwell; default torque_Nm"
-    ] = None
-    winding_torque_Nm: Annotated[Positive, "with stop: torque of the crank against its stops"] = (
-        None
-    )
+    inertia_kgm2: Annotated[FromZero, "inertia of everything the wheel turns"] = 0.0
+    torque_Nm: Annotated[FromZero, "torque that resists the wheel's motion"] = 0.0
+    mass_kg: Annotated[FromZero, "linear: mass of the rack and all it moves"] = 0.0
+    force_N: Annotated[FromZero, "linear: force that resists the rack's motion"] = 0.0
+    dwell_torque_Nm: Annotated[NotNegative, "held by the lock at rest; default torque_Nm"] = None
+    winding_torque_Nm: Annotated[Positive, "with stop: crank's torque against its stops"] = None
     efficiency: Annotated[float, Range(0.0, 1.0, "(]"), "efficiency eta of the wheel"] = 1.0
-    friction: Annotated[float, NOT_NEGATIVE, "friction coefficient between roller and slot"] = 0.0
-    friction_at: Annotated[
-        str,
-        OneOf(("slot", "pin")),
-        "place of sliding: in the slot (roller fixed to its pin), or on the pin",
-    ] = "slot"
-    guide_friction: Annotated[
-        NotNegative, "linear: friction coefficient of the guide; default friction"
-    ] = None
+    friction: Annotated[FromZero, "friction coefficient between roller and slot"] = 0.0
+    friction_at: Annotated[str, OneOf(("slot", "pin")), "slides in the slot or on the pin"] = "slot"
+    guide_friction: Annotated[NotNegative, "linear: of the guide; default friction"] = None
 
 
 class Mass(SpecTable):
@@ -363,7 +239,7 @@ class Mass(SpecTable):
     width_mm: Annotated[Positive, "block: side c, perpendicular to the axis"] = None
     thickness_mm: Annotated[Positive, "thickness; required with a density"] = None
     count: Annotated[int, Range(1, 1000), "number of equal bodies"] = 1
-    radius_mm: Annotated[float, NOT_NEGATIVE, "distance from the wheel's axis to the body's"] = 0.0
+    radius_mm: Annotated[FromZero, "distance from the wheel's axis to the body's"] = 0.0
     name: Annotated[str, None, "name of the body"] = ""
 
     # sizes of each shape, from which its mass or inertia follows
@@ -417,9 +293,9 @@ class Support(SpecTable):
 
     TABLE: ClassVar[str] = "support"
 
-    friction: Annotated[float, NOT_NEGATIVE, "friction coefficient of the table's bearing"] = 0.0
-    radius_mm: Annotated[float, NOT_NEGATIVE, "radius at which that friction acts"] = 0.0
-    force_N: Annotated[float, NOT_NEGATIVE, "force in addition to the weight of the masses"] = 0.0
+    friction: Annotated[FromZero, "friction coefficient of the table's bearing"] = 0.0
+    radius_mm: Annotated[FromZero, "radius at which that friction acts"] = 0.0
+    force_N: Annotated[FromZero, "force in addition to the weight of the masses"] = 0.0
     axis: Annotated[str, OneOf(("vertical", "horizontal")), "the wheel's shaft"] = "vertical"
     gear_ratio: Annotated[float, POSITIVE, "turns of table and masses per turn of the wheel"] = 1.0
 
@@ -434,15 +310,11 @@ class Motor(SpecTable):
     TABLE: ClassVar[str] = "motor"
 
     service_factor: Annotated[float, Range(1.0, 100.0), "service factor of the makers"] = 1.0
-    gear_ratio: Annotated[Positive, "turns of the motor per turn of the input shaft; default 1"] = (
-        None
-    )
+    gear_ratio: Annotated[Positive, "motor's turns for one of the input; default 1"] = None
     gear_efficiency: Annotated[float, Range(0.0, 1.0, "(]"), "efficiency of the reducer"] = 1.0
-    inertia_kgm2: Annotated[float, NOT_NEGATIVE, "inertia of rotor and reducer"] = 0.0
+    inertia_kgm2: Annotated[FromZero, "inertia of rotor and reducer"] = 0.0
     speed_variation: Annotated[
-        float | None,
-        Range(0.0, 2.0, "()"),
-        "allowed speed variation, (greatest - least) / mean; sizes a flywheel",
+        float | None, Range(0.0, 2.0, "()"), "allowed (greatest - least) / mean; sizes a flywheel"
     ] = None
 
     @property
@@ -477,24 +349,15 @@ class Shaft(SpecTable):
     ] = None
     bending_factor: Annotated[float, Range(1.0, 10.0), "ASME B17c: shock factor in bending"] = 1.5
     torsion_factor: Annotated[float, Range(1.0, 10.0), "ASME B17c: shock factor in torsion"] = 1.0
-    shear_modulus_GPa: Annotated[float, POSITIVE, "shear modulus G"] = 80.8
 
 
 class Material(SpecTable):
     """Material of a part; without its keys steel, or PLA for a printed plate."""
 
-    youngs_modulus_GPa: Annotated[
-        Positive, "Young's modulus E; default of steel 210, of prints 2.4 (PLA)"
-    ] = None
-    poisson_ratio: Annotated[
-        float | None,
-        Range(0.0, 0.5),
-        "Poisson's ratio nu; default of steel 0.3, of prints 0.36 (PLA)",
-    ] = None
-    density_kgm3: Annotated[Positive, "density; default of steel 7850, of prints 1240 (PLA)"] = None
-    stress_max_MPa: Annotated[
-        Positive, "allowable stress; default of steel 165 (C45+N, 0.6 yield), of prints 8.2 (PLA)"
-    ] = None
+    youngs_modulus_GPa: Annotated[Positive, "Young's modulus E; default steel 210, PLA 2.4"] = None
+    poisson_ratio: Annotated[float | None, Range(0.0, 0.5), "nu; default 0.3, PLA 0.36"] = None
+    density_kgm3: Annotated[Positive, "density; default steel 7850, PLA 1240"] = None
+    stress_max_MPa: Annotated[Positive, "allowable; default steel 165 (0.6 yield), PLA 8.2"] = None
     grade: Annotated[str | None, None, "grade, as drawings name it"] = None
 
 
@@ -517,9 +380,7 @@ class RollerMaterial(Material):
 
     TABLE: ClassVar[str] = "material.roller"
 
-    dynamic_capacity_N: Annotated[
-        Positive, "dynamic capacity C of the roller as a bearing (ISO 281)"
-    ] = None
+    dynamic_capacity_N: Annotated[Positive, "capacity C of the roller as bearing (ISO 281)"] = None
 
 
 class Tolerance(SpecTable):
@@ -531,24 +392,14 @@ class Tolerance(SpecTable):
 
     TABLE: ClassVar[str] = "tolerance"
 
-    center_distance_mm: Annotated[float, NOT_NEGATIVE, "± of the centre distance L"] = 0.0
-    crank_radius_mm: Annotated[
-        float, NOT_NEGATIVE, "± of the crank radius R, which follows from center_distance_mm"
-    ] = 0.0
-    roller_diameter_mm: Annotated[
-        float, NOT_NEGATIVE, "± of the roller diameter, twice roller_radius_mm"
-    ] = 0.0
-    slot_width_mm: Annotated[
-        float, NOT_NEGATIVE, "± of the slot width, which follows from roller_radius_mm"
-    ] = 0.0
-    slot_angle_deg: Annotated[float, NOT_NEGATIVE, "± of each slot's direction"] = 0.0
-    lock_radius_mm: Annotated[float, NOT_NEGATIVE, "± of the locking disc's radius"] = 0.0
-    recess_radius_mm: Annotated[
-        float, NOT_NEGATIVE, "± of the wheel's recess radius, which follows from lock_radius_mm"
-    ] = 0.0
-    distribution: Annotated[
-        str, OneOf(("uniform", "normal")), "within ±; normal: ± is three standard deviations"
-    ] = "uniform"
+    center_distance_mm: Annotated[FromZero, "± of the centre distance L"] = 0.0
+    crank_radius_mm: Annotated[FromZero, "± of the crank radius R, by center_distance_mm"] = 0.0
+    roller_diameter_mm: Annotated[FromZero, "± of the roller diameter, 2 roller_radius_mm"] = 0.0
+    slot_width_mm: Annotated[FromZero, "± of the slot's width, by roller_radius_mm"] = 0.0
+    slot_angle_deg: Annotated[FromZero, "± of each slot's direction"] = 0.0
+    lock_radius_mm: Annotated[FromZero, "± of the locking disc's radius"] = 0.0
+    recess_radius_mm: Annotated[FromZero, "± of the recess radius, by lock_radius_mm"] = 0.0
+    distribution: Annotated[str, OneOf(("uniform", "normal")), "normal: ± is 3 sigma"] = "uniform"
 
     @property
     def is_given(self) -> bool:
@@ -570,9 +421,7 @@ class Product(SpecTable):
     TABLE: ClassVar[str] = "product"
 
     radius_mm: Annotated[Positive, "distance of the product from the axis"] = None
-    sprocket_teeth: Annotated[
-        int | None, Range(3, 10000), "chain, belt or film: teeth of its sprocket on the wheel"
-    ] = None
+    sprocket_teeth: Annotated[int | None, Range(3, 10000), "teeth of its sprocket"] = None
     pitch_mm: Annotated[Positive, "pitch of chain, belt or film"] = None
     friction: Annotated[Positive, "friction coefficient between product and its seat"] = None
 
@@ -614,12 +463,8 @@ class TitleBlock(SpecTable):
     author: Annotated[str | None, None, "author of the drawing"] = None
     date: Annotated[str | None, None, 'date of issue, as text: "2026-11-27"'] = None
     roughness_um: Annotated[Positive, "roughness Ra of all other faces; default by process"] = None
-    flank_roughness_um: Annotated[
-        Positive, "roughness Ra of the faces that roll, slide or lock"
-    ] = None
-    flank_hardness_HRC: Annotated[
-        float | None, Range(20.0, 70.0), "hardness of the faces that roll, slide or lock"
-    ] = None
+    flank_roughness_um: Annotated[Positive, "roughness Ra of faces that roll, slide or lock"] = None
+    flank_hardness_HRC: Annotated[float | None, Range(20.0, 70.0), "hardness of these faces"] = None
 
 
 class Outline(SpecTable):
@@ -631,17 +476,11 @@ class Outline(SpecTable):
 
     TABLE: ClassVar[str] = "outline"
 
-    wheel: Annotated[str | None, None, "the wheel: a .dxf or .svg file, its axis at the origin"] = (
-        None
-    )
-    crank: Annotated[
-        str | None, None, "the crank: a file, its axis at the origin, the first roller on +x"
-    ] = None
+    wheel: Annotated[str | None, None, "wheel: a .dxf or .svg file, its axis at the origin"] = None
+    crank: Annotated[str | None, None, "a file, axis at the origin, first roller on +x"] = None
     wheel_turn_deg: Annotated[float, Range(-360.0, 360.0), "turn the wheel's drawing by this"] = 0.0
     crank_turn_deg: Annotated[float, Range(-360.0, 360.0), "turn the crank's drawing by this"] = 0.0
-    mirror: Annotated[
-        str, OneOf(("none", "wheel", "crank", "both")), "drawings seen from the other side"
-    ] = "none"
+    mirror: Annotated[str, OneOf(("none", "wheel", "crank", "both")), "seen from behind"] = "none"
     slack_mm: Annotated[
         float | None, Range(1e-9, 1.0), "overlap that counts as touching; default 1e-6 or 1e-3"
     ] = None
@@ -666,9 +505,7 @@ class Limits(SpecTable):
     acceleration_max: Annotated[Positive, "acceleration d2psi/dtheta2"] = None
     acceleration_entry_max: Annotated[Positive, "acceleration at entry"] = None
     jerk_max: Annotated[Positive, "jerk d3psi/dtheta3"] = None
-    entry_velocity_max: Annotated[
-        Positive, "jump of velocity at entry and exit; default 0.01 of a machine as built"
-    ] = None
+    entry_velocity_max: Annotated[Positive, "jump at entry and exit; as built: default 0.01"] = None
     pin_force_max_N: Annotated[Positive, "greatest force of roller on slot"] = None
     input_torque_max_Nm: Annotated[Positive, "greatest torque on input shaft"] = None
     pressure_angle_max_deg: Annotated[float | None, Range(0.0, 90.0, "(]"), "pressure angle"] = None
@@ -677,20 +514,14 @@ class Limits(SpecTable):
     roller_life_min_h: Annotated[Positive, "least L10 life of the roller"] = None
     lock_stress_max_MPa: Annotated[Positive, "Hertz stress, disc on wheel"] = None
     stop_stress_max_MPa: Annotated[Positive, "Hertz stress at a stop"] = None
-    lock_deflection_max_deg: Annotated[
-        Positive, "greatest deflection of the locked wheel under dwell_torque_Nm"
-    ] = None
-    product_acceleration_max_m_s2: Annotated[
-        Positive, "greatest acceleration of the product, in m/s²"
-    ] = None
+    lock_deflection_max_deg: Annotated[Positive, "of the locked wheel under dwell_torque_Nm"] = None
+    product_acceleration_max_m_s2: Annotated[Positive, "acceleration of the product, m/s²"] = None
     dwell_min_s: Annotated[Positive, "shortest time at rest"] = None
     motion_max_s: Annotated[Positive, "longest time of a motion"] = None
     cycle_max_s: Annotated[Positive, "longest time of a motion and the dwell after it"] = None
     index_play_max_deg: Annotated[Positive, "greatest play of the wheel in its motion"] = None
     dwell_play_max_deg: Annotated[Positive, "greatest play of the wheel in its dwell"] = None
-    dwell_position_max_deg: Annotated[
-        Positive, "greatest error of the resting wheel's angle within [tolerance]"
-    ] = None
+    dwell_position_max_deg: Annotated[Positive, "resting wheel's error within [tolerance]"] = None
 
 
 # Keys of ``[limits]``, which name their checks too, and what they bound: from below if the key has
@@ -770,11 +601,12 @@ class Accept(SpecTable):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        reasons = vars(self)["reasons"] = self.as_dict()
-        for name, reason in [*reasons.items()]:
-            if reason is None:
-                del reasons[name]
-            elif not reason.strip():
+        reasons = vars(self)["reasons"] = dict[str, str]()
+        for name, attribute, *_ in fields(Accept):
+            reason = vars(self)[attribute]
+            if reason is not None:
+                reasons[name] = reason
+            if reason is not None and not reason.strip():
                 raise GenevaError(
                     f'{name} needs the reason for accepting it, as {name} = "agreed with the '
                     'customer"',
@@ -802,8 +634,7 @@ class Accept(SpecTable):
         return list(unused)
 
 
-# The tables of every kind of machine, in the order of a file. Each is a field of ``Spec``, with an
-# underscore for a dot. The tables in LISTS may be repeated.
+# The tables of every kind of machine, in the order of a file; those in LISTS may be repeated.
 PLAIN: dict[str, type[SpecTable]] = {
     "size": Size,
     "load": Load,

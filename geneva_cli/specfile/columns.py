@@ -115,8 +115,6 @@ def read_pairs(path: str, rule: Csv, key: tuple[str, ...]) -> list[tuple[float, 
         fault = rule.fault(points, len(points) - 1)
         if fault:
             raise GenevaError(f"{where}: {fault}")
-    if len(points) < rule.POINTS_MIN:
-        raise GenevaError(f"{path}: {len(points)} points; at least {rule.POINTS_MIN} are needed")
     return points
 
 

@@ -1,13 +1,22 @@
-"""Every key of a spec: its unit, type, range, default, and the kinds that have it."""
+"""Every key of a spec: a list for users, and a JSON Schema for editors.
 
-from typing import NamedTuple
+Both come from the reader's own definitions. The schema leaves some rules to `geneva check`: keys
+that need others, whole numbers written 6.0, nan, and the kind and range of a value with a unit.
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+from typing import Any, NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, nearest
-from geneva_cli.motion.machine_spec import kind_tables
+from geneva_cli.motion.machine_spec import KindTable, kind_tables
 from geneva_cli.names import unit_of
-from geneva_cli.spec.rules import Csv
-from geneva_cli.spec.schema import LIST, REQUIRED, Field, fields
+from geneva_cli.spec.rules import Csv, OneOf, Range
+from geneva_cli.spec.schema import LIST, LIST_MAX, REQUIRED, TEXT_MAX, Field, fields
 from geneva_cli.spec.tables import LISTS, PLAIN
+from geneva_cli.spec.units import pattern, unit_key
 from geneva_cli.specfile.writer import quoted
 
 TYPES = {int: "whole number", float: "number", str: "word", bool: "true or false", LIST: "list"}
@@ -113,3 +122,116 @@ def _key(table: str, field: Field, of: str | None = None) -> Key:
         of,
         field.meaning,
     )
+
+
+FILE = "geneva.schema.json"  # the file that the first line of a new spec names
+Schema = dict[str, Any]
+TEXT: Schema = {"type": "string", "maxLength": TEXT_MAX}
+
+
+def schema() -> Schema:
+    """JSON Schema, draft 7, of a spec.
+
+    >>> from geneva_cli.specfile.json_schema import schema
+    >>> schema()["properties"]["load"]["properties"]["efficiency"]["maximum"]
+    1.0
+    """
+    properties: Schema = {"title": {**TEXT, "description": "free text"}}
+    for kinds in kind_tables():
+        whole, _, part = kinds.table.partition(".")
+        if part:
+            properties[whole]["properties"][part] = {**_cases(kinds), "required": [kinds.word.key]}
+        else:
+            properties[whole] = _cases(kinds)
+    for name, table in PLAIN.items():
+        whole, _, part = name.partition(".")
+        one = _table(fields(table))
+        if part:
+            properties.setdefault(whole, _closed({}))["properties"][part] = one
+        else:
+            properties[name] = {"type": "array", "items": one} if name in LISTS else one
+    head = {
+        "$schema": "http://json-schema.org/draft-07/schema#",
+        "title": "A Geneva mechanism: a spec of geneva",
+    }
+    with_unit = {"type": "string", "pattern": pattern(), "description": 'as "8 in" or "2 rad/s"'}
+    definitions = {"withUnit": with_unit}
+    return {**head, **_closed(properties), "required": ["wheel"], "definitions": definitions}
+
+
+def _closed(properties: Schema) -> Schema:
+    return {"type": "object", "additionalProperties": False, "properties": properties}
+
+
+def _table(keys: tuple[Field, ...]) -> Schema:
+    required = [key.key for key in keys if key.default is REQUIRED]
+    more = {"required": required} if required else {}
+    return {**_closed({key.key: {**_described(key), **_value(key)} for key in keys}), **more}
+
+
+def _cases(of: KindTable) -> Schema:
+    """A table with the keys of each kind under the word that names it.
+
+    Without the word the table has the keys of the default kind, or none.
+    """
+    word = of.word
+    keys = {name: (*own, *of.shared) for name, own in of.keys.items()}
+    every = {key.key: key for own in reversed([of.shared, *keys.values()]) for key in own}
+
+    def case(own: tuple[Field, ...]) -> Schema:
+        """Values of a kind's own keys; those of other kinds are refused."""
+        values: Schema = dict.fromkeys(every, False) | {key.key: _value(key) for key in own}
+        required = [key.key for key in own if key.default is REQUIRED]
+        return {"properties": values, **({"required": required} if required else {})}
+
+    without = {"not": {"required": [word.key]}}
+    cases = [{"if": without, "then": case(keys[word.default] if word.default else ())}]
+    for name, own in keys.items():
+        named = {"properties": {word.key: {"const": name}}, "required": [word.key]}
+        cases.append({"if": named, "then": case(own)})
+    is_word = {**_described(word), "type": "string", "enum": list(keys)}
+    properties = {word.key: is_word, **{name: _described(key) for name, key in every.items()}}
+    return {**_closed(properties), "allOf": cases}
+
+
+def _described(key: Field) -> Schema:
+    """Description and default of a key, for the editor."""
+    if key.default in (None, REQUIRED):
+        return {"description": key.meaning}
+    plain = list(key.default) if isinstance(key.default, tuple) else key.default
+    return {"description": key.meaning, "default": plain}
+
+
+def _value(key: Field) -> Schema:
+    """Allowed values of a key."""
+    if isinstance(key.rule, Csv):
+        return {"type": "string"}
+    kinds: list[Schema] = [{"type": "boolean"}] if bool in key.types else []
+    number = next((t for t in key.types if t in (int, float)), None)
+    with_unit = [{"$ref": "#/definitions/withUnit"}] if unit_key(key.key) else []
+    if number:
+        kinds += [_number(key.rule, whole=number is int), *with_unit]
+    if LIST in key.types:
+        items = _any([_number(key.rule, whole=False), *with_unit])
+        kinds.append({"type": "array", "items": items, "minItems": 1, "maxItems": LIST_MAX})
+    if str in key.types and (key.words or not number):
+        kinds.append({"type": "string", "enum": list(key.words)} if key.words else TEXT)
+    return _any(kinds)
+
+
+def _any(kinds: list[Schema]) -> Schema:
+    return kinds[0] if len(kinds) == 1 else {"anyOf": kinds}
+
+
+def _number(bounds: Range | OneOf, whole: bool) -> Schema:
+    assert isinstance(bounds, Range)
+    bounded: Schema = {"type": "integer" if whole else "number"}
+    for word, bound, bracket in (
+        ("inimum", bounds.low, bounds.ends[0]),
+        ("aximum", bounds.high, bounds.ends[1]),
+    ):
+        if math.isinf(bound):  # inf is refused, and JSON has no such number
+            bounded["m" + word] = math.copysign(sys.float_info.max, bound)
+        else:
+            bounded[("exclusiveM" if bracket in "()" else "m") + word] = bound
+    return bounded

@@ -180,25 +180,12 @@ def _reason(message: str, line: str) -> str:
     """What is wrong with a line that is not TOML, and what is right instead."""
     if re.search(r"overwrite|twice|Duplicate", message):
         return "this key or table is set above already; keep one of the two"
-    if message == r"Illegal character '\n'":
-        return "a text ends without its quotation mark; write one behind its last letter"
-    reason = cut(message[:1].lower() + message[1:], 200)
-    if message == "Invalid statement" or message.startswith("Expected '=' after a key"):
-        return f'{reason}; write [table], or KEY = VALUE as in z = 6, or a comment behind "#"'
-    value = line.partition("=")[2].partition("#")[0].strip()
-    if not value:
-        return "the value is missing; write one behind the sign, as in z = 6"
-    if "'" in value or value[0] in '"[{=':
-        return reason
-    if value[-1] in '"”″':  # inches
-        value = f"{value[:-1].rstrip()} in"
-    value = cut(re.sub(r"(\d),(\d)", r"\1.\2", value))
-    return f'{reason}; write "{value}" in quotation marks, or a number with a point, as 12.5'
-
-
-def shown_name(path: str) -> str:
-    """Name of a spec file in messages."""
-    return "<stdin>" if path == "-" else path if path.strip() else repr(path)
+    reason, value = cut(message[:1].lower() + message[1:], 200), line.partition("=")[2].strip()
+    if value[:1].isdigit():  # a number with a unit, or with a comma; a mark behind it is of inches
+        value = re.sub(r"(\d),(\d)", r"\1.\2", value.partition("#")[0].strip())
+        value = re.sub(r'["”″]$', " in", value)
+        return f'{reason}; write "{cut(value)}" in quotation marks, or a number with a point'
+    return f'{reason}; write [table], or KEY = VALUE as in z = 6, and a text between two marks "'
 
 
 def read(path: str, set_keys: Iterable[str] = ()) -> Text:
@@ -206,7 +193,7 @@ def read(path: str, set_keys: Iterable[str] = ()) -> Text:
 
     Raises GenevaError, with the message ready to print, if it cannot be read.
     """
-    name = path if path.strip() and path != "-" else shown_name(path)
+    name = "<stdin>" if path == "-" else path if path.strip() else repr(path)
     bytes_max = 1 << 20  # a spec is a page; a megabyte of it is a mistake
     try:
         if path == "-":
@@ -216,14 +203,8 @@ def read(path: str, set_keys: Iterable[str] = ()) -> Text:
                 data = file.read(bytes_max + 1)
     except OSError as error:
         what = "this is a folder, not a file" if os.path.isdir(path) else str(error.strerror)
-        advice = ""
-        if isinstance(error, FileNotFoundError):
-            from geneva_cli.specfile.designs import names
-
-            design = os.path.basename(path).removesuffix(".toml")
-            advice = "; `geneva new external -o spec.toml` writes an example"
-            if design in names():
-                advice = f"; `geneva new --from-design {design} -o {design}.toml` writes one"
+        is_missing = isinstance(error, FileNotFoundError)
+        advice = "; `geneva new external -o spec.toml` writes an example" if is_missing else ""
         raise GenevaError(f"{name}: cannot read: {what}{advice}") from None
     except ValueError as error:  # a NUL in the name
         raise GenevaError(f"{name!r}: cannot read: {error}") from None

@@ -1,8 +1,11 @@
-"""A commented spec to start from, with the keys that the reader knows."""
+"""Specs to start from: commented ones with the keys that the reader knows, and whole designs."""
 
 from __future__ import annotations
 
+import os
 from typing import Any
+
+import tomli
 
 from geneva_cli.drives.crank import Crank
 from geneva_cli.errors import GenevaError, cut, few, nearest
@@ -12,57 +15,18 @@ from geneva_cli.motion.wheels.external import External
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.spec.schema import REQUIRED, Example, Field, fields
 from geneva_cli.spec.tables import LISTS
-from geneva_cli.specfile.json_schema import FILE
+from geneva_cli.specfile.keys import FILE
 from geneva_cli.specfile.writer import keys_of, noted, quoted
 
 # common requests, in addition to the example of each kind of wheel and drive
 EXAMPLES = {
-    "rollers": Example(
-        "several rollers: more indexes in a turn of the crank",
-        {"wheel": {"z": 4}, "drive": {"rollers": 3}},
-    ),
-    "cranks": Example(
-        "two cranks about one wheel, which move it in turn",
-        {"wheel": {"z": 8}, "drive": {"rollers": 2, "crank_steps": [0, 3]}},
-    ),
     "curved": Example(
         "curved slots for a motion law, at the mid condition",
         {"wheel": {"z": 6}, "motion": {"law": "modified-sine", "ratio": "matched"}},
     ),
-    "curved-internal": Example(
-        "curved slots of an internal wheel that a brake holds",
-        {
-            "wheel": {"z": 8, "gearing": "internal", "held_by": "brake"},
-            "motion": {"law": "modified-sine", "alpha0_deg": -50, "ratio": "matched"},
-            "size": {"lock_radius_mm": 0},
-        },
-    ),
-    "offset": Example(
-        "slots that miss the wheel's centre: one end gentler than the other",
-        {"wheel": {"z": 6, "offset_mm": 8}},
-    ),
-    "unequal-steps": Example(
-        "steps of two sizes, a roller for each", {"wheel": {"z": 6, "steps_deg": [72, 48]}}
-    ),
     "stop": Example(
         "a Geneva stop: the crank is blocked after four turns",
         {"wheel": {"z": 5, "stop": True}, "load": {"winding_torque_Nm": 0.5}},
-    ),
-    "elliptical-internal": Example(
-        "an internal wheel behind elliptical gears: a shorter motion",
-        {
-            "wheel": {"z": 6, "gearing": "internal"},
-            "drive": {"kind": "elliptical-gears", "eccentricity": 0.25, "phase": "quick"},
-        },
-    ),
-    "behind-gears": Example(
-        "a planet behind elliptical gears: no jump at entry, and a low peak",
-        {
-            "wheel": {"z": 4},
-            "drive": {"kind": "epicyclic", "planet_ratio": "shockless"},
-            BEFORE: {"kind": "elliptical-gears", "eccentricity": 0.2, "gear_distance_mm": 50.0},
-            "size": {"roller_radius_mm": 4.0},
-        },
     ),
     "turret": Example(
         "a turret with its load, its motor and its limits",
@@ -76,9 +40,19 @@ EXAMPLES = {
         },
     ),
 }
+# other requests, with the keys of a design
+DESIGNS = {
+    "rollers": "three-rollers-z4",
+    "cranks": "two-cranks",
+    "curved-internal": "internal-curved-z8",
+    "offset": "offset-slots",
+    "unequal-steps": "unequal-steps",
+    "elliptical-internal": "elliptical-internal",
+    "behind-gears": "behind-gears",
+}
 # the plain crank is in all of them
 DRIVES = tuple(name for name in registry.DRIVES if name != Crank.NAME)
-KINDS = (*registry.GEARINGS, *EXAMPLES, *DRIVES)
+KINDS = (*registry.GEARINGS, *EXAMPLES, *DESIGNS, *DRIVES)
 
 
 def template(kind: str, schema: bool = True, whole: bool = True) -> str:
@@ -89,8 +63,6 @@ def template(kind: str, schema: bool = True, whole: bool = True) -> str:
     GenevaError for an unknown kind.
     """
     if kind not in KINDS:
-        from geneva_cli.specfile.designs import titles  # only for messages
-
         if kind in titles():
             raise GenevaError(
                 f'"{kind}" is a design, not a KIND; use `geneva new --from-design {kind}`'
@@ -160,6 +132,10 @@ def example(kind: str) -> Example:
     """Title of a kind's example, and the keys that it sets."""
     if kind in EXAMPLES:
         return EXAMPLES[kind]
+    if kind in DESIGNS:
+        tree = tomli.loads(_text(f"{DESIGNS[kind]}.toml"))
+        before = tree.get("drive", {}).pop("before", None)
+        return Example(tree.pop("title"), tree | ({BEFORE: before} if before else {}))
     is_wheel = kind in registry.GEARINGS
     about, tables = (registry.gearing(kind) if is_wheel else registry.drive(kind)).EXAMPLE
     table, key, usual = ("wheel", "gearing", External.NAME) if is_wheel else ("drive", "kind", "")
@@ -174,3 +150,42 @@ def _line(field: Field, values: dict[str, Any]) -> str:
         return f"{field.key} = {quoted(values[field.key])}{note}"
     default = "..." if field.default in (None, REQUIRED) else quoted(field.default)
     return f"# {field.key} = {default}{note}"
+
+
+def titles() -> dict[str, str]:
+    """Names of the designs, with their titles.
+
+    >>> from geneva_cli.specfile.template import titles
+    >>> titles()["side-crank-z6"]
+    'Side-crank, six slots, A = 0.6'
+    """
+    files = [file for file in sorted(os.listdir(_folder())) if file.endswith(".toml")]
+    return {file.removesuffix(".toml"): str(tomli.loads(_text(file))["title"]) for file in files}
+
+
+def design(name: str) -> tuple[str, dict[str, str]]:
+    """Text of a design's spec, and the texts of the files that it names, by name.
+
+    Raises GenevaError, with the nearest name, for an unknown design.
+    """
+    known = titles()
+    if name not in known:
+        raise GenevaError(
+            f"--from-design {cut(name)}: no such design{nearest(name, known)}; "
+            "`geneva new --list` lists them"
+        )
+    text = _text(f"{name}.toml")
+    points = [file for file in os.listdir(_folder()) if file.endswith(".csv")]
+    return text, {file: _text(file) for file in points if f'"{file}"' in text}
+
+
+def _folder() -> str:
+    """The folder of the designs: in the package if installed, else adjacent to it."""
+    package = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+    inside = os.path.join(package, "designs")
+    return inside if os.path.isdir(inside) else os.path.join(os.path.dirname(package), "designs")
+
+
+def _text(file: str) -> str:
+    with open(os.path.join(_folder(), file), encoding="utf-8") as opened:
+        return opened.read()

@@ -1,16 +1,17 @@
-"""A spec's tables and keys in the order of a file, and the text of a spec."""
+"""The text of a spec: its tables in the order of a file, and keys written into a text."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from types import MappingProxyType
-from typing import Any
+from typing import Any, NamedTuple
 
 from geneva_cli.motion.drive import Drive
 from geneva_cli.motion.laws.law import Motion
 from geneva_cli.motion.machine_spec import BEFORE, DRIVES, LAWS, WHEELS, Spec, drives_before
 from geneva_cli.motion.wheels.gearing import Gearing
-from geneva_cli.spec.schema import Field, Points, SpecTable, fields
+from geneva_cli.spec.schema import Field, Points, fields
 from geneva_cli.spec.tables import LISTS, PLAIN
 
 
@@ -75,21 +76,19 @@ def noted(block: Sequence[tuple[str, str]]) -> list[str]:
 
 def values_of(spec: Spec, table: str) -> list[dict[str, Any]]:
     """Values by key for each table of a name: one table, none, or those of a list."""
-    if table == "motion":
-        if spec.motion is None:  # straight slots
-            return []
-        law = spec.motion.law
-        return [{"law": law.NAME, **_own(law), **_own(spec.motion)}]
     if table in LISTS:
-        return [_own(one) for one in vars(spec)[table]]
-    words = {"wheel": {"gearing": spec.wheel.NAME}, "drive": {"kind": spec.drive.NAME}}
-    if spec.drive_before:
-        words[BEFORE] = {"kind": spec.drive_before.NAME}
-    return [{**words.get(table, {}), **_own(vars(spec)[table.replace(".", "_")])}]
-
-
-def _own(table: SpecTable) -> dict[str, Any]:
-    return {k: v.file if isinstance(v, Points) else v for k, v in table.as_dict().items()}
+        return [one.as_dict() for one in vars(spec)[table]]
+    part, words = spec.part(table), dict[str, str]()
+    if part is None:  # a motion that straight slots give
+        return []
+    if isinstance(part, Motion):
+        words = {"law": part.law.NAME}
+    elif isinstance(part, Gearing):
+        words = {"gearing": part.NAME}
+    elif isinstance(part, Drive):
+        words = {"kind": part.NAME}
+    own = part.as_dict()
+    return [words | {k: v.file if isinstance(v, Points) else v for k, v in own.items()}]
 
 
 def quoted(value: Any) -> str:
@@ -111,3 +110,61 @@ def _letter(letter: str) -> str:
     if letter.isprintable():
         return f"\\{letter}" if letter in '"\\' else letter
     return f"\\U{ord(letter):08X}" if letter > "\uffff" else f"\\u{ord(letter):04X}"
+
+
+class Written(NamedTuple):
+    """A value to write, and the comment behind it; none where it is empty."""
+
+    value: Any
+    note: str = ""
+
+
+def inserted(text: str, table: str, keys: Mapping[str, Written]) -> str | None:
+    """Return a spec's text with these keys in one table.
+
+    A key that the table has gets the value, and keeps its line and its comment. Others stand behind
+    the table's last key, or in a table at the end of the text. Returns None for a text in which the
+    table has no line of its own, as in ``size = {pin_mm = 6}``, or a value takes several lines.
+
+    >>> print(inserted("[size]\\nface_width_mm = 18", "size", {"pin_mm": Written(6.0, "rule")}))
+    [size]
+    face_width_mm = 18
+    pin_mm = 6.0  # rule
+    <BLANKLINE>
+    """
+    import tomli  # not to list keys
+
+    lines, left = text.rstrip("\n").split("\n"), dict(keys)
+    header = re.compile(rf"\s*\[\s*{re.escape(table)}\s*\]\s*(#.*)?")
+    start = next((i for i, line in enumerate(lines) if header.fullmatch(line)), len(lines))
+    if start == len(lines):
+        lines += ["", f"[{table}]"]
+        start += 1
+    after = range(start + 1, len(lines))
+    end = next((i for i in after if lines[i].lstrip().startswith("[")), len(lines))
+    for i in range(start + 1, end):
+        name = lines[i].partition("=")[0].strip()
+        if name in left:
+            lines[i] = _with_value(lines[i], left.pop(name).value)
+    last = max(i for i in range(start, end) if _is_set(lines[i]))
+    more = noted([(f"{key} = {quoted(one.value)}", one.note) for key, one in left.items()])
+    lines[last + 1 : last + 1] = more
+    tree = node = tomli.loads(text)
+    for name in table.split("."):
+        node = node.setdefault(name, {})
+    node.update({key: one.value for key, one in keys.items()})
+    out = "\n".join(lines) + "\n"
+    try:
+        return out if tomli.loads(out) == tree else None
+    except tomli.TOMLDecodeError:
+        return None
+
+
+def _with_value(line: str, value: Any) -> str:
+    """Return a line ``key = value  # comment`` with another value."""
+    parts = re.fullmatch(r"""([^=]*=\s*)("[^"]*"|'[^']*'|[^"'#]*?)(\s*#.*|\s*)""", line)
+    return f"{parts[1]}{quoted(value)}{parts[3]}" if parts else line
+
+
+def _is_set(line: str) -> bool:
+    return bool(line.strip()) and not line.lstrip().startswith("#")

@@ -14,7 +14,7 @@ from geneva_cli.motion.machine_spec import BEFORE, Spec
 from geneva_cli.motion.many import many, may_vary
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array, Number, Whole
-from geneva_cli.spec.schema import SpecTable, fields
+from geneva_cli.spec.schema import fields
 from geneva_cli.study.rows import Cell, Rows, cells_of
 from geneva_cli.verdict.quantities.batch_designs import Designs
 from geneva_cli.verdict.quantities.quantity_names import group_of, in_batch
@@ -140,7 +140,7 @@ def split(spec: Spec, keys: dict[Any, list[BatchKey]]) -> tuple[Any, dict[str, f
     if kinds not in keys:
         keys[kinds] = []
         for table in ("wheel", "drive", BEFORE, "motion"):  # where machines of a requirement differ
-            part: SpecTable | None = vars(spec)[table.replace(".", "_")]
+            part = spec.part(table)
             for field in fields(type(part)) if part else ():
                 name = f"{table}.{field.key}"
                 key = BatchKey(table, field.attribute, name, may_vary(spec, name))

@@ -8,8 +8,7 @@ from geneva_cli.answer import Answer, Summary
 from geneva_cli.design import Design
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.parts.chosen import Chosen
-from geneva_cli.specfile.inserted import Written, inserted
-from geneva_cli.specfile.writer import quoted, spec_lines
+from geneva_cli.specfile.writer import Written, inserted, quoted, spec_lines
 from geneva_cli.study.summary.load_lines import title_of
 from geneva_cli.table import Reading, record_table, rows_table
 

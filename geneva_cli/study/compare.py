@@ -11,7 +11,7 @@ from geneva_cli.errors import GenevaError, cut
 from geneva_cli.numerics.tolerances import same
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.spec.tables import PLAIN
-from geneva_cli.specfile.reader import Text, read, setting, shown_name
+from geneva_cli.specfile.reader import Text, read, setting
 from geneva_cli.specfile.writer import keys_in, values_of
 from geneva_cli.study.fields import pick, values
 from geneva_cli.study.rows import Cell
@@ -122,9 +122,8 @@ def designs_of(
         paths = list(paths)
         twice = next((p for p in paths if paths.count(p) > 1), None)
         if twice:
-            raise GenevaError(
-                f"{cut(shown_name(twice))}: given twice; use --vary to compare changes of one spec"
-            )
+            advice = "use --vary to compare changes of one spec"
+            raise GenevaError(f"{'<stdin>' if twice == '-' else cut(twice)}: given twice; {advice}")
         if len(paths) > DESIGNS_MAX:
             raise GenevaError(f"{len(paths)} designs; at most {DESIGNS_MAX} can be compared")
         # a file's name without folder and ending, if no other file shares it

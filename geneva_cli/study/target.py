@@ -17,8 +17,8 @@ from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion import registry
+from geneva_cli.motion.given_motion import MOTION_MIN
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.path_and_motion import MOTION_MIN
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.tolerances import ROUNDED
 from geneva_cli.spec.tables import LIMITED
@@ -65,7 +65,7 @@ class Target(NamedTuple):
         """A wheel of a gearing and a number of slots, with a stop if the frame's has one."""
         wheel = registry.gearing(gearing)(z)
         stops = self.frame is not None and self.frame.wheel.stopped
-        return wheel.with_key("stop", True) if stops else wheel
+        return wheel.replace(stop=True) if stops else wheel
 
     @property
     def any_motion(self) -> bool:

@@ -215,7 +215,7 @@ def turns_back(mechanism: Mechanism) -> tuple[float, float] | None:
 @lru_cache(maxsize=128)
 def _law_turns_back(law: Law) -> bool:
     """True if a wheel turns back with a law, whatever its step and its motion angle."""
-    from geneva_cli.motion.path_and_motion import LawMotion
+    from geneva_cli.motion.given_motion import LawMotion
 
     return _least_velocity(LawMotion(-0.5, 0.5, 0.5, law)) is not None
 

@@ -160,10 +160,10 @@ def vibration(parts: Parts) -> Values:
     if mechanism.spec.shaft.stiffness_Nm_rad is None:
         return none
     # only for elastic shafts: the modules of vibration take a twentieth of a short report
-    from geneva_cli.loads.vibration.vibration import required_oscillator, values
+    from geneva_cli.loads.vibration.vibration import oscillator, values
 
     try:
-        results = values(mechanism, required_oscillator(mechanism))
+        results = values(mechanism, oscillator(mechanism))
     except GenevaError as error:
         return none | {"none": str(error)}
     return {name: results[name] for name in results if name in (*own_names("vibration"), *none)}

@@ -21,8 +21,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.gears.gear_curves import pitch_radii
-from geneva_cli.parts.gears.gear_pair import gear_span
+from geneva_cli.parts.gears.gear_pair import gear_span, pitch_radii
 from geneva_cli.parts.outlines.outlines import Outlines
 
 Measure = TypeVar("Measure", float, Array)  # one gap, or an array of one for each sphere
@@ -69,7 +68,7 @@ def gear_gaps(parts: FlatParts) -> Iterator[float]:
     """
     turning = rings_of((parts.wheel, parts.crank))
     rings = list(gear_rings(parts.mechanism, parts.drawn))
-    yield from ring_gaps(parts.mechanism, turning, rings, (*parts.shafts, *parts.spacers))
+    yield from ring_gaps(parts.mechanism, turning, rings, (*parts.shafts, *parts.framed.spacers))
 
 
 def ring_gaps(

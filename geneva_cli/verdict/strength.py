@@ -25,18 +25,12 @@ if TYPE_CHECKING:
 # Functions of the values that checks compare, by the names of their tables, or their whole names:
 # a check does not read the registry of all quantities.
 CHECKED: dict[str, Callable[[Designs], Columns]] = {
-    "strength.pin": part_strength.pin,
-    "strength.horn": part_strength.horn,
-    "strength.lock": part_strength.lock,
-    "strength.wheel_shaft": part_strength.wheel_shaft,
-    "strength.crank_shaft": part_strength.crank_shaft,
-    "strength.arm": part_strength.arm,
     "strength.arm.least_thickness_mm": part_strength.arm_thickness,
-    "strength.wheel_key": part_strength.wheel_key,
-    "strength.crank_key": part_strength.crank_key,
     "life.pv_max_W_m2": part_strength.pressure_speed,
     "life.roller_life_h": part_strength.wear,
 }
+for _part in ("pin", "horn", "lock", "wheel_shaft", "crank_shaft", "arm", "wheel_key", "crank_key"):
+    CHECKED[f"strength.{_part}"] = vars(part_strength)[_part]
 # Values of ``life``, in the order in which `geneva loads` lists their needs.
 OF_LIFE = (
     *("roller_life_turns", "roller_life_motions", "roller_life_h", "equivalent_force_N"),
@@ -46,13 +40,11 @@ OF_LIFE = (
 NEEDY = (
     *("pin_stress_MPa", "horn_stress_MPa", "lock_stress_max_MPa", "lock_deflection_max_deg"),
     *("lock_horn_stress_MPa", "wheel_shaft_stress_MPa", "crank_shaft_stress_MPa"),
-    *("arm_stress_MPa", "wheel_key_pressure_MPa", "crank_key_pressure_MPa"),
-    *("roller_life_min_h", "roller_life_turns", "roller_life_motions", "roller_life_h"),
-    *("equivalent_force_N", "friction_work_J", "pv_max_W_m2"),
+    *("arm_stress_MPa", "wheel_key_pressure_MPa", "crank_key_pressure_MPa", "roller_life_min_h"),
+    *("roller_life_turns", "roller_life_motions", "roller_life_h", "equivalent_force_N"),
+    *("friction_work_J", "pv_max_W_m2"),
 )
 BOUND = "a force with a bound: see the warnings"
-_FLAT = "a wheel that is drawn as a flat outline"
-_CUT = "parts that can be cut: see `geneva check`"
 _WIDTH = "face_width_mm in [size]"
 _EDGE = "lock_edge_mm in [size]"
 _SHORT = "lock_clearance_mm = 0 in [size]: the end of a short locking disc is sharp"
@@ -125,56 +117,54 @@ class Strength:
 
         None for a known value, or for one that the machine lacks, such as a horn's without a lock.
         """
-        spec, load = self.spec, self.load
-        part = name.removesuffix("_stress_MPa").removesuffix("_pressure_MPa")
-        locked = name.startswith("lock_")
+        spec, load, locked = self.spec, self.load, name.startswith("lock_")
         if not (spec.is_loaded or locked):
             return spec.load_keys  # nothing else helps
-        bounded = locked or math.isfinite(load.force_N[0])
-        face = spec.size.face_width_mm is not None, _WIDTH
-        needs = [(bounded, BOUND)]
-        if name == "friction_work_J":
-            needs = [(bool(spec.load.friction), "friction in [load]")]
-        elif name == "pv_max_W_m2":
-            pv = self.design.columns(part_strength.pressure_speed).get("pv_max_W_m2")
-            needs = [face]
-            if pv is not None and not np.all(np.isfinite(pv)):
-                return "a stress with a bound: see the warnings"
-        elif name.startswith("roller_life") and bounded:
-            rated = spec.material_roller.dynamic_capacity_N is not None
-            needs = [(rated, "dynamic_capacity_N in [material.roller]")]
-        elif locked or name == "horn_stress_MPa":
+        if locked or name == "horn_stress_MPa":
             return self._horn_reason(name, locked)
-        elif part in ("arm", "wheel_key", "crank_key", "wheel_shaft", "crank_shaft"):
-            parts, is_shaft = load.parts, part.endswith("_shaft")
-            # unknown parts count
-            lacks = parts is not None and bool(np.isnan(getattr(parts, part)[0][0]))
+        if name == "friction_work_J":
+            return None if spec.load.friction else "friction in [load]"
+        if name == "pv_max_W_m2":
+            if spec.size.face_width_mm is None:
+                return _WIDTH
+            is_known = self["life.pv_max_W_m2"] is not None
+            return None if is_known else "a stress with a bound: see the warnings"
+        part = name.removesuffix("_stress_MPa").removesuffix("_pressure_MPa")
+        drawn, is_shaft = load.parts, part.endswith("_shaft")
+        lacks = drawn is None
+        if drawn is not None and (is_shaft or part in ("arm", "wheel_key", "crank_key")):
+            lacks = bool(np.isnan(getattr(drawn, part)[0][0]))
             if lacks and not is_shaft:
                 return None
-            if part == "wheel_shaft" and not spec.output.turns:
-                return "a wheel that turns on a shaft"
-            known = {"overhang": parts is not None, "diameter": parts is not None and not lacks}
-            for end, is_known in known.items() if is_shaft and bounded else ():
-                key = f"{part.removesuffix('_shaft')}_{end}_mm"
-                needs.append((vars(spec.shaft)[key] is not None or is_known, f"{key} in [shaft]"))
-        elif part == "pin":
-            needs.append((load.contact_mm is not None, _WIDTH))
-        return " and ".join(words for is_met, words in needs if not is_met) or None
+        if part == "wheel_shaft" and not spec.output.turns:
+            return "a wheel that turns on a shaft"
+        if not math.isfinite(load.force_N[0]):
+            return BOUND
+        needs = list[str]()
+        for end, is_unknown in {"overhang": drawn is None, "diameter": lacks}.items():
+            key = f"{part.removesuffix('_shaft')}_{end}_mm"
+            if is_shaft and is_unknown and vars(spec.shaft)[key] is None:
+                needs.append(f"{key} in [shaft]")
+        if part == "pin" and load.contact_mm is None:
+            needs.append(_WIDTH)
+        if name.startswith("roller_life") and spec.material_roller.dynamic_capacity_N is None:
+            needs.append("dynamic_capacity_N in [material.roller]")
+        return " and ".join(needs) or None
 
     def _horn_reason(self, name: str, locked: bool) -> str | None:
         """The keys that a stress of horns or lock needs; None for a machine that has none."""
         load = self.load
-        drawn = bool(load.lock_sizes if locked else load.horn_sizes)
+        drawn = load.lock_sizes if locked else load.horn_sizes
         if not (self.spec.is_flat or (drawn and not locked)):
-            return _FLAT
+            return "a wheel that is drawn as a flat outline"
         if not (drawn or sized(self.mechanism)):
-            return _CUT
+            return "parts that can be cut: see `geneva check`"
         if not (drawn if locked else load.has_horns):
             return None
         needs = [] if load.contact_mm is not None else [_WIDTH]
         if locked and not value_or(self.spec.load.dwell_torque_Nm, self.spec.load.torque_Nm):
             needs.append("dwell_torque_Nm in [load]")
-        if not locked and not math.isfinite(load.force_N[0]):
+        if not (locked or math.isfinite(load.force_N[0])):
             needs.append(BOUND)
         # on a sharp edge a contact stress has no bound
         sharp = locked and load.lock and np.isnan(load.lock.approach_deg)

@@ -44,9 +44,9 @@ def wheel(name, text, *wants):
 
 NOT_TOML = [
     case("not-toml", "[wheel]\nz = six\n", 2, "not TOML"),
-    case("open-string", '[wheel]\nz = 6\ntitle = "six\n', 3, "without its quotation mark"),
+    case("open-string", '[wheel]\nz = 6\ntitle = "six\n', 3, "a text between two marks"),
     case("yaml", "wheel:\n  z: 6\n", 1, "not TOML", "write [table], or KEY = VALUE as in z = 6"),
-    case("no-value", "[wheel]\nz =\n", 2, "the value is missing; write one behind the sign"),
+    case("no-value", "[wheel]\nz =\n", 2, "KEY = VALUE as in z = 6"),
     case("not-utf-8", b"[wheel]\nz = 6\n# gr\xfc\xdfe\n", 3, "not UTF-8", "save"),
     case("utf-16", "[wheel]\nz = 6\n".encode("utf-16"), 1, "not UTF-8", "-o FILE"),
     case("deep-lists", "a = " + "[" * 50_000, 0, "nested too deep"),
@@ -77,7 +77,6 @@ UNKNOWN = [
     case("key", "[wheel]\nz = 6\nzz = 7\n", 3, "unknown key zz", '"z"'),
     key("capital", "[size]\nCenter_distance_mm = 5\n", 2, '"center_distance_mm"'),
     key("unit", "[load]\ntorque_Nmm = 5\n", 2, 'did you mean "torque_Nm"?'),
-    key("word-of-a-meaning", "[drive]\nspeed = 5\n", 2, '"n_rpm", constant speed of the input'),
     key("large-clearance", "[size]\nslot_clearance_mm = 60\n", 2, "below 50, the smaller of the"),
     key("gearing-as-a-key", "internal = true\n", 1, 'did you mean gearing = "internal"?'),
     key("inches", '[size]\ncenter_distance_mm = 8"\n', 2, 'write "8 in"'),
@@ -185,8 +184,6 @@ def test_unusual_but_right(text):
 def test_no_file():
     refused(run("peaks", "gone.toml"), "No such file", "geneva new", place="gone.toml: ")
     refused(run("peaks", ""), "No such file", place="'': ")
-    copy = "geneva new --from-design turret -o turret.toml"
-    refused(run("peaks", "elsewhere/turret.toml"), copy, place="elsewhere/turret.toml: ")
 
 
 ESCAPE = r"\u001b]0;x\u0007\u009b31m"
@@ -204,7 +201,6 @@ POINTS = [
     ("text", ROWS.replace("0.4,0.3", "0.4,much"), 4, "two numbers u,s"),
     ("nan", ROWS.replace("0.4,0.3", "0.4,nan"), 4, "finite"),
     ("backwards", ROWS.replace("0.4,0.3", "0.1,0.3"), 4, "exceed the one before"),
-    ("empty", "", 0, "0 points", "at least"),
     ("from-elsewhere", ROWS.replace("0,0\n", "0,0.1\n", 1), 0, "from 0,0 to 1,1"),
     ("not-utf-8", ROWS.encode() + b"\xff\n", 0, "not UTF-8"),
 ]

@@ -30,10 +30,10 @@ from geneva_cli.motion import motion_table as motion
 from geneva_cli.motion import registry
 from geneva_cli.motion.path_and_slot import WALLED
 from geneva_cli.motion.timing import CamFactors
-from geneva_cli.parts.gears import gear_curves
+from geneva_cli.parts.gears import gear_pair
 from geneva_cli.parts.slots import groove
 from geneva_cli.specfile.meanings import meanings, related
-from geneva_cli.specfile.template import EXAMPLES
+from geneva_cli.specfile.template import DESIGNS, EXAMPLES
 from geneva_cli.study import law_values, survey
 from geneva_cli.study.sweep.run import ERROR
 from geneva_cli.study.synth.machine_rows import CELLS as SYNTH
@@ -91,7 +91,7 @@ def test_a_warning_is_told_with_its_name(capsys):
 
 def test_every_kind_and_law_has_an_entry_and_no_entry_names_none():
     kinds = {*registry.GEARINGS, *registry.DRIVES}
-    assert kinds <= explained("kind") <= {*kinds, *EXAMPLES}
+    assert kinds <= explained("kind") <= {*kinds, *EXAMPLES, *DESIGNS}
     assert explained("law") == set(registry.LAWS)
 
 
@@ -125,7 +125,7 @@ def quantities() -> set[str]:
     }
     out |= {"acceleration.exit", "jerk.exit", *law_values.LAW_COLUMNS, *SYNTH, ERROR}
     out |= set(checks_table([]).names)
-    out |= {*WALLED, *groove.NAMES, *gear_curves.NAMES, *parts_list.NAMES}
+    out |= {*WALLED, *groove.NAMES, *gear_pair.NAMES, *parts_list.NAMES}
     return out | {f"tolerance.{name}" for name in tolerance_names()}
 
 

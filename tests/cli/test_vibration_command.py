@@ -43,14 +43,6 @@ def test_the_names_are_the_same_for_every_machine(path):
     assert not found["warnings"]
 
 
-def test_without_an_inertia_all_is_null_and_why():
-    found = record(UNLOADED, "--set", "shaft.stiffness_Nm_rad=100")
-    assert {found[n] for n in NAMES[2:-1]} == {None}
-    assert "inertia_kgm2 in [load]" in found["warnings"][0]
-    # and a period ratio gives all of it
-    assert record(UNLOADED, "--period-ratio", "3")["residual_share"] > 0.0
-
-
 def test_a_motion_shorter_than_a_natural_period_is_said():
     found = record(PRESS, "--period-ratio", "0.5", "--damping", "0.1")
     assert "too few to follow" in found["warnings"][0]

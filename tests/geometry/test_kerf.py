@@ -1,4 +1,4 @@
-"""Paths for a cut with a kerf: shapely's offsets, which are polygons, leave the nominal part."""
+"""Cuts with a kerf or a cutter: against closed forms, and shapely's offsets and openings."""
 
 import math
 
@@ -12,19 +12,14 @@ from shapely.geometry import LinearRing
 
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.offsets import offset, paths
+from geneva_cli.geometry.offsets import judged, offset, paths
 from geneva_cli.geometry.plates import Plate, plates
 from geneva_cli.geometry.shapes import Arc, Circle, Line, about, backwards, closed
+from geneva_cli.geometry.shapes import polygon as corners
 from geneva_cli.geometry.sheet import Drawing
 
 SAGITTA = 1e-4  # mm, of the chords that shapely is given
 MICRON = 1e-3  # mm, what a cut piece may be off by
-
-
-def loop(*points):
-    return closed(
-        "WHEEL", [Line(p, q) for p, q in zip(points, [*points[1:], points[0]], strict=True)]
-    )
 
 
 def cut(path, outside, kerf):
@@ -127,11 +122,11 @@ def test_no_path_crosses_itself(corners, kerf, outside):
             Line((10.0, -9.0), (10.0, -1.0)), Line((10.0, -1.0), (0.0, -1.0)),
             about((0.0, 0.0), 1.0, -0.5 * math.pi, -math.pi), Line((0.0, 1.0), (10.0, 1.0)),
         ]), True, 2.0),
-        (loop((10.0, 1.0), (10.0, 9.0), (-10.0, 9.0), (-10.0, -9.0), (10.0, -9.0), (10.0, -1.0),
-              (0.0, -1.0), (0.0, 1.0)), True, 2.0),
+        (corners("WHEEL", ((10.0, 1.0), (10.0, 9.0), (-10.0, 9.0), (-10.0, -9.0), (10.0, -9.0),
+                           (10.0, -1.0), (0.0, -1.0), (0.0, 1.0))), True, 2.0),
         # horns whose tips nearly touch, 1 apart
-        (loop((0.0, 0.0), (10.0, 0.0), (10.0, 6.0), (5.5, 6.0), (9.0, 5.0), (9.0, 1.0), (1.0, 1.0),
-              (1.0, 5.0), (4.5, 6.0), (0.0, 6.0)), True, 1.0),
+        (corners("WHEEL", ((0.0, 0.0), (10.0, 0.0), (10.0, 6.0), (5.5, 6.0), (9.0, 5.0), (9.0, 1.0),
+                           (1.0, 1.0), (1.0, 5.0), (4.5, 6.0), (0.0, 6.0))), True, 1.0),
     ],
 )  # fmt: skip
 def test_a_cut_that_does_not_fit_in_is_refused(shape, outside, most):
@@ -142,3 +137,63 @@ def test_a_cut_that_does_not_fit_in_is_refused(shape, outside, most):
     with pytest.raises(GenevaError, match="use a narrower one"):
         paths(drawing, most + 0.02)
     assert paths(drawing, 0.99 * most - 0.02).solid is None
+
+
+def notched(angle):
+    """A block with a notch of straight walls, each corner in it at an angle in degrees."""
+    lean = 8.0 / math.tan(math.radians(180.0 - angle)) if angle != 90.0 else 0.0
+    points = [(0, 0), (40, 0), (40, 20), (30 + lean, 20), (30, 12), (10, 12), (10 - lean, 20)]
+    return Plate("block", "ARM", corners("ARM", [*points, (0, 20)]), (), 0.0, 1.0)
+
+
+def keyed(width, depth=3.0, bore=6.0):
+    """A washer with a keyway in its bore."""
+    y, x = 0.5 * width, bore + depth
+    edge = math.sqrt(bore * bore - y * y)
+    half = math.asin(y / bore)
+    hole = closed(
+        "BORE",
+        [
+            about((0.0, 0.0), bore, half, math.tau - 2.0 * half),
+            Line((edge, -y), (x, -y)),
+            Line((x, -y), (x, y)),
+            Line((x, y), (edge, y)),
+        ],
+    )
+    return Plate("washer", "ARM", Circle("ARM", (0.0, 0.0), 15.0), (hole,), 0.0, 1.0)
+
+
+def missed(plate, radius):
+    """The area to be cut away that no cutter covers, mm²: shapely's opening of the free space."""
+    outline = polygon(plate.outline)
+    around = outline.buffer(9.0, 512)  # round: no corner of it is to be cut
+    holes = [polygon(hole) for hole in plate.holes if not isinstance(hole, Circle)]
+    return sum(
+        space.difference(space.buffer(-radius, 64).buffer(radius, 64)).area
+        for space in (around.difference(outline), *holes)
+    )
+
+
+@pytest.mark.parametrize(
+    ("plate", "cutter", "count"),
+    [
+        (notched(90.0), 2.0, 2),
+        (notched(120.0), 4.0, 2),
+        (keyed(4.0), 2.0, 2),
+        (keyed(8.0), 2e-4, 0),
+    ],
+)
+def test_corners_that_stay_round_are_named(plate, cutter, count):
+    refused, left = judged(Drawing("", (), solid=plate), cutter)
+    assert not refused
+    assert len([text for text in left if "leaves a radius of" in text]) == count
+    if count:
+        assert missed(plate, 0.5 * cutter) > 0.1
+
+
+@pytest.mark.parametrize(("width", "cutter"), [(4.0, 4.2), (8.0, 8.5)])
+def test_a_keyway_narrower_than_the_cutter_is_refused(width, cutter):
+    refused, _ = judged(Drawing("", (), solid=keyed(width)), cutter)
+    assert refused.endswith("a gap is narrower; use a smaller one")
+    refused, _ = judged(Drawing("", (), solid=keyed(width)), 0.99 * width)
+    assert not refused

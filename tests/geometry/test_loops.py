@@ -8,12 +8,12 @@ import pytest
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.loops import loops, shown
 from geneva_cli.geometry.plates import moments
-from geneva_cli.geometry.shapes import Arc, Circle, Line, two_arcs
+from geneva_cli.geometry.shapes import Arc, Circle, Line, polygon, two_arcs
 
 
 def square(half, x=0.0):
     corners = [(x - half, -half), (x + half, -half), (x + half, half), (x - half, half)]
-    return [Line(p, q) for p, q in zip(corners, [*corners[1:], corners[0]], strict=True)]
+    return list(polygon("", corners).segments)
 
 
 def circle(x, y, radius):
@@ -47,7 +47,7 @@ BOW = [(0.0, 0.0), (10.0, 10.0), (10.0, 0.0), (0.0, 10.0)]
             r"open at \(-10, -10\): the nearest other end is 20 mm away, at \(-10, 10\)",
         ),
         ([*square(10.0), Line((10.0, 10.0), (20.0, 20.0))], r"3 ends meet at \(10, 10\)"),
-        ([Line(p, q) for p, q in zip(BOW, [*BOW[1:], BOW[0]], strict=True)], r"cross at \(5, 5\)"),
+        (polygon("", BOW).segments, r"cross at \(5, 5\)"),
         ([*square(10.0), *circle(10.0, 0.0, 2.0)], r"cross at \(10, [-2]"),
         ([*circle(0.0, 0.0, 2.0), *circle(1.0, 0.0, 2.0)], r"cross at \(0.5, -?1.9365\)"),
     ],
@@ -60,11 +60,7 @@ def test_the_place_of_what_is_wrong(pieces, words):
 def test_tangent_pieces_do_not_cross():
     """A slot's end: two lines and half a circle, whose numbers are rounded."""
     end = Arc((10.0, -2.0), (10.0, 2.0), 0.9999)
-    back = [
-        Line((10.0, 2.0), (0.0, 2.0)),
-        Line((0.0, 2.0), (0.0, -2.0)),
-        Line((0.0, -2.0), (10.0, -2.0)),
-    ]
+    back = polygon("", [(10.0, 2.0), (0.0, 2.0), (0.0, -2.0), (10.0, -2.0)]).segments[:3]
     (loop,) = loops([end, *back])
     assert moments(loop.contour).area == pytest.approx(40.0 + 2.0 * math.pi, rel=1e-3)
 

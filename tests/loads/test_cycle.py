@@ -131,19 +131,19 @@ def test_a_row_at_mid_motion_has_the_limits_of_the_way_in():
         size=Size(100.0, face_width_mm=10.0),
         load=Load(1.0),
     )
-    x = np.array([-1e-5, 0.0])
+    x, names = np.array([-1e-5, 0.0]), ["sliding_m_s", "pin_force_N", "contact_stress_MPa"]
     for friction in (0.0, 0.05):
         cycle = Cycle(build(spec.with_("load.friction", friction)))
-        here = cycle.moving(cycle.mechanism.engagements[0], x)
-        assert here.sliding_m_s[1] == pytest.approx(here.sliding_m_s[0], rel=1e-9)
+        slid, pressed, stressed = cycle.states(x, names)
+        assert slid[1] == pytest.approx(slid[0], rel=1e-9)
         force = 0.0 if friction else 209.674322308232641534
         # beside a ten-thousandth of the motion a rounding is 1e-12 of the force
-        assert here.pin_force_N[1] == pytest.approx(force, rel=1e-11, abs=1e-10)
-        assert np.isfinite(here.stress_squared).all()
+        assert pressed[1] == pytest.approx(force, rel=1e-11, abs=1e-10)
+        assert np.isfinite(stressed).all()
     pushed = Cycle(build(spec.with_("load.torque_Nm", 2.0)))
-    there = pushed.moving(pushed.mechanism.engagements[0], x)
-    assert there.pin_force_N[1] == math.inf  # a torque without a lever
-    assert there.sliding_m_s[1] == pytest.approx(here.sliding_m_s[0], rel=1e-9)
+    there, pressed, _ = pushed.states(x, names)
+    assert pressed[1] == math.inf  # a torque without a lever
+    assert there[1] == pytest.approx(slid[0], rel=1e-9)
 
 
 def run(*arguments, text):
@@ -164,7 +164,7 @@ def test_a_row_at_either_end_has_the_sliding_beside_it(law):
     (engagement,) = cycle.mechanism.engagements
     ends = np.array([engagement.entry_deg, engagement.exit_deg])
     beside = ends + np.array([1e-4, -1e-4])
-    rows, near = (cycle.states(x).sliding_m_s for x in (ends, beside))
+    rows, near = (cycle.states(x, ["sliding_m_s"])[0] for x in (ends, beside))
     assert rows == pytest.approx(near, abs=1e-5 * abs(near).max())
     slides = cycle.extremes["sliding_m_s"]
     assert (rows <= slides.max).all()

@@ -4,91 +4,21 @@ Motions are symmetric, and engagements alike: where an extreme is told, the same
 mirror image and in every other engagement. Each of these earlier places is looked at.
 """
 
-from collections.abc import Iterator
-from typing import NamedTuple
-
 import numpy as np
 import pytest
 import repo
 from load_states import state
-from sampling import some
 from witness import mp
 
 from geneva_cli import Crank, External, load
 from geneva_cli.loads import load_tables
-from geneva_cli.loads.cycle import Cycle, cycle_of
+from geneva_cli.loads.cycle import Cycle
 from geneva_cli.loads.load_peaks import load_peaks, load_summaries
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.many import many
-from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.motion.motion_table import derivatives
-from geneva_cli.motion.peaks import QUANTITIES, worst
+from geneva_cli.motion.mechanism import build
 from geneva_cli.parts.slots.groove import greatest_pressure
 from geneva_cli.spec.tables import Load, Size
-
-NEAR = 1e-9  # degrees: what is nearer is one place
-SAME = 1e-13  # of an extreme, and
-ROUNDING = 1e-15  # of a quantity's greatest size: what differs by less is equal
-
-
-class Told(NamedTuple):
-    """An extreme as it is told; ``sign`` is -1 of the least."""
-
-    name: str
-    value: float
-    at_deg: float
-    sign: float
-    size: float
-
-
-def all_told(cycle: Cycle) -> Iterator[Told]:
-    """The extremes of a machine's motion and loads."""
-    found = worst(cycle.mechanism)
-    for name in QUANTITIES:
-        size, at_deg = getattr(found, name)
-        yield Told(name, size, at_deg, 1.0, size)
-    for name, one in load_tables.summaries(cycle).items():
-        size = max(abs(one.max or 0.0), abs(one.min or 0.0))
-        if one.max is not None:
-            yield Told(name, one.max, one.max_at_deg, 1.0, size)
-        if one.min is not None:
-            yield Told(name, one.min, one.min_at_deg, -1.0, size)
-
-
-def earlier(mechanism: Mechanism, at_deg: float) -> list[float]:
-    """Places in the period before one, where engagements are as there, or mirrored."""
-    first = mechanism.engagements[0]
-    start = first.mid_deg + first.entry_deg
-    here = start + (at_deg - start + NEAR) % mechanism.period_deg - NEAR
-    out = []
-    for e in mechanism.engagements:
-        x = here - e.mid_deg
-        if e.entry_deg - NEAR <= x <= e.exit_deg + NEAR:
-            out += [f.mid_deg + y for f in mechanism.engagements for y in (x, -x)]
-    moves = [(e.mid_deg + e.entry_deg, e.mid_deg + e.exit_deg) for e in mechanism.engagements]
-    return [x for x in out if x < here - NEAR and any(a <= x <= b for a, b in moves)]
-
-
-@pytest.mark.long
-def test_of_equal_extremes_the_first_is_told() -> None:
-    looked = 0
-    designs = sorted(repo.DESIGNS.glob("*.toml"))
-    for design in some(designs, designs[::4]):
-        mechanism = load(str(design)).mechanism
-        cycle = cycle_of(mechanism)
-        told = [(one, earlier(mechanism, one.at_deg)) for one in all_told(cycle)]
-        x = np.unique([place for _, places in told for place in places])
-        v, a, j = derivatives(mechanism, x, (1, 2, 3)) if len(x) else np.empty((3, 0))
-        values = {"velocity": v, "acceleration": abs(a), "jerk": abs(j), "power": abs(v * a)}
-        states = cycle.states(x)
-        for one, places in told:
-            if one.name not in values:
-                values[one.name] = cycle.plain(states, one.name)
-            at = values[one.name][np.searchsorted(x, places)] * one.sign
-            tie = max(SAME * abs(one.value), ROUNDING * one.size)
-            assert (at < one.value * one.sign - tie).all(), (design.stem, one, places)
-            looked += len(places)
-    assert looked > some(150, 30)
 
 
 def test_of_a_grooves_equal_pressures_the_first_is_told() -> None:

@@ -144,7 +144,3 @@ def test_the_side_that_bears():
     heavy = greatest(machine(6, 100.0, 5.0, inertia_kgm2=0.01, torque_Nm=10.0), 5.0, 40.0, 10.0)
     light = greatest(machine(6, 100.0, 5.0, torque_Nm=10.0), 5.0, 40.0, 10.0)
     assert heavy.stress_MPa > light.stress_MPa
-
-
-def test_without_a_lock_there_is_no_horn():
-    assert greatest(machine(6, 100.0, 5.0), 5.0, 0.0, 10.0) is None

@@ -20,9 +20,8 @@ from geneva_cli import (
     Size,
 )
 from geneva_cli.errors import GenevaError
-from geneva_cli.loads.sizing import sizing, sizings
+from geneva_cli.loads.sizing import sizing
 from geneva_cli.motion.drive import Drive
-from geneva_cli.motion.many import many
 from geneva_cli.verdict.quantities.groups import REPORT, values
 
 STOPPED = Crank(n_rpm=60.0, stop_s=0.8, start_s=0.2, brake_s=0.1)
@@ -60,29 +59,6 @@ def test_means_and_heat_by_quadrature() -> None:
     assert loads["power_W"].mean == pytest.approx(15.0 * math.pi / 3.0 / 1.8, rel=1e-12)
     heat = sizing(design.cycle)[0]["motor_torque_rms_Nm"]
     assert heat == pytest.approx(rms / 20.0, rel=1e-11)
-
-
-def test_what_the_running_machine_does_is_as_before() -> None:
-    """Peaks, forces and the energy that swings while the input runs do not know of the stop."""
-    runs = Design(External(6), Crank(n_rpm=60.0), load=LOAD)
-    stops = Design(External(6), STOPPED, load=LOAD)
-    assert stops.peaks == runs.peaks
-    for name in ("pin_force_N", "input_torque_Nm"):
-        assert stops.loads[name].max == runs.loads[name].max
-    swings = [sizing(design.cycle)[0]["energy_fluctuation_J"] for design in (runs, stops)]
-    assert swings[1] == pytest.approx(swings[0], rel=1e-12)
-
-
-def test_a_batch_has_the_numbers_of_its_designs() -> None:
-    spec = Design(External(6), STOPPED, load=LOAD).spec
-    stops = np.array([0.15, 0.8, 2.0])
-    batch = many(spec, {"drive.stop_s": stops})
-    assert batch.machine
-    name = "motor_torque_rms_Nm"
-    rows = batch.spread(sizings(batch.machine, [name])[name])
-    for stop, row in zip(stops.tolist(), rows.tolist(), strict=True):
-        alone = sizing(Design.of(spec.with_("drive.stop_s", stop)).cycle)[0]
-        assert row == pytest.approx(alone[name], rel=1e-12)
 
 
 def turned_deg(drive: Drive, dwell_deg: float, time_s: float) -> float:
@@ -126,14 +102,6 @@ def test_the_time_column_runs_on_as_the_speed_profile(wheel: External, drive: Dr
     two = design.motion(at_deg=[table["input_deg"][0] + 720.0]).to_dict()
     turns = 2.0 * drive.rollers * timing.cycle_s
     assert two["time_s"].tolist() == pytest.approx([turns], rel=1e-14)
-
-
-def test_unequal_steps_stop_in_each_dwell() -> None:
-    """Two steps a turn: the second entry is a motion, a dwell and a stop after the first."""
-    design = Design(External(6, steps_deg=(72.0, 48.0)), Crank(n_rpm=60.0, stop_s=0.5))
-    rows = design.motion(201).to_dict()
-    assert rows["time_s"][-1] == pytest.approx(1.0 + 2.0 * 0.5, rel=1e-14)
-    assert [t.dwell_s for t in design.timings] == pytest.approx([60 / 360 + 0.5] * 2, rel=1e-12)
 
 
 def test_the_roller_lasts_as_many_motions_and_more_hours() -> None:

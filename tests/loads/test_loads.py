@@ -79,16 +79,6 @@ def test_inertia_factors(z: int, force: float, power: float) -> None:
     assert greatest(mechanism, "input_torque_Nm").max == pytest.approx(power, rel=4e-15)
 
 
-def test_power_closes_over_a_cycle() -> None:
-    """Without friction the input's work over a motion is the resisting torque's alone."""
-    mechanism = build(PRESS)
-    engagement = mechanism.engagements[0]
-    x, weights = np.polynomial.legendre.leggauss(60)
-    torque = state(mechanism, engagement, 60.0 * x).input_torque_Nm
-    work = float(np.dot(torque, weights)) * math.radians(60.0)
-    assert work == pytest.approx(497.0 * math.pi / 3.0, rel=1e-13)  # quadrature of smooth curves
-
-
 def test_the_greatest_of_two_that_are_nearly_one() -> None:
     """Nearer than 1e-13 the first has the place and the greater the size.
 

@@ -93,24 +93,6 @@ def test_error_within_8_ulp_of_the_peak(engagement, gearing, A):
     assert 0.9 * CONDITION[gearing, A] < largest <= CONDITION[gearing, A]
 
 
-@pytest.mark.parametrize("gearing", ["external", "internal"])
-@pytest.mark.parametrize("A", [-0.9, 0.0, 0.6, 0.99])
-def test_both_ends_and_the_middle_are_exact(engagement, gearing, A):
-    for z in Z:
-        s = engagement(z, gearing, A)
-        b = math.pi / z
-        x = np.array([s.entry_deg, 0.0, s.exit_deg])
-        numbers = zip(*[s.motion(v).derivatives() for v in x.tolist()], strict=True)
-        for wheel, velocity, acceleration, _ in (
-            list(numbers),
-            s.motion(x).derivatives(),
-            s.motion.derivatives(x),
-        ):
-            assert list(wheel) == [-b, 0.0, b]
-            assert [velocity[0], velocity[2]] == [0.0, 0.0]
-            assert acceleration[1] == 0.0
-
-
 @pytest.mark.parametrize("z", [3, 6, 24])  # their entry angles, 30°, 60°, 82.5°, are doubles
 def test_just_after_entry_the_velocity_keeps_its_digits(engagement, z):
     s, w = engagement(z), Geneva(z)

@@ -121,16 +121,6 @@ def test_a_side_crank_multiplies_the_jump_by_its_rate() -> None:
     assert slow.jumps[0] == pytest.approx(rate * plain.jumps[0], rel=1e-13)
 
 
-@pytest.mark.parametrize(("R", "rim"), [(49.0, None), (53.0, 60.0)])
-def test_a_roller_that_crosses_no_axis_fails(R: float, rim: float | None) -> None:
-    sizes = {"wheel_radius_mm": rim} if rim else {}
-    design = built(External(6), 100, R, **sizes)
-    values = design.peaks_table.to_dict()
-    assert (values["velocity.entry"], values["velocity.exit"]) == (None, None)
-    row = single_check(design.mechanism, "entry_velocity_max")
-    assert row and (row.value, row.passes) == (None, False)
-
-
 def test_check_of_the_jump() -> None:
     def row(limit: float | None, R: float) -> tuple[float | None, bool | None]:
         sizes = Size(center_distance_mm=100.0, crank_radius_mm=R)

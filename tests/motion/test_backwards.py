@@ -40,7 +40,7 @@ def test_torques_by_the_law_of_motion(inertia, drag):
     (engagement,) = of.mechanism.engagements
     x = np.linspace(0.9 * engagement.entry_deg, 0.9 * engagement.exit_deg, 7)
     bend, w = engagement.motion(x, 2).derivatives()[2], 2.0 * math.pi  # at 60 rpm
-    got = of.backwards.cycle.states(-x).wheel_torque_Nm
+    got = of.backwards.cycle.states(-x, ["wheel_torque_Nm"])[0]
     assert got == pytest.approx(drag - inertia * w * w * bend, rel=1e-11)
 
 

@@ -82,14 +82,14 @@ def test_a_batch_has_the_distances_of_its_designs() -> None:
 @pytest.mark.parametrize(
     ("wheel", "own", "motion", "key"),
     [
-        (External(6), Cam(), Motion(Cycloidal()), "center_distance_mm"),
-        (External(6), drive("epicyclic")(planet_ratio="shockless"), None, "center_distance_mm"),
-        (External(6, steps_deg=(72.0, 48.0)), None, None, "center_distance_mm"),
+        (External(6), Cam(), Motion(Cycloidal()), "remove crank_radius_mm"),
+        (External(6), drive("epicyclic")(planet_ratio="shockless"), None, "remove crank_radius_mm"),
+        (External(6, steps_deg=(72.0, 48.0)), None, None, "set center_distance_mm"),
         (
             External(8),
             drive("slider-crank")(crank_mm=20.0, rod_mm=60.0, point_mm=60.0, point_deg=0.0),
             None,
-            "crank_mm in [drive]",
+            "remove crank_radius_mm",
         ),
     ],
 )
@@ -98,7 +98,7 @@ def test_a_machine_without_one_crank_radius_names_its_own_key(
 ) -> None:
     with pytest.raises(GenevaError, match="crank_radius_mm") as caught:
         Design(wheel, own, motion, size=Size(crank_radius_mm=R))
-    assert f"set {key}" in str(caught.value)
+    assert key in str(caught.value)
 
 
 def test_keys_that_agree_pass_and_others_name_both() -> None:

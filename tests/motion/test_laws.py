@@ -13,11 +13,10 @@ from witness import LAWS as WITNESS
 from witness import krasniqi, mp, near
 from words import LAWS, Spec, Wheel, named, points
 
+from geneva_cli.motion.given_motion import LawMotion
 from geneva_cli.motion.laws.law import Motion
 from geneva_cli.motion.laws.standard import SineConstantCosine, SineGroup
 from geneva_cli.motion.laws.table_law import TableLaw
-from geneva_cli.motion.mechanism import build
-from geneva_cli.motion.path_and_motion import LawMotion
 from geneva_cli.motion.peak_search import QUANTITIES, search_peaks
 from geneva_cli.motion.peaks import peaks
 from geneva_cli.study.law_values import characteristic
@@ -167,15 +166,6 @@ def test_table_reproduces_what_was_sampled(sampled):
     # 50400 at the ends; the constants c are those of splines, rounded up.
     for k, c in enumerate((2e-4, 5e-4, 3e-3, 2e-2)):
         assert np.max(np.abs(got[k] - exact[k])) < c * 50400 * 0.01 ** (6 - k), k
-
-
-def test_table_peaks(sampled):
-    m = build(sampled)
-    found = peaks(m.engagements[0])
-    scale = 2.0 * m.engagements[0].half_step / math.radians(120.0)
-    # 1e-6: the spline's own error, see above
-    assert found.velocity.max == near(35 / 16 * scale, 1e-6)
-    assert found.velocity.at_deg == pytest.approx(0.0, abs=1e-4)
 
 
 def test_table_passes_through_every_point(tmp_path):

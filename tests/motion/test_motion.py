@@ -24,27 +24,6 @@ def columns(mechanism: Mechanism, samples: int) -> dict[str, np.ndarray]:
 
 
 @pytest.mark.parametrize("spec", WHEELS)
-@pytest.mark.parametrize("samples", [2, 3, 361, 1000])
-def test_a_period(spec: Spec, samples: int) -> None:
-    mechanism = build(spec)
-    at = columns(mechanism, samples)
-    engagement = mechanism.engagements[0]
-    assert len(at["input_deg"]) == samples
-    assert at["input_deg"][0] == engagement.entry_deg
-    assert at["input_deg"][-1] == engagement.entry_deg + mechanism.period_deg
-    assert at["velocity"][0] == 0.0
-    assert (at["velocity"][-1], at["acceleration"][-1], at["jerk"][-1]) == (0.0, 0.0, 0.0)
-    # the wheel ends a whole number of steps further, to the rounding of the sum of degrees
-    steps = len(mechanism.engagements)
-    assert at["wheel_deg"][-1] - at["wheel_deg"][0] == pytest.approx(
-        steps * mechanism.index_deg(0), abs=1e-12
-    )
-    assert at["time_s"][-1] == pytest.approx(mechanism.period_deg / 360.0, rel=1e-15)
-    if mechanism.law is None or mechanism.law.NAME != "sine-group":
-        assert (np.diff(at["wheel_deg"]) >= -1e-12).all()
-
-
-@pytest.mark.parametrize("spec", WHEELS)
 def test_dwell_is_still_and_motion_is_not(spec: Spec) -> None:
     mechanism = build(spec)
     at = columns(mechanism, 7201)

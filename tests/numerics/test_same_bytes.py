@@ -27,7 +27,7 @@ from geneva_cli.motion.motion_table import motion_table
 from geneva_cli.geometry import fit
 from geneva_cli.parts.assembly import assembly
 from geneva_cli.parts.slots.groove import groove_curve
-from geneva_cli.parts.outlines.wheel_outline import slot_walls
+from geneva_cli.parts.outlines.cut_outlines import slot_walls
 from geneva_cli.parts.machine_sizes import sizes
 def load(path):
     return design.load(path).mechanism

@@ -165,7 +165,7 @@ def turning(design, parts):
                 yield link.name, complex(at[len(TURN) // 2])
     for name in [one.part.name for one in parts.first]:
         first = design.mechanism.spec.drive.first_wheel(L)
-        yield name, complex(L if name == "first wheel" else L + first.distance_mm)
+        yield name, complex(L if name == "first wheel" else L + first[1])
     sizes = design.parts.sizes
     if sizes.wheel_bore:
         yield from (("wheel", complex(*place.at)) for place in design.mechanism.wheel_places)

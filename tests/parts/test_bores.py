@@ -9,10 +9,8 @@ from shapely.affinity import rotate
 from shapely.geometry import Point
 
 from geneva_cli import Design, External, Size, load
-from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import in_place, moments, plates
 from geneva_cli.geometry.shapes import Contour
-from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.shafts.bores import bore_of, radius_of
 
 
@@ -134,24 +132,3 @@ def test_a_bore_in_a_hub_leaves_a_wall(shape):
     assert row(usual, "wheel_bore_wall_mm").passes
     wheel, hub = plates(design.drawing("wheel").solid)
     assert hub.holes == wheel.holes
-
-
-def test_one_shaft_runs_through_arm_and_crank():
-    """So their bores are equal; a bore of 0 ends it in the arm."""
-    design = Design(External(6), size=Size(100.0, 5.0, arm_bore_mm=10.0, crank_bore_mm=8.0))
-    said = r"arm_bore_mm = 10: .* crank_bore_mm = 8 must be equal"
-    with pytest.raises(GenevaError, match=said) as error:
-        assert parts_of(design.mechanism).built.members
-    assert error.value.key == ("size", "arm_bore_mm")
-    for bore in (0.0, 10.0):
-        assert parts_of(design.with_("size.crank_bore_mm", bore).mechanism).built.members
-
-
-def test_refused():
-    for key, said, size in (
-        ("wheel_flat_mm", "less deep than the bore's rad", {"wheel_flat_mm": 9.0}),
-        ("wheel_keyway", "holds the shaft without a key", {"wheel_keyway": "DIN 6885-1"}),
-    ):
-        with pytest.raises(GenevaError, match=said) as caught:
-            of(wheel_bore="D", **size).drawing("wheel")
-        assert caught.value.key == ("size", key)

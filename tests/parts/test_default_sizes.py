@@ -11,7 +11,6 @@ from words import Spec, Wheel
 
 from geneva_cli import Design
 from geneva_cli.parts.machine_sizes import machine_sizes
-from geneva_cli.parts.outlines.outlines import dial_circle
 from geneva_cli.parts.shafts.arm_and_shafts import crank_arm
 from geneva_cli.spec.tables import Size
 
@@ -83,21 +82,3 @@ def test_the_default_bore_of_the_crank():
     for lock, bore in ((20.74, 2.5), (20.72, 0.0)):
         size = Size(L, lock_radius_mm=lock)
         assert sizes_of(Spec(Wheel(6), size=size)).crank_bore == bore
-
-
-def test_bolts_of_a_dial():
-    """Amid the bore and the slots' ends, or those and the edge of an internal wheel.
-
-    They are for M2, and the first is between two slots, 30° from each.
-    """
-    for gearing, far in (
-        ("external", 0.5 * (10.0 + L - 50.0 - 6.0 - 0.3)),
-        ("internal", L + 50.0 + 6.0 + 0.3 + 3.0),
-    ):
-        own = {"wheel_bore_mm": 20.0} if gearing == "external" else {}
-        size = Size(L, 6.0, dial_bolts=3, **own)
-        parts = Design.of(Spec(Wheel(6, gearing), size=size)).parts.outlines
-        bolts = dial_circle(parts.assembly, parts.sizes).holes
-        assert {(round(math.hypot(*one.centre), 9), one.radius) for one in bolts} == {(far, 1.2)}
-        first = math.degrees(math.atan2(*reversed(bolts[0].centre)))
-        assert first % 60.0 == pytest.approx(30.0)

@@ -8,10 +8,7 @@ from shapely.geometry import Polygon
 from words import Spec, Wheel
 
 from geneva_cli.design import Design
-from geneva_cli.geometry.plates import mass_properties
 from geneva_cli.geometry.shapes import Contour, Line
-from geneva_cli.parts.outlines.outlines import wheel_plate
-from geneva_cli.parts.wheel_body import wheel_body
 from geneva_cli.spec.tables import Size
 
 DIN = "DIN 6885-1"
@@ -63,19 +60,3 @@ def test_bolts_for_the_dial(z, gearing):
         bore = next(h for h in holes if h.centre == (0.0, 0.0))
         least.append(polygon(bore).distance(plate.boundary))
     assert row.value == pytest.approx(min(least), abs=3e-3) and row.passes
-
-
-def test_the_mass_is_without_them():
-    """The solid's, and the one that loads take: less exactly what is cut out."""
-    whole = of(center_distance_mm=200.0, wheel_bore_mm=25.0, wheel_thickness_mm=10.0)
-    holed = whole.with_("size.dial_bolts", 4).with_("size.dial_bolt_mm", 6.0)
-    holed = holed.with_("size.wheel_keyway", DIN)
-    each = (whole.parts, holed.parts)
-    plates = [wheel_plate(own.assembly, own.sizes, own.outlines.wheel) for own in each]
-    masses = [mass_properties(plate, 7850.0).mass_kg for plate in plates]
-    # the keyway: 8 mm wide from its top down to the bore's circle
-    half = math.asin(4.0 / 12.5)
-    slit = 8.0 * 15.8 - (12.5**2 * half + 4.0 * 12.5 * math.cos(half))
-    cut = 7850.0 * 10e-9 * (4 * math.pi * 9.0 + slit)
-    assert masses[0] - masses[1] == pytest.approx(cut, rel=1e-9)
-    assert masses == pytest.approx([wheel_body(d.mechanism).mass_kg for d in (whole, holed)])

@@ -7,11 +7,11 @@ import math
 
 import numpy as np
 import pytest
-from test_outline import STRAIGHT, L, made, name
+from test_outline import STRAIGHT, L, made
 from turn_witness import overlapping
 
 from geneva_cli.parts.parts import Parts
-from geneva_cli.parts.turn.full_turn import FullTurn, full_turn
+from geneva_cli.parts.turn.full_turn import DRIVING, LOCK, FullTurn, full_turn
 
 
 def finds_slot(found: Parts) -> float:
@@ -45,7 +45,7 @@ def test_the_wheel_goes_on_before_the_first_entry_and_after_a_turn() -> None:
 
 
 @pytest.mark.sampled(6)
-@pytest.mark.parametrize("case", SOUND, ids=name)
+@pytest.mark.parametrize("case", SOUND, ids=str)
 def test_straight_slots_turn_with_their_clearances(case: dict) -> None:
     """What touches without clearance has exactly the clearance with it: slot and lock. Only inside,
     and at the far mouth of an offset slot, the wall, which the clearance moves, runs past the foot
@@ -56,9 +56,8 @@ def test_straight_slots_turn_with_their_clearances(case: dict) -> None:
     assert passes(found, turn)
     past = 5e-7 if found.assembly.sign < 0.0 or "offset" in case else 0.0
     gap = case.get("slot_clearance_mm", 0.0)
-    assert turn.driving.mm == pytest.approx(gap, abs=found.close + past)
-    assert turn.lock is not None
-    assert turn.lock.mm == pytest.approx(case.get("lock_clearance_mm", 0.0), abs=found.close)
+    assert turn.gaps[DRIVING].mm == pytest.approx(gap, abs=found.close + past)
+    assert turn.gaps[LOCK].mm == pytest.approx(case.get("lock_clearance_mm", 0.0), abs=found.close)
     at_deg = found.assembly.start_deg + found.assembly.turn_deg * np.arange(60) / 60
     assert not any(overlapping(found, at_deg))
 
@@ -108,5 +107,5 @@ def test_a_rim_too_large_fouls_the_roller_before_it_enters(z: int, by: float) ->
     s = math.sqrt((plain.sizes.rim + by) ** 2 - r * r) - L * math.cos(math.pi / z)
     turn = full_turn(found)
     # the place of the smallest gap is found to a share of the half degree that it lasts
-    assert turn.driving.mm == pytest.approx(R - r - math.hypot(R - r, s), rel=1e-3, abs=1e-12)
+    assert turn.gaps[DRIVING].mm == pytest.approx(R - r - math.hypot(R - r, s), rel=1e-3, abs=1e-12)
     assert turn.smallest.mm < -found.close

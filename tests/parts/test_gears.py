@@ -12,7 +12,7 @@ from geneva_cli import Design, External, Internal, NoncircularGears
 from geneva_cli.motion.groove_path import distances
 from geneva_cli.motion.mechanism import build
 from geneva_cli.parts.assembly import assembly
-from geneva_cli.parts.gears.gear_curves import convexity, gears_table, pitch_curves
+from geneva_cli.parts.gears.gear_pair import convexity, gears_table, pitch_curves
 from geneva_cli.parts.slots.groove import groove_table
 from geneva_cli.spec.tables import Limits
 from geneva_cli.verdict.checks import checks

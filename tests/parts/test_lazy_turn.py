@@ -8,7 +8,7 @@ import shapely
 from drawn_wheels import corners, disc, drawn_wheel, outline
 from scipy.optimize import brentq
 
-from geneva_cli.parts.turn.free_ranges import FreeRanges, one_sector
+from geneva_cli.parts.turn.free_ranges import FreeRanges
 from geneva_cli.parts.turn.lazy_turn import Turner
 
 Z, L, R, ROLLER, CLEARANCE = 6, 60.0, 30.0, 3.0, 0.25
@@ -54,7 +54,7 @@ def meets(rim, side):
 def test_a_rim_that_is_too_small_is_hit(rim, index, at_deg, velocity):
     """The roller meets the rear corner of the mouth, by the triangle of both and the axes."""
     own = turner(rim)
-    forwards, backwards = own.turn(-math.pi / 6, 1, 1), own.turn(math.pi / 6, 1, -1)
+    forwards, backwards = own.turn(-math.pi / 6), own.turn(math.pi / 6, -1)
     assert forwards.jam is None
     assert backwards.jam is None
     assert DEG(forwards.gained) == pytest.approx(index, abs=1e-3)
@@ -69,7 +69,7 @@ def test_a_rim_that_is_too_small_is_hit(rim, index, at_deg, velocity):
 def test_a_rim_that_ends_short_of_the_roller_jams():
     own = turner(33.0)
     for way, at_deg in ((1, -27.12675), (-1, -360.0 + 27.12675)):
-        jam = own.turn(-way * math.pi / 6, 1, way).jam
+        jam = own.turn(-way * math.pi / 6, way).jam
         assert DEG(jam.crank) == pytest.approx(at_deg, abs=1e-4)
         assert DEG(jam.wheel) == pytest.approx(-30.0 * way)
 
@@ -78,7 +78,7 @@ def test_the_places_of_rest_from_which_a_wheel_turns():
     """From some places the roller pushes a corner; from others it meets it head on."""
     own = turner(33.0)
     rests = (-33.5, -30.0, -28.0, -24.0)
-    goes = [own.turn(math.radians(rest), 1, 1, exact=False).jam is None for rest in rests]
+    goes = [own.turn(math.radians(rest), exact=False).jam is None for rest in rests]
     assert goes == [pushed_index(33.0, rest) is not None for rest in rests]
 
 
@@ -139,12 +139,6 @@ def test_a_loose_lock_leaves_the_play_of_its_triangle():
     assert at.is_free
     assert at.high + math.pi / 4 == pytest.approx(play, abs=1e-9)
     assert at.low + math.pi / 4 == pytest.approx(-play, abs=1e-9)
-
-
-def test_a_wheel_with_one_other_slot_has_no_sector():
-    wheel = outline(drawn_wheel(Z, L - R, HALF, 45.0))
-    assert len(one_sector(wheel, math.tau / Z, 1e-9)) == len(wheel) // Z
-    assert one_sector(wheel, math.tau / 12, 1e-9) is None
 
 
 def test_nothing_in_reach_leaves_the_wheel_free():

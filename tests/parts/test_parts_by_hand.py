@@ -13,14 +13,13 @@ from geneva_cli import Design, External
 from geneva_cli.drawings.sheet.crank_views import draw_arm, draw_disc, draw_link
 from geneva_cli.drawings.sheet.view import View
 from geneva_cli.drawings.sheet.wheel_views import draw_wheel
-from geneva_cli.geometry.plates import moments, plates
+from geneva_cli.geometry.plates import plates
 from geneva_cli.geometry.shapes import Arc
 from geneva_cli.parts.links.link_plates import drawn_links
 from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.outlines.crank_outline import arc_floor, reliefs, widened
 from geneva_cli.parts.outlines.cut_outlines import cut_arcs, cut_lock, drawn
 from geneva_cli.parts.shafts.arm_and_shafts import crank_arm
-from geneva_cli.parts.shafts.bores import bore_of
 from geneva_cli.parts.slots.roller_paths import horn_corners
 from geneva_cli.spec.tables import Size
 
@@ -129,19 +128,6 @@ def test_heights_above_and_below_the_wheel():
         "crank's shaft": (-10.75, 11.5),
         "frame": (-10.75, -5.75),
     }
-
-
-def test_keyways_of_a_shaft():
-    """DIN 6885-1 for 20 mm: b = 6 and t1 = 3.5.
-
-    The keyway is a rectangle from the shaft's circle down to r - t1, whose area is that of the
-    circle's strip of width b beyond that.
-    """
-    size = Size(wheel_keyway="DIN 6885-1", wheel_bore_mm=20.0)
-    section = bore_of(size, "wheel", 10.0).shape("SHAFT", 0.3, shaft=True)
-    strip = 3.0 * math.sqrt(91.0) + 100.0 * math.asin(0.3)
-    cut = strip - 6.0 * (10.0 - 3.5)
-    assert moments(section).area == pytest.approx(100.0 * math.pi - cut, rel=1e-12)
 
 
 def test_the_relief_of_the_disc():

@@ -12,7 +12,7 @@ from turn_witness import overlapping
 from words import Motion, load
 
 from geneva_cli.parts.parts import Parts, parts_of
-from geneva_cli.parts.turn.full_turn import full_turn
+from geneva_cli.parts.turn.full_turn import DRIVING, full_turn
 from geneva_cli.parts.turn.turned_parts import wheel_stops, windows
 from geneva_cli.verdict.checks import TURNING, applicable
 
@@ -198,4 +198,4 @@ def test_angles_are_the_inputs(name: str, entry: float) -> None:
     engagement = mechanism.engagements[0]
     assert engagement.entry_deg == pytest.approx(entry, abs=1e-3)
     turn = full_turn(parts_of(mechanism))
-    assert turn.driving.at_deg == pytest.approx(engagement.entry_deg, abs=1e-6)
+    assert turn.gaps[DRIVING].at_deg == pytest.approx(engagement.entry_deg, abs=1e-6)

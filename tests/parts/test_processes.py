@@ -7,7 +7,7 @@ import pytest
 from mpmath import mp
 from repo import DESIGNS
 
-from geneva_cli import Design, External, Size, load
+from geneva_cli import Design, Size, load
 from geneva_cli.spec.workshops import PROCESSES, deviation_mm
 from geneva_cli.verdict.checks import Check
 
@@ -107,24 +107,6 @@ def test_holes_that_a_laser_cuts_badly_are_named() -> None:
     assert "make the frame at most 12.86 mm thick" in texts["small-hole"]
     thin = turret("size.process=laser", "size.face_width_mm=12", "size.lock_bolts=0").warnings
     assert "small-hole" not in {text.name for text in thin}
-
-
-@pytest.mark.usefixtures("no_advice")
-def test_printed_walls_are_two_lines_of_a_nozzle() -> None:
-    small = Size(20.0, process="print")
-    assert {c.limit for c in Design(External(6), size=small).checks if c.name == "horn_mm"} == {0.8}
-    own = small.replace(wall_min_mm=0.5)
-    assert {c.limit for c in Design(External(6), size=own).checks if c.name == "horn_mm"} == {0.5}
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("design", ["turret", "spherical-z6"])
-def test_printed_parts_are_as_light_as_plastic(design: str) -> None:
-    """PLA of 1240 kg/m³ in place of steel; a density of the spec wins; so on a sphere, too."""
-    path = str(DESIGNS / f"{design}.toml")
-    for keys, density in (([], 1240.0), (["material.wheel.density_kgm3=2700"], 2700.0)):
-        rows = load(path, ["size.process=print", *keys]).part_table("parts").to_rows()
-        assert next(row for row in rows if row["name"] == "wheel")["density_kgm3"] == density
 
 
 def sphere(*settings: str) -> Design:

@@ -41,7 +41,7 @@ def test_pitch_curve_flanks_pressure_and_curvature(law: str, ratio: float | str)
         M1 = -1j * L * psi1 * mp.expj(-psi) + 1j * R * (1 + psi1) * mp.expj(-(psi + phi))
         assert abs(complex(M) - complex(*at.centre[i])) < 4 * math.ulp(L)
         normal = 1j * M1 / abs(M1)
-        retrace = ratio == "matched" or abs(psi1_at_mid(law) - R / (L - R)) < 1e-9
+        retrace = ratio == "matched" or abs(named(law)(0.5, 1).c[1] / 2.0 - R / (L - R)) < 1e-9
         side = -1 if retrace and degrees > 0 else 1
         left, right = M + side * offset * normal, M - side * offset * normal
         # the normal's direction is known to eps / |M'|, which is smallest beside the cusp
@@ -60,10 +60,6 @@ def test_pitch_curve_flanks_pressure_and_curvature(law: str, ratio: float | str)
         assert math.cos(math.radians(at.pressure_deg[i])) == pytest.approx(
             float(lever / abs(M)), rel=1e-12
         )
-
-
-def psi1_at_mid(law: str) -> float:
-    return named(law)(0.5, 1).c[1] / 2.0
 
 
 def test_straight_slots_are_straight() -> None:
@@ -98,16 +94,10 @@ def test_no_chord_misses_by_more_than_the_tolerance(
 
 def dense_error(mechanism: Mechanism, x: np.ndarray) -> float:
     """The greatest distance of 31 points a chord from it, by another formula than the program's."""
-    return float(dense_errors(mechanism, x[:-1], x[1:]).max())
-
-
-def dense_errors(mechanism: Mechanism, first: np.ndarray, last: np.ndarray) -> np.ndarray:
-    """The same of each of some chords."""
-    at = np.linspace(0.0, 1.0, 33)
-    points = slot(mechanism, (first[:, None] + (last - first)[:, None] * at).ravel())
-    worst = np.zeros(len(first))
-    for name in ("centre", "left", "right"):
-        p = (getattr(points, name) @ [1, 1j]).reshape(-1, 33)
+    at, worst = np.linspace(0.0, 1.0, 33), 0.0
+    points = slot(mechanism, (x[:-1, None] + np.diff(x)[:, None] * at).ravel())
+    for line in (points.centre, points.left, points.right):
+        p = (line @ [1, 1j]).reshape(-1, 33)
         turned = (p - p[:, :1]) * np.exp(-1j * np.angle(p[:, -1:] - p[:, :1]))
-        worst = np.maximum(worst, np.abs(turned.imag).max(axis=1))
+        worst = max(worst, float(np.abs(turned.imag).max()))
     return worst

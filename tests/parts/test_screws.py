@@ -2,7 +2,7 @@
 
 import pytest
 
-from geneva_cli.parts.shafts.bores import SCREWS, bolt_radius, screw_through
+from geneva_cli.parts.shafts.bores import SCREWS
 
 # Coarse threads of ISO 262, their clearance holes of the medium series of ISO 273, and the drills
 # before the threads are cut by ISO 2306.
@@ -19,22 +19,3 @@ def test_clearance_holes_and_drills_are_the_standards() -> None:
     # a drill is thread less pitch, rounded to what drills there are
     cores = [row.thread - row.pitch for row in SCREWS]
     assert cores == [pytest.approx(drill, abs=0.051) for *_, drill in rows]
-
-
-@pytest.mark.parametrize(
-    ("L", "half_width", "thread", "through"),
-    [
-        (71.9, 9.0, None, 0.0),  # L/40 is below the 1.8 mm of M1.6
-        (72.0, 9.0, 1.6, 1.8),
-        (100.0, 9.0, 2.0, 2.4),
-        (250.0, 9.0, 5.0, 5.5),
-        (250.0, 3.4, 3.0, 3.4),  # half of the ring
-        (440.0, 99.0, 10.0, 11.0),
-    ],
-)
-def test_a_default_hole_is_for_the_largest_screw(
-    L: float, half_width: float, thread: float | None, through: float
-) -> None:
-    assert 2.0 * bolt_radius(None, L, half_width) == pytest.approx(through, abs=1e-12)
-    screw = screw_through(through)
-    assert (screw and screw.thread) == thread

@@ -37,30 +37,6 @@ def row(design, name):
     return next((c for c in design.checks if c.name == name), None)
 
 
-def spans(design):
-    return {
-        p.name: (p.low, p.high)
-        for p in plates(design.drawing("assembly").solid)
-        if p.name.endswith(("hub", "shaft"))
-    }
-
-
-def test_where_they_end():
-    given = with_(
-        wheel_hub_length_mm=4.0,
-        crank_hub_length_mm=9.0,
-        wheel_shaft_low_mm=-30.0,
-        wheel_shaft_high_mm=25.0,
-        crank_shaft_high_mm=-1.0,
-    )
-    assert spans(given) == {
-        "wheel's hub": (-4.0, 0.0),
-        "crank's hub": (5.0, 8.0),
-        "wheel's shaft": (-30.0, 25.0),
-        "crank's shaft": (-17.0, -1.0),
-    }
-
-
 def gap_of(design):
     return min(shaft_gaps(design.parts), default=None)
 

@@ -24,15 +24,6 @@ def test_a_huge_size_is_refused(gearing: str) -> None:
         assert caught.value.key == ("size", key)
 
 
-@pytest.mark.parametrize("part", ["wheel", "crank"])
-def test_a_hub_is_no_smaller_than_its_bore(part: str) -> None:
-    sizes = {f"{part}_bore_mm": 12.0, f"{part}_hub_mm": 11.9}
-    with pytest.raises(GenevaError, match=f"{part}_hub_mm = 11.9: a hub must be larger than"):
-        build(Spec(Wheel(6), size=Size(**sizes)))
-    for hub in (0.0, 12.0, 13.0):
-        build(Spec(Wheel(6), size=Size(**sizes | {f"{part}_hub_mm": hub})))
-
-
 @pytest.mark.parametrize(
     ("wheel", "motion", "largest"),
     [

@@ -20,6 +20,7 @@ from words import load
 
 from geneva_cli.drives.crank import Crank
 from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.shapes import placed
 from geneva_cli.motion.laws.law import Motion
 from geneva_cli.motion.laws.standard import Cycloidal, ModifiedSine
 from geneva_cli.motion.machine_spec import Spec
@@ -68,12 +69,6 @@ def random_parts(seed):
         return None
 
 
-def random_machines(first):
-    """Random machines, as many as are tried."""
-    machines = (random_parts(seed) for seed in range(first, first + MACHINES))
-    return [parts for parts in machines if parts is not None]
-
-
 def with_roller(parts, larger_mm):
     """The parts with larger rollers in the same slots."""
     gaps = copy.copy(parts.gaps)
@@ -81,26 +76,11 @@ def with_roller(parts, larger_mm):
     return with_shape(parts, sizes=gaps.sizes, gaps=gaps)
 
 
-def with_crank(parts, contours):
-    return with_shape(parts, crank=contours, gaps=parts.gaps.with_crank(contours))
-
-
 def larger_crank(parts, larger_mm):
     """The crank with its locking disc larger in radius by a length, and the same shape."""
     scale = 1.0 + larger_mm / parts.sizes.lock
-
-    def at(point):
-        return scale * point[0], scale * point[1]
-
-    return with_crank(
-        parts,
-        [
-            c._replace(
-                segments=tuple(s._replace(start=at(s.start), end=at(s.end)) for s in c.segments)
-            )
-            for c in parts.outlines.crank
-        ],
-    )
+    crank = [placed(contour, scale=scale) for contour in parts.outlines.crank]
+    return with_shape(parts, crank=crank, gaps=parts.gaps.with_crank(crank))
 
 
 @pytest.mark.parametrize("name", FLAT)
@@ -123,7 +103,7 @@ def test_designs_are_proved_to_a_micrometre_of_their_smallest_gap(name):
 def test_random_machines_keep_what_is_proved():
     """Gaps at dense positions of a turn are at least the proved bound; most are proved."""
     count = closed_ = 0
-    for parts in random_machines(0):
+    for parts in filter(None, map(random_parts, range(MACHINES))):
         gap = full_turn(parts).smallest.mm
         found = check_proof(parts, gap)
         count += 1

@@ -19,27 +19,17 @@ def timing(machine, *args, **keys):
     return timings(machine(*args, **keys))[0]
 
 
+@pytest.mark.parametrize(("gearing", "two"), [("external", 2), ("internal", -2)])
 @pytest.mark.parametrize("z", Z)
-def test_external_timing(machine, z):
-    """2 phi_1 = 360/z, 2 alpha_1 = 180 - 360/z, k = (z-2)/(z+2)."""
-    t = timing(machine, z)
+def test_timing(machine, z, gearing, two):
+    """2 phi_1 = 360/z, 2 alpha_1 = 180 - 360/z, k = (z-2)/(z+2); inside with the other sign."""
+    t = timing(machine, z, gearing)
     # 4e-16 and 1e-13 degrees: each figure is one or two roundings of an exact fraction
     assert t.index_deg == near(360 / z, 4e-16)
-    assert t.motion_deg == pytest.approx(180 - 360 / z, abs=1e-13)
-    assert t.dwell_deg == pytest.approx(180 + 360 / z, abs=1e-13)
-    assert t.k == near(float(Fraction(z - 2, z + 2)), 1e-15)
-    assert t.tau == near(float(Fraction(z - 2, 2 * z)), 1e-15)
-
-
-@pytest.mark.parametrize("z", Z)
-def test_internal_timing(machine, z):
-    """2 phi_1 = 360/z, 2 alpha_1 = 180 + 360/z, k = (z+2)/(z-2) > 1."""
-    t = timing(machine, z, "internal")
-    assert t.index_deg == near(360 / z, 4e-16)
-    assert t.motion_deg == pytest.approx(180 + 360 / z, abs=1e-13)
-    assert t.dwell_deg == pytest.approx(180 - 360 / z, abs=1e-13)
-    assert t.k == near(float(Fraction(z + 2, z - 2)), 1e-15)
-    assert t.tau == near(float(Fraction(z + 2, 2 * z)), 1e-15)
+    assert t.motion_deg == pytest.approx(180 - two * 180 / z, abs=1e-13)
+    assert t.dwell_deg == pytest.approx(180 + two * 180 / z, abs=1e-13)
+    assert t.k == near(float(Fraction(z - two, z + two)), 1e-15)
+    assert t.tau == near(float(Fraction(z - two, 2 * z)), 1e-15)
 
 
 @pytest.mark.parametrize(

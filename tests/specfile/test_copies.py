@@ -5,7 +5,7 @@ import repo
 from typer.testing import CliRunner
 
 from geneva_cli.cli.app import app
-from geneva_cli.specfile.designs import titles
+from geneva_cli.specfile.template import titles
 
 
 def new(*words):

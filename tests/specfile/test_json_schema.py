@@ -10,7 +10,7 @@ import schema_agrees
 from typer.testing import CliRunner
 
 from geneva_cli.cli.app import app
-from geneva_cli.specfile.json_schema import FILE, schema
+from geneva_cli.specfile.keys import FILE, schema
 from geneva_cli.specfile.template import KINDS, template
 
 

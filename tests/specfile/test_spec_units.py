@@ -24,9 +24,7 @@ ONE = {
     "cm": si.centi,
     "um": si.micro,
     "in": si.inch,
-    "inch": si.inch,
     "ft": si.foot,
-    "thou": si.mil,
     "kg": 1.0,
     "g": si.gram,
     "t": si.metric_ton,
@@ -39,15 +37,12 @@ ONE = {
     "Hz": 1.0,
     "deg": si.degree,
     "arcmin": si.arcminute,
-    "arcsec": si.arcsecond,
     "rad": 1.0,
-    "mrad": si.milli,
     "rev": 2.0 * math.pi,
     "rpm": 2.0 * math.pi / si.minute,
     "N": 1.0,
     "kN": si.kilo,
     "lbf": si.pound_force,
-    "ozf": si.ounce * si.g,
     "kgf": si.kilogram_force,
     "Nm": 1.0,
     "J": 1.0,
@@ -122,7 +117,7 @@ def test_a_length_is_the_nearest_float(text, mm):
     ("key", "text", "wants"),
     [
         ("a_mm", "8 lb", "must be in mm or cm, m, in, ft"),
-        ("a_mm", "8 inhc", 'unknown unit inhc (did you mean "inch"?); use mm or'),
+        ("a_mm", "8 inn", 'unknown unit inn (did you mean "in"?); use mm or'),
         ("a_mm", '8"', 'unknown unit " (did you mean "in"?); use mm or'),
         ("a_mm", "12,5 mm", "with a point"),
         ("a_mm", "8", '; with a unit it is a text such as "10 mm"'),
@@ -190,7 +185,6 @@ def test_the_schema_takes_units_where_the_reader_does():
     [
         ("12,5 mm  # wide", 'write "12.5 mm" in quotation marks'),
         ("60 rpm", 'write "60 rpm" in quotation marks'),
-        ("= 5", "invalid value\n"),
     ],
 )
 def test_a_bare_value_gets_a_hint(tmp_path, value, wants):

@@ -41,7 +41,7 @@ def require_largest_plays(parts):
 def stops(arguments):
     """Return the result of a case: a seed, the step of the joints' weights, the machine's keys."""
     seed, step, case = arguments
-    with mock.patch("geneva_cli.geometry.fit.arcs.WEIGHT", step):
+    with mock.patch("geneva_cli.geometry.fit.WEIGHT", step):
         try:
             parts = made.__wrapped__(**case)
         except GenevaError:

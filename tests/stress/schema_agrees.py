@@ -22,7 +22,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.motion import registry
 from geneva_cli.spec.schema import Points, checked, fields
 from geneva_cli.spec.tables import PLAIN
-from geneva_cli.specfile.json_schema import schema
+from geneva_cli.specfile.keys import schema
 from geneva_cli.specfile.template import KINDS, template
 from geneva_cli.specfile.tree import spec_of
 

@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 
 from geneva_cli import Design, External, Load, load
 from geneva_cli.cli.app import app
-from geneva_cli.specfile.inserted import Written, inserted
+from geneva_cli.specfile.writer import Written, inserted
 from geneva_cli.study.chosen_sizes import KEPT, sized_text
 
 DESIGNS = sorted(path.stem for path in repo.DESIGNS.glob("*.toml"))

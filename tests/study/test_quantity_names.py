@@ -6,7 +6,7 @@ import pytest
 import repo
 
 from geneva_cli import GenevaError, load
-from geneva_cli.loads.cycle_quantities import REPORTED_PEAKS
+from geneva_cli.loads.load_peaks import REPORTED_PEAKS
 from geneva_cli.study.batches import batch_machines, numbers
 from geneva_cli.study.fields import pick
 from geneva_cli.table import Table

@@ -7,7 +7,7 @@ import repo
 
 from geneva_cli.answer import Summary, SummaryLine
 from geneva_cli.design import Design, load
-from geneva_cli.loads.motor import RATED_kW, recommended_motor
+from geneva_cli.loads.load_tables import RATED_kW, recommended_motor
 from geneva_cli.study.summary.load_lines import of_loads
 from geneva_cli.study.summary.report_summary import of_tolerance, of_vibration
 from geneva_cli.study.verdicts import tightest

@@ -32,8 +32,6 @@ from geneva_cli.parts.outlines.cut_outlines import cut_arcs, cut_lock, drawn
 from geneva_cli.parts.sized_by_load import stressed
 from geneva_cli.spec.defaults import DIN_6885_1, wheel_material
 from geneva_cli.spec.tables import Load, Shaft, Size, WheelMaterial
-from geneva_cli.verdict.quantities.batch_designs import Designs
-from geneva_cli.verdict.quantities.part_strength import wheel_shaft
 
 STRENGTH = PARTS + HORNS
 
@@ -52,33 +50,6 @@ def test_the_default_steel():
     assert math.isinf(wheel_material(Spec(External(6), material_wheel=acrylic)).allowed_MPa)
     own = acrylic.replace(stress_max_MPa=9.0)
     assert wheel_material(Spec(External(6), material_wheel=own)).allowed_MPa == 9.0
-
-
-@pytest.mark.parametrize(("a", "T"), [(45.0, 30.0), (0.0, 30.0)])
-def test_a_shaft_by_its_principal_stresses(a, T):
-    """Bending by the section's second moment, torsion by its polar one; then Mohr's circle.
-
-    The wheel's shaft of 25 mm bears T and the force of the slot, T/(L - R) at mid-motion, at a
-    lever of a mm; the greatest shear is half the difference of the principal stresses.
-    """
-    spec = Spec(
-        External(6),
-        load=Load(torque_Nm=T),
-        shaft=Shaft(wheel_diameter_mm=25.0, wheel_overhang_mm=a, bending_factor=1.5),
-    )
-    columns = wheel_shaft(Designs(build(spec)))
-    r = 12.5
-    with mpmath.workdps(30):
-        second = mpmath.quad(  # integral of y² over the circle
-            lambda y: 2 * y * y * mpmath.sqrt(r * r - y * y), [-r, 0, r]
-        )
-        polar = mpmath.quad(lambda s: 2 * mpmath.pi * s**3, [0, r])
-        force = T * 1e3 / 50.0  # N: the roller's path is 50 mm from the wheel's axis
-        bending = 1.5 * force * a * r / second
-        shear = T * 1e3 * r / polar
-        stress = np.array([[float(bending), float(shear)], [float(shear), 0.0]])
-    low, high = np.linalg.eigvalsh(stress)
-    assert columns["stress_MPa"].item() == pytest.approx(0.5 * (high - low), rel=1e-12)
 
 
 @pytest.mark.parametrize(("wide", "high"), [(10.0, 10.0), (30.0, 10.0), (8.0, 40.0), (200.0, 5.0)])

@@ -132,21 +132,18 @@ def test_pv_and_the_wheel_shaft_over_the_cycle():
     """
     mechanism = build(WHOLE)
     of = Strength(mechanism)
-    at = cycle_of(mechanism).states(np.linspace(-67.5, 67.5, 20001))
-    most = float(np.max(np.sqrt(at.stress_squared) * abs(at.sliding_m_s)))
-    assert of["life.pv_max_W_m2"] == pytest.approx(1e6 * most, rel=1e-6)
-    assert of["life.pv_max_W_m2"] >= 1e6 * most * (1.0 - 1e-14)
-    both = np.hypot(1.5 * 0.040 * at.wheel_bearing_N, at.wheel_torque_Nm).max()
+    names = ["pv_W_m2", "wheel_bearing_N", "wheel_torque_Nm"]
+    pv, bearing, torque = cycle_of(mechanism).states(np.linspace(-67.5, 67.5, 20001), names)
+    most = pv.max()
+    assert of["life.pv_max_W_m2"] == pytest.approx(most, rel=1e-6)
+    assert of["life.pv_max_W_m2"] >= most * (1.0 - 1e-14)
+    both = np.hypot(1.5 * 0.040 * bearing, torque).max()
     assert of["strength.wheel_shaft.moment_Nm"] == pytest.approx(both, rel=1e-6)
     stress = 16e3 * both / (math.pi * 20.0**3)
     assert of["strength.wheel_shaft.stress_MPa"] == pytest.approx(stress, rel=1e-6)
     least = of["strength.wheel_shaft.least_diameter_mm"]
     thin = Strength(build(WHOLE.with_("shaft.wheel_diameter_mm", least)))
     assert thin["strength.wheel_shaft.stress_MPa"] == pytest.approx(40.0, rel=1e-14)
-    # T l/(G I_p) of 120 mm of steel, G = 80.8 GPa
-    most = abs(at.wheel_torque_Nm).max()
-    twist = most * 0.120 / (80.8e9 * math.pi * 0.020**4 / 32.0)
-    assert of["strength.wheel_shaft.twist_deg"] == pytest.approx(math.degrees(twist), rel=1e-6)
 
 
 @pytest.mark.sampled(3)
@@ -233,8 +230,6 @@ def test_the_wheel_s_shaft_and_key_bear_the_torque_of_the_dwell():
     most = math.hypot(1.5 * 0.040 * force, 300.0)
     assert held["strength.wheel_shaft.moment_Nm"] == pytest.approx(most, rel=1e-9)
     assert held["strength.wheel_shaft.at_deg"] == pytest.approx(67.5)
-    twist = 300.0 * 0.120 / (80.8e9 * math.pi * 0.020**4 / 32.0)
-    assert held["strength.wheel_shaft.twist_deg"] == pytest.approx(math.degrees(twist), rel=1e-12)
     # DIN 6885-1 for 30 mm: 8 x 7, of which 4 mm in the shaft; 18 mm long, as the wheel is thick
     pressure = 2.0 * 300e3 / (30.0 * 3.0 * 18.0)
     assert held["strength.wheel_key.pressure_MPa"] == pytest.approx(pressure, rel=1e-12)

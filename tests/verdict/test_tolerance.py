@@ -220,7 +220,7 @@ def test_the_table_of_jumps_against_each_exact_one(design):
     L = rng.normal(0.0, 0.02, 40) * center * 10.0 ** rng.uniform(-4.0, 0.0, 40)
     jumps, missed = one(at(crank_radius_mm=R, center_distance_mm=L))
     errors = R[:, None] / one.arm, L[:, None] / one.L
-    true = first_contacts(one.axis.engagement, *errors).jump
+    true = first_contacts(one.axis, *errors).jump
     assert missed.tolist() == np.isnan(true).tolist()
     assert jumps == pytest.approx(np.nan_to_num(abs(true)), rel=2e-6)
     assert (~missed).sum() > 5

@@ -34,9 +34,8 @@ def run(
     stay. An existing file is kept, unless --force is given. For editors: `geneva help spec`.
     """
     from geneva_cli.output import show
-    from geneva_cli.specfile.designs import design, titles
-    from geneva_cli.specfile.json_schema import FILE
-    from geneva_cli.specfile.template import KINDS, example, template
+    from geneva_cli.specfile.keys import FILE
+    from geneva_cli.specfile.template import KINDS, design, example, template, titles
     from geneva_cli.table import Reading, rows_table
 
     if bool(kind) + bool(from_design) + list_ != 1:

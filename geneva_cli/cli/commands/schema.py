@@ -10,6 +10,6 @@ def run(output: Output = "-") -> None:
     import json
 
     from geneva_cli.output import show_text
-    from geneva_cli.specfile.json_schema import schema
+    from geneva_cli.specfile.keys import schema
 
     show_text(json.dumps(schema(), indent=1, ensure_ascii=False) + "\n", output)

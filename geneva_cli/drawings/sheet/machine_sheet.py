@@ -29,7 +29,7 @@ from geneva_cli.drawings.sheet.view import View
 from geneva_cli.drawings.sheet.wheel_views import draw_wheel
 from geneva_cli.geometry.board import chords
 from geneva_cli.geometry.plates import Group, Member, Plate, in_place, plates
-from geneva_cli.geometry.shapes import Circle, Point, at, bounds, bounds_of, mapped, two_arcs
+from geneva_cli.geometry.shapes import Circle, Point, at, bounds, bounds_of, placed, two_arcs
 from geneva_cli.geometry.sheet import HATCH, OUTLINE, Sheet, line, rectangle
 from geneva_cli.geometry.sphere_shell import Shell
 from geneva_cli.motion.mechanism import Mechanism
@@ -65,7 +65,7 @@ def sheet(parts: FlatParts) -> Sheet:
     faces = cut_faces(parts.members, 500.0 / largest)
     marked = {items[face.plate] for face in faces}
     tables = [
-        *round_parts((*parts.links.joined, *parts.spacers), mechanism),
+        *round_parts((*parts.links.joined, *parts.framed.spacers), mechanism),
         *_layout(mechanism),
     ]
 
@@ -174,7 +174,7 @@ def _views(rows: list[dict[str, Any]], parts: FlatParts, scale: float) -> Iterat
         view = begin(part.name, thick=False)
         draw_shaft(view, part)
         yield view
-    for plate in _plates_among(parts.bridge):
+    for plate in _plates_among(parts.framed.bridge):
         view = begin(plate.name)
         _, *through = (hole for hole in plate.holes if isinstance(hole, Circle))
         screws = {hole: sized.screw_hole(hole.radius) for hole in through}
@@ -182,7 +182,7 @@ def _views(rows: list[dict[str, Any]], parts: FlatParts, scale: float) -> Iterat
         yield view
     (frame,) = _plates_among([parts.frame])
     view = begin(frame.name)
-    threads = {h: sized.screw_hole(h.radius, tapped=True) for h in parts.frame_threads}
+    threads = {h: sized.screw_hole(h.radius, tapped=True) for h in parts.framed.threads}
     draw_frame(view, frame, threads)
     yield view
 
@@ -200,11 +200,12 @@ def cut_faces(members: Iterable[Member], scale: float) -> list[Face]:
     for own, plate in in_place(members):
         crossings: list[float] = []
         for shape in (plate.outline, *plate.holes):
-            scaled = mapped(shape, lambda p: (scale * p[0], scale * p[1]), lambda r: scale * r)
-            for x, y, u, v in chords(scaled).tolist():
+            scaled = placed(shape, scale=scale)
+            for p, q in chords(scaled).tolist():
                 # chords that follow each other share their ends within rounding, 1e-9 mm
-                if (round(y, 9) <= 0.0) != (round(v, 9) <= 0.0):
-                    crossings.append((x - y * (u - x) / (v - y)) / scale)
+                if (round(p.imag, 9) <= 0.0) != (round(q.imag, 9) <= 0.0):
+                    slope = (q.real - p.real) / (q.imag - p.imag)
+                    crossings.append((p.real - p.imag * slope) / scale)
         ends = sorted(crossings)
         spans = zip(ends[::2], ends[1::2], strict=True)
         faces += [Face(own, a, b) for a, b in spans if b - a > 1e-6]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import NamedTuple, TypeAlias
 
-from geneva_cli.geometry.shapes import Contour, Point, Shape, mapped
+from geneva_cli.geometry.shapes import Contour, Point, Shape, placed
 from geneva_cli.geometry.sheet import Label, Measure
 
 Box: TypeAlias = tuple[float, float, float, float]  # x0, y0, x1, y1
@@ -40,7 +40,7 @@ class Block(NamedTuple):
 
         measures = []
         for one in self.measures:
-            lines = mapped(Contour("", one.lines, closed=False), point).segments
+            lines = placed(Contour("", one.lines, closed=False), (dx, dy)).segments
             moved = one._replace(points=tuple(map(point, one.points)), lines=lines)
             label = one.label._replace(at=point(one.label.at))
             arrows = tuple(a._replace(tip=point(a.tip)) for a in one.arrows)
@@ -50,7 +50,7 @@ class Block(NamedTuple):
             self.y0 + dy,
             self.x1 + dx,
             self.y1 + dy,
-            tuple(mapped(s, point) for s in self.shapes),
+            tuple(placed(s, (dx, dy)) for s in self.shapes),
             tuple(label._replace(at=point(label.at)) for label in self.labels),
             tuple(measures),
         )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from heapq import merge
@@ -22,7 +23,7 @@ from geneva_cli.geometry.shapes import (
     Segment,
     Shape,
     legs,
-    mapped,
+    placed,
     polar,
 )
 from geneva_cli.geometry.sheet import CENTRE, LARGE, OUTLINE, SMALL, Label, Measure, line
@@ -47,14 +48,14 @@ class View:
         self.title, self.scale = title, scale
         self.fits = fits or Fits()  # how the part's sizes are written
         self.shapes: list[Shape] = []
-        self.corners: list[Array] = []  # start points of the chords of all shapes
+        self.corners: list[Array] = []  # start points of the chords of all shapes, complex
         self.measures: list[Measure] = []
         self.notes: list[str] = []  # below the title: remarks, and dimensions that did not fit
         self.board = Board()
 
     def draw(self, shape: Shape, layer: Layer) -> None:
         """Draw a shape on a layer."""
-        self._draw(mapped(shape, self._at, self._long)._replace(layer=layer))
+        self._draw(placed(shape, scale=self.scale)._replace(layer=layer))
 
     def draw_all(self, shapes: Iterable[Shape]) -> None:
         """Draw shapes as outlines."""
@@ -213,17 +214,14 @@ class View:
 
     def _draw(self, shape: Shape) -> None:
         self.shapes.append(shape)
-        self.corners.append(chords(shape)[:, :2])
+        self.corners.append(chords(shape)[:, 0])
         self.board.draw(shape)
 
     def _levels(self, turn: float, near: tuple[Point, ...]) -> Iterator[float]:
         """Yield levels for a dimension line, normal to its direction, nearest first."""
-        n = -math.sin(turn), math.cos(turn)
-        across = np.concatenate(self.corners) @ np.array(n)
+        places = np.array([complex(*p) for p in near]) if near else np.concatenate(self.corners)
+        across = (places * cmath.rect(1.0, -turn)).imag
         low, high = float(across.min()), float(across.max())
-        if near:
-            own = [p[0] * n[0] + p[1] * n[1] for p in near]
-            low, high = min(own), max(own)
         for k in range(2 * RANKS if near else RANKS):
             off = FIRST + (0.5 if near else 1.0) * k * NEXT
             # rounded to 1e-6 mm, so that rounding does not choose between equal distances

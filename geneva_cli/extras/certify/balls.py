@@ -3,9 +3,6 @@
 A ball holds every number within its radius of its middle. A formula of balls gives a ball that
 holds every value of the formula. F. Johansson, "Arb: efficient arbitrary-precision midpoint-radius
 interval arithmetic", IEEE Transactions on Computers 66 (2017).
-
-This ball never becomes a float, and never answers a comparison that it cannot decide. Otherwise
-``math.sin`` would return a float without a bound, and a test with an open answer would be False.
 """
 
 from __future__ import annotations
@@ -14,11 +11,11 @@ import math
 from bisect import bisect_left
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, ClassVar, NoReturn, Self, cast
+from typing import TYPE_CHECKING, Self, cast
 
 from flint import arb, ctx
 
-from geneva_cli.numerics.arrays import Enclosed, Number, Undecided
+from geneva_cli.numerics.arrays import Enclosed, EnclosedLibrary, Number, Undecided
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Library
@@ -43,12 +40,10 @@ class Ball(Enclosed):
     (True, (0.33333333333333326, 0.33333333333333337))
     >>> float(third)
     Traceback (most recent call last):
-    TypeError: a ball is no float
+    TypeError: an enclosure is no float
     """
 
     __slots__ = ("arb",)
-    __array_ufunc__ = None  # NumPy's numbers leave the arithmetic to the ball
-    library: ClassVar[Library]
 
     def __init__(self, value: arb) -> None:
         self.arb = value
@@ -127,12 +122,6 @@ class Ball(Enclosed):
         low, high = self.bounds()
         return f"Ball.between({low!r}, {high!r})"
 
-    def __float__(self) -> NoReturn:
-        raise TypeError("a ball is no float")
-
-    def __bool__(self) -> NoReturn:
-        raise TypeError("a ball has no truth value")
-
     def __neg__(self) -> Ball:
         return Ball(-self.arb)
 
@@ -141,35 +130,29 @@ class Ball(Enclosed):
 
     __add__ = _operator(arb.__add__)
     __sub__ = _operator(arb.__sub__)
-    __rsub__ = _operator(lambda x, y: y - x)
     __mul__ = _operator(arb.__mul__)
     __truediv__ = _operator(arb.__truediv__)
-    __rtruediv__ = _operator(lambda x, y: y / x)
 
     def __pow__(self, power: int) -> Ball:
         return Ball(self.arb**power)
 
     __radd__, __rmul__ = __add__, __mul__
 
+    def _decided(self, yes: bool, no: bool, other: object) -> bool:
+        """Return the answer to a comparison with ``other``; raises Undecided where it is open."""
+        if yes == no:
+            raise Undecided(f"{self!r} against {other!r}")
+        return yes
+
     def __lt__(self, other: Ball | float) -> bool:
-        limit = _arb(other)
-        return self._decided(self.arb < limit, self.arb >= limit, other)
+        return self._decided(self.arb < _arb(other), self.arb >= _arb(other), other)
 
     def __le__(self, other: Ball | float) -> bool:
-        limit = _arb(other)
-        return self._decided(self.arb <= limit, self.arb > limit, other)
-
-    def __gt__(self, other: Ball | float) -> bool:
-        return not self <= other
-
-    def __ge__(self, other: Ball | float) -> bool:
-        return not self < other
+        return self._decided(self.arb <= _arb(other), self.arb > _arb(other), other)
 
     def __eq__(self, other: object) -> bool:
         limit = _arb(cast("float", other))
         return self._decided(self.arb == limit, self.arb != limit, other)
-
-    __hash__ = None  # type: ignore[assignment]
 
 
 @contextmanager
@@ -196,7 +179,7 @@ def _of_one(f: Callable[[arb], arb]) -> Callable[[object, Ball | float], Ball]:
     return lambda _, x: Ball(f(_arb(x)))
 
 
-class _Balls:
+class _Balls(EnclosedLibrary):
     """The functions of ``math``, of balls."""
 
     sin, cos, sqrt, exp = map(_of_one, (arb.sin, arb.cos, arb.sqrt, arb.exp))
@@ -209,21 +192,11 @@ class _Balls:
     def atan2(self, y: Ball | float, x: Ball | float) -> Ball:
         return Ball(arb.atan2(_arb(y), _arb(x)))
 
-    def hypot(self, x: Ball | float, y: Ball | float) -> Ball:
-        return Ball((_arb(x) ** 2 + _arb(y) ** 2).sqrt())
-
-    def degrees(self, x: Ball | float) -> Ball:
-        return x * (180.0 / self.pi)
-
     def floor(self, x: Ball) -> float:
         low, high = (math.floor(bound) for bound in x.bounds())
         if low != high:
             raise Undecided(f"a whole number is inside {x!r}")
         return float(low)
-
-    def copysign(self, x: Ball | float, y: Ball | float) -> Ball:
-        size = abs(Ball(_arb(x)))
-        return size if y > 0.0 else -size
 
 
 Ball.library = cast("Library", _Balls())

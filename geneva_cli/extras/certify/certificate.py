@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias, cast
 
 from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.loads.contact import contact
-from geneva_cli.loads.cycle_quantities import FORCE, TORQUE
 from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.motion.engagement import Engagement
@@ -27,7 +26,6 @@ from geneva_cli.numerics.tolerances import TIE
 from geneva_cli.table import Table, rows_table
 
 if TYPE_CHECKING:
-    from geneva_cli.extras.certify.balls import Ball
     from geneva_cli.extras.certify.enclosures import BoundedSpan, Greatest
 
 # a jet of an order by the input angle, at an angle in degrees from mid-motion
@@ -36,8 +34,8 @@ LIMIT = 2000  # intervals a motion: 12 times what any design here takes, some se
 DIGITS = 15  # that are printed: as many as every double keeps
 NARROW_DEG = 1e-6  # a narrower place is one angle for people
 DERIVED = {"velocity": 0, "acceleration": 1, "jerk": 2}  # derivatives of the velocity
-WHEEL_TORQUE = "wheel_torque_Nm"
-LOADS = (WHEEL_TORQUE, FORCE, TORQUE)
+COLUMNS = ("quantity", "low", "high", "at_deg", "places", "proved", "intervals", "open")
+LOADS = ("wheel_torque_Nm", "pin_force_N", "input_torque_Nm")
 
 
 class Place(NamedTuple):
@@ -139,11 +137,12 @@ def not_proved(mechanism: Mechanism, quantity: str) -> str:
     """The reason why a load has no certificate; empty if it has one."""
     if not mechanism.spec.is_loaded:
         return f"no load: set {mechanism.spec.load_keys}"
-    if quantity != WHEEL_TORQUE and load_case(mechanism).guided:
-        return "friction in a rack's guide"
-    if quantity == WHEEL_TORQUE or mechanism.engagements[0].slot.walls_flat:
+    if quantity == "wheel_torque_Nm":
         return ""
-    return "the slot is curved, or gears drive for part of the motion"
+    if load_case(mechanism).guided:
+        return "friction in a rack's guide"
+    flat = mechanism.engagements[0].slot.walls_flat
+    return "" if flat else "the slot is curved, or gears drive for part of the motion"
 
 
 def certificate(mechanism: Mechanism, quantity: str, limit: int = LIMIT) -> Certificate:
@@ -164,32 +163,29 @@ def certificate(mechanism: Mechanism, quantity: str, limit: int = LIMIT) -> Cert
         raise GenevaError(f"{quantity}.max is not proved: {reason}")
     if find_spec("flint") is None:
         raise GenevaError('certificates need python-flint: pip install "geneva-cli[certify]"')
-    from geneva_cli.extras.certify.balls import ball_of, precision
+    from geneva_cli.extras.certify.balls import precision
     from geneva_cli.extras.certify.enclosures import greatest
 
-    def peak_of(rate: Formula) -> Formula:
-        def formula(x: Number, order: int) -> Jet:
-            if quantity == "power":
-                speed = rate(x, order + 1)
-                return speed.lower * speed.derivative()
-            jet = rate(x, order + DERIVED[quantity])
-            for _ in range(DERIVED[quantity]):
-                jet = jet.derivative()
-            return jet
-
-        return formula
-
+    of = _load if quantity in LOADS else _invariant
     peaks: list[Greatest] = []
     with precision():
         for e in mechanism.engagements:
-            formula = _load(mechanism, e, quantity) if quantity in LOADS else peak_of(e.motion.rate)
-
-            def curve(at: Ball, order: int, formula: Formula = formula) -> Sequence[Ball]:
-                return [ball_of(c) for c in formula(cast("Number", at), order).c]
-
             seams = {*e.motion.seams_deg, *e.slot.seams_deg}
-            peaks.append(greatest(curve, seams, limit))
+            peaks.append(greatest(of(mechanism, e, quantity), seams, limit))
     return _combined(mechanism, quantity, peaks)
+
+
+def _invariant(_: Mechanism, engagement: Engagement, quantity: str) -> Formula:
+    """An invariant of the motion as a jet by the input angle, at degrees from mid-motion."""
+    derived = DERIVED.get(quantity, 1)
+
+    def formula(x: Number, order: int) -> Jet:
+        jet = rate = engagement.motion.rate(x, order + derived)
+        for _ in range(derived):
+            jet = jet.derivative()
+        return rate.lower * jet if quantity == "power" else jet
+
+    return formula
 
 
 def _load(mechanism: Mechanism, engagement: Engagement, quantity: str) -> Formula:
@@ -229,7 +225,7 @@ def _load(mechanism: Mechanism, engagement: Engagement, quantity: str) -> Formul
             value = value.join(ball_of(other.c[0]))
         return Jet(cast("list[Number]", [value, *[NOWHERE] * first.order]))
 
-    return torque if quantity == WHEEL_TORQUE else load
+    return torque if quantity == "wheel_torque_Nm" else load
 
 
 def _combined(mechanism: Mechanism, quantity: str, peaks: Sequence[Greatest]) -> Certificate:
@@ -274,10 +270,8 @@ def _outwards(x: float, rounding: str) -> str:
 def with_certificates(peaks: Table, mechanism: Mechanism, for_people: bool) -> Table:
     """A record of peaks with the certificates of all: a table of them, or a text each."""
     proofs = [certificate(mechanism, quantity) for quantity in QUANTITIES]
-    rows = [_row(one) for one in proofs]
-    table = rows_table(tuple(rows[0]), [tuple(row.values()) for row in rows])
-    texts = [one.text for one in proofs]
-    value = tuple(texts) if for_people else table
+    texts = tuple(one.text for one in proofs)
+    value = texts if for_people else rows_table(COLUMNS, [*map(_row, proofs)])
     return peaks.replaced(names=(*peaks.names, "certificate"), columns=[*peaks.columns, (value,)])
 
 
@@ -289,17 +283,14 @@ def load_certificates(mechanism: Mechanism, for_people: bool) -> Table | tuple[s
     if for_people:
         refused = [f"{name}.max not proved: {why}" for name, why in reasons.items() if why]
         return (*[one.text for one in proofs.values()], *refused)
-    names = ("quantity", "low", "high", "at_deg", "places", "proved", "intervals", "open")
-    none: dict[str, object] = dict.fromkeys(names) | {"places": (), "proved": False, "intervals": 0}
-    rows = [
-        (_row(proofs[name]) if name in proofs else none | {"quantity": name}) | {"why": why or None}
-        for name, why in reasons.items()
-    ]
-    return rows_table(tuple(rows[0]), [tuple(row.values()) for row in rows])
+    rows: list[tuple[object, ...]] = []
+    for name, why in reasons.items():
+        none = (name, None, None, None, (), False, 0, None)
+        rows.append((*(none if why else _row(proofs[name])), why or None))
+    return rows_table((*COLUMNS, "why"), rows)
 
 
-def _row(one: Certificate) -> dict[str, object]:
-    names = "quantity low high at_deg places proved intervals open"
-    row = {name: getattr(one, name) for name in names.split()}
-    row["places"] = tuple(map(tuple, one.places))
-    return row | {"open": None if one.open is None else one.open._asdict()}
+def _row(one: Certificate) -> tuple[object, ...]:
+    places, open_ = tuple(map(tuple, one.places)), one.open and one.open._asdict()
+    bounds = one.quantity, one.low, one.high, one.at_deg
+    return (*bounds, places, one.proved, one.intervals, open_)

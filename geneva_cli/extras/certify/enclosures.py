@@ -16,15 +16,16 @@ import heapq
 import math
 from collections.abc import Callable, Iterable, Sequence
 from itertools import pairwise
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias, cast
 
-from geneva_cli.extras.certify.balls import NOWHERE, Ball
+from geneva_cli.extras.certify.balls import NOWHERE, Ball, ball_of
 from geneva_cli.numerics.angles import distinct
 from geneva_cli.numerics.arrays import Undecided
+from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.numerics.tolerances import TIE
 
-# Taylor coefficients 0 to order at a ball of degrees, by the angle in radians
-Curve: TypeAlias = Callable[[Ball, int], "Sequence[Ball]"]
+# the jet of an order at a ball of degrees, by the angle in radians
+Formula: TypeAlias = Callable[[Number, int], Jet]
 
 ORDER = 5
 # An end of a piece is a double that rounding may have moved: by 8 units in the last place of 180
@@ -78,21 +79,21 @@ class _Piece(NamedTuple):
         return a - EDGE_DEG * begins, b + EDGE_DEG * ends
 
 
-def greatest(curve: Curve, seams: Iterable[float], limit: int) -> Greatest:
-    """The greatest size of a curve from first to last seam, with at most so many intervals."""
+def greatest(formula: Formula, seams: Iterable[float], limit: int) -> Greatest:
+    """The greatest size of a formula from first to last seam, with at most so many intervals."""
     ends = sorted(seams)
     pieces = [
         _Piece(a, b, a == ends[0], b == ends[-1])
         for a, b in pairwise(distinct(ends, 4.0 * EDGE_DEG))  # as near as their errors: one
     ]
-    return _Search(curve, limit).run(pieces)
+    return _Search(formula, limit).run(pieces)
 
 
 class _Search:
     """Branch and bound, the interval with the highest bound first."""
 
-    def __init__(self, curve: Curve, limit: int) -> None:
-        self.curve, self.limit = curve, limit
+    def __init__(self, formula: Formula, limit: int) -> None:
+        self.formula, self.limit = formula, limit
         self.low, self.examined = 0.0, 0
         self.candidates: list[BoundedSpan] = []
         self.ends: list[BoundedSpan] = []  # ends of halved intervals, which are no peaks
@@ -208,7 +209,7 @@ class _Search:
     def _values(self, at: Ball, order: int) -> Sequence[Ball]:
         """Taylor coefficients at a ball; of a place where none are known, balls without bounds."""
         try:
-            return self.curve(at, order)
+            return [ball_of(c) for c in self.formula(cast("Number", at), order).c]
         except Undecided:
             return [NOWHERE] * (order + 1)
 

@@ -18,10 +18,9 @@ from geneva_cli.geometry.shapes import (
     Circle,
     Contour,
     Cubic,
-    Line,
     Point,
     closed,
-    turned_pieces,
+    placed,
     two_arcs,
 )
 from geneva_cli.motion.machine_spec import Spec
@@ -159,15 +158,9 @@ def _drawn(spec: Spec, part: str, notes: list[Notice]) -> tuple[tuple[Loop, ...]
     path = below(os.path.dirname(spec.path), file)
     drawn = read_drawing(path)
     notes += [Notice("outline-units", f"{cut(file, 100)}: {text}") for text in drawn.notes]
-    pieces = list(drawn.pieces)
-    if outline["mirror"] in (part, "both"):
-        for i, piece in enumerate(pieces):
-            (x0, y0), (x1, y1) = piece.start, piece.end
-            pieces[i] = Line((x0, -y0), (x1, -y1))
-            if isinstance(piece, Arc):
-                pieces[i] = Arc((x0, -y0), (x1, -y1), -piece.bulge)
-    turn = math.radians(outline[f"{part}_turn_deg"])
-    pieces = [p for p in turned_pieces(pieces, turn) if not isinstance(p, Cubic)]
+    turn, over = math.radians(outline[f"{part}_turn_deg"]), outline["mirror"] in (part, "both")
+    shape = placed(Contour("", tuple(drawn.pieces)), turn=turn, mirror=over)
+    pieces = [p for p in shape.segments if not isinstance(p, Cubic)]
     try:
         own = tuple(loops(pieces))
     except GenevaError as error:
@@ -220,7 +213,7 @@ def _round(roller: Circle) -> Contour:
 def _roller(loop: Loop) -> Circle | None:
     """An outline that is a full circle beside the crank's axis, as one."""
     first, *_ = pieces = loop.contour.segments
-    if loop.is_hole or not isinstance(first, Arc):
+    if loop.depth % 2 or not isinstance(first, Arc):
         return None
     near = 1e-6 * first.radius
     for p in pieces:

@@ -13,8 +13,7 @@ from geneva_cli.extras.outline.machine import drawn_machine
 from geneva_cli.extras.outline.real_motion import at_crank, inside, motion, steady_turn
 from geneva_cli.extras.outline.turning import moving, turned
 from geneva_cli.figure import Curve
-from geneva_cli.geometry.plates import placed
-from geneva_cli.geometry.shapes import Contour, Layer
+from geneva_cli.geometry.shapes import Contour, Layer, placed
 from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.motion_table import first_entry_deg

@@ -104,7 +104,7 @@ def _one_sense(
     out: list[LazyTurn] = []
     at, drift = machine.rest, 0.0
     for k in range(max(1, round(z / a_turn))):
-        turn = turner.turn(at, 1, way, exact)
+        turn = turner.turn(at, way, exact)
         out.append(turn)
         if turn.jam is not None or not len(turn.wheel):
             return SenseResult(way, tuple(out), k * a_turn, drift)
@@ -126,7 +126,7 @@ def turning(result: Turned) -> tuple[float, float] | None:
     _, low, high = result.rest
 
     def goes(rest: float) -> bool:
-        return all(_goes_on(machine, turner.turn(rest, 1, way, exact=False), way) for way in SENSES)
+        return all(_goes_on(machine, turner.turn(rest, way, exact=False), way) for way in SENSES)
 
     middle = min(max(machine.rest, low), high)
     # a lock leaves a short range, and a detent puts the wheel back; else it may stand anywhere

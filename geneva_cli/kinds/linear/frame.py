@@ -59,9 +59,9 @@ def shafts_and_frame(mechanism: Mechanism) -> FrameAndShafts:
     own: list[Shaft] = []
     if radius:  # the crank's shaft, up to the arm's upper face
         low, high = shaft_ends(size, "crank", heights.plain, heights.stands)
-        bore = bore_of(size, "crank", radius)
         # the keyway is on the side of the locking sector, as in the arm
-        crank = Shaft("crank's shaft", "crank", bore, low, high, axis, math.pi, math.pi)
+        bore = bore_of(size, "crank", radius)._replace(direction=math.pi)
+        crank = Shaft("crank's shaft", "crank", bore, low, high, axis, math.pi)
         own.append(crank)
     if mechanism.spec.gears:
         own += gear_shafts(mechanism, None, heights.plain, True, radius)

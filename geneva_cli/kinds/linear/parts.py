@@ -151,7 +151,8 @@ class RackParts(EdgedParts):
         return tuple(Member(plate) for plate in guide(self.mechanism))
 
     @cached_property
-    def _framed(self) -> FrameAndShafts:
+    def framed(self) -> FrameAndShafts:
+        """The frame and the shafts."""
         self._require_built()
         return shafts_and_frame(self.mechanism)
 
@@ -177,7 +178,7 @@ class RackParts(EdgedParts):
             )
             if holes
         ]
-        return (*own, *(self._framed.screws if self.mechanism.spec.has_parts else ()))
+        return (*own, *(self.framed.screws if self.mechanism.spec.has_parts else ()))
 
     @property
     def standing(self) -> tuple[Member, ...]:

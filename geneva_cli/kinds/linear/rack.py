@@ -16,7 +16,7 @@ from geneva_cli.geometry.shapes import Circle, Contour, Line, Segment, about, cl
 from geneva_cli.kinds.linear.guide import GuidePlace, guide_place
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import half_or, value_or
-from geneva_cli.parts.machine_sizes import lock_between, require_lock_between
+from geneva_cli.parts.machine_sizes import lock_between
 from geneva_cli.parts.shafts.arm_and_shafts import CrankArm
 from geneva_cli.parts.shafts.bores import bolt_radius, bore_of, tapped
 from geneva_cli.parts.sizes import (
@@ -94,10 +94,8 @@ def rack_sizes(mechanism: Mechanism) -> RackSizes:
             f"and it must reach {least:.4g}; use a smaller roller, or lock_radius_mm = 0",
             ("size", "lock_radius_mm"),
         )
-    if lock is None:
-        lock = lock_between(least, limit, r)
-    elif lock:
-        require_lock_between(lock, least, limit)
+    if lock != 0.0:
+        lock = lock_between(lock, least, limit, r)
     recess = lock + allowed.lock_clearance_mm if lock else 0.0
     floor = arm - recess + relief if lock else 0.0
     edge = value_or(size.wheel_radius_mm, arm)

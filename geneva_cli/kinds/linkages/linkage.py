@@ -33,7 +33,6 @@ class Linkage(PinPath, kw_only=True):
     """
 
     LOCKS: ClassVar[bool] = False
-    LENGTH: ClassVar[str] = "crank_mm in [drive]"
     CARRIER: ClassVar[str]  # link that carries the roller
     LENGTHS: ClassVar[Mapping[str, str]]  # their keys by their names
     entry_deg: Annotated[

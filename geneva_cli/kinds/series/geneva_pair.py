@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 from geneva_cli.drives.pushed import PushedCrank
 from geneva_cli.drives.transmission import LocalTransmission, Transmission
 from geneva_cli.motion.compatible import Conflict, of_transmission, several_rollers
-from geneva_cli.motion.drive import FirstWheel, Plan
+from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.engagement import Vector
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot, ShaftPlace
@@ -102,9 +102,9 @@ class GenevaPair(Transmission, kw_only=True):
             Link("first wheel", ((still + L, still),), (shaft,), 2, first * step.sin_cos[1]),
         )
 
-    def first_wheel(self, L: float) -> FirstWheel:
+    def first_wheel(self, L: float) -> tuple[int, float]:
         """Slots of the first wheel, and its centre distance."""
-        return FirstWheel(self.first_z, self._distance_mm(L))
+        return self.first_z, self._distance_mm(L)
 
     def _distance_mm(self, L: float) -> float:
         return L if self.first_distance_mm is None else self.first_distance_mm

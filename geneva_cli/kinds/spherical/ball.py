@@ -16,13 +16,15 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import value_or
-from geneva_cli.parts.machine_sizes import lock_between, require_lock_between
+from geneva_cli.parts.machine_sizes import lock_between
 from geneva_cli.parts.sizes import (
     arm_bore,
     drawn_thicknesses,
+    hole_radius,
+    pin_and_edge_faults,
     pin_radius,
     reach_and_hub,
-    refuse_pin_and_edges,
+    refuse,
     wheel_bore,
 )
 from geneva_cli.spec.defaults import wall_min
@@ -171,7 +173,7 @@ def usual_ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
             )
     pin = pin_radius(size, radius_mm)
     thin = min(thick.wheel, thick.lock, thick.arm)
-    refuse_pin_and_edges(size, pin, inside * math.sin(roller), thin)
+    refuse(pin_and_edge_faults(size, pin, inside * math.sin(roller), thin))
     # the locking sectors' edge is between the wheel's rim and the rollers
     limit, least = arm - w - allowed.lock_clearance_mm / L, abs(deepest + arm - rim)
     lock_mm = _lock_mm(spec, L, least, limit, roller) if spec.has_lock else 0.0
@@ -260,9 +262,8 @@ def _lock_mm(spec: Spec, L: float, least: float, limit: float, roller: float) ->
         )
     own = spec.size.lock_radius_mm
     if own is None:
-        return L * math.sin(lock_between(least, limit, roller))
-    require_lock_between(own, low, high)
-    return own
+        return L * math.sin(lock_between(None, least, limit, roller))
+    return lock_between(own, low, high, 0.0)
 
 
 def hub_about(size: Size, L: float, bore: float, end: float) -> float:
@@ -270,11 +271,6 @@ def hub_about(size: Size, L: float, bore: float, end: float) -> float:
     wall = wall_min(size, L)
     bored, hub = reach_and_hub(size, "wheel", bore, wall, end)
     return bore if size.wheel_hub_mm is None and hub < bored + wall else hub
-
-
-def hole_radius(size: Size, pin: float) -> float:
-    """Return the radius of a pin's hole; ``pin_hole`` refuses a pin that leaves none."""
-    return pin - 0.5 * size.allowances.press_fit_mm
 
 
 def flat_radius(inner: float, outer: float) -> float:

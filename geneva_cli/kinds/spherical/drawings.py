@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from functools import partial
 from itertools import chain
 from typing import NamedTuple
 
@@ -31,7 +30,7 @@ from geneva_cli.geometry.shapes import (
     bounds,
     closed,
     joined,
-    mapped,
+    placed,
 )
 from geneva_cli.geometry.sheet import Annotations, Drawing
 from geneva_cli.geometry.sphere import Region, SphereArc
@@ -78,14 +77,6 @@ class Cone(NamedTuple):
     def within(self, parts: SphereParts) -> Cone:
         """Return the cone with the accuracy of the parts."""
         return self._replace(tolerance_mm=parts.tolerance or 0.0, curves=parts.curves)
-
-    def turned(self, at: Point, azimuth: float) -> Point:
-        """Return a point of the flat cone after the sphere is turned about z."""
-        x, y = at
-        turn = azimuth * math.cos(self.polar)
-        moved = self.point(self.polar, azimuth)
-        c, s = math.cos(turn), math.sin(turn)
-        return moved[0] + x * c - y * s, moved[1] + x * s + y * c
 
     def region(self, layer: Layer, region: Region, about: float) -> Contour:
         """Return a region laid flat, whose azimuths are within half a turn of ``about``."""
@@ -172,7 +163,7 @@ def assembly(parts: SphereParts) -> Drawing:
     # wheel and crank are 0.1 of the sphere's radius apart
     shift = 0.1 * parts.ball.radius_mm + max(bounds(shape).x1 for shape in left)
     shift -= min(bounds(shape).x0 for shape in right)
-    moved = [mapped(shape, lambda p: (p[0] + shift, p[1])) for shape in right]
+    moved = [placed(shape, (shift, 0.0)) for shape in right]
     whole = Group(title, parts.members)
     return _drawing(parts, title, [*left, *moved], whole)._replace(look=Annotations())
 
@@ -210,7 +201,8 @@ def wheel_flat(parts: SphereParts) -> list[Shape]:
     outer: list[Segment] = []
     pitch: list[Shape] = []
     for k in range(ball.z):
-        *walls, axis = mapped(both, partial(cone.turned, azimuth=2 * k * b)).segments
+        at, turn = cone.point(cone.polar, 2 * k * b), 2 * k * b * math.cos(cone.polar)
+        *walls, axis = placed(both, at, turn).segments  # as the sphere is turned about z
         outer += walls
         pitch.append(Contour("PITCH", (axis,), closed=False))
     inner = [cone.point(ball.inner, (2 * k - 1) * b) for k in range(ball.z + 1)][::-1]

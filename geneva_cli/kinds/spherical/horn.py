@@ -50,7 +50,7 @@ class SphereHorn(NamedTuple):
     def unit_stress(
         self, roller: Array, rub: Array, sections: Array, width_mm: float
     ) -> tuple[Array, Array, Array]:
-        """Von Mises stress at sections under 1 N, as ``horn.HornSide`` describes."""
+        """Von Mises stress at sections under 1 N, as ``horn.Horn`` describes."""
         t0, t = self.polar(roller)[..., None], self.polar(sections)
         thick = self.thickness(t)
         every = self.radius_mm, self.half_width, width_mm

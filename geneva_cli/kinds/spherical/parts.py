@@ -19,7 +19,6 @@ from geneva_cli.geometry.plates import (
     Member,
     Plate,
     added,
-    inwards,
     mass_properties,
 )
 from geneva_cli.geometry.shapes import ORIGIN, Circle
@@ -39,7 +38,7 @@ from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.projection import NamedParts
 from geneva_cli.parts.shafts.arm_and_shafts import Shaft, shaft_ends
 from geneva_cli.parts.shafts.bores import bore_of, has_shape
-from geneva_cli.parts.sizes import refuse_thin_hub
+from geneva_cli.parts.sizes import hub_faults, refuse
 from geneva_cli.spec.defaults import wall_min, wheel_material
 from geneva_cli.spec.tables import Size
 
@@ -170,7 +169,9 @@ class SphereParts(Parts):
         for one, frame in own:
             part = one.member.part
             assert isinstance(part, Plate)
-            members.append(Member(inwards(part, outside), frame=frame))
+            # heights become distances inwards
+            part = part._replace(low=outside - part.high, high=outside - part.low)
+            members.append(Member(part, frame=frame))
         return tuple(members)
 
     @property
@@ -206,7 +207,7 @@ def wheel_hub(size: Size, ball: Ball) -> Plate | None:
     inside, outside = ball.span_mm
     refuse_wide("wheel_hub_mm", ball.hub_mm, inside, outside)
     form = bore_of(size, "wheel", ball.bore_mm)
-    refuse_thin_hub("wheel", ball.hub_mm, form.reach, ball.bore_mm)
+    refuse(hub_faults("wheel", ball.hub_mm, form.reach, ball.bore_mm))
     bored = (form.shape("BORE", ball.half_step),) if ball.bore_mm else ()
     span = inside, inside + ball.hub_length_mm(size)
     return Plate("wheel's hub", "HUB", Circle("HUB", ORIGIN, ball.hub_mm), bored, *span)

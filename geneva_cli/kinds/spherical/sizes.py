@@ -15,16 +15,15 @@ from geneva_cli.kinds.spherical.ball import (
     Ball,
     PartDoesNotFit,
     flat_radius,
-    hole_radius,
     hub_about,
     usual_ball,
 )
 from geneva_cli.kinds.spherical.horn import sphere_horns
 from geneva_cli.kinds.spherical.regions import sectors
-from geneva_cli.loads.strength.horn import single_stress
+from geneva_cli.loads.strength.horn import greatest_stress
 from geneva_cli.loads.strength.lock import dwell_torque_Nm
-from geneva_cli.loads.strength.part_loads import LoadedShaft, shafts_under_load, single_loads
-from geneva_cli.loads.strength.pin_arm_key import NO_ARM, NO_KEY, ArmDimensions, arm_stress_MPa
+from geneva_cli.loads.strength.part_loads import shaft_squares, single_loads
+from geneva_cli.loads.strength.pin_arm_key import NO_ARM, ArmDimensions, arm_stress_MPa
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import half_or, value_or
@@ -40,7 +39,14 @@ from geneva_cli.parts.sized_by_load import (
     shaft_and_key_hold,
     shaft_of,
 )
-from geneva_cli.parts.sizes import LARGEST_HUB, KeySizes, arm_hub, hub_and_eye, within_hub
+from geneva_cli.parts.sizes import (
+    LARGEST_HUB,
+    KeySizes,
+    arm_hub,
+    hole_radius,
+    hub_and_eye,
+    within_hub,
+)
 from geneva_cli.spec.defaults import eye_about, wall_min, wheel_material
 
 
@@ -142,8 +148,7 @@ def ball(mechanism: Mechanism) -> Ball:
             trial = _crank_bored(mechanism, _wheel_bored(mechanism, trial), keyed)
             parts = sphere_stressed(spec, trial)
             arm_MPa = float(arm_stress_MPa(parts.arm, loads.wheel_N))
-            key = parts.crank_key
-            key_lasts = key is NO_KEY or key_holds(spec, key, loads.crank_Nm)
+            key_lasts = key_holds(spec, parts.crank_key, loads.crank_Nm)
             if key_lasts and keeps(arm_MPa, "at most", wheel_material(spec).allowed_MPa):
                 return trial
     return trial
@@ -156,7 +161,7 @@ def _horn_thickness_mm(mechanism: Mechanism, usual: Ball) -> float:
     least = usual.span_mm[1] - usual.span_mm[0]
     # a thicker wheel bends its pins more than its horns
     for thick in sizes_from(least, 2.0 * least):
-        horn = single_stress(sphere_horns, mechanism, angles, thick).single
+        horn = greatest_stress(sphere_horns, mechanism, angles, thick).single
         if keeps(horn.stress_MPa if horn else 0.0, "at most", allowed):
             break
     return thick
@@ -225,8 +230,8 @@ def _crank_bored(mechanism: Mechanism, ball: Ball, keyed: bool) -> Ball:
 @lru_cache(maxsize=64)
 def _moment_Nm(mechanism: Mechanism, part: str, overhang_mm: float) -> float:
     """Return the greatest equivalent torque of a shaft; it needs a search of the whole cycle."""
-    (one,) = shafts_under_load(mechanism, [LoadedShaft(part, overhang_mm)])
-    return one["moment_Nm"].item() if one else 0.0
+    squares = shaft_squares(mechanism, {part: overhang_mm})
+    return math.sqrt(squares[part].max.item()) if squares else 0.0
 
 
 def sphere_stressed(spec: Spec, ball: Ball) -> Stressed:

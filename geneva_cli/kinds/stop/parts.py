@@ -99,9 +99,11 @@ def stop(parts: Parts) -> Values:
     stops = wheel_stop(outlines)
     assert stops is not None  # the wheel has a convex face
     force, stress = stop_contact(parts.mechanism, stops.lever_mm, outlines.sizes.rim)
-    names = "turns", "first_deg", "last_deg", "overlap_mm", "lever_mm"
-    own: Values = {name: getattr(stops, name) for name in names}
-    return own | {"force_N": force, "contact_stress_MPa": stress}
+    return {
+        **{"turns": stops.turns, "first_deg": stops.first_deg, "last_deg": stops.last_deg},
+        **{"overlap_mm": stops.overlap_mm, "lever_mm": stops.lever_mm},
+        **{"force_N": force, "contact_stress_MPa": stress},
+    }
 
 
 def stop_contact(
@@ -139,29 +141,24 @@ def standing(names: Collection[str], parts: FlatParts) -> Iterator[Check]:
     if "stop_turns" in names:
         before = float(clearances_before(outlines, stop).min())
         beyond = float(clearances_before(outlines, stop, past_deg=1.0)[:, -1].max())
-        passes = False
-        if stop.face_mm < 0.0:
-            text = "the disc meets the mouth of a slot, not the face"
-        elif before < -parts.contact:
-            text = f"disc and wheel overlap by {-before:.4g} mm before the stop"
-        elif beyond > -parts.contact:
-            text = "the disc slips past the face: a degree beyond the stop they do not overlap"
-        else:
-            passes = True
+        passes = stop.face_mm >= 0.0 and before >= -parts.contact >= beyond
+        text = (
+            f"the face blocks the crank at {stop.first_deg:.4g} and {stop.last_deg:.6g}° from the "
+            f"middle of its first engagement: {stop.turns:.4f} turns"
+        )
+        if not passes:
             text = (
-                f"the face blocks the crank at {stop.first_deg:.4g} and {stop.last_deg:.6g}° from "
-                f"the middle of its first engagement: {stop.turns:.4f} turns"
+                f"disc and wheel are {before:.4g} mm apart before the stop, and {beyond:.4g} mm a "
+                f"degree beyond; the mouth of a slot is {stop.face_mm:.4g} mm away on the face"
             )
         yield Check("stop_turns", stop.turns, "at most", float(z), passes, text)
     yield compared("stop_overlap_mm", stop.overlap_mm, "at least", outlines.sizes.wall_min)
     limit, name = parts.mechanism.spec.limits.stop_stress_max_MPa, "stop_stress_max_MPa"
     if limit is None:
         return
-    force, value = stop_contact(parts.mechanism, stop.lever_mm, outlines.sizes.rim)
+    _, value = stop_contact(parts.mechanism, stop.lever_mm, outlines.sizes.rim)
     if value is None:
-        needs = "lock_edge_mm in [size]: the end of the disc is sharp"
-        if force is None:
-            needs = "winding_torque_Nm in [load]"
+        needs = "lock_edge_mm in [size], for a sharp end has no stress, and winding_torque_Nm"
         yield Check(name, None, "at most", limit, None, f"not known: it needs {needs}")
     else:
         yield compared(name, value, "at most", limit)

@@ -58,21 +58,32 @@ class RestingAxis(NamedTuple):
     @staticmethod
     def of(engagement: Engagement) -> RestingAxis | None:
         """The axis of an engagement's straight slot."""
-        engagement = engagement.through
-        anchor = engagement.motion.entry
-        if anchor is None or engagement.built is not None:
+        whole = engagement.through
+        anchor = whole.motion.entry
+        if anchor is None or whole.built is not None:
             return None
-        x, y = engagement.slot(0.5 * engagement.entry_deg, 1)  # any place in a straight slot
+        x, y = whole.slot(0.5 * whole.entry_deg, 1)  # any place in a straight slot
         (px, u), (py, v) = x.c, y.c
         m = library(px)
         sense = m.copysign(1.0, px * u + py * v)
-        hub, ahead = engagement.hub, engagement.half_step - m.atan2(sense * v, sense * u)
+        hub, ahead = whole.hub, whole.half_step - m.atan2(sense * v, sense * u)
         offset, along = parameter(hub * m.sin(ahead)), parameter(hub * m.cos(ahead))
         return RestingAxis(engagement, anchor, offset, along)
 
+    @property
+    def through(self) -> Engagement:
+        """The engagement whose roller runs through the whole slot."""
+        return self.engagement.through
+
+    @staticmethod
+    def each(mechanism: Mechanism) -> list[RestingAxis]:
+        """The axes of all engagements; none for slots that are solved for, and as built."""
+        every = map(RestingAxis.of, mechanism.engagements)
+        return [axis for axis in every if axis is not None]
+
     def offset(self, crank: N, center: N) -> N:
         """Distance over L of the true path from the axis where the path with errors crosses it."""
-        arm = self.hub_offset + self.engagement.slot.offset  # from the slot's axis
+        arm = self.hub_offset + self.through.slot.offset  # from the slot's axis
         return (crank * arm - center * self.hub_offset) / (1.0 + crank)
 
     def distance(self, tau: Array) -> tuple[Array, Array]:
@@ -81,21 +92,15 @@ class RestingAxis(NamedTuple):
         return value, slope
 
 
-def first_contacts(
-    engagement: Engagement, crank: Number, center: Number = 0.0
-) -> FirstContacts | None:
+def first_contacts(axis: RestingAxis, crank: Number, center: Number = 0.0) -> FirstContacts:
     """First contacts with the axis for relative errors of the crank's radius and of L: (m, 1) each.
 
-    NaN if a roller never reaches the slot's axis, and meets the mouth, or if there are no errors.
-    None for slots and grooves that are solved for. A radial slot has sin(phi + b) = sin b / l
-    there.
+    NaN if a roller never reaches the slot's axis, and meets the mouth, or if there are no errors. A
+    radial slot has sin(phi + b) = sin b / l there.
     """
-    axis = RestingAxis.of(engagement)
-    if axis is None:
-        return None
     # The roller comes from one side, ``before``. At a true entry it stays on that side (a circle)
     # or crosses to the other (a path with an inflection).
-    span = 0.5 * axis.engagement.motion_deg * DEGREE
+    span = 0.5 * axis.through.motion_deg * DEGREE
     before = axis.distance(np.atleast_2d(-1e-3 * span))[0]
     offset = np.atleast_2d(axis.offset(crank, center)) + 0.0 * before
     with np.errstate(all="ignore"):
@@ -111,7 +116,7 @@ def first_contacts(
     along, across = axis.anchor.displacement(tau, 1)
     moved = (center - crank) / (1.0 + crank) * axis.along
     jump = across.arrays()[1] / (along.arrays()[0] + axis.anchor.along + moved)
-    return FirstContacts(np.ravel(engagement.entry_deg + tau / DEGREE), np.ravel(jump))
+    return FirstContacts(np.ravel(axis.engagement.entry_deg + tau / DEGREE), np.ravel(jump))
 
 
 def _first_roots(
@@ -142,7 +147,7 @@ class _Corner(NamedTuple):
     def roller(self, tau: Array) -> tuple[Jet, Jet, Jet]:
         """Roller centre ``tau`` radians of the input after the true entry."""
         axis, longer = self.axis, 1.0 + self.crank
-        slot, anchor = axis.engagement.slot, axis.anchor
+        slot, anchor = axis.through.slot, axis.anchor
         x, y = anchor.displacement(tau, 1)
         x = (x + anchor.along) * longer - (self.crank - self.center) * axis.along
         y = (y - axis.offset(self.crank, self.center)) * longer - slot.offset
@@ -165,7 +170,7 @@ class _Corner(NamedTuple):
         is at ``along`` and ``top``. Centre P and corner C keep their distance at the speed
         (P - C) . P' / (P - C) . (z x C).
         """
-        engagement = self.axis.engagement
+        engagement = self.axis.through
         span = 0.5 * engagement.motion_deg * DEGREE
         x, _, z = self.roller(np.atleast_2d(0.0 * span))
         # its distance outside, and its speed outwards
@@ -183,29 +188,25 @@ class _Corner(NamedTuple):
 
 
 def mouth_contacts(
-    engagement: Engagement,
+    axis: RestingAxis,
     crank: Number,
     center: Number,
     roller: Number,
     clearance: Number,
     rounding: Number = 0.0,
-) -> FirstContacts | None:
+) -> FirstContacts:
     """First contacts with the mouth's corners; NaN if the roller touches none.
 
     ``crank`` and ``center`` are relative errors, ``roller`` is the roller's radius, ``clearance``
-    that of the slot per side, ``rounding`` the radius of the corners, all over L. None for slots
-    that are solved for. The mouth lies across the slot where the roller should enter. An arm that
-    is too short strikes the corner beside the crank's axis, forwards; one that is too long the
-    other, backwards. On a sharp corner the jump is about tan b sqrt(2 eps) sqrt((R -+ r)/r), eps
-    beyond the clearance. A corner rounded by c acts like a sharp one on a roller of r + c. On a
-    sphere centre and corner are directions.
+    that of the slot per side, ``rounding`` the radius of the corners, all over L. The mouth lies
+    across the slot where the roller should enter. An arm that is too short strikes the corner
+    beside the crank's axis, forwards; one that is too long the other, backwards. On a sharp corner
+    the jump is about tan b sqrt(2 eps) sqrt((R -+ r)/r), eps beyond the clearance. A corner rounded
+    by c acts like a sharp one on a roller of r + c. On a sphere centre and corner are directions.
     """
-    axis = RestingAxis.of(engagement)
-    if axis is None:
-        return None
-    slot, along, wide = axis.engagement.slot, axis.anchor.along, roller + clearance
+    slot, along, wide = axis.through.slot, axis.anchor.along, roller + clearance
     if np.any(rounding):  # its circle touches wall and rim
-        x, y = engagement.slot(0.0, 0)
+        x, y = slot(0.0, 0)
         sign = np.where(np.hypot(x.c[0], y.c[0]) < along, 1.0, -1.0)
         rim = np.hypot(along, wide)
         square = along * along - 2.0 * sign * rounding * (rim + sign * wide)
@@ -226,7 +227,7 @@ def mouth_contacts(
         (one, forwards), (other, backwards) = found
         tau = np.fmin(one, other)
         jump = np.where(tau == one, forwards, backwards)
-    return FirstContacts(np.ravel(engagement.entry_deg + tau / DEGREE), np.ravel(jump))
+    return FirstContacts(np.ravel(axis.engagement.entry_deg + tau / DEGREE), np.ravel(jump))
 
 
 def entry_impacts(
@@ -238,25 +239,22 @@ def entry_impacts(
     corner of the mouth where the slot is too narrow. A jump below 0 strikes the wheel backwards.
     """
     best = np.full((2, 1), np.nan)
-    for engagement in mechanism.engagements:
-        every = [first_contacts(engagement, *e) for e in _errors(mechanism, engagement, fraction)]
-        for contacts in (*every, *_on_mouth(mechanism, engagement, fraction)):
-            if contacts is not None:
-                best = harder(best, shown(mechanism, engagement, *contacts))
+    for axis in RestingAxis.each(mechanism):
+        every = [first_contacts(axis, *error) for error in _errors(mechanism, axis, fraction)]
+        for contacts in (*every, *_on_mouth(mechanism, axis, fraction)):
+            best = harder(best, shown(mechanism, axis.engagement, *contacts))
     return with_force(mechanism, best, pin)
 
 
 def _errors(
-    mechanism: Mechanism, engagement: Engagement, fraction: float
+    mechanism: Mechanism, axis: RestingAxis, fraction: float
 ) -> Iterator[tuple[float, float]]:
     """Greatest relative errors of R and L that act across the slot, in both directions."""
-    spec, L, axis = mechanism.spec, mechanism.center_distance_mm, RestingAxis.of(engagement)
-    if axis is None:  # a slot that is solved for has no contacts
-        return
-    arm = arm_mm(mechanism, engagement)
+    spec, L = mechanism.spec, mechanism.center_distance_mm
+    arm = arm_mm(mechanism, axis.engagement)
     crank = fraction * spec.tolerance.crank_radius_mm / arm if spec.drive.ONE_ARM else 0.0
     center = fraction * spec.tolerance.center_distance_mm / L if spec.wheel.FLAT else 0.0
-    between = axis.hub_offset * (axis.hub_offset + axis.engagement.slot.offset) < 0.0
+    between = axis.hub_offset * (axis.hub_offset + axis.through.slot.offset) < 0.0
     center = choose(between, -center, center)
     if not all_true((crank == 0.0) & (center == 0.0)):
         yield crank, -center
@@ -272,21 +270,18 @@ def arm_mm(mechanism: Mechanism, engagement: Engagement) -> float:
     return parameter(L * library(x, y).hypot(x - engagement.hub, y))
 
 
-def _on_mouth(
-    mechanism: Mechanism, engagement: Engagement, fraction: float
-) -> list[FirstContacts | None]:
+def _on_mouth(mechanism: Mechanism, axis: RestingAxis, fraction: float) -> list[FirstContacts]:
     """First contacts with the mouth's corners, for the largest roller in the narrowest slot."""
     tolerance, size, L = mechanism.spec.tolerance, mechanism.spec.size, mechanism.center_distance_mm
     lost = 0.5 * fraction * (tolerance.roller_diameter_mm + tolerance.slot_width_mm)
     spare = parameter(np.maximum(size.allowances.slot_clearance_mm - lost, 0.0)) / L
-    roller, rounding = mechanism.roller_radius_mm / L, size.mouth_radius_mm / L
-    errors = _errors(mechanism, engagement, fraction)
-    return [mouth_contacts(engagement, *error, roller, spare, rounding) for error in errors]
+    sizes = mechanism.roller_radius_mm / L, spare, size.mouth_radius_mm / L
+    return [mouth_contacts(axis, *error, *sizes) for error in _errors(mechanism, axis, fraction)]
 
 
 def mouth_jumps_worst(mechanism: Mechanism) -> Array:
     """Sizes of the worst jumps on a mouth's corner, (m,); 0 if no roller touches a corner."""
-    every = [on for one in mechanism.engagements for on in _on_mouth(mechanism, one, 1.0)]
-    sizes = [np.nan_to_num(abs(one.jump)) for one in every if one is not None]
+    every = [on for axis in RestingAxis.each(mechanism) for on in _on_mouth(mechanism, axis, 1.0)]
+    sizes = [np.nan_to_num(abs(one.jump)) for one in every]
     worst: Array = np.max(np.broadcast_arrays(np.zeros(1), *sizes), axis=0)
     return worst

@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from functools import reduce
-from typing import TypeAlias
 
 import numpy as np
 
@@ -37,7 +36,7 @@ from geneva_cli.numerics.arrays import (
 from geneva_cli.numerics.extremes import Smooth, cuts
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.quadrature import rule
-from geneva_cli.numerics.roots import boundary, find_roots
+from geneva_cli.numerics.roots import find_roots
 from geneva_cli.numerics.tolerances import ROUNDED
 from geneva_cli.spec.workshops import WORKSHOPS
 
@@ -219,42 +218,23 @@ def _reversal(
     return out
 
 
-Lag: TypeAlias = tuple[float, float, float]  # degrees: greatest, its place, where the wall meets
-
-
-def arrival(mechanism: Mechanism) -> tuple[float, float, Lag | None] | None:
+def arrival(mechanism: Mechanism) -> tuple[float, float] | None:
     """The resisting torque where one wall alone stops the wheel; None if a slot has two.
 
-    Also the greatest with which the wheel reaches its dwell, and its greatest lag.
-
-    If gears drive between two rollers, the slot of the second has a wall behind its roller only.
-    From the handover at s the wheel coasts: psi'' = -m with m = M_r / (I w²). Its lag is
-    psi(x) - psi(s) - psi'(s) (x - s) + m (x - s)²/2, until that is 0 again.
-    -psi'' of a straight slot has one peak, and is not 0 at the exit e.
-    So the wheel reaches its dwell if m <= -psi''(e) and if m is at most
+    Also the greatest with which the wheel reaches its dwell. If gears drive between two rollers,
+    the slot of the second has a wall behind its roller only. From the handover at s the wheel
+    coasts: psi'' = -m with m = M_r / (I w²). -psi'' of a straight slot has one peak, and is not 0
+    at the exit e. So the wheel reaches its dwell if m <= -psi''(e) and if m is at most
     2 (psi'(s) (e - s) - (psi(e) - psi(s))) / (e - s)².
     """
     (engagement, *_), spec = mechanism.engagements, mechanism.spec
     if not engagement.paired or not spec.is_loaded:
         return None
     w, motion = omega(spec.drive.n_rpm), engagement.motion
-    unit, torque = inertia_kgm2(spec) * w * w, sum(resisting_torques_Nm(spec))
     begin, exit_deg = motion.breaks_deg[-2], engagement.exit_deg
     start, u = motion(begin, 1).scalars()[:2]
     end, _, last = motion(exit_deg, 2).scalars()[:3]
     span = (exit_deg - begin) * DEGREE
-    most = unit * max(0.0, min(-last, 2.0 * (u * span - (end - start)) / (span * span)))
-    if not 0.0 < torque <= most:
-        return torque, most, None
-    drag = torque / unit
-
-    def lags(x: float) -> tuple[float, float]:
-        """Lag, and its rate."""
-        span = (x - begin) * DEGREE
-        turned, speed = motion(x, 1).scalars()[:2]
-        return turned - start - span * (u - 0.5 * drag * span), speed - u + drag * span
-
-    farthest = boundary(lambda x: lags(x)[1] > 0.0, begin, exit_deg)
-    struck = boundary(lambda x: lags(x)[0] > 0.0, farthest, exit_deg)
-    at_deg, struck_deg = (mechanism.shown_deg(engagement.mid_deg + x) for x in (farthest, struck))
-    return torque, most, (lags(farthest)[0] / DEGREE, at_deg, struck_deg)
+    late = 2.0 * (u * span - (end - start)) / (span * span)
+    most = inertia_kgm2(spec) * w * w * max(0.0, min(-last, late))
+    return sum(resisting_torques_Nm(spec)), most

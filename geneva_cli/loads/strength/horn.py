@@ -18,7 +18,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from functools import lru_cache
-from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -78,35 +78,6 @@ def slot_ends(mechanism: Mechanism) -> list[SlotEnd]:
     return ends
 
 
-if TYPE_CHECKING:
-
-    class HornSide(Protocol):
-        """A horn: the wall on one side of a slot."""
-
-        @property
-        def at(self) -> SlotEnd:
-            """The end of the slot where this horn bears."""
-
-        @property
-        def recess_mm(self) -> Number:
-            """The recess's radius, (m, 1) of a batch."""
-
-        @property
-        def stoutness(self) -> Array:
-            """Thickness at the mouth over the recess's radius, (m,)."""
-
-        def unit_stress(
-            self, roller: Array, rub: Array, sections: Array, width_mm: float
-        ) -> tuple[Array, Array, Array]:
-            """Stresses under 1 N, MPa (m, places, sections), and of sections place and thickness.
-
-            The roller's places and the sections are input angles (m, k). ``rub`` is the friction on
-            the wall under 1 N across it, positive towards the mouth. A section's place is its
-            distance from the mouth, mm; its thickness, mm, is infinite beyond the horn.
-            """
-
-
-Sides: TypeAlias = "Callable[..., Sequence[HornSide]]"  # horns of a mechanism and its sizes
 Sizes: TypeAlias = "tuple[float, ...]"  # half the slot's width, the recess, and what else differs
 
 
@@ -151,7 +122,12 @@ class Horn(NamedTuple):
     def unit_stress(
         self, roller: Array, rub: Array, sections: Array, width_mm: float
     ) -> tuple[Array, Array, Array]:
-        """Bending and tension at sections under 1 N, as ``HornSide`` describes."""
+        """Stresses under 1 N, MPa (m, places, sections), and of sections place and thickness.
+
+        The roller's places and the sections are input angles (m, k). ``rub`` is the friction on the
+        wall under 1 N across it, positive towards the mouth. A section's place is its distance from
+        the mouth, mm; its thickness, mm, is infinite beyond the horn.
+        """
         count = roller.shape[1]
         places, normals, thick, left = self.sections(np.hstack((roller, sections)))
         contact, push = places[..., :count, None], normals[..., :count, None]
@@ -180,6 +156,10 @@ class Horn(NamedTuple):
     def stoutness(self) -> Array:
         """Thickness at the mouth over the recess's radius, (m,)."""
         return np.ravel(self.sections(self.at.mouth_deg)[2] / self.recess_mm)
+
+
+# Horns of a mechanism and its sizes; those of a sphere have the members that are used of a Horn.
+Sides: TypeAlias = Callable[..., Sequence[Horn]]
 
 
 def horns(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> list[Horn]:
@@ -212,11 +192,17 @@ def greatest_stress(
 ) -> HornStress:
     """Greatest stress of m designs, for a width of the contact, mm; sizes may be (m, 1).
 
-    NaN for a recess of 0, or without a load.
+    NaN for a recess of 0, or without a load. That of a single design is kept.
     """
     every, m = (mechanism, sizes, width), mechanism.designs
-    if m > 16:  # the stresses of 16 designs stay in the cache
-        return joined([greatest_stress(sides, *taken(every, some)) for some in blocks(m, 16)])
+    if isinstance(mechanism.design, int):
+        return _single_stress(sides, *every)
+    # the stresses of 16 designs stay in the cache
+    return joined([_greatest(sides, *taken(every, some)) for some in blocks(m, 16)])
+
+
+def _greatest(sides: Sides, mechanism: Mechanism, sizes: Sizes, width: float) -> HornStress:
+    m = mechanism.designs
     best = np.full((4, m), np.nan)
     for side in sides(mechanism, *sizes):
         # the roller runs along this horn's wall from its own end; in a straight slot from both
@@ -231,11 +217,10 @@ def greatest_stress(
     return HornStress(*map(parameter, (best[0], at_deg, *best[2:])))
 
 
-# Of a single design, cached for its sizes and its checks.
-single_stress = lru_cache(maxsize=64)(greatest_stress)
+_single_stress = lru_cache(maxsize=64)(_greatest)
 
 
-def _over_a_half(mechanism: Mechanism, side: HornSide, start: float, width: float) -> Array:
+def _over_a_half(mechanism: Mechanism, side: Horn, start: float, width: float) -> Array:
     """The rows of ``HornStress``, (4, m), for the roller from ``start`` to mid-motion."""
     case, best = load_case(mechanism), np.full((4, mechanism.designs), np.nan)
     grid, finer = np.linspace(1.0, NEAR_CUSP, 61), np.linspace(0.0, 1.0, 33)

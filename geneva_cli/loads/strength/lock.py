@@ -62,10 +62,12 @@ def dwell_torque_Nm(mechanism: Mechanism) -> Array:
     return np.broadcast_to(np.ravel(0.0 if torque is None else torque), mechanism.designs)
 
 
-def held_force_N(torque_Nm: Array, by: Lock) -> Array:
-    """The force of disc on wheel that holds a torque."""
-    force: Array = 1e3 * torque_Nm / (by.L * np.sin(by.contact().phi))
-    return force
+def held_force_N(mechanism: Mechanism, by: Lock | None) -> Array:
+    """The force of disc on wheel that holds the torque in the dwell, (m,); 0 without a lock."""
+    torque = dwell_torque_Nm(mechanism)
+    if by is None or not torque.any():
+        return 0.0 * torque
+    return np.nan_to_num(1e3 * torque / np.ravel(by.L * np.sin(by.contact().phi)))
 
 
 def loaded_locks(
@@ -119,10 +121,9 @@ def horn_MPa(
 
     ``known`` is that under the roller, if computed already.
     """
-    from geneva_cli.loads.strength.horn import greatest_stress, horns, single_stress
+    from geneva_cli.loads.strength.horn import greatest_stress, horns
 
-    search = single_stress if isinstance(machine.design, int) else greatest_stress
-    own = known or search(horns, machine, (half_width, by.recess))
+    own = known or greatest_stress(horns, machine, (half_width, by.recess))
     held = loaded_locks(machine, half_width, by, 1.0)
     rows = np.broadcast_arrays(own.stress_MPa, *([held.horn_stress_MPa] if held else []))
     return np.fmax(0.0, np.fmax.reduce(rows))

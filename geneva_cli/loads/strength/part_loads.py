@@ -19,36 +19,23 @@ velocity, -c e x u at the crank's rate c. The roller is thin: its cone presses o
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.kept import Known
 from geneva_cli.loads.contact import QuantityValue
-from geneva_cli.loads.cycle_quantities import FORCE
 from geneva_cli.loads.impacts.reversal import reversal_impacts
 from geneva_cli.loads.instant import Instant, LoadQuantity
-from geneva_cli.loads.load_case import MM, carried_kg
+from geneva_cli.loads.load_case import centrifugal_N
 from geneva_cli.loads.load_peaks import load_peaks
 from geneva_cli.loads.strength.lock import dwell_torque_Nm
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import PeakArray, greater
-from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import N, parameter
 from geneva_cli.numerics.jet import Array, Jet, Number, sqrt
-
-
-class LoadedShaft(NamedTuple):
-    """A shaft and its dimensions, floats or (m, 1); None for unknown ones."""
-
-    part: str  # on it: "wheel" or "crank"
-    overhang_mm: float | None
-    diameter_mm: float | None = None
-    span_mm: float | None = None
-    allowed_MPa: float | None = None
-    held_N: Array | float = 0.0  # by the lock in the dwell, (m,)
-    held_Nm: Array | float = 0.0
 
 
 class ShaftLoad(NamedTuple):
@@ -59,7 +46,7 @@ class ShaftLoad(NamedTuple):
 
     part: str
     on_sphere: bool
-    orbiting_N: Number  # m L w² of the bodies of a wheel on a carrier, which load its shaft too
+    orbiting_N: float  # m L w² of the bodies of a wheel on a carrier, which load its shaft too
     overhang_m: Number | None = None  # on a sphere beyond L
     bending: float = 1.0  # Kb
     torsion: float = 1.0  # Kt
@@ -71,9 +58,9 @@ class ShaftLoad(NamedTuple):
             square, torque = sphere_moments(i, on_wheel, 0.0 if lever is None else lever)
         else:
             torque = i.wheel_torque_Nm if on_wheel else i.crank_torque_Nm
-        turned = torque * self.torsion
         if lever is None:
-            return QuantityValue(turned * turned, i.grip)
+            return QuantityValue(torque * torque, i.grip)
+        turned = torque * self.torsion
         if not self.on_sphere:
             square = i.crank_bearing_squared
             if on_wheel:  # what orbits is added as if in one plane: an upper bound
@@ -106,61 +93,38 @@ def shear_MPa(moment_Nm: N, diameter_mm: N) -> N:
     return 16e3 * moment_Nm / (math.pi * diameter_mm**3)
 
 
-def orbiting_N(mechanism: Mechanism) -> Number:
-    """The force m L w² of the bodies of a wheel on a carrier."""
-    spec = mechanism.spec
-    return carried_kg(spec) * omega(spec.drive.n_rpm) ** 2 * (mechanism.center_distance_mm * MM)
+def _shaft_load(mechanism: Mechanism, part: str, overhang_mm: float | None = None) -> ShaftLoad:
+    """Return the load of a shaft with an overhang, or of its torque alone."""
+    table, lever = mechanism.spec.shaft, None if overhang_mm is None else overhang_mm / 1000.0
+    orbiting = parameter(centrifugal_N(mechanism)) if mechanism.frame else 0.0
+    factors = table.bending_factor, table.torsion_factor
+    return ShaftLoad(part, not mechanism.axes, orbiting, lever, *factors)
 
 
-def shafts_under_load(
-    mechanism: Mechanism, shafts: Sequence[LoadedShaft]
-) -> list[dict[str, Array]]:
-    """Shafts of m designs under the forces and torques of a cycle: columns (m,) by their names.
+def shaft_squares(
+    mechanism: Mechanism,
+    overhangs_mm: Mapping[str, float | None],
+    held: Mapping[str, tuple[Array, Array]] = MappingProxyType({}),
+) -> dict[str, PeakArray]:
+    """The greatest squares (Kb M)² + (Kt T)² of shafts of m designs over a cycle, (N m)².
 
-    ``moment_Nm`` is the greatest sqrt((Kb M)² + (Kt T)²), at ``at_deg``; ``twist_deg`` the greatest
-    over overhang and span. What needs unknown dimensions is left out, and all of a shaft without an
-    overhang or a load. What is held loads a shaft in the dwell, from the first motion's end on.
+    By their parts, "wheel" and "crank", none without an overhang or a load. ``held`` are force, N,
+    and torque, N m, (m,) each, that load a shaft in the dwell, from the first motion's end on.
     """
     table, own = mechanism.spec.shaft, dict[str, LoadQuantity]()
-    orbiting = orbiting_N(mechanism) if mechanism.spec.drive.wheels_on_carrier else 0.0
-    on_sphere = not mechanism.axes
-    for one in shafts:
-        if mechanism.spec.is_loaded and one.overhang_mm is not None:
-            torque = ShaftLoad(one.part, on_sphere, orbiting)
-            own[f"{one.part} moment"] = torque._replace(
-                overhang_m=one.overhang_mm / 1000.0,
-                bending=table.bending_factor,
-                torsion=table.torsion_factor,
-            )
-            if one.span_mm is not None and one.diameter_mm is not None:
-                own[f"{one.part} torque"] = torque
-    peaks, each = load_peaks(mechanism, tuple(own), own) if own else {}, []
-    for one in shafts:
-        out = dict[str, Array]()
-        each.append(out)
-        d, span, overhang_mm = one.diameter_mm, one.span_mm, one.overhang_mm
-        if not peaks or overhang_mm is None:
-            continue
-        both, turned = peaks[f"{one.part} moment"], peaks.get(f"{one.part} torque")
-        if np.any(np.asarray(one.held_N) > 0.0) or np.any(np.asarray(one.held_Nm) != 0.0):
-            bent = np.ravel(table.bending_factor) * one.held_N * np.ravel(overhang_mm / 1000.0)
-            square = bent**2 + (np.ravel(table.torsion_factor) * one.held_Nm) ** 2
+    for part, overhang_mm in overhangs_mm.items():
+        if mechanism.spec.is_loaded and overhang_mm is not None:
+            own[part] = _shaft_load(mechanism, part, overhang_mm)
+    out = load_peaks(mechanism, tuple(own), own) if own else {}
+    for part, (force_N, torque_Nm) in held.items():
+        if part in out:
+            bent = np.ravel(table.bending_factor) * force_N * np.ravel(overhangs_mm[part]) / 1000.0
+            square = bent**2 + (np.ravel(table.torsion_factor) * torque_Nm) ** 2
             first = mechanism.under_load.engagements[0]
             exit_deg = np.ravel(mechanism.shown_deg(first.mid_deg + first.exit_deg))
-            both = greater(both, PeakArray(square, np.broadcast_to(exit_deg, square.shape)))
-        most = np.sqrt(both.max)
-        out |= {"moment_Nm": most, "at_deg": both.at_deg}
-        if d is not None:
-            out["stress_MPa"] = shear_MPa(most, np.ravel(d))
-        if one.allowed_MPa is not None:
-            out["least_diameter_mm"] = np.cbrt(16e3 * most / (math.pi * np.ravel(one.allowed_MPa)))
-        if d is not None and span is not None and turned is not None:
-            polar = math.pi * d**4 / 32.0  # N m mm / (GPa mm^4) is 1
-            rate = np.ravel((overhang_mm + span) / (table.shear_modulus_GPa * polar))
-            square = np.maximum(turned.max, np.square(one.held_Nm))
-            torque_Nm = np.where(np.isfinite(square), np.sqrt(square), np.nan)
-            out["twist_deg"] = np.degrees(torque_Nm * rate)
-    return each
+            at_rest = PeakArray(square, np.broadcast_to(exit_deg, square.shape))
+            out[part] = greater(out[part], at_rest)
+    return out
 
 
 class PartLoads(NamedTuple):
@@ -181,20 +145,18 @@ class PartLoads(NamedTuple):
 
 def part_loads(mechanism: Mechanism) -> PartLoads:
     """The greatest loads of m designs, or as numbers of a single one."""
-    spec, on_sphere = mechanism.spec, not mechanism.axes
-    orbiting = orbiting_N(mechanism) if spec.drive.wheels_on_carrier else 0.0
+    wheel_shaft = _shaft_load(mechanism, "wheel")
     own: dict[str, LoadQuantity] = {
-        "wheel_Nm": ShaftLoad("wheel", on_sphere, orbiting),
-        "crank_Nm": ShaftLoad("crank", on_sphere, orbiting),
+        "wheel_Nm": wheel_shaft,
+        "crank_Nm": _shaft_load(mechanism, "crank"),
     }
-    peaks = load_peaks(mechanism, (FORCE, "wheel_bearing_N", "crank_bearing_N", *own), own)
-    force, wheel = peaks[FORCE].max, peaks["wheel_bearing_N"].max
+    peaks = load_peaks(mechanism, ("pin_force_N", "wheel_bearing_N", "crank_bearing_N", *own), own)
+    force, wheel = peaks["pin_force_N"].max, peaks["wheel_bearing_N"].max
     jump = np.nan_to_num(reversal_impacts(mechanism).jump) + np.zeros(np.shape(force))
     wheel_Nm, crank_Nm = np.sqrt(peaks["wheel_Nm"].max), np.sqrt(peaks["crank_Nm"].max)
-    if spec.load.dwell_torque_Nm is not None:
-        wheel_Nm = np.maximum(wheel_Nm, dwell_torque_Nm(mechanism))
-    crank = peaks["crank_bearing_N"].max
-    rows = force, jump, wheel, wheel + np.ravel(orbiting), wheel_Nm, crank, crank_Nm
+    wheel_Nm = np.maximum(wheel_Nm, dwell_torque_Nm(mechanism))
+    crank, on_shaft = peaks["crank_bearing_N"].max, wheel + np.ravel(wheel_shaft.orbiting_N)
+    rows = force, jump, wheel, on_shaft, wheel_Nm, crank, crank_Nm
     out = PartLoads(*map(parameter, rows))
     return out.of(0) if isinstance(mechanism.design, int) else out
 

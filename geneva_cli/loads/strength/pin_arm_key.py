@@ -127,17 +127,14 @@ def shear_allowed_MPa(shaft: Shaft, keyway: bool = False) -> Number:
     """The shear stress that shafts and keys allow: that of the spec, or of the default steel.
 
     The ASME code allows 0.3 of the yield strength of the default steel (``Stock``), and three
-    quarters of that at a keyway. Another steel, known by its modulus, has no default: it is
-    infinite.
+    quarters of that at a keyway.
 
     >>> round(shear_allowed_MPa(Shaft()), 6), round(shear_allowed_MPa(Shaft(), keyway=True), 6)
     (82.5, 61.875)
     """
     if shaft.shear_stress_max_MPa is not None:
         return shaft.shear_stress_max_MPa
-    is_steel = shaft.shear_modulus_GPa == Shaft().shear_modulus_GPa
-    # 0.3 of 275 MPa, and three quarters of that
-    return choose(is_steel, 61.875 if keyway else 82.5, math.inf)
+    return 61.875 if keyway else 82.5  # 0.3 of 275 MPa, and three quarters of that
 
 
 class PinSize(NamedTuple):

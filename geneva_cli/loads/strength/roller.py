@@ -17,7 +17,6 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.loads.contact import LoadCase, contact
-from geneva_cli.loads.cycle_quantities import FORCE
 from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_functions import LoadFunctions, refuse_noise
@@ -26,7 +25,6 @@ from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Array, Whole, array, parameter
-from geneva_cli.numerics.extremes import search
 from geneva_cli.numerics.quadrature import span_integrals
 
 LIFE_EXPONENT = 10.0 / 3.0  # p, of line contact
@@ -42,16 +40,6 @@ class SlotPassage(NamedTuple):
     rolled_m: float  # ∫ |v_s| dt
     work: float  # ∫ N |v_s| dt, joules: friction work for a coefficient of 1
     load: float  # ∫ N^p |v_s| dt
-
-
-class Life(NamedTuple):
-    """Life of the most loaded roller; None without a capacity, infinite without a force."""
-
-    equivalent_force_N: float  # P
-    turns_per_motion: float
-    turns: float | None  # L10
-    motions: float | None  # of this roller
-    hours: float | None
 
 
 def passage(engagement: Engagement, case: LoadCase, half: float = 0.0) -> SlotPassage:
@@ -71,9 +59,8 @@ def passage(engagement: Engagement, case: LoadCase, half: float = 0.0) -> SlotPa
     # curved slot both branches begin at mid-motion. Spans end there.
     middle = curved or (engagement.on_arm and engagement.motion.symmetric)
     more = ("slides",) if middle else ("slides", "along")
-    load, n = LoadFunctions(engagement, case, (FORCE,), more=more), np.size(case.design)
-    parts, known = load.to_search()
-    result = search(load, parts, False, known, load.spread)
+    load, n = LoadFunctions(engagement, case, ("pin_force_N",), more=more), np.size(case.design)
+    result = load.search()
     bounded = np.isfinite(result.most[0])  # the integrals are, where the force is
     design, _, (a, b), positive = load.stretches(result)
     own = np.flatnonzero(half * (a + b) >= 0.0)
@@ -121,8 +108,11 @@ def passages(mechanism: Mechanism, by_roller: bool = False) -> list[SlotPassage]
     return out
 
 
-def lives(mechanism: Mechanism, each: Sequence[SlotPassage]) -> Life:
-    """Lives of m designs, (m,) each, or of one, from the passages of their rollers."""
+def lives(mechanism: Mechanism, each: Sequence[SlotPassage]) -> dict[str, Array]:
+    """Life of the most loaded roller of m designs, (m,) each, from the passages of their rollers.
+
+    Turns, motions of this roller and hours need a capacity; they are infinite without a force.
+    """
     spec = mechanism.spec
     m = len(spec.wheel.steps or spec.drive.roller_angles_deg or ()) or spec.drive.rollers
     m *= len(mechanism.engagements[0].passages)  # rollers on the crank
@@ -139,10 +129,14 @@ def lives(mechanism: Mechanism, each: Sequence[SlotPassage]) -> Life:
         every = np.stack(rows)
         worst = np.argmax(every[:, 0] ** LIFE_EXPONENT * every[:, 1] * every[:, 2], axis=0)
         force, turns, often = every[worst, :, np.arange(every.shape[2])].T
-        lasts: list[float | None] = [None] * 3
+        out = {"equivalent_force_N": force, "roller_turns_per_motion": turns}
         capacity = spec.material_roller.dynamic_capacity_N
-        if capacity is not None:  # without a force the life is unlimited
-            # C is rated for a million revolutions
+        if capacity is not None:  # rated for a million revolutions
             rated = 1e6 * (np.ravel(capacity) / force) ** LIFE_EXPONENT
-            lasts = [parameter(x) for x in (rated, rated / turns, rated / turns / often)]
-    return Life(parameter(force), parameter(turns), *lasts)
+            motions = rated / turns
+            out |= {
+                "roller_life_turns": rated,
+                "roller_life_motions": motions,
+                "roller_life_h": motions / often,
+            }
+    return out

@@ -91,21 +91,19 @@ def _built_jumps(mechanism: Mechanism) -> list[BuiltJump]:
 def entry_jumps(mechanism: Mechanism) -> list[EntryJump]:
     """Entry jump of each engagement whose roller enters along its slot's axis, or as built."""
     out: list[EntryJump] = [*_built_jumps(mechanism)]
-    for engagement in mechanism.engagements:
-        axis = RestingAxis.of(engagement)
-        if axis is not None:
-            # the path after the true entry counts if it is on the other side
-            before, after = _branch(axis, -1.0), _branch(axis, 1.0)
-            branches = (before,) if before[0] == after[0] else (before, after)
-            arm = arm_mm(mechanism, engagement)
-            out.append(TrueJump(axis, mechanism.center_distance_mm, arm, branches))
+    for axis in RestingAxis.each(mechanism):
+        # the path after the true entry counts if it is on the other side
+        before, after = _branch(axis, -1.0), _branch(axis, 1.0)
+        branches = (before,) if before[0] == after[0] else (before, after)
+        arm = arm_mm(mechanism, axis.engagement)
+        out.append(TrueJump(axis, mechanism.center_distance_mm, arm, branches))
     return out
 
 
 def _branch(axis: RestingAxis, sense: float) -> tuple[float, Array, Complex]:
     # In geometric progression from next to the true entry to half-way through the motion: between
     # two places, interpolation has a relative error of 1e-6 at most.
-    span = 0.5 * axis.engagement.motion_deg * DEGREE
+    span = 0.5 * axis.through.motion_deg * DEGREE
     along, across = axis.anchor.displacement(sense * span * np.geomspace(1e-7, 1.0, 8193), 1)
     off, slope = across.arrays()
     root = np.sqrt(abs(off))
@@ -122,14 +120,10 @@ def entry_jumps_worst(mechanism: Mechanism, use: Mapping[str, float]) -> Array |
         sizes = [use["center_distance_mm"], use["crank_radius_mm"], *[0.0] * 5]
         jumps = [one(corners(sizes))[0].reshape(-1, mechanism.designs) for one in built]
         return np.asarray(np.concatenate(jumps).max(axis=0))
-    worst: Array | None = None
-    for engagement in mechanism.engagements:
-        crank = use["crank_radius_mm"] / arm_mm(mechanism, engagement)
+    sizes: list[Array] = []
+    for axis in RestingAxis.each(mechanism):
+        crank = use["crank_radius_mm"] / arm_mm(mechanism, axis.engagement)
         center = use["center_distance_mm"] / mechanism.center_distance_mm
         for one, other in product((-1.0, 1.0), repeat=2):
-            contacts = first_contacts(engagement, one * crank, other * center)
-            if contacts is None:
-                return None
-            jump = np.nan_to_num(abs(contacts.jump))
-            worst = jump if worst is None else np.maximum(worst, jump)
-    return worst
+            sizes.append(np.nan_to_num(abs(first_contacts(axis, one * crank, other * center).jump)))
+    return np.max(np.broadcast_arrays(*sizes), axis=0) if sizes else None

@@ -1,35 +1,171 @@
-"""A load that vibrates on its shaft during a motion and after it, to the last digits.
+"""A load that vibrates on its shaft during a motion and after it, to 1e-16 of the step.
 
-It vibrates as e^(p u), u being the fraction of the motion's time, p = Omega (-zeta + i sqrt(1 -
-zeta²)), Omega = 2 pi lambda and lambda the period ratio. The residual is an integral of f e^(p (1 -
-u)), f a derivative of the motion. On a panel of half width h, f is a Legendre series. If |p h|
-exceeds the number of its terms, the moments with Legendre's polynomials follow from the panel's
-ends by a recurrence (Filon's method); otherwise Gauss's rule has them.
+A motion's shape is the fraction s of the step by the fraction u of the motion's time. It is cut
+into panels, which are halved until Legendre series of s' and s'' have ended. The load vibrates as
+e^(p u), p = Omega (-zeta + i sqrt(1 - zeta²)), Omega = 2 pi lambda and lambda the period ratio. The
+residual is an integral of f e^(p (1 - u)), f being s' or s''. If |p h|, h being half of a panel's
+width, exceeds the number of its terms, the moments with Legendre's polynomials follow from the
+panel's ends by a recurrence (Filon's method); otherwise Gauss's rule has them.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import NamedTuple
+from collections.abc import Callable, Sequence
+from functools import lru_cache
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.loads.vibration.panels import NODES, SERIES, TERMS, Panels, X
-from geneva_cli.numerics.arrays import Array, Complex, Whole, matrix_product
+from geneva_cli.motion.batch import selection
+from geneva_cli.motion.engagement import WheelMotion
+from geneva_cli.motion.laws.law import Law
+from geneva_cli.motion.peak_search import breaks
+from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.arrays import (
+    Array,
+    Complex,
+    Mask,
+    Number,
+    Whole,
+    joined,
+    matrix_product,
+    read_only,
+    record_taken,
+)
 from geneva_cli.numerics.quadrature import rule
 
+if TYPE_CHECKING:
+    # Places u (p, k) of the motions (p,) -> Taylor coefficients 0 to 2 of s by a variable, and du
+    # over that variable.
+    Taylor = Callable[[Array, Whole], tuple[Sequence[Number], Number]]
+
 legendre, chebyshev = np.polynomial.legendre, np.polynomial.chebyshev
+NODES = 32  # of Gauss's rule on a panel
+TERMS = 20  # of Legendre's series that are kept
+MOST = 20_000  # panels of a motion: with more, its series are of noise
+
+X, _weights = rule(NODES)
+# values at the nodes -> coefficients of Legendre's series
+_series = legendre.legvander(X, NODES - 1) * _weights[:, None] * (np.arange(NODES) + 0.5)
+SERIES: Array = _series.T.astype(float)
 NODE, WEIGHT = rule(64)  # exact to a double for |p h| up to TERMS
 _VALUES: Array = legendre.legvander(NODE, TERMS - 1).T.astype(float)
 # values at a panel's nodes -> integrals from -1 to each node, and to 1
 _ENDS = np.append(X, 1.0)
 _INTEGRALS = matrix_product(
-    np.array(
-        [legendre.legval(_ENDS, legendre.legint(unit, lbnd=-1.0)) for unit in np.eye(NODES)]
-    ).T,
-    SERIES,
+    legendre.legval(_ENDS, legendre.legint(np.eye(NODES), lbnd=-1.0)).T, SERIES
 )
+
+
+class Panels(NamedTuple):
+    """The panels of m motions, in the order of motions and of places: p in all."""
+
+    motion: Whole  # (p,) motion of each panel
+    left: Array  # (p,) ends of each panel
+    right: Array
+    series: Array  # (2, p, term): s' and s'' by u as Legendre series
+    jumps: Mask  # (m,) True where the motion begins or ends with a velocity, or it jumps
+    greatest: Array  # greatest size of either derivative, (2, m)
+    variation: Array  # total variation of either, with jumps and ends
+
+    @property
+    def half(self) -> Array:
+        """Half the width of each panel."""
+        return 0.5 * (self.right - self.left)
+
+    def paired(self, motion: Whole) -> tuple[Whole, Whole, Whole]:
+        """Pairs of an oscillator and a panel of its ``motion`` (n,), in order.
+
+        The result has the numbers of both, and the first pair of each oscillator.
+        """
+        ends = np.searchsorted(self.motion, np.arange(len(self.jumps) + 1))
+        count = (ends[1:] - ends[:-1])[motion]
+        first = np.cumsum(count) - count
+        of = np.repeat(np.arange(len(motion)), count)
+        return of, np.arange(len(of)) + np.repeat(ends[motion] - first, count), first
+
+
+@lru_cache(maxsize=64)
+def law_shape(law: Law) -> Panels:
+    """The panels of a motion law."""
+    cuts = np.array([sorted({0.0, *law.knots, 0.5, 1.0})])
+    return read_only(_panels(lambda u, _: (law(u, 2).c, 1.0), cuts))
+
+
+def motion_shapes(motion: WheelMotion, m: int = 1) -> Panels:
+    """The panels of the motions of m designs."""
+    of_designs = selection(motion)
+
+    def taylor(u: Array, which: Whole) -> tuple[Sequence[Number], Number]:
+        some: WheelMotion = of_designs(which)
+        whole, step = some.exit_deg - some.entry_deg, 2.0 * some.half_step
+        angle = some(some.entry_deg + u * whole, 2)
+        return [v / step for v in angle.c], whole * DEGREE
+
+    every = np.hstack(breaks(motion, m))
+    return _panels(taylor, (every - every[:, :1]) / (every[:, -1:] - every[:, :1]))
+
+
+def _panels(taylor: Taylor, breaks: Array) -> Panels:
+    """Panels of m motions, whose derivatives may jump at the ``breaks`` (m, k) of each."""
+    motion, edges, values = _refined(taylor, breaks)
+    in_order = np.lexsort((edges[0], motion))
+    motion, (left, right), values = motion[in_order], edges[:, in_order], values[:, in_order]
+    series = matrix_product(values, SERIES.T)
+    # values at the ends of panels, and jumps between them
+    first, last = (series * (-1.0) ** np.arange(NODES)).sum(axis=2), series.sum(axis=2)
+    begins = np.append(True, motion[1:] != motion[:-1])
+    jump = np.abs(first - np.where(begins, 0.0, np.roll(last, 1, axis=1)))
+    stop = np.where(np.append(begins[1:], True), np.abs(last), 0.0)
+    through = np.concatenate((first[:, :, None], values, last[:, :, None]), axis=2)
+    rises = jump + stop + np.abs(np.diff(through)).sum(axis=2)
+    greatest, jumps, variation = np.zeros((3, 2, len(breaks)))
+    for k in range(2):
+        np.maximum.at(greatest[k], motion, np.abs(values[k]).max(axis=1))
+        np.maximum.at(jumps[k], motion, np.maximum(jump[k], stop[k]))
+        np.add.at(variation[k], motion, rises[k])
+    # A jump of 1e-12 of the greatest value is rounding. Only a crank as built starts and stops the
+    # wheel with a jump of velocity.
+    jumps_there: Mask = jumps[0] > 1e-12 * greatest[0]
+    return Panels(motion, left, right, series[..., :TERMS], jumps_there, greatest, variation)
+
+
+def _refined(taylor: Taylor, breaks: Array) -> tuple[Whole, Array, Array]:
+    """Panels: their motions (p,), ends (2, p), and s' and s'' at their nodes (2, p, NODES)."""
+    m, closed = len(breaks), []
+    open_, motion = np.stack((breaks[:, :-1].ravel(), breaks[:, 1:].ravel())), np.arange(m)
+    motion = np.repeat(motion, breaks.shape[1] - 1)
+    wide = open_[1] > open_[0]
+    open_, motion = open_[:, wide], motion[wide]
+    before = np.full(open_.shape, np.inf)  # last terms of the panels that were halved
+    greatest, count = np.zeros((2, m)), np.zeros(m, dtype=int)
+    while len(motion):
+        np.add.at(count, motion, 1)
+        width = open_[1] - open_[0]
+        c, rate = taylor(open_[0, :, None] + width[:, None] * (0.5 * (1.0 + X)), motion)
+        rates = np.stack(np.broadcast_arrays(c[1] * rate, 2.0 * c[2] * rate**2))
+        for row, values in zip(greatest, np.abs(rates).max(axis=2), strict=True):
+            np.maximum.at(row, motion, values)
+        # the last six terms show whether the series has ended
+        tail = np.abs(matrix_product(rates, SERIES[TERMS - 6 :].T)).max(axis=2)
+        size = greatest[:, motion]
+        # Terms that shrank in neither half when a panel was halved are rounding; random ones vary.
+        # Those of a smooth motion shrink to 2^-14 in both halves, near a jump or a pole in one. All
+        # left halves come before all right halves.
+        stays = tail > 0.25 * before
+        stays &= np.roll(stays, stays.shape[1] // 2, axis=1)
+        rounding = (tail < 1e-6 * size) & stays  # larger terms are of the motion
+        # 1e-13 is some hundred roundings; panels narrower than 1e-12 of the motion are not halved
+        ended = ((tail <= 1e-13 * size) | rounding).all(axis=0) | (width < 1e-12)
+        ended |= (count > MOST)[motion]
+        closed.append((motion[ended], open_[:, ended], rates.swapaxes(1, 2)[..., ended]))
+        left, right = open_[:, ~ended]
+        before, motion = np.tile(tail[:, ~ended], 2), np.tile(motion[~ended], 2)
+        middle = 0.5 * (left + right)
+        open_ = np.stack((np.append(left, middle), np.append(middle, right)))
+    motion, open_, values = joined(closed)
+    return motion, open_, values.swapaxes(1, 2)
 
 
 class Oscillator(NamedTuple):
@@ -52,19 +188,16 @@ def residual_swing(panels: Panels, motion: Whole, swing: Oscillator) -> Complex:
     load's angle minus the wheel's. ``motion`` (n,) are the oscillators' motions among the panels'.
     """
     out = np.empty(len(motion), dtype=complex)
-    # the best derivative to integrate: rounding is proportional to its greatest value
-    order, omega = np.ones(len(motion), dtype=np.intp), 2.0 * np.pi * swing.ratio
-    with np.errstate(all="ignore"):
-        for k in range(2, len(panels.greatest) + 1):
-            rate = (panels.greatest[k - 1] / panels.greatest[k - 2])[motion]
-            order[(k <= panels.smooth[motion] + 1) & (omega > rate)] = k
+    # the better derivative to integrate: rounding is proportional to its greatest value
+    quick = 2.0 * np.pi * swing.ratio * panels.greatest[0, motion] > panels.greatest[1, motion]
+    order = np.where(quick & ~panels.jumps[motion], 2, 1)
     # some 4096 pairs of an oscillator and a panel at a time stay in the cache
-    together = max(1, 4096 * len(panels.smooth) // len(panels.motion))
-    for k in range(1, int(order.max(initial=0)) + 1):
+    together = max(1, 4096 * len(panels.jumps) // len(panels.motion))
+    for k in (1, 2):
         every = np.flatnonzero(order == k)
         for start in range(0, len(every), together):
             at = every[start : start + together]
-            some = Oscillator(swing.ratio[at], swing.damping[at])
+            some = record_taken(swing, at)
             p = some.p
             # By parts: one more derivative, if it vanishes at both ends, gains a factor p.
             out[at] = -_integral(panels, k, motion[at], some) * p ** (2 - k) / p.imag
@@ -81,7 +214,7 @@ def _integral(panels: Panels, order: int, motion: Whole, swing: Oscillator) -> C
     for here, whole in ((~large, False), (large, True)):
         if not here.any():
             continue
-        some, c = Oscillator(swing.ratio[of][here], swing.damping[of][here]), series[here]
+        some, c = record_taken(swing, of[here]), series[here]
         after, q = _after(some, 1.0 - right[here]), (p * h)[here]
         if whole:
             before = _after(some, 1.0 - left[here])
@@ -136,7 +269,7 @@ def greatest_accelerations(panels: Panels, motion: Whole, swing: Oscillator) -> 
     total = np.append(begin[1:], last[-1]) - begin
     # the load lags by a jump of the wheel's velocity at entry, where there is one
     begins_at = (panels.series[0, panel[first]] * (-1.0) ** np.arange(TERMS)).sum(axis=1)
-    z = np.where(panels.smooth[motion] == 0, -begins_at, 0.0).astype(complex)
+    z = np.where(panels.jumps[motion], -begins_at, 0.0).astype(complex)
     active, start = np.arange(len(motion)), 0
     while len(active):
         wide = max(1, 4096 // len(active))  # 4096 pieces at a time fit in the cache

@@ -16,11 +16,12 @@ import numpy as np
 from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.kept import cached_property
 from geneva_cli.loads.load_case import inertia_kgm2
-from geneva_cli.loads.vibration.panels import law_shape, motion_shapes
 from geneva_cli.loads.vibration.swing import (
     Oscillator,
     greatest_accelerations,
+    law_shape,
     local_maxima,
+    motion_shapes,
     residual_swing,
 )
 from geneva_cli.motion.batch import taken
@@ -34,11 +35,8 @@ from geneva_cli.spec.rules import Range
 from geneva_cli.table import Table, computed_table, rows_table
 
 PERIOD_RATIO = Range(1e-6, 1e5)  # the range that is computed
+DAMPING = Range(0.0, 1.0, "[)")
 STIFFNESS = ("shaft", "stiffness_Nm_rad")
-NO_INERTIA = (
-    "a load without inertia has no natural period; set inertia_kgm2 in [load] or a [[mass]], or "
-    "use --period-ratio"
-)
 SOFTER, STIFFER = math.sqrt(0.8), math.sqrt(1.2)  # the natural frequency's at 20 % of stiffness
 SLOWER, FASTER = 0.5, 2.0  # range of speeds over the design's
 AVOIDED_SHARE = 1e-4  # least share of the step that makes a speed one to avoid
@@ -54,52 +52,44 @@ AVOID_COLUMNS = ("rpm", "from_rpm", "to_rpm", "residual_share")
 
 def oscillator(
     mechanism: Mechanism, period_ratio: float | None = None, damping: float | None = None
-) -> Oscillator | None:
-    """The load from [shaft], or from the arguments; None if no inertia is known.
+) -> Oscillator:
+    """The load from [shaft], or from the arguments.
 
-    Raises GenevaError without a stiffness, and for values out of range.
+    Raises GenevaError without a stiffness or an inertia, and for values out of range.
     """
-    shaft = mechanism.spec.shaft
-    allowed, ratios = Range(0.0, 1.0, "[)"), f"{PERIOD_RATIO.low:g} to {PERIOD_RATIO.high:g}"
-    if damping is not None and damping not in allowed:
-        raise GenevaError(f"--damping {damping:g}: must be {allowed}: at 1 nothing oscillates")
-    if period_ratio is not None and period_ratio not in PERIOD_RATIO:
-        raise GenevaError(f"--period-ratio {period_ratio:g}: must be {ratios}")
+    shaft, spec = mechanism.spec.shaft, mechanism.spec
+    if damping is not None and damping not in DAMPING:
+        raise GenevaError(f"--damping {damping:g}: must be {DAMPING}: at 1 nothing oscillates")
+    ratios = f"{PERIOD_RATIO.low:g} to {PERIOD_RATIO.high:g}"
+    given = f"--period-ratio {period_ratio}"
+    key = STIFFNESS if period_ratio is None else ()
     if period_ratio is None:
+        inertia = inertia_kgm2(spec)
         needed = "--period-ratio, the motion's time over the load's natural period"
         if not mechanism.output.turns:
-            raise GenevaError(
-                f"a {mechanism.output.noun} has no shaft: use {needed}", ("wheel", "gearing")
-            )
+            noun = mechanism.output.noun
+            raise GenevaError(f"a {noun} has no shaft: use {needed}", ("wheel", "gearing"))
         if shaft.stiffness_Nm_rad is None:
             raise GenevaError(
                 "no stiffness_Nm_rad in [shaft]: set the stiffness between wheel and load, or use "
                 f"{needed}",
-                STIFFNESS,
+                key,
             )
-        inertia = inertia_kgm2(mechanism.spec)
         if not inertia:
-            return None
-        period_ratio = _period_ratio(mechanism, shaft.stiffness_Nm_rad, inertia)
-        if period_ratio not in PERIOD_RATIO:
             raise GenevaError(
-                f"stiffness_Nm_rad = {shaft.stiffness_Nm_rad:g} with {inertia:g} kg m² gives a "
-                f"period ratio (motion time / natural period) of {period_ratio:.4g}: it must be "
-                f"{ratios}",
-                STIFFNESS,
+                "a load without inertia has no natural period; set inertia_kgm2 in [load] or a "
+                f"[[mass]], or use {needed}",
+                key,
             )
+        period_ratio = _period_ratio(mechanism, shaft.stiffness_Nm_rad, inertia)
+        given = (
+            f"stiffness_Nm_rad = {shaft.stiffness_Nm_rad:g} with {inertia:g} kg m² gives a period "
+            f"ratio (motion time / natural period) of {period_ratio:.4g}"
+        )
+    if period_ratio not in PERIOD_RATIO:
+        raise GenevaError(f"{given}: must be {ratios}", key)
     zeta = shaft.damping_ratio if damping is None else damping
     return Oscillator(np.array([period_ratio]), np.array([zeta]))
-
-
-def required_oscillator(
-    mechanism: Mechanism, period_ratio: float | None = None, damping: float | None = None
-) -> Oscillator:
-    """The load as an oscillator. Raises GenevaError if no inertia is known."""
-    load = oscillator(mechanism, period_ratio, damping)
-    if load is None:
-        raise GenevaError(NO_INERTIA, STIFFNESS)
-    return load
 
 
 def _period_ratio(mechanism: Mechanism, stiffness_Nm_rad: float, inertia_kgm2: float) -> float:
@@ -230,7 +220,7 @@ def speeds_to_avoid(own: Oscillators) -> list[tuple[float, float, float, float]]
         # Above some ratio no residual is that large: it is at most the variation of a derivative
         # over Omega to its order, and over sqrt(1 - zeta²). A variation may exceed that of its
         # samples by 2 %.
-        variation = panels.variation[: int(panels.smooth[0]) + 1, 0]
+        variation = panels.variation[: 1 if panels.jumps[0] else 2, 0]
         most = 1.02 * variation / math.sqrt(1.0 - damping[0] * damping[0])
         omega = (most / AVOIDED_SHARE) ** (1.0 / np.arange(1, len(variation) + 1))
         low = own_ratio / FASTER
@@ -247,15 +237,10 @@ def speeds_to_avoid(own: Oscillators) -> list[tuple[float, float, float, float]]
     return sorted(out)
 
 
-def values(mechanism: Mechanism, load: Oscillator | None) -> dict[str, Any]:
-    """Named values of one design, with equal names for every machine; None without a load."""
-    names = (*NAMES, "speeds_to_avoid_rpm", "avoid", "stations")
-    if load is None:
-        note = Notice("not-known", f"no value is computed: {NO_INERTIA}")
-        return dict.fromkeys(names) | {"warnings": (note,)}
+def values(mechanism: Mechanism, load: Oscillator) -> dict[str, Any]:
+    """Named values of one design, with equal names for every machine."""
     own, lacks = Oscillators(mechanism, load), mechanism.output.lacks
-    avoid, numbers = speeds_to_avoid(own), vibrations(own)
-    windup = own.windup_deg
+    avoid, windup = speeds_to_avoid(own), own.windup_deg
     rows = (own.ratio, own.share, own.residual_deg, own.swung_deg / windup, windup)
     each = np.array(rows)[:, :, 0].T.tolist()
     warnings = list[Notice]()
@@ -266,7 +251,7 @@ def values(mechanism: Mechanism, load: Oscillator | None) -> dict[str, Any]:
         )
         warnings.append(Notice("short-motion", text))
     return {
-        **{name: None if name in lacks else x.item() for name, x in numbers.items()},
+        **{name: None if name in lacks else x.item() for name, x in vibrations(own).items()},
         "speeds_to_avoid_rpm": tuple(row[0] for row in avoid),
         "avoid": rows_table(AVOID_COLUMNS, avoid),
         "stations": rows_table(STATION_COLUMNS, each) if len(each) > 1 else None,

@@ -7,16 +7,16 @@ the remainder 1 - s by the time w = 1 - u left: both ends are exact.
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache
-from typing import Annotated, ClassVar, Self
+from typing import Annotated, Any, ClassVar, Self
 
 from geneva_cli.kept import cached_property
 from geneva_cli.numerics.arrays import Array, Truth, Which, all_true, choose
 from geneva_cli.numerics.jet import Jet, Number, integral, piecewise
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.spec.rules import FINITE, Range, is_array
-from geneva_cli.spec.schema import SpecTable, fields, refuse_kind, unknown
+from geneva_cli.spec.schema import Field, SpecTable, fields, refuse_kind
 
 QUANTITIES = ("velocity", "acceleration", "jerk", "power")
 
@@ -188,9 +188,7 @@ class Motion(SpecTable):
     law: Law
     alpha0_deg: Annotated[float, FINITE, "extra dwell angle of the crank"] = 0.0
     ratio: Annotated[
-        float | str | None,
-        Range(0.0, 1.0, "()", ("matched",)),
-        'R/L of curved slots, or "matched" for a finite pressure angle',
+        float | str | None, Range(0.0, 1.0, "()", ("matched",)), "R/L; matched: of finite pressure"
     ] = None
 
     def __post_init__(self) -> None:
@@ -207,15 +205,22 @@ class Motion(SpecTable):
         """
         return self.replace(law=self.law.backwards)
 
-    def with_key(self, key: str, value: object) -> Self:
-        """Return a copy with one key of the motion or of its law changed; None sets the default.
+    @property
+    def own_keys(self) -> dict[str, Field]:
+        """Fields of the law and of the motion by their keys in the file."""
+        return self.law.own_keys | super().own_keys
 
-        >>> Motion(SineGroup(0.1)).with_key("lambda", 0.05).law
+    def as_dict(self) -> dict[str, Any]:
+        """Values of the law and of the motion by key."""
+        return self.law.as_dict() | super().as_dict()
+
+    def with_keys(self, values: Mapping[str, Any]) -> Self:
+        """Return a copy with keys of the motion or of its law changed; None sets the default.
+
+        >>> Motion(SineGroup(0.1)).with_keys({"lambda": 0.05}).law
         SineGroup(lambda_=0.05)
         """
-        law, own = ([f.key for f in fields(type(part))] for part in (self.law, self))
-        if key in law:
-            return self.replace(law=self.law.with_key(key, value))
-        if key not in own:
-            raise unknown(key, self.TABLE, (*law, *own))
-        return super().with_key(key, value)
+        own = dict(values)
+        law = {key: own.pop(key) for key in self.law.own_keys if key in own}
+        changed = super().with_keys(own)
+        return changed.replace(law=self.law.with_keys(law)) if law else changed

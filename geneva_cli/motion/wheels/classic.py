@@ -112,6 +112,9 @@ def rollers_max(motion_deg: float) -> int:
 def refuse_jam(rollers: int, motion_deg: float, inside: bool) -> None:
     """Raise GenevaError if the rollers would leave no dwell."""
     most = rollers_max(motion_deg)
+    jam = rollers > most
+    if jam is False:
+        return
 
     def error() -> GenevaError:
         why = f"{rollers} motions of {motion_deg:.6g} degrees leave no dwell in a turn of 360"
@@ -120,7 +123,7 @@ def refuse_jam(rollers: int, motion_deg: float, inside: bool) -> None:
         text = f"rollers = {cut(rollers)} jam: {why}; at most {most}"
         return GenevaError(text, ("drive", "rollers"))
 
-    refuse(rollers > most, error)
+    refuse(jam, error)
 
 
 def acceleration_peak(l: float, gap: float) -> tuple[float, float]:

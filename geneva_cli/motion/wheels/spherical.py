@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import refuse_text
-from geneva_cli.motion.engagement import Height, Slot, SlotAxis, Vector
+from geneva_cli.motion.engagement import Slot, SlotAxis, Vector
 from geneva_cli.motion.path_and_slot import AnchoredPath, StraightSlotMotion
 from geneva_cli.motion.pivots import Dimension, Layout, Pivot
 from geneva_cli.motion.wheels.classic import HalfStep, PinPose
@@ -37,9 +37,7 @@ class Spherical(Gearing):
     )
     FLAT: ClassVar[bool] = False
     DISTANCE: ClassVar[str] = "sphere's radius"
-    axes_deg: Annotated[
-        float, Range(0.0, 180.0, "()"), "spherical: angle between the two shafts"
-    ] = 90.0
+    axes_deg: Annotated[float, Range(0.0, 180.0, "()"), "angle between the two shafts"] = 90.0
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -82,16 +80,33 @@ class Spherical(Gearing):
         return slot, StraightSlotMotion(path, place.step.b)
 
 
+class Height(NamedTuple):
+    """A pin's position along a spherical wheel's axis: top - fall (1 - cos a)."""
+
+    top: float
+    fall: float
+    turn: Displacement  # of the crank
+
+    def __call__(self, tau: Number, order: int) -> Jet:
+        """Position ``tau`` input radians after mid-motion."""
+        out: Jet = self.top - self.turn(tau, order)[1] * self.fall
+        return out
+
+    @property
+    def hub(self) -> float:
+        """Position of the centre of the pin's circle."""
+        return self.top - self.fall
+
+
 class MeridianSlot(Slot):
     """A spherical wheel's slot, a meridian."""
 
     def __init__(self, path: AnchoredPath, height: Height) -> None:
-        self.path = path
-        self.level = self.height = height
+        self.path, self.height = path, height
 
     def __call__(self, input_deg: Number, order: int = 3) -> Vector:
         x, y = self.path(input_deg, order)
-        polar = atan2(sqrt(x * x + y * y), self.level(radians(input_deg), order))
+        polar = atan2(sqrt(x * x + y * y), self.height(radians(input_deg), order))
         return polar, polar * 0.0
 
     def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from geneva_cli.answer import FAILS, NO_BREAK, PASSES, WARNS
 from geneva_cli.errors import clean
-from geneva_cli.geometry.shapes import Point, Shape, mapped
+from geneva_cli.geometry.shapes import ORIGIN, Point, Shape, placed
 from geneva_cli.geometry.sheet import Annotations, Drawing, extent, prepared
 from geneva_cli.output.document import blocks
 from geneva_cli.output.inks import CENTRE_LINES, inks
@@ -257,7 +257,7 @@ def _drawing(drawn: Drawing) -> Item:
             return left + scale * (p[0] - around.x0), top - margin + scale * (p[1] - around.y1)
 
         def traced(shape: Shape) -> str:
-            return outline(mapped(shape, at, lambda radius: radius * scale))
+            return outline(placed(shape, at(ORIGIN), scale=scale))
 
         out, every = "", rings(shown.solid) if shown.solid else []
         inked = inks(tuple(dict.fromkeys(layer for layer, _ in every)))

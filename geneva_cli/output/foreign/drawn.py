@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.geometry.fit.arcs import arcs
+from geneva_cli.geometry.fit import arcs
 from geneva_cli.geometry.shapes import Arc, Line, Point, about
 
 CURVE_MM = 1e-4  # greatest distance of the arcs that replace a curve which is no arc

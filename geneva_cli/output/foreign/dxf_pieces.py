@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.geometry.fit.arcs import arcs
-from geneva_cli.geometry.shapes import Arc, Contour, Line, mapped
+from geneva_cli.geometry.fit import arcs
+from geneva_cli.geometry.shapes import Arc, Contour, Line, placed
 from geneva_cli.output.ezdxf_alone import Document, readfile
 from geneva_cli.output.foreign.drawn import CURVE_MM, Drawn, arc_pieces, ellipse_pieces
 
@@ -67,7 +67,7 @@ def read_dxf(data: bytes) -> Drawn:
             raise GenevaError(f"{kind} with the handle {handle} cannot be read: {error}") from None
         exact &= kind not in ("ELLIPSE", "SPLINE")
     if unit != 1.0 and pieces:
-        scaled = mapped(Contour("", tuple(pieces)), lambda p: (p[0] * unit, p[1] * unit), abs)
+        scaled = placed(Contour("", tuple(pieces)), scale=unit)
         pieces = list(scaled.segments)  # type: ignore[arg-type]  # no cubics
     notes = () if code else ("has no unit ($INSUNITS): its numbers are taken as millimetres",)
     return Drawn(tuple(pieces), notes, exact)

@@ -23,40 +23,43 @@ from geneva_cli.geometry.shapes import (
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Link, Teeth
 from geneva_cli.parts.links.links import Gear, LinkSizes
-from geneva_cli.parts.shafts.bores import Bore, ShaftBore, bolt_circle
+from geneva_cli.parts.shafts.bores import Bore, bolt_circle
 
 
-def link_gear(link: Link, at: Point, on: ShaftBore, sizes: LinkSizes, mechanism: Mechanism) -> Gear:
+def link_gear(link: Link, at: Point, on: Bore, sizes: LinkSizes, mechanism: Mechanism) -> Gear:
     """Return the gear of a link that is a pitch circle, on a shaft.
 
     A gear that is fixed to the frame does not turn with the shaft, and is bored round.
     """
     teeth, L, radius = link.teeth, mechanism.center_distance_mm, link.radius_mm
-    # the key that sets its bore
-    shaft = {0.0: "wheel_bore_mm", L: "crank_bore_mm"}.get(math.hypot(*at), "link_bore_mm")
     if teeth.fixed:
-        on = ShaftBore(Bore(on.bore.around, on.bore.loose))
+        on = Bore(on.around, on.loose)
+    hub = on.reach if teeth.all_round else sizes.hub(on)
     outline: Circle | Contour = Circle("PITCH", ORIGIN, radius)
-    holes: list[Shape] = []
+    holes: list[Shape] = [on.hole()] if on.reach else []
+    inner, outer = on.reach, radius
     if teeth.inside:
-        inner, outer = radius, radius + 2.0 * sizes.eye
+        inner, outer, hub = radius, radius + 2.0 * sizes.eye, 0.0
         outline, holes = Circle("LINK", ORIGIN, outer), [Circle("PITCH", ORIGIN, inner)]
-    else:
-        inner, outer = on.bore.reach, radius
-        holes += [on.hole()] if inner else []
-        if not teeth.all_round:
-            hub = sizes.hub(on.bore)
-            _refuse(link.name, radius - hub, "hub", shaft)
-            outline = _sectors(radius, hub, teeth)
-    _refuse(link.name, outer - inner, "bore", shaft)
+    elif not teeth.all_round and hub < radius:
+        outline = _sectors(radius, hub, teeth)
     screws = None
     if teeth.fixed:
         # the first at 45 degrees, off the line on which the shafts lie
         screws = bolt_circle(mechanism.spec.size, "gear", L, (inner, outer), 0.25 * math.pi)
         holes += screws.holes
     plate = Plate(link.name, "PITCH", outline, tuple(holes), *sizes.span(link.plane))
-    _refuse(link.name, plate_wall(plate), "bolts" if teeth.fixed else "bore", shaft)
-    return Gear(at, radius, ShaftBore() if teeth.inside else on, teeth, plate, screws)
+    wall = min(radius - hub, plate_wall(plate))
+    if wall <= 0.0:
+        # the key that sets its bore, unless its bolts are in the way
+        key = {0.0: "wheel_bore_mm", L: "crank_bore_mm"}.get(math.hypot(*at), "link_bore_mm")
+        key = "gear_bolt_circle_mm" if screws and hub < radius else key
+        raise GenevaError(
+            f"no blank of the {link.name} is left: its holes reach {-wall:.4g} mm too far; change "
+            f"{key}",
+            ("size", key),
+        )
+    return Gear(at, radius, Bore(0.0) if teeth.inside else on, teeth, plate, screws)
 
 
 def _sectors(radius: float, hub: float, teeth: Teeth) -> Contour:
@@ -72,19 +75,3 @@ def _sectors(radius: float, hub: float, teeth: Teeth) -> Contour:
         pieces += [Line(end, rim.start), rim, Line(rim.end, back.start), back]
         end = back.end
     return closed("PITCH", pieces)
-
-
-def _refuse(name: str, wall: float, what: str, shaft: str) -> None:
-    """Raise GenevaError where a hole, or a hub, leaves nothing of a gear bored by a key."""
-    if wall > 0.0:
-        return
-    # the crank's shaft is as wide as its arm's bore, which is the locking disc's by default
-    arm = " or arm_bore_mm" if shaft == "crank_bore_mm" else ""
-    key, reach, remedy = shaft, f"{what} reaches", f"a smaller {shaft}{arm} leaves"
-    if what == "bolts":
-        key, reach = "gear_bolt_circle_mm", "bolts reach"
-        remedy = "the default gear_bolt_circle_mm, a smaller gear_bolt_mm or fewer gear_bolts leave"
-    raise GenevaError(
-        f"no blank of the {name} is left: its {reach} {-wall:.4g} mm too far; {remedy} some",
-        ("size", key),
-    )

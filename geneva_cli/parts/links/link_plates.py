@@ -13,8 +13,8 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.plates import Member, Plate, apart, placed, plate_wall
-from geneva_cli.geometry.shapes import ORIGIN, Circle, Layer, Shape, convex_hull
+from geneva_cli.geometry.plates import Member, Plate, apart, plate_wall
+from geneva_cli.geometry.shapes import ORIGIN, Circle, Layer, Shape, convex_hull, placed
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Joint, Link
 from geneva_cli.numerics.tolerances import SAME_LENGTH, bore_radius
@@ -23,7 +23,7 @@ from geneva_cli.parts.links.link_sizes import joined, link_sizes, places, point_
 from geneva_cli.parts.links.links import LinkAxis, Links, LinkSizes
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.shafts.arm_and_shafts import bore_at
-from geneva_cli.parts.shafts.bores import ShaftBore, round_bore, screw_through
+from geneva_cli.parts.shafts.bores import round_bore, screw_through
 
 SHAFT = Joint.SHAFT
 SLOT_MARGIN = 0.25  # distance from a block to the end of its slot, as a fraction of the pin's hole
@@ -119,7 +119,7 @@ def _with_shaft(
 ) -> LinkAxis:
     """Return an axis with its shaft's bore, and the links that are too small to be bored."""
     if SHAFT not in axis.kinds:
-        return axis._replace(bore=ShaftBore(round_bore(mechanism.spec.size, sizes.pin)))
+        return axis._replace(bore=round_bore(mechanism.spec.size, sizes.pin))
     there, L = complex(*axis.at), mechanism.center_distance_mm
     distances = {}  # to the nearest hole of each link, or half-way to another shaft
     for bar in bars:
@@ -135,7 +135,7 @@ def _with_shaft(
     bore = bore_at(mechanism, axis.at, known or min(own, default=bore_radius(L / 20.0)))
     if not known and sizes.shaft is not None:  # of the spec: a check reports the wall that is left
         return axis._replace(bore=bore)
-    least = bore.bore.reach + sizes.wall
+    least = bore.reach + sizes.wall
     tight = frozenset(name for name, limit in distances.items() if least > limit)
     return axis._replace(bore=bore, one_piece=tight)
 
@@ -181,7 +181,7 @@ def _bored(bar: _Bar, turning: Iterable[LinkAxis], sizes: LinkSizes, L: float) -
         if kind is SHAFT:
             there = bar.at + z * bar.unit
             axis = next(one for one in turning if same(one.at, (there.real, there.imag), L))
-            eyes.append(_circle("LINK", z, sizes.hub(axis.bore.bore)))
+            eyes.append(_circle("LINK", z, sizes.hub(axis.bore)))
             if name not in axis.one_piece:
                 hole = axis.bore.hole(cmath.phase(bar.unit))
                 holes.append(placed(hole, (z.real, z.imag), 0.0))

@@ -146,7 +146,7 @@ def _crank_shaft(parts: Outlines, links: list[Link], bars: Links) -> tuple[set[i
     if parts.sizes.crank_bore > 0.0:  # it passes the locking disc
         carries.add(0)
     radius = sizes.crank_shaft or bars.shaft((L, 0.0), L)
-    wide = bore_at(machine, (L, 0.0), radius).bore.around
+    wide = bore_at(machine, (L, 0.0), radius).around
     return carries, Round("the crank's shaft", 0, places(links[0])[0] * 0.0 + L, wide)
 
 
@@ -170,7 +170,7 @@ def _gears(parts: Outlines, bars: Links, gears: list[Link], turn: Array) -> Iter
         away = np.abs(places(link)[0])
         on_shaft = bool(away.max() < SAME_LENGTH * parts.assembly.L)
         # a shaft fills the gear's bore, a hub does not
-        own = gear.bore.bore
+        own = gear.bore
         wide = own._replace(radius=own.radius + own.loose).around
         for one in _on_wheel(parts, [link], bars.sizes, 0.0 * turn):
             if on_shaft and one.radius <= wide:

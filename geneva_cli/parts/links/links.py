@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from geneva_cli.geometry.plates import Member, Plate, placed
-from geneva_cli.geometry.shapes import Circle, Point
+from geneva_cli.geometry.plates import Member, Plate
+from geneva_cli.geometry.shapes import Circle, Point, placed
 from geneva_cli.motion.pivots import Joint, Teeth
 from geneva_cli.numerics.tolerances import bore_radius, rounded_radius
 from geneva_cli.parts.assembly import same
-from geneva_cli.parts.shafts.bores import BoltCircle, Bore, ShaftBore
+from geneva_cli.parts.shafts.bores import BoltCircle, Bore
 from geneva_cli.parts.sizes import HUB, plane_span
 
 
@@ -69,13 +69,13 @@ class LinkAxis(NamedTuple):
     kinds: tuple[Joint, ...]
     at: Point
     stands: bool  # it does not move with the input angle
-    bore: ShaftBore = ShaftBore()  # for its shaft or pivot
+    bore: Bore = Bore(0.0)  # for its shaft or pivot
     one_piece: frozenset[str] = frozenset()  # names of the links that have no bore for it
 
     @property
     def radius(self) -> float:
         """Radius of its bore."""
-        return self.bore.bore.radius
+        return self.bore.radius
 
 
 class Gear(NamedTuple):
@@ -83,7 +83,7 @@ class Gear(NamedTuple):
 
     at: Point
     radius: float
-    bore: ShaftBore
+    bore: Bore
     teeth: Teeth
     plate: Plate
     screws: BoltCircle | None = None  # between a gear that stands still and the frame

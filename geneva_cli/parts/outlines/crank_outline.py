@@ -16,17 +16,8 @@ from typing import TypeAlias
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.shapes import (
-    ORIGIN,
-    Arc,
-    Contour,
-    Line,
-    Segment,
-    Shape,
-    about,
-    closed,
-    polar,
-)
+from geneva_cli.geometry import shapes
+from geneva_cli.geometry.shapes import ORIGIN, Arc, Contour, Line, Segment, Shape
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.arrays import Array, within_half_turn
 from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_LENGTH
@@ -161,34 +152,28 @@ def crank_contours(
     for start, end, _ in around:
         covered += end - start
     if covered > math.tau - SAME_ANGLE:
-        raise GenevaError(
-            "nothing is left of the locking disc: its reliefs go all the way round; use fewer "
-            f"rollers, or a smaller one than {sizes.roller:g} mm",
-            ("size", "roller_radius_mm"),
-        )
+        text = f"reliefs leave no locking disc: use fewer rollers, or below {sizes.roller:g} mm"
+        raise GenevaError(text, ("size", "roller_radius_mm"))
     segments, locking = list[Segment](), dict(sectors(around))
     for start, end, _ in around:
         middle, half = 0.5 * (start + end), 0.5 * (end - start)
         if relief == "sector":  # down to where the wheel never comes
             floor = assembly.L - sizes.rim - sizes.relief
-            bottom = about(ORIGIN, floor, start, end - start)
-            begin, last = polar(ORIGIN, sizes.lock, start), polar(ORIGIN, sizes.lock, end)
+            bottom = shapes.about(ORIGIN, floor, start, end - start)
+            begin, last = (shapes.polar(ORIGIN, sizes.lock, turn) for turn in (start, end))
             segments += [Line(begin, bottom.start), bottom, Line(bottom.end, last)]
         elif half > 0.5 * math.pi - SAME_ANGLE:
-            raise GenevaError(
-                f'relief = "arc": the wheel moves over {math.degrees(2.0 * half):.6g} deg of '
-                'the crank, but an arc relieves less than 180 deg; set relief = "sector"',
-                ("size", "relief"),
-            )
+            text = f"an arc relieves less than 180 deg, not {math.degrees(2.0 * half):.6g}"
+            raise GenevaError(f'{text}: set relief = "sector"', ("size", "relief"))
         else:
             # The arc meets the disc at right angles. For a radial slot entered without shock it is
             # the triangle of wheel, crank and roller at entry, scaled down to the disc.
-            centre = polar(ORIGIN, sizes.lock / math.cos(half), middle)
+            centre = shapes.polar(ORIGIN, sizes.lock / math.cos(half), middle)
             off, radius = math.pi / 2.0 - half, sizes.lock * math.tan(half)
-            segments.append(about(centre, radius, middle + math.pi + off, -2.0 * off))
+            segments.append(shapes.about(centre, radius, middle + math.pi + off, -2.0 * off))
         if end in locking:
-            segments.append(about(ORIGIN, sizes.lock, end, locking[end] - end))
-    return [closed("CRANK", segments)]
+            segments.append(shapes.about(ORIGIN, sizes.lock, end, locking[end] - end))
+    return [shapes.closed("CRANK", segments)]
 
 
 def takes_arcs(assembly: Assembly, sizes: Sizes) -> bool:
@@ -231,18 +216,16 @@ def _rings(assembly: Assembly, sizes: Sizes, swept: Swept, spare: float) -> list
         # the least thickness of a sector is a tenth of the disc's radius
         half = widest(whole, lambda half: max(inner(half)) < 0.9 * sizes.lock)
         if half is None:
-            raise GenevaError(
-                "the wheel sweeps over the whole locking sector: a smaller roller, or another "
-                f"lock_radius_mm than {sizes.lock:.6g}, may leave part of it; 0 omits it",
-                ("size", "lock_radius_mm"),
-            )
+            text = "the wheel sweeps over a whole locking sector: use a smaller roller, or another"
+            text = f"{text} lock_radius_mm than {sizes.lock:.6g}; 0 omits it"
+            raise GenevaError(text, ("size", "lock_radius_mm"))
         edge, floor = inner(half)
         low, high = middle - half, middle + half
-        outer = about(ORIGIN, sizes.lock, low, 2.0 * half)
-        begin, last = polar(ORIGIN, edge, high), polar(ORIGIN, edge, low)
+        outer = shapes.about(ORIGIN, sizes.lock, low, 2.0 * half)
+        begin, last = shapes.polar(ORIGIN, edge, high), shapes.polar(ORIGIN, edge, low)
         bulge = (edge * math.cos(half) - floor) / (edge * math.sin(half))
         inwards, outwards = Line(outer.end, begin), Line(last, outer.start)
-        return closed("CRANK", [outer, inwards, Arc(begin, last, bulge), outwards])
+        return shapes.closed("CRANK", [outer, inwards, Arc(begin, last, bulge), outwards])
 
     return [ring(*span) for span in sectors(reliefs(assembly))]
 

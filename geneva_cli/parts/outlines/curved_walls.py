@@ -104,7 +104,7 @@ def _fitted(slot: _CurvedSlot) -> Contour:
             back = points_at(two, d, c, 0.5 * (c + d))
             pairs = zip(there, back, strict=True)
             if all(math.hypot(v - x, w + y) <= 1e-10 * assembly.L for (x, y), (v, w) in pairs):
-                runs.append(mirrored(runs[other]))
+                runs.append([*mirrored(runs[other])])
                 continue
         runs.append(_segments(piece, half, curves))
     return Contour("WHEEL", joined(itertools.chain(*runs)), closed=False)
@@ -169,11 +169,8 @@ def chain(assembly: Assembly, sizes: Sizes, around: list[Wall]) -> list[WallPiec
 
 
 def _lost() -> GenevaError:
-    return GenevaError(
-        "the walls of this slot do not close: the roller is too large, or the rim too small; "
-        "reduce roller_radius_mm or increase wheel_radius_mm",
-        ("size", "roller_radius_mm"),
-    )
+    text = "the walls of a slot do not close: reduce roller_radius_mm or increase wheel_radius_mm"
+    return GenevaError(text, ("size", "roller_radius_mm"))
 
 
 def _next(around: list[Wall], last: WallPlace) -> WallPlace:
@@ -282,10 +279,8 @@ def _segments(piece: WallPiece, tolerance: float, curves: str) -> list[Segment]:
     fitted = fit.KINDS[curves]
     if a == b:
         if math.dist(*points_at(wall, *ends)) > tolerance:
-            raise GenevaError(
-                "walls of the slot change within the last digits of the input angle: make the "
-                "drive more even"
-            )
+            text = "walls of a slot change within the last digits of the input angle"
+            raise GenevaError(f"{text}: make the drive more even")
         return []
     if a < b:
         return [*fitted(wall.curve, a, b, tolerance)]

@@ -29,15 +29,7 @@ from geneva_cli.parts.outlines.crank_outline import (
     sectors,
 )
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.shafts.bores import (
-    Bore,
-    ShaftBore,
-    bolt_radius,
-    bore_of,
-    has_shape,
-    round_bore,
-    tapped,
-)
+from geneva_cli.parts.shafts.bores import Bore, bolt_radius, bore_of, has_shape, round_bore, tapped
 from geneva_cli.parts.sizes import hub_and_eye, lock_bolt_directions, pin_hole
 from geneva_cli.parts.slots.roller_paths import roller_centres
 from geneva_cli.spec.defaults import eye_about
@@ -53,7 +45,6 @@ class Shaft(NamedTuple):
     low: float
     high: float
     at: Point
-    direction: float = 0.0  # of the bore's keyway or flat
     turn: float = 0.0
     turns: bool = True  # in a bearing of the frame
 
@@ -68,7 +59,7 @@ class Shaft(NamedTuple):
                 f"{self.part}_shaft_high_mm",
                 ("size", key),
             )
-        section = self.bore.shape("SHAFT", self.direction, shaft=True)
+        section = self.bore.shape("SHAFT", self.bore.direction, shaft=True)
         plate = Plate(self.name, "SHAFT", section, (), self.low, self.high)
         return Member(plate, self.at, self.turn)
 
@@ -112,13 +103,13 @@ def shafts(parts: Outlines, lowest: float, stop: float | None) -> Iterator[Shaft
     assembly, sizes, still = parts.assembly, parts.sizes, np.zeros(1)
     size = assembly.mechanism.spec.size
     if sizes.wheel_bore:
-        bore = bore_of(size, "wheel", sizes.wheel_bore)
+        bore = bore_of(size, "wheel", sizes.wheel_bore)._replace(direction=assembly.rests[0])
         ends = wheel_shaft_ends(parts, lowest)
         turn = 0.0 if bore.is_plain else float(assembly.wheel(still)[0])
-        yield Shaft("wheel's shaft", "wheel", bore, *ends, ORIGIN, assembly.rests[0], turn)
+        yield Shaft("wheel's shaft", "wheel", bore, *ends, ORIGIN, turn)
     radius = sizes.arm_bore if parts.has_arm else sizes.crank_bore
     if radius:
-        bore, at = bore_of(size, "crank", radius), (assembly.L, 0.0)
+        bore = bore_of(size, "crank", radius)._replace(direction=keyway_direction(assembly))
         # what it carries ends in the arm, or in a bored locking disc or its hub
         top = 0.0 - size.allowances.pin_gap_mm  # no -0.0
         if sizes.crank_bore:
@@ -126,8 +117,7 @@ def shafts(parts: Outlines, lowest: float, stop: float | None) -> Iterator[Shaft
             top = on_disc.high if on_disc else top + sizes.lock_thickness
         ends = shaft_ends(size, "crank", lowest if stop is None else stop, top)
         turn = 0.0 if bore.is_plain else float(assembly.crank(still)[0])
-        direction = keyway_direction(assembly)
-        yield Shaft("crank's shaft", "crank", bore, *ends, at, direction, turn)
+        yield Shaft("crank's shaft", "crank", bore, *ends, (assembly.L, 0.0), turn)
 
 
 def wheel_shaft_ends(parts: Outlines, lowest: float) -> tuple[float, float]:
@@ -141,18 +131,18 @@ def wheel_shaft_ends(parts: Outlines, lowest: float) -> tuple[float, float]:
     return shaft_ends(parts.assembly.mechanism.spec.size, "wheel", low, sizes.wheel_thickness)
 
 
-def bore_at(mechanism: Mechanism, at: Point, radius: float) -> ShaftBore:
+def bore_at(mechanism: Mechanism, at: Point, radius: float) -> Bore:
     """Return the bore of what is on the shaft at a point: as in wheel or crank, or a round one."""
     size, L = mechanism.spec.size, mechanism.center_distance_mm
     part = "crank" if same(at, (L, 0.0), L) else "wheel" if same(at, ORIGIN, L) else ""
     if not (part and has_shape(size, part)):
-        return ShaftBore(round_bore(size, radius))
+        return round_bore(size, radius)
     own, still = assembly(mechanism, flat=False), np.zeros(1)
     if part == "wheel":
         direction, turn = own.rests[0], own.wheel(still)
     else:
         direction, turn = keyway_direction(own), own.crank(still)
-    return ShaftBore(bore_of(size, part, radius), direction + float(turn[0]))
+    return bore_of(size, part, radius)._replace(direction=direction + float(turn[0]))
 
 
 class CrankArm(NamedTuple):

@@ -42,6 +42,7 @@ class Bore(NamedTuple):
     flat: float = 0.0  # depth of a D's flat below the circle
     key: ParallelKey | None = None  # of a round bore with a keyway
     standard: str = ""  # of the key
+    direction: float = 0.0  # of the keyway, flat or side in the machine at input angle 0, radians
 
     @property
     def is_plain(self) -> bool:
@@ -101,16 +102,9 @@ class Bore(NamedTuple):
             return closed(layer, [Line(second.end, first.start), first, second])
         return Circle(layer, ORIGIN, radius)
 
-
-class ShaftBore(NamedTuple):
-    """A bore, and the direction of its keyway, flat or side at input angle 0, radians."""
-
-    bore: Bore = Bore(0.0)
-    direction: float = 0.0
-
     def hole(self, turn: float = 0.0) -> Shape:
         """Return the hole about the origin of a part that stands turned by an angle."""
-        return self.bore.shape("BORE", self.direction - turn)
+        return self.shape("BORE", self.direction - turn)
 
 
 def bore_of(size: Size, part: str, radius: float) -> Bore:

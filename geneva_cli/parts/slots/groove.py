@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple
+from itertools import chain, pairwise
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -49,22 +50,17 @@ def groove_curve(groove: Groove, L: float, offset: float) -> Callable[[Array], t
     return curve
 
 
-class GrooveExtremes(NamedTuple):
-    """Least distance of rollers from the crank's axis, over L, and pressure angle, (m,)."""
+def sampled_extremes(groove: Groove, input_deg: Array) -> tuple[Array, Array]:
+    """Return least distances from the crank's axis, over L, and pressure angles of m grooves, (m,).
 
-    nearest: Array
-    pressure_deg: Array
-
-
-def sampled_extremes(groove: Groove, input_deg: Array) -> GrooveExtremes:
-    """Return the extremes of m grooves at ``input_deg`` (m, k) and 360 places of the dwell."""
+    They are the extremes at ``input_deg`` (m, k) and 360 places of the dwell.
+    """
     dwell = 360.0 - (groove.motion.exit_deg - groove.motion.entry_deg)
     rest = groove.motion.exit_deg + dwell * (np.arange(360) / 360)
     moving = groove.distances(input_deg, 1)[1].derivatives()
     resting = back(groove, np.atleast_2d(rest), 1)
     R, slope = (np.hstack(pair) for pair in zip(moving, resting, strict=True))
-    steep = np.abs(slope) / R
-    return GrooveExtremes(R.min(axis=1), np.degrees(np.arctan(steep.max(axis=1))))
+    return R.min(axis=1), np.degrees(np.arctan((np.abs(slope) / R).max(axis=1)))
 
 
 def greatest_pressure(groove: Groove) -> tuple[float, float]:
@@ -100,55 +96,48 @@ def groove_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None)
     The crank's axis is the origin, and x points away from the wheel's axis. Left and right are the
     flanks in the roller's direction of travel. The pressure angle is atan(R'/R).
     """
-    engagement = mechanism.engagements[0]
-    groove = engagement.groove
-    if groove is None:
-        raise GenevaError(
-            f'--part groove: kind = "{mechanism.spec.drive.NAME}" has no groove; "cam" has one'
-        )
+    groove = _groove_of(mechanism)
     clearance = mechanism.spec.size.allowances.slot_clearance_mm
     L, offset = mechanism.center_distance_mm, mechanism.roller_radius_mm + clearance
+    lines = [groove_curve(groove, L, side) for side in (0.0, offset, -offset)]
     ends = groove.motion.entry_deg, 0.0, groove.motion.exit_deg
     if samples is None:
-        lines = [groove_curve(groove, L, side) for side in (0.0, offset, -offset)]
         x = chords.nodes(lambda at: [line(at)[0] for line in lines], ends, tolerance_mm)
     else:
         x = np.linspace(ends[0], ends[-1], samples)
-    R, slope = (L * c for c in groove.distances(x, 2)[1].c[:2])
-    px, py = groove.groove(x, 2)
-    (x0, x1, x2), (y0, y1, y2) = px.derivatives(), py.derivatives()
-    speed, turning = np.hypot(x1, y1), x1 * y2 - y1 * x2
+    R, slope, bend = groove.distances(x, 2)[1].derivatives()
+    square = R * R + slope * slope
+    turning = groove.sign * (R * bend - slope * slope - square)
     with np.errstate(divide="ignore"):
         # The roller enters along the slot, while the wheel still rests: a straight line.
-        straight = np.abs(turning) < 1e-12 * speed * speed
-        radius = np.where(straight, np.inf, L * speed**3 / turning)
-    nx, ny = -y1 / speed * offset, x1 / speed * offset
-    points = [(L * x0 + side * nx, L * y0 + side * ny) for side in (0.0, 1.0, -1.0)]
+        straight = np.abs(turning) < 1e-12 * square
+        radius = np.where(straight, np.inf, L * square**1.5 / turning)
+    points = [axis for line in lines for axis in line(x)[0].T]
     pressure = np.degrees(np.arctan2(np.abs(slope), R))
-    columns = [engagement.inputs_deg(x), R, *(axis for line in points for axis in line)]
-    return Table(NAMES, [*columns, pressure, radius])
+    shown = mechanism.engagements[0].inputs_deg(x)
+    return Table(NAMES, [shown, L * R, *points, pressure, radius])
+
+
+def _groove_of(mechanism: Mechanism) -> Groove:
+    groove = mechanism.engagements[0].groove
+    if groove is None:
+        raise GenevaError(f'kind = "{mechanism.spec.drive.NAME}" has no groove; "cam" has one')
+    return groove
 
 
 def groove_lines(
     parts: Outlines, tolerance: float | None, curves: str
 ) -> tuple[Contour, Contour, Contour]:
     """Return both flanks of the groove all round, about the crank's axis, and its pitch curve."""
-    guide = parts.assembly.rollers[0][0].groove
-    if guide is None:
-        kind = parts.assembly.full.spec.drive.NAME
-        raise GenevaError(
-            f'--part groove, groove-plate: kind = "{kind}" has no groove; "cam" has one'
-        )
+    guide = _groove_of(parts.assembly.full)
     # the flanks are within 0.001 mm by default, as a drawing's
     motion, fine = guide.motion, 1e-3 if tolerance is None else tolerance
     ends = (motion.entry_deg, motion.exit_deg, motion.entry_deg + 360.0)
 
     def line(layer: Layer, side: float) -> Contour:
         curve = groove_curve(guide, parts.assembly.L, side * parts.sizes.half_width)
-        pairs = zip(ends, ends[1:], strict=False)
-        return closed(
-            layer, [piece for a, b in pairs for piece in fit.KINDS[curves](curve, a, b, fine)]
-        )
+        runs = [fit.KINDS[curves](curve, a, b, fine) for a, b in pairwise(ends)]
+        return closed(layer, chain(*runs))
 
     return line("GROOVE", 1.0), line("GROOVE", -1.0), line("PITCH", 0.0)
 
@@ -158,12 +147,9 @@ def groove_base(parts: Outlines, bars: Links) -> Plate:
 
     Raises GenevaError where the wheel's hub leaves no space for the rim around the groove.
     """
-    guide, sizes, full = (
-        parts.assembly.rollers[0].engagement.groove,
-        parts.sizes,
-        parts.assembly.full,
-    )
-    assert bars.sizes is not None and guide is not None  # the crank is a link, with a groove
+    sizes, full = parts.sizes, parts.assembly.full
+    guide = _groove_of(full)
+    assert bars.sizes is not None  # the crank is a link
     L, wall = parts.assembly.L, sizes.wall_min
     # farthest where a flank is normal to the ray; 3601 angles of a turn: the error is quadratic
     at, _ = groove_curve(guide, L, 0.0)(np.linspace(0.0, 360.0, 3601))
@@ -172,26 +158,20 @@ def groove_base(parts: Outlines, bars: Links) -> Plate:
     # where it fits, the rim around the groove is 1.5 roller radii wide
     rim = min(max(1.5 * sizes.roller, 4.0 * wall), space)
     if rim < 4.0 * wall:
-        raise GenevaError(
-            f"--part groove-plate: the groove reaches {far:.4g} mm and leaves {space:.4g} mm up to "
-            "the wheel's hub, less than four times wall_min_mm. Reduce roller, wheel_hub_mm or "
-            "wheel_bore_mm",
-            ("size", "wheel_hub_mm"),
-        )
+        text = f"{space:.4g} mm between groove and wheel's hub are less than four times wall_min_mm"
+        text = f"--part groove-plate: {text}: reduce roller, wheel_hub_mm or wheel_bore_mm"
+        raise GenevaError(text, ("size", "wheel_hub_mm"))
     screw, away = screw_through(0.5 * rim), far + 0.5 * rim
-    mounts = [
-        Circle("BORE", polar(ORIGIN, away, turn), 0.5 * screw.through)
-        for turn in (math.tau * (k + 0.5) / MOUNTS for k in range(MOUNTS))
-        if screw
-    ]
+    turns = [math.tau * (k + 0.5) / MOUNTS for k in range(MOUNTS)] if screw else []
+    through = 0.5 * screw.through if screw else 0.0
+    mounts = [Circle("BORE", polar(ORIGIN, away, turn), through) for turn in turns]
     shaft = bars.shaft((L, 0.0), L)
     if shaft:  # which turns in the base
-        shaft = bore_at(full, (L, 0.0), shaft).bore.around
+        shaft = bore_at(full, (L, 0.0), shaft).around
     bore = [Circle("BORE", ORIGIN, shaft + bars.sizes.loose)] if shaft else []
     high, _ = bars.sizes.span(BELOW)
-    low = high - sizes.arm_thickness
-    if full.spec.drive_before:  # it fills its plane: another drive is below it
-        low, _ = bars.sizes.span(BELOW + 1)
+    # before another drive it fills its plane
+    low = bars.sizes.span(BELOW + 1)[0] if full.spec.drive_before else high - sizes.arm_thickness
     edge = Circle("FRAME", ORIGIN, far + rim)
     return Plate("groove plate's base", "FRAME", edge, (*bore, *mounts), low, high)
 

@@ -13,15 +13,8 @@ from functools import lru_cache
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.shapes import (
-    Arc,
-    Contour,
-    Line,
-    Point,
-    Segment,
-    fraction_at,
-    segment_length,
-)
+from geneva_cli.geometry import shapes
+from geneva_cli.geometry.shapes import Arc, Contour, Line, Point, Segment
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.parts.assembly import Assembly
 
@@ -185,40 +178,41 @@ def tip(wall: Line, centre: Point, recess: float, width: float) -> Line | None:
     if at >= long:
         return None
     if depth <= 0.0 or at <= 0.5 * long:
-        raise GenevaError(
-            f"horn_tip_mm = {width:g}: the horns would lose more than half of the slots; "
-            "use a smaller tip, or a smaller lock_radius_mm",
-            ("size", "horn_tip_mm"),
-        )
+        text = "the horns would lose more than half of the slots: reduce it, or lock_radius_mm"
+        raise GenevaError(f"horn_tip_mm = {width:g}: {text}", ("size", "horn_tip_mm"))
     across = math.copysign(width, side)
     on_wall = x + at * u, y + at * v
     return Line(on_wall, (on_wall[0] - across * v, on_wall[1] + across * u))
 
 
-def rounded(before: Line | Arc, after: Line | Arc, radius: float, sign: float) -> list[Segment]:
+def rounded(before: Segment, after: Segment, radius: float, sign: float) -> list[Segment]:
     """Return two pieces with an arc between them; ``sign`` is 1 with the material on the left."""
     from geneva_cli.geometry import offsets
 
+    assert isinstance(before, Line | Arc) and isinstance(after, Line | Arc)  # slots are straight
     centre = offsets.corner(before, after, sign * radius)
-    ends = []
+    ends, parts = [], []
     for piece in (before, after):
         distance, (x, y) = offsets.away(piece, centre)
         ends.append((centre[0] - distance * x, centre[1] - distance * y))
-    parts = [fraction_at(piece, end) for piece, end in zip((before, after), ends, strict=True)]
+        parts.append(shapes.fraction_at(piece, ends[-1]))
     if not (0.0 < parts[0] <= 1.0 and 0.0 <= parts[1] < 1.0):
-        raise GenevaError(
-            f"mouth_radius_mm = {radius:g}: a mouth's corner has no space for this rounding, as "
-            "wall, rim or tip of the horn is too short beside it; use a smaller radius",
-            ("size", "mouth_radius_mm"),
-        )
+        text = f"mouth_radius_mm = {radius:g}: a mouth's corner has no space for this rounding"
+        raise GenevaError(f"{text}; use a smaller one", ("size", "mouth_radius_mm"))
     first, last = ends
-    begin, end = (math.atan2(y - centre[1], x - centre[0]) for x, y in ends)
-    sweep = math.remainder(end - begin, math.tau)
     return [
         offsets.between(before, before.start, first),
-        Arc(first, last, math.tan(0.25 * sweep)),
+        arc_about(centre, first, last, sign),
         offsets.between(after, last, after.end),
     ]
+
+
+def arc_about(axis: Point, start: Point, end: Point, sense: float) -> Arc:
+    """Return an arc about an axis, counterclockwise (+1) or clockwise (-1)."""
+    a = math.atan2(start[1] - axis[1], start[0] - axis[0])
+    b = math.atan2(end[1] - axis[1], end[0] - axis[0])
+    sweep = sense * (sense * (b - a) % math.tau)
+    return Arc(start, end, math.tan(0.25 * sweep))
 
 
 def cut_walls(walls: Contour, wheel: Contour) -> Contour:
@@ -232,5 +226,5 @@ def cut_walls(walls: Contour, wheel: Contour) -> Contour:
 
 def wall_lost(walls: Contour, wheel: Contour) -> float:
     """Return by how much the walls of a straight slot end deeper than at sharp mouths, mm."""
-    cut = cut_walls(walls, wheel).segments
-    return max(segment_length(walls.segments[i]) - segment_length(cut[i]) for i in (0, -1))
+    pairs = zip(walls.segments, cut_walls(walls, wheel).segments, strict=True)
+    return max(math.dist(*own[:2]) - math.dist(*cut[:2]) for own, cut in pairs)

@@ -16,7 +16,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.numerics.arrays import Array, Mask, Whole
+from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.parts.turn.stops import Branches, Meetings, Stops
 
 SAME = 1e-12  # radians: intervals of adjacent pieces leave no gap
@@ -156,14 +156,6 @@ class Ranges:
         if angle < before:
             return Range(False, self.low[k - 1] + shift, before)
         return Range(True, before, after)
-
-    def are_blocked(self, angle: float) -> Mask:
-        """Return in which poses an angle of the wheel, radians, is not free: (n,)."""
-        row, start, end = self.intervals
-        at = angle - self.period * math.floor(angle / self.period)
-        out = np.zeros(len(self.ends) - 1, dtype=bool)
-        out[row[(start < at) & (at < end)]] = True
-        return out
 
 
 def union(row: Whole, start: Array, end: Array) -> Intervals:

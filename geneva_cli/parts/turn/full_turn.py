@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import partial
+from operator import attrgetter, itemgetter
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -16,18 +18,12 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.numerics.arrays import Array, rising
 from geneva_cli.numerics.roots import boundary_by_sections
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG, SAME_LENGTH
-from geneva_cli.parts.turn.turned_parts import (
-    EXACT,
-    Play,
-    TurnedParts,
-    play_of,
-    wheel_stops,
-    windows,
-)
+from geneva_cli.parts.turn.turned_parts import Play, TurnedParts, play_of, wheel_stops, windows
 
 POSITIONS = 10_000  # at most: about 0.1 s of the parts alone; a turn that needs more is not proved
 DIP = 1e-9  # mm: gaps that differ by less count as equal
 FINER = 9  # positions in each refinement of a smallest gap
+EXACT = 1e-10  # radians: smaller angles are rounding
 SAME = 1e-7  # of a play: its relative accuracy
 DRIVING, IDLE, LOCK = "roller and slot", "idle roller and wheel", "locking disc and wheel"
 
@@ -52,10 +48,9 @@ class Most(NamedTuple):
 class FullTurn(NamedTuple):
     """The results of a full turn, at input angles as ``Mechanism.shown_deg`` gives them.
 
-    ``driving``, ``idle`` and ``lock`` are the smallest gaps of driving rollers, of idle ones and of
-    the locking disc, and ``smallest`` is the smallest of all. ``dwell`` is the wheel's play in
-    either direction in the middle of a dwell, where the lock holds it best, and ``holds`` is True
-    if something does in every dwell. ``hand_over`` is the largest play while no roller is in its
+    ``gaps`` has the smallest gap of each pair of parts: of driving rollers, of idle ones, and of
+    the locking disc. ``dwell`` is the wheel's play in either direction in the middle of a dwell,
+    where the lock holds it best. ``hand_over`` is the largest play while no roller is in its
     slot. ``motion`` is the largest play in both directions while a roller is in its slot; a slot
     that drives from one wall only does not count as play. ``ahead`` and ``behind`` are the largest
     play there in each direction alone. ``push`` is the largest pressure angle at which a roller
@@ -64,12 +59,8 @@ class FullTurn(NamedTuple):
     ``free_deg``, half a step, means that nothing holds the wheel.
     """
 
-    driving: Gap
-    idle: Gap | None
-    lock: Gap | None
-    smallest: Gap
+    gaps: dict[str, Gap]
     dwell: Most
-    holds: bool
     hand_over: Most
     motion: Most
     ahead: Most
@@ -78,6 +69,16 @@ class FullTurn(NamedTuple):
     contact: tuple[float, float]
     free_deg: float
     play: Play
+
+    @property
+    def smallest(self) -> Gap:
+        """The smallest of all gaps."""
+        return min(self.gaps.values(), key=attrgetter("mm"))
+
+    @property
+    def holds(self) -> bool:
+        """True if something holds the wheel in every dwell."""
+        return self.dwell.deg < self.free_deg * (1.0 - SAME)
 
 
 def full_turn(parts: TurnedParts) -> FullTurn:
@@ -93,19 +94,14 @@ def full_turn(parts: TurnedParts) -> FullTurn:
         earlier = np.where(places > middle, places - assembly.turn_deg, places)
         return assembly.shown_deg(float(places[np.argmin(earlier)]))
 
-    at, idle, lock = _positions(parts), None, None
-    smallest = driving = _least(parts, DRIVING, at, first)
-    if len(assembly.rollers) > 1:
-        idle = _least(parts, IDLE, at, first)
-        smallest = idle if idle.mm < smallest.mm else smallest
-    if parts.locked:
-        lock = _least(parts, LOCK, at, first)
-        smallest = lock if lock.mm < smallest.mm else smallest
-    fits = smallest.mm >= -parts.close
+    at, pairs = _positions(parts), [DRIVING]
+    pairs += [IDLE] if len(assembly.rollers) > 1 else []
+    pairs += [LOCK] if parts.locked else []
+    gaps = dict(zip(pairs, map(partial(_least, parts, at=at, first=first), pairs), strict=True))
+    fits = min(gaps.values()).mm >= -parts.close
     resting, dwell = [], Most(0.0, first(np.zeros(1)))
     for start, end, _, rests, _ in every:
-        if rests:
-            resting.append(0.5 * (start + end))
+        resting += [0.5 * (start + end)] if rests else []
     if resting:
         leads, _ = wheel_stops(parts, np.array(resting), fits)
         dwell = _most(np.degrees(leads.max(axis=0)), np.array(resting), first)
@@ -114,29 +110,23 @@ def full_turn(parts: TurnedParts) -> FullTurn:
     guided_deg = play.input_deg[inside]
     either, both = np.maximum(play.back, play.on), np.minimum(play.back, play.on)
     # of each kind of motion, the first contact that is farthest off its slot's middle
-    offset, contact_deg, begin, known = -math.inf, 0.0, 0, set()
+    contact, begin, known = (-math.inf, 0.0), 0, set()
     for i, (engagement, _) in enumerate(assembly.motions):
         own = slice(begin, begin + len(engagement.passages))
         begin = own.stop
         if engagement not in known:
             known.add(engagement)
-            found, at_deg = _contact(parts, i, own)
-            offset, contact_deg = (found, at_deg) if found > offset else (offset, contact_deg)
-    free_deg = math.degrees(assembly.half_step)
+            contact = max(contact, _contact(parts, i, own), key=itemgetter(0))
     return FullTurn(
-        driving,
-        idle,
-        lock,
-        smallest,
+        gaps,
         dwell,
-        dwell.deg < free_deg * (1.0 - SAME),
         _most(either[outside], play.input_deg[outside], first),
         _most(both[inside], guided_deg, first),
         _most(play.on[inside], guided_deg, first),
         _most(play.back[inside], guided_deg, first),
         _most(push_deg, play.input_deg[:-1], first),
-        (offset, assembly.shown_deg(contact_deg)),
-        free_deg,
+        (contact[0], assembly.shown_deg(contact[1])),
+        math.degrees(assembly.half_step),
         play,
     )
 
@@ -164,10 +154,8 @@ def _positions(parts: TurnedParts) -> Array:
     # parts move a quarter of the thinnest feature between two positions
     count = math.ceil(total[-1] / (min(sizes.roller, max(sizes.horn, 0.2 * sizes.roller)) * 0.25))
     if count > POSITIONS:
-        raise GenevaError(
-            f"the full turn is not proved: it takes {count:,} positions, more than {POSITIONS:,}; "
-            "a larger roller or horn takes fewer"
-        )
+        text = f"the full turn takes {count:,} positions, more than {POSITIONS:,}"
+        raise GenevaError(f"{text}: use a larger roller or horn")
     even = np.interp(np.linspace(0.0, total[-1], count + 1), total, grid)
     # A rim that is too large collides for less than a degree about entry and exit.
     ends = []

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import copy
 import math
-from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
@@ -20,35 +19,18 @@ from geneva_cli.motion.pivots import turned_points
 from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.turn.stops import Pose, Stops
-
-if TYPE_CHECKING:
-
-    class PlaneLengths(Protocol):
-        """Lengths of the parts of a machine in the plane, mm."""
-
-        @property
-        def roller(self) -> float:
-            """Radius of the roller."""
-
-        @property
-        def rim(self) -> float:
-            """Distance of the rim from the wheel's axis; of a rack's edge from the origin."""
-
-        @property
-        def lock(self) -> float:
-            """Radius of the locking disc."""
-
+from geneva_cli.parts.turn.stops import Lengths, Pose, Stops
 
 NEAR = 0.02  # of the centre distance: wider gaps are returned as this
 
 
 class Gaps:
-    """The gaps between one machine's wheel, crank and rollers at any positions."""
+    """The gaps between one machine's wheel, crank and rollers at any positions.
 
-    def __init__(
-        self, assembly: Assembly, sizes: PlaneLengths, wheel: Contour, crank: list[Contour]
-    ):
+    Of the sizes it needs ``roller``, ``rim`` and ``lock``.
+    """
+
+    def __init__(self, assembly: Assembly, sizes: Lengths, wheel: Contour, crank: list[Contour]):
         self.assembly, self.sizes, self.plane_motion = assembly, sizes, assembly.plane_motion
         self.wheel = Polyarc([wheel if assembly.sign > 0.0 else backwards(wheel)])
         self.near = NEAR * assembly.L

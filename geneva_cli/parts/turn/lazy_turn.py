@@ -98,29 +98,17 @@ class Turner:
         """Return the range about an angle of the wheel where the crank's turn starts."""
         return self.ranges.around(0, wheel)
 
-    def turn(self, wheel: float, turns: int = 1, way: int = 1, exact: bool = True) -> LazyTurn:
-        """Return the motion over so many turns of the crank, forwards or (``way`` = -1) backwards.
+    def turn(self, wheel: float, way: int = 1, exact: bool = True) -> LazyTurn:
+        """Return the motion over a turn of the crank, forwards or (``way`` = -1) backwards.
 
-        Without ``exact`` pushes begin and end on the grid, and positions at rest are left out.
+        Without ``exact`` pushes begin and end on the grid.
         """
         path, jam = _Path(self.free, way, exact), None
-        last, k = turns * self.steps, 1
         try:
             path.begin(self.start, self.rest(wheel), wheel)
-            while k <= last:
-                if not exact and path.begun is None:
-                    # on to the first position at which the resting wheel is not free
-                    at = path.rows[-1][1]
-                    places = way * np.arange(k, min(k + self.steps, last + 1)) % self.steps
-                    hit = np.flatnonzero(self.ranges.are_blocked(at)[places])
-                    k = k + int(hit[0]) if len(hit) else last + 1
-                    crank = self.start + way * math.tau * (k - 1) / self.steps
-                    path.rows.append((crank, at, math.nan, math.nan))
-                    if k > last:
-                        break
+            for k in range(1, self.steps + 1):
                 crank = self.start + way * math.tau * k / self.steps
                 path.to(crank, partial(self.ranges.around, way * k % self.steps))
-                k += 1
         except _Stuck as stuck:
             jam = stuck.jam
         if path.begun is not None:

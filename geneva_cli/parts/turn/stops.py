@@ -23,7 +23,12 @@ from geneva_cli.numerics.arrays import Array, Mask, Whole
 BLOCK = 1 << 18  # pairs of branches that are compared together
 CONCENTRIC = 1e-9  # of the radius: an arc about the axis has one level
 
-Outline: TypeAlias = Any  # a Polyarc; on a sphere SphereArcs
+# What turns on a plane or on a sphere, whose own classes are those of a kind:
+Outline: TypeAlias = Any  # Polyarc or SphereArcs
+Shape: TypeAlias = Any  # wheel and crank with their sizes and gaps: Outlines or Shells
+Lengths: TypeAlias = Any  # their sizes, mm; on a sphere arc lengths, except ``rim``
+Clearances: TypeAlias = Any  # Gaps or BallGaps
+Pairs: TypeAlias = Any  # FlatPairs or SpherePairs
 
 
 class Pose(NamedTuple):

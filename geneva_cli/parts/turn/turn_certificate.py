@@ -10,21 +10,18 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.geometry.distance import farthest, from_segments, short_pieces
-from geneva_cli.geometry.shapes import Contour
+from geneva_cli.geometry.distance import Polyarc, farthest, from_segments
+from geneva_cli.geometry.shapes import Arc, Contour, Line, Segment, at
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.pivots import turned_points
 from geneva_cli.numerics.arrays import Array, rising
 from geneva_cli.parts.turn.gaps import Gaps
-from geneva_cli.parts.turn.stops import Pose
+from geneva_cli.parts.turn.stops import Clearances, Pose
 from geneva_cli.parts.turn.turned_parts import Intervals, TurnedParts, Window, windows
-
-if TYPE_CHECKING:
-    from geneva_cli.parts.turn.turned_parts import Clearances
 
 MOST = 20_000  # intervals of one pair of parts: ten times what the designs take; under a second
 UNKNOWN = 1e30  # mm: a bound that is not known, so large that no interval closes with it
@@ -124,9 +121,19 @@ class FlatPairs:
         self.gaps, self.target, self.rim = gaps, target, rim
         self.apart = max(target, 0.0)  # the distance up to which parts matter
         self._travels: dict[tuple[str, Engagement], Travel] = {}
-        # the crank in arcs of a degree, each of which is tested for being in the wheel, and the
-        # greatest distance of the crank from its axis, mm
-        self.pieces = short_pieces(crank, math.radians(1.0)) if crank else None
+        # the crank in arcs of a degree and pieces of lines, each of which is tested for being in
+        # the wheel, and the greatest distance of the crank from its axis, mm
+        pieces: list[Segment] = []
+        for contour in crank:
+            for piece in contour.segments:
+                sweep = piece.sweep if isinstance(piece, Arc) else 0.0
+                count = math.ceil(abs(math.degrees(sweep))) or 90
+                bulge, start = math.tan(0.25 * sweep / count), piece.start
+                for i in range(1, count + 1):
+                    end = at(piece, i / count)
+                    pieces.append(Arc(start, end, bulge) if sweep else Line(start, end))
+                    start = end
+        self.pieces = Polyarc([Contour("", tuple(pieces))]) if crank else None
         self.disc = float(farthest(self.pieces, 0.0, 0.0).max()) if self.pieces is not None else 0.0
 
     def lock(self, window: Window, on: Intervals) -> tuple[Array, Array]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from typing import TYPE_CHECKING, NamedTuple, Protocol, Self
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -19,81 +19,7 @@ from geneva_cli.numerics.tolerances import SAME_INPUT_DEG, SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
 
 if TYPE_CHECKING:
-    from collections.abc import Sized
-
-    from geneva_cli.parts.turn.stops import Pose, Stops
-
-    class _Lengths(Protocol):
-        """Lengths of the parts, mm; on a sphere arc lengths, except ``rim``.
-
-        They are the radius of the roller and half the width of a slot. The rim is at its distance
-        from the wheel's axis (a rack's edge from the origin), and the rollers from the crank's.
-        The horn is as thick as between slot and recess.
-        """
-
-        @property
-        def roller(self) -> float: ...
-        @property
-        def half_width(self) -> float: ...
-        @property
-        def rim(self) -> float: ...
-        @property
-        def arm(self) -> float: ...
-        @property
-        def horn(self) -> float: ...
-
-    class Clearances(Protocol):
-        """The clearances between wheel, crank and rollers, mm, negative where they overlap.
-
-        They are in n poses, with the wheel turned on by ``lead`` radians, and at most ``near`` mm.
-        """
-
-        @property
-        def near(self) -> float:
-            """The widest clearance that is distinguished from wider ones, mm."""
-
-        @property
-        def stops(self) -> Stops:
-            """The stops of the wheel, turned back and on."""
-
-        def pose(self, input_deg: Array) -> Pose:
-            """Return the positions at input angles (n,), degrees."""
-
-        def in_wheel(self, motion: int, at: Array, lead: Array | float = 0.0) -> Array:
-            """Return a motion's roller in the frame of the wheel, mm, (n, 2) or (n, 3)."""
-
-        def rollers(self, pose: Pose, lead: Array | float = 0, near: float | None = None) -> Array:
-            """Return the clearance of each roller to the wheel, (n, m)."""
-
-        def locking(self, pose: Pose, lead: Array | float = 0, near: float | None = None) -> Array:
-            """Return the clearance between the crank's locking surfaces and the wheel, (n,)."""
-
-    class _Pairs(Protocol):
-        """The pairs of parts that may meet, with bounds of their gaps on n intervals.
-
-        They are the crank's locking surfaces and the wheel, and a roller and the wheel: in its slot
-        between two input angles, or outside the slot that it drives. Both answers, (n,) each, are
-        in mm: the gap in the middle of each interval, and a proved lower bound of it throughout.
-        """
-
-        def lock(self, window: Window, on: Intervals) -> tuple[Array, Array]: ...
-        def roller(
-            self, number: int, window: Window, span: tuple[float, float] | None, on: Intervals
-        ) -> tuple[Array, Array]: ...
-
-    class _Shape(Protocol):
-        """Wheel and crank of a machine, as they are cut and turned."""
-
-        @property
-        def assembly(self) -> Assembly: ...
-        @property
-        def sizes(self) -> _Lengths: ...
-        @property
-        def gaps(self) -> Clearances: ...
-        @property
-        def crank(self) -> Sized: ...
-        def _replace(self, *, assembly: Assembly) -> Self: ...
-
+    from geneva_cli.parts.turn.stops import Clearances, Lengths, Pairs, Pose, Shape
 
 # Of the centre distance, 0.2 um in 100 mm: parts that overlap by less count as touching. No cutter
 # and no roller is more accurate, nor are curved walls.
@@ -101,7 +27,6 @@ CONTACT = 2e-6
 AROUND = 5  # parts into which an interval is divided about a peak
 SMALL = 1e-3  # degrees: the interval over which a roller's speed is computed
 MOST = 4  # intervals that are divided in a round for one peak
-EXACT = 1e-10  # radians: smaller angles are rounding
 
 
 class Window(NamedTuple):
@@ -148,7 +73,7 @@ class TurnedParts(ABC):
 
     @property
     @abstractmethod
-    def _shape(self) -> _Shape:
+    def _shape(self) -> Shape:
         """Wheel and crank as they are turned. Raises GenevaError where the sizes leave none."""
 
     @property
@@ -157,7 +82,7 @@ class TurnedParts(ABC):
         return self._shape.assembly
 
     @property
-    def sizes(self) -> _Lengths:
+    def sizes(self) -> Lengths:
         """The lengths of the parts."""
         return self._shape.sizes
 
@@ -181,18 +106,12 @@ class TurnedParts(ABC):
         """The overlap, mm, up to which parts count as touching."""
         return CONTACT * self.assembly.L
 
-    def over(self, assembly: Assembly) -> Self:
-        """Return the parts of a machine whose wheel and crank are equal, at its own positions."""
-        other = type(self)(assembly.full, self.advice)
-        vars(other)["_shape"] = self._shape._replace(assembly=assembly)
-        return other
-
     @abstractmethod
     def past_mouth(self, motion: int, at: Array) -> Array:
         """Return how far a motion's roller is in its slot, beyond the mouth's corners, mm, (n,)."""
 
     @abstractmethod
-    def pairs(self, target: float) -> _Pairs:
+    def pairs(self, target: float) -> Pairs:
         """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""
 
 

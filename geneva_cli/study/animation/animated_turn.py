@@ -195,8 +195,9 @@ def pushes(cycle: Cycle, turn: MachineTurn) -> Iterator[Push]:
     for i, one in enumerate(turn.passages):
         local = np.linspace(one.engagement.entry_deg, one.engagement.exit_deg, 73)
         local *= 1.0 - 1e-6  # forces may be undefined at the ends of a motion
-        states = cycle.states(local + turn.passages[i % each].mid)
-        force, torque = np.abs(states.pin_force_N), np.asarray(states.wheel_torque_Nm)
+        names = ["pin_force_N", "wheel_torque_Nm"]
+        force, torque = cycle.states(local + turn.passages[i % each].mid, names)
+        force = np.abs(force)
         sound = np.isfinite(force)
         if not sound.any():
             continue

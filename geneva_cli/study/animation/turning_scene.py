@@ -29,7 +29,7 @@ from geneva_cli.output.scene import (
     Track,
     pose,
 )
-from geneva_cli.parts.gears.gear_curves import gears_table
+from geneva_cli.parts.gears.gear_pair import gears_table
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.specfile.writer import quoted, spec_lines
 from geneva_cli.study.animation.animated_turn import MachineTurn, pushes

@@ -10,8 +10,7 @@ from geneva_cli.answer import WARNS, Answer, Summary, SummaryLine, value_text
 from geneva_cli.design import Design
 from geneva_cli.errors import open_warnings
 from geneva_cli.loads.load_peaks import LoadSummary
-from geneva_cli.loads.load_tables import no_load
-from geneva_cli.loads.motor import RATED_kW, recommended_motor
+from geneva_cli.loads.load_tables import RATED_kW, no_load, recommended_motor
 from geneva_cli.numerics.tolerances import TIE
 from geneva_cli.study.fields import pick
 from geneva_cli.study.verdicts import chosen_lines, measured, warning

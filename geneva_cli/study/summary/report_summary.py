@@ -156,10 +156,6 @@ def of_vibration(design: Design, record: Table) -> Answer:
 
 
 def _swing_lines(values: dict[str, Any]) -> Iterator[SummaryLine]:
-    if values["period_ratio"] is None:
-        for text in values["warnings"]:
-            yield SummaryLine("vibration", text.replace("no value is computed", "not known"))
-        return
     ratio = measured(values["period_ratio"])
     damping = measured(values["damping_ratio"])
     hertz = values["natural_Hz"]

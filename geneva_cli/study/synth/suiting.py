@@ -58,8 +58,7 @@ def slot_paths(machine: Mechanism) -> SlotPaths:
     mouth = np.where(is_offset, farthest(ends, axis=1), nearest(ends, axis=1))
     steep = np.zeros(n)
     if engagement.groove:
-        groove = sampled_extremes(engagement.groove, at)
-        arm, steep = groove.nearest, groove.pressure_deg
+        arm, steep = sampled_extremes(engagement.groove, at)
     else:
         turn = 360.0 * machine.spec.turns * (np.arange(SAMPLES) / SAMPLES - 0.5)
         px, py = (c.c[0] for c in engagement.path(np.atleast_2d(turn), 0))

@@ -80,7 +80,7 @@ def shocks(names: Collection[str], mechanism: Mechanism) -> Iterator[Check]:
         from geneva_cli.loads.impacts.reversal import arrival
 
         if stop := arrival(mechanism):
-            torque_Nm, most_Nm, _ = stop
+            torque_Nm, most_Nm = stop
             check = compared("stopping_torque_Nm", torque_Nm, "at most", most_Nm)
             if not check.passes and most_Nm <= 0.0:
                 why = "no inertia carries the wheel on: set inertia_kgm2 in [load]"

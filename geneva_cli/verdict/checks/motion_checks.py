@@ -11,7 +11,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import value_or
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.parts import Parts
-from geneva_cli.parts.turn.full_turn import FullTurn
+from geneva_cli.parts.turn.full_turn import IDLE, FullTurn
 from geneva_cli.parts.turn.turn_certificate import UNKNOWN, certificate
 from geneva_cli.spec.tables import LIMITED
 from geneva_cli.verdict.checks import Check, compared
@@ -30,7 +30,7 @@ def motion(names: Collection[str], mechanism: Mechanism) -> Iterator[Check]:
     least = min(map(mechanism.dwell_deg, range(len(own))))
     yield compared("dwell_deg", least, "at least", 0.0)
     if spec.gears:
-        from geneva_cli.parts.gears.gear_curves import convexity
+        from geneva_cli.parts.gears.gear_pair import convexity
 
         driver, driven = convexity(spec.gears)  # the least curvatures
         yield compared("driver_gear_convexity", driver, "above", 0.0)
@@ -170,7 +170,7 @@ def turning(names: Collection[str], parts: Parts, turn: FullTurn) -> Iterator[Ch
     output, unit = machine.output, machine.output.unit
     holds = machine.spec.wheel.held_by is not None or turn.holds
     yield Check("dwell_hold", float(holds), "at least", 1.0, holds)
-    smallest, idle = turn.smallest, turn.idle  # negative where they overlap
+    smallest, idle = turn.smallest, turn.gaps.get(IDLE)  # negative where they overlap
     gap = 0.0 if abs(smallest.mm) <= touch else smallest.mm
     yield compared("gap_mm", gap, "at least", 0.0, smallest.at_deg, touch)
     if idle is not None:  # a roller that does not drive the wheel

@@ -180,7 +180,7 @@ def _links_gap(name: str, parts: FlatParts) -> Iterator[Check]:
             return
         from geneva_cli.parts.links.link_shafts import planes
 
-        spacers = parts.spacers if mechanism.spec.drive_before else ()
+        spacers = parts.framed.spacers if mechanism.spec.drive_before else ()
         near, blocked = planes(parts.outlines, parts.links, spacers)
     except GenevaError as error:
         yield Check(name, None, "at least", 0.0, False, str(error))

@@ -273,8 +273,7 @@ _REPORT = (
     *(
         _batch(
             f"strength.{shaft}",
-            "diameter_mm moment_Nm at_deg stress_MPa allowed_MPa margin least_diameter_mm "
-            "twist_deg",
+            "diameter_mm moment_Nm at_deg stress_MPa allowed_MPa margin least_diameter_mm",
             f"part_strength:{shaft}",
         )
         for shaft in ("wheel_shaft", "crank_shaft")

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from geneva_cli.loads.cycle_quantities import REPORTED_PEAKS
 from geneva_cli.loads.impacts.entry import entry_impacts
 from geneva_cli.loads.impacts.reversal import lasting_drag_Nm, reversal_impacts
 from geneva_cli.loads.impacts.shock_force import Impacts
 from geneva_cli.loads.load_case import inertia_kgm2, sources
 from geneva_cli.loads.load_peaks import (
+    REPORTED_PEAKS,
     LoadSummary,
     greatest_pressure,
     load_summaries,

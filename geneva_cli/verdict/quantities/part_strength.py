@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from functools import partial
 
@@ -11,10 +12,10 @@ from geneva_cli.loads.impacts.shock_force import least_pin_mm
 from geneva_cli.loads.load_case import centrifugal_N
 from geneva_cli.loads.strength import pin_arm_key
 from geneva_cli.loads.strength.lock import dwell_torque_Nm, held_force_N
-from geneva_cli.loads.strength.part_loads import LoadedShaft, shafts_under_load
+from geneva_cli.loads.strength.part_loads import shaft_squares, shear_MPa
 from geneva_cli.loads.strength.pin_arm_key import key_stress, shear_allowed_MPa
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.numerics.arrays import Array, Number, array, parameter
+from geneva_cli.numerics.arrays import Array, Number, array
 from geneva_cli.spec.defaults import roller_material, wheel_material
 from geneva_cli.spec.tables import Material
 from geneva_cli.spec.workshops import Stock
@@ -124,53 +125,49 @@ wheel_shaft, crank_shaft = partial(_shaft, part="wheel"), partial(_shaft, part="
 
 def shafts(of: Designs) -> dict[str, Columns]:
     """The columns of the shafts of wheel and crank, which are searched together."""
-    wheel, crank = _drawn(of, "wheel"), _drawn(of, "crank")
-    held = of.spec.load.dwell_torque_Nm is not None  # by the lock, in the dwell
-    torque_Nm = dwell_torque_Nm(of.machine) if held else np.zeros(1)
-    if torque_Nm.any():
-        sizes = under_load(of).lock_sizes  # without a disc something else holds it, by a couple
-        force = held_force_N(torque_Nm[:, None], sizes[1]) if sizes else 0.0 * torque_Nm
-        force = np.nan_to_num(np.ravel(force))
+    overhangs, each = dict[str, float | None](), dict[str, Columns]()
+    for part in ("wheel", "crank"):
+        overhangs[part], each[part] = _drawn(of, part)
+    torque_Nm, held = dwell_torque_Nm(of.machine), dict[str, tuple[Array, Array]]()
+    if torque_Nm.any():  # without a disc something else holds it, by a couple
+        sizes = under_load(of).lock_sizes
+        force = held_force_N(of.machine, sizes and sizes[1])
         carried = np.ravel(centrifugal_N(of.machine)) if of.machine.frame else 0.0
-        wheel = wheel._replace(held_N=force + carried, held_Nm=torque_Nm)
-        crank = crank._replace(held_N=force)  # the force passes through the crank's axis
-    both, each = (wheel, crank), dict[str, Columns]()
-    for shaft, rows in zip(both, shafts_under_load(of.machine, both), strict=True):
-        out: dict[str, Number | None] = {"diameter_mm": shaft.diameter_mm}
-        each[shaft.part] = out
-        if not rows:
-            continue
-        moment = rows["moment_Nm"] * of.loaded
-        if shaft.allowed_MPa is not None:
-            allowed = np.ravel(shaft.allowed_MPa)
-            least = rows["least_diameter_mm"]
-            rows["allowed_MPa"] = allowed
-            rows["least_diameter_mm"] = np.where(np.isfinite(allowed), least, np.inf)
-            relative = margin(rows["stress_MPa"], allowed) if "stress_MPa" in rows else None
-            if relative is not None:
-                rows["margin"] = relative
+        # the force passes through the crank's axis
+        held = {"wheel": (force + carried, torque_Nm), "crank": (force, 0.0 * force)}
+    for part, peak in shaft_squares(of.machine, overhangs, held).items():
+        most, diameter = np.sqrt(peak.max) * of.loaded, each[part]["diameter_mm"]
+        keyway = vars(of.spec.size)[f"{part}_keyway"] is not None
+        allowed = np.ravel(shear_allowed_MPa(of.spec.shaft, keyway))
+        least = np.cbrt(16e3 * most / (math.pi * allowed))
+        rows: dict[str, Number | None] = {
+            "moment_Nm": most,
+            "at_deg": peak.at_deg,
+            "allowed_MPa": allowed,
+            "least_diameter_mm": np.where(np.isfinite(allowed), least, np.inf),
+        }
+        if diameter is not None:
+            rows["stress_MPa"] = stress = shear_MPa(most, np.ravel(diameter))
+            rows["margin"] = margin(stress, allowed)
         for name, row in rows.items():
-            out[name] = np.where(np.isfinite(moment), row, moment)
+            rows[name] = None if row is None else np.where(np.isfinite(most), row, most)
+        each[part] = {**each[part], **rows}
     return each
 
 
-def _drawn(of: Designs, part: str) -> LoadedShaft:
-    """The shaft of wheel or crank, with the dimensions of its parts where the spec has none."""
+def _drawn(of: Designs, part: str) -> tuple[float | None, Columns]:
+    """Overhang and diameter of a shaft: of the spec, or else as its parts have them, mm."""
     table = vars(of.spec.shaft)
     overhang, diameter = table[f"{part}_overhang_mm"], table[f"{part}_diameter_mm"]
-    allowed = table["shear_stress_max_MPa"]
-    if of.spec.is_loaded:
-        keyway = vars(of.spec.size)[f"{part}_keyway"] is not None
-        allowed = parameter(shear_allowed_MPa(of.spec.shaft, keyway))
-        parts = under_load(of).parts if diameter is None or overhang is None else None
-        if parts is not None:
-            own = parts.wheel_shaft if part == "wheel" else parts.crank_shaft
-            if diameter is None and not np.isnan(own.diameter).all():
-                diameter = as_numbers(np.asarray(own.diameter))
-            if overhang is None and not np.isnan(own.overhang).all():
-                # a design without parts has no diameter either, and so no stress
-                overhang = as_numbers(np.nan_to_num(own.overhang))
-    return LoadedShaft(part, overhang, diameter, table[f"{part}_span_mm"], allowed)
+    parts = under_load(of).parts if diameter is None or overhang is None else None
+    if parts is not None:
+        own = getattr(parts, f"{part}_shaft")
+        if diameter is None and not np.isnan(own.diameter).all():
+            diameter = as_numbers(np.asarray(own.diameter))
+        if overhang is None and not np.isnan(own.overhang).all():
+            # a design without parts has no diameter either, and so no stress
+            overhang = as_numbers(np.nan_to_num(own.overhang))
+    return overhang, {"diameter_mm": diameter}
 
 
 def arm(of: Designs) -> Columns:
@@ -203,11 +200,10 @@ def _key(of: Designs, part: str) -> Columns:
     parts = under_load(of).parts
     if parts is None:
         return {}
-    key = parts.wheel_key if part == "wheel" else parts.crank_key
+    key = getattr(parts, f"{part}_key")
     if np.isnan(key.shaft).all():
         return {}
-    loads = under_load(of).part_loads
-    most = (loads.wheel_Nm if part == "wheel" else loads.crank_Nm) * of.loaded
+    most = getattr(under_load(of).part_loads, f"{part}_Nm") * of.loaded
     most = most * np.ravel(of.spec.shaft.torsion_factor)
     sides = np.ravel(wheel_material(of.spec).allowed_MPa)
     shear = np.ravel(shear_allowed_MPa(of.spec.shaft))
@@ -248,21 +244,10 @@ def wear(of: Designs) -> Columns:
     # an engagement has two of its own if one roller starts and one stops it
     by_roller = roller.passages(of.machine, by_roller=True) if paired else passages
     lasts = roller.lives(of.machine, by_roller)
-    force = np.ravel(lasts.equivalent_force_N)
+    force = lasts["equivalent_force_N"]
     with np.errstate(invalid="ignore"):  # without friction, of a force without a bound
         work = friction * sum(passage.work for passage in passages) / len(passages)
-    under: dict[str, Number | None] = {
-        "roller_turns_per_motion": lasts.turns_per_motion,
-        "equivalent_force_N": force,
-        "friction_work_J": np.where(friction > 0.0, work, np.inf),
-        "roller_life_turns": lasts.turns,
-        "roller_life_motions": lasts.motions,
-        "roller_life_h": lasts.hours,
-    }
+    under = lasts | {"friction_work_J": np.where(friction > 0.0, work, np.inf)}
     bound = np.where(np.isfinite(force), of.loaded, np.inf * of.loaded)
-    out: dict[str, Number | None] = {
-        name: np.where(np.isfinite(bound), value, bound)
-        for name, value in under.items()
-        if value is not None
-    }
+    out = {name: np.where(np.isfinite(bound), value, bound) for name, value in under.items()}
     return out | {"slot_travel_m": sum(passage.travel_m for passage in passages) / len(passages)}

@@ -10,12 +10,11 @@ import numpy as np
 from geneva_cli.errors import GenevaError, marking
 from geneva_cli.kept import cached_property
 from geneva_cli.loads.cycle import cycle_of
-from geneva_cli.loads.cycle_quantities import FORCE, PV
 from geneva_cli.loads.impacts.reversal import reversal_impacts
 from geneva_cli.loads.impacts.shock_force import Impacts, forces_N
 from geneva_cli.loads.load_peaks import load_peaks
 from geneva_cli.loads.strength import lock, pin_arm_key
-from geneva_cli.loads.strength.horn import greatest_stress, horns, single_stress
+from geneva_cli.loads.strength.horn import greatest_stress, horns
 from geneva_cli.loads.strength.part_loads import PartLoads, part_loads, single_loads
 from geneva_cli.loads.strength.pin_arm_key import PinSize
 from geneva_cli.loads.tolerance.locking import Lock
@@ -24,10 +23,9 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.registry import thing
 from geneva_cli.numerics.arrays import Array, Number, Record, library, parameter, record_of
-from geneva_cli.parts.assembly import assembly
 from geneva_cli.parts.machine_sizes import Layout, loaded, sized, unloaded
-from geneva_cli.parts.outlines.cut_outlines import cut_lock
-from geneva_cli.parts.sized_by_load import Stressed, Unloaded, stressed
+from geneva_cli.parts.sized_by_load import Stressed, stressed
+from geneva_cli.parts.sizes import Unloaded
 from geneva_cli.spec.defaults import roller_material
 from geneva_cli.verdict.quantities.batch_designs import Designs
 
@@ -57,7 +55,7 @@ class UnderLoad:
         """The greatest force on a roller, along the wall's normal."""
         if self.designs.single and not np.isnan(self.loaded[0]):
             return np.array([self.part_loads.pin_N])  # its cached loads have it
-        return self._peak(FORCE)
+        return self._peak("pin_force_N")
 
     @cached_property
     def roller_N(self) -> Array:
@@ -68,8 +66,8 @@ class UnderLoad:
     def pv_W_m2(self) -> Array:
         """The greatest contact pressure times sliding speed; it needs a face width."""
         if self.designs.single and not np.isnan(self.loaded[0]):
-            return np.array([cycle_of(self.machine).ends[PV].max])
-        return self._peak(PV)
+            return np.array([cycle_of(self.machine).ends["pv_W_m2"].max])
+        return self._peak("pv_W_m2")
 
     def _peak(self, name: str) -> Array:
         """The greatest size of a load; NaN without a load."""
@@ -86,13 +84,10 @@ class UnderLoad:
             bare = Spec(
                 of.wheel, drive, of.motion, of.size, shaft=of.shaft, drive_before=of.drive_before
             )
-
-        def parts(one: Mechanism) -> Unloaded | None:
-            return unloaded(assembly(one)) if one.spec.is_flat else None
-
-        if designs_in(bare) == 1:  # designs that differ in speed and loads only have the same
-            return [_or_none(parts, build(taken(bare, 0)))] * count
-        return [_or_none(parts, one) for one in self.designs.each]
+        if self.designs.are_built or designs_in(bare) > 1:
+            return [_bare(one) for one in self.designs.each]
+        # designs that differ in speed and loads only have the same
+        return [_bare(build(taken(bare, 0)))] * count
 
     @cached_property
     def lock_sizes(self) -> tuple[float, Lock] | None:
@@ -101,12 +96,10 @@ class UnderLoad:
         NaN for designs without a lock; None if none has one.
         """
         each = list[tuple[float, Lock] | None]()
-        if self.designs.are_built:
-            for one in self.layouts:
-                each.append((one[1].half_width, cut_lock(*one)) if one and one[1].lock else None)
-        else:
-            for bare in self._unloaded:
-                each.append((bare.sizes.half_width, bare.lock) if bare and bare.lock else None)
+        drawn = self.layouts if self.designs.are_built else self._unloaded
+        for of, is_drawn in zip(self._unloaded, drawn, strict=True):
+            known = of and of.lock and is_drawn
+            each.append((of.sizes.half_width, of.lock) if of and of.lock and known else None)
         return batched(each, as_numbers)
 
     @cached_property
@@ -129,25 +122,21 @@ class UnderLoad:
             bent = self._flat_horns
             return bent._replace(stress_MPa=parameter(bent.stress_MPa / np.ravel(width)))
         assert self.horn_sizes
-        if not self.designs.single:
-            return greatest_stress(self.sides, self.machine, self.horn_sizes, width)
-        wide = float(np.ravel(width)[0])  # to be hashed
-        return single_stress(self.sides, self.machine, self.horn_sizes, wide)
+        wide = np.ravel(width).item() if self.designs.single else width  # to be hashed
+        return greatest_stress(self.sides, self.machine, self.horn_sizes, wide)
 
     @cached_property
     def _flat_horns(self) -> HornStress:
         """The greatest stress in flat horns for 1 mm of contact, as the parts are sized."""
         assert self.horn_sizes
-        search = single_stress if self.designs.single else greatest_stress
-        return search(horns, self.machine, self.horn_sizes)
+        return greatest_stress(horns, self.machine, self.horn_sizes)
 
     @cached_property
     def layouts(self) -> Sequence[Layout | None]:
         """Assembly and sizes of each design; None for one without flat parts."""
-        if self.designs.are_built or not self.machine.spec.is_loaded:
-            machines = [self.machine] if self.designs.single else self.designs.each
-            return [*map(sized, machines)]
         machines, size = self.designs.each, self.machine.spec.size
+        if self.designs.are_built or not self.machine.spec.is_loaded:
+            return [*map(sized, machines)]
         bent: Sequence[float | None] = [None] * len(machines)
         if self.lock_sizes and size.wheel_thickness_mm is None and size.face_width_mm is None:
             bent = lock.horn_MPa(self.machine, *self.lock_sizes, self._flat_horns).tolist()
@@ -156,8 +145,7 @@ class UnderLoad:
             parts = self._unloaded[i]
             if parts is None:
                 return None
-            where = parts.assembly._replace(full=machines[i])
-            return where, loaded(parts._replace(assembly=where), self.part_loads.of(i), bent[i])
+            return parts.assembly, loaded(parts, machines[i], self.part_loads.of(i), bent[i])
 
         return [_or_none(layout, i) for i in range(len(machines))]
 
@@ -236,6 +224,10 @@ def _or_none(make: Callable[[K], T | None], of: K) -> T | None:
         return make(of)
     except GenevaError:
         return None
+
+
+def _bare(one: Mechanism) -> Unloaded | None:
+    return _or_none(unloaded, one) if one.spec.is_flat else None
 
 
 def batched(

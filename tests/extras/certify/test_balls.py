@@ -71,7 +71,7 @@ def test_a_ball_takes_the_piece_that_it_lies_in():
 
 def wave(x, order):
     """|sin 3x| has the size 1 at three places of 0 to 180 degrees."""
-    return sin_cos(Jet.variable(radians(x), order) * 3.0)[0].c
+    return sin_cos(Jet.variable(radians(x), order) * 3.0)[0]
 
 
 def test_the_greatest_size_and_all_its_places():
@@ -88,7 +88,7 @@ def test_a_curve_without_bounds_is_left_open():
     """1/(x - 1): its size has no bound at 1, and an interval about 1 stays open."""
 
     def pole(x, order):
-        return (1.0 / (Jet.variable(x, order) - 1.0)).c
+        return 1.0 / (Jet.variable(x, order) - 1.0)
 
     with precision():
         found = greatest(pole, (0.0, 3.0), 500)

@@ -23,7 +23,7 @@ from geneva_cli.cli.app import app
 from geneva_cli.design import load
 from geneva_cli.extras.certify import certificate as module
 from geneva_cli.extras.certify.certificate import certificate
-from geneva_cli.motion.path_and_motion import LawMotion
+from geneva_cli.motion.given_motion import LawMotion
 from geneva_cli.motion.peaks import QUANTITIES
 
 DESIGNS = sorted(path.stem for path in repo.DESIGNS.glob("*.toml"))

@@ -20,7 +20,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.extras.outline.checks import lag_deg
 from geneva_cli.extras.outline.pictures import drawn_scene
 from geneva_cli.extras.outline.turning import hardest_impact, turned
-from geneva_cli.geometry.shapes import Arc, Line, closed, mapped
+from geneva_cli.geometry.shapes import Arc, Line, closed, placed
 from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.loads.strength.pin_arm_key import stiffness_N_mm
 from geneva_cli.output import draw
@@ -189,7 +189,7 @@ def test_a_burr_in_a_slot_is_not_missed_between_two_steps(at_mm, tmp_path):
 
 
 def test_a_wheel_off_its_axis_says_where_its_centre_is(tmp_path):
-    moved = mapped(drawn_wheel(6, 30.0, 3.25, 45.0), lambda p: (p[0] + 12.0, p[1] - 7.0))
+    moved = placed(drawn_wheel(6, 30.0, 3.25, 45.0), (12.0, -7.0))
     design = spec(tmp_path, written(tmp_path, moved), 'held_by = "pin"')
     said = r"centre is at \(12, -7\), but its axis is the drawing's origin"
     with pytest.raises(GenevaError, match=said):

@@ -137,25 +137,19 @@ def loaded(torque, inertia=0.01, sector=60.0, z=3):
 
 
 def coasting(b, drag, steps=20000):
-    """The exit by small steps: a wheel of inertia 1 that one wall holds back; angles in radians.
-
-    Where it is short of its dwell at the end, its greatest lag, and where that was used up.
-    """
+    """The exit by small steps of a wheel of inertia 1 that one wall holds back: how short it is."""
     l, end = math.sin(b), 0.5 * math.pi - b
     x = np.linspace(0.0, end, steps + 1)
     h = x[1]
     wall = slot_angle(l, x)
     D = 1.0 - 2.0 * l * np.cos(x) + l * l
     rate = l * (np.cos(x) - l) / D
-    psi, v, most, struck = 0.0, rate[0], 0.0, 0.0
+    psi, v = 0.0, rate[0]
     for i in range(steps):
         psi, v = psi + h * (v - 0.5 * h * drag), max(0.0, v - h * drag)
         if psi >= wall[i + 1]:
-            struck = struck or (x[i + 1] if most > 1e-6 else 0.0)
             psi, v = wall[i + 1], rate[i + 1]
-        if not struck:
-            most = max(most, wall[i + 1] - psi)
-    return wall[-1] - psi, most, struck
+    return wall[-1] - psi
 
 
 @pytest.mark.parametrize(("z", "sector"), [(3, 60.0), (12, 20.0), (4, 20.0)])
@@ -173,22 +167,9 @@ def test_the_torque_with_which_the_wheel_comes_to_its_dwell(z, sector):
     most = arrival(design.mechanism)[1] / 0.01
     assert most == pytest.approx(float(min(mp.tan(b), late)), rel=1e-12)
     assert (late < mp.tan(b)) == (z == 12)
-    short, *_ = coasting(float(b), 0.99 * most)
+    short = coasting(float(b), 0.99 * most)
     assert short == pytest.approx(0.0, abs=1e-4)
-    assert coasting(float(b), 1.3 * most)[0] > 2e-4
-
-
-def test_the_lag_and_where_the_wheel_is_struck():
-    drag = 0.4
-    torque_Nm, _, found = arrival(loaded(0.01 * drag).mechanism)
-    short, most, struck = coasting(math.pi / 6.0, drag)
-    assert torque_Nm == pytest.approx(0.01 * drag)
-    # a step of the witness, 5e-5 rad, and its error in the lag
-    lag_deg, at_deg, struck_deg = found
-    assert lag_deg == pytest.approx(math.degrees(most), abs=1e-3)
-    assert struck_deg == pytest.approx(30.0 + math.degrees(struck), abs=0.02)
-    assert 30.0 < at_deg < struck_deg < 90.0
-    assert short == pytest.approx(0.0, abs=1e-4)
+    assert coasting(float(b), 1.3 * most) > 2e-4
 
 
 @pytest.mark.long

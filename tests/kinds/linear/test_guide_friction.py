@@ -72,9 +72,10 @@ def test_loads_are_those_of_bodies_cut_free(case, at_deg):
     loaded = design(*case)
     with mpmath.workdps(50):
         force, torque, *_ = cut_free(case, at_deg)
-    here = loaded.cycle.states(np.array([at_deg]))
-    assert here.pin_force_N[0] == pytest.approx(float(force), rel=2e-14)
-    assert here.input_torque_Nm[0] == pytest.approx(float(torque), rel=2e-14, abs=1e-15)
+    names = ["pin_force_N", "input_torque_Nm"]
+    force_N, torque_Nm = loaded.cycle.states(np.array([at_deg]), names)[:, 0]
+    assert force_N == pytest.approx(float(force), rel=2e-14)
+    assert torque_Nm == pytest.approx(float(torque), rel=2e-14, abs=1e-15)
 
 
 @pytest.mark.long

@@ -70,12 +70,7 @@ def test_a_retimed_crank_is_the_crank_behind_that_drive(wheel, front):
     spins = [one.carrier(x, 1) for one in (ours, own)]
     assert abs(spins[0].c[1] - spins[1].c[1]).max() <= 16.0 * math.ulp(1.0)
     tau = np.radians(x - own.entry_deg)
-    moved = [one.motion.entry.displacement(tau, 1) for one in (ours, own)]
-    if own.slot.height:  # of the pin along a spherical wheel's axis
-        moved = [
-            (*jets, one.slot.height(np.radians(x), 1))
-            for one, jets in zip((ours, own), moved, strict=True)
-        ]
+    moved = [(*one.motion.entry.displacement(tau, 1), *one.slot(x, 1)) for one in (ours, own)]
     for a, b in zip(*moved, strict=True):
         for k in (0, 1):
             assert abs(a.c[k] - b.c[k]).max() <= 16.0 * math.ulp(1.0)
@@ -150,11 +145,7 @@ def test_what_cannot_stand_in_series_is_refused(wheel, drive, before, motion, me
         ({}, r"\[drive.before\] needs kind", ("drive", "before")),
         (3, r"before must be a table: write \[drive.before\]", ("drive", "before")),
         ({"kind": "side-crank", "A": 2.0}, "A = 2 must be above -1", ("drive", "before", "A")),
-        (
-            {"kind": "side-crank", "A": 0.2, "base": 3.0},
-            r"unknown key base in .*did you mean",
-            ("drive", "before", "base"),
-        ),
+        ({"kind": "side-crank", "A": 0.2, "b": 3.0}, "unknown key b in", ("drive", "before", "b")),
     ],
 )
 def test_an_error_names_the_key_of_the_drive_before(before, message, key):

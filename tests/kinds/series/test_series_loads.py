@@ -1,10 +1,8 @@
 """Loads of drives in series, with friction, against bodies cut free in 50 digits."""
 
-import load_witness
-import numpy as np
 import pytest
 import repo
-from test_load_designs import LOAD, ULP, planar
+from test_load_designs import LOAD, agree, planar
 from words import load
 
 from geneva_cli import (
@@ -18,7 +16,6 @@ from geneva_cli import (
     Polynomial345,
     SideCrank,
 )
-from geneva_cli.loads.cycle import Cycle
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.spec.tables import Support
@@ -45,17 +42,4 @@ def test_loads_of_drives_in_series(name, front):
     """Within 64 units of each quantity's peak: twice a single drive's, whose inputs round, too."""
     spec = SPECS.get(name) or load(str(repo.DESIGNS / f"{name}.toml")).spec
     spec = spec.replace(load=LOAD, mass=(), support=Support(), drive_before=front)
-    mechanism = build(spec)
-    cycle, engagement = Cycle(mechanism), mechanism.engagements[0]
-    grid = np.linspace(engagement.entry_deg, engagement.exit_deg, 201)[1:-1]
-    whole = cycle.moving(engagement, grid)
-    for share in (-0.8, 0.1, 0.6):
-        x = share * (engagement.exit_deg if share > 0.0 else -engagement.entry_deg)
-        here = cycle.moving(engagement, np.array([x]))
-        for quantity, exact in planar(mechanism, 0, x).items():
-            if exact is None:
-                continue
-            peak = abs(getattr(whole, quantity)).max()
-            off = abs(load_witness.mp.mpf(float(getattr(here, quantity)[0])) - exact)
-            most = 128.0 if quantity.endswith("squared") else 64.0
-            assert off <= most * ULP * peak, (quantity, x, float(off / (ULP * peak)))
+    agree(build(spec), 0, (-0.8, 0.1, 0.6), planar, 64.0)
