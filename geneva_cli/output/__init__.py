@@ -84,29 +84,21 @@ def named(output: str, format: str) -> str:
     return format or EXTENSIONS.get(extension, extension)
 
 
-def usual_curves(output: str, format: str) -> str:
-    """The default form of curved walls: ``spline`` in STEP, ``arcs`` elsewhere.
+def usual(output: str, format: str, tolerance_mm: float | None = None) -> tuple[str, float]:
+    """The default form of curved walls, and the tolerance of curves for one of the file, mm.
 
-    >>> usual_curves("wheel.stp", ""), usual_curves("-", "dxf")
-    ('spline', 'arcs')
+    In STEP a wall is one face as ``spline``, and a hundred as ``arcs``, which all others have. The
+    default tolerance is 0.001, and in meshes a printer's, 0.01. In a mesh curves have one half of
+    it, as its chords have the other.
+
+    >>> usual("wheel.stp", ""), usual("wheel.stl", ""), usual("-", "dxf", 0.1)
+    (('spline', 0.001), ('arcs', 0.005), ('arcs', 0.1))
     """
-    # In a solid, a wall is one face as a spline, and a hundred faces as arcs.
-    return "spline" if named(output, format) == "step" else "arcs"
-
-
-def curve_tolerance(tolerance_mm: float | None, output: str, format: str) -> float:
-    """The tolerance of a drawing's curves for one of the file, mm, or for None the usual one.
-
-    That is 0.001, and in meshes a printer's, 0.01. In a mesh curves have one half of it, as its
-    chords have the other.
-
-    >>> curve_tolerance(None, "wheel.stl", ""), curve_tolerance(None, "wheel.dxf", "")
-    (0.005, 0.001)
-    """
-    is_mesh = named(output, format) in MESHES
+    name = named(output, format)
     if tolerance_mm is None:
-        tolerance_mm = 0.01 if is_mesh else 0.001
-    return 0.5 * tolerance_mm if is_mesh else tolerance_mm
+        tolerance_mm = 0.01 if name in MESHES else 0.001
+    curves = "spline" if name == "step" else "arcs"
+    return curves, 0.5 * tolerance_mm if name in MESHES else tolerance_mm
 
 
 def is_for_people(output: str, format: str) -> bool:
