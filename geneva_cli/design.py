@@ -713,17 +713,15 @@ class Design:
         ...     Design(External(6)).save(f"{folder}/wheel.dxf")
         """
         from geneva_cli.drawings.catalogue import PARTS, is_sheet
-        from geneva_cli.output import draw, draw_sheet, show
-        from geneva_cli.output.formats import DRAWN, curve_tolerance, named, usual_curves
+        from geneva_cli.output import DRAWN, draw, draw_sheet, named, show, usual
 
-        tolerance_mm = curve_tolerance(tolerance_mm, path, "")
+        curves, tolerance_mm = usual(path, "", tolerance_mm)
         stem = os.path.splitext(os.path.basename(path))[0]
         part = part or (stem if stem in PARTS else "assembly")
         sheet, files = is_sheet(part), self.spec.files
         if not sheet and self.is_table(part, named(path, "") in DRAWN):
             show(self.part_table(part, tolerance_mm), path, inputs=files)
             return
-        curves = usual_curves(path, "")
         refused = self.judge(part)[0] if self.spec.is_turned and not force else ""
         if refused:
             raise GenevaError(f"{cut(path, 300)}: not written: {refused}")
