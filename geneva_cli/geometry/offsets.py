@@ -125,20 +125,16 @@ def _joined(layer: Layer, own: list[Line | Arc], distance: float) -> list[Segmen
 
 def away(piece: Line | Arc, at: Point) -> tuple[float, Point]:
     """Return how far a point is to the left of a piece's line or circle, and that direction."""
-    (x0, y0), (x1, y1) = piece.start, piece.end
-    long = math.dist(piece.start, piece.end)
-    u, v, half = (x1 - x0) / long, (y1 - y0) / long, 0.0
-    if isinstance(piece, Arc):
-        half = 0.5 * piece.sweep
-    x, y = at[0] - 0.5 * (x0 + x1), at[1] - 0.5 * (y0 + y1)
-    along, left = x * u + y * v, y * u - x * v
+    start, end = complex(*piece.start), complex(*piece.end)
+    long, half = abs(end - start), 0.5 * piece.sweep if isinstance(piece, Arc) else 0.0
+    u = (end - start) / long
+    seen = (complex(*at) - 0.5 * (start + end)) * u.conjugate()
     bend, c = 2.0 * math.sin(half) / long, math.cos(half)
-    ahead, out = bend * along, c - bend * left  # from the centre, over the radius
+    ahead, out = bend * seen.real, c - bend * seen.imag  # from the centre, over the radius
     far = math.hypot(ahead, out)
-    side = (bend * (0.25 * long * long - along * along - left * left) + 2.0 * c * left) / (
-        1.0 + far
-    )
-    return side, (-(ahead * u + out * v) / far, (out * u - ahead * v) / far)
+    inside = bend * (0.25 * long * long - seen.real**2 - seen.imag**2)
+    left = complex(-ahead, out) * u / far
+    return (inside + 2.0 * c * seen.imag) / (1.0 + far), (left.real, left.imag)
 
 
 def corner(before: Line | Arc, after: Line | Arc, depth: float, sharpest: float = 0.1) -> Point:

@@ -234,17 +234,16 @@ def legs(arc: Arc) -> tuple[float, float]:
 
 def fraction_at(piece: Line | Arc, point: Point) -> float:
     """Fraction of the length at a point of the piece, or of its whole line or circle."""
-    (x, y), (x0, y0), (x1, y1) = point, piece.start, piece.end
-    u, v = x1 - x0, y1 - y0
-    along = ((x - x0) * u + (y - y0) * v) / (u * u + v * v)
+    start = complex(*piece.start)
+    seen = (complex(*point) - start) / (complex(*piece.end) - start)
     if isinstance(piece, Line) or abs(piece.bulge) < STRAIGHT:
-        return along
+        return seen.real
     # With h half the sweep and a, b the places along and across the chord, over it, the point is
     # (2 a - 1) sin h along and cos h - 2 b sin h across from the centre, over the radius. So
     # nothing is measured from a centre that is far away.
-    across, half = ((y - y0) * u - (x - x0) * v) / (u * u + v * v), 0.5 * piece.sweep
+    half = 0.5 * piece.sweep
     sine, cosine = math.sin(half), math.cos(half)
-    turn = math.atan2((2.0 * along - 1.0) * sine, cosine - 2.0 * across * sine)
+    turn = math.atan2((2.0 * seen.real - 1.0) * sine, cosine - 2.0 * seen.imag * sine)
     return 0.5 + 0.5 * turn / half
 
 
