@@ -271,25 +271,12 @@ class KindTable(NamedTuple):
         return [field for field in fields(kind) if field not in self.without]
 
 
-WHEELS = KindTable(
-    "wheel",
-    Field("gearing", "", (str,), OneOf(registry.GEARINGS), "external", "type of wheel and crank"),
-    registry.GEARINGS,
-    registry.gearing,
-)
-DRIVES = KindTable(
-    "drive",
-    Field("kind", "", (str,), None, "crank", "type of drive"),
-    registry.DRIVES,
-    registry.drive,
-)
-LAWS = KindTable(
-    "motion",
-    Field("law", "", (str,), None, None, "motion law of curved slots (`geneva laws`)"),
-    registry.LAWS,
-    registry.law,
-    fields(Motion),
-)
+_WHEEL = Field("gearing", "", (str,), OneOf(registry.GEARINGS), "external", "type of wheel")
+_DRIVE = Field("kind", "", (str,), None, "crank", "type of drive")
+_LAW = Field("law", "", (str,), None, None, "motion law of curved slots (`geneva laws`)")
+WHEELS = KindTable("wheel", _WHEEL, registry.GEARINGS, registry.gearing)
+DRIVES = KindTable("drive", _DRIVE, registry.DRIVES, registry.drive)
+LAWS = KindTable("motion", _LAW, registry.LAWS, registry.law, fields(Motion))
 
 
 def drives_before(names: Collection[str] = registry.DRIVES) -> KindTable:

@@ -92,11 +92,6 @@ class Mechanism(NamedTuple):
         return own if self.axes else tuple(one for one in own if not isinstance(one, Pivot))
 
     @property
-    def input_law(self) -> Law | None:
-        """Motion law by the input's own angle; None for straight slots or behind another drive."""
-        return None if self.spec.drive_before else self.law
-
-    @property
     def roller_radius_mm(self) -> float:
         """Roller radius r in millimetres, by default L/20."""
         return self.spec.size.roller_radius(self.center_distance_mm)
