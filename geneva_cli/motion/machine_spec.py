@@ -5,7 +5,7 @@ And the tables of its file whose keys depend on the kind of wheel, drive or law.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import field
 from operator import attrgetter
 from typing import Any, ClassVar, NamedTuple, Self
@@ -161,16 +161,28 @@ class Spec(SpecTable):
         >>> Spec(External(6)).with_("wheel.z", 8).wheel.z
         8
         """
-        table, _, name = key.rpartition(".")
-        part = self.part(table)
-        if part is None:
-            raise GenevaError(f"{key}: this spec has no [{table or key}]", tuple(key.split(".")))
-        changed, (one_of, _, number) = part.with_keys({name: value}), table.partition(".")
-        if one_of not in LISTS:
-            return self.replace(**{table.replace(".", "_"): changed})
-        several = [*vars(self)[one_of]]
-        several[int(number)] = changed
-        return self.replace(**{one_of: several})
+        return self.with_keys({key: value})
+
+    def with_keys(self, values: Mapping[str, Any]) -> Self:
+        """Return a copy with several keys changed, as by ``with_``; only the result must be valid.
+
+        >>> Spec(External(6)).with_keys({"wheel.z": 8, "drive.n_rpm": 30}).drive.n_rpm
+        30.0
+        """
+        tables, parts = dict[str, dict[str, Any]](), dict[str, Any]()
+        for key, value in values.items():
+            table, _, name = key.rpartition(".")
+            tables.setdefault(table, {})[name] = value
+        for table, new in tables.items():
+            part, (one_of, _, number) = self.part(table), table.partition(".")
+            if part is None:
+                text = ".".join(filter(None, (table, *new)))
+                raise GenevaError(f"{text}: this spec has no [{table or text}]", (table, *new))
+            if one_of in LISTS:
+                parts.setdefault(one_of, [*vars(self)[one_of]])[int(number)] = part.with_keys(new)
+            else:
+                parts[table.replace(".", "_")] = part.with_keys(new)
+        return self.replace(**parts)
 
     def input_deg(self, crank_deg: float) -> float:
         """Input angle from mid-motion at a crank angle from mid-motion, degrees."""
