@@ -272,7 +272,7 @@ class Design:
         """
         from geneva_cli.parts.chosen import chosen, detail_sizes
 
-        if self.spec.has_parts:
+        if not self.spec.no_parts:
             _ = self.parts.built
         return chosen(self.mechanism, detail_sizes(self.mechanism))
 

@@ -70,6 +70,7 @@ class Spec(SpecTable):
     has_lock: ClassVar[bool]  # the crank has a part that locks the wheel in the dwell
     output: ClassVar[Output]  # what the wheel gives out, with its units
     unloaded: ClassVar[Truth]  # there is neither inertia nor torque nor friction
+    is_loaded: ClassVar[bool]  # a design, or one of a batch, is not unloaded
     wheel: Gearing
     drive: Drive = field(default_factory=lambda: load_named(CRANK)())
     motion: Motion | None = None
@@ -119,7 +120,7 @@ class Spec(SpecTable):
         nothing = nothing & (load.mass_kg == 0.0) & (load.force_N == 0.0)
         support_Nmm = support.friction * support.force_N * support.radius_mm
         nothing = nothing & (support_Nmm == 0.0) & (not self.mass)
-        vars(self)["unloaded"] = nothing
+        vars(self).update(unloaded=nothing, is_loaded=not all_true(nothing))
         limits = vars(self.limits)
         for limit, (key, of, what) in NEEDED.items():
             if limits[limit] is not None and self.table(of)[key] is None:
@@ -198,11 +199,6 @@ class Spec(SpecTable):
         return self.wheel.held_by or (self.wheel.LOCK if self.has_lock else None)
 
     @property
-    def is_loaded(self) -> bool:
-        """True if there is an inertia, a torque or friction, so that forces are computed."""
-        return not all_true(self.unloaded)
-
-    @property
     def load_keys(self) -> str:
         """Keys that set a load of this kind of wheel, in words."""
         return self.output.load_keys
@@ -216,11 +212,6 @@ class Spec(SpecTable):
     def is_flat(self) -> bool:
         """True if wheel and crank are flat outlines that are drawn."""
         return self.wheel.FLAT and not self.no_parts
-
-    @property
-    def has_parts(self) -> bool:
-        """True if wheel and crank have outlines, on flat plates or on the shells of a sphere."""
-        return not self.no_parts
 
     @property
     def is_turned(self) -> bool:

@@ -212,7 +212,7 @@ def parts(of: Parts) -> Values:
     A sphere has the horn; its other sizes are angles, in the list of parts.
     """
     spec = of.mechanism.spec
-    if not spec.has_parts:
+    if spec.no_parts:
         return {}
     try:
         values: Values = {"horn_mm": of.built.horn_mm}

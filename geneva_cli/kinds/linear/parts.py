@@ -62,7 +62,7 @@ class RackParts(EdgedParts):
     @property
     def all_built(self) -> NamedBuilds:
         """Names and functions of all parts; its frame holds its gears, but not links."""
-        framed = self.mechanism.spec.has_parts
+        framed = not self.mechanism.spec.no_parts
         return [("all parts", lambda: self)] if framed else super().all_built
 
     def past_mouth(self, motion: int, at: Array) -> Array:
@@ -215,7 +215,7 @@ class RackParts(EdgedParts):
         if bolted := self._bar_bolts:
             nuts = "nuts under the guide bar"
             own.append(Screws("rack", len(bolted), 2.0 * bolted[0].radius, nuts))
-        return (*own, *(self.framed.screws if spec.has_parts else ()))
+        return (*own, *(() if spec.no_parts else self.framed.screws))
 
     @property
     def standing(self) -> tuple[Member, ...]:
@@ -226,7 +226,7 @@ class RackParts(EdgedParts):
     def members(self) -> tuple[Member, ...]:
         """All parts; behind links those that move."""
         moving = self.wheel, self.bar, self.crank
-        framed = self.mechanism.spec.has_parts
+        framed = not self.mechanism.spec.no_parts
         return (*moving, *self.gear_pair, *self.shafts, *self.standing) if framed else moving
 
     def by_name(self) -> Iterator[NamedParts]:
@@ -234,7 +234,10 @@ class RackParts(EdgedParts):
         yield "rack", lambda: [self.wheel.part]
         yield "guide bar", lambda: [self.bar.part]
         yield "crank", lambda: [self.crank.part]
-        yield "gears", lambda: [one.part for one in self.gear_pair if self.mechanism.spec.has_parts]
+        yield (
+            "gears",
+            lambda: [one.part for one in self.gear_pair if not self.mechanism.spec.no_parts],
+        )
         yield "shafts", lambda: [one.part for one in self.shafts]
         yield "guide", lambda: [one.part for one in self.guide]
         yield "frame", lambda: [self.frame.part]

@@ -228,7 +228,7 @@ def every_check(
     yield from applicable(motion, mechanism, reasons=not quick)
     if quick:
         yield from limits
-    unbuilt = [] if spec.has_parts else [unknown("parts", spec.no_parts)]
+    unbuilt = [unknown("parts", spec.no_parts)] if spec.no_parts else []
     if parts and not spec.is_turned:
         yield from unbuilt
         for name in PLAYS:
@@ -285,7 +285,7 @@ def single_check(mechanism: Mechanism, name: str, machine: Parts | None = None) 
         else:
             if name == "parts":
                 _ = machine.turned
-            if not mechanism.spec.has_parts:
+            if mechanism.spec.no_parts:
                 return None
             among, of = own_checks(mechanism)[1], (machine.built,)
     found = load_named(among[name])([name], *of) if name in among else ()
