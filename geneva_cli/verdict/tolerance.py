@@ -16,7 +16,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.errors import GenevaError, Notice, cut
-from geneva_cli.loads.impacts.entry import arm_mm, mouth_jumps_worst
+from geneva_cli.loads.impacts.entry import arm_mm
 from geneva_cli.loads.tolerance.locking import (
     CutLock,
     Deviations,
@@ -231,13 +231,11 @@ def study(mechanism: Mechanism, parts: Parts, samples: int, seed: int) -> Study:
     if jumps:
         worst_jump = entry_jumps_worst(mechanism, use)
         assert worst_jump is not None  # there are slots to enter
-        mouth = mouth_jumps_worst(mechanism)
         values |= {
             "entry_jump.mean": float(drawn.jump.mean()),
             "entry_jump.std": float(drawn.jump.std()),
             "entry_jump.worst": float(worst_jump[0]),
             "entry_jump.missed_share": drawn.missed,
-            "entry_jump.mouth_worst": mouth.item(),
         }
     else:
         text = "entry_jump is not known: the law, not the path, sets how the roller enters"
@@ -307,7 +305,7 @@ def tolerance_table(
             rows.append(tuple(row))
     rows.sort(key=lambda row: -(row[1] or 0.0))
     values |= {"motion_play.at_deg": None, "contributions": rows_table(names, rows)}
-    ends = ("mean", "std", "worst", "missed_share", "mouth_worst")
+    ends = ("mean", "std", "worst", "missed_share")
     values |= {f"entry_jump.{end}": None for end in ends}
     warnings = spec.accept.applied(results.warnings)
     known_angles = [name for name, of in angles.items() if of]

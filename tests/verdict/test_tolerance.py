@@ -287,7 +287,6 @@ def test_what_does_not_apply_is_null_and_said():
     assert sphere["clearances.turns"] is False  # without clearance, slots at other angles jam
     assert sphere["motion_play.worst_deg"] > 0.01
     # its mouth strikes harder than the axis, as there is no clearance at all
-    assert sphere["entry_jump.mouth_worst"] > sphere["entry_jump.worst"] > 0.0
     assert "shafts meet" in sphere["warnings"][0]
     assert sphere["warnings"][-1].startswith("micrometres of dwell_position")
     assert not any("micrometres" in text for text in curved_at_100["warnings"])
@@ -299,7 +298,7 @@ def test_what_does_not_apply_is_null_and_said():
     # slots that are a six-slot wheel's are entered as those are
     gears = told(Design(External(3), geneva_cli.GearSector(sector_deg=60), tolerance=angle))
     plain = told(Design(External(6), tolerance=angle))
-    for name in ("entry_jump.mean", "entry_jump.worst", "entry_jump.mouth_worst"):
+    for name in ("entry_jump.mean", "entry_jump.worst"):
         assert gears[name] == pytest.approx(plain[name], rel=1e-12) != 0.0
     names = [set(one) for one in (curved, sphere, found, told(MACHINES[0]))]
     assert all(one == names[0] for one in names)

@@ -277,11 +277,3 @@ def _on_mouth(mechanism: Mechanism, axis: RestingAxis, fraction: float) -> list[
     spare = parameter(np.maximum(size.allowances.slot_clearance_mm - lost, 0.0)) / L
     sizes = mechanism.roller_radius_mm / L, spare, size.mouth_radius_mm / L
     return [mouth_contacts(axis, *error, *sizes) for error in _errors(mechanism, axis, fraction)]
-
-
-def mouth_jumps_worst(mechanism: Mechanism) -> Array:
-    """Sizes of the worst jumps on a mouth's corner, (m,); 0 if no roller touches a corner."""
-    every = [on for axis in RestingAxis.each(mechanism) for on in _on_mouth(mechanism, axis, 1.0)]
-    sizes = [np.nan_to_num(abs(one.jump)) for one in every]
-    worst: Array = np.max(np.broadcast_arrays(np.zeros(1), *sizes), axis=0)
-    return worst

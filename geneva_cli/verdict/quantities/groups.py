@@ -216,8 +216,7 @@ _REPORT = (
     )._replace(batch="verdict.quantities.load_quantities:vibration", one_by_one=("none",)),
     _batch(
         "product",
-        "travel_mm chord_mm friction_needed "
-        "speed_m_s,acceleration_m_s2,tangential_m_s2,centripetal_m_s2,jerk_m_s3.{max at_deg}",
+        "travel_mm friction_needed speed_m_s,acceleration_m_s2,jerk_m_s3.{max at_deg}",
         "motion_quantities:product",
     ),
     _alone("", "", "wheels"),
@@ -244,14 +243,14 @@ _REPORT = (
     _alone(
         "tolerance",
         "dwell_position,motion_play.{worst_deg rss_deg p997_deg} "
-        "entry_jump.{mean worst mouth_worst} clearances.{slot_needed_mm lock_needed_mm turns}",
+        "entry_jump.{mean worst} clearances.{slot_needed_mm lock_needed_mm turns}",
         "tolerances",
         True,
     )._replace(
         batch="verdict.quantities.load_quantities:tolerances",
         one_by_one=_words(
             "dwell_position.{worst_deg rss_deg p997_deg} motion_play.p997_deg "
-            "entry_jump.{mean mouth_worst} clearances.{slot_needed_mm lock_needed_mm turns}"
+            "entry_jump.mean clearances.{slot_needed_mm lock_needed_mm turns}"
         ),
     ),
     _batch(
