@@ -5,37 +5,43 @@ import math
 
 import mpmath
 import pytest
-import repo
 from load_states import greatest
 from sampling import some
 from typer.testing import CliRunner
 
 from geneva_cli import Design, External, Load, Size
 from geneva_cli.cli.app import app
-from geneva_cli.design import load
 from geneva_cli.extras.certify.certificate import LOADS
 from geneva_cli.loads.load_case import load_case
 
 LOADED = Design(External(6), load=Load(0.4, 15))
 
 
-def loaded(name):
-    return Design.of(load(str(repo.DESIGNS / f"{name}.toml")).spec.replace(load=Load(0.4, 15)))
+def exact(name, a, carried=LOADED.spec.load, radius=0):
+    """A load of six slots, whose R/L is 1/2 exactly, at an angle in radians: 50 digits.
 
+    The crank turns against the wheel, so that the roller rubs with its own turn, 1, and the
+    wheel's, on the wall that bears.
+    """
+    given, l, f = load_case(LOADED.mechanism), mpmath.mpf(1) / 2, mpmath.mpf(carried.friction)
 
-def exact(name, a):
-    """A load of six slots, whose R/L is 1/2 exactly, at an angle in radians: 50 digits."""
-    given, l = load_case(LOADED.mechanism), mpmath.mpf(1) / 2
+    def lever(a):
+        return mpmath.hypot(l * mpmath.sin(a), 1 - l * mpmath.cos(a))
 
     def angle(a):
         return mpmath.atan2(l * mpmath.sin(a), 1 - l * mpmath.cos(a))
 
+    rate = mpmath.diff(angle, a)
     torque = mpmath.diff(angle, a, 2) * given.inertia_Nm + given.resists_Nm
-    if name == "input_torque_Nm":
-        return torque * mpmath.diff(angle, a)
+    if name == "wheel_torque_Nm":
+        return torque
+    rubs = mpmath.diff(lever, a) + mpmath.sign(torque) * radius * (1 + rate)
+    force = torque / (lever(a) - f * mpmath.sign(rubs) * radius) / given.L
     if name == "pin_force_N":
-        return torque / mpmath.hypot(l * mpmath.sin(a), 1 - l * mpmath.cos(a)) / given.L
-    return torque
+        return force
+    lost = abs(force * rubs) * f * given.L
+    given_back = torque * rate + lost
+    return given_back / carried.efficiency if given_back > 0 else given_back
 
 
 @pytest.mark.sampled(3)
@@ -57,31 +63,6 @@ def test_the_bounds_hold_formulas_of_fifty_digits(name):
             assert abs(exact(name, mpmath.radians(i))) <= found.high
 
 
-def with_friction(name, carried, a, radius):
-    """A load of six slots with friction in the slot, at an angle in radians, and the sliding.
-
-    The crank turns against the wheel, so that the roller rubs with its own turn, 1, and the
-    wheel's, on the wall that bears.
-    """
-    given, l, f = load_case(LOADED.mechanism), mpmath.mpf(1) / 2, mpmath.mpf(carried.friction)
-
-    def lever(a):
-        return mpmath.hypot(l * mpmath.sin(a), 1 - l * mpmath.cos(a))
-
-    def angle(a):
-        return mpmath.atan2(l * mpmath.sin(a), 1 - l * mpmath.cos(a))
-
-    rate = mpmath.diff(angle, a)
-    torque = mpmath.diff(angle, a, 2) * given.inertia_Nm + given.resists_Nm
-    rubs = mpmath.diff(lever, a) + mpmath.sign(torque) * radius * (1 + rate)
-    force = torque / (lever(a) - f * mpmath.sign(rubs) * radius) / given.L
-    if name == "pin_force_N":
-        return force
-    lost = abs(force * rubs) * f * given.L
-    given_back = torque * rate + lost
-    return given_back / carried.efficiency if given_back > 0 else given_back
-
-
 @pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", LOADS[1:])
 @pytest.mark.parametrize("share", [0.05, 0.3])
@@ -95,10 +76,10 @@ def test_the_bounds_hold_friction_of_fifty_digits(name, share):
     with mpmath.workdps(50):
         at = mpmath.radians(mpmath.mpf(found.at_deg))
         # a place within 1e-6 degrees: the load changes there by less than 1e-7 of it
-        here = abs(with_friction(name, carried, at, mpmath.mpf(case.radius)))
+        here = abs(exact(name, at, carried, mpmath.mpf(case.radius)))
         assert abs(here - found.low) < 1e-7 * found.low
         for i in some(range(-599, 600), range(-599, 600, 6)):
-            here = abs(with_friction(name, carried, mpmath.radians(i / 10), case.radius))
+            here = abs(exact(name, mpmath.radians(i / 10), carried, case.radius))
             assert here <= found.high
 
 
