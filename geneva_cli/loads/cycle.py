@@ -91,7 +91,7 @@ class Cycle:
                 near = np.where(free - step < engagement.entry_deg, free + step, free - step)
                 beside = contact(engagement, near, reactions=False)
                 drives = np.broadcast_to(here.drives, x.shape).copy()
-                drives[none] = Instant(case, beside, feeds=1.0).drives
+                drives[none] = Instant(case, beside, None, None, 1.0).drives
                 here = Instant(case, at, drives)
             each = [self.sources[name] for name in names]
             sought = ["wall_force_N" if source == "pin_force_N" else source for source, _ in each]

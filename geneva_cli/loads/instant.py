@@ -11,7 +11,8 @@ roller, fixed to its body, rubs along the wall.
 
 from __future__ import annotations
 
-from typing import Any, Generic, Protocol
+from collections.abc import Mapping
+from typing import Any, Generic, Protocol, TypeAlias
 
 import numpy as np
 
@@ -39,15 +40,9 @@ class Instant(Generic[V]):
     drag: V  # friction in a guide over the pin's force
     grip: V  # torque on the wheel over L times the pin force, the margin of all forces
 
-    def __init__(
-        self,
-        case: LoadCase,
-        at: Contact[V],
-        drives: Number | None = None,
-        slides: Number | None = None,
-        feeds: Number | None = None,
-    ) -> None:
-        """The signs that are None, or NaN in arrays, are those of the values here."""
+    def __init__(self, case: LoadCase, at: Contact[V], *signs: Number | None) -> None:
+        """Of wheel torque, sliding and input torque those that are None, or NaN, are as here."""
+        drives, slides, feeds = (*signs, None, None, None)[:3]
         self.case, self.at = case, at
         self.wheel_torque_Nm = at.acceleration * case.inertia_Nm + case.resists_Nm
         self.drives = sign_of(self.wheel_torque_Nm, drives)
@@ -188,6 +183,9 @@ class LoadQuantity(Protocol):
 
     def __call__(self, i: Instant[Any], /) -> QuantityValue[Any]:
         """The quantity, and the margin that bounds it."""
+
+
+Own: TypeAlias = "Mapping[str, LoadQuantity] | None"  # functions for names of a search
 
 
 def _pv(i: Instant[Any]) -> QuantityValue[Any]:

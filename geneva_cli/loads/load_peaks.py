@@ -17,7 +17,7 @@ from geneva_cli.loads.contact import (
     QuantityValue,
     plain_values,
 )
-from geneva_cli.loads.instant import Instant, LoadQuantity
+from geneva_cli.loads.instant import Instant, LoadQuantity, Own
 from geneva_cli.loads.load_case import load_case, sources
 from geneva_cli.loads.load_functions import LoadFunctions, on_breaks
 from geneva_cli.motion.engagement import Engagement
@@ -63,10 +63,7 @@ Found: TypeAlias = tuple[dict[str, LoadSummary[Array]], list[Search]]
 
 
 def load_peaks(
-    mechanism: Mechanism,
-    names: Sequence[str],
-    own: Mapping[str, LoadQuantity] | None = None,
-    case: LoadCase | None = None,
+    mechanism: Mechanism, names: Sequence[str], own: Own = None, case: LoadCase | None = None
 ) -> dict[str, PeakArray]:
     """The greatest sizes of quantities, and the first input angles that have them: (m,)."""
     mechanism = mechanism.under_load
