@@ -93,7 +93,7 @@ class Cycle:
                 drives = np.broadcast_to(here.drives, x.shape).copy()
                 drives[none] = Instant(case, beside, None, None, 1.0).drives
                 here = Instant(case, at, drives)
-            each = [self.sources[name] for name in names]
+            each = [self.sources.get(name, (name, 1.0)) for name in names]  # or of a pinion
             sought = ["wall_force_N" if source == "pin_force_N" else source for source, _ in each]
             rows = [bounded(here, source) for source in sought]
             # the limits where the pin crosses the slot without a torque
