@@ -117,7 +117,10 @@ class Cycle:
     @cached_property
     def ends(self) -> Mapping[str, LoadSummary[float]]:
         """The same without mean and rms, which take longest."""
-        return {name: only(one) for name, one in single_extremes(self.machine)[0].items()}
+        out = dict[str, LoadSummary[float]]()
+        for name, one in single_extremes(self.machine)[0].items():
+            out[name] = only(one)
+        return out
 
     @cached_property
     def stretches(self) -> list[tuple[Engagement, Stretch]]:
