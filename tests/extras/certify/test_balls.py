@@ -10,7 +10,7 @@ from geneva_cli.extras.certify.balls import Ball, precision
 from geneva_cli.extras.certify.enclosures import greatest
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Undecided, library
-from geneva_cli.numerics.jet import Jet, atan2, piecewise, sin_cos, sqrt
+from geneva_cli.numerics.jet import Jet, atan2, sin_cos, sqrt
 
 
 @pytest.mark.parametrize(
@@ -47,12 +47,6 @@ def test_formulas_of_balls_hold_those_at_fifty_digits():
             for ball, c in zip(jet.c, mpmath.taylor(exact, mpmath.mpf(at), 4), strict=True):
                 low, high = ball.bounds()
                 assert low <= c <= high
-
-
-def test_a_ball_takes_the_piece_that_it_lies_in():
-    pieces = [lambda x: Jet((x,)), lambda x: Jet((x * 10.0,))]
-    assert piecewise(Ball.exact(0.5), (1.0,), pieces).c[0] == 0.5
-    assert piecewise(Ball.exact(2.0), (1.0,), pieces).c[0] == 20.0
 
 
 def wave(x, order):
