@@ -16,7 +16,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from geneva_cli.errors import GenevaError, Notice, cut
-from geneva_cli.loads.impacts.entry import arm_mm, mouth_jumps_worst
+from geneva_cli.loads.impacts.entry import arm_mm
 from geneva_cli.loads.tolerance.locking import (
     CutLock,
     Deviations,
@@ -232,7 +232,6 @@ def tolerance_table(
             "entry_jump.std": float(drawn.jump.std()),
             "entry_jump.worst": float(worst_jump[0]),
             "entry_jump.missed_share": drawn.missed,
-            "entry_jump.mouth_worst": mouth_jumps_worst(mechanism).item(),
         }
     else:
         unknown.append("entry_jump is not known: the law, not the path, sets how the roller enters")
@@ -254,7 +253,7 @@ def tolerance_table(
                 value = getattr(of, angle) * scale if of and scale is not None else None
                 values[f"{name}.{angle}_{unit}"] = value
     values |= {"motion_play.at_deg": None, "contributions": _contributions(angles, given)}
-    ends_of = ("mean", "std", "worst", "missed_share", "mouth_worst")
+    ends_of = ("mean", "std", "worst", "missed_share")
     values |= {f"entry_jump.{end}": None for end in ends_of}
     return record_table(values | answers | {"warnings": tuple(warnings)}, spec.title)
 

@@ -286,7 +286,6 @@ def test_what_does_not_apply_is_null_and_said():
     assert sphere["clearances.turns"] is False  # without clearance, slots at other angles jam
     assert sphere["motion_play.worst_deg"] > 0.01
     # its mouth strikes harder than the axis, as there is no clearance at all
-    assert sphere["entry_jump.mouth_worst"] > sphere["entry_jump.worst"] > 0.0
     assert "shafts meet" in sphere["warnings"][0]
     assert sphere["warnings"][-1].startswith("micrometres of dwell_position")
     assert not any("micrometres" in text for text in curved_at_100["warnings"])
