@@ -25,13 +25,13 @@ from geneva_cli.geometry.plates import (
     Member,
     Part,
     Plate,
+    Shell,
     Solid,
     mass_properties,
     solids,
 )
 from geneva_cli.geometry.shapes import bounds_of
 from geneva_cli.geometry.sheet import Drawing
-from geneva_cli.geometry.sphere_shell import Shell
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Dimension, Pivot

@@ -154,8 +154,7 @@ def _small_holes(named: list[NamedParts], least: float) -> Iterator[Notice]:
     if not least:
         return
     from geneva_cli.drawings.parts_list import is_cut
-    from geneva_cli.geometry.plates import Plate, solids
-    from geneva_cli.geometry.sphere_shell import Shell
+    from geneva_cli.geometry.plates import Plate, Shell, solids
     from geneva_cli.parts.projection import built_of
 
     missing: list[Missing] = []  # the check of the parts reports them

@@ -228,7 +228,7 @@ def _entry(result: Turned, mechanism: Mechanism) -> Iterator[Check]:
             said += f"; R is {R:.5g} mm, and {ideal:.5g} would enter without an impact"
         with suppress(GenevaError):
             own = parts_of(mechanism).flat.outlines.sizes.rim
-            sign, wheel = machine.assembly.sign, machine.free.whole
+            sign, wheel = machine.assembly.sign, machine.free.stops.outline
             corners = np.hypot(wheel.x0, wheel.y0)
             rim = float(corners.max() if sign > 0.0 else corners.min())
             if sign * (own - rim) > 1e-3:

@@ -18,13 +18,13 @@ from geneva_cli.geometry.plates import (
     MassProperties,
     Member,
     Plate,
+    Shell,
     added,
     mass_properties,
 )
 from geneva_cli.geometry.shapes import ORIGIN, Circle
 from geneva_cli.geometry.sphere import POLE, Cap, Region, axis_frame, place
 from geneva_cli.geometry.sphere_arcs import RoundHole
-from geneva_cli.geometry.sphere_shell import Shell
 from geneva_cli.kept import cached_property
 from geneva_cli.kinds.spherical.arm import CapArm, crank_arm
 from geneva_cli.kinds.spherical.ball import Ball, refuse_wide
