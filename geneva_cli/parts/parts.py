@@ -80,7 +80,7 @@ class Parts(TurnedParts):
 
     def of(self, mechanism: Mechanism) -> Self:
         """Return the parts of a machine whose wheel, crank and positions are equal."""
-        other = type(self)(mechanism, self.advice)
+        other = type(self)(mechanism)
         assembly = self.assembly._replace(full=mechanism, to_input=input_of(mechanism))
         vars(other)["_shape"] = self._shape._replace(assembly=assembly)
         return other
@@ -138,7 +138,7 @@ class Parts(TurnedParts):
 
     def within(self, tolerance: float, curves: str) -> Self:
         """Return these parts with curves of a kind within a tolerance, mm."""
-        finer = type(self)(self.mechanism, self.advice, tolerance, curves)
+        finer = type(self)(self.mechanism, tolerance, curves)
         vars(finer).update({k: v for k, v in vars(self).items() if k == "_shape"})
         return finer
 
@@ -244,9 +244,9 @@ class EdgedParts(Parts):
         return self.framed.unborne
 
 
-def parts_of(mechanism: Mechanism, advice: bool = True) -> Parts:
+def parts_of(mechanism: Mechanism) -> Parts:
     """Return the parts of a machine; nothing is built yet."""
     name = mechanism.spec.wheel.NAME
     drawn = mechanism.spec.has_parts or named(name, "front")
     kind: type[Parts] = (drawn and thing(name, "parts")) or load_named(FRONT)
-    return kind(mechanism, advice)
+    return kind(mechanism)
