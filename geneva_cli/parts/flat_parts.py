@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NoReturn, Self
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.plates import Group, Member, Plate, solids
+from geneva_cli.geometry.plates import Group, Member, Plate
 from geneva_cli.geometry.shapes import Contour, Point, turned
 from geneva_cli.kept import cached_property
 from geneva_cli.motion.engagement import Engagement
@@ -306,10 +306,11 @@ class FlatParts(EdgedParts):
         lows.append(-self.mechanism.spec.size.allowances.pin_gap_mm - arm)
         for gear in self.links.gears:
             lows.append(gear.plate.low)
-        for one in (self.wheel, *self.linked, *self.first):
-            for solid in solids(one.part):
-                assert isinstance(solid, Plate)
-                lows.append(solid.low)
+        for one in (*self.links.cut, *self.links.joined, *self.first):
+            assert isinstance(one.part, Plate)
+            lows.append(one.part.low)
+        if hub := wheel_hub(parts.assembly, parts.sizes):
+            lows.append(hub.low)
         if self.mechanism.spec.gears:
             from geneva_cli.parts.gears.gear_pair import gear_span
 
