@@ -88,11 +88,8 @@ class RackParts(EdgedParts):
     @cached_property
     def wheel(self) -> Member:
         """The rack, with holes for the bolts of its guide bar."""
-        outline, high = (
-            rack.rack_contour(self.sizes, self.mechanism.spec.wheel.z),
-            self.sizes.thick.wheel,
-        )
-        return Member(Plate("rack", "WHEEL", outline, self._bar_bolts, 0.0, high))
+        outline = rack.rack_contour(self.sizes, self.mechanism.spec.wheel.z)
+        return Member(Plate("rack", "WHEEL", outline, self._bar_bolts, 0.0, self.sizes.thick.wheel))
 
     @cached_property
     def bar(self) -> Member:
