@@ -630,9 +630,9 @@ class Design:
         >>> wheel.is_table("slot", drawn=False), wheel.is_table("wheel", drawn=False)
         (True, False)
         """
-        from geneva_cli.drawings.catalogue import is_table
+        from geneva_cli.drawings.catalogue import table_of
 
-        return is_table(self.mechanism, part, drawn)
+        return bool(table_of(self.mechanism, part, drawn))
 
     @answer
     def parts(self) -> Parts:

@@ -30,7 +30,7 @@ _DRAWINGS = {
     "gears": "drawings.part_drawings:gears",
     "groove": "drawings.part_drawings:groove",
     "groove-plate": "drawings.part_drawings:groove_plate",
-    "plate": "drawings.single_parts:plate",
+    "plate": "drawings.parts_list:plate",
 }
 _TABLES = {
     "slot": "parts.slots.slot_profile:profile_table",

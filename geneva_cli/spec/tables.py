@@ -576,7 +576,6 @@ class Accept(SpecTable):
     wheel_left_out: Reason = None
     weight_to_one_side: Reason = None
     unbalanced: Reason = None
-    unlikely_material: Reason = None
     nothing_to_act_on: Reason = None
     driven_by_one_wall: Reason = None
     lags_behind: Reason = None

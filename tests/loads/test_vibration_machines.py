@@ -6,8 +6,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 import repo
-from bench import truth
 from swings import greatest_acceleration, residuals, shares
+from witness import Geneva, mp
 from words import law as load_law
 from words import load
 
@@ -59,22 +59,21 @@ def test_every_machine(path):
 )
 def test_straight_slots_to_the_last_digits(z, gearing, A, damping):
     """The wheel's acceleration by complex numbers of 50 digits, integrated at 30."""
-    mp = truth.digits()
     wheel = registry.gearing(gearing)(z)
     machine = build(Spec(wheel, SideCrank(A=A) if A else Crank()))
     engagement = machine.engagements[0]
-    half = truth.half_motion(z, gearing, A)
+    exact_motion = Geneva(z, gearing, A)
+    half = exact_motion.half_motion
     cuts = [half * mp.mpf(k) / 16 for k in (-16, -10, -5, -2, -1, 0, 1, 2, 5, 10, 16)]
     for ratio in (0.9, 6.25):
         z_ = mp.mpf(damping)
         p = 2 * mp.pi * mp.mpf(ratio) * mp.mpc(-z_, mp.sqrt(1 - z_ * z_))
 
         def swing(x, p=p):
-            return truth.motion(z, gearing, A, x)[2] * mp.exp(p * (half - x) / (2 * half))
+            return exact_motion.at(x)[2] * mp.exp(p * (half - x) / (2 * half))
 
-        mp.dps = 25
-        exact = mp.quad(swing, cuts, maxdegree=5) * 2 * half / (2 * mp.pi / z) / p.imag
-        mp.dps = 50
+        with mp.workdps(25):
+            exact = mp.quad(swing, cuts, maxdegree=5) * 2 * half / (2 * mp.pi / z) / p.imag
         found = shares(shape(engagement.motion), np.array([ratio]), damping)[0]
         assert abs(found - abs(exact)) <= 1e-13 * abs(exact)
 

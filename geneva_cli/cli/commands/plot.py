@@ -38,7 +38,7 @@ def run(
     """
     from geneva_cli.output import show_figure
     from geneva_cli.output.formats import FORMATS, PLOTTED, chosen
-    from geneva_cli.study.figures import of_specs, of_table
+    from geneva_cli.study.compare import of_specs, of_table
 
     chosen(output, format, (*PLOTTED, *FORMATS))  # refuse a wrong format before any computation
     tables = [path for path in specs if path.lower().endswith(".csv")]

@@ -18,7 +18,7 @@ KINDS = (
             "frame": "drawings.part_drawings:frame",
             "guide": "kinds.linear.drawings:guide",
             "assembly": "kinds.linear.drawings:assembly",
-            "plate": "drawings.single_parts:plate",
+            "plate": "drawings.parts_list:plate",
         },
         tables={"slot": "parts.slots.slot_profile:profile_table"},
         dimensions="kinds.linear.drawings:dimensions",

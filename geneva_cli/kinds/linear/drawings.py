@@ -13,8 +13,7 @@ from geneva_cli.kinds.linear.rack import rack_sizes, slot_walls
 from geneva_cli.motion.pivots import Dimension
 from geneva_cli.output.scene import Body, Box, Track
 from geneva_cli.parts import projection
-from geneva_cli.study.animation.animated_turn import MachineTurn
-from geneva_cli.study.animation.tracks import still
+from geneva_cli.study.animation.animated_turn import MachineTurn, still
 from geneva_cli.study.animation.turning_scene import WheelScene
 
 if TYPE_CHECKING:

@@ -29,16 +29,8 @@ from geneva_cli.kinds.linkages.path_wheels import driven
 from geneva_cli.kinds.linkages.tangent_pairs import Pairs, sampled
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.wheels.gearing import Gearing
-from geneva_cli.study.synth.families.family import (
-    BARE,
-    Family,
-    allowed_motions,
-    closed_span,
-    is_compatible,
-    machine,
-    natural_deg,
-)
-from geneva_cli.study.synth.optimiser import Places
+from geneva_cli.study.synth.families.family import Family, is_compatible, natural_deg
+from geneva_cli.study.synth.family_search import Places
 from geneva_cli.study.target import AllowedSpan, Target
 
 _EXAMPLE: Any = FourBar.EXAMPLE.tables["drive"]
@@ -59,12 +51,12 @@ def four_bars(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
 
 def _task(target: Target, wheel: Gearing) -> WheelGoal | None:
     """The goal of the search for a wheel; None for a wheel that no four-bar drives."""
-    free = closed_span(allowed_motions(target, 1, natural_deg(wheel)), 1)
+    free = target.free_motions(1, natural_deg(wheel))
     if free is None:
         return None
     if not is_compatible(_machine(target, wheel, FourBar(**_EXAMPLE), free.low)):
         return None
-    frame = target.frame or BARE
+    frame = target.own
     radius_mm = frame.size.roller_radius_mm
     # half the usual roller, and at most a third of sin b, which is the crank of a plain wheel
     roller = min(0.025, (1.0 / 3.0) * math.sin(wheel.step.b))
@@ -107,7 +99,7 @@ def _spec(target: Target, goal: Goal, places: Places, number: int) -> Spec | Non
     links, (entry, motion, sense, w) = machine.links, machine.drive
     wheel = goal.wheels[one.of[0]].wheel
     own = _machine(target, wheel, FourBar(**_EXAMPLE), math.degrees(float(motion[0, 0])))
-    scale = (target.frame or BARE).given_distance_mm / float(machine.distance[0])
+    scale = target.own.given_distance_mm / float(machine.distance[0])
     at = complex(w[0, 0]) * scale
     lengths = [float(np.ravel(x)[0]) * scale for x in links.numbers[:4]]
     sides: Any = dict(zip(_LENGTHS, lengths, strict=True))
@@ -129,7 +121,7 @@ def _spec(target: Target, goal: Goal, places: Places, number: int) -> Spec | Non
 def _machine(target: Target, wheel: Gearing, drive: FourBar, motion_deg: float) -> Spec:
     """A machine with the requirement's frame; its centre distance follows from the links."""
     unlocked = wheel.replace(held_by="detent")  # there is no locking disc
-    spec = machine(target, unlocked, lambda n: drive.replace(n_rpm=n), 1, motion_deg)
+    spec = target.machine(unlocked, drive, motion_deg)
     # the coupler passes below the wheel's axis, where a shaft without a hub ends in the wheel
     hub = 0.0 if spec.size.wheel_hub_mm is None else spec.size.wheel_hub_mm
     return spec.replace(size=spec.size.replace(center_distance_mm=None, wheel_hub_mm=hub))

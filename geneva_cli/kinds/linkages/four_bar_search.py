@@ -27,7 +27,7 @@ from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.arrays import Array, Complex, Number, Whole, mapped, parameter
 from geneva_cli.numerics.jet import Jet, atan2, sin_cos
 from geneva_cli.study.sweep.constraints import Constraint
-from geneva_cli.study.synth.optimiser import Places, Zoom, sampled, zoom
+from geneva_cli.study.synth.family_search import Places, Zoom, sampled, zoom
 from geneva_cli.study.target import AllowedSpan, Target
 from geneva_cli.verdict.quantities.groups import RATES
 
