@@ -11,7 +11,6 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, ClassVar, NamedTuple, Self, TypeAlias
 
-from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Member, Plate
 from geneva_cli.geometry.shapes import Arc, Circle, Contour
 from geneva_cli.kept import cached_property, load_named
@@ -72,21 +71,12 @@ class Parts(TurnedParts):
         """The outlines of wheel and crank. Raises GenevaError where they are not flat."""
         return self.flat.outlines
 
-    @property
+    @cached_property
     def turn(self) -> FullTurn:
         """The full turn; raises GenevaError where it takes too many positions."""
         from geneva_cli.parts.turn.full_turn import full_turn
 
-        known = vars(self)
-        if "_turn" not in known:
-            try:
-                known["_turn"] = full_turn(self)
-            except GenevaError as error:  # that it takes too long is remembered too
-                known["_turn"] = error
-        if isinstance(known["_turn"], GenevaError):
-            raise known["_turn"]
-        turn: FullTurn = known["_turn"]
-        return turn
+        return full_turn(self)
 
     def of(self, mechanism: Mechanism) -> Self:
         """Return the parts of a machine whose wheel, crank and positions are equal."""
@@ -109,8 +99,8 @@ class Parts(TurnedParts):
         if not ("_shape" in computed and own == other and self._has_sizes_of(mechanism)):
             return parts_of(mechanism)
         parts = self.of(mechanism)
-        if "_turn" in computed:
-            vars(parts)["_turn"] = computed["_turn"]
+        if "turn" in computed:
+            vars(parts)["turn"] = computed["turn"]
         return parts
 
     def _has_sizes_of(self, mechanism: Mechanism) -> bool:

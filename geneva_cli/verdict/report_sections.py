@@ -136,7 +136,7 @@ def vibration(parts: Parts) -> Values:
     """The load on its elastic shaft: what an index leaves swinging, and the speeds to avoid.
 
     None without a stiffness, and why where inertia is missing or its period is out of range.
-    Bands, stations and warnings are those of ``geneva vibration``.
+    Bands and warnings are those of ``geneva vibration``.
     """
     mechanism = parts.mechanism
     none: Values = {"speeds_to_avoid_rpm": None}

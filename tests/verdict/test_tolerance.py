@@ -11,9 +11,8 @@ import pytest
 from geneva_cli import Design, External, Internal, SideCrank, Size, Spherical, Tolerance
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
-from geneva_cli.loads.tolerance.entry_jump import entry_jumps
 from geneva_cli.loads.tolerance.locking import Deviations, Lock, deviations, slope_of
-from geneva_cli.loads.tolerance.motion_error import motion_errors, motion_plays
+from geneva_cli.loads.tolerance.motion_error import entry_jumps, motion_errors, motion_plays
 from geneva_cli.motion.laws.law import Motion
 from geneva_cli.motion.laws.standard import Cycloidal
 from geneva_cli.motion.many import many

@@ -138,8 +138,7 @@ def tolerances(of: Designs) -> Columns:
     None for racks, whose deviations are not studied. The jump at entry is computed as a batch if
     all designs have tolerances, none of which is too wide.
     """
-    from geneva_cli.loads.tolerance.entry_jump import entry_jumps_worst
-    from geneva_cli.loads.tolerance.motion_error import motion_plays, used
+    from geneva_cli.loads.tolerance.motion_error import entry_jumps_worst, motion_plays, used
 
     plays = motion_plays(of.machine) if of.machine.output.turns else None
     if plays is None:
