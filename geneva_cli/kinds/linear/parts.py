@@ -169,11 +169,8 @@ class RackParts(EdgedParts):
         self._require_built()
         mechanism, size, sizes = self.mechanism, self.mechanism.spec.size, self.sizes
         plain, top, _, stands = heights(mechanism, sizes)
-        axis, L, own = (
-            (sizes.arm, 0.0),
-            2.0 * sizes.arm,
-            list[Shaft](),
-        )  # as a wheel of 6 slots has it
+        own, axis = list[Shaft](), (sizes.arm, 0.0)
+        L = 2.0 * sizes.arm  # as a wheel of 6 slots has it
         if sizes.bore:  # the crank's shaft, up to the arm's upper face
             ends = shaft_ends(size, "crank", plain, stands)
             # the keyway is on the side of the locking sector, as in the arm
