@@ -46,7 +46,7 @@ def assembly(parts: RackParts) -> Drawing:
     gears = () if parts.mechanism.spec.no_parts else parts.gear_pair
     moving = parts.wheel, parts.crank, parts.bar, *gears
     title, drawn = projection.titled(parts.mechanism), projection.with_frame(moving, parts.standing)
-    look = Annotations((LevelDistance((0.0, 0.0), parts.axis, "R"),))
+    look = Annotations((LevelDistance((0.0, 0.0), (parts.sizes.arm, 0.0), "R"),))
     return Drawing(title, drawn, look, Group(title, parts.members))
 
 
