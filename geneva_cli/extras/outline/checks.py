@@ -37,7 +37,6 @@ from geneva_cli.verdict.checks.motion_checks import entry_velocity_limit
 
 ROUNDING_DEG = 1e-3  # a smaller play comes from the slack
 POINTS = 9  # of each piece, where parts overlap
-TURNED_WRONG = 0.25  # of the index: no slot is so loose
 
 
 def checks(mechanism: Mechanism) -> list[Check]:
@@ -167,8 +166,6 @@ def _summary(result: Turned) -> str:
     lag = lag_deg(result)
     if lag > ROUNDING_DEG:
         text += f"; it lags up to {lag:.3g}° behind the ideal motion"
-    if lag > TURNED_WRONG * index:
-        text += ": are wheel_turn_deg and crank_turn_deg in [outline] right?"
     return text
 
 
