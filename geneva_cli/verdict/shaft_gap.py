@@ -51,21 +51,14 @@ def ring_gap(apart: float, inner: float, outer: Measure, radius: Measure) -> Mea
 
 
 def shaft_gaps(parts: FlatParts) -> Iterator[float]:
-    """Yield the gaps of parts to the hubs and shafts that they pass, mm, negative at an overlap.
-
-    Raises GenevaError for sizes that leave no parts.
-    """
+    """Yield the gaps of parts to the hubs and shafts that they pass, mm, negative at an overlap."""
     turning = rings_of((parts.wheel, parts.crank))
     others = rings_of((*parts.first, *parts.groove_plate))
     yield from ring_gaps(parts.mechanism, turning, [*turning, *others], parts.shafts)
 
 
 def gear_gaps(parts: FlatParts) -> Iterator[float]:
-    """Yield the gaps of noncircular gears to hubs, shafts and spacers, mm.
-
-    The spacers are those of a fixed gear or a guide above the gears. Raises GenevaError for sizes
-    that leave no parts.
-    """
+    """Yield the gaps of noncircular gears to hubs, shafts and spacers, mm."""
     turning = rings_of((parts.wheel, parts.crank))
     rings = list(gear_rings(parts.mechanism, parts.drawn))
     yield from ring_gaps(parts.mechanism, turning, rings, (*parts.shafts, *parts.framed.spacers))
@@ -84,10 +77,7 @@ def ring_gaps(
 
 
 def gear_rings(mechanism: Mechanism, drawn: Outlines | None) -> Iterator[Ring]:
-    """Yield the rings of noncircular gears, out to their farthest points.
-
-    ``drawn`` are the outlines of wheel and crank, if they are drawn.
-    """
+    """Yield the rings of noncircular gears, out to their farthest points."""
     pair, x = mechanism.spec.gears, mechanism.gear_shaft.x_mm
     if pair is None:
         return

@@ -1,7 +1,4 @@
-"""The drawing sheet of a flat machine: dimensioned parts, the list of items and a title block.
-
-The assembled machine and its section are drawn at the scale of the parts, or at half of it.
-"""
+"""The drawing sheet of a flat machine: dimensioned parts, the list of items and a title block."""
 
 from __future__ import annotations
 
@@ -109,10 +106,7 @@ def _views(rows: list[dict[str, Any]], parts: FlatParts, scale: float) -> Iterat
     process, unborne = mechanism.spec.size.process, dict(parts.unborne)
 
     def begin(*names: str, thick: bool = True) -> View:
-        """Begin a view, titled with its parts' numbers and thicknesses.
-
-        Its fits are those of the process, for the thickness of the first part.
-        """
+        """Begin a view, titled with its parts' numbers and thicknesses."""
         own = {i: row for i, row in enumerate(rows, 1) if row["name"] in names}
         titles = [
             f"{i} {row['name']}" + f", t = {length(row['thickness_mm'])}" * thick
@@ -145,10 +139,7 @@ def _views(rows: list[dict[str, Any]], parts: FlatParts, scale: float) -> Iterat
 
 
 def cut_faces(members: Iterable[Member], scale: float) -> list[Face]:
-    """Return the faces that the plane y = 0 cuts, by chords of 1.5 mm at a scale.
-
-    They lie inside of an outline and outside of its holes.
-    """
+    """Return the faces that the plane y = 0 cuts, by chords of 1.5 mm at a scale."""
     faces = []
     for own, plate in in_place(members):
         crossings: list[float] = []

@@ -127,10 +127,7 @@ def _frame(paper: PaperSize) -> list[Shape]:
 
 
 def _title_block(spec: Spec, rows: list[dict[str, Any]], scale: float, paper: PaperSize) -> Block:
-    """Return the title block; its lower left corner is the origin.
-
-    Fields without a value are empty, for a pen.
-    """
+    """Return the title block; its lower left corner is the origin."""
     own, shop, materials = spec.drawing, WORKSHOPS[spec.size.process], material_names(spec)
     mass = sum(row["mass_kg"] * row["count"] for row in rows)
     # mg where kg would have too many zeros for the field
@@ -206,10 +203,7 @@ def cut_to(text: str, height: float, limit: float) -> str:
 
 
 def table(heading: Sequence[str], rows: Sequence[Sequence[str]], columns: Sequence[float]) -> Block:
-    """Return a table, with lines of text above it.
-
-    The first row has the names of its columns. ``columns`` are widths in mm.
-    """
+    """Return a table, with lines of text above it."""
     row_height = 5.0  # mm
     wide, high = sum(columns), row_height * len(rows)
     shapes: list[Shape] = [rectangle(OUTLINE, 0.0, 0.0, wide, high)]

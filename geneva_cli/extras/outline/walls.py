@@ -33,10 +33,7 @@ class Wall(NamedTuple):
 
 
 def smallest_wall(contours: Sequence[Contour], some: Whole | None = None) -> Wall | None:
-    """The smallest wall of a part with the material on the left, or None if it has none.
-
-    Only walls that begin at the pieces ``some`` are looked at: one sector of a wheel is enough.
-    """
+    """The smallest wall of a part with the material on the left, or None if it has none."""
     outline = Polyarc(contours)
     some = np.arange(len(outline)) if some is None else some
     lengths = [len(contour.segments) for contour in contours]

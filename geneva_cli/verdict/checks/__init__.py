@@ -265,10 +265,7 @@ def checks(
 
 
 def single_check(mechanism: Mechanism, name: str, machine: Parts | None = None) -> Check | None:
-    """The check with this name, without the others; None if there is no such check.
-
-    Raises GenevaError if its parts cannot be built, or turned if it is of the turn.
-    """
+    """The check with this name, without the others; None if there is no such check."""
     among = MOTION if name in MOTION else LIMITS
     of: tuple[object, ...] = (mechanism,)
     if name not in among:
@@ -293,10 +290,7 @@ def single_check(mechanism: Mechanism, name: str, machine: Parts | None = None) 
 
 
 def pushed_round(mechanism: Mechanism) -> list[Check]:
-    """Whether parts turn that do not follow the formulas, and how hard they are struck.
-
-    Without that extra, or where it cannot turn them, there is no verdict.
-    """
+    """Whether parts turn that do not follow the formulas, and how hard they are struck."""
     try:
         rows: list[Check] = load_extra("outline", "as_built")(mechanism)
     except GenevaError:
@@ -305,10 +299,7 @@ def pushed_round(mechanism: Mechanism) -> list[Check]:
 
 
 def proofs(parts: Parts, to_mm: float | None = None) -> list[Check]:
-    """The proof that no parts collide in a whole turn; none if they cannot be made or turned.
-
-    ``to_mm`` is the tolerance of the proof, by default that of ``motion_checks.proof``.
-    """
+    """The proof that no parts collide in a whole turn; none if they cannot be made or turned."""
     if not parts.mechanism.spec.is_turned or parts.mechanism.no_turn:
         return []
     try:
