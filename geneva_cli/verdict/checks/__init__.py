@@ -109,18 +109,15 @@ class Check(NamedTuple):
     @property
     def remark(self) -> str:
         """The reason, and the sizes that ``nearest`` changes."""
-        if not self.anew:
-            return self.why
-        anew = f"sizes chosen anew with {self.nearest}: {self.anew}"
-        return f"{self.why}; {anew}" if self.why else anew
+        anew = f"sizes chosen anew with {self.nearest}: {self.anew}" if self.anew else ""
+        return "; ".join(filter(None, (self.why, anew)))
 
     @property
     def spare(self) -> float:
         """The margin to the limit, negative if the check fails; infinite without a value."""
         if self.value is None or self.limit is None:
             return -math.inf if self.passes is False else math.inf
-        left = self.limit - self.value
-        left = left if self.must_be == "at most" else -left
+        left = (self.limit - self.value) * (1.0 if self.must_be == "at most" else -1.0)
         return min(left, -5e-324) if self.passes is False else max(left, 0.0)
 
 

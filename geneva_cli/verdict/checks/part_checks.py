@@ -112,10 +112,9 @@ def clearances(names: Collection[str], parts: FlatParts) -> Iterator[Check]:
     passing["gear_gap_mm"] = parts.mechanism.spec.gears is not None
     for name, is_there in passing.items():
         if is_there and name in names:
-            from geneva_cli.verdict.shaft_gap import gear_gaps, shaft_gaps  # for few machines
+            from geneva_cli.verdict.shaft_gap import shaft_gaps  # for few machines
 
-            gaps = shaft_gaps if name == "beside_shafts_mm" else gear_gaps
-            yield from least_gap(name, gaps(parts), assembly.L)
+            yield from least_gap(name, shaft_gaps(parts, name == "gear_gap_mm"), assembly.L)
     arm = "arm_bore_mm", "arm_hub_mm", "arm_eye_mm", "press_fit_mm", "lock_bolts"
     shaped = has_shape(parts.mechanism.spec.size, "crank")
     if shaped or any(map(size.get, arm)):
