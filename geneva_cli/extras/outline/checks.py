@@ -207,8 +207,8 @@ def _walls(machine: DrawnMachine) -> Iterator[Check]:
         return
     sector = one_sector(Polyarc(machine.wheel), math.tau / spec.wheel.z, machine.free.slack)
     if wall := smallest_wall(machine.wheel, sector):
-        row = compared("wall_mm", wall.thickness, "at least", wall_min(spec.size, place.L))
-        start, end = (shown((z.real, z.imag)) for z in (wall.start, wall.end))
+        row = compared("wall_mm", wall[0], "at least", wall_min(spec.size, place.L))
+        start, end = (shown((z.real, z.imag)) for z in wall[1:])
         yield row if row.passes else row._replace(why=f"thinnest from {start} to {end}")
 
 
