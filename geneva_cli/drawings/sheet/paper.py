@@ -10,7 +10,6 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from geneva_cli.drawings.sheet.packing import Block, is_overfull, packed
-from geneva_cli.drawings.sheet.sized import edge_note
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.shapes import Point, Shape
 from geneva_cli.geometry.sheet import (
@@ -145,9 +144,14 @@ def _title_block(spec: Spec, rows: list[dict[str, Any]], scale: float, paper: Pa
         f"Ra {um:g}" if um else "" for um in (own.roughness_um, own.flank_roughness_um)
     )
     hard = f"{own.flank_hardness_HRC:g} HRC" if own.flank_hardness_HRC else ""
+    chamfer, fillet, edges = spec.size.edge_chamfer_mm, spec.size.edge_fillet_mm, "free of burrs"
+    if chamfer is not None:
+        edges = f"chamfered {length(chamfer)} × 45°"
+    elif fillet is not None:
+        edges = f"rounded R {length(fillet)}"
     surfaces = {
         "roughness": rough or shop.roughness,
-        "edges": edge_note(spec.size) or "free of burrs",
+        "edges": edges,
         "faces that roll, slide, lock": ", ".join(filter(None, (flanks, hard))),
     }
     names = {
