@@ -342,7 +342,7 @@ class Adviser:
                 if self.left < self.stop:
                     return -math.inf
                 machine = build(spec, self.mechanism)
-                self._last = machine, parts_of(machine, advice=False)
+                self._last = machine, parts_of(machine)
             machine, parts = self._last
             for name, unit in self.units.items():
                 check = single_check(machine, name, parts)

@@ -17,7 +17,6 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError, Notice, cut
 from geneva_cli.loads.impacts.entry import arm_mm, mouth_jumps_worst
-from geneva_cli.loads.tolerance.entry_jump import entry_jumps, entry_jumps_worst
 from geneva_cli.loads.tolerance.locking import (
     CutLock,
     Deviations,
@@ -26,7 +25,12 @@ from geneva_cli.loads.tolerance.locking import (
     tolerances,
     without_effect,
 )
-from geneva_cli.loads.tolerance.motion_error import motion_errors, used
+from geneva_cli.loads.tolerance.motion_error import (
+    entry_jumps,
+    entry_jumps_worst,
+    motion_errors,
+    used,
+)
 from geneva_cli.loads.tolerance.random_machines import (
     Draws,
     Spread,

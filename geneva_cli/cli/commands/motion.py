@@ -7,7 +7,7 @@ import typer
 
 from geneva_cli.cli.command import Output, Reverse, Settings, SpecPath, one_of, option, say
 from geneva_cli.errors import GenevaError, clean
-from geneva_cli.output.formats import CAMS, CONTROLLERS, FORMATS
+from geneva_cli.output import CAMS, CONTROLLERS, FORMATS
 
 EXAMPLES = (
     "geneva motion spec.toml --samples 13",

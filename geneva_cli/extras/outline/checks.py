@@ -147,7 +147,7 @@ def _shown_deg(machine: DrawnMachine, crank: float) -> float:
 def _summary(result: Turned) -> str:
     machine, turn = result.machine, result.senses[0].first
     index, is_moving = math.degrees(turn.gained) / len(machine.assembly.motions), turn.is_moving
-    free = np.nan_to_num(np.degrees(turn.high - turn.low))
+    free = np.degrees(turn.high - turn.low)
     rest = math.degrees(result.rest.high - result.rest.low)
     first, last = turn.pushes[0], max(moving(turn), default=turn.pushes[0])
     begin, end = _shown_deg(machine, first.begin), _shown_deg(machine, last.end)

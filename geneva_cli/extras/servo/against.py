@@ -24,8 +24,7 @@ from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.spec.tables import Load
 from geneva_cli.study.compare import over
-from geneva_cli.study.fields import pick
-from geneva_cli.study.rows import Cell
+from geneva_cli.study.fields import Cell, pick
 from geneva_cli.table import Table, rows_table
 
 # The rows, and their quantities.

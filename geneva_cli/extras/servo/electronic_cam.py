@@ -20,7 +20,7 @@ from geneva_cli.errors import GenevaError, cut
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.motion_table import Stretch, periods, stretches
 from geneva_cli.numerics.jet import Array
-from geneva_cli.output.formats import CONTROLLERS
+from geneva_cli.output import CONTROLLERS
 from geneva_cli.table import Table
 
 TOLERANCE_MIN_DEG = 1e-12  # an angle of 360 degrees is rounded by up to 3e-14, a sum by some more

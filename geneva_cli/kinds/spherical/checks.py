@@ -17,6 +17,7 @@ from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.shafts.bores import around, reach_or_bore
 from geneva_cli.parts.sizes import hub_faults, refuse
+from geneva_cli.spec.defaults import wall_min
 from geneva_cli.verdict.checks import Check, compared, measured
 from geneva_cli.verdict.checks.part_checks import cuts, least_gap
 from geneva_cli.verdict.shaft_gap import ring_gap
@@ -24,7 +25,7 @@ from geneva_cli.verdict.shaft_gap import ring_gap
 
 def standing(names: Collection[str], parts: SphereParts) -> Iterator[Check]:
     """Walls of wheel and arm, gaps at shafts, and what the process can cut."""
-    ball, sizes, least = parts.ball, parts.shells.sizes, parts.shells.sizes.wall_min
+    ball, least = parts.ball, wall_min(parts.mechanism.spec.size, parts.ball.radius_mm)
     # between adjacent slots: at their ends, or at a rim beyond a quarter sphere
     apart = 2.0 * math.asin(math.sin(ball.bottom) * math.sin(ball.half_step))
     wall = apart - 2.0 * ball.half_width
@@ -33,7 +34,7 @@ def standing(names: Collection[str], parts: SphereParts) -> Iterator[Check]:
         wall = min(wall, 2.0 * math.asin(corners))
     yield compared("wall_between_slots_mm", wall * ball.radius_mm, "at least", least)
     if parts.shells.crank:  # between a slot and the recess of the locking sectors
-        yield compared("horn_mm", sizes.horn, "at least", least)
+        yield compared("horn_mm", parts.sizes.horn, "at least", least)
     yield from measured("wheel_bore_wall_mm", least, lambda: _bore_wall(parts))
     arm = [*measured("arm_wall_mm", least, lambda: parts.arm.wall if parts.arm else None)]
     if "beside_shafts_mm" in names and not (arm and arm[0].value is None):

@@ -134,8 +134,7 @@ def _impact(of: Designs, impacts: Impacts, **more: Array) -> Columns:
 
 def tolerances(of: Designs) -> Columns:
     """The worst effects of tolerances on the motion, and on the velocity at entry."""
-    from geneva_cli.loads.tolerance.entry_jump import entry_jumps_worst
-    from geneva_cli.loads.tolerance.motion_error import motion_plays, used
+    from geneva_cli.loads.tolerance.motion_error import entry_jumps_worst, motion_plays, used
 
     plays = motion_plays(of.machine) if of.machine.output.turns else None
     if plays is None:

@@ -381,7 +381,7 @@ def test_what_takes_the_ideal_machine_says_so(tmp_path):
     plain = Design.of(design.spec.replace(outline=type(design.spec.outline)()))
     assert design.loads_table.to_dict()["pin_force_N.max"] == plain.loads["pin_force_N"].max
     assert not plain.ideal_notes
-    with pytest.raises(GenevaError, match="our own parts, which the drawings"):
+    with pytest.raises(GenevaError, match="our own parts, which drawings"):
         design.tolerance()
 
 
