@@ -42,7 +42,3 @@ def test_a_wall_is_the_shortest_line_through_the_material():
         rings += [shapely.Point(x, y).buffer(r, 512).exterior for x, y, r in holes]
         apart = [a.distance(b) for i, a in enumerate(rings) for b in rings[:i]]
         assert smallest_wall(plate)[0] == pytest.approx(min(apart), abs=1e-3)
-
-
-def test_a_plain_disc_has_no_wall():
-    assert smallest_wall([disc(0.0, 0.0, 10.0)]) is None
