@@ -114,11 +114,7 @@ def needed_mm(
 
 
 def worst_dwell_deg(mechanism: Mechanism, parts: Parts) -> float | None:
-    """The greatest error of the resting wheel's angle within the tolerances, degrees.
-
-    None without a drawn locking disc. Raises GenevaError for tolerances that are too wide, and for
-    parts that cannot be built.
-    """
+    """The greatest error of the resting wheel's angle within the tolerances, degrees."""
     use = used(mechanism)
     _refuse_large(mechanism, use)
     loosest = _loosest_lock(mechanism, parts, use)
@@ -159,10 +155,7 @@ def _refuse(mechanism: Mechanism, samples: int, seed: int) -> None:
 
 
 def _refuse_large(mechanism: Mechanism, use: dict[str, float]) -> None:
-    """Raise GenevaError if some machine's roller may reach the wheel's axis or the crank's.
-
-    A normal distribution has tails: deviations lie within three times the plus or minus.
-    """
+    """Raise GenevaError if some machine's roller may reach the wheel's axis or the crank's."""
     for one in motion_errors(mechanism):
         margin_mm = one.margin_mm(mechanism.spec, use)
         if not use["center_distance_mm"] + use["crank_radius_mm"] < margin_mm:
@@ -177,11 +170,7 @@ def _refuse_large(mechanism: Mechanism, use: dict[str, float]) -> None:
 def tolerance_table(
     mechanism: Mechanism, parts: Parts, samples: int, seed: int, radius_mm: float | None = None
 ) -> Table:
-    """The study of a machine by its ``[tolerance]``, with micrometres at ``radius_mm``.
-
-    Values that do not exist are None, as the warnings say. Raises GenevaError without tolerances,
-    and for numbers of samples and seeds out of range.
-    """
+    """The study of a machine by its ``[tolerance]``, with micrometres at ``radius_mm``."""
     if radius_mm is not None:
         require_mm("--radius", radius_mm, POSITIVE)
     _refuse(mechanism, samples, seed)
