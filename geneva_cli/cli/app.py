@@ -76,7 +76,7 @@ class LazyGroup(PlainValues, TyperGroup):
     def __init__(self, **settings: Any) -> None:
         super().__init__(**settings)
         for name, line in COMMANDS.items():
-            self.commands[name] = TyperCommand(name, help=line, callback=_stub)
+            self.commands[name] = TyperCommand(name, help=line, callback=lambda: None)
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         """Parse the options before the command; a wrong one becomes a line and an exit code."""
@@ -100,14 +100,9 @@ class LazyGroup(PlainValues, TyperGroup):
         with formatter.section("Examples"):
             formatter.write("".join(f"  {line}\n" for line in EXAMPLES))
         self.format_commands(ctx, formatter)
-        completes = {"install_completion", "show_completion"}
-        params = sorted(self.get_params(ctx), key=lambda param: param.name in completes)
+        records = [param.get_help_record(ctx) for param in self.get_params(ctx)]
         with formatter.section("Options"):
-            formatter.write_dl([record for p in params if (record := p.get_help_record(ctx))])
-
-    def list_commands(self, ctx: Any) -> list[str]:
-        """Every command, in the order of the registry."""
-        return list(COMMANDS)
+            formatter.write_dl([record for record in records if record])
 
     def format_commands(self, ctx: Any, formatter: Any) -> None:
         """Write the commands by task."""
@@ -159,10 +154,6 @@ def _bar(what: str, total: int) -> progress.ProgressBar | None:
     from geneva_cli.output.terminal.bar import TextBar
 
     return TextBar(what, total)
-
-
-def _stub() -> None:
-    """The callback of a command whose module is not loaded."""
 
 
 def _usage(path: str, error: Any) -> str:

@@ -16,16 +16,6 @@ from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.kept import load_named
-from geneva_cli.output.formats import (
-    DOCUMENTS,
-    DRAWN,
-    FORMATS,
-    MESHES,
-    PAGES,
-    PLOTTED,
-    SHEETS,
-    chosen,
-)
 from geneva_cli.streams import use_utf8
 from geneva_cli.table import Table
 
@@ -36,7 +26,28 @@ if TYPE_CHECKING:
     from geneva_cli.output.document.blocks import Document
     from geneva_cli.output.scene import Scene
 
-
+# what is written, by format: the module for tables, the function for others
+FORMATS = {"table": "text", "csv": "delimited", "json": "jsonfile", "md": "markdown"}
+MESHES = {"stl": "mesh_files:stl", "3mf": "mesh_files:threemf"}  # of solids, in bytes
+DRAWN = {"dxf": "dxf:chunks", "svg": "svg:chunks", "step": "step:chunks", **MESHES}
+SHEETS = {"dxf": "dxf:sheet_chunks", "svg": "svg:sheet_chunks", "pdf": "pdf:sheet_chunks"}
+PLOTTED = {  # figures
+    "svg": "plot.plot_svg:chunks",
+    "png": "plot.plot_svg:png_chunks",
+    "pdf": "plot.plot_pdf:chunks",
+}
+# the other formats of tables get a document's values
+DOCUMENTS = {
+    "html": "document.html:chunks",
+    "pdf": "document.document_pdf:chunks",
+    "md": "document.document_markdown:chunks",
+}
+PAGES = {"html": "page:chunks"}  # of moving scenes
+CAMS = ("cam",)  # for motions only: a file for a controller
+CONTROLLERS = ("polynomial", "codesys")  # what reads a cam
+EXTENSIONS = {"txt": "table", "stp": "step", "htm": "html"}  # others are the format's name
+# versions that ezdxf writes; R2000 is the first with LWPOLYLINE, SPLINE and a unit, and all read it
+DXF_VERSIONS = ("R12", "R2000", "R2004", "R2007", "R2010", "R2013", "R2018")
 # The options --columns and --wide of this run: the columns that its tables show, some by name, or
 # all whatever their width.
 choice = SimpleNamespace(columns=(), wide=False)
@@ -46,6 +57,48 @@ def refuse_columns() -> None:
     """Raise GenevaError if columns were chosen by name and no table is shown."""
     if choice.columns:
         raise GenevaError("--columns is for tables, and this run prints none; leave it out")
+
+
+def chosen(output: str, format: str, formats: Iterable[str] = FORMATS) -> str:
+    """The format that is given, or that of a file's extension; on standard output, a table.
+
+    Raises GenevaError if it is none of ``formats``.
+    """
+    name = format or ("table" if output == "-" else named(output, ""))
+    known = list(formats)
+    if name in known:
+        return name
+    if format:
+        raise GenevaError(f"--format {cut(name)}: it must be one of {', '.join(known)}")
+    if output == "-":
+        raise GenevaError(
+            f"this is no table: give -o FILE.{known[0]}, or a --format: {', '.join(known)}"
+        )
+    known = [".txt" if name == "table" else f".{name}" for name in known]
+    raise GenevaError(f'-o "{cut(output)}": it must end in {", ".join(known)}, or give a --format')
+
+
+def named(output: str, format: str) -> str:
+    """The format that is given, or that of a file's extension."""
+    extension = os.path.splitext(output)[1].lower().lstrip(".")
+    return format or EXTENSIONS.get(extension, extension)
+
+
+def usual(output: str, format: str, tolerance_mm: float | None = None) -> tuple[str, float]:
+    """The default form of curved walls, and the tolerance of curves for one of the file, mm.
+
+    In STEP a wall is one face as ``spline``, and a hundred as ``arcs``, which all others have. The
+    default tolerance is 0.001, and in meshes a printer's, 0.01. In a mesh curves have one half of
+    it, as its chords have the other.
+
+    >>> usual("wheel.stp", ""), usual("wheel.stl", ""), usual("-", "dxf", 0.1)
+    (('spline', 0.001), ('arcs', 0.005), ('arcs', 0.1))
+    """
+    name = named(output, format)
+    if tolerance_mm is None:
+        tolerance_mm = 0.01 if name in MESHES else 0.001
+    curves = "spline" if name == "step" else "arcs"
+    return curves, 0.5 * tolerance_mm if name in MESHES else tolerance_mm
 
 
 def is_for_people(output: str, format: str) -> bool:
@@ -83,7 +136,8 @@ def show_answer(
     answer: Answer, output: str = "-", format: str = "", inputs: Iterable[str] = ()
 ) -> None:
     """Print an answer, or write it to the file ``output``: for people a summary above a table."""
-    name, people = chosen(output, format), is_for_people(output, format)
+    name = chosen(output, format)
+    people = name in ("table", "md")
     page = answer.page if people else None
     if not people or choice.columns:  # only those columns are wanted
         show(page or answer.data, output, format, inputs)

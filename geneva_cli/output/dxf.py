@@ -36,8 +36,8 @@ from geneva_cli.geometry.sheet import (
     extent,
     prepared,
 )
+from geneva_cli.output import DXF_VERSIONS
 from geneva_cli.output.ezdxf_alone import BaseLayout, Document, Modelspace, options
-from geneva_cli.output.formats import DXF_VERSIONS
 from geneva_cli.output.inks import CENTRE_LINES, DASHES, inks
 from geneva_cli.output.splines import Piece, pieces
 

@@ -154,29 +154,24 @@ def refuse_nonsense(names: Iterable[str], columns: Iterable[Any], endless: bool 
     valid radius of a straight line, a valid value of a check without a bound, and valid as motion
     over dwell without a dwell; of ``endless`` columns it means no value.
     """
+    plain = {type(None), str, int, bool}
     for name, column in zip(names, columns, strict=True):
         allowed = endless or name.rpartition(".")[2] in {"curvature_radius_mm", "value", "k"}
-        if _is_nonsense(column, allowed):
+        wrong = False
+        if isinstance(column, (list, tuple)):
+            for value in column if not plain.issuperset(map(type, column)) else ():
+                if isinstance(value, float):
+                    wrong = wrong or value != value or not (allowed or math.isfinite(value))
+                elif isinstance(value, Table):
+                    refuse_nonsense(value.names, value.columns)
+                elif isinstance(value, (tuple, list)):
+                    refuse_nonsense((name,), (value,), allowed)
+        elif allowed:
+            wrong = (column != column).any()
+        elif len(column) and column.dtype.kind == "f":
+            wrong = not all(map(math.isfinite, (column.min(), column.max())))
+        if wrong:
             raise ArithmeticError(f"{name}: a value is not a number")
-
-
-def _is_nonsense(column: Any, endless: bool) -> bool:
-    if not isinstance(column, (list, tuple)):
-        if endless:
-            return bool((column != column).any())
-        ends = (column.min(), column.max()) if len(column) and column.dtype.kind == "f" else ()
-        return not all(map(math.isfinite, ends))
-    kinds = {*map(type, column)}
-    if any(issubclass(kind, float) for kind in kinds):
-        numbers = [value for value in column if isinstance(value, float)]
-        if any(v != v or not (endless or math.isfinite(v)) for v in numbers):
-            return True
-    for value in column if kinds & {tuple, list, Table} else ():
-        if isinstance(value, Table):
-            refuse_nonsense(value.names, value.columns)
-        elif isinstance(value, (tuple, list)) and _is_nonsense(value, endless):
-            return True
-    return False
 
 
 def only(table: Table, names: Sequence[str]) -> Table:

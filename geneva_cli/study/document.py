@@ -101,7 +101,7 @@ def document(design: Design) -> Document:
     needs = left.pop("strength.needs")
     parts = {name: left.pop(name) for name in [*left] if name.startswith("parts_list.")}
     for name in [name for name in left if name.startswith(("loads.", "cycle."))]:
-        if name not in ("loads.kinetic_power_W", "cycle.reversals_deg"):
+        if name not in ("loads.kinetic_power_W", "loads.reversals_deg"):
             del left[name]  # in the table of loads
     keys = [*_keys(design.spec)]
     rows = [

@@ -11,10 +11,9 @@ from typing import NamedTuple, TypeVar
 
 from geneva_cli.design import CURVES, Design
 from geneva_cli.drawings.catalogue import without_sheet
-from geneva_cli.drawings.single_parts import single_parts
+from geneva_cli.drawings.parts_list import single_parts
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.output import animate, draw, draw_sheet, show, show_document, show_text
-from geneva_cli.output.formats import curve_tolerance, usual_curves
+from geneva_cli.output import animate, draw, draw_sheet, show, show_document, show_text, usual
 from geneva_cli.parts.projection import Missing
 from geneva_cli.spec.schema import Points, SpecTable, fields
 from geneva_cli.study.chosen_sizes import written
@@ -74,8 +73,8 @@ def export_files(design: Design, trade: Trade) -> tuple[list[ExportFile], list[M
     missing: list[Missing] = []
     bent = design.parts.LAID_FLAT
     for format in trade.single:
-        fine = curve_tolerance(None, "", format)
-        parts, missing = single_parts(design.parts, fine, CURVES[usual_curves("", format)])
+        curves, fine = usual("", format)
+        parts, missing = single_parts(design.parts, fine, CURVES[curves])
         for part in bent if format == "dxf" else ():
             with suppress(GenevaError):  # no arm: the list of parts has the reason
                 drawing = design.drawing(part, fine)
@@ -119,8 +118,8 @@ def _write(design: Design, name: str, path: str) -> None:
     elif stem == "sheet":
         draw_sheet(design.sheet(), path)
     else:
-        fine = curve_tolerance(None, "", format)
-        draw(design.drawing(stem, fine, usual_curves("", format)), path)
+        curves, fine = usual("", format)
+        draw(design.drawing(stem, fine, curves), path)
 
 
 def _spec_files(design: Design) -> Iterator[ExportFile]:

@@ -10,8 +10,8 @@ from bench import formulas
 from bench.formulas import Proportions, rates, textbook
 from bench.method import Method, Task
 from geneva_cli.drives.crank import Crank
-from geneva_cli.drives.elliptical_gears import EllipticalGears
 from geneva_cli.drives.epicyclic import Epicyclic
+from geneva_cli.drives.gears import EllipticalGears
 from geneva_cli.drives.side_crank import SideCrank
 from geneva_cli.kinds.linear.motion import Linear
 from geneva_cli.kinds.linkages.four_bar import FourBar

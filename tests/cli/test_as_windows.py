@@ -17,7 +17,7 @@ from repo import get, put
 from typer.testing import CliRunner
 
 from geneva_cli.cli.app import COMMANDS, app
-from geneva_cli.output.formats import DOCUMENTS, DRAWN, FORMATS, PLOTTED, SHEETS
+from geneva_cli.output import DOCUMENTS, DRAWN, FORMATS, PLOTTED, SHEETS
 
 # as in as_windows.py, whose import hides them
 MODULES = "fcntl", "resource", "termios", "pty", "pwd", "grp", "tty", "curses", "readline"

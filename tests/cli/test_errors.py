@@ -45,27 +45,21 @@ def wheel(name, text, *wants):
 NOT_TOML = [
     case("not-toml", "[wheel]\nz = six\n", 2, "not TOML"),
     case("open-string", '[wheel]\nz = 6\ntitle = "six\n', 3, "a text between two marks"),
-    case("yaml", "wheel:\n  z: 6\n", 1, "not TOML", "write [table], or KEY = VALUE as in z = 6"),
     case("no-value", "[wheel]\nz =\n", 2, "KEY = VALUE as in z = 6"),
     case("not-utf-8", b"[wheel]\nz = 6\n# gr\xfc\xdfe\n", 3, "not UTF-8", "save"),
-    case("utf-16", "[wheel]\nz = 6\n".encode("utf-16"), 1, "not UTF-8", "-o FILE"),
     case("deep-lists", "a = " + "[" * 50_000, 0, "nested too deep"),
-    case("two-megabytes", "# " + "x" * (1 << 21) + "\n" + WHEEL, 0, "larger than", "bytes"),
 ]
 
 MISSING = [
     case("empty", "", 0, "[wheel]", "z = 6"),
     case("no-z", 'title = "x"\n[wheel]\ngearing = "internal"\n', 2, "needs z", "at least 3"),
     key("no-A", "\n" + SIDE, 2, "needs A", "above -1", "below 1"),
-    key("no-law-file", '[motion]\nlaw = "table"\n', 1, "needs file", ".csv"),
 ]
 
 HEX = "0x" + "f" * 5000  # Python writes no decimal number of so many digits
 LONG = "very " * 20_000
 HUGE = [
     case("hex", f"[wheel]\nz = {HEX}\n", 2, "z = 0xff", "at most 1000000"),
-    wheel("hex-list", f"steps_deg = [{HEX}]\nz = 6", "steps_deg = 0xff", "below 360"),
-    key("long-table", f'["{LONG}"]\n', 1, "unknown table", "known: "),
     key("long-file", TABLE.replace("law.csv", LONG), 3, "cannot read", "too long"),
     key("nul-in-a-file", TABLE.replace("law.csv", r"a\u0000b"), 3, "cannot read", "null byte"),
 ]
@@ -73,38 +67,28 @@ HUGE = [
 UNKNOWN = [
     key("table", "[whel]\n", 1, "unknown table", "whel", '"wheel"'),
     case("key-at-the-top", "z = 6\n", 1, "z belongs to [wheel]; write it below that line"),
-    key("key-of-two-tables", "friction = 1\n", 1, "belongs to [load] or [support] or [product]"),
     case("key", "[wheel]\nz = 6\nzz = 7\n", 3, "unknown key zz", '"z"'),
-    key("capital", "[size]\nCenter_distance_mm = 5\n", 2, '"center_distance_mm"'),
-    key("unit", "[load]\ntorque_Nmm = 5\n", 2, 'did you mean "torque_Nm"?'),
-    key("large-clearance", "[size]\nslot_clearance_mm = 60\n", 2, "below 50, the smaller of the"),
     key("gearing-as-a-key", "internal = true\n", 1, 'did you mean gearing = "internal"?'),
     key("inches", '[size]\ncenter_distance_mm = 8"\n', 2, 'write "8 in"'),
     key("law", '[motion]\nlaw = "cycloid"\n', 2, "law must be one of", 'did you mean "cycloidal"?'),
     key("key-of-another-kind", "[drive]\nA = 0.5\n", 2, "A belongs", '"side-crank"'),
-    key("key-of-a-kind", SIDE + "A = 0\nfoo = 1\n", 4, "known: kind, A, input_crank_mm, n_rpm"),
     key("key-before", BEFORE + "foo = 1\n", 4, "foo in [drive.before]; known: kind, A, input_"),
 ]
 
 TYPES = [
-    wheel("text", 'z = "6"', "z must be a whole number", '"6"'),
     wheel("float", "z = 6.5", "whole number", "6 or 7"),
     case("title", "title = 5\n" + WHEEL, 1, "title must be text"),
-    key("kind-number", "[drive]\nkind = 5\n", 2, "kind must be one of"),
 ]
 
 VALUES = [
     wheel("z-2", "z = 2", "z = 2", "at least 3"),
-    key("speed-negative", "[drive]\nn_rpm = -60\n", 2, "n_rpm = -60", "above 0", "--reverse"),
     key("A-1", SIDE + "A = 1\n", 3, "A = 1", "below 1"),
     key("rollers-3", "[drive]\nrollers = 3\n", 2, "rollers = 3", "at most 2"),
-    key("efficiency-high", "[load]\nefficiency = 1.01\n", 2, "at most 1"),
 ]
 
 # The same mistakes where the line is hard to find.
 PLACES = [
     case("dotted-key", "\nwheel.z = 2\n", 2, "at least 3"),
-    case("quoted-key", '[wheel]\n\n"z" = 2\n', 3, "at least 3"),
     case(
         "key-in-the-title",
         'title = """\n[wheel]\nz = 2\n"""\n[drive]\n[wheel]\nz = 2\n',

@@ -10,7 +10,7 @@ from typer.testing import CliRunner
 from geneva_cli.cli.app import COMMANDS, GROUPS, app
 from geneva_cli.cli.command import one_of
 from geneva_cli.manual import GROUPS as PAGES
-from geneva_cli.output.formats import FORMATS
+from geneva_cli.output import FORMATS
 
 EXAMPLES = [
     (name, example)
@@ -34,7 +34,7 @@ def test_help_lists_the_commands_by_what_a_person_wants():
     assert max(map(len, said.splitlines())) <= 80
 
 
-def test_help_begins_with_three_examples_and_ends_with_completion():
+def test_help_begins_with_three_examples_and_ends_with_options():
     """Between them a line for each group of the manual, in place of all its topics."""
     said = geneva("-h")
     examples = said.partition("\nExamples:\n")[2].partition("\n\n")[0].splitlines()
@@ -42,7 +42,7 @@ def test_help_begins_with_three_examples_and_ends_with_completion():
     topics = said.partition("\nManual")[2].partition("\n\n")[0].splitlines()[1:]
     assert [line.split()[0].strip(",") for line in topics] == [p.split(":")[0] for p in PAGES]
     options = [line.split()[0] for line in said.splitlines() if line.startswith("  -")]
-    assert options[-2:] == ["--install-completion", "--show-completion"]
+    assert options[-3:] == ["--install-completion", "--show-completion", "-h,"]
 
 
 @pytest.mark.parametrize("name", COMMANDS)

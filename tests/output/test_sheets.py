@@ -15,8 +15,7 @@ from words import Motion, Spec, Wheel
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.sheet import CAPITALS, WIDTHS, width
-from geneva_cli.output import draw_sheet, dxf, pdf, svg
-from geneva_cli.output.formats import DXF_VERSIONS
+from geneva_cli.output import DXF_VERSIONS, draw_sheet, dxf, pdf, svg
 from geneva_cli.spec.tables import Size
 
 NAME = "{http://www.w3.org/2000/svg}"

@@ -7,7 +7,7 @@ import math
 
 import pytest
 import repo
-from step_witness import File, Solid
+from step_witness import File, Solid, references
 from witness import mp
 
 from geneva_cli import Design, External
@@ -141,21 +141,12 @@ def test_colours():
     styled = [file.values(number) for number in file.all("STYLED_ITEM")]
     assert [body for _, _, body in styled] == file.all("MANIFOLD_SOLID_BREP")
     found = []
-    for _, (style,), _ in styled:
-        value = style
-        while file.of[value][0] != "COLOUR_RGB":
-            (value,) = [v for v in flat(file.values(value)) if type(v) is not str]
-        found.append("#" + "".join(f"{round(255 * c):02x}" for c in file.values(value)[1:]))
+    for _, rest, _ in styled:
+        while not (colours := [v for v in rest if file.of[v][0] == "COLOUR_RGB"]):
+            rest = [n for v in rest for n in references(file.values(v))]
+        found.append("#" + "".join(f"{round(255 * c):02x}" for c in file.values(colours[0])[1:]))
     layers = ("WHEEL", "CRANK", "ARM", "ROLLER", "ROLLER", "SHAFT", "SHAFT", "FRAME")
     assert found == [INKS[layer].rgb for layer in layers]
-
-
-def flat(values):
-    for value in values:
-        if isinstance(value, list):
-            yield from flat(value)
-        else:
-            yield value
 
 
 def test_a_short_arc_is_part_of_the_spline_beside_it():

@@ -27,7 +27,7 @@ from geneva_cli.cli.app import COMMANDS, app
 from geneva_cli.motion.motion_table import motion_table
 from geneva_cli.motion.peaks import worst
 from geneva_cli.motion.registry import DRIVES
-from geneva_cli.output.formats import FORMATS
+from geneva_cli.output import FORMATS
 from geneva_cli.spec.schema import fields
 from geneva_cli.spec.tables import Limits, Size
 from geneva_cli.table import Table

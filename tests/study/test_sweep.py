@@ -17,7 +17,6 @@ from geneva_cli import GenevaError, load
 from geneva_cli.cli.app import app
 from geneva_cli.output.growing import GrowingTable
 from geneva_cli.specfile.reader import read
-from geneva_cli.study.pool import possible
 from geneva_cli.study.sweep.request import request
 from geneva_cli.study.sweep.run import plan, sweep
 from geneva_cli.study.sweep.values import axis
@@ -37,12 +36,6 @@ def rows(found, **options):
 
 def grid(*texts):
     return plan([axis(t) for t in texts], None, 0)
-
-
-@pytest.mark.parametrize(("platform", "count"), [("win32", 61), ("linux", 128), ("darwin", 128)])
-def test_a_pool_of_windows_has_61_processes_at_most(platform, count):
-    """A wait for processes takes 63 handles there, of which the pool needs two itself."""
-    assert possible(128, platform) == count and possible(4, platform) == 4
 
 
 def test_each_row_is_the_designs_own():

@@ -39,8 +39,7 @@ def run(
     there is a row for each check. The exit status is 1 if a check fails. If one spec cannot be
     read, the others are still checked.
     """
-    from geneva_cli.output import show_answer
-    from geneva_cli.output.formats import chosen
+    from geneva_cli.output import chosen, show_answer
     from geneva_cli.study.verdicts import of_checks, verdicts
 
     name, changes = chosen(output, format), list(settings or ())

@@ -53,8 +53,7 @@ def run(
     called not proved. It needs geneva-cli[certify]. More: `geneva help accuracy`.
     """
     from geneva_cli.design import load
-    from geneva_cli.output import choice, is_for_people, show, show_answer
-    from geneva_cli.output.formats import chosen
+    from geneva_cli.output import choice, chosen, is_for_people, show, show_answer
     from geneva_cli.study.summary.load_lines import of_loads
 
     design = load(spec, settings or (), reverse)

@@ -7,7 +7,7 @@ import typer
 
 from geneva_cli.cli.command import Output, Reverse, Settings, SpecPath, one_of, option, say
 from geneva_cli.errors import GenevaError, clean
-from geneva_cli.output.formats import CAMS, CONTROLLERS, FORMATS
+from geneva_cli.output import CAMS, CONTROLLERS, FORMATS
 
 EXAMPLES = (
     "geneva motion spec.toml --samples 13",
@@ -74,7 +74,7 @@ def run(
         show_text(content, output, files)
     else:
         show(content, output, "csv", files)
-    text, is_met = load_extra("servo", "cam_words")(controller, rows, error_deg, tolerance)
+    text, is_met = load_extra("servo", "cam_words")(rows, error_deg, tolerance)
     print(clean(f"{spec}: {text}"), file=sys.stderr)
     say(design.spec.path, design.motion_warnings)
     if not is_met:

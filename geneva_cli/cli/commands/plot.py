@@ -36,8 +36,7 @@ def run(
 
     Without -o it prints points. png needs the extra geneva-cli[plot]. `geneva help plots`.
     """
-    from geneva_cli.output import show_figure
-    from geneva_cli.output.formats import FORMATS, PLOTTED, chosen
+    from geneva_cli.output import FORMATS, PLOTTED, chosen, show_figure
     from geneva_cli.study.compare import of_specs, of_table
 
     chosen(output, format, (*PLOTTED, *FORMATS))  # refuse a wrong format before any computation

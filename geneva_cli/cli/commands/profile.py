@@ -14,16 +14,7 @@ from geneva_cli.cli.command import (
 )
 from geneva_cli.drawings.catalogue import is_sheet, require_tolerance
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.output import draw, draw_sheet, show
-from geneva_cli.output.formats import (
-    DRAWN,
-    FORMATS,
-    SHEETS,
-    chosen,
-    curve_tolerance,
-    named,
-    usual_curves,
-)
+from geneva_cli.output import DRAWN, FORMATS, SHEETS, chosen, draw, draw_sheet, named, show, usual
 
 EXAMPLES = (
     "geneva profile spec.toml --samples 9",
@@ -69,8 +60,8 @@ def run(
     """
     from geneva_cli.design import load
 
-    curves = curves or usual_curves(output, format)
-    tolerance = curve_tolerance(tolerance, output, format)
+    walls, tolerance = usual(output, format, tolerance)
+    curves = curves or walls
     if curves not in WALLS:
         raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
     sheet, drawn = is_sheet(part), named(output, format) in DRAWN

@@ -5,7 +5,7 @@ from typing import Annotated
 import typer
 
 from geneva_cli.cli.command import Output, Settings, SpecPath, flag, one_of, option, say
-from geneva_cli.output.formats import DOCUMENTS, FORMATS
+from geneva_cli.output import DOCUMENTS, FORMATS
 
 EXAMPLES = (
     "geneva report spec.toml",
@@ -32,8 +32,7 @@ def run(
     The exit status is 1 if a check fails, as with `check`.
     """
     from geneva_cli.design import load
-    from geneva_cli.output import choice, show_answer, show_document
-    from geneva_cli.output.formats import chosen
+    from geneva_cli.output import choice, chosen, show_answer, show_document
     from geneva_cli.study.summary.report_summary import of_report
 
     is_whole = chosen(output, format, WRITTEN) in DOCUMENTS

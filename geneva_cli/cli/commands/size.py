@@ -31,8 +31,7 @@ def run(
     json or md has the table instead.
     """
     from geneva_cli.design import load
-    from geneva_cli.output import show_answer, show_text
-    from geneva_cli.output.formats import FORMATS, chosen
+    from geneva_cli.output import FORMATS, chosen, show_answer, show_text
     from geneva_cli.study.chosen_sizes import of_sizes, sized_text
 
     design = load(spec, settings or ())

@@ -65,8 +65,7 @@ def run(
     whole range between.
     Long runs and the best of many: `geneva help search`.
     """
-    from geneva_cli.output import show, show_text
-    from geneva_cli.output.formats import FORMATS
+    from geneva_cli.output import FORMATS, show, show_text
     from geneva_cli.study.fields import joined, without_infinity
     from geneva_cli.study.sweep.request import Outcome, request
     from geneva_cli.table import Table

@@ -26,8 +26,7 @@ def run(
     how far it moves with a stiffness 20 % lower and higher.
     """
     from geneva_cli.design import load
-    from geneva_cli.output import show, show_answer
-    from geneva_cli.output.formats import chosen
+    from geneva_cli.output import chosen, show, show_answer
     from geneva_cli.study.summary.report_summary import of_vibration
 
     design = load(spec, settings or (), reverse)

@@ -21,13 +21,12 @@ from geneva_cli.kinds.linkages.four_bar_search import (
     Costs,
     Goal,
     WheelGoal,
-    coupler_point,
     four_bars_at,
     is_known,
     search_four_bars,
 )
 from geneva_cli.kinds.linkages.path_wheels import driven
-from geneva_cli.kinds.linkages.tangent_pairs import Pairs, points, residual, sampled
+from geneva_cli.kinds.linkages.tangent_pairs import Pairs, sampled
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.study.synth.families.family import Family, is_compatible, natural_deg
@@ -35,6 +34,7 @@ from geneva_cli.study.synth.family_search import Places
 from geneva_cli.study.target import AllowedSpan, Target
 
 _EXAMPLE: Any = FourBar.EXAMPLE.tables["drive"]
+_LENGTHS = ("crank_mm", "ground_mm", "coupler_mm", "rocker_mm")
 
 
 def four_bars(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
@@ -96,35 +96,24 @@ def _spec(target: Target, goal: Goal, places: Places, number: int) -> Spec | Non
     one = places.take(slice(number, number + 1))
     with np.errstate(all="ignore"):
         machine = four_bars_at(goal, one.of, one.at)
-    links, (entry, motion, sense, _) = machine.links, machine.drive
+    links, (entry, motion, sense, w) = machine.links, machine.drive
     wheel = goal.wheels[one.of[0]].wheel
-    b, required, wide = wheel.step.b, float(motion[0, 0]), motion
-    own = _machine(target, wheel, FourBar(**_EXAMPLE), math.degrees(required))
+    own = _machine(target, wheel, FourBar(**_EXAMPLE), math.degrees(float(motion[0, 0])))
     scale = target.own.given_distance_mm / float(machine.distance[0])
-    for _ in range(4):  # until the motion has its digits
-        w = complex(coupler_point(links, entry, entry + wide, b, sense)[0, 0]) * scale
-        crank, ground, coupler, rocker = (float(np.ravel(x)[0]) * scale for x in links.numbers[:4])
-        try:
-            keys = FourBar(
-                crank_mm=crank,
-                ground_mm=ground,
-                coupler_mm=coupler,
-                rocker_mm=rocker,
-                point_mm=abs(w),
-                point_deg=math.degrees(cmath.phase(w)),
-                entry_deg=math.degrees(math.remainder(float(entry[0, 0]), math.tau)),
-                n_rpm=own.drive.n_rpm,
-            )
-        except GenevaError:
-            return None
-        path, phi = keys.roller_path, np.hstack((entry, entry + wide))
-        phi = phi + residual(points(path, phi), np.array([b]), sense[0]).step
-        reached = float(np.diff(phi)[0, 0])
-        if abs(reached - required) <= 2e-13 * required:  # rounding
-            break
-        wide = wide + (required - reached)  # the part lost to rounding
-    else:
+    at = complex(w[0, 0]) * scale
+    lengths = [float(np.ravel(x)[0]) * scale for x in links.numbers[:4]]
+    sides: Any = dict(zip(_LENGTHS, lengths, strict=True))
+    try:
+        keys = FourBar(
+            **sides,
+            point_mm=abs(at),
+            point_deg=math.degrees(cmath.phase(at)),
+            entry_deg=math.degrees(math.remainder(float(entry[0, 0]), math.tau)),
+            n_rpm=own.drive.n_rpm,
+        )
+    except GenevaError:
         return None
+    path, phi = keys.roller_path, np.hstack((entry, entry + motion))
     wheels = driven(path, Pairs(np.zeros(1, dtype=int), phi, sense[0]), sampled(path, 1))
     return own.replace(drive=keys) if len(wheels.which) else None
 

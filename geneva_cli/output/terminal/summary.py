@@ -14,6 +14,7 @@ from geneva_cli.output.text import WIDTH
 LABEL_MAX = 20  # letters; a longer label stands above its text
 SIGNS = {PASSES: "✓", WARNS: "!", FAILS: "✗"}
 INKS = {PASSES: "\x1b[32m", WARNS: "\x1b[33m", FAILS: "\x1b[31m"}  # green, yellow, red
+DIM = "\x1b[2m"
 # a unit behind a number, from which it is not separated; units of several words
 UNIT = re.compile(r"(?<=\d) (N m s|N m|N|kg m²|kg|rad/s²?|MPa|J|W|kW|mm|µm|deg|rpm|%)(?!\w)")
 UNITS = ("N m s", "N m", "kg m²")
@@ -25,54 +26,51 @@ def chunks(summaries: Iterable[Summary], output: str, is_seen: bool) -> Iterator
 
     Its look is for a terminal if ``is_seen``, a pipe, or a file, which is always UTF-8.
     """
-    columns, unicode, dim, plain = WIDTH, True, "", ""
-    inks: dict[str, str] = {}
-    if output == "-":
-        try:
-            "✓✗°²³⁻⁵".encode(sys.stdout.encoding or "ascii")
-        except (UnicodeEncodeError, LookupError):
-            unicode = False
+    columns, unicode, styled = WIDTH, output != "-" or _has_signs(), False
     if is_seen:
-        from geneva_cli.output.terminal.layout import DIM, PLAIN, window
+        from geneva_cli.output.terminal.layout import window
 
         terminal = window(False, False)
         # Lines of more than 100 letters are hard to read.
-        columns = min(terminal.columns, 100)
-        if terminal.styled:
-            inks, dim, plain = INKS, DIM, PLAIN
+        columns, styled = min(terminal.columns, 100), terminal.styled
+
+    def inked(text: str, ink: str) -> str:
+        return f"{ink}{text}\x1b[0m" if styled and ink and text else text
+
     before: Summary | None = None
     for summary in summaries:
-        lines = summary.lines
-        if before and (before.lines or lines):
+        if before and (before.lines or summary.lines):
             yield "\n"
         before = summary
         sign = SIGNS.get(summary.state, "")
         sign = sign if unicode else ASCII.get(sign, sign)
         indent = " " * (len(sign) + 1) if sign else ""
         text = f"\n{indent}".join(_wrapped(summary.head, columns - len(indent), unicode))
-        ink = inks.get(summary.state, "")
-        yield f"{ink}{sign}{plain} {text}\n" if sign else f"{text}\n"
-        wide = 0
-        for line in lines:
-            if len(line.label) <= LABEL_MAX:
-                wide = max(wide, len(line.label))
+        yield f"{inked(sign, INKS.get(summary.state, ''))} {text}\n" if sign else f"{text}\n"
+        yield "\n" if summary.lines else ""
+        labels = [len(line.label) for line in summary.lines if len(line.label) <= LABEL_MAX]
+        wide = max(labels, default=0)
         margin = " " * (wide + 4)
-        width = columns - len(margin)
-        if lines:
-            yield "\n"
-        for line in lines:
-            label, ink = clean(line.label), inks.get(line.state, "")
-            label = f"{ink}{label}{plain}" if ink and label else label
+        for line in summary.lines:
+            label = inked(clean(line.label), INKS.get(line.state, ""))
             first = f"  {label}{' ' * (wide - len(line.label))}  "
             if len(line.label) > wide:
                 yield f"  {label}\n"
                 first = margin
-            for text in _wrapped(line.text, width, unicode):
+            texts = _wrapped(line.text, columns - len(margin), unicode)
+            notes = _wrapped(line.note, columns - len(margin), unicode)
+            for text in (*texts, *(inked(note, DIM) for note in notes)):
                 yield f"{first}{text}".rstrip() + "\n"
                 first = margin
-            for note in _wrapped(line.note, width, unicode):
-                yield f"{first}{dim}{note}{plain}".rstrip() + "\n"
-                first = margin
+
+
+def _has_signs() -> bool:
+    """Return True if standard output can show the signs and raised digits of a summary."""
+    try:
+        "✓✗°²³⁻⁵".encode(sys.stdout.encoding or "ascii")
+    except (UnicodeEncodeError, LookupError):
+        return False
+    return True
 
 
 def _wrapped(text: str, width: int, unicode: bool) -> list[str]:

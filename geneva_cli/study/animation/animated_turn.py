@@ -173,7 +173,8 @@ def pushes(cycle: Cycle, turn: MachineTurn) -> Iterator[Push]:
     for i, one in enumerate(turn.passages):
         local = np.linspace(one.engagement.entry_deg, one.engagement.exit_deg, 73)
         local *= 1.0 - 1e-6  # forces may be undefined at the ends of a motion
-        names = ["pin_force_N", "wheel_torque_Nm"]
+        turns = "wheel_torque_Nm" in cycle.sources
+        names = ["pin_force_N", "wheel_torque_Nm" if turns else "rack_force_N"]
         force, torque = cycle.states(local + turn.passages[i % each].mid, names)
         force = np.abs(force)
         sound = np.isfinite(force)

@@ -19,8 +19,8 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.drives.crank import Crank
-from geneva_cli.drives.elliptical_gears import EllipticalGears
 from geneva_cli.drives.epicyclic import Epicyclic
+from geneva_cli.drives.gears import EllipticalGears
 from geneva_cli.drives.side_crank import SideCrank
 from geneva_cli.motion.drive import Drive
 from geneva_cli.motion.machine_spec import Spec

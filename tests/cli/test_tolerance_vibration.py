@@ -1,4 +1,4 @@
-"""``geneva vibration`` as a user meets it: its record, its spectrum, and what it refuses."""
+"""``geneva vibration`` and ``geneva tolerance`` as a user meets them, and what they refuse."""
 
 import csv
 import io
@@ -13,16 +13,17 @@ from geneva_cli.cli.app import app
 
 PRESS = str(repo.DESIGNS / "press-straight.toml")
 RACK = str(repo.DESIGNS / "linear.toml")
+DESIGN = str(repo.DESIGNS / "tolerances.toml")
 UNLOADED = str(repo.DESIGNS / "side-crank-z6.toml")
 NAMES = [
     *("spec", "title", "period_ratio", "damping_ratio", "natural_Hz", "residual_share"),
-    *("residual_deg", "dynamic_factor", "windup_deg", "speeds_to_avoid_rpm", "avoid", "stations"),
+    *("residual_deg", "dynamic_factor", "windup_deg", "speeds_to_avoid_rpm", "avoid"),
     "warnings",
 ]
 
 
-def run(*words):
-    return CliRunner().invoke(app, ["vibration", *words])
+def run(*words, command="vibration"):
+    return CliRunner().invoke(app, [command, *words])
 
 
 def record(*words):
@@ -39,7 +40,7 @@ def test_the_names_are_the_same_for_every_machine(path):
     spec = load(str(path)).spec
     lacks = spec.output.lacks  # a rack has no angle
     unknown = [name for name in NAMES if found[name] is None and name not in lacks]
-    assert unknown in ([], ["stations"])
+    assert not unknown
     assert not found["warnings"]
 
 
@@ -80,3 +81,43 @@ def test_csv_is_the_spectrum(tmp_path):
     for name in rows[0].keys() - {"n_rpm"}:
         assert float(rows[2][name]) == pytest.approx(found[name], rel=1e-12)
     assert float(rows[2]["n_rpm"]) == pytest.approx(60.0)
+
+
+@pytest.mark.long
+def test_the_design_of_the_folder_turns_within_its_tolerances():
+    words = [DESIGN, "--samples", "4096", "--radius", "150", "--format", "json"]
+    found = run(*words, command="tolerance")
+    assert run(*words, command="tolerance").stdout == found.stdout  # the same seed
+    told = json.loads(found.stdout)
+    assert list(told)[:2] == ["spec", "title"]
+    for name in ("dwell_position", "motion_play"):
+        one = told[name]
+        assert one["mean_deg"] < one["p997_deg"] < one["rss_deg"] * 1.1 < one["worst_deg"]
+        assert one["worst_arcsec"] == pytest.approx(3600.0 * one["worst_deg"], rel=1e-15)
+        # 1 degree at 150 mm is 2617.99 um
+        assert one["worst_um"] == pytest.approx(2617.993877991494 * one["worst_deg"], rel=1e-14)
+    assert {row["dimension"] for row in told["contributions"]} >= {"slot_angle_deg"}
+    assert set(told["entry_jump"]) >= {"mean", "std"}
+    assert told["clearances"]["turns"] is True
+    assert told["warnings"] == []
+    assert found.exit_code == 0
+
+
+@pytest.mark.parametrize(
+    "options, words",
+    [
+        (["--samples", "0"], "--samples 0: it must be from 1 to 10000000"),
+        (["--samples", "1000000000000"], "it must be from 1 to 10000000"),
+        (["--seed", "-4"], "--seed -4: it must be 0 or more"),
+        (["--radius", "inf"], "--radius inf: must be above 0"),
+        (["--set", "tolerance.slot_width_mm=-1"], "slot_width_mm = -1"),
+        (["--set", "tolerance.slot_width_mm=40"], "below 20.09, the slot's width"),
+        (["--set", "size.lock_radius_mm=0"], "this machine has no locking disc; remove it"),
+    ],
+)
+@pytest.mark.usefixtures("made_once")
+def test_bad_input(options, words):
+    found = run(DESIGN, *options, command="tolerance")
+    assert found.exit_code == 2
+    assert words in found.stderr
+    assert found.stdout == ""
