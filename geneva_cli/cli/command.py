@@ -177,29 +177,19 @@ def one_of(names: Iterable[str]) -> str:
 
 
 def option(
-    metavar: str,
-    help: str,
-    heading: str | None = None,
-    *,
-    short: str = "",
-    name: str = "",
-    default: str | bool = True,
+    metavar: str, help: str, heading: str | None = None, name: str = "", show: str | bool = True
 ) -> Any:
     """An option with a value, below a heading of the help.
 
-    ``name`` is its name where the parameter's is another, and ``default`` is shown as the default.
+    ``name`` has its names if the parameter's is another; the default is shown, or ``show``.
     """
     return typer.Option(
-        *filter(None, (short, name)),
-        metavar=metavar,
-        help=help,
-        rich_help_panel=heading,
-        show_default=default,
+        *name.split(), metavar=metavar, help=help, rich_help_panel=heading, show_default=show
     )
 
 
 # the option of a file or folder to write
-output_option = partial(option, short="-o", name="--output", default=False)
+output_option = partial(option, name="-o --output", show=False)
 
 
 def flag(name: str, help: str, heading: str | None = None) -> Any:

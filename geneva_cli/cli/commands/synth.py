@@ -31,7 +31,7 @@ def run(
     subject_to: Annotated[
         list[str] | None, option("BOUND", 'Of any quantity, as "jerk.max <= 5"; repeat.', WANTED)
     ] = None,
-    z: Annotated[str, option("Z", "Slots: 6, 3..12 or 3,4,6.", MACHINES, default="3..24")] = "",
+    z: Annotated[str, option("Z", "Slots: 6, 3..12 or 3,4,6.", MACHINES, show="3..24")] = "",
     internal: Annotated[bool, flag("--internal", "Internal wheels.", MACHINES)] = False,
     external: Annotated[bool, flag("--external", "External wheels.", MACHINES)] = False,
     spherical: Annotated[bool, flag("--spherical", "Spherical wheels.", MACHINES)] = False,
@@ -40,7 +40,7 @@ def run(
     ] = None,
     law: Annotated[str, option("NAME", "Law of curved slots, or all.", MACHINES)] = "modified-sine",
     space: Annotated[
-        str, option("X", "Largest four-bar, in centre distances.", MACHINES, default="3")
+        str, option("X", "Largest four-bar, in centre distances.", MACHINES, show="3")
     ] = "",
     from_: Annotated[
         str,
