@@ -60,16 +60,15 @@ stress: stress-numbers
 
 stress-numbers: .venv/dev
 	PYTHONPATH=tests:tests/motion:tests/parts $(BIN)/python tests/stress/stress.py
-	PYTHONPATH=tests:tests/motion:tests/parts $(BIN)/python tests/stress/schema_agrees.py
+	$(FUZZ) schema --runs 2000
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_many.py
-	PYTHONPATH=tests $(BIN)/python tests/stress/stress_synth.py
-	PYTHONPATH=tests $(BIN)/python tests/stress/stress_loads_many.py --designs 5000
+	$(FUZZ) synth --runs 105
+	PYTHONPATH=tests $(BIN)/python tests/stress/stress_many.py --loads --designs 5000
 
 # Proved bounds of every peak of 1,000 random machines of each kind; two hours. `make stress` takes
 # the designs.
 certify: .venv/dev
-	@mkdir -p build
-	$(FUZZ) certificates --runs 10500 --state build/certify.json
+	$(FUZZ) certificates --runs 10500
 
 # A static folder, build/web, on which geneva runs in a browser; needs npm and its registry. To try
 # it: python3 -m http.server -d build/web
@@ -97,15 +96,13 @@ jam: .venv/dev
 	PYTHONPATH=tests $(BIN)/python tests/stress/jam.py
 
 # A million random specs, 20,000 machines with parts, 10,000 drawing sheets, 2,000 wheels with curved
-# slots; hours. Stopped, it goes on from there; another seed, or new code, begins again: rm
-# build/fuzz-*.json.
+# slots; hours. `--first N` goes on from case N, `--seed N` has other cases.
 FUZZ = PYTHONPATH=tests:tests/motion:tests/parts $(BIN)/python tests/stress/fuzz.py --jobs 2
 fuzz: .venv/dev
-	@mkdir -p build
-	$(FUZZ) specs --runs 1000000 --state build/fuzz-specs.json
-	$(FUZZ) parts --runs 20000 --state build/fuzz-parts.json
-	$(FUZZ) sheets --runs 10000 --state build/fuzz-sheets.json
-	$(FUZZ) stops --runs 2000 --state build/fuzz-stops.json
+	$(FUZZ) specs --runs 1000000
+	$(FUZZ) parts --runs 20000
+	$(FUZZ) sheets --runs 10000
+	$(FUZZ) stops --runs 2000
 
 # Start-up of every command against `import typer` alone: whole processes in pairs, processor time.
 # The budget of `geneva table --z 6` is 1.05.

@@ -16,9 +16,9 @@ if TYPE_CHECKING:  # for a type checker: one line for each name
     from geneva_cli.design import load as load
     from geneva_cli.drives.cam import Cam as Cam
     from geneva_cli.drives.crank import Crank as Crank
-    from geneva_cli.drives.elliptical_gears import EllipticalGears as EllipticalGears
     from geneva_cli.drives.epicyclic import Epicyclic as Epicyclic
-    from geneva_cli.drives.noncircular_gears import NoncircularGears as NoncircularGears
+    from geneva_cli.drives.gears import EllipticalGears as EllipticalGears
+    from geneva_cli.drives.gears import NoncircularGears as NoncircularGears
     from geneva_cli.drives.side_crank import SideCrank as SideCrank
     from geneva_cli.errors import GenevaError as GenevaError
     from geneva_cli.extras.servo.s_curve import SCurve as SCurve

@@ -410,13 +410,7 @@ class Design:
         >>> Design(External(6)).motion(at_deg=[0.0]).to_dict()["velocity"].tolist()
         [1.0]
         """
-        from geneva_cli.motion.motion_table import (
-            angles_table,
-            knots_deg,
-            motion_table,
-            periods,
-            turns_table,
-        )
+        from geneva_cli.motion.motion_table import angles_table, motion_table, turns_table
 
         if self.is_drawn:
             if turns is not None:
@@ -425,10 +419,9 @@ class Design:
             return own
         if at_deg is not None:
             return angles_table(self.mechanism, at_deg)
-        if turns is None:
-            return motion_table(self.mechanism, samples)
-        count = periods(self.mechanism, turns)
-        return turns_table(self.mechanism, samples, count, knots_deg(self.mechanism, count))
+        if turns is not None:
+            return turns_table(self.mechanism, samples, turns)
+        return motion_table(self.mechanism, samples)
 
     @question
     def figure(self, pick: Sequence[str] = ()) -> Figure:
@@ -494,7 +487,8 @@ class Design:
         sizing, sized_by = sized(self.cycle, own)
         notes = (*self.warnings, *missing(self.cycle), *needed, *sized_by)
         impact = self.strength.reversal
-        table = loads_table(self.cycle, sizing, self.life, impact, notes, for_people)
+        answers = {"shock.reversal": impact, "sizing": sizing, "life": self.life}
+        table = loads_table(self.cycle, answers, notes, for_people)
         return table.replaced(
             names=(*table.names, "chosen"),
             columns=[*table.columns, (self.chosen_by_load.record,)],
@@ -630,9 +624,9 @@ class Design:
         >>> wheel.is_table("slot", drawn=False), wheel.is_table("wheel", drawn=False)
         (True, False)
         """
-        from geneva_cli.drawings.catalogue import is_table
+        from geneva_cli.drawings.catalogue import table_of
 
-        return is_table(self.mechanism, part, drawn)
+        return bool(table_of(self.mechanism, part, drawn))
 
     @answer
     def parts(self) -> Parts:
@@ -751,9 +745,7 @@ class Design:
     def _of_drawing(self, answer: str, *values: object) -> Any:
         """An answer about the drawings that replace the outlines."""
         if self.is_backwards:
-            raise GenevaError(
-                "--reverse: drawings are turned in both senses by `geneva check`; leave it out"
-            )
+            raise GenevaError("--reverse: `geneva check` turns drawings both ways; leave it out")
         return load_extra("outline", answer)(self.mechanism, *values)
 
     @question
@@ -908,11 +900,8 @@ class Design:
         >>> Design(External(6)).refuse_drawn("the files for a shop are those")
         """
         if self.is_drawn:
-            raise GenevaError(
-                f"{what} of our own parts, which the drawings in [outline] replace: leave out "
-                "[outline]",
-                ("outline",),
-            )
+            text = f"{what} of our own parts, which drawings replace: leave out [outline]"
+            raise GenevaError(text, ("outline",))
 
     @answer
     def unused_acceptances(self) -> list[str]:

@@ -56,11 +56,7 @@ class Notice(str):
 
 
 def open_warnings(texts: Iterable[str]) -> list[str]:
-    """The warnings that are not accepted; notes on unknown values are none.
-
-    >>> open_warnings([Notice("many-slots", "", "agreed"), Notice("turns-back", "back")])
-    ['back']
-    """
+    """The warnings that are not accepted; notes on unknown values are none."""
     left = []
     for text in texts:
         if not (isinstance(text, Notice) and text.accepted):
@@ -69,11 +65,7 @@ def open_warnings(texts: Iterable[str]) -> list[str]:
 
 
 def is_warning(text: str) -> bool:
-    """Return True for a warning, and False for a note on an unknown value.
-
-    >>> is_warning(Notice("turns-back", "")), is_warning(Notice("not-known", ""))
-    (True, False)
-    """
+    """Return True for a warning, and False for a note on an unknown value."""
     # A note of this name, on a value that needs a key, is not a warning.
     return isinstance(text, Notice) and text.name != "not-known"
 
@@ -136,12 +128,9 @@ def cut(value: str | int, most: int = 60) -> str:
 
 
 def below(folder: str, name: str) -> str:
-    r"""A file of a folder, as it is opened and printed: with / on Windows, too.
+    """A file of a folder, as it is opened and printed: with / on Windows, too.
 
     So what is printed is the same on every system, except what its user typed.
-
-    >>> below("sub", "law.csv"), below("", "law.csv"), below("C:\\work", "law.csv")
-    ('sub/law.csv', 'law.csv', 'C:\\work/law.csv')
     """
     return name if os.path.isabs(name) else posixpath.join(folder, name)
 
@@ -162,11 +151,7 @@ def nearest(word: str, known: Iterable[str]) -> str:
 
 
 def few(word: Any, known: Iterable[str]) -> str:
-    """The known words, for a message: at most five, those that are like ``word`` first.
-
-    >>> few("cirle", ["arc", "line", "circle", "spline", "point", "ellipse", "text"])
-    'circle, arc, line, spline, point and 2 more'
-    """
+    """The known words, for a message: at most five, those that are like ``word`` first."""
     import difflib
 
     words = list(known)

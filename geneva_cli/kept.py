@@ -70,24 +70,13 @@ class Known(Generic[K, T]):
 
 
 def load_named(path: str) -> Any:
-    """Class or function that ``module:name`` names in this package.
-
-    >>> load_named("drives.cam:Cam").NAME
-    'cam'
-    """
+    """Class or function that ``module:name`` names in this package."""
     module, _, name = path.partition(":")
     return vars(importlib.import_module(f"geneva_cli.{module}"))[name]
 
 
 def load_extra(folder: str, answer: str) -> Any:
-    """Function of a folder of ``extras`` for an answer. Raises GenevaError without the folder.
-
-    >>> load_extra("servo", "cam").__name__
-    'cam'
-    >>> load_extra("laser", "cut")
-    Traceback (most recent call last):
-    geneva_cli.errors.GenevaError: not computed: needs extras/laser, which is not installed
-    """
+    """Function of a folder of ``extras`` for an answer. Raises GenevaError without the folder."""
     if folder not in FOLDERS:
         from geneva_cli.errors import GenevaError
 

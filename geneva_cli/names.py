@@ -91,11 +91,7 @@ LONG_WORDS = {
 
 
 def unit_of(name: str) -> str | None:
-    """The unit in the ending of a key's or a quantity's name; None without one.
-
-    >>> unit_of("loads.omega_rad_s"), unit_of("tau")
-    ('rad/s', None)
-    """
+    """The unit in the ending of a key's or a quantity's name; None without one."""
     last = "_" + name.rpartition(".")[2]  # a column may be its unit alone, such as rpm
     return UNITS.get(unit_end(last))
 
@@ -106,15 +102,9 @@ def spoken(name: str) -> tuple[str, str]:
     >>> spoken("wheel_bore_mm"), spoken("loads.pin_force_N.max")
     (('wheel bore', 'mm'), ('loads pin force max', 'N'))
     """
-    words, unit = [], ""
-    for part in name.split("."):
-        end = unit_end(part)
-        bare = part.removesuffix(end)
-        is_symbol = len(bare) <= 3  # with its index, such as C_v
-        text = bare if is_symbol else bare.replace("_", " ")
-        words.append(WORDS.get(part) or WORDS.get(bare) or text)
-        unit = UNITS.get(end, unit)
-    return " ".join(words), SHORT_UNITS.get(unit, unit)
+    parts = [_in_words(part, WORDS) for part in name.split(".")]
+    unit = next((unit for _, unit in reversed(parts) if unit), "")
+    return " ".join(words for words, _ in parts), unit
 
 
 def described(name: str) -> tuple[str, str]:
@@ -125,15 +115,18 @@ def described(name: str) -> tuple[str, str]:
     >>> described("torque_at_deg")
     ('torque, at the input angle', '°')
     """
-    end = unit_end(name)
-    unit = UNITS.get(end, "")
-    unit = "°" if unit == "deg" else SHORT_UNITS.get(unit, unit)
-    bare = name.removesuffix(end)
+    known, bare = WORDS | LONG_WORDS, name.removesuffix(unit_end(name))
+    words, unit = _in_words(name, known)
     if bare.endswith("_at"):
-        return f"{described(bare.removesuffix('_at'))[0]}, {LONG_WORDS['at']}", unit
-    known = WORDS | LONG_WORDS
-    text = bare if len(bare) <= 3 else bare.replace("_", " ")
-    return known.get(name) or known.get(bare) or text, unit
+        words = f"{_in_words(bare.removesuffix('_at'), known)[0]}, {LONG_WORDS['at']}"
+    return words, "°" if unit == "deg" else unit
+
+
+def _in_words(name: str, known: dict[str, str]) -> tuple[str, str]:
+    end = unit_end(name)
+    bare, unit = name.removesuffix(end), UNITS.get(end, "")
+    text = bare if len(bare) <= 3 else bare.replace("_", " ")  # a symbol has its index, as C_v
+    return known.get(name) or known.get(bare) or text, SHORT_UNITS.get(unit, unit)
 
 
 def unit_end(name: str) -> str:
@@ -147,10 +140,6 @@ def unit_end(name: str) -> str:
 
 
 def heading(name: str) -> str:
-    """A name in one line, its unit behind a comma.
-
-    >>> heading("wheel_bore_mm"), heading("tau")
-    ('wheel bore, mm', 'tau')
-    """
+    """A name in one line, its unit behind a comma."""
     words, unit = spoken(name)
     return f"{words}, {unit}" if unit else words

@@ -150,11 +150,7 @@ def _briefly(value: object) -> str:
 
 
 def in_digits(value: float, digits: int) -> str:
-    """A number in significant digits, zero without a sign, infinity in words.
-
-    >>> in_digits(-0.0, 6), in_digits(float("inf"), 6)
-    ('0', 'no bound')
-    """
+    """A number in significant digits, zero without a sign, infinity in words."""
     endless = value in (math.inf, -math.inf)
     return NO_BOUND if endless else f"{value + 0.0:.{digits}g}"
 

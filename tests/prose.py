@@ -139,7 +139,7 @@ def messages(nodes: list[ast.AST], file: str) -> Iterator[Sentence]:
     for node in nodes:
         if id(node) not in inner and isinstance(node, ast.expr):
             text = _literal(node)
-            code = re.search(r"[{}<>]|--[a-z-]+:|\w\*\d", text)
+            code = re.search(r"[{}<>]|--[a-z-]+:|\w\*\d|\w:[a-z]", text)
             if len(text.split()) >= SHOWN_WORDS and not code:
                 yield from split(text, f"{file}:{node.lineno}")
 

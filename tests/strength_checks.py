@@ -25,4 +25,4 @@ def standing_checks(parts):
 
 def judged(mechanism, machine=None, parts=True):
     """Every check, those that fail with their advice."""
-    return advised(mechanism, checks(mechanism, machine, parts), parts)
+    return advised(mechanism, checks(mechanism, machine, parts))

@@ -78,35 +78,12 @@ def row(table):
 # A design in Python and one in a file
 
 
-@pytest.mark.sampled(6)
 @pytest.mark.parametrize("name", DESIGNS)
-def test_the_same_answers_in_python_and_from_a_file(name):
-    """To the last bit: it is one machine."""
-    made, read = DESIGNS[name](), load(str(repo.DESIGNS / f"{name}.toml"))
-    assert made.timings == read.timings
-    assert made.timing == read.timings[0]
-    assert made.peaks == read.peaks
-    assert made.loads == read.loads
-    assert made.warnings == read.warnings
-    mine, theirs = made.motion(73), read.motion(73)
-    assert mine.names == theirs.names
-    assert list(mine.rows()) == list(theirs.rows())
-    # A file has a name and a title beside it, and that is all.
-    mine, theirs = (row(d.peaks_table) for d in (made, read))
-    assert {k for k in mine if k != "stations" and mine[k] != theirs[k]} == {"spec", "title"}
-
-
-def test_the_same_parts_and_verdicts():
-    """A wheel of few slots, drawn and judged: checks, slot, drawing and report."""
-    made = DESIGNS["side-crank-z6"]()
-    read = load(str(repo.DESIGNS / "side-crank-z6.toml"))
-    assert made.passes
-    assert made.checks == read.checks
-    assert list(made.slot(0.1).rows()) == list(read.slot(0.1).rows())
-    assert len(made.slot(samples=7)) == 7
-    assert made.drawing("wheel", 0.01).shapes == read.drawing("wheel", 0.01).shapes
-    assert made.parts.outlines.wheel == read.parts.outlines.wheel
-    assert made.report.passes == read.report.passes
+def test_the_same_machine_in_python_and_from_a_file(name):
+    """A file has a name and a title, and that is all."""
+    made, read = DESIGNS[name]().spec, load(str(repo.DESIGNS / f"{name}.toml")).spec
+    points = {"motion": made.motion} if name == "table-law" else {}  # their file has a name
+    assert made == read.replace(path="", files=(), title="", **points)
 
 
 # What is wrong is said in the same words
@@ -398,7 +375,7 @@ def test_a_design_is_saved_as_the_command_writes_it(tmp_path, monkeypatch):
         assert run.exit_code == 0
         with open(file, "rb") as ours, open(f"c-{file}", "rb") as theirs:
             assert ours.read() == theirs.read()
-    with pytest.raises(GenevaError, match="names no format"):
+    with pytest.raises(GenevaError, match="must end in"):
         made.save("wheel.xyz")
     jams = Design(External(6), size=Size(100, 5, wheel_radius_mm=88))  # its rim meets a roller
     with pytest.raises(GenevaError, match=r"jam\.dxf: not written: "):

@@ -168,12 +168,10 @@ def beside_designs(text):
 ASKS = {
     "motion.compatible": ["spec.wheel.NAME not in able"],
     "specfile.template": ["name != Crank.NAME"],
-    "study.synth.reading": ["'stop' in keys[name]"],
 }
 # Keys and tables of a kind that stand in the core.
 NAMED = {
     "specfile.template": {"stop"},  # to be an example of the kind
-    "study.synth.reading": {"stop"},  # the key of a wheel
     "study.verdicts": {"stop"},  # a label
 }
 

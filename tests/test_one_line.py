@@ -17,15 +17,12 @@ from typer.testing import CliRunner
 from words import Spec, Wheel
 
 from geneva_cli.cli.app import app
-from geneva_cli.drawings.catalogue import PARTS
 from geneva_cli.motion import registry
 from geneva_cli.motion.laws.law import Law, from_velocity
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.numerics.jet import Jet, Number
-from geneva_cli.output import FORMATS
 from geneva_cli.spec.rules import Range
 from geneva_cli.specfile import template
-from geneva_cli.table import Table, rows_table
 from geneva_cli.verdict import checks
 from geneva_cli.verdict.advice import NONE
 from geneva_cli.verdict.checks import Check, compared, single_check
@@ -139,25 +136,3 @@ def test_a_group_of_the_report(
     shown = run("report", "[wheel]\nz = 6\n")
     assert shown["slots"] == {"count": 6}
     assert list(shown).index("slots") < list(shown).index("inputs")
-
-
-def chunks(table: Table) -> Iterator[str]:
-    """A format: the names and how many rows."""
-    yield f"{'|'.join(table.names)}: {len(table)}"
-
-
-def test_a_format(add: Add, run: Callable[..., Any]) -> None:
-    add(FORMATS, "brief", "added", "output")
-    shown = run("motion", "[wheel]\nz = 6\n", "--samples", "7", "--format", "brief")
-    assert shown.startswith("time_s|input_deg|") and shown.endswith(": 7")
-
-
-def pins(mechanism: Mechanism, tolerance_mm: float, samples: int | None) -> Table:
-    """A part: how many pins."""
-    return rows_table(("pins",), [(mechanism.spec.drive.rollers,)])
-
-
-def test_a_part(add: Add, run: Callable[..., Any]) -> None:
-    add(PARTS, "pins", "drawings.added:pins", "drawings")
-    shown = run("profile", "[wheel]\nz = 6\n[drive]\nrollers = 2\n", "--part", "pins")
-    assert json.loads(shown)["rows"] == [{"pins": 2}]

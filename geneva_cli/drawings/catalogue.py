@@ -43,17 +43,12 @@ def is_sheet(part: str) -> bool:
     return part == SHEET
 
 
-def is_table(mechanism: Mechanism, part: str, drawn: bool) -> bool:
-    """Return True if a part is written as a table; ``drawn`` is True for a drawing's format.
+def table_of(mechanism: Mechanism, part: str, drawn: bool = False) -> str:
+    """The function of a part's table, "" for a drawing; ``drawn`` is True for a drawing's format.
 
     Raises GenevaError for a part that is unknown, has no drawing, or that no machine with such a
     wheel has.
     """
-    return bool(_table(mechanism, part, drawn))
-
-
-def _table(mechanism: Mechanism, part: str, drawn: bool = False) -> str:
-    """Return the function of a part's table, "" for a drawing. Raises GenevaError as above."""
     is_sheet(part)
     kinds = of_wheel(mechanism.spec.wheel.NAME)
     has = {name for kind in kinds for name in (*kind.drawings, *kind.tables)}
@@ -64,10 +59,8 @@ def _table(mechanism: Mechanism, part: str, drawn: bool = False) -> str:
             ("wheel", "gearing"),
         )
     if drawn and part not in DRAWINGS:
-        raise GenevaError(
-            f"--part {part} is a table of points: write it as .csv or .json; these are drawings: "
-            f"{', '.join(DRAWINGS)}"
-        )
+        what = "a drawing sheet" if part == SHEET else "a table of points, for .csv or .json"
+        raise GenevaError(f"--part {part} is {what}; these are drawings: {', '.join(DRAWINGS)}")
     own = (kind.tables.get(part) for kind in reversed(kinds))
     return "" if drawn else next(filter(None, own), PARTS[part])
 
@@ -79,7 +72,7 @@ def part_table(mechanism: Mechanism, part: str, tolerance_mm: float, samples: in
     """
     if samples is not None and not 2 <= samples <= SAMPLES_MAX:
         raise GenevaError(f"--samples {cut(samples)}: must be at least 2, at most {SAMPLES_MAX}")
-    function = "" if part == SHEET else _table(mechanism, part)
+    function = table_of(mechanism, part)
     if not function:
         raise GenevaError(f"--part {part} is a drawing: write it as .dxf or .svg")
     require_tolerance(mechanism, tolerance_mm)
@@ -103,12 +96,10 @@ def parts_having(parts: Parts, part: str) -> Parts:
 
 def part_drawing(parts: Parts, part: str, tolerance_mm: float, curves: str) -> Drawing:
     """Return a part's drawing: lines and arcs, or with ``curves`` = "cubics" also cubics."""
-    if is_sheet(part):
-        raise GenevaError(f"--part {part} is a drawing sheet, not a drawing to cut")
     parts = parts_having(parts, part)
     require_tolerance(parts.mechanism, tolerance_mm)
-    is_table(parts.mechanism, part, drawn=True)
-    drawing: Drawing = _maker(parts, part)(tolerance_mm, curves)
+    table_of(parts.mechanism, part, drawn=True)
+    drawing: Drawing = _drawn(parts, part)(tolerance_mm, curves)
     return drawing._replace(tolerance=tolerance_mm)
 
 
@@ -119,7 +110,7 @@ def part_sheet(parts: Parts, tolerance_mm: float, curves: str) -> Sheet:
             f"--part {SHEET}: no sheet for {of}: use -o FILE.step or a dxf of each part"
         )
     require_tolerance(parts.mechanism, tolerance_mm)
-    sheet: Sheet = _maker(parts, SHEET)(tolerance_mm, curves)
+    sheet: Sheet = _drawn(parts, SHEET)(tolerance_mm, curves)
     return sheet
 
 
@@ -133,12 +124,12 @@ def without_sheet(mechanism: Mechanism) -> str:
     return "machines with a groove" if mechanism.engagements[0].groove else ""
 
 
-def _maker(parts: Parts, part: str) -> Callable[[float, str], Any]:
-    """Return what draws a part for a tolerance and curves, by the record of the machine's kind."""
+def _drawn(parts: Parts, part: str) -> Callable[[float, str], Any]:
+    """What draws a part for a tolerance and curves, by the record of the machine's kind."""
     kinds = of_wheel(parts.mechanism.spec.wheel.NAME)
     kind = next(kind for kind in reversed(kinds) if part in kind.drawings)
     draw, built = load_named(kind.drawings[part]), parts.built if kind.parts else parts.flat
-    return lambda tolerance_mm, curves: draw(built.within(tolerance_mm, curves))
+    return lambda *exact: draw(built.within(*exact))
 
 
 def require_cut(part: str, option: str = "--kerf") -> None:

@@ -1,31 +1,43 @@
-"""The list of parts: all that is cut and turned, with every pivot and dimension to rebuild it.
+"""All that is cut and turned: each part by itself, all on one bed, and their list.
 
-Rows are parts, pivots, dimensions, and parts that cannot be built, with the reason. Pivots are at
-input angle 0, with the wheel's axis as origin and the crank's on the x axis. Mass and moment of
-inertia are of one part, in closed form, about the axis that it turns on. That is the wheel's, the
-crank's or a roller's own axis, or a link's first joint. The centroid is measured from there
-too, in the part's own frame. Coordinate z is along the axis from the wheel's lower face, or on a
-sphere inwards from the wheel's outer face.
+The list has every pivot and dimension to rebuild the machine. Rows are parts, pivots, dimensions,
+and parts that cannot be built, with the reason. Pivots are at input angle 0, with the wheel's axis
+as origin and the crank's on the x axis. Mass and moment of inertia are of one part, in closed form,
+about the axis that it turns on. That is the wheel's, the crank's or a roller's own axis, or a
+link's first joint. The centroid is measured from there too, in the part's own frame. Coordinate z
+is along the axis from the wheel's lower face, or on a sphere inwards from the wheel's outer face.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from functools import partial
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
+from geneva_cli.drawings.sheet.packing import Block, packed_apart
 from geneva_cli.drives.transmission import places
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.plates import MM, Part, Solid, mass_properties
+from geneva_cli.geometry.plates import (
+    MM,
+    Group,
+    Member,
+    Part,
+    Plate,
+    Solid,
+    mass_properties,
+    solids,
+)
 from geneva_cli.geometry.shapes import bounds_of
+from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.geometry.sphere_shell import Shell
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Dimension, Pivot
 from geneva_cli.motion.registry import thing
-from geneva_cli.parts.parts import Parts, parts_of
-from geneva_cli.parts.projection import Missing, alike, built_of, or_missing, outlines_of
+from geneva_cli.parts.parts import EdgedParts, Parts, parts_of
+from geneva_cli.parts.projection import Missing, alike, built_of, or_missing, outlines_of, titled
 from geneva_cli.spec.defaults import material_names, roller_material, wheel_material
 from geneva_cli.spec.schema import Points, fields
 from geneva_cli.table import Reading, Table, rows_table
@@ -207,3 +219,69 @@ def _motions(mechanism: Mechanism) -> Iterator[Dimension]:
                 value = value.file
             if value is not None:
                 yield Dimension(f"law's {field.key}", value)
+
+
+APART = 5.0  # mm between parts, and round them
+
+
+def plate(parts: EdgedParts) -> Drawing:
+    """Return all parts, each as often as the machine has it, in front of and right of the origin.
+
+    Raises GenevaError for a part that cannot be built.
+    """
+    every = (one for _, build in parts.turned.by_name() for part in build() for one in solids(part))
+    whole = [one for one in every if not isinstance(one, Shell)]
+    title = titled(parts.mechanism, "plate")
+    solid = Group(title, tuple(_laid(whole)))
+    return Drawing(title, outlines_of(solid), solid=solid)
+
+
+def _laid(whole: list[Plate]) -> list[Member]:
+    """Return parts at z = 0 side by side, on a square bed that is as small as they allow."""
+    blocks = [Block(*bounds_of(outlines_of(one)), (), ()) for one in whole]
+    side = math.sqrt(sum((b.width + APART) * (b.height + APART) for b in blocks))
+    placed = None
+    while placed is None:
+        area = (0.0, 0.0, side, side)
+        placed = packed_apart(blocks, (), area, lambda b: -b.width * b.height, APART)
+        # the bed grows by a tenth until all parts fit
+        side *= 1.1
+    return [
+        Member(one._replace(low=0.0, high=one.thickness), (to.x0 - before.x0, to.y0 - before.y0))
+        for one, before, to in zip(whole, blocks, placed, strict=True)
+    ]
+
+
+class SinglePart(NamedTuple):
+    """A kind of part: its name and number, thickness in mm, and drawing with its solid."""
+
+    name: str
+    copies: int  # in the machine
+    thickness_mm: float
+    is_cut: bool  # True for a flat part that is cut out of a plate
+    drawing: Drawing
+
+
+def single_parts(
+    parts: Parts, tolerance_mm: float, curves: str
+) -> tuple[list[SinglePart], list[Missing]]:
+    """Return every kind of part, with curves as in ``part_drawing``, and those without a drawing.
+
+    A shell of a sphere has a solid and no outline.
+    """
+    missing, out = list[Missing](), list[SinglePart]()
+    built = (build().within(tolerance_mm, curves) for _, build in parts.all_built)
+    every = [part for one in built for part in built_of(one.by_name(), missing)]
+    for solid, *others in alike(every):
+        title = titled(parts.mechanism, solid.name)
+        thickness = solid.outer - solid.inner if isinstance(solid, Shell) else solid.thickness
+        shapes = () if isinstance(solid, Shell) else outlines_of(solid)
+        drawing = Drawing(title, shapes, solid=solid, tolerance=tolerance_mm)
+        cut = isinstance(solid, Plate) and is_cut(solid)
+        out.append(SinglePart(solid.name, 1 + len(others), thickness, cut, drawing))
+    return out, missing
+
+
+def is_cut(plate: Plate) -> bool:
+    """Return True for a part that is cut out of a plate; others are turned or bought."""
+    return plate.layer in ("WHEEL", "CRANK", "ARM", "LINK", "GROOVE", "FRAME")

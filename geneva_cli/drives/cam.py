@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from typing import TYPE_CHECKING, ClassVar
 
-from geneva_cli.drives.pin_path import PinPath
+from geneva_cli.drives.transmission import PinPath
 from geneva_cli.errors import GenevaError, refuse_text
 from geneva_cli.motion.drive import Plan
-from geneva_cli.motion.engagement import Engagement, Load, Vector, cross
+from geneva_cli.motion.engagement import Engagement, Held, Loads, Vector, cross
 from geneva_cli.motion.given_motion import LawMotion, SolvedPath, SolvedPathSlot, refuse_alpha0
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import larger, parameter
@@ -41,10 +40,8 @@ class Cam(PinPath, kw_only=True):
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
         assert motion is not None  # ``compatible`` refuses a cam without a law
         if motion.ratio is not None:
-            raise GenevaError(
-                "ratio has no meaning with a cam, since the crank's length changes: remove ratio",
-                ("motion", "ratio"),
-            )
+            text = "ratio has no meaning with a cam, since the crank's length changes: remove ratio"
+            raise GenevaError(text, ("motion", "ratio"))
         natural = 2.0 * wheel.half_motion_deg(wheel.step)
         motion_deg = natural - motion.alpha0_deg
         refuse_alpha0(motion.alpha0_deg, natural)
@@ -68,7 +65,7 @@ class Cam(PinPath, kw_only=True):
         return self.planned(engagement, ratio, L, wheel.SIGN < 0.0)
 
 
-def _slide(input_deg: Number, path: Vector, loads: Sequence[Load]) -> list[tuple[Vector, Vector]]:
+def _slide(input_deg: Number, path: Vector, loads: Loads) -> Held:
     """Forces of each load on the crank's shaft, across its arm, and on the groove's wall."""
     x, y = path
     wall = y.derivative() * -1.0, x.derivative()

@@ -7,13 +7,12 @@ line: u = 2z/(z-2), R0 - rp = L sin b. The jump is (R0 - c² rp)/(L cos b).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, cast
 
-from geneva_cli.drives.pin_path import PinPath
+from geneva_cli.drives.transmission import PinPath
 from geneva_cli.errors import refuse_text
 from geneva_cli.motion.drive import Plan
-from geneva_cli.motion.engagement import Anchor, Engagement, Load, Vector, cross
+from geneva_cli.motion.engagement import Anchor, Engagement, Held, Loads, Vector, cross
 from geneva_cli.motion.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot, Teeth
 from geneva_cli.motion.wheels.classic import PinPose, PinTravel, gap, middle
@@ -51,9 +50,7 @@ class Epicyclic(PinPath, kw_only=True):
     )
     round_gears: ClassVar[tuple[str, ...]] = ("planet", "fixed gear")
     planet_ratio: Annotated[
-        float | str,
-        Range(-0.4, 0.4, words=("shockless",)),
-        'planet crank rp / L, either sign; "shockless" for no jump at entry',
+        float | str, Range(-0.4, 0.4, words=("shockless",)), "planet crank rp / L, either sign"
     ]
     fixed: Annotated[str, OneOf(("sun", "ring")), "fixed gear that the planet rolls on"] = "sun"
 
@@ -132,9 +129,7 @@ class PlanetReactions(NamedTuple):
     rp: float
     c: float
 
-    def __call__(
-        self, input_deg: Number, path: Vector, loads: Sequence[Load]
-    ) -> list[tuple[Vector, Vector]]:
+    def __call__(self, input_deg: Number, path: Vector, loads: Loads) -> Held:
         """Reactions of the carrier's shaft, and of the fixed gear, to each load."""
         turn = Jet.variable(radians(input_deg), path[0].order - 1)
         (s, c), (sp, cp) = sin_cos(turn), sin_cos(turn * self.c)

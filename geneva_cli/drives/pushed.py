@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
-from geneva_cli.motion.engagement import Load, Vector, cross
-from geneva_cli.numerics.arrays import Batchable, library
-from geneva_cli.numerics.jet import Jet, Number, turning
+from geneva_cli.motion.engagement import Held, Loads, Vector, cross
+from geneva_cli.numerics.angles import radians
+from geneva_cli.numerics.arrays import Batchable
+from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.jet_functions import Displacement, Path
+    from geneva_cli.numerics.jet_functions import Displacement
 
 
 class CrankRate(NamedTuple):
@@ -33,9 +33,7 @@ class PushedCrank(Batchable, ABC):
     def line(self, input_deg: Number, order: int) -> tuple[Vector, Vector]:
         """Point of the push from the crank's axis, over L, and a vector in its direction."""
 
-    def __call__(
-        self, input_deg: Number, path: Vector, loads: Sequence[Load]
-    ) -> list[tuple[Vector, Vector]]:
+    def __call__(self, input_deg: Number, path: Vector, loads: Loads) -> Held:
         """Reactions of the crank's shaft, and of the body that pushes the crank, to each load."""
         x, y = (jet.lower for jet in path)
         at, direction = self.line(input_deg, x.order)
@@ -47,20 +45,17 @@ class PushedCrank(Batchable, ABC):
         return out
 
 
-class Mesh(PushedCrank):
-    """Gears whose axes are ``distance`` over L apart, the driver's on the line of centres."""
+class CirclingPush(PushedCrank):
+    """A pin or a block on a circle, which pushes across the line from the crank's axis to it.
 
-    def __init__(self, path: Path, distance: float) -> None:
-        self.path, self.distance = path, distance  # the roller turns as the crank does
+    It is at ((c ``k`` + ``x0``) ``scale``, s ``height``) from that axis, over L; c and s are cosine
+    and sine of its own crank's angle, which is ``mid`` radians at mid-motion.
+    """
+
+    def __init__(self, x0: float, k: float, scale: float, height: float, mid: float) -> None:
+        self.x0, self.k, self.scale, self.height, self.mid = x0, k, scale, height, mid
 
     def line(self, input_deg: Number, order: int) -> tuple[Vector, Vector]:
-        x, y = self.path(input_deg, order + 2)
-        rate = turning(x - 1.0, y)
-        i, slope = Jet(rate.c[: order + 1]), rate.derivative()
-        # sense of the crank's rotation; the ratio itself is a size
-        sense = library(i.c[0]).copysign(1.0, i.c[0])
-        size, grows = i * sense, slope * sense
-        none = i * 0.0
-        # tangent of the driven gear's curve, (dr, r df), as it turns by df
-        across = none - sense
-        return (self.distance / (size + 1.0), none), (grows / ((size + 1.0) * size) * -1.0, across)
+        s, c = sin_cos(Jet.variable(radians(input_deg) + self.mid, order))
+        x, y = (c * self.k + self.x0) * self.scale, s * self.height
+        return (x, y), (y * -1.0, x)

@@ -7,9 +7,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated, ClassVar
 
-from geneva_cli.drives import whitworth
-from geneva_cli.drives.pushed import PushedCrank
-from geneva_cli.drives.transmission import LocalTransmission, Transmission, places
+from geneva_cli.drives.pushed import CirclingPush, PushedCrank
+from geneva_cli.drives.transmission import places
+from geneva_cli.drives.whitworth import Whitworth
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot, ShaftPlace
 from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet_functions import Path
 
 
-class SideCrank(Transmission, kw_only=True):
+class SideCrank(Whitworth, kw_only=True):
     """A crank and a rotating coulisse: A > 0 slows the index down, A < 0 makes it faster.
 
     ``A`` is the distance of the two axes over the input crank's length, between -1 and 1. Raises
@@ -39,19 +39,8 @@ class SideCrank(Transmission, kw_only=True):
     EXAMPLE: ClassVar[Example] = Example(
         "a side-crank drive: a slower, softer index", {"wheel": {"z": 6}, "drive": {"A": 0.6}}
     )
-    A: Annotated[
-        float, Range(-1.0, 1.0, "()"), "side-crank: base offset / input crank length; > 0 is slower"
-    ]
-    input_crank_mm: Annotated[
-        float | None, POSITIVE, "input crank length r, for its forces (parts use R by default)"
-    ] = None
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        whitworth.refuse_rounding(self.A)
-
-    def about(self, crank_deg: float) -> LocalTransmission:
-        return whitworth.about(self.A, crank_deg)
+    A: Annotated[float, Range(-1.0, 1.0, "()"), "side-crank: base offset / crank; > 0 is slower"]
+    input_crank_mm: Annotated[float | None, POSITIVE, "input crank length r, for its forces"] = None
 
     def as_built(self, wheel: Gearing, place: RollerPlace, L: float) -> Plan:
         return self.straight(wheel, places(wheel, self, L, place), L)
@@ -94,8 +83,5 @@ class SideCrank(Transmission, kw_only=True):
     def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> PushedCrank | None:
         if self.input_crank_mm is None:
             return None
-        return whitworth.SlidingBlock(self.A, self.input_crank_mm / L, wheel.SIGN, radians(mid_deg))
-
-    @property
-    def side_crank(self) -> float:
-        return self.A
+        r = self.input_crank_mm / L
+        return CirclingPush(self.A, 1.0, -wheel.SIGN * r, r, radians(mid_deg))

@@ -1,6 +1,6 @@
 """Drives with a transmission between input shaft and crank: the roller runs on a circle.
 
-And the places of several rollers on the crank.
+And the base of those that move it along another path; and the places of rollers on the crank.
 """
 
 from __future__ import annotations
@@ -37,8 +37,6 @@ LocalTransmission: TypeAlias = "tuple[float, Displacement]"
 
 class Transmission(Drive, kw_only=True):
     """A drive in front of the crank; a kind defines ``about``, and more only if it needs more."""
-
-    turned_at_crank: ClassVar[bool] = False
 
     @abstractmethod
     def about(self, crank_deg: float) -> LocalTransmission:
@@ -174,10 +172,20 @@ class Direct(Transmission, kw_only=True):
     """A drive without a transmission: crank angle and input angle are equal."""
 
     direct: ClassVar[bool] = True
-    turned_at_crank: ClassVar[bool] = True
 
     def about(self, crank_deg: float) -> LocalTransmission:
         return crank_deg, rotation  # the crank turns as the input does
+
+
+class PinPath(Drive, kw_only=True):
+    """A drive that moves the roller along a path of its own, with straight radial slots."""
+
+    ONE_ARM: ClassVar[bool] = False
+
+    def planned(self, own: Engagement, ratio: float, L: float, inside: bool = False) -> Plan:
+        """The plan with one engagement for each roller."""
+        refuse_jam(self.rollers, own.motion_deg, inside)
+        return Plan((own,), 360.0 / self.rollers, ratio, rollers_max(own.motion_deg), L)
 
 
 def places(

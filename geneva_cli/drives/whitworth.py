@@ -4,30 +4,66 @@ With the input crank, of length 1 and at the offset A, at phi, the coulisse is a
 (A + cos phi, sin phi).
 """
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
-from geneva_cli.drives.pushed import PushedCrank
-from geneva_cli.drives.transmission import LocalTransmission
+from geneva_cli.drives.transmission import LocalTransmission, Transmission
 from geneva_cli.errors import refuse_text
-from geneva_cli.motion.engagement import Vector
-from geneva_cli.numerics.angles import radians, sin_cos_deg
+from geneva_cli.numerics.angles import sin_cos_deg
 from geneva_cli.numerics.arrays import choose, enclosed, library
-from geneva_cli.numerics.jet import Jet, Number, cosines_after, sin_cos, sine_versine_of
+from geneva_cli.numerics.jet import Jet, Number, cosines_after, sine_versine_of
 
 
-def refuse_rounding(A: float) -> None:
-    """Raise GenevaError for |A| too close to 1 to be computed."""
-    text = "A = {A!r}: too close to 1 to be computed; its size must be at most 1 - 1e-12"
+class Whitworth(Transmission, kw_only=True):
+    """A transmission with the ratio of a side-crank of the offset ``A``."""
+
+    A: float
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        refuse_near_one("A", self.A)
+
+    @property
+    def side_crank(self) -> float:
+        return self.A
+
+    def about(self, crank_deg: float) -> LocalTransmission:
+        A = self.A
+        m = library(A, crank_deg)
+        s, c = sin_cos_deg(crank_deg)
+        # cos h and the coulisse's length are sums of positive terms for A near +-1.
+        sin_h = A * s
+        cos_h = m.hypot(c, s * m.sqrt((1.0 - A) * (1.0 + A)))
+        level = s == 0.0  # on the line of centres, where most peaks are
+        long = cos_h + abs(A * c)
+        short = (1.0 - A) * (1.0 + A) / long
+        ahead = A * c > 0.0
+        length = choose(level, 1.0 + A * c, choose(ahead, long, short))
+        rest = choose(level, 1.0 - A * c, choose(ahead, short, long))
+        # phi = f + h, or the angle of the input crank itself if the two nearly cancel
+        added = crank_deg + m.degrees(m.atan2(sin_h, cos_h))
+        turns = crank_deg / 360.0
+        whole = 360.0 * (round(turns) if isinstance(turns, float) else m.rint(turns))
+        up = m.copysign(length * s, crank_deg - whole)  # half a turn back is not half a turn ahead
+        own = whole + m.degrees(m.atan2(up, length * c - A))
+        phi = choose(A < 0.0, own, added)
+        grows = (A * c < 0.0) & level
+        return phi, Coulisse(A, s, c, sin_h, cos_h, length, rest, grows)
+
+
+def refuse_near_one(key: str, value: float) -> None:
+    """Raise GenevaError for a value whose size is too close to 1 to be computed."""
+    text = "{key} = {value!r}: too close to 1 to be computed; its size must be at most 1 - 1e-12"
     # 1 - 1e-12, as a double, passes
-    refuse_text(abs(A) > 1.0 - 0.999e-12, ("drive", "A"), text, A=A)
+    refuse_text(abs(value) > 1.0 - 0.999e-12, ("drive", key), text, key=key, value=value)
 
 
 class Coulisse(NamedTuple):
     """The coulisse's rotation from one of its angles f.
 
-    h = asin(A sin f) is the angle between input crank and coulisse. ``length`` is the coulisse's,
-    cos h + A cos f, and ``rest`` is cos h - A cos f. ``grows`` selects the form of W = x² + y² that
-    is a sum of positive terms on the line of centres.
+    h = asin(A sin f) is between input crank and coulisse, whose ``length`` is cos h + A cos f;
+    ``rest`` is cos h - A cos f. ``grows`` selects a sum of positive terms for W = x² + y².
     """
 
     A: float
@@ -54,40 +90,3 @@ class Coulisse(NamedTuple):
         square = Jet((W, *[2.0 * A * t for t in cosines[1:]]))
         rate = 0.5 + (0.5 * (1.0 - A) * (1.0 + A)) / square
         return sine_versine_of(rate, y, x, order)
-
-
-class SlidingBlock(PushedCrank):
-    """The block at the end of an input crank of length ``r`` over L, in the coulisse's slot."""
-
-    def __init__(self, A: float, r: float, sign: float, mid: float) -> None:
-        self.A, self.r, self.sign = A, r, sign
-        self.mid = mid  # input angle of the engagement's mid-motion, radians
-
-    def line(self, input_deg: Number, order: int) -> tuple[Vector, Vector]:
-        s, c = sin_cos(Jet.variable(radians(input_deg) + self.mid, order))
-        x, y = (c + self.A) * (-self.sign * self.r), s * self.r
-        return (x, y), (y * -1.0, x)
-
-
-def about(A: float, crank_deg: float) -> LocalTransmission:
-    """The side-crank about a coulisse angle f in degrees, for an offset A between -1 and 1."""
-    m = library(A, crank_deg)
-    s, c = sin_cos_deg(crank_deg)
-    # cos h and the coulisse's length are sums of positive terms for A near +-1.
-    sin_h = A * s
-    cos_h = m.hypot(c, s * m.sqrt((1.0 - A) * (1.0 + A)))
-    level = s == 0.0  # on the line of centres, where most peaks are
-    long = cos_h + abs(A * c)
-    short = (1.0 - A) * (1.0 + A) / long
-    ahead = A * c > 0.0
-    length = choose(level, 1.0 + A * c, choose(ahead, long, short))
-    rest = choose(level, 1.0 - A * c, choose(ahead, short, long))
-    # phi = f + h, or the angle of the input crank itself if the two nearly cancel
-    added = crank_deg + m.degrees(m.atan2(sin_h, cos_h))
-    turns = crank_deg / 360.0
-    whole = 360.0 * (round(turns) if isinstance(turns, float) else m.rint(turns))
-    up = m.copysign(length * s, crank_deg - whole)  # half a turn back is not half a turn ahead
-    own = whole + m.degrees(m.atan2(up, length * c - A))
-    phi = choose(A < 0.0, own, added)
-    grows = (A * c < 0.0) & level
-    return phi, Coulisse(A, s, c, sin_h, cos_h, length, rest, grows)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from itertools import pairwise
 from typing import Literal, NamedTuple, TypeAlias, TypeVar
 
 Point: TypeAlias = tuple[float, float]
@@ -148,14 +149,9 @@ def convex_hull(layer: Layer, circles: Sequence[Circle]) -> Contour:
     It touches a circle in the directions in which this circle reaches farthest. Going round, the
     next circle takes over where both reach equally far, on their common tangent.
     """
-    here, turned = circles[0], 0.0
-    for one in circles:  # the farthest along x
-        ahead = one.centre[0] + one.radius - (here.centre[0] + here.radius)
-        if ahead > 0.0 or (ahead == 0.0 and one.centre[1] >= here.centre[1]):
-            here = one
-    arcs: list[tuple[Circle, float, float]] = []
-    while turned < math.tau:
-        # the angle to the next circle, and that circle: a whole turn if there is none
+
+    def following(turn: float, here: Circle) -> tuple[float, Circle]:
+        """Return where the next circle takes over: a whole turn on if none does."""
         step, far, after = math.tau, 0.0, here
         for other in circles:
             x, y = other.centre[0] - here.centre[0], other.centre[1] - here.centre[1]
@@ -163,27 +159,28 @@ def convex_hull(layer: Layer, circles: Sequence[Circle]) -> Contour:
             if apart <= abs(less) * (1.0 + HULL_ROUNDING) or other == here:
                 continue  # one circle holds the other
             at = math.atan2(y, x) - math.acos(less / apart)
-            to = max((at - turned + HULL_ROUNDING) % math.tau - HULL_ROUNDING, 0.0)
+            to = max((at - turn + HULL_ROUNDING) % math.tau - HULL_ROUNDING, 0.0)
             if to < step - HULL_ROUNDING or (to < step + HULL_ROUNDING and apart > far):
                 step, far, after = to, apart, other
-        step = min(step, math.tau - turned)
-        if arcs and turned + step == math.tau and arcs[0][0] == here:
-            first, _, sweep = arcs[0]
-            arcs[0] = first, turned - math.tau, step + sweep  # the hull starts within this arc
-        else:
-            arcs.append((here, turned, step))
-        turned += step
-        here = after
+        return turn + step, after
+
+    # the farthest along x
+    here = max(circles, key=lambda one: (one.centre[0] + one.radius, one.centre[1]))
+    first, after = following(0.0, here)
+    if first == math.tau:
+        return closed(layer, two_arcs(here))
+    turns = [(first, after)]
+    while turns[-1][0] < first + math.tau - HULL_ROUNDING:
+        turns.append(following(*turns[-1]))
+    last, here = turns[-2]
     pieces: list[Segment] = []
-    for circle, start, sweep in arcs:
-        arc = about(circle.centre, circle.radius, start, sweep)
+    for (start, circle), (end, _) in pairwise([(last - math.tau, here), *turns[:-1]]):
+        arc = about(circle.centre, circle.radius, start, end - start)
         if pieces and math.dist(pieces[-1].end, arc.start) > HULL_ROUNDING:
             pieces.append(Line(pieces[-1].end, arc.start))
-        if len(arcs) == 1:
-            pieces += two_arcs(circle, start)
-        elif sweep > HULL_ROUNDING:
+        if end - start > HULL_ROUNDING:
             pieces.append(arc)
-    if len(arcs) > 1 and math.dist(pieces[-1].end, pieces[0].start) > HULL_ROUNDING:
+    if math.dist(pieces[-1].end, pieces[0].start) > HULL_ROUNDING:
         pieces.append(Line(pieces[-1].end, pieces[0].start))
     return closed(layer, pieces)
 

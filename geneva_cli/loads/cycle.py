@@ -74,34 +74,30 @@ class Cycle:
         return out
 
     def moving(
-        self,
-        engagement: Engagement,
-        input_deg: Array,
-        names: Sequence[str],
-        stretch: Stretch | None = None,
+        self, engagement: Engagement, x: Array, names: Sequence[str], stretch: Stretch | None = None
     ) -> Array:
-        """Known quantities, (names, n), at input angles of an engagement from its mid-motion.
+        """Known quantities, (names, n), at input angles x of an engagement from its mid-motion.
 
         The pin's force has the sign of the wall that bears. In a ``stretch`` its signs hold.
         """
         case = self.case
         with np.errstate(all="ignore"):
-            at = contact_values(contact(engagement, input_deg))
+            at = contact_values(contact(engagement, x))
             here = Instant(case, at, *(stretch[2:] if stretch else ()))
             none = np.flatnonzero(~case.is_loaded(engagement, here.wheel_torque_Nm))
             if stretch is None and len(none):
                 # where the torque is 0, its sign is that before, or at entry that after
-                x, step = input_deg[none], 1e-6 * engagement.motion_deg
-                near = np.where(x - step < engagement.entry_deg, x + step, x - step)
+                free, step = x[none], 1e-6 * engagement.motion_deg
+                near = np.where(free - step < engagement.entry_deg, free + step, free - step)
                 beside = contact(engagement, near, reactions=False)
-                drives = np.broadcast_to(here.drives, input_deg.shape).copy()
+                drives = np.broadcast_to(here.drives, x.shape).copy()
                 drives[none] = Instant(case, beside, feeds=1.0).drives
                 here = Instant(case, at, drives)
-            each = [self.sources[name] for name in names]
+            each = [self.sources.get(name, (name, 1.0)) for name in names]  # or of a pinion
             sought = ["wall_force_N" if source == "pin_force_N" else source for source, _ in each]
             rows = [bounded(here, source) for source in sought]
             # the limits where the pin crosses the slot without a torque
-            middle = np.flatnonzero(input_deg == 0.0)
+            middle = np.flatnonzero(x == 0.0)
             crosses = engagement.slot.curved and not retraces(engagement)
             if stretch is None and len(middle) and crosses:
                 for i, _, limit in at_mid_motion(engagement, case, sought, 1):
@@ -109,7 +105,7 @@ class Cycle:
                         rows[i][middle] = limit
         both = zip(rows, each, strict=True)
         values = [plain_values(row, source) * ratio for row, (source, ratio) in both]
-        return np.array(np.broadcast_arrays(*values, input_deg)[:-1])
+        return np.array(np.broadcast_arrays(*values, x)[:-1])
 
     @cached_property
     def extremes(self) -> Mapping[str, LoadSummary[float]]:
@@ -193,10 +189,9 @@ def _driven(cycle: Cycle) -> Iterator[Notice]:
     fed = math.isfinite(least) and least < -ROUNDED * (largest or abs(least))
     driven = back_driven_deg(cycle) if fed else []
     if driven:
-        each = [f"{round(a, 9):.4g} to {round(b, 9):.4g}" for a, b in driven]
-        more = len(each) - 6  # a line or two; a carousel may have many
-        where = ", ".join(each if more <= 0 else each[:6])
-        where += f"° and in {more} other intervals" if more > 0 else "°"
+        each = [f"{round(a, 9):.4g} to {round(b, 9):.4g}°" for a, b in driven]
+        where = ", ".join(each[:4])
+        where += f" and in {len(each) - 4} other intervals" if len(each) > 4 else ""
         # what brakes the wheel alone at its greatest deceleration
         braked_Nm = max(cycle.case.inertia_Nm * braking(one) for one in mechanism.engagements)
         brake = f"a resisting torque of {braked_Nm:.4g} N m"

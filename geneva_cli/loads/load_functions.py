@@ -23,7 +23,8 @@ from geneva_cli.motion.path_and_slot import retraces
 from geneva_cli.motion.peak_search import breaks, pole_deg, spans
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Mask, Which, all_true, array
-from geneva_cli.numerics.extremes import SearchResult, Stretches, cuts, search
+from geneva_cli.numerics.cuts import Asked, Held
+from geneva_cli.numerics.extremes import Known, SearchResult, Stretches, cuts, search
 from geneva_cli.numerics.jet import Array, Jet, Number
 
 # The functions whose signs matter, in order: each is smooth while those before it keep their signs.
@@ -113,7 +114,7 @@ class LoadFunctions:
         radial = all_true(engagement.slot.offset == 0.0)
         if sized and alone and radial and engagement.mirrored:
             parts = parts[: len(parts) // 2]
-        known = list[tuple[int, Array, Array]]()
+        known = list[Known]()
         if is_curved:  # no span reaches mid-motion
             known = at_mid_motion(engagement, case, self.quantities, self.n)
         return search(self, parts, sized, known, self.spread)
@@ -153,12 +154,7 @@ class LoadFunctions:
         return instant, quantities, found
 
     def __call__(
-        self,
-        x: Array,
-        which: Which,
-        order: int,
-        held: Array | None = None,
-        requested: Sequence[int] | None = None,
+        self, x: Array, which: Which, order: int, held: Held = None, requested: Asked = None
     ) -> tuple[Mask, Array]:
         """Signs, and Taylor coefficients of the functions that have them and of the quantities."""
         instant, every, signs = self.at(x, which, order, held)
@@ -197,7 +193,7 @@ class LoadFunctions:
 
 def at_mid_motion(
     engagement: Engagement, case: LoadCase, quantities: Sequence[str | LoadQuantity], n: int
-) -> list[tuple[int, Array, Array]]:
+) -> list[Known]:
     """The quantities of n designs at mid-motion, which no stretch reaches.
 
     They are numbers of quantities, with places and values (n,); NaN where undefined.
@@ -207,7 +203,7 @@ def at_mid_motion(
     one side. A law that jumps at its middle has another acceleration after it: the slot then has a
     corner there, whose two sides are mirror images.
     """
-    out: list[tuple[int, Array, Array]] = []
+    out: list[Known] = []
     middle = np.zeros((n, 1))
 
     def add(number: int, known: Number, where: Mask) -> None:

@@ -18,7 +18,7 @@ from geneva_cli.loads.contact import (
     plain_values,
 )
 from geneva_cli.loads.instant import Instant, LoadQuantity
-from geneva_cli.loads.load_case import load_case, multiples, sources
+from geneva_cli.loads.load_case import load_case, sources
 from geneva_cli.loads.load_functions import LoadFunctions, on_breaks
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
@@ -168,13 +168,9 @@ def _extremes(mechanism: Mechanism, names: Sequence[str] | None = None) -> Found
     They are those of all quantities that the designs have, or of some by their names.
     """
     mechanism = mechanism.under_load
-    names = [*sources(mechanism)] if names is None else names
-    known, every, sought = multiples(mechanism), dict[str, tuple[str, Array]](), list[str]()
-    for name in names:
-        source, factor, _ = known.get(name, (name, 1.0, ""))
-        if factor is not None:
-            every[name] = source, np.ravel(factor)
-            sought += [source] if source not in sought else []
+    known = sources(mechanism)
+    every = {name: known.get(name, (name, 1.0)) for name in (known if names is None else names)}
+    sought = list(dict.fromkeys(source for source, _ in every.values()))
     case, searches, places = load_case(mechanism), list[Search](), list[Array]()
     for engagement in mechanism.engagements:
         load = LoadFunctions(engagement, case, sought)
@@ -201,8 +197,8 @@ def _extremes(mechanism: Mechanism, names: Sequence[str] | None = None) -> Found
             ends = np.sqrt(ends)
         best[name] = LoadSummary(ends[0], at_deg[0], ends[1], at_deg[1])
     out = {}
-    for name, (source, by) in every.items():
-        one = best[source]
+    for name, (source, factor) in every.items():
+        one, by = best[source], np.ravel(factor)
         out[name] = one._replace(max=one.max * by, min=one.min * by)
     return out, searches
 
@@ -234,10 +230,9 @@ def _with_means(
     # a mean whose square is so small a fraction of the mean square is rounding
     nought = np.isfinite(squares) & (sums * sums <= 1e-30 * squares)
     means, roots = np.where(nought, 0.0, sums), np.sqrt(squares)
-    known, out = multiples(mechanism), {}
+    known, out = sources(mechanism), {}
     for name, one in ends.items():
-        source, factor, _ = known.get(name, (name, 1.0, ""))
-        assert factor is not None  # of a quantity that has extremes
+        source, factor = known.get(name, (name, 1.0))
         i, by = names.index(source), np.ravel(factor)
         out[name] = one._replace(mean=means[i] * by, rms=roots[i] * by)
     return out

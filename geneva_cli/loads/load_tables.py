@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -16,6 +16,7 @@ from geneva_cli.loads.load_case import multiples
 from geneva_cli.loads.load_peaks import LoadSummary, reported_peaks
 from geneva_cli.table import Reading, Table, computed_table, record_table, rows_table
 
+Answers: TypeAlias = Mapping[str, "float | None"]
 SHOWN_QUANTITIES = (
     *("omega_rad_s", "alpha_rad_s2", "wheel_torque_Nm", "pin_force_N", "contact_stress_MPa"),
     *("sliding_m_s", "input_torque_Nm", "power_W", "wheel_bearing_N", "crank_bearing_N"),
@@ -56,14 +57,9 @@ def reversals_deg(cycle: Cycle) -> list[float]:
 
 
 def loads_table(
-    cycle: Cycle,
-    sizing: Mapping[str, float | None],
-    life: Mapping[str, float | None],
-    reversal: Mapping[str, float | None],
-    warnings: Sequence[str],
-    for_people: bool = False,
+    cycle: Cycle, answers: Mapping[str, Answers], warnings: Sequence[str], for_people: bool = False
 ) -> Table:
-    """The summary of the loads, with the impact of a reversal, sizing, life and warnings."""
+    """The summary of the loads, with the ``answers`` of impact, sizing and life, and warnings."""
     spec = cycle.mechanism.spec
     values: dict[str, object] = {"spec": spec.path, "title": spec.title}
     loads = summaries(cycle)
@@ -78,10 +74,10 @@ def loads_table(
         for name, one in loads.items():
             values |= {f"{name}.{key}": value for key, value in one._asdict().items()}
     values["reversals_deg"] = tuple(reversals_deg(cycle)) if cycle.is_loaded else None
-    # a roller that changes no side has no impact to be shown
-    struck = {} if for_people and reversal["jump"] is None else reversal
-    for group, answers in (("shock.reversal", struck), ("sizing", sizing), ("life", life)):
-        values |= {f"{group}.{key}": value for key, value in answers.items()}
+    for group, own in answers.items():
+        # a roller that changes no side has no impact to be shown
+        if not for_people or own.get("jump", 0.0) is not None:
+            values |= {f"{group}.{key}": value for key, value in own.items()}
     values["warnings"] = tuple(warnings)
     return record_table(values)
 
@@ -97,7 +93,7 @@ class RecommendedMotor(NamedTuple):
     rated_kW: float | None  # the least standard power that is enough; None if none is
 
 
-def recommended_motor(sizing: Mapping[str, float | None]) -> RecommendedMotor | None:
+def recommended_motor(sizing: Answers) -> RecommendedMotor | None:
     """The motor for the values of ``sizing``; None without a load, or for an unbounded one."""
     names = ("power_W", "motor_torque_max_Nm", "motor_rpm", "input_torque_Nm")
     formula_W, torque, rpm, with_factor = (sizing[name] for name in names)

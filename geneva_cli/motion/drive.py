@@ -56,8 +56,6 @@ class Drive(SpecTable, kw_only=True):
     FIRST: ClassVar[str] = ""
     # True if the input shaft carries the crank, so that the classic closed forms hold
     direct: ClassVar[bool] = False
-    # True if its own input shaft turns about the crank's axis, as the crank or another arm
-    turned_at_crank: ClassVar[bool] = True
     # names of its links that are gears with pitch circles
     round_gears: ClassVar[tuple[str, ...]] = ()
     # A kind whose keys decide these sets them as it is made:
@@ -156,10 +154,8 @@ class Drive(SpecTable, kw_only=True):
 
     def distance_mm(self, wheel: Gearing, motion: Motion | None, radius_mm: float) -> float:
         """Centre distance L for a crank radius R, mm, where the kind's shape fixes R/L."""
-        raise GenevaError(
-            f'kind = "{self.NAME}" has no crank of one radius: remove crank_radius_mm',
-            ("size", "crank_radius_mm"),
-        )
+        text = f'kind = "{self.NAME}" has no crank of one radius: remove crank_radius_mm'
+        raise GenevaError(text, ("size", "crank_radius_mm"))
 
     def as_built(self, wheel: Gearing, place: RollerPlace, L: float) -> Plan | None:
         """Plan of straight slots for a roller's place on a crank as built; None if it takes none.

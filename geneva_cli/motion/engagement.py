@@ -28,6 +28,9 @@ LONG = 8192  # angles a seam, from which polynomials pay
 Vector: TypeAlias = tuple[Jet, Jet]
 # A force at the pin's centre and a couple, both on the roller's body; the couple in that unit x L.
 Load: TypeAlias = tuple[Vector, Jet]
+Loads: TypeAlias = Sequence[Load]
+# Reactions of the crank's shaft and of the body's other guide to each load.
+Held: TypeAlias = list[tuple[Vector, Vector]]
 
 
 # A straight slot's axis, over L: the lever of its normal about the wheel's axis, and the speed of

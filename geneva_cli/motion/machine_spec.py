@@ -73,20 +73,20 @@ class Spec(SpecTable):
     wheel: Gearing
     drive: Drive = field(default_factory=lambda: load_named(CRANK)())
     motion: Motion | None = None
-    size: tables.Size = field(default_factory=tables.Size)
-    load: tables.Load = field(default_factory=tables.Load)
+    size: tables.Size = tables.Size()
+    load: tables.Load = tables.Load()
     mass: tuple[Mass, ...] = ()
-    support: tables.Support = field(default_factory=tables.Support)
-    motor: tables.Motor = field(default_factory=tables.Motor)
-    shaft: tables.Shaft = field(default_factory=tables.Shaft)
-    material_wheel: tables.WheelMaterial = field(default_factory=tables.WheelMaterial)
-    material_roller: tables.RollerMaterial = field(default_factory=tables.RollerMaterial)
-    tolerance: tables.Tolerance = field(default_factory=tables.Tolerance)
-    product: tables.Product = field(default_factory=tables.Product)
-    limits: tables.Limits = field(default_factory=tables.Limits)
-    accept: Accept = field(default_factory=Accept)
-    drawing: tables.TitleBlock = field(default_factory=tables.TitleBlock)
-    outline: tables.Outline = field(default_factory=tables.Outline)
+    support: tables.Support = tables.Support()
+    motor: tables.Motor = tables.Motor()
+    shaft: tables.Shaft = tables.Shaft()
+    material_wheel: tables.WheelMaterial = tables.WheelMaterial()
+    material_roller: tables.RollerMaterial = tables.RollerMaterial()
+    tolerance: tables.Tolerance = tables.Tolerance()
+    product: tables.Product = tables.Product()
+    limits: tables.Limits = tables.Limits()
+    accept: Accept = Accept()
+    drawing: tables.TitleBlock = tables.TitleBlock()
+    outline: tables.Outline = tables.Outline()
     title: str = ""
     path: str = ""
     files: tuple[str, ...] = ()
@@ -125,10 +125,9 @@ class Spec(SpecTable):
             if limits[limit] is not None and self.table(of)[key] is None:
                 raise GenevaError(f"{limit} needs {what}: set {key} in [{of}]", ("limits", limit))
         if self.limits.product_acceleration_max_m_s2 is not None and not self.product.lies:
+            key = "product_acceleration_max_m_s2"
             raise GenevaError(
-                "product_acceleration_max_m_s2 needs the product's place: set radius_mm in "
-                "[product]",
-                ("limits", "product_acceleration_max_m_s2"),
+                f"{key} needs the product's place: set radius_mm in [product]", ("limits", key)
             )
         for key in LOADED:
             if limits[key] is not None:
@@ -231,7 +230,7 @@ class Spec(SpecTable):
             if before.gears and drive.gears:
                 why = "one pair of noncircular-gears with the ratio of both does the same"
                 return f"the parts of {pair}: {why}"
-            if not (before.gears or drive.turned_at_crank):
+            if not before.gears and drive.crank and not drive.direct:
                 why = "the shaft between them has no bearing, since the input crank turns below it"
                 return f"the parts of {pair}: {why}"
         own: Callable[[Spec], str] | None = thing(self.wheel.NAME, "no_parts")

@@ -91,7 +91,7 @@ def may_vary(spec: Spec, key: str) -> bool:
     table, _, name = key.rpartition(".")
     if table not in TABLES:
         return False
-    known = _part(spec, table).own_keys
+    known = _part(spec, table)._own_keys()
     if name not in known:
         raise unknown(name, table, tuple(known))
     numeric = bool({int, float} & set(known[name].types))

@@ -184,7 +184,8 @@ def build(spec: Spec, like: Mechanism | None = None) -> Mechanism:
             own = plan._replace(engagements=tuple(map(attrgetter("own"), plan.engagements)))
     L, wheel, wheels = plan.center_distance_mm, spec.wheel, spec.drive.wheels_on_carrier
     refuse_sizes(spec, L, plan.ratio)
-    refuse_tolerances(spec, L, plan.ratio)
+    if spec.tolerance is not Spec.tolerance:  # whose deviations are all 0
+        refuse_tolerances(spec, L, plan.ratio)
     cranks, steps = [], spec.drive.cranks
     for k, step in enumerate(steps):
         sine, cosine = sin_cos_pi(2 * int(step), wheel.z)

@@ -57,14 +57,14 @@ def motion_table(mechanism: Mechanism, samples: int) -> Table:
     )
 
 
-def turns_table(mechanism: Mechanism, samples: int, count: int, knots: Array) -> Table:
-    """Rows as of ``motion_table`` over ``count`` periods, and one at each entry, exit and jump.
+def turns_table(mechanism: Mechanism, samples: int, turns: int) -> Table:
+    """Rows as of ``motion_table`` over some turns of the input, and at each entry, exit and jump.
 
-    ``knots`` are those of ``knots_deg``. ``samples`` rows are evenly spaced. The wheel's angle goes
-    on from period to period.
+    ``samples`` rows are evenly spaced. The wheel's angle goes on from period to period.
     """
     check_samples(samples)
-    period = mechanism.period_deg
+    period, count = mechanism.period_deg, periods(mechanism, turns)
+    knots = knots_deg(mechanism, count)
     even = np.linspace(0.0, count * period, samples)
     nearest = np.searchsorted(knots, even)
     apart = np.minimum(
@@ -280,14 +280,8 @@ def periods(mechanism: Mechanism, turns: int | None) -> int:
     count = 360.0 * turns / mechanism.period_deg
     if abs(count - round(count)) > 1e-9:
         whole = round(mechanism.period_deg / 360.0)
-        raise GenevaError(
-            f"--turns {turns}: this machine repeats after {whole} turns of its input; "
-            f"give a multiple of {whole}"
-        )
+        raise GenevaError(f"--turns {turns}: give a multiple of {whole}, this machine's period")
     z = mechanism.spec.wheel.z
     if mechanism.spec.wheel.stopped and turns > z - 2:
-        raise GenevaError(
-            f"--turns {turns}: the stop leaves {z - 2} whole motions, as the first and the last of "
-            f"{z} are blocked half-way; give at most {z - 2}"
-        )
+        raise GenevaError(f"--turns {turns}: the stop leaves {z - 2} whole motions; give no more")
     return round(count)

@@ -30,7 +30,7 @@ _DRAWINGS = {
     "gears": "drawings.part_drawings:gears",
     "groove": "drawings.part_drawings:groove",
     "groove-plate": "drawings.part_drawings:groove_plate",
-    "plate": "drawings.single_parts:plate",
+    "plate": "drawings.parts_list:plate",
 }
 _TABLES = {
     "slot": "parts.slots.slot_profile:profile_table",
@@ -64,8 +64,8 @@ _CORE = (
     ),
     Kind("crank", drive=CRANK, refuses="motion.compatible:of_crank"),
     Kind("side-crank", drive="drives.side_crank:SideCrank", refuses=_CRANK),
-    Kind("elliptical-gears", drive="drives.elliptical_gears:EllipticalGears", refuses=_CRANK),
-    Kind("noncircular-gears", drive="drives.noncircular_gears:NoncircularGears", refuses=_CRANK),
+    Kind("elliptical-gears", drive="drives.gears:EllipticalGears", refuses=_CRANK),
+    Kind("noncircular-gears", drive="drives.gears:NoncircularGears", refuses=_CRANK),
     Kind(
         "epicyclic", drive="drives.epicyclic:Epicyclic", gearings=("external",), refuses=_PIN_PATH
     ),
@@ -158,4 +158,5 @@ law = partial(_class, LAWS, ("motion", "law"))
 
 def drives_with(thing: str) -> list[str]:
     """Names of the drives that have a thing of their own, such as ``gears``."""
-    return [name for name in DRIVES if vars(drive(name)).get(thing)]
+    plain = getattr(drive("crank"), thing)
+    return [name for name in DRIVES if getattr(drive(name), thing) != plain]

@@ -259,8 +259,7 @@ def record_taken(record: Record, which: Which) -> Record:
     """A record of arrays (..., m), or of such records, with some of their columns."""
     # NumPy's own indexing puts each column's values side by side in memory; reductions over them
     # then take fifty times as long.
-    if not isinstance(which, slice) and which.dtype == bool:
-        which = cast("Whole", which.nonzero()[0])
+    which = which if isinstance(which, slice) else numbers_of(which)
     out: list[object] = []
     for column in record:
         if isinstance(column, tuple):
@@ -268,7 +267,7 @@ def record_taken(record: Record, which: Which) -> Record:
         elif isinstance(which, slice):
             out.append(cast("Array", column)[..., which])
         else:
-            out.append(cast("Array", column).take(cast("Whole", which), axis=-1))
+            out.append(cast("Array", column).take(which, axis=-1))
     return record_of(record, out)
 
 

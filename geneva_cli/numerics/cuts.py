@@ -9,7 +9,7 @@ Series are from samples (..., points, m) at the Chebyshev points of [-1, 1] (L. 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
@@ -88,6 +88,9 @@ AT_END = 1e-9  # fraction of a row: a zero this near to an end, such as a motion
 LATER_TERMS = 4.0  # times the last terms of a series: a bound on all later terms
 
 
+Held: TypeAlias = "Array | None"  # known signs
+Asked: TypeAlias = "Sequence[int] | None"  # numbers of functions
+
 if TYPE_CHECKING:
 
     class Functions(Protocol):
@@ -105,12 +108,7 @@ if TYPE_CHECKING:
         poled: Sequence[int]  # numbers of those that behave as 1/x at the place 0
 
         def __call__(
-            self,
-            x: Array,
-            which: Which,
-            order: int,
-            held: Array | None = None,
-            requested: Sequence[int] | None = None,
+            self, x: Array, which: Which, order: int, held: Held = None, requested: Asked = None
         ) -> tuple[Mask, Array]: ...
 
 
@@ -150,9 +148,7 @@ class Cutter:
     Without ``w`` they are evenly spaced. ``ends`` are those of the spans: (spans, 2, n, 1).
     """
 
-    def __init__(
-        self, f: Functions, ends: Array, w: Array | None, requested: Sequence[int] | None
-    ) -> None:
+    def __init__(self, f: Functions, ends: Array, w: Array | None, requested: Asked) -> None:
         self.f, self.ends, self.requested = f, ends[..., 0], requested
         # with a wide spread, samples are evenly spaced
         n, reach = ends.shape[2], np.abs(self.ends).max(axis=(0, 1))

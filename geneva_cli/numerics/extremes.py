@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import factorial
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -32,8 +32,10 @@ from geneva_cli.numerics.cuts import (
 from geneva_cli.numerics.tolerances import TIE
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.cuts import Functions
+    from geneva_cli.numerics.cuts import Asked, Functions, Held
 
+Spans: TypeAlias = Sequence[tuple[Array, Array]]  # both ends (n, 1) of each
+Known: TypeAlias = tuple[int, Array, Array]  # a function's number, places and values
 GROUP = 1 << 15  # functions of designs that are searched together
 UNFINISHED = 4.0 * LATER_TERMS  # times the last terms: the error of a series that has not ended
 PRECISE = 1e-5  # fraction of a size: the allowed error of a series near an extreme
@@ -77,12 +79,7 @@ class Smooth:
     poled: Sequence[int] = ()
 
     def __call__(
-        self,
-        x: Array,
-        which: Which,
-        order: int,
-        held: Array | None = None,
-        requested: Sequence[int] | None = None,
+        self, x: Array, which: Which, order: int, held: Held = None, requested: Asked = None
     ) -> tuple[Mask, Array]:
         """Masks of positive signs, and Taylor coefficients."""
         numbers = range(self.wanted) if requested is None else requested
@@ -95,11 +92,7 @@ class Smooth:
 
 
 def search(
-    f: Functions,
-    spans: Sequence[tuple[Array, Array]],
-    sized: bool,
-    known: Sequence[tuple[int, Array, Array]] = (),
-    w: Array | None = None,
+    f: Functions, spans: Spans, sized: bool, known: Sequence[Known] = (), w: Array | None = None
 ) -> SearchResult:
     """The greatest values of n designs over their spans, whose ends are (n, 1).
 
@@ -132,7 +125,7 @@ def search(
         return SearchResult(extremes.most.reshape(shape), first.reshape(shape), extremes.pieces)
 
 
-def cuts(f: Functions, spans: Sequence[tuple[Array, Array]]) -> Stretches:
+def cuts(f: Functions, spans: Spans) -> Stretches:
     """The parts of the spans of ``search`` on which no sign changes."""
     with np.errstate(all="ignore"):
         cutter, out = Cutter(f, np.array(spans), None, ()), list[tuple[Rows, Array]]()

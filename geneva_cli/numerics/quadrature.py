@@ -7,11 +7,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cache
+from typing import TypeAlias
 
 import numpy as np
 
 from geneva_cli.numerics.arrays import Array, Mask, Whole, blocks, joined, matrix_product, read_only
 
+Integrands: TypeAlias = Callable[[Array, Whole], Array]
 NODES = 20  # nodes of a rule that suffice for most loads between two cuts
 # Fraction of a design's integral that the last terms may have; the error is a tenth at most.
 LAST_TERMS = 2e-12
@@ -36,18 +38,8 @@ def rule(nodes: int) -> tuple[Array, Array]:
     return read_only((x, 2.0 / ((1.0 - x) * (1.0 + x) * slope * slope)))
 
 
-@cache
-def lobatto(nodes: int) -> tuple[Array, Array]:
-    """Nodes in [-1, 1], both ends included, and weights of Lobatto quadrature."""
-    x = np.cos(np.pi * np.arange(nodes) / (nodes - 1))
-    for _ in range(8):
-        before, here = legendre(x, nodes - 1)
-        x = x - (x * here - before) / (nodes * here)
-    return read_only((x, 2.0 / (nodes * (nodes - 1) * here * here)))
-
-
 def span_integrals(
-    functions: Callable[[Array, Whole], Array],
+    functions: Integrands,
     spans: tuple[Array, Array],
     design: Whole,
     needed: Mask,
@@ -98,17 +90,13 @@ def span_integrals(
 
 
 def _parts(
-    functions: Callable[[Array, Whole], Array],
-    spans: tuple[Array, Array],
-    ends: bool,
-    of: Whole,
-    fractions: Array,
+    functions: Integrands, spans: tuple[Array, Array], ends: bool, of: Whole, fractions: Array
 ) -> tuple[Array, Array, Array]:
     """Integrals between two fractions of spans, their last terms, and integrals of the sizes.
 
     With ``ends`` places are at the fraction t² (3 - 2 t) of the span.
     """
-    (a, b), (node, terms), rows = spans, _rule(ends), []
+    (a, b), (node, terms), rows = spans, _rule(), []
     for here in blocks(len(of), 1024):  # whose nodes fit in the processor's cache
         own, (low, high) = of[here], fractions[:, here]
         half = 0.5 * (high - low)[:, None]
@@ -127,11 +115,10 @@ def _parts(
 
 
 @cache
-def _rule(ends: bool) -> tuple[Array, Array]:
-    """Nodes in [-1, 1], with both ends or without; their weights, and those of the last terms."""
-    node, weight = lobatto(NODES) if ends else rule(NODES)
+def _rule() -> tuple[Array, Array]:
+    """Nodes in [-1, 1]; their weights, and those of the last terms."""
+    node, weight = rule(NODES)
     before, last = legendre(node, NODES - 1)
     # The last two terms together: every other term of an even or odd function is 0.
     terms = np.ones(NODES), (NODES - 1.5) * before, (NODES - 0.5) * last
-    sums = weight[:, None] * np.column_stack(terms)
-    return read_only((node, sums))
+    return read_only((node, weight[:, None] * np.column_stack(terms)))

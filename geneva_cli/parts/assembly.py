@@ -74,10 +74,7 @@ class Assembly(NamedTuple):
         return self.full.shown_deg(self.to_input(input_deg))
 
     def pin(self, number: int, input_deg: Array, drives: bool = False) -> Array:
-        """Return a roller's centre, mm, at input angles in degrees (n,): an array (n, 2).
-
-        With ``drives`` it is that of a motion's roller, which drives, or beside gears will drive.
-        """
+        """Return the centre, mm (n, 2), of a roller, or of a motion's that ``drives``."""
         engagement, mid = (self.motions if drives else self.rollers)[number]
         at = self.from_mid(input_deg, mid)
         if engagement.groove is not None:
@@ -100,10 +97,7 @@ class Assembly(NamedTuple):
         return (input_deg - mid + half) % self.turn_deg - half
 
     def crank(self, input_deg: Array, first: Array | None = None) -> Array:
-        """Return the crank's direction, radians: that of its first roller at input angle 0.
-
-        ``first`` has the first roller's centres at these angles, mm (n, 2), if they are known.
-        """
+        """Return the crank's direction, radians, by its ``first`` roller's centres (n, 2)."""
         sense = self.rollers[0].engagement.crank_sense
         if sense:
             ahead = math.pi if self.sign > 0.0 else 0.0
@@ -213,8 +207,7 @@ def turn_deg(mechanism: Mechanism) -> Array:
 def links_at(mechanism: Mechanism, input_deg: Array, before: bool = True) -> tuple[Link, ...]:
     """Return a machine's links at input angles (n,), in degrees within half a period of mid-motion.
 
-    They are those of the drive and, for a cam-Geneva, the crank along which its rollers slide; with
-    ``before`` also those of the drive before it.
+    A cam-Geneva's crank is one; with ``before`` there are also those of the drive before it.
     """
     spec, sign = mechanism.spec, mechanism.spec.wheel.SIGN
     if spec.drive.direct and spec.drive_before is None:

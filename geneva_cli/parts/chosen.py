@@ -24,16 +24,12 @@ from geneva_cli.parts.outlines.cut_outlines import drawn
 from geneva_cli.parts.outlines.outlines import Outlines, dial_circle, wheel_hub_length
 from geneva_cli.parts.shafts.arm_and_shafts import bolts, crank_arm, crank_hub
 from geneva_cli.parts.shafts.bores import bore_of
+from geneva_cli.parts.sizes import CLEARANCES
 from geneva_cli.spec.schema import fields
 from geneva_cli.spec.tables import Size
 
 # Not sizes of a part, or sizes whose mere presence makes one: a hub, a limit of `check`.
 LEFT_OUT = ("wheel_hub_mm", "crank_hub_mm", "wall_min_mm")
-# Clearances and fits, which a process sets; without one they are 0, and no rule chose them.
-ALLOWED = (
-    *("slot_clearance_mm", "lock_clearance_mm", "press_fit_mm", "shaft_fit_mm"),
-    "pin_gap_mm",
-)
 # What people call the sizes that a load chooses, the first one that is to be looked at first.
 NAMES = {
     "size.crank_bore_mm": "crank shaft {:g}",
@@ -163,7 +159,7 @@ def _is_written(mechanism: Mechanism, key: str, values: Mapping[str, float | str
     spec, value = mechanism.spec, values[key]
     if key == "lock_bolts" or isinstance(value, str):
         return True
-    if key in LEFT_OUT or (key in ALLOWED and spec.size.process is None):
+    if key in LEFT_OUT or (key in CLEARANCES and spec.size.process is None):  # those are 0
         return False
     if key == "center_distance_mm":  # some drives solve for it, or it follows from R
         return value == spec.given_distance_mm and spec.size.crank_radius_mm is None
@@ -178,22 +174,21 @@ def _is_written(mechanism: Mechanism, key: str, values: Mapping[str, float | str
 
 
 def detail_sizes(mechanism: Mechanism) -> Values:
-    """Return the sizes of a machine's details by keys of ``[size]``: mm, diameters, or counts.
-
-    None where its parts cannot be drawn, which the checks report.
-    """
-    own_details, out = thing(mechanism.spec.wheel.NAME, "details"), Values()
+    """Return the sizes of a machine's details by keys of ``[size]``; none where it is not drawn."""
+    own_details = thing(mechanism.spec.wheel.NAME, "details")
     with suppress(GenevaError):
         if own_details:
             return {**own_details(mechanism)}
         if mechanism.spec.is_flat:
-            parts = drawn(*machine_sizes(mechanism))
-            for own in (_arm_and_lock, _hubs_and_bores, _links):
-                out |= own(parts)
-    return out
+            return _flat_details(drawn(*machine_sizes(mechanism)))
+    return {}
 
 
-def _arm_and_lock(parts: Outlines) -> Values:
+def _flat_details(parts: Outlines) -> Values:
+    """Return the sizes of arm, lock, hubs, the flats of D bores, links, and gears that stand."""
+    from geneva_cli.parts.links.link_plates import drawn_links
+
+    size, sizes = parts.assembly.mechanism.spec.size, parts.sizes
     out: Values = {"relief": parts.relief} if parts.crank else {}
     if parts.has_arm:
         arm, screws = crank_arm(parts), bolts(parts)
@@ -203,13 +198,6 @@ def _arm_and_lock(parts: Outlines) -> Values:
             out["lock_bolts"] = len(screws) // each
         if screws:
             out["lock_bolt_mm"] = 2.0 * screws[0].radius
-    return out
-
-
-def _hubs_and_bores(parts: Outlines) -> Values:
-    """Return the lengths of hubs, the bolts of the dial, and the depths of the flats of D bores."""
-    size, sizes = parts.assembly.mechanism.spec.size, parts.sizes
-    out: Values = {}
     if size.has_hub("wheel") and sizes.wheel_hub > sizes.wheel_bore:
         out["wheel_hub_length_mm"] = wheel_hub_length(size, sizes)
     if size.dial_bolts:
@@ -221,14 +209,7 @@ def _hubs_and_bores(parts: Outlines) -> Values:
     for part, radius in radii.items():
         if radius and (flat := bore_of(size, part, radius).flat):
             out[f"{part}_flat_mm"] = flat
-    return out
-
-
-def _links(parts: Outlines) -> Values:
-    """Return pins and width of links, and the screws of gears that stand still."""
-    from geneva_cli.parts.links.link_plates import drawn_links
-
-    links, out = drawn_links(parts.assembly.full, parts), Values()
+    links = drawn_links(parts.assembly.full, parts)
     for gear in links.gears:
         if gear.screws and gear.screws.holes:
             out["gear_bolt_mm"] = 2.0 * gear.screws.hole

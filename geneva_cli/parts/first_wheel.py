@@ -60,10 +60,7 @@ def first_spec(mechanism: Mechanism, first: tuple[int, float]) -> Spec:
 def first_sizes(
     mechanism: Mechanism, sized: Callable[[Mechanism], tuple[Assembly, Sizes] | None]
 ) -> tuple[float, float, float] | None:
-    """Return what the load needs of a first wheel and its crank; None without either.
-
-    That is the thickness of both, and the radii of the roller's pin and of the crank's shaft, mm.
-    """
+    """Return thickness, pin's and shaft's radius, mm, that a first wheel's load needs; or None."""
     first = mechanism.first_wheel
     spec = None if first is None else first_spec(mechanism, first)
     if spec is None or not spec.is_loaded:

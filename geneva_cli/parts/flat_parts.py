@@ -301,16 +301,20 @@ class FlatParts(EdgedParts):
     @cached_property
     def framed(self) -> FrameAndShafts:
         """The frame, what is on it, and the shafts."""
-        moving = self.wheel, self.crank, *self.linked, *self.round_gears, *self.first
-        lows = [
-            solid.low for one in moving for solid in solids(one.part) if isinstance(solid, Plate)
-        ]
-        lows += [self._base.low] if self._base else []
+        parts, lows = self.outlines, [self._base.low] if self._base else []
+        arm = parts.sizes.arm_thickness if parts.has_arm else 0.0
+        lows.append(-self.mechanism.spec.size.allowances.pin_gap_mm - arm)
+        for gear in self.links.gears:
+            lows.append(gear.plate.low)
+        for one in (self.wheel, *self.linked, *self.first):
+            for solid in solids(one.part):
+                assert isinstance(solid, Plate)
+                lows.append(solid.low)
         if self.mechanism.spec.gears:
             from geneva_cli.parts.gears.gear_pair import gear_span
 
-            lows.append(gear_span(self.mechanism, self.outlines)[0])
-        return framed(self.outlines, self.links, self._base, self.first, min(lows))
+            lows.append(gear_span(self.mechanism, parts)[0])
+        return framed(parts, self.links, self._base, self.first, min(lows))
 
     @property
     def standing(self) -> tuple[Member, ...]:

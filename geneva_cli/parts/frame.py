@@ -91,10 +91,9 @@ def framed(
 
 
 def _standing(mechanism: Mechanism, bars: Links) -> dict[Point, float | None]:
-    """Return the positions of shafts, of the wheels, the crank, and its drive, each once.
+    """Return the positions of all shafts, each once, with the diameter that the spec gives it.
 
-    With each is the diameter that the spec gives its shaft. An internal wheel is open in the
-    middle, where its crank turns below it. It is held from above.
+    An internal wheel is open in the middle, and held from above.
     """
     standing, shaft = dict[Point, float | None](), mechanism.spec.shaft
     for place in mechanism.wheel_places if mechanism.spec.wheel.SIGN > 0.0 else ():
@@ -112,10 +111,7 @@ def _standing(mechanism: Mechanism, bars: Links) -> dict[Point, float | None]:
 
 
 def _screwed(bars: Links, plates: Iterable[Plate | None], L: float) -> list[tuple[Circle, Plate]]:
-    """Return the holes of screws into the frame, each with the part that they fix.
-
-    They fix guides and gears that stand still, and ``plates`` about the crank's axis.
-    """
+    """Return the holes of screws into the frame, each with the part that they fix."""
     fixed: list[tuple[Circle, Plate]] = []
     for member in bars.cut:
         if isinstance(member.part, Plate) and member.part.name in bars.standing:
@@ -241,11 +237,7 @@ def _link_shafts(
 def mounted_plate(
     holes: Sequence[Circle], within: Iterable[Circle], eye: float, span: tuple[float, float]
 ) -> Plate:
-    """Return a frame with its holes, around circles that it contains.
-
-    Mounting holes are in its corners, whose radius is ``eye``. ``span`` has its lower and upper
-    face.
-    """
+    """Return a frame around circles, its corners of the radius ``eye``, from and up to ``span``."""
     box, away = bounds_of(within), 3.0 * eye
     mount, corners, mounts = screw_through(0.8 * eye), list[Circle](), list[Circle]()
     for x in (box.x0 - away, box.x1 + away):

@@ -21,7 +21,6 @@ from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.outlines.crank_outline import arc_floor
 from geneva_cli.parts.outlines.cut_outlines import cut_lock
 from geneva_cli.parts.sizes import (
-    CLEARANCES,
     Fault,
     KeySizes,
     Sizes,
@@ -61,10 +60,7 @@ def sized(mechanism: Mechanism, loads: PartLoads | None = None) -> Layout | None
 
 @lru_cache(maxsize=16)
 def machine_sizes(mechanism: Mechanism, loads: PartLoads | None = None) -> Layout:
-    """Return a machine's assembly and sizes, for its own loads or known ones.
-
-    Raises GenevaError where these leave no parts.
-    """
+    """Return a machine's assembly and sizes, for its own loads or known ones."""
     of = unloaded(mechanism)
     if not mechanism.spec.is_loaded:
         refuse(_faults(of.assembly, of.sizes))
@@ -101,15 +97,13 @@ def loaded(
 
 
 def key_sizes(mechanism: Mechanism) -> KeySizes:
-    """Return the sizes of a machine by keys of ``[size]``, and which of them its load chose.
-
-    Without parts there are only centre distance, roller and clearances.
-    """
+    """Return the known sizes of a machine by keys of ``[size]``, and which its load chose."""
     known: dict[str, float] = {
         "center_distance_mm": mechanism.center_distance_mm,
         "roller_radius_mm": mechanism.roller_radius_mm,
-        **dict(zip(CLEARANCES, mechanism.spec.size.allowances, strict=False)),
+        **mechanism.spec.size.allowances._asdict(),
     }
+    del known["source"]
     of_kind: Callable[[Mechanism], KeySizes] | None
     of_kind = thing(mechanism.spec.wheel.NAME, "sizes") if mechanism.spec.has_parts else None
     if of_kind:
@@ -138,19 +132,13 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
 
 
 def built(mechanism: Mechanism) -> Size:
-    """Return the spec's sizes with the machine's values for the keys left out, mm and diameters.
-
-    Without parts only centre distance, roller and clearances are added.
-    """
+    """Return the spec's sizes with the machine's values for the keys left out, mm and diameters."""
     known, values = key_sizes(mechanism)[0], mechanism.spec.size.as_dict()
     return mechanism.spec.size.replace(**{k: x for k, x in known.items() if values[k] is None})
 
 
 def keys_by_load(mechanism: Mechanism, locked: bool) -> tuple[str, ...]:
-    """Return the keys of sizes that the load of a machine chooses, which the spec leaves out.
-
-    ``locked`` is True for a wheel with recesses for a lock. A load without a bound chooses none.
-    """
+    """Return the keys of sizes that a load with a bound chooses, of a wheel that is ``locked``."""
     spec, size, load = mechanism.spec, mechanism.spec.size, mechanism.spec.load
     if not spec.is_loaded:
         return ()

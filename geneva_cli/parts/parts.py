@@ -11,7 +11,6 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, ClassVar, NamedTuple, Self, TypeAlias
 
-from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Member, Plate
 from geneva_cli.geometry.shapes import Arc, Circle, Contour
 from geneva_cli.kept import cached_property, load_named
@@ -72,25 +71,16 @@ class Parts(TurnedParts):
         """The outlines of wheel and crank. Raises GenevaError where they are not flat."""
         return self.flat.outlines
 
-    @property
+    @cached_property
     def turn(self) -> FullTurn:
         """The full turn; raises GenevaError where it takes too many positions."""
         from geneva_cli.parts.turn.full_turn import full_turn
 
-        known = vars(self)
-        if "_turn" not in known:
-            try:
-                known["_turn"] = full_turn(self)
-            except GenevaError as error:  # that it takes too long is remembered too
-                known["_turn"] = error
-        if isinstance(known["_turn"], GenevaError):
-            raise known["_turn"]
-        turn: FullTurn = known["_turn"]
-        return turn
+        return full_turn(self)
 
     def of(self, mechanism: Mechanism) -> Self:
         """Return the parts of a machine whose wheel, crank and positions are equal."""
-        other = type(self)(mechanism, self.advice)
+        other = type(self)(mechanism)
         assembly = self.assembly._replace(full=mechanism, to_input=input_of(mechanism))
         vars(other)["_shape"] = self._shape._replace(assembly=assembly)
         return other
@@ -109,8 +99,8 @@ class Parts(TurnedParts):
         if not ("_shape" in computed and own == other and self._has_sizes_of(mechanism)):
             return parts_of(mechanism)
         parts = self.of(mechanism)
-        if "_turn" in computed:
-            vars(parts)["_turn"] = computed["_turn"]
+        if "turn" in computed:
+            vars(parts)["turn"] = computed["turn"]
         return parts
 
     def _has_sizes_of(self, mechanism: Mechanism) -> bool:
@@ -148,7 +138,7 @@ class Parts(TurnedParts):
 
     def within(self, tolerance: float, curves: str) -> Self:
         """Return these parts with curves of a kind within a tolerance, mm."""
-        finer = type(self)(self.mechanism, self.advice, tolerance, curves)
+        finer = type(self)(self.mechanism, tolerance, curves)
         vars(finer).update({k: v for k, v in vars(self).items() if k == "_shape"})
         return finer
 
@@ -254,9 +244,9 @@ class EdgedParts(Parts):
         return self.framed.unborne
 
 
-def parts_of(mechanism: Mechanism, advice: bool = True) -> Parts:
+def parts_of(mechanism: Mechanism) -> Parts:
     """Return the parts of a machine; nothing is built yet."""
     name = mechanism.spec.wheel.NAME
     drawn = mechanism.spec.has_parts or named(name, "front")
     kind: type[Parts] = (drawn and thing(name, "parts")) or load_named(FRONT)
-    return kind(mechanism, advice)
+    return kind(mechanism)

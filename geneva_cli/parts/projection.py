@@ -16,10 +16,7 @@ Kind: TypeAlias = "Solid | tuple[str, str] | tuple[Plate, float]"
 
 
 def alike(parts: Iterable[Part]) -> list[list[Solid]]:
-    """Return the solids of some parts: a list for each kind, in the order of its first one.
-
-    Plates of one kind may lie at different heights.
-    """
+    """Return the solids of some parts: a list for each kind, also at different heights."""
     kinds: dict[Kind, list[Solid]] = {}
     for solid in (one for part in parts for one in solids(part)):
         kinds.setdefault(_kind(solid), []).append(solid)
@@ -110,10 +107,7 @@ def shapes(members: Iterable[Member]) -> Iterator[Shape]:
 
 
 def with_frame(moving: Iterable[Member], standing: Iterable[Member]) -> tuple[Shape, ...]:
-    """Return the outlines of parts that move, and on layer FRAME those of parts that stand.
-
-    Holes of the latter that shafts and bores cover are left out.
-    """
+    """Return the outlines of moving parts, and of the frame what these do not cover."""
     drawn = list(shapes(moving))
     fixed = [shape._replace(layer="FRAME") for shape in uncovered(standing, drawn)]
     return tuple(once([*drawn, *fixed]))

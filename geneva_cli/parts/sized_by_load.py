@@ -54,11 +54,7 @@ from geneva_cli.spec.defaults import eye_about, key, roller_material, wheel_mate
 
 
 class ShaftSize(NamedTuple):
-    """Diameter and overhang of a shaft, mm; NaN for none.
-
-    The bearing is in the middle of the frame, or of a bridge above the crank, and the overhang is
-    from there to the middle of the wheel's thickness, unless the spec has one.
-    """
+    """Diameter of a shaft, and overhang from its bearing to the wheel's mid-plane; or NaN."""
 
     diameter: float
     overhang: float
@@ -124,8 +120,7 @@ def stressed(assembly: Assembly, sizes: Sizes) -> Stressed:
 def shaft_of(spec: Spec, part: str, bore: float, to_frame: float, thick: float) -> ShaftSize:
     """Return a shaft of the spec's dimensions, or else as it is in its bearing; NaN for none.
 
-    It is as wide as its bore, and borne in the middle of a frame ``thick`` mm, whose upper face is
-    ``to_frame`` mm from the contact's middle.
+    That is a frame ``thick`` mm, whose upper face is ``to_frame`` mm from the contact's middle.
     """
     table = vars(spec.shaft)
     diameter, overhang = 2.0 * bore or math.nan, to_frame + 0.5 * thick
@@ -219,7 +214,6 @@ def _crank_bored(of: Unloaded, spec: Spec, loads: PartLoads, usual: Sizes, keyed
     """Return the sizes with the crank's bore, through the disc if a shaft that holds fits there.
 
     Otherwise the shaft ends in the arm, whose bore may be larger, unless links are in its way.
-    Unless ``keyed``, the bore is not sized by its key.
     """
     size, sizes = spec.size, usual
     if size.crank_bore_mm or not (size.arm_bore_mm is spec.shaft.crank_diameter_mm is None):
@@ -251,9 +245,7 @@ def pin_that_holds(
 ) -> float:
     """Return the radius of the first pin from the usual one on that holds, or the largest.
 
-    It holds the greatest force of the cycle, and the impact at a change of sides. The largest
-    leaves a wall of the roller, and fits an arm of the radius ``eye``. The wheel is ``wide`` mm
-    thick.
+    It holds the cycle and the impact at a change of sides, within roller and ``eye``.
     """
     spec, size = mechanism.spec, mechanism.spec.size
     on_pin = spec.load.friction and spec.load.friction_at == "pin"

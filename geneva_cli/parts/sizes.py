@@ -202,10 +202,7 @@ def pin_and_edge_faults(size: Size, pin: float, roller: float, thin: float) -> I
 
 
 def arm_bore(spec: Spec, disc: float, L: float, space: float) -> float:
-    """Return the radius of the arm's bore: of the spec, of the ``disc`` on it, or of the shaft.
-
-    By default it leaves most of the ``space`` up to the nearest pin's hole.
-    """
+    """Return the radius of the arm's bore: of the spec, the ``disc``, or within a ``space``."""
     diameter = spec.size.arm_bore_mm or 2.0 * disc or spec.shaft.crank_diameter_mm
     return half_or(diameter, bore_radius(min(L / 20.0, 0.35 * space)))
 
@@ -218,11 +215,7 @@ def within_hub(size: Size, part: str) -> float:
 
 
 def wheel_bore(spec: Spec, end: float, wall: float, L: float) -> float:
-    """Return the radius of the wheel's bore: of the spec, of its shaft, or the default.
-
-    Shaft and default leave a wall to the slots' ends, ``end`` from the axis, and the default one in
-    the hub.
-    """
+    """Return the radius of the wheel's bore, by default with a wall to the slots' ends."""
     size, shaft = spec.size, spec.shaft.wheel_diameter_mm
     if size.wheel_bore_mm is None and shaft is not None and 0.5 * shaft <= end - wall:
         return 0.5 * shaft
@@ -243,11 +236,7 @@ def hub_faults(part: str, hub: float, bored: float, bore: float) -> Iterator[Fau
 def reach_and_hub(
     size: Size, part: str, bore: float, wall: float, end: float = 0.0
 ) -> tuple[float, float]:
-    """Return how far a part's bore reaches with its shape, and the radius of its hub.
-
-    ``end`` is the distance of a wheel's slots' ends from the axis. By default the hub has the usual
-    radius, or a wall around the bore's keyway.
-    """
+    """Return how far a part's bore reaches with its shape, and the radius of its hub."""
     usual = min(HUB * bore, LARGEST_HUB * end) if part == "wheel" else 1.5 * bore
     reach, usual = reach_or_bore(size, part, bore), rounded_radius(usual)
     default = max(usual, reach + wall) if reach > bore else usual
@@ -255,10 +244,7 @@ def reach_and_hub(
 
 
 def lock_bolt_directions(sectors: Iterable[tuple[float, float]], count: int) -> list[list[float]]:
-    """Return the directions of the bolts that fix locking sectors to the arm.
-
-    Each sector is its start and width, radians; its ``count`` bolts are evenly spaced.
-    """
+    """Return the directions of the bolts of locking sectors, each its start and width, radians."""
     directions = list[list[float]]()
     for start, width in sectors if count else ():
         directions.append((start + width * (np.arange(count) + 0.5) / count).tolist())

@@ -16,10 +16,7 @@ from geneva_cli.spec.defaults import wheel_material
 
 @lru_cache(maxsize=16)
 def wheel_body(mechanism: Mechanism) -> MassProperties | None:
-    """Return mass and inertia of the wheel and its hub, if it has one; None without a thickness.
-
-    Curved walls are those of the full turn. None too where its sizes leave no parts.
-    """
+    """Return mass and inertia of wheel and hub; None without a thickness or parts."""
     spec = mechanism.spec
     if spec.size.wheel_thickness_mm is None and spec.size.face_width_mm is None:
         return None

@@ -79,12 +79,7 @@ def key(standard: str | None, radius: float, part: str = "crank") -> ParallelKey
 
 
 def wheel_material(spec: Spec) -> Stock:
-    """Return the material of the wheel, and of all other plates.
-
-    >>> from geneva_cli.motion.machine_spec import Spec
-    >>> wheel_material(Spec(External(6), size=Size(process="print"))).youngs_modulus_GPa
-    2.4
-    """
+    """Return the material of the wheel, and of all other plates."""
     return _material(spec.material_wheel, WORKSHOPS[spec.size.process].stock)
 
 
@@ -94,12 +89,7 @@ def roller_material(spec: Spec) -> Stock:
 
 
 def material_names(spec: Spec) -> tuple[str, str]:
-    """Names of the material of plates and of rods: the grade, or the density of an unusual one.
-
-    >>> from geneva_cli.motion.machine_spec import Spec
-    >>> material_names(Spec(External(6), size=Size(process="print")))
-    ('PLA', 'steel')
-    """
+    """Names of the material of plates and of rods: the grade, or the density of an unusual one."""
     return (
         _named(spec.material_wheel, wheel_material(spec), WORKSHOPS[spec.size.process].stock),
         _named(spec.material_roller, roller_material(spec), Stock()),

@@ -173,8 +173,7 @@ class SpecTable:
             out[field.key] = own[field.attribute]
         return out
 
-    @property
-    def own_keys(self) -> dict[str, Field]:
+    def _own_keys(self) -> dict[str, Field]:
         """Fields by their keys in the file."""
         return {field.key: field for field in fields(type(self))}
 
@@ -186,7 +185,7 @@ class SpecTable:
         >>> SideCrank(A=0.6).with_keys({"A": 0.5}).A
         0.5
         """
-        known, changes = self.own_keys, {}
+        known, changes = self._own_keys(), {}
         for key, value in values.items():
             if key not in known:
                 raise unknown(key, self.TABLE, tuple(known))
@@ -312,17 +311,11 @@ def checked(table: str, field: Field, value: Any) -> Any:
 
 def _word(place: tuple[str, ...], field: Field, value: str) -> str:
     """A text, one of a list of words, or a word that stands for a number."""
-    rule = field.rule
-    if rule is None:
+    if field.rule is None:
         return free_text(field.key, value, place)
-    if isinstance(rule, OneOf):
-        if value not in rule:
-            text = f"{field.key} = {shown(value)} must be {rule}{nearest(value, rule)}"
-            raise GenevaError(text, place)
-    elif value not in rule.words:
-        words = " or ".join(f'"{word}"' for word in rule.words)
-        text = f"{field.key} must be a number or {words}, not {shown(value)}"
-        raise GenevaError(text, place)
+    if value not in field.words:
+        fault = f"must be {field.rule}{nearest(value, field.words)}"
+        raise GenevaError(f"{field.key} = {shown(value)} {fault}", place)
     return value
 
 
@@ -338,22 +331,19 @@ def _points(place: tuple[str, ...], field: Field, value: Any) -> Points:
 
 
 def _number(place: tuple[str, ...], field: Field, value: float) -> float:
-    whole = int in field.types
+    whole, fault = int in field.types, f"must be {field.rule}"
     if whole and not isinstance(value, int):
-        fault = f"{value!r} must be a whole number"
+        fault = "must be a whole number"
         if abs(value) < 2.0**53:  # beyond it, a float may be rounded to a whole number
-            low, high = math.floor(value), math.ceil(value)
-            fault += f": write {low}" if low == high else f", {low} or {high}"
-    elif value not in field.rule:
-        # no reader of the rule would think of such numbers
-        least = f"; sizes below {TINY:g} are not computed" if 0.0 < abs(value) < TINY else ""
-        fault = f"{shown(value)} must be {field.rule}{least}"
-    else:
+            fault += f", as {math.floor(value)} or {math.ceil(value)}"
+    elif 0.0 < abs(value) < TINY:  # no reader of the rule would think of such numbers
+        fault += f"; sizes below {TINY:g} are not computed"
+    elif value in field.rule:
         try:
             return value if whole else float(value)
         except OverflowError:
-            fault = f"{shown(value)} is too large a number"
-    raise GenevaError(f"{field.key} = {fault} ({field.meaning})", place)
+            fault = "is too large a number"
+    raise GenevaError(f"{field.key} = {shown(value)} {fault} ({field.meaning})", place)
 
 
 def _numbers(place: tuple[str, ...], field: Field, values: Any) -> Any:
@@ -386,10 +376,8 @@ def free_text(key: str, text: str, place: tuple[str, ...]) -> str:
 def unknown(key: str, table: str, known: Sequence[str], hint: str = "") -> GenevaError:
     """Error for a key that a table does not have; without a hint it names the nearest key."""
     hint = hint or nearest(key, known)
-    return GenevaError(
-        f"unknown key {cut(key)} in [{table}]{hint}; known: {few(key, known)}",
-        (*table.split("."), key),
-    )
+    text = f"unknown key {cut(key)} in [{table}]{hint}; known: {few(key, known)}"
+    return GenevaError(text, (*table.split("."), key))
 
 
 def refuse_kind(value: object, name: str, kind: type, example: str) -> None:
@@ -402,10 +390,8 @@ def require(table: type[SpecTable], keys: Sequence[str], why: str = "") -> None:
     """Raise GenevaError if a key without a default is missing."""
     for field in fields(table):
         if field.default is REQUIRED and field.key not in keys:
-            raise GenevaError(
-                f"[{table.TABLE}] needs {field.key}{why}: {field.meaning}, {field.rule}",
-                tuple(table.TABLE.split(".")),
-            )
+            text = f"[{table.TABLE}] needs {field.key}{why}: {field.meaning}, {field.rule}"
+            raise GenevaError(text, tuple(table.TABLE.split(".")))
 
 
 def shown(value: Any) -> str:

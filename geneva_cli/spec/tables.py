@@ -128,31 +128,19 @@ class Size(SpecTable):
 
     @property
     def distance_mm(self) -> float:
-        """Centre distance L: its key, or derived from the crank radius, or the default.
-
-        >>> Size(center_distance_mm=160.0).distance_mm, Size().distance_mm
-        (160.0, 100.0)
-        """
+        """Centre distance L: its key, or derived from the crank radius, or the default."""
         if self.center_distance_mm is not None:
             return self.center_distance_mm
         return DISTANCE_MM if self.derived_distance_mm is None else self.derived_distance_mm
 
     @property
     def edge_mm(self) -> float:
-        """Height of a face that its chamfer or rounding takes at each edge; 0 for sharp edges.
-
-        >>> Size(edge_chamfer_mm=0.5).edge_mm
-        0.5
-        """
+        """Height of a face that its chamfer or rounding takes at each edge; 0 for sharp edges."""
         own = self.edge_fillet_mm if self.edge_chamfer_mm is None else self.edge_chamfer_mm
         return 0.0 if own is None else own
 
     def has_hub(self, part: str) -> bool:
-        """True if the spec has a size of a part's hub; otherwise only its space is kept free.
-
-        >>> Size(crank_hub_length_mm=20.0).has_hub("crank"), Size().has_hub("wheel")
-        (True, False)
-        """
+        """True if the spec has a size of a part's hub; otherwise only its space is kept free."""
         own = vars(self)
         return own[f"{part}_hub_mm"] is not None or own[f"{part}_hub_length_mm"] is not None
 
@@ -403,11 +391,7 @@ class Tolerance(SpecTable):
 
     @property
     def is_given(self) -> bool:
-        """True if a dimension deviates.
-
-        >>> Tolerance(slot_width_mm=0.02).is_given, Tolerance(distribution="normal").is_given
-        (True, False)
-        """
+        """True if a dimension deviates."""
         return self != Tolerance(distribution=self.distribution)
 
 
@@ -427,16 +411,15 @@ class Product(SpecTable):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if (self.sprocket_teeth is None) != (self.pitch_mm is None):
-            raise GenevaError("a sprocket needs sprocket_teeth and pitch_mm", (self.TABLE,))
-        if self.radius_mm is not None and self.pitch_mm is not None:
-            raise GenevaError(
-                "set either radius_mm, or sprocket_teeth and pitch_mm", (self.TABLE, "radius_mm")
-            )
-        if self.radius_mm is None and self.pitch_mm is None and self.friction is not None:
-            raise GenevaError(
-                "friction needs the product's place: set radius_mm", (self.TABLE, "friction")
-            )
+        fault, radius, pitch = "", self.radius_mm, self.pitch_mm
+        if (self.sprocket_teeth is None) != (pitch is None):
+            fault = "a sprocket needs sprocket_teeth and pitch_mm"
+        elif radius is not None and pitch is not None:
+            fault = "set either radius_mm, or sprocket_teeth and pitch_mm"
+        elif radius is None and pitch is None and self.friction is not None:
+            fault = "friction needs the product's place: set radius_mm"
+        if fault:
+            raise GenevaError(fault, (self.TABLE,))
 
     @property
     def lies(self) -> bool:
@@ -576,7 +559,6 @@ class Accept(SpecTable):
     wheel_left_out: Reason = None
     weight_to_one_side: Reason = None
     unbalanced: Reason = None
-    unlikely_material: Reason = None
     nothing_to_act_on: Reason = None
     driven_by_one_wall: Reason = None
     lags_behind: Reason = None
@@ -607,19 +589,11 @@ class Accept(SpecTable):
             if reason is not None:
                 reasons[name] = reason
             if reason is not None and not reason.strip():
-                raise GenevaError(
-                    f'{name} needs the reason for accepting it, as {name} = "agreed with the '
-                    'customer"',
-                    (self.TABLE, name),
-                )
+                text = f'{name} needs the reason for accepting it, as {name} = "agreed"'
+                raise GenevaError(text, (self.TABLE, name))
 
     def applied(self, notices: Iterable[Notice]) -> list[Notice]:
-        """The warnings, the accepted ones with their reason.
-
-        >>> accept = Accept(many_slots="a dial of 30 stations")
-        >>> accept.applied([Notice("many-slots", "z = 30")])
-        ['accepted (a dial of 30 stations): z = 30']
-        """
+        """The warnings, the accepted ones with their reason."""
         reasons, out = self.reasons, list(notices)
         for i, one in enumerate(out):
             if one.name in reasons:

@@ -44,11 +44,7 @@ class Unit(NamedTuple):
 
 
 def unit_key(key: str) -> str | None:
-    """The unit of a key whose values may have another one, None for other keys.
-
-    >>> unit_key("size.center_distance_mm"), unit_key("drive.n_rpm"), unit_key("drive.A")
-    ('mm', 'rpm', None)
-    """
+    """The unit of a key whose values may have another one, None for other keys."""
     unit = unit_of(key) or ""
     unit = SHORT_UNITS.get(unit, unit)
     return unit if unit and re.fullmatch(pattern(), f"1 {unit}") else None

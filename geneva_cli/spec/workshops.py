@@ -203,19 +203,12 @@ def loosest_mm(nominal_mm: float) -> float | None:
     """Return the greatest clearance of H11/c11, ISO 286's loosest preferred fit, mm of diameter.
 
     The hole is wider by IT11, the shaft narrower by c and IT11. None beyond 500 mm.
-
-    >>> loosest_mm(24.0)
-    0.37
     """
     row = _range_of(nominal_mm)
     return (2 * row[5] + row[6]) / 1000.0 if len(row) > 5 else None
 
 
 def closest_mm(nominal_mm: float) -> float | None:
-    """Return the mean clearance of H7/h6, mm of the diameter: half of both grades.
-
-    >>> closest_mm(24.0)
-    0.017
-    """
+    """Return the mean clearance of H7/h6, mm of the diameter: half of both grades."""
     row = _range_of(nominal_mm)
     return (row[0] + row[1]) / 2000.0 if row else None

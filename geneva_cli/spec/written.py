@@ -8,20 +8,12 @@ from geneva_cli.table import in_decimals
 
 
 def number(value: float, decimals: int = 3) -> str:
-    """Return a value as text, without trailing zeros.
-
-    >>> number(173.20508), number(20.0)
-    ('173.205', '20')
-    """
+    """Return a value as text, without trailing zeros."""
     return in_decimals(value, decimals)
 
 
 def degrees(angle: float, decimals: int = 3) -> str:
-    """Return an angle in radians as degrees.
-
-    >>> degrees(0.5)
-    '28.648°'
-    """
+    """Return an angle in radians as degrees."""
     return f"{number(math.degrees(angle), decimals)}°"
 
 

@@ -29,14 +29,13 @@ class Columns(NamedTuple):
         if short in self.names:
             return short
         matches = [name for name in self.names if name.endswith(f".{short}")]
-        if len(matches) > 1:
-            raise GenevaError(f"{option} {cut(short)}: ambiguous; use {' or '.join(matches)}")
-        if not matches:
-            raise GenevaError(
-                f"{option} {cut(short)}: no column of {cut(self.path, 300)}"
-                f"{nearest(short, self.names)}; it has {', '.join(self.names)}"
-            )
-        return matches[0]
+        if len(matches) == 1:
+            return matches[0]
+        fault = f"no column of {cut(self.path, 300)}{nearest(short, self.names)}"
+        if matches:
+            fault = "ambiguous"
+        use = " or ".join(matches or self.names)
+        raise GenevaError(f"{option} {cut(short)}: {fault}; use {use}")
 
     def texts(self, name: str) -> list[str]:
         """Texts of a column."""
@@ -49,14 +48,12 @@ class Columns(NamedTuple):
         Raises GenevaError if the column has no number at all.
         """
         texts = self.texts(name)
-        numbers = [_number(text) for text in texts]
-        if not any(value is not None for value in numbers):
-            first = next((f'as "{cut(text)}"' for text in texts if text), "it is empty")
-            shown = cut(self.path, 300)
-            raise GenevaError(
-                f"{option} {cut(name)}: no numbers in this column of {shown} ({first})"
-            )
-        return numbers
+        numbers = list(map(_number, texts))
+        if any(value is not None for value in numbers):
+            return numbers
+        first = next((f'as "{cut(text)}"' for text in texts if text), "it is empty")
+        fault = f"no numbers in this column of {cut(self.path, 300)} ({first})"
+        raise GenevaError(f"{option} {cut(name)}: {fault}")
 
 
 def _number(text: str) -> float | None:
@@ -78,14 +75,10 @@ def read_columns(path: str) -> Columns:
     lines = csv.reader(text.splitlines())
     names = tuple(name.strip() for name in next(lines, []))
     rows = []
-    for row in lines:
-        if not row:
-            continue
+    for row in filter(None, lines):
         if len(row) != len(names):
-            raise GenevaError(
-                f"{shown}:{lines.line_num}: {len(row)} fields, but the first line names "
-                f"{len(names)} columns"
-            )
+            fault = f"{len(row)} fields, but the first line names {len(names)} columns"
+            raise GenevaError(f"{shown}:{lines.line_num}: {fault}")
         rows.append(row)
     if not rows:
         raise GenevaError(f"{shown}: no rows: the file needs a line of names and lines of values")

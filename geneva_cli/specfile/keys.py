@@ -66,9 +66,6 @@ def about(word: str) -> list[Key]:
     """Keys of a table (``drive``), or with a name (``drive.A``, ``A``); all for an empty word.
 
     Raises GenevaError, with the nearest name, for an unknown word.
-
-    >>> [(k.table, k.key, k.range) for k in about("drive.A")]
-    [('drive', 'A', 'above -1, below 1'), ('drive', 'A', 'above -1, below 1')]
     """
     keys = all_keys()
     if not word:
@@ -77,10 +74,8 @@ def about(word: str) -> list[Key]:
     some = some or [k for k in keys if word in (k.key, k.name)]
     if not some:
         known = sorted({text for k in keys for text in (k.whole_table, k.key, k.name)})
-        raise GenevaError(
-            f'"{cut(word)}" is not a table or key of a spec{nearest(word, known)}; '
-            "`geneva keys` lists all"
-        )
+        fault = f"is no table or key of a spec{nearest(word, known)}; `geneva keys` lists all"
+        raise GenevaError(f'"{cut(word)}" {fault}')
     return some
 
 
@@ -90,20 +85,12 @@ def full_names() -> dict[str, str]:
 
 
 def tables_with(key: str) -> dict[str, str]:
-    """The tables that have a key, each with the key's meaning in it.
-
-    >>> list(tables_with("friction"))
-    ['load', 'support', 'product']
-    """
+    """The tables that have a key, each with the key's meaning in it."""
     return {k.whole_table: k.meaning for k in all_keys() if k.key == key and k.table}
 
 
 def is_whole(name: str) -> bool:
-    """Return True if a key, as ``table.key``, takes only whole numbers.
-
-    >>> is_whole("wheel.z"), is_whole("drive.A")
-    (True, False)
-    """
+    """Return True if a key, as ``table.key``, takes only whole numbers."""
     types = {k.type for k in all_keys() if k.name == name}
     return types == {TYPES[int]}
 
@@ -130,12 +117,7 @@ TEXT: Schema = {"type": "string", "maxLength": TEXT_MAX}
 
 
 def schema() -> Schema:
-    """JSON Schema, draft 7, of a spec.
-
-    >>> from geneva_cli.specfile.json_schema import schema
-    >>> schema()["properties"]["load"]["properties"]["efficiency"]["maximum"]
-    1.0
-    """
+    """JSON Schema, draft 7, of a spec."""
     properties: Schema = {"title": {**TEXT, "description": "free text"}}
     for kinds in kind_tables():
         whole, _, part = kinds.table.partition(".")

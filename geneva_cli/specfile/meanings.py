@@ -78,9 +78,6 @@ def related(word: str) -> list[tuple[str, str, str]]:
     """Group, name and a sentence of everything that a word is part of, as ``listed`` has them.
 
     The word may be a group, such as ``checks``. Names and headings come before texts.
-
-    >>> len(related("laws")), related("loads")[0][:2]
-    (11, ('quantity', 'loads.omega_rad_s'))
     """
     plain = word.casefold()
     everything = [*listed(), *(("key", key.name, key.meaning) for key in _keys())]
@@ -100,10 +97,8 @@ def unknown(word: str) -> GenevaError:
     known = names()
     known += [CHECKS + n for e in entries() if e.group == "check" for n in e.names]
     among = dict.fromkeys([*known, *(name.rpartition(".")[2] for name in known)])
-    return GenevaError(
-        f'"{cut(word)}" is not a check, quantity, kind, law, warning, part, choice or '
-        f"key{nearest(word, among)}; `geneva explain` lists them"
-    )
+    advice = "`geneva explain` lists what is explained"
+    return GenevaError(f'"{cut(word)}" is not explained{nearest(word, among)}; {advice}')
 
 
 def groups() -> list[tuple[str, int, str, str]]:

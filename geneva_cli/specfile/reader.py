@@ -53,11 +53,7 @@ class Setting(NamedTuple):
 
 
 def setting(text: str, option: str = "--set") -> Setting:
-    """One ``table.key=value`` setting; a word's quotation marks are optional.
-
-    >>> setting("drive.A=0.6")
-    Setting(option='--set drive.A=0.6', path=('drive', 'A'), value=0.6)
-    """
+    """One ``table.key=value`` setting; a word's quotation marks are optional."""
     key, sign, value = text.partition("=")
     typed = f"{option} {cut(text.strip())}"
     if not sign or not value.strip() or not all(key.strip().split(".")):
@@ -71,9 +67,6 @@ def whole_key(key: str, typed: str) -> str:
     """Return a key with its table; without one if it is the only table that has the key.
 
     Raises GenevaError, which begins with ``typed``, for a key that no table or several tables have.
-
-    >>> whole_key("n_rpm", "--set n_rpm=90"), whole_key("drive.A", "--set drive.A=0.6")
-    ('drive.n_rpm', 'drive.A')
     """
     if key == "title" or "." in key:
         return key
@@ -167,9 +160,8 @@ def _with(node: Any, path: tuple[str | int, ...], one: Setting) -> Any:
         several = list(node) if isinstance(node, list) else []
         if not head < len(several):
             name = ".".join(map(str, one.path[: one.path.index(head)]))
-            raise GenevaError(
-                f"{one.option}: the spec has {len(several)} [[{name}]], counted from 0"
-            )
+            count = f"the spec has {len(several)} [[{name}]], counted from 0"
+            raise GenevaError(f"{one.option}: {count}")
         several[head] = _with(several[head], tuple(rest), one)
         return several
     table = dict(node) if isinstance(node, dict) else {}
@@ -216,8 +208,6 @@ def read(path: str, set_keys: Iterable[str] = ()) -> Text:
     except UnicodeDecodeError as error:
         line = data[: error.start].count(b"\n") + 1
         # as PowerShell 5 writes UTF-16 for >
-        raise GenevaError(
-            f"{name}:{line}: not UTF-8 text; save the file as UTF-8, or write it with -o FILE in "
-            "place of > FILE"
-        ) from None
+        advice = "save the file as UTF-8, or write it with -o FILE in place of > FILE"
+        raise GenevaError(f"{name}:{line}: not UTF-8 text; {advice}") from None
     return Text(name, text, tuple(map(setting, set_keys)))

@@ -64,13 +64,10 @@ def template(kind: str, schema: bool = True, whole: bool = True) -> str:
     """
     if kind not in KINDS:
         if kind in titles():
-            raise GenevaError(
-                f'"{kind}" is a design, not a KIND; use `geneva new --from-design {kind}`'
-            )
-        raise GenevaError(
-            f'unknown KIND "{cut(kind)}"{nearest(kind, KINDS)}; it must be one of '
-            f"{few(kind, KINDS)}; `geneva new --list` has all"
-        )
+            use = f"use `geneva new --from-design {kind}`"
+            raise GenevaError(f'"{kind}" is a design, not a KIND; {use}')
+        known = f"{few(kind, KINDS)}; `geneva new --list` has all"
+        raise GenevaError(f'unknown KIND "{cut(kind)}"{nearest(kind, KINDS)}; it is one of {known}')
     about, own = example(kind)
     drive = registry.drive(str(own.get("drive", {}).get("kind", Crank.NAME)))
     behind = "have the default shown, or none" if whole else "show usual values"
@@ -118,11 +115,7 @@ def _usual(
 
 
 def _note(meaning: str, gearing: str) -> str:
-    """The part of a meaning that is about a gearing, such as "linear: crank radius", or the first.
-
-    >>> _note("centre distance L; linear: crank radius", "linear")
-    'crank radius'
-    """
+    """The part of a meaning about a gearing, such as "linear: crank radius", or the first."""
     parts, named = meaning.split("; "), f"{gearing}: "
     own = next((part for part in parts if part.startswith(named)), parts[0])
     return own.removeprefix(named)
@@ -153,12 +146,7 @@ def _line(field: Field, values: dict[str, Any]) -> str:
 
 
 def titles() -> dict[str, str]:
-    """Names of the designs, with their titles.
-
-    >>> from geneva_cli.specfile.template import titles
-    >>> titles()["side-crank-z6"]
-    'Side-crank, six slots, A = 0.6'
-    """
+    """Names of the designs, with their titles."""
     files = [file for file in sorted(os.listdir(_folder())) if file.endswith(".toml")]
     return {file.removesuffix(".toml"): str(tomli.loads(_text(file))["title"]) for file in files}
 
@@ -170,10 +158,8 @@ def design(name: str) -> tuple[str, dict[str, str]]:
     """
     known = titles()
     if name not in known:
-        raise GenevaError(
-            f"--from-design {cut(name)}: no such design{nearest(name, known)}; "
-            "`geneva new --list` lists them"
-        )
+        fault = f"no such design{nearest(name, known)}; `geneva new --list` lists them"
+        raise GenevaError(f"--from-design {cut(name)}: {fault}")
     text = _text(f"{name}.toml")
     points = [file for file in os.listdir(_folder()) if file.endswith(".csv")]
     return text, {file: _text(file) for file in points if f'"{file}"' in text}

@@ -58,9 +58,7 @@ def spec_of(tree: dict[str, Any], name: str) -> Spec:
         if table not in LISTS and not isinstance(value, dict):
             raise _not_a_table(table)
     if "wheel" not in tree:
-        raise GenevaError(
-            f"{name}: no [wheel] table; the shortest spec is [wheel] and, on the next line, z = 6"
-        )
+        raise GenevaError(f"{name}: no [wheel]; write it, and z = 6 on the next line")
     files, plain = [name], dict[str, Any]()  # the tables that every kind of machine has
     for key, cls in PLAIN.items():
         table, _, part = key.partition(".")

@@ -65,11 +65,7 @@ def spec_lines(spec: Spec, notes: Mapping[str, str] = MappingProxyType({})) -> l
 
 
 def noted(block: Sequence[tuple[str, str]]) -> list[str]:
-    """Lines of settings, each with its note as a comment, if any; they begin in one column.
-
-    >>> noted([("z = 6", "slots"), ("gearing = 2", "type")])
-    ['z = 6        # slots', 'gearing = 2  # type']
-    """
+    """Lines of settings, each with its note as a comment, if any; they begin in one column."""
     width = max((len(setting) for setting, note in block if note), default=0)
     return [f"{setting.ljust(width)}  # {note}" if note else setting for setting, note in block]
 
@@ -92,11 +88,7 @@ def values_of(spec: Spec, table: str) -> list[dict[str, Any]]:
 
 
 def quoted(value: Any) -> str:
-    """A value in TOML; letters that a terminal does not show stand as their codes.
-
-    >>> print(quoted("two" + chr(10) + "lines"))
-    "two\\u000Alines"
-    """
+    """A value in TOML; letters that a terminal does not show stand as their codes."""
     if isinstance(value, (list, tuple)):
         return f"[{', '.join(quoted(v) for v in value)}]"
     if isinstance(value, bool):

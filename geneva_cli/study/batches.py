@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -13,9 +13,9 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import BEFORE, Spec
 from geneva_cli.motion.many import many, may_vary
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.arrays import Array, Number, Whole
+from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.spec.schema import fields
-from geneva_cli.study.rows import Cell, Rows, cells_of
+from geneva_cli.study.fields import Cell, Rows, cells_of
 from geneva_cli.verdict.quantities.batch_designs import Designs
 from geneva_cli.verdict.quantities.quantity_names import group_of, in_batch
 
@@ -39,9 +39,7 @@ def batch_machines(specs: Sequence[Spec]) -> Iterator[Batch]:
 
     A spec that cannot be built is in none of them.
     """
-    keys: dict[Any, list[BatchKey]] = {}
-    each = [split(spec, keys) for spec in specs]
-    shapes: dict[object, list[int]] = {}
+    each, shapes = split(specs), dict[object, list[int]]()
     for i, (shape, _) in enumerate(each):
         shapes.setdefault(shape, []).append(i)
     for members in shapes.values():
@@ -113,15 +111,6 @@ def _machine(spec: Spec, varied: Mapping[str, object], members: Whole) -> Iterat
         yield members[batch.which], batch.machine
 
 
-class BatchKey(NamedTuple):
-    """A key of a kind of machine: its place, and whether it may be an array."""
-
-    table: str
-    attribute: str
-    name: str
-    varies: bool
-
-
 # Loads, sizes and all the rest: equal in a batch, as their keys do not vary in it.
 _SHARED = [
     field.name
@@ -130,30 +119,30 @@ _SHARED = [
 ]
 
 
-def split(spec: Spec, keys: dict[Any, list[BatchKey]]) -> tuple[Any, dict[str, float]]:
-    """The values that specs of one batch must share, and the spec's own numbers.
-
-    ``keys`` caches the keys of each kind.
-    """
-    before = type(spec.drive_before)
-    kinds = (type(spec.wheel), type(spec.drive), before, spec.motion and spec.motion.law)
-    if kinds not in keys:
-        keys[kinds] = []
-        for table in ("wheel", "drive", BEFORE, "motion"):  # where machines of a requirement differ
-            part = spec.part(table)
-            for field in fields(type(part)) if part else ():
-                name = f"{table}.{field.key}"
-                key = BatchKey(table, field.attribute, name, may_vary(spec, name))
-                keys[kinds].append(key)
-    own, tables = {}, vars(spec)
-    shape: list[Any] = [kinds, *(tables[name] for name in _SHARED)]
-    for table, attribute, name, varies in keys[kinds]:
-        value = vars(tables[table.replace(".", "_")])[attribute]
-        if varies and isinstance(value, (int, float)) and not isinstance(value, bool):
-            own[name] = value
-        else:
-            shape.append((name, value))
-    return tuple(shape), own
+def split(specs: Sequence[Spec]) -> list[tuple[Any, dict[str, float]]]:
+    """Of each spec the values that specs of one batch must share, and its own numbers."""
+    # of each kind of machine the keys, their tables and attributes, and whether they may be arrays
+    keys: dict[Any, list[tuple[str, str, str, bool]]] = {}
+    each = []
+    for spec in specs:
+        before, tables = type(spec.drive_before), vars(spec)
+        kinds = (type(spec.wheel), type(spec.drive), before, spec.motion and spec.motion.law)
+        if kinds not in keys:
+            keys[kinds] = []
+            for table in ("wheel", "drive", BEFORE, "motion"):  # where machines of a target differ
+                place, part = table.replace(".", "_"), spec.part(table)
+                for field in fields(type(part)) if part else ():
+                    name = f"{table}.{field.key}"
+                    keys[kinds].append((name, place, field.attribute, may_vary(spec, name)))
+        own, shape = {}, [kinds, *(tables[name] for name in _SHARED)]
+        for name, place, attribute, varies in keys[kinds]:
+            value = vars(tables[place])[attribute]
+            if varies and isinstance(value, (int, float)) and not isinstance(value, bool):
+                own[name] = value
+            else:
+                shape.append((name, value))
+        each.append((tuple(shape), own))
+    return each
 
 
 def columns(machine: Mechanism, names: Sequence[str], count: int) -> list[Array] | None:
@@ -162,19 +151,13 @@ def columns(machine: Mechanism, names: Sequence[str], count: int) -> list[Array]
     A value is infinite where it is undefined, and NaN where the design must be computed alone.
     Returns None if one of the quantities cannot be computed for a batch.
     """
-    values = known_columns(machine, names)
-    if not values.keys() >= set(names):
-        return None
-    return [np.broadcast_to(np.reshape(values[name], -1), (count,)) for name in names]
-
-
-def known_columns(machine: Mechanism, names: Sequence[str]) -> dict[str, Number]:
-    """The quantities among ``names`` that a batch computes: (m,), or one number."""
-    designs, out = Designs(machine, names), {}
-    for name in (name for name in names if in_batch([name])):
+    designs, out = Designs(machine, names), list[Array]()
+    for name in names:
         group = group_of()[name]
-        own_columns, own = group.columns(designs), name.removeprefix(f"{group.table}.")
-        if own in own_columns:
-            value = own_columns[own]
-            out[name] = np.inf if value is None else value
+        own = group.columns(designs) if in_batch([name]) else {}
+        short = name.removeprefix(f"{group.table}.")
+        if short not in own:
+            return None
+        value = own[short]
+        out.append(np.broadcast_to(np.reshape(np.inf if value is None else value, -1), (count,)))
     return out

@@ -1,20 +1,27 @@
-"""Designs side by side: several files, or one spec with keys varied; a row for each quantity."""
+"""Designs side by side, as a table or a figure; and a figure of the columns of a CSV file.
+
+The designs are several files, or one spec with keys varied.
+"""
 
 from __future__ import annotations
 
 import itertools
+import math
 import os
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterable, Sequence
+from itertools import pairwise
 
 from geneva_cli.design import Design
-from geneva_cli.errors import GenevaError, cut
+from geneva_cli.errors import GenevaError, cut, few
+from geneva_cli.figure import JOINED, LINE, POINTS, Axis, Curve, Figure, Panel
+from geneva_cli.loads.cycle_figures import AXIS_BY_NAME, LeftOut, figure
 from geneva_cli.numerics.tolerances import same
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.spec.tables import PLAIN
+from geneva_cli.specfile.columns import read_columns
 from geneva_cli.specfile.reader import Text, read, setting
 from geneva_cli.specfile.writer import keys_in, values_of
-from geneva_cli.study.fields import pick, values
-from geneva_cli.study.rows import Cell
+from geneva_cli.study.fields import Cell, pick, values
 from geneva_cli.study.sweep.constraints import is_number
 from geneva_cli.study.sweep.values import axis, refuse_twice
 from geneva_cli.table import Reading, Table, rows_table
@@ -106,26 +113,26 @@ def designs_of(
     texts: dict[str, Text] = {}
     if vary and len(paths) > 1:
         raise GenevaError("--vary is for one SPEC; leave it out to compare several")
+    axes = [axis(v) for v in vary]
+    count = math.prod(len(a.values) for a in axes) if vary else len(paths)
+    if count > DESIGNS_MAX:
+        raise GenevaError(
+            f"{count:,} designs; at most {DESIGNS_MAX} can be compared: `geneva sweep` has a row "
+            "for each"
+        )
     if vary:
-        text, axes = read(paths[0], settings), [axis(v) for v in vary]
+        text = read(paths[0], settings)
         refuse_twice(axes, text.set_keys)
         for one in itertools.product(*[a.values for a in axes]):
             words = [f"{a.key}={v}" for a, v in zip(axes, one, strict=True)]
             changes = tuple(setting(s, "--vary") for s in words)
             texts[" ".join(words)] = text._replace(set_keys=(*text.set_keys, *changes))
-            if len(texts) > DESIGNS_MAX:
-                raise GenevaError(
-                    f"--vary makes more than {DESIGNS_MAX} designs: `geneva sweep` has a row for "
-                    "each"
-                )
     else:
         paths = list(paths)
         twice = next((p for p in paths if paths.count(p) > 1), None)
         if twice:
             advice = "use --vary to compare changes of one spec"
             raise GenevaError(f"{'<stdin>' if twice == '-' else cut(twice)}: given twice; {advice}")
-        if len(paths) > DESIGNS_MAX:
-            raise GenevaError(f"{len(paths)} designs; at most {DESIGNS_MAX} can be compared")
         # a file's name without folder and ending, if no other file shares it
         stems = [os.path.splitext(os.path.basename(path))[0] for path in paths]
         for stem, path in zip(stems, paths, strict=True):
@@ -137,3 +144,64 @@ def designs_of(
         if reverse:
             designs[f"{name} backwards"] = designs[name].backwards
     return designs
+
+
+POINTS_MARKED = 40  # marks of more points of a curve would touch
+
+
+def of_specs(
+    paths: Sequence[str],
+    settings: Iterable[str] = (),
+    pick: Sequence[str] = (),
+    vary: Sequence[str] = (),
+    reverse: bool = False,
+) -> tuple[Figure, list[Design], list[LeftOut]]:
+    """The cycles of some specs in one figure, the designs, and the quantities that it lacks.
+
+    With ``vary``, texts ``KEY=VALUES``, there is one spec, drawn for each combination of values.
+    With ``reverse`` each design also turns the other way.
+    """
+    designs = designs_of(paths, tuple(settings), vary, reverse)
+    # acceleration.max is a value of the curve of acceleration
+    names = [next((x for x in name.split(".") if x in AXIS_BY_NAME), name) for name in pick]
+    curves, left_out = figure({name: design.cycle for name, design in designs.items()}, names)
+    lacks = [(designs[name].spec.path, text) for name, text in left_out]
+    return curves, list(designs.values()), lacks
+
+
+def of_table(path: str, x: str, ys: Sequence[str]) -> Figure:
+    """Columns of a CSV file over another column, one panel for each.
+
+    Numbers that ascend make a curve, divided where a row has none; others are points.
+    """
+    table = read_columns(path)
+    if not x or not ys:
+        raise GenevaError(
+            f"{cut(path, 300)}: --x COLUMN and --y COLUMN,... say what to plot; it has "
+            f"{few('', table.names)}"
+        )
+    x, ys = table.named(x, "--x"), [table.named(y, "--y") for y in dict.fromkeys(ys)]
+    at = table.numbers(x, "--x")
+    places = [place for place in at if place is not None]
+    ascends = all(a < b for a, b in pairwise(places))
+    style = POINTS
+    if ascends:
+        style = LINE if len(places) > POINTS_MARKED else JOINED
+    panels = []
+    for y in ys:
+        pieces: list[tuple[list[float], list[float]]] = [([], [])]
+        for place, value in zip(at, table.numbers(y, "--y"), strict=True):
+            if place is not None and value is not None:
+                pieces[-1][0].append(place)
+                pieces[-1][1].append(value)
+            elif ascends:
+                pieces.append(([], []))
+        curve = Curve(0, "", tuple(piece for piece in pieces if piece[0]), style=style)
+        if not curve.pieces:
+            raise GenevaError(f"--y {cut(y)}: no row of {cut(path, 300)} has both it and {x}")
+        panels.append(Panel(Axis(y, y), (curve,), None, from_zero=False))
+    low, high = min(places), max(places)
+    # points keep off the ends of the x axis
+    margin = 0.0 if style == LINE else 0.02 * (high - low) or 0.5 * abs(low) or 0.5
+    span = (low - margin, high + margin)
+    return Figure(f"{', '.join(ys)} by {x}", Axis(x, x), tuple(panels), span)

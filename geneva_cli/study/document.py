@@ -41,6 +41,7 @@ from geneva_cli.study.summary.report_summary import (
 )
 from geneva_cli.study.verdicts import headline
 from geneva_cli.table import Table, in_digits
+from geneva_cli.verdict.failures import below_summary
 from geneva_cli.verdict.strength import OF_LIFE
 
 SOURCES = (
@@ -63,7 +64,6 @@ SECTIONS = {
     "Sizes": ("sizes", "parts", "slot"),
     "Life and strength": ("strength", "life"),
 }
-SHAFTS = ("wheel_shaft", "wheel_key", "crank_shaft", "crank_key")
 
 
 def short_document(design: Design) -> Document:
@@ -90,23 +90,19 @@ def short_document(design: Design) -> Document:
 
 def document(design: Design) -> Document:
     """The whole document of a design."""
-    table = design.report.table
     # the title, the verdict, the key figures and the spec show these
-    shown = {"spec", "title", "passes", "chosen", "warnings", "checks_failed", "not_proved"}
+    shown = ("spec", "title", "passes", "chosen", "checks_failed", "not_proved")
+    table = below_summary(design.report.table, without=shown)
     left = {
         name: value
         for name, value in zip(table.names, next(table.rows()), strict=True)
-        if name not in shown and not name.startswith("inputs.")
+        if not name.startswith("inputs.") and name != "not_known"
     }
     needs = left.pop("strength.needs")
     parts = {name: left.pop(name) for name in [*left] if name.startswith("parts_list.")}
     for name in [name for name in left if name.startswith(("loads.", "cycle."))]:
-        if name not in ("loads.kinetic_power_W", "cycle.reversals_deg"):
+        if name not in ("loads.kinetic_power_W", "loads.reversals_deg"):
             del left[name]  # in the table of loads
-    for part in ("pin", "horn", "lock", "arm", *SHAFTS):
-        if left.get(f"strength.{part}.margin") is None:
-            # an allowed stress says nothing without a stress
-            left.pop(f"strength.{part}.allowed_MPa", None)
     keys = [*_keys(design.spec)]
     rows = [
         (name, in_digits(value, 10) if isinstance(value, float) else value, unit, meaning)
@@ -186,16 +182,15 @@ def _loads(design: Design) -> Iterator[Block]:
 
 
 def _checks(design: Design) -> Iterator[Block]:
-    """Every check; without the column of remarks if there are none."""
+    """Every check."""
     words = {True: "passes", False: BAD, None: "not proved"}
     heads = ("Check", "Value", "At input angle, °", "Must be", "Limit", "Verdict", "Remark")
     checks = [
         (c.name, c.value, c.at_deg, c.must_be, c.limit, words[c.passes], c.nearest or c.why)
         for c in design.checks
     ]
-    many = len(heads) - (not any(row[-1] for row in checks))
     yield Heading("Checks")
-    yield Grid("Every check with its verdict", heads[:many], tuple(row[:many] for row in checks))
+    yield Grid("Every check with its verdict", heads, tuple(checks))
 
 
 def _parts_list(tables: Mapping[str, Table | None]) -> Iterator[Block]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 from collections import Counter
 from collections.abc import Callable, Iterator
@@ -12,10 +11,9 @@ from typing import NamedTuple, TypeVar
 
 from geneva_cli.design import CURVES, Design
 from geneva_cli.drawings.catalogue import without_sheet
-from geneva_cli.drawings.single_parts import single_parts
+from geneva_cli.drawings.parts_list import single_parts
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.output import animate, draw, draw_sheet, show, show_document, show_text, usual
-from geneva_cli.output.folder import LIST
 from geneva_cli.parts.projection import Missing
 from geneva_cli.spec.schema import Points, SpecTable, fields
 from geneva_cli.study.chosen_sizes import written
@@ -97,7 +95,7 @@ def export_files(design: Design, trade: Trade) -> tuple[list[ExportFile], list[M
     files += [ExportFile(name, CONTENTS[name], partial(_write, design, name)) for name in names]
     parts_list = partial(show, design.part_table("parts"))
     files.append(ExportFile("parts.csv", "list of parts", parts_list))
-    return [*files, *_spec_files(design, {file.name for file in files})], missing
+    return [*files, *_spec_files(design)], missing
 
 
 def shop_warnings(design: Design) -> list[str]:
@@ -124,34 +122,27 @@ def _write(design: Design, name: str, path: str) -> None:
         draw(design.drawing(stem, fine, curves), path)
 
 
-def _spec_files(design: Design, taken: set[str]) -> Iterator[ExportFile]:
+def _spec_files(design: Design) -> Iterator[ExportFile]:
     """Yield the spec with all settings and sizes, and the points that it names, in one folder."""
-    spec, taken = design.sized.spec, {*taken, "spec.toml", LIST}
-    points: dict[str, Points] = {}
-    spec = spec.replace(drive=_named_here(spec.drive, points, taken))
+    spec, points = design.sized.spec, list[Points]()
+    spec = spec.replace(drive=_named_here(spec.drive, points))
     if spec.drive_before:
-        spec = spec.replace(drive_before=_named_here(spec.drive_before, points, taken))
+        spec = spec.replace(drive_before=_named_here(spec.drive_before, points))
     if spec.motion:
-        law = _named_here(spec.motion.law, points, taken)
+        law = _named_here(spec.motion.law, points)
         spec = spec.replace(motion=spec.motion.replace(law=law))
-    for name, own in points.items():
+    for own in points:
         text = "".join(f"{x!r},{y!r}\n" for x, y in own.pairs)
-        yield ExportFile(name, "points that the spec names", partial(show_text, text))
+        yield ExportFile(own.file, "points that the spec names", partial(show_text, text))
     text = "the design, with all its settings and sizes"
     yield ExportFile("spec.toml", text, partial(show_text, written(spec, design.chosen)))
 
 
-def _named_here(table: T, points: dict[str, Points], taken: set[str]) -> T:
+def _named_here(table: T, points: list[Points]) -> T:
     """A table whose points have names in the folder, with which they are added to ``points``."""
     for field in fields(type(table)):
         value = vars(table)[field.attribute]
-        if not isinstance(value, Points):
-            continue
-        name = os.path.basename(value.file) or "points.csv"
-        # Windows and macOS take A.csv and a.csv for one file.
-        others = {other.lower() for other in (*taken, *points)}
-        while name.lower() in others:
-            name = f"points-{name}"
-        points[name] = Points(value.pairs, name)
-        table = table.replace(**{field.attribute: points[name]})
+        if isinstance(value, Points):
+            points.append(Points(value.pairs, f"points-{len(points) + 1}.csv"))
+            table = table.replace(**{field.attribute: points[-1]})
     return table

@@ -38,7 +38,8 @@ def mapped(
     # A fork does not start the program again; systems without it do.
     methods = multiprocessing.get_all_start_methods()
     context = multiprocessing.get_context("fork" if "fork" in methods else None)
-    with ProcessPoolExecutor(possible(workers), context, _attend) as pool:
+    most = 61 if sys.platform == "win32" else workers  # it waits for 61 at most
+    with ProcessPoolExecutor(min(workers, most), context, _attend) as pool:
         waiting: deque[Future[R]] = deque()
         try:
             for item in items:
@@ -52,11 +53,6 @@ def mapped(
                 f"a process that computed some of the {what} was stopped from outside, or ran out "
                 f"of memory; try fewer {what} at a time"
             ) from None
-
-
-def possible(workers: int, platform: str = sys.platform) -> int:
-    """The number of processes that a pool can have: on Windows it waits for 61 at most."""
-    return min(workers, 61) if platform == "win32" else workers
 
 
 def cores() -> int:

@@ -67,31 +67,33 @@ def survey(z: str, gearing: str, n_rpm: float, rollers: int, A: float) -> Table:
     return rows_table(NAMES, rows).replaced(reading=reading)
 
 
+def _row(
+    z: int,
+    gearing: str,
+    rollers: int,
+    times: Timing,
+    index: float,
+    peaks: tuple[float, float, float, float, float, float],
+    rollers_max: int,
+) -> tuple[object, ...]:
+    """A row from the timing, the index, and the peaks of velocity to jerk and of power."""
+    *own, power = peaks
+    factors = cam_factors(own[0], own[1], power, times.motion_deg, index)
+    return (z, gearing, rollers, *times[:-1], *own, rollers_max, *factors)
+
+
 def _classic(z: int, gearing: str, sign: float, n_rpm: float, rollers: int) -> tuple[object, ...]:
     """A row from closed forms, without building a machine."""
-    motion = 2.0 * classic.half_motion_deg(sign, 1, z)
+    motion, index = 2.0 * classic.half_motion_deg(sign, 1, z), 360.0 / z
     classic.refuse_jam(rollers, motion, sign < 0.0)
     l, cos_b = sin_cos_pi(1, z)
     gap = classic.gap(sign, 1, z)
     entry = l / cos_b  # the jump at entry is tan b, the jerk after it 3 tan² b
-    acceleration, at_deg = (
-        (entry, 0.5 * motion) if sign < 0.0 else classic.acceleration_peak(l, gap)
-    )
-    velocity, index = l / gap, 360.0 / z
-    power = classic.power_peak(l, gap)[0]
-    return (
-        z,
-        gearing,
-        rollers,
-        *timing(motion, 360.0 / rollers - motion, index, n_rpm)[:-1],
-        velocity,
-        acceleration,
-        -at_deg,  # the earlier of the two
-        entry,
-        3.0 * entry * entry,
-        classic.rollers_max(motion),
-        *cam_factors(velocity, acceleration, power, motion, index),
-    )
+    most, at_deg = (entry, 0.5 * motion) if sign < 0.0 else classic.acceleration_peak(l, gap)
+    # of two equal places the earlier one
+    peaks = l / gap, most, -at_deg, entry, 3.0 * entry * entry, classic.power_peak(l, gap)[0]
+    times = timing(motion, 360.0 / rollers - motion, index, n_rpm)
+    return _row(z, gearing, rollers, times, index, peaks, classic.rollers_max(motion))
 
 
 def _general(z: int, gearing: str, n_rpm: float, rollers: int, A: float) -> tuple[object, ...]:
@@ -106,22 +108,10 @@ def _general(z: int, gearing: str, n_rpm: float, rollers: int, A: float) -> tupl
 
     drive = SideCrank(A=A, n_rpm=n_rpm) if A else Crank(n_rpm=n_rpm, rollers=rollers)
     mechanism = build(Spec(registry.gearing(gearing)(z), drive))
-    engagement = mechanism.engagements[0]
-    velocity, acceleration, _, power, jumps = peaks(engagement)
+    velocity, most, _, power, ends = peaks(mechanism.engagements[0])
+    own = velocity.max, most.max, most.at_deg, ends.acceleration_entry, ends.jerk_entry, power.max
     times, index = timings(mechanism)[0], mechanism.index_deg(0)
-    return (
-        z,
-        gearing,
-        rollers,
-        *times[:-1],
-        velocity.max,
-        acceleration.max,
-        acceleration.at_deg,
-        jumps.acceleration_entry,
-        jumps.jerk_entry,
-        mechanism.rollers_max,
-        *cam_factors(velocity.max, acceleration.max, power.max, times.motion_deg, index),
-    )
+    return _row(z, gearing, rollers, times, index, own, mechanism.rollers_max)
 
 
 def parse_z(text: str) -> list[int]:
@@ -130,25 +120,13 @@ def parse_z(text: str) -> list[int]:
     option = f"--z {cut(text)}"
     for part in text.split(","):
         least, most, by = range_text(part, option) or (part, part, "")
-        low, high = _slots(least, text), _slots(most, text)
-        step = _slots(by, text, 1) if by else 1
-        if high < low:
-            raise GenevaError(f"{option}: {low}..{high} runs backwards; write {high}..{low}")
+        numbers = [number.strip() for number in (least, most, by or "1")]
+        if not all(x.isascii() and x.isdigit() and len(x) < 12 for x in numbers):
+            raise GenevaError(f"{option}: it must be whole numbers, as 6, 3..12 or 3,4,6")
+        low, high, step = map(int, numbers)
+        if not (3 <= low <= high <= Z_MAX and step):
+            raise GenevaError(f"{option}: it must be at least 3, at most {Z_MAX}, the lesser first")
         if len(out) + (high - low) // step >= ROWS_MAX:
             raise GenevaError(f"{option}: that is more than {ROWS_MAX} rows; give fewer")
         out.extend(range(low, high + 1, step))
     return out
-
-
-def _slots(text: str, whole: str, least: int = 3) -> int:
-    number = text.strip()
-    if not (number.isascii() and number.isdigit()):
-        raise GenevaError(
-            f'--z {cut(whole)}: "{cut(number)}" is not a whole number; write 6, 3..12 or 3,4,6'
-        )
-    z = int(number) if len(number) < 12 else Z_MAX + 1
-    if not least <= z <= Z_MAX:
-        raise GenevaError(
-            f"--z {cut(whole)}: {cut(number)} must be at least {least}, at most {Z_MAX}"
-        )
-    return z

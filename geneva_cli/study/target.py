@@ -15,16 +15,24 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
+import numpy as np
+
 from geneva_cli.errors import GenevaError
-from geneva_cli.motion import registry
+from geneva_cli.motion.drive import Drive
 from geneva_cli.motion.given_motion import MOTION_MIN
+from geneva_cli.motion.laws.law import Motion
 from geneva_cli.motion.machine_spec import Spec
+from geneva_cli.motion.wheels.external import External
 from geneva_cli.motion.wheels.gearing import Gearing
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import ROUNDED
 from geneva_cli.spec.tables import LIMITED
 from geneva_cli.study.sweep.constraints import Constraint, Objective
 from geneva_cli.verdict.quantities.quantity_names import in_batch
 
+BARE = Spec(External(3))  # the tables of a machine without a frame
+# fraction of a turn over m that an open end of a range leaves to motion and to dwell
+OPEN_END = 0.01
 GEARINGS = ("external", "internal", "spherical")
 USUAL_RPM = 60.0
 PEAK = "acceleration.max"
@@ -49,7 +57,11 @@ class Target(NamedTuple):
     sort: Objective | None = None  # the goal by which rows are sorted
     bounds: tuple[Constraint, ...] = ()
     space: float = SPACE  # of a linkage: its joints' distance from the crank's axis, over L
-    bounded: frozenset[str] = frozenset()  # names of the ranges that bounds have narrowed
+
+    @property
+    def own(self) -> Spec:
+        """The frame, or a spec without sizes, loads and limits."""
+        return self.frame or BARE
 
     @property
     def timed(self) -> bool:
@@ -60,12 +72,6 @@ class Target(NamedTuple):
     def peak(self) -> str:
         """The name of the peak acceleration, the default goal; per s² if times are required."""
         return f"{PEAK}_rad_s2" if self.timed else PEAK
-
-    def wheel(self, gearing: str, z: int) -> Gearing:
-        """A wheel of a gearing and a number of slots, with a stop if the frame's has one."""
-        wheel = registry.gearing(gearing)(z)
-        stops = self.frame is not None and self.frame.wheel.stopped
-        return wheel.replace(stop=True) if stops else wheel
 
     @property
     def any_motion(self) -> bool:
@@ -104,8 +110,7 @@ class Target(NamedTuple):
                 least, most = bound.span
                 spans[name] = AllowedSpan(max(low, least), min(high, most))
         left = tuple(bound for bound in self.bounds if bound.name not in names)
-        bounded = frozenset(names[b.name] for b in self.bounds if b.name in names)
-        narrowed = self._replace(spans=spans, bounds=left, bounded=bounded)
+        narrowed = self._replace(spans=spans, bounds=left)
         return self if narrowed.allows_any_motion(1) else narrowed
 
     def cycle_s(self, m: float) -> AllowedSpan:
@@ -120,7 +125,7 @@ class Target(NamedTuple):
     def demands(self, m: float) -> Iterator[tuple[str, AllowedSpan]]:
         """The range of motion angles that each requirement leaves for m rollers, with its name."""
         spans, turn, cycle = self.spans, 360.0 / m, self.cycle_s(m)
-        options = {name: f"{self._option(name)} {_typed(s)}" for name, s in spans.items()}
+        options = {name: f"--{name.replace('_', '-')} {_typed(s)}" for name, s in spans.items()}
         speed = options.get("cycle", "the spec's n_rpm" if self.frame else "")
         if "motion_deg" in spans:
             yield options["motion_deg"], spans["motion_deg"]
@@ -144,8 +149,8 @@ class Target(NamedTuple):
         """Return True if any motion angle is allowed."""
         return not any(s.low > 0.0 or s.high < 360.0 / m for _, s in self.demands(m))
 
-    def motion_for(self, m: float) -> AllowedSpan | None:
-        """The motion angles allowed for m rollers; None if every angle is.
+    def motions(self, m: float, natural: float) -> AllowedSpan:
+        """The motion angles allowed for m rollers: required, any, or the plain crank's.
 
         The range may be empty. It may include 0 or a whole turn over m, where no motion or no dwell
         is left.
@@ -153,10 +158,41 @@ class Target(NamedTuple):
         allowed = AllowedSpan(0.0, 360.0 / m)
         # the motions of several rollers are short, whatever is required
         if self.allows_any_motion(1) and self.allows_any_motion(m):
-            return None
+            return allowed if self.any_motion else AllowedSpan(natural, natural)
         for _, demand in self.demands(m):
             allowed = allowed.within(demand)
         return allowed
+
+    def free_motions(self, m: int, natural: float) -> AllowedSpan | None:
+        """Those motions, with open ends near their limits; None if there are none."""
+        motion, whole = self.motions(m, natural), 360.0 / m
+        if motion.low >= whole or motion.high <= 0.0 or motion.empty:
+            return None
+        low = motion.low if motion.low > 0.0 else OPEN_END * whole
+        high = motion.high if motion.high < whole else (1.0 - OPEN_END) * whole
+        return motion if motion.exact else AllowedSpan(min(low, high), high)
+
+    def speeds(self, m: float, motion_deg: Sequence[float]) -> dict[str, Array]:
+        """The key of the input speeds for m motions of these angles in a turn, if they matter."""
+        if not self.timed:
+            return {}
+        return {"drive.n_rpm": np.array([self.n_rpm(m, x) for x in motion_deg])}
+
+    def machine(
+        self, wheel: Gearing, drive: Drive, motion_deg: float, motion: Motion | None = None
+    ) -> Spec:
+        """A machine with the sizes, loads and limits of the frame, at the required speed."""
+        n_rpm = self.n_rpm(drive.rollers / drive.turns, motion_deg)
+        own, made = self.own, drive.replace(n_rpm=n_rpm)
+        size, L = own.size, own.size.center_distance_mm
+        if L is None and not made.ONE_ARM:  # it has no crank of one radius: the frame's distance
+            L = size.derived_distance_mm
+        as_built = L is not None and size.crank_radius_mm is not None  # it has its own R/L
+        if size.center_distance_mm != L or as_built:
+            size = size.replace(center_distance_mm=L, crank_radius_mm=None)
+        return own.replace(
+            wheel=wheel, drive=made, motion=motion, size=size, title="", path="", files=()
+        )
 
     def n_rpm(self, m: float, motion_deg: float) -> float:
         """The input speed for m cycles in a turn: the usual one, or the nearest that is allowed."""
@@ -191,27 +227,19 @@ class Target(NamedTuple):
         return [*several, *behind]
 
     def _contradiction(self, m: float) -> str:
-        for name, (low, high) in self.spans.items():
-            if low > high:
-                return f"{self._option(name)}: nothing is at least {low:.7g} and at most {high:.7g}"
+        for name, s in self.spans.items():
+            if s.empty:
+                return f"--{name}: nothing is at least {s.low:.7g} and at most {s.high:.7g}"
         demands = list(self.demands(m))
         for i, (one, first) in enumerate(demands):
             if first.high * m <= MOTION_MIN or first.low * m >= 360.0 - MOTION_MIN:
                 several = f" of {m} rollers" if m > 1 else ""
-                return (
-                    f"{one}: that leaves {_angles(first, m)}; a motion{several} must be above 0 "
-                    f"and below {360.0 / m:.7g} deg (tau below 1)"
-                )
+                limit = f"above 0 and below {360.0 / m:.7g} deg (tau below 1)"
+                return f"{one}: a motion{several} must be {limit}"
             for other, second in demands[:i]:
                 if first.within(second).empty:
-                    return (
-                        f"{other} and {one}: no machine does both; the first leaves "
-                        f"{_angles(second, m)}, the second {_angles(first, m)}"
-                    )
+                    return f"{other} and {one}: no machine does both"
         return ""
-
-    def _option(self, name: str) -> str:
-        return f"--subject-to {name}" if name in self.bounded else f"--{name.replace('_', '-')}"
 
 
 def _tau(k: float) -> float:
@@ -221,16 +249,6 @@ def _tau(k: float) -> float:
 def _typed(s: AllowedSpan) -> str:
     ends = ("" if abs(x) == math.inf else f"{x:.7g}" for x in s)
     return f"{s.low:.7g}" if s.exact else "..".join(ends)
-
-
-def _angles(s: AllowedSpan, m: float) -> str:
-    """The motion angles that a requirement leaves, for a message."""
-    if s.high * m <= MOTION_MIN:
-        return "no time to move"
-    if s.low * m >= 360.0 - MOTION_MIN:
-        return "no dwell"
-    low, high = s.low if s.low > 0.0 else -math.inf, s.high if s.high < 360.0 / m else math.inf
-    return AllowedSpan(low, high).words("a motion of", " deg")
 
 
 class AllowedSpan(NamedTuple):
@@ -243,6 +261,11 @@ class AllowedSpan(NamedTuple):
     def exact(self) -> bool:
         """Return True for a single number."""
         return self.low == self.high
+
+    def allows(self, natural: float) -> bool:
+        """Return True for a motion angle in it, within the tolerance of the plain crank."""
+        slack = 1e-6 * natural  # by which it may miss the required one
+        return self.low - slack <= natural <= self.high + slack
 
     @property
     def empty(self) -> bool:

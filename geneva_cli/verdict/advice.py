@@ -9,29 +9,21 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from functools import cache
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.registry import KINDS
+from geneva_cli.parts.chosen import ByLoad, by_load
+from geneva_cli.parts.machine_sizes import built
+from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.spec.tables import Size
-from geneva_cli.verdict.checks import (
-    LIMITS,
-    MOTION,
-    OF_TURN,
-    PUSHED,
-    TOLERANCES,
-    Check,
-    every_check,
-    single_check,
-)
-
-if TYPE_CHECKING:
-    from geneva_cli.parts.parts import Parts
+from geneva_cli.specfile.keys import tables_with
+from geneva_cli.verdict.checks import QUICK, SIZELESS, TURNED, Check, every_check, single_check
 
 # The reason why a failing check has no advice.
 NONE = "no single change that was tried passes all checks"
@@ -58,10 +50,9 @@ WIDER: face_width_mm*10
 TIGHTER: slot_clearance_mm:0
 SMALLER: roller_radius_mm*0.2
 LONGER: motion.alpha0_deg+-180 motion.alpha0_deg+180
-BEFORE: drive.before.A:0.99 drive.before.A:-0.99 drive.before.eccentricity:0.99
-MILDER: drive.A:0.99 drive.A:-0.99 drive.eccentricity:0.99 drive.eccentricity:0 BEFORE
+MILDER: drive.A:0.99 drive.A:-0.99 drive.eccentricity:0.99 drive.eccentricity:0
+  drive.before.A:0.99 drive.before.A:-0.99 drive.before.eccentricity:0.99
   drive.before.eccentricity:0 LONGER wheel.z:24
-BLUNTER: lock_edge_mm*10 WIDER LARGER
 velocity_max acceleration_max acceleration_entry_max jerk_max: MILDER
 entry_velocity_max: crank_radius_mm= wheel_radius_mm?
 turns strike_velocity: crank_radius_mm=
@@ -83,7 +74,7 @@ pv_max_W_m2: SLOWER WIDER LARGER
 roller_life_min_h: material.roller.dynamic_capacity_N*10 SLOWER LARGER
 pin_stress_MPa: pin_mm*1.9 roller_radius_mm*3 pin_held=fixed pin_mm= TIGHTER LARGER SLOWER
 horn_stress_MPa lock_horn_stress_MPa: WIDER lock_radius_mm*0.5 LARGER SLOWER
-lock_stress_max_MPa: BLUNTER
+lock_stress_max_MPa: lock_edge_mm*10 WIDER LARGER
 lock_deflection_max_deg: lock_clearance_mm*0.1 WIDER LARGER
 wheel_shaft_stress_MPa: shaft.wheel_diameter_mm*5 shaft.wheel_overhang_mm*0.1 wheel_bore_mm*5
   wheel_bore_mm= LARGER SLOWER
@@ -118,8 +109,7 @@ gear_gap_mm: drive.gear_distance_mm*0.3 drive.eccentricity*0.3 drive.A*0.3
 link_gap_mm: link_width_mm? link_pin_mm? crank_shaft_low_mm= drive.before.input_crank_mm*0.2
   wheel_hub_mm*0.5 wheel_hub_mm=0
 branches_apart_mm branches_crossed_mm: roller_radius_mm*3 LONGER
-OTHERS: lock_clearance_mm:0 TIGHTER roller_radius_mm*0.4
-  wheel.offset_mm:0
+OTHERS: lock_clearance_mm:0 TIGHTER roller_radius_mm*0.4 wheel.offset_mm:0
 """
 Value: TypeAlias = float | int | str | None  # None: the key is left out
 
@@ -127,8 +117,7 @@ Value: TypeAlias = float | int | str | None  # None: the key is left out
 class Remedy(NamedTuple):
     """Values of one key: a list of them, or all from the present one ``now`` to ``end``."""
 
-    table: str
-    key: str
+    key: str  # with its table
     values: tuple[Value, ...] = ()
     now: float = 0.0
     end: float = 0.0
@@ -147,14 +136,12 @@ class Remedy(NamedTuple):
         if isinstance(value, int):
             return [value]
         near, short = NEARLY * abs(value - self.now), float(f"{value:.2g}")
-        out: list[float | int] = [short] if abs(short - value) <= near else []
-        for digits in range(3, 12):
+        away, farther = value, math.ceil if self.end > self.now else math.floor
+        for digits in range(11, 2, -1):
             step = 10.0 ** (math.floor(math.log10(abs(value) or 1.0)) + 1 - digits)
-            whole = (math.ceil if self.end > self.now else math.floor)(value / step)
-            away = float(f"{whole * step:.{digits + 1}g}")
-            if abs(away - value) <= near:
-                return [*out, away]
-        return [*out, value]
+            rough = float(f"{farther(value / step) * step:.{digits + 1}g}")
+            away = rough if abs(rough - value) <= near else away
+        return [short, away] if abs(short - value) <= near else [away]
 
 
 Advice: TypeAlias = tuple[Remedy, Value]
@@ -174,8 +161,7 @@ def _words() -> dict[str, str]:
 def remedies(check: Check, mechanism: Mechanism) -> Iterator[Remedy]:
     """Changes of the spec that may make a failing check pass, the likeliest first."""
     spec, size = mechanism.spec, mechanism.spec.size.as_dict()
-    apart = (*MOTION, *LIMITS, *TOLERANCES, *PUSHED)
-    usual = {} if check.name in apart else Size().as_dict()
+    usual = {} if check.name in SIZELESS else Size().as_dict()
     own = [key for key in usual if size[key] != usual[key] and key not in REQUIRED]
     # first a size that the reason names, such as "wheel_bore_mm = 30: it must be below 20"
     words = [f"{key}?" for key in own if key in check.why]
@@ -194,11 +180,12 @@ def _of_word(word: str, mechanism: Mechanism) -> Iterator[Remedy]:
     match = re.fullmatch(r"(?:([\w.]+)\.)?(\w+)([*:+=?])(.*)", word)
     assert match, word
     table, key, how, end = match[1] or "size", match[2], match[3], match[4]
-    if key not in mechanism.spec.table(table):
+    whole, keys = f"{table}.{key}", mechanism.spec.table(table)
+    if key not in keys:
         return
     if how == "=":
         texts = end.split(",")
-        yield Remedy(table, key, tuple(float(t) if t[-1:].isdigit() else t or None for t in texts))
+        yield Remedy(whole, tuple(float(t) if t[-1:].isdigit() else t or None for t in texts))
         return
     now = _now(mechanism, table, key)
     if isinstance(now, float | int) and not isinstance(now, bool):
@@ -208,27 +195,21 @@ def _of_word(word: str, mechanism: Mechanism) -> Iterator[Remedy]:
         elif how == "?" and not isinstance(now, int):
             ends = [(0.1 * now, False), (10.0 * now, False)]
             with suppress(GenevaError):
-                bare = mechanism.spec.with_(f"size.{key}", None)
+                bare = mechanism.spec.with_(whole, None)
                 usual = _now(mechanism._replace(spec=bare), table, key)
                 ends = [(usual, True), *ends] if isinstance(usual, float) else ends
-        for last, even in ends:
-            if last != now:
-                yield Remedy(table, key, (), now, last, even)
-    if how == "?" and mechanism.spec.table(table)[key] is not None:
-        yield Remedy(table, key, (None,))
+        yield from (Remedy(whole, (), now, last, even) for last, even in ends if last != now)
+    if how == "?" and keys[key] is not None:
+        yield Remedy(whole, (None,))
 
 
 def _now(mechanism: Mechanism, table: str, key: str) -> Value:
     """A key's present value; the machine's for a size that the spec leaves out."""
     value: Value = mechanism.spec.table(table)[key]
-    if value is None and table == "size":
-        from geneva_cli.parts.machine_sizes import built
-
-        value = built(mechanism).as_dict()[key]
-    return value
+    return built(mechanism).as_dict()[key] if value is None and table == "size" else value
 
 
-def advised(mechanism: Mechanism, rows: list[Check], parts: bool = True) -> list[Check]:
+def advised(mechanism: Mechanism, rows: list[Check]) -> list[Check]:
     """The checks, those that fail with one change of the spec with which all checks pass.
 
     Without such a change they say why, and name a change with which they pass themselves.
@@ -236,7 +217,7 @@ def advised(mechanism: Mechanism, rows: list[Check], parts: bool = True) -> list
     failing = [c for c in rows if c.passes is False]
     if not failing:
         return rows
-    adviser, count = Adviser(mechanism, failing, parts), len(failing)
+    adviser, count = Adviser(mechanism, failing), len(failing)
     one, why = adviser.advice(failing, TRIALS if count == 1 else TRIALS // 2)
     each, own = [one] if one else [], [""] * count
     if not one and count > 1:
@@ -244,19 +225,16 @@ def advised(mechanism: Mechanism, rows: list[Check], parts: bool = True) -> list
         some = [
             adviser.advice([c], (adviser.left - 1) // (count - i))[0] for i, c in enumerate(failing)
         ]
-        by_key = {one[0][:2]: one for one in some if one}
+        by_key = {one[0].key: one for one in some if one}
         adviser.aim(failing, 0)
         if all(some) and adviser.margin([*by_key.values()], True) >= 0.0:
             each = sorted(by_key.values(), key=lambda advice: advice[1] is None)
         own = [f"{line(*one)} passes this one" if one else "" for one in some]
     anew, change = "", " and ".join(line(*one) for one in each)
     if each and mechanism.spec.is_loaded:
-        from geneva_cli.parts.chosen import ByLoad, by_load
-
         changed = build(adviser.changed(each), mechanism)
         anew = ByLoad(by_load(changed), by_load(mechanism)).changes
-    advice = dict(zip(map(id, failing), own, strict=True))
-    out = []
+    out, advice = [], iter(own)
     for c in rows:
         if c.passes is False and each:
             # where the same key passes, the other sizes may have changed with it
@@ -264,59 +242,53 @@ def advised(mechanism: Mechanism, rows: list[Check], parts: bool = True) -> list
             same = but and value.startswith(f"{change.partition(' ')[0]} is ")
             c = c._replace(nearest=change, why=value if same else c.why, anew=anew)
         elif c.passes is False:
-            c = c._replace(why="; ".join(filter(None, (c.why, why, advice[id(c)]))))
+            c = c._replace(why="; ".join(filter(None, (c.why, why, next(advice)))))
         out.append(c)
     return out
 
 
 def line(remedy: Remedy, value: Value) -> str:
     """A change as a line of the spec; a key that an earlier table has too stands with its table."""
-    from geneva_cli.specfile.keys import tables_with
-
-    first = next(iter(tables_with(remedy.key)))
-    key = remedy.key if remedy.table == first else f"{remedy.table}.{remedy.key}"
+    table, _, key = remedy.key.rpartition(".")
+    if table != next(iter(tables_with(key))):
+        key = remedy.key
     if value is None:
         return f"leaving out {key}"
     return f'{key} = "{value}"' if isinstance(value, str) else f"{key} = {value:.12g}"
 
 
 class Adviser:
-    """Search for changes with which the ``failing`` checks pass; without ``parts`` of the others"""
+    """Search for changes with which the ``failing`` checks pass."""
 
-    def __init__(self, mechanism: Mechanism, failing: list[Check], parts: bool = True) -> None:
-        self.mechanism, self.failing, self.parts = mechanism, failing, parts
-        self.left = TRIALS
+    def __init__(self, mechanism: Mechanism, failing: list[Check]) -> None:
+        self.mechanism, self.failing, self.left = mechanism, failing, TRIALS
         self._last: tuple[Mechanism, Parts] | None = None
 
     def changed(self, changes: Sequence[Advice]) -> Spec:
         """The spec with some changes."""
         spec = self.mechanism.spec
-        for (table, key, *_), value in changes:
-            spec = spec.with_(f"{table}.{key}", value)
+        for remedy, value in changes:
+            spec = spec.with_(remedy.key, value)
         return spec
 
     def aim(self, wanted: list[Check], stop: int) -> None:
         """Search for these checks, the quick ones first, until so many trials are left."""
-        quick = {*MOTION, *LIMITS}
-        turned = (*OF_TURN, *PUSHED, "parts")
-        by_cost = sorted(wanted, key=lambda c: (c.name in turned, c.name not in quick))
+        by_cost = sorted(wanted, key=lambda c: (c.name in TURNED, c.name not in QUICK))
         self.units = {c.name: -c.spare if c.spare > -math.inf else 1.0 for c in by_cost}
-        self.turns = any(c.name in turned for c in wanted)
-        self.stop = stop
+        self.turns, self.stop = by_cost[-1].name in TURNED, stop
 
     def advice(self, wanted: list[Check], trials: int) -> tuple[Advice | None, str]:
         """The change with which some failing checks pass and no other fails; else the reason."""
         self.aim(wanted, self.left - trials)
         tried = set()
-        for check in wanted:
-            for remedy in remedies(check, self.mechanism):
-                way = remedy[:3] if remedy.values else (*remedy[:2], remedy.end > remedy.now)
-                found = None if way in tried else self._least(remedy)
-                if self.left < self.stop:
-                    return None, STOPPED
-                if found:
-                    return found, ""
-                tried.add(way)
+        for remedy in (one for check in wanted for one in remedies(check, self.mechanism)):
+            way = remedy[:2] if remedy.values else (remedy.key, remedy.end > remedy.now)
+            found = None if way in tried else self._least(remedy)
+            if self.left < self.stop:
+                return None, STOPPED
+            if found:
+                return found, ""
+            tried.add(way)
         return None, NONE
 
     def _least(self, remedy: Remedy) -> Advice | None:
@@ -324,23 +296,40 @@ class Adviser:
         for value in remedy.values:
             if self.margin([(remedy, value)], True) >= 0.0:
                 return remedy, value
-        if remedy.values:
-            return None
         at, short = 0.0, -1.0
         # parts that are turned anyway cost as much as all checks, which are last otherwise
-        for every in (True,) if self.turns else (False, True):
-
-            def margin(fraction: float, every: bool = every) -> float:
-                return self.margin([(remedy, remedy.at(fraction))], every)
-
-            edge = _edge(margin, at, short)
-            if edge is None:
+        for every in () if remedy.values else (True,) if self.turns else (False, True):
+            at = self._edge(remedy, every, at, short)
+            if at < 0.0:
                 return None
-            for value in remedy.rounded(edge):
+            for value in remedy.rounded(at):
                 if self.margin([(remedy, value)], True) >= 0.0:
                     return remedy, value
-            at, short = edge, -math.inf
-        return remedy, remedy.at(at)
+            short = -math.inf
+        return None if remedy.values else (remedy, remedy.at(at))
+
+    def _edge(self, remedy: Remedy, every: bool, start: float, short: float) -> float:
+        """The fraction nearest to a failing ``start`` with a margin of at least 0; -1 without.
+
+        The margin may be largest between ``start`` and 1. ``short`` is that at the start.
+        """
+        known, good = {start: short}, start
+        for part in PLACES:
+            good = start + (1.0 - start) * part
+            known[good] = self.margin([(remedy, remedy.at(good))], every)
+            if known[good] >= 0.0:
+                break
+            # no peak is expected before an end that is no better, nor between places that are not
+            if part != PLACES[0] and -math.inf < max(known.values()) <= short:
+                return -1.0
+        else:
+            return -1.0
+        bad = max(x for x in known if x < good)
+        while good - bad > FINE * good:
+            middle = 0.5 * (good + bad)
+            holds = self.margin([(remedy, remedy.at(middle))], every) >= 0.0
+            good, bad = (middle, bad) if holds else (good, middle)
+        return good
 
     def margin(self, changes: Sequence[Advice], every: bool) -> float:
         """The least margin of the wanted checks, relative to its present violation.
@@ -348,8 +337,6 @@ class Adviser:
         With ``every`` it is -1 if another check begins to fail; -inf for a spec that makes no
         machine, or whose turn takes too long, and without trials left.
         """
-        from geneva_cli.parts.parts import parts_of
-
         least = math.inf
         try:
             spec = self.changed(changes)
@@ -358,44 +345,17 @@ class Adviser:
                 if self.left < self.stop:
                     return -math.inf
                 machine = build(spec, self.mechanism)
-                self._last = machine, parts_of(machine, advice=False)
+                self._last = machine, parts_of(machine)
             machine, parts = self._last
             for name, unit in self.units.items():
                 check = single_check(machine, name, parts)
                 least = min(least, check.spare / unit if check else math.inf)
                 if least < 0.0:
                     return least
-            if every:
-                failed = {c.name for c in self.failing} - self.units.keys()
-                for check in every_check(machine, parts, self.parts, quick=True):
-                    if check.passes is False and check.name not in failed:
-                        return -1.0
+            failed = {c.name for c in self.failing} - self.units.keys()
+            for check in every_check(machine, parts, quick=True) if every else ():
+                if check.passes is False and check.name not in failed:
+                    return -1.0
         except GenevaError:
             return -math.inf
         return least
-
-
-def _edge(margin: Callable[[float], float], start: float, short: float) -> float | None:
-    """The fraction nearest to a failing ``start`` with a margin of at least 0; None without.
-
-    The margin may be largest between ``start`` and 1. ``short`` is that at the start.
-    """
-    known, good = {start: short}, start
-    for part in PLACES:
-        good = start + (1.0 - start) * part
-        known[good] = margin(good)
-        if known[good] >= 0.0:
-            break
-        # no peak is expected before an end that is no better, nor between places that are not
-        if part != PLACES[0] and -math.inf < max(known.values()) <= short:
-            return None
-    if known[good] < 0.0:
-        return None
-    bad = max(x for x in known if x < good)
-    while good - bad > FINE * good:
-        middle = 0.5 * (good + bad)
-        if margin(middle) >= 0.0:
-            good = middle
-        else:
-            bad = middle
-    return good

@@ -78,8 +78,6 @@ def failures(rows: list[Check], parts: Parts) -> tuple[str, list[str]]:
             refused.append(c.why)
         elif c.name == "parts":  # the reason why there are none
             warned.append(c.why)
-        elif c.not_computed:
-            warned.append(c.not_computed)
         elif c.name in JAMS or (
             # Links and gears lie below the wheel's plane, so the wheel can be cut all the same.
             c.name not in ("link_wall_mm", "link_gap_mm", "gear_gap_mm")
@@ -87,29 +85,41 @@ def failures(rows: list[Check], parts: Parts) -> tuple[str, list[str]]:
             and c.name.endswith("_mm")
             and (c.value or 0.0) < 0.0
         ):
-            refused.append(in_words(c, parts.turn.smallest.parts if c.name == "gap_mm" else ""))
+            refused.append(_in_words(c, parts.turn.smallest.parts if c.name == "gap_mm" else ""))
             advice = advice or c.nearest
         else:
-            more = f"{c.nearest} would pass" if c.nearest else c.why
-            warned.append("; ".join(text for text in (in_words(c), more) if text))
-    return "; ".join(refused) + (f"; {advice} would free it" if advice else ""), [
-        *dict.fromkeys(warned)
-    ]
+            warned.append(sentence(c))
+    free = f"; {advice} would free it" if advice else ""
+    return "; ".join(refused) + free, [*dict.fromkeys(warned)]
 
 
-def in_words(c: Check, parts: str = "") -> str:
-    """A failing check in words; ``parts`` names those that overlap, where they are known."""
-    shown = in_digits(c.value or 0.0, 6)
-    general = f"{c.name} is {shown}{c.where}; it must be {c.must_be} {c.limit or 0.0:.6g}"
+def sentence(c: Check) -> str:
+    """A failing check in words, with the change with which all checks pass, or the reason."""
+    if c.value is None:
+        return f"{c.name} is not computed: {c.why}"
+    more = f"{c.nearest} would pass" if c.nearest else c.why
+    return "; ".join(text for text in (_in_words(c), more) if text)
+
+
+def _in_words(c: Check, parts: str = "") -> str:
+    shown, where = in_digits(c.value or 0.0, 6), _where(c)
+    general = f"{c.name} = {shown}{where}; it must be {c.must_be} {c.limit or 0.0:.6g}"
     return meaning(c, parts) or general
 
 
+def _where(c: Check) -> str:
+    return "" if c.at_deg is None else f" at input angle {c.at_deg:.6g}°"
+
+
 def meaning(c: Check, parts: str = "") -> str:
-    """The meaning of a failing check; empty if its value is enough."""
+    """The meaning of a failing check; empty if its value is enough.
+
+    ``parts`` names those that overlap, where they are known.
+    """
     value, limit = c.value or 0.0, c.limit or 0.0
     if c.name in NO_WALL and value < 0.0:
         return f"{NO_WALL[c.name]} by {-value:.4g} mm"
     moves, unit = ("rack can move", " mm") if c.name.endswith("_mm") else ("wheel can turn", "°")
     named = {"value": value, "limit": limit, "short": -value, "idle": 100.0 * (1.0 - value)}
-    words = {"where": c.where, "moves": moves, "unit": unit, "parts": parts or "parts"}
+    words = {"where": _where(c), "moves": moves, "unit": unit, "parts": parts or "parts"}
     return MEANINGS.get(c.name, "").format(**named, **words)

@@ -36,8 +36,7 @@ def _of_sizes(mechanism: Mechanism) -> Iterator[Notice]:
     if spec.dwell_holder is None:
         yield Notice(
             "nothing-holds",
-            "nothing holds the wheel in the dwell, because there is no locking disc: set "
-            'held_by = "brake", "detent" or "pin" in [wheel]',
+            'nothing holds the wheel in the dwell: set held_by = "brake", "detent" or "pin"',
         )
     # the rim depends on the centre distance; some drives solve for it
     given = size.center_distance_mm is not None or size.crank_radius_mm is not None
@@ -56,8 +55,8 @@ def _of_sizes(mechanism: Mechanism) -> Iterator[Notice]:
             yield Notice(
                 "stop-in-motion",
                 f"the input turns {brake:.4g}° while it brakes and {start:.4g}° while it starts, "
-                f"but the dwell has only {least:.4g}°. The roller would be in a slot. At this "
-                f"speed brake_s and start_s may take {least / (3.0 * drive.n_rpm):.4g} s together",
+                f"but the dwell has only {least:.4g}°: at this speed brake_s and start_s may take "
+                f"{least / (3.0 * drive.n_rpm):.4g} s together",
             )
     if engagement.built is not None:
         from geneva_cli.motion.peaks import greatest_jumps
@@ -72,7 +71,7 @@ def _of_sizes(mechanism: Mechanism) -> Iterator[Notice]:
             "taken-as-built",
             f"crank_radius_mm = {size.crank_radius_mm:.9g} and center_distance_mm = {L:.9g} have "
             f"R/L = {mechanism.ratio:.6g}, but the slots need {needed:.6g}: taken as built. There "
-            f"{impact}. Leave out one of the two keys for a machine without it",
+            f"{impact}",
         )
 
 
@@ -149,8 +148,7 @@ def _of_law(mechanism: Mechanism, law: Law) -> Iterator[Notice]:
         yield Notice(
             "off-mid-condition",
             f"pressure angle 90° at mid-motion (0°), because R/L = {mechanism.ratio:.6g} does "
-            "not meet the mid condition. Without friction the pin force there has no bound unless "
-            f"the torque is zero: {helps}",
+            f"not meet the mid condition: {helps}",
         )
     if max(abs(half(0.0, 2).scalars()[2]) for half in (law.first, law.second)) > 1e-9:
         yield Notice(
@@ -182,24 +180,21 @@ def _of_slots(mechanism: Mechanism) -> Iterator[Notice]:
             percent, gap_mm = 100.0 * driven.fraction.item(), driven.loose_gap_mm.item()
             yield Notice(
                 "not-positively-driven",
-                f"not positively driven from {where}° ({percent:.3g} % of the motion). The slot's "
-                f"other branch, up to {gap_mm:.3g} mm off, cuts away the wall that the torque "
-                "needs there. Less torque_Nm against the inertia shortens the interval; "
-                'kind = "cam" drives any law through straight slots',
+                f"not positively driven from {where}° ({percent:.3g} % of the motion): the slot's "
+                f"other branch, up to {gap_mm:.3g} mm off, cuts away the wall that the torque needs"
+                '. Less torque_Nm against the inertia helps; kind = "cam" drives any law',
             )
     place = undercut(mechanism)
     if place is not None and place.depth_mm >= SHOWN_UNDERCUT:
         clearance = mechanism.spec.size.allowances.slot_clearance_mm
-        r, free = mechanism.roller_radius_mm + clearance, place.radius_mm - clearance
-        helps = "a smaller roller or a longer motion reduces it"
+        free, helps = place.radius_mm - clearance, "a smaller roller or a longer motion reduces it"
         if not place.to_cusp and free > 0.0:
             helps = f"a roller radius below {free:.4g} mm avoids it"
         yield Notice(
             "undercut",
             f"undercut of the {place.wall} flank from {place.from_deg:.4g} to "
-            f"{place.to_deg:.4g}°, by up to {place.depth_mm:.3g} mm. The roller's radius, "
-            f"{r:.4g} mm, exceeds the radius of curvature, {place.radius_mm:.4g} mm at "
-            f"{place.at_deg:.4g}°: {helps}",
+            f"{place.to_deg:.4g}°, by up to {place.depth_mm:.3g} mm: the roller's radius exceeds "
+            f"that of curvature, {place.radius_mm:.4g} mm at {place.at_deg:.4g}°: {helps}",
         )
 
 

@@ -13,8 +13,9 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.timing import timings
 from geneva_cli.parts.chosen import ByLoad
 from geneva_cli.parts.parts import Parts
-from geneva_cli.table import Table, in_digits, record_table
+from geneva_cli.table import Table, record_table
 from geneva_cli.verdict.checks import Check, all_pass
+from geneva_cli.verdict.failures import sentence
 from geneva_cli.verdict.quantities.batch_designs import Values
 from geneva_cli.verdict.quantities.groups import REPORT
 from geneva_cli.verdict.quantities.groups import values as values_of
@@ -43,23 +44,12 @@ def report(
         "spec": mechanism.spec.path,
         "title": title,
         "passes": passes,
-        "checks_failed": tuple(_in_one_line(c) for c in rows if c.passes is False),
+        "checks_failed": tuple(sentence(c) for c in rows if c.passes is False),
         "not_proved": tuple(f"{c.name}: {c.why}" for c in rows if c.passes is None),
     }
     values |= values_of(REPORT, parts)
     ends = {"chosen": by_load.record, "warnings": tuple(warnings)}
     return Report(record_table({**values, **ends}, title, words(mechanism)), passes)
-
-
-def _in_one_line(check: Check) -> str:
-    """A failing check in one line."""
-    if check.value is None or check.limit is None:
-        return check.not_computed
-    where = "" if check.at_deg is None else f" at {check.at_deg:.6g}°"
-    value, limit = in_digits(check.value, 6), in_digits(check.limit, 6)
-    change = f"; nearest change: {check.nearest}" if check.nearest else ""
-    why = f"; {check.remark}" if check.remark else ""
-    return f"{check.name} = {value}{where}, must be {check.must_be} {limit}{change}{why}"
 
 
 def words(mechanism: Mechanism) -> str:

@@ -8,7 +8,6 @@ from contextlib import suppress
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.load_tables import reversals_deg
-from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peaks import greatest_jumps, peaks
 from geneva_cli.motion.timing import timings
 from geneva_cli.numerics.angles import omega
@@ -43,11 +42,8 @@ def inputs(parts: Parts) -> Values:
         "wheel": {"held_by": spec.wheel.held_by},
         "size": spec.size.allowances._asdict(),
     }
-    values: Values = {}
-    for table, names in ECHOED.items():
-        keys = spec.table(table) | known.get(table, {})
-        values |= {f"{table}.{key}": keys[key] for key in names}
-    return values
+    tables = {table: spec.table(table) | known.get(table, {}) for table in ECHOED}
+    return {f"{table}.{key}": tables[table][key] for table in ECHOED for key in ECHOED[table]}
 
 
 def stations(parts: Parts) -> Values:
@@ -62,13 +58,9 @@ def stations(parts: Parts) -> Values:
         values["k_r"] = motion / (360.0 - motion) if motion < 360.0 else None
         row = {f"timing.{name}": value for name, value in values.items()}
         own = peaks(engagement, mechanism)
-        ends = {
-            "velocity": greatest_jumps([engagement]),
-            "acceleration": own.ends[:2],
-            "jerk": own.ends[2:],
-        }
-        for name in ("velocity", "acceleration", "jerk", "power"):
-            row |= peak_values(name, output, w, getattr(own, name), ends.get(name, ()))
+        ends = greatest_jumps([engagement]), own.ends[:2], own.ends[2:], ()
+        for name, own_ends in zip(("velocity", "acceleration", "jerk", "power"), ends, strict=True):
+            row |= peak_values(name, output, w, getattr(own, name), own_ends)
         each.append(row)
     return {"stations": rows_table(tuple(each[0]), [tuple(e.values()) for e in each])}
 
@@ -121,19 +113,10 @@ def cranks(parts: Parts) -> Values:
     return {"cranks": rows_table((*names, "slot_every"), rows)}
 
 
-def cycle(parts: Parts) -> Values:
-    """Greatest and least over the motions, mean and rms over the period; None without a load."""
+def reversals(parts: Parts) -> Values:
+    """Where the wheel's torque changes its sign, input degrees; None without a load."""
     of = cycle_of(parts.mechanism)
-    values: Values = {}
-    for name in ("input_torque_Nm", "power_W", "crank_bearing_N"):
-        one = of.extremes.get(name)
-        numbers = one._asdict() if one else {}
-        for key in ("max", "min", "mean", "rms"):
-            value = numbers.get(key)
-            bounded = value is not None and math.isfinite(value)
-            values[f"{name}.{key}"] = value if bounded else None
-    values["reversals_deg"] = tuple(reversals_deg(of)) if of.is_loaded else None
-    return values
+    return {"reversals_deg": tuple(reversals_deg(of)) if of.is_loaded else None}
 
 
 def needs(parts: Parts) -> Values:
@@ -153,7 +136,7 @@ def vibration(parts: Parts) -> Values:
     """The load on its elastic shaft: what an index leaves swinging, and the speeds to avoid.
 
     None without a stiffness, and why where inertia is missing or its period is out of range.
-    Bands, stations and warnings are those of ``geneva vibration``.
+    Bands and warnings are those of ``geneva vibration``.
     """
     mechanism = parts.mechanism
     none: Values = {"speeds_to_avoid_rpm": None}
@@ -188,64 +171,39 @@ def sizes(parts: Parts) -> Values:
     The rim is None if the spec's sizes leave no wheel; the slots too if no wheel is drawn.
     """
     mechanism, spec = parts.mechanism, parts.mechanism.spec
-    if not mechanism.axes:
-        return _sphere_sizes(mechanism)
-    L, r = mechanism.center_distance_mm, mechanism.roller_radius_mm
-    return {
-        "center_distance_mm": L,
-        "crank_radius_mm": mechanism.ratio * L,
-        "ratio": mechanism.ratio,
-        "roller_radius_mm": r,
-        "slot_width_mm": 2.0 * (r + spec.size.allowances.slot_clearance_mm),
-        "clearances_from": spec.size.allowances.source,
-        **_cut_radii(parts),
-        "pressure_angle_max_deg": (
-            only(single(mechanism).columns(pressure)["max_deg"])
-            if mechanism.engagements[0].slot.curved
-            else None
-        ),
-        "rollers_max": mechanism.rollers_max,
-    }
-
-
-def _cut_radii(parts: Parts) -> Values:
-    """Radii of slots and rim as cut, mm."""
-    mouth = bottom = rim = None
-    spec = parts.mechanism.spec
-    inside = spec.wheel.SIGN < 0.0
+    L, r, first = mechanism.center_distance_mm, mechanism.roller_radius_mm, mechanism.engagements[0]
+    values: Values = {"roller_radius_mm": r, "rollers_max": mechanism.rollers_max}
+    values["clearances_from"] = spec.size.allowances.source
+    if not mechanism.axes:  # the slot is a meridian between two polar angles
+        mouth, bottom = (first.slot(x, 0)[0].c[0] for x in (first.entry_deg, 0.0))
+        values |= {
+            **spec.wheel.own_sizes,
+            "sphere_radius_mm": L,
+            "crank_arm_mm": mechanism.ratio * L,
+        }
+        values["slot_mouth_polar_deg"] = math.degrees(mouth)
+        values["slot_bottom_polar_deg"] = math.degrees(bottom)
+        return values
+    values |= {"center_distance_mm": L, "crank_radius_mm": mechanism.ratio * L}
+    values["ratio"] = mechanism.ratio
+    values["slot_width_mm"] = 2.0 * (r + spec.size.allowances.slot_clearance_mm)
+    if first.slot.curved:
+        most = single(mechanism).columns(pressure)["max_deg"]
+        values["pressure_angle_max_deg"] = only(most)
     if spec.is_flat:
         from geneva_cli.parts.assembly import assembly
         from geneva_cli.parts.machine_sizes import machine_sizes
         from geneva_cli.parts.slots.roller_paths import roller_paths
 
-        where = assembly(parts.mechanism)
+        where, inside = assembly(mechanism), spec.wheel.SIGN < 0.0
         ends, _, _ = roller_paths(where)
-        mouth = max(where.L * float(s.reach(s.entry_deg)) for s in where.kinds)
-        bottom = max(ends) if inside else min(ends)
+        mouth = max(where.L * float(one.reach(one.entry_deg)) for one in where.kinds)
+        values["slot_mouth_radius_mm"] = mouth
+        values["slot_bottom_radius_mm"] = max(ends) if inside else min(ends)
         with suppress(GenevaError):  # ``parts.none`` gives the reason
-            rim = machine_sizes(parts.mechanism)[1].rim
-    return {
-        "slot_mouth_radius_mm": mouth,
-        "slot_bottom_radius_mm": bottom,
-        "wheel_radius_mm": None if inside else rim,
-        "rim_radius_mm": rim if inside else None,
-    }
-
-
-def _sphere_sizes(mechanism: Mechanism) -> Values:
-    """Sizes of a spherical wheel: the slot is a meridian between two polar angles."""
-    engagement, L = mechanism.engagements[0], mechanism.center_distance_mm
-    mouth, bottom = (engagement.slot(x, 0)[0].c[0] for x in (engagement.entry_deg, 0.0))
-    return {
-        **mechanism.spec.wheel.own_sizes,
-        "sphere_radius_mm": L,
-        "crank_arm_mm": mechanism.ratio * L,
-        "roller_radius_mm": mechanism.roller_radius_mm,
-        "clearances_from": mechanism.spec.size.allowances.source,
-        "slot_mouth_polar_deg": math.degrees(mouth),
-        "slot_bottom_polar_deg": math.degrees(bottom),
-        "rollers_max": mechanism.rollers_max,
-    }
+            rim = machine_sizes(mechanism)[1].rim
+            values["rim_radius_mm" if inside else "wheel_radius_mm"] = rim
+    return values
 
 
 def parts(of: Parts) -> Values:

@@ -40,9 +40,8 @@ OF_LIFE = (
 NEEDY = (
     *("pin_stress_MPa", "horn_stress_MPa", "lock_stress_max_MPa", "lock_deflection_max_deg"),
     *("lock_horn_stress_MPa", "wheel_shaft_stress_MPa", "crank_shaft_stress_MPa"),
-    *("arm_stress_MPa", "wheel_key_pressure_MPa", "crank_key_pressure_MPa", "roller_life_min_h"),
-    *("roller_life_turns", "roller_life_motions", "roller_life_h", "equivalent_force_N"),
-    *("friction_work_J", "pv_max_W_m2"),
+    *("arm_stress_MPa", "wheel_key_pressure_MPa", "crank_key_pressure_MPa"),
+    *("roller_life_min_h", *OF_LIFE),
 )
 BOUND = "a force with a bound: see the warnings"
 _WIDTH = "face_width_mm in [size]"
@@ -175,7 +174,7 @@ class Strength:
     def missing(self, among: Sequence[str]) -> list[str]:
         """The keys that the unknown values of ``among`` need, in words."""
         by_key: dict[str, list[str]] = {}
-        for name in among:
+        for name in dict.fromkeys(among):
             if keys := self.reason(name):
                 by_key.setdefault(keys, []).append(name)
         if self.spec.load_keys in by_key:  # nearly all

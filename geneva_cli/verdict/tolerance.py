@@ -11,13 +11,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 
 from geneva_cli.errors import GenevaError, Notice, cut
 from geneva_cli.loads.impacts.entry import arm_mm, mouth_jumps_worst
-from geneva_cli.loads.tolerance.entry_jump import entry_jumps, entry_jumps_worst
 from geneva_cli.loads.tolerance.locking import (
     CutLock,
     Deviations,
@@ -26,7 +25,12 @@ from geneva_cli.loads.tolerance.locking import (
     tolerances,
     without_effect,
 )
-from geneva_cli.loads.tolerance.motion_error import motion_errors, used
+from geneva_cli.loads.tolerance.motion_error import (
+    entry_jumps,
+    entry_jumps_worst,
+    motion_errors,
+    used,
+)
 from geneva_cli.loads.tolerance.random_machines import (
     Draws,
     Spread,
@@ -130,9 +134,9 @@ def _loosest_lock(
     """
     locks = cut_locks(parts.turned, use)[0] if mechanism.spec.is_turned else []
     ends = corners(list(use.values()))
-    each = [(float(np.max(lock(ends).angle.arrays()[0])), lock) for lock in locks]
-    most, loosest = max(each, key=lambda one: one[0], default=(0.0, None))
-    return (loosest, most + use["slot_angle_deg"]) if loosest else None
+    each = [(lock, float(np.max(lock(ends).angle.arrays()[0]))) for lock in locks]
+    lock, most = max(each, key=lambda one: one[1], default=(None, 0.0))
+    return (lock, most + use["slot_angle_deg"]) if lock else None
 
 
 def _refuse(mechanism: Mechanism, samples: int, seed: int) -> None:
@@ -170,20 +174,16 @@ def _refuse_large(mechanism: Mechanism, use: dict[str, float]) -> None:
             )
 
 
-class Study(NamedTuple):
-    """The effects of the tolerances; None for those that do not exist, as ``warnings`` say."""
+def tolerance_table(
+    mechanism: Mechanism, parts: Parts, samples: int, seed: int, radius_mm: float | None = None
+) -> Table:
+    """The study of a machine by its ``[tolerance]``, with micrometres at ``radius_mm``.
 
-    dwell: Spread | None
-    motion: Spread | None
-    values: dict[str, float | bool | None]  # of the table, which these make
-    warnings: list[Notice]
-
-
-def study(mechanism: Mechanism, parts: Parts, samples: int, seed: int) -> Study:
-    """The study of a machine by its ``[tolerance]``.
-
-    Raises GenevaError without tolerances, and for numbers of samples and seeds out of range.
+    Values that do not exist are None, as the warnings say. Raises GenevaError without tolerances,
+    and for numbers of samples and seeds out of range.
     """
+    if radius_mm is not None:
+        require_mm("--radius", radius_mm, POSITIVE)
     _refuse(mechanism, samples, seed)
     spec, use, given = mechanism.spec, used(mechanism), tolerances(mechanism.spec)
     warnings = [
@@ -192,66 +192,93 @@ def study(mechanism: Mechanism, parts: Parts, samples: int, seed: int) -> Study:
         if given[name]
     ]
     _refuse_large(mechanism, use)
-    sizes = list(use.values())
-    ends = corners(sizes)
-    loosest = None
+    sizes, loosest, unknown = list(use.values()), None, list[str]()
     try:
         loosest = _loosest_lock(mechanism, parts, use)
     except GenevaError as error:
-        warnings.append(Notice("not-known", f"no parts: {error}"))
-    motions = motion_errors(mechanism)
-    errors = [(one, one.greatest(ends)) for one in motions]
-    roots = [(one, one.greatest_rss(sizes)) for one in motions]
+        unknown.append(f"no parts: {error}")
+    ends, motions = corners(sizes), motion_errors(mechanism)
     jumps = max(entry_jumps(mechanism), key=lambda one: float(np.max(one(ends)[0])), default=None)
     machines = Draws(tuple(sizes), spec.tolerance.distribution == "normal", seed)
     likely = likely_place(machines, samples, motions) if motions else None
     drawn = random_machines(machines, samples, loosest and loosest[0], likely, jumps)
-    values: dict[str, float | bool | None] = {}
-    dwell = motion = None
+    angles = dict[str, Spread | None].fromkeys(("dwell_position", "motion_play"))
+    answers: dict[str, Any] = {}
     if loosest:
         lock, worst = loosest
-        dwell = spread(lambda by: lock(by).angle + by.slot_angle_deg, sizes, worst, drawn.dwell)
+        found = spread(lambda by: lock(by).angle + by.slot_angle_deg, sizes, worst, drawn.dwell)
+        angles["dwell_position"] = found
     else:
-        text = "dwell_position is not known: no drawn locking disc holds the wheel at rest"
-        warnings.append(Notice("not-known", text))
-    if errors:
+        unknown.append("dwell_position is not known: no drawn locking disc holds the wheel at rest")
+    if motions:
+        errors = [(one, one.greatest(ends)) for one in motions]
+        roots = [(one, one.greatest_rss(sizes)) for one in motions]
         one, farthest = max(errors, key=lambda error: float(error[1][0, 0]))
         shown = mechanism.shown_deg(one.engagement.mid_deg + float(farthest[1, 0]))
-        values["motion_play.at_deg"] = shown
+        answers["motion_play.at_deg"] = shown
         other, root = max(roots, key=lambda root: float(root[1][0, 0]))
         place, side, worst = float(root[1, 0]), float(root[2, 0]), float(farthest[0, 0])
-        motion = spread(lambda by: other(by, place, side) * side, sizes, worst, drawn.motion)
+        found = spread(lambda by: other(by, place, side) * side, sizes, worst, drawn.motion)
+        angles["motion_play"] = found
     else:
-        text = "motion_play is not known: curved slots are computed for a path without errors"
-        warnings.append(Notice("not-known", text))
+        unknown.append(
+            "motion_play is not known: curved slots are computed for a path without errors"
+        )
     if jumps:
         worst_jump = entry_jumps_worst(mechanism, use)
         assert worst_jump is not None  # there are slots to enter
-        mouth = mouth_jumps_worst(mechanism)
-        values |= {
+        answers |= {
             "entry_jump.mean": float(drawn.jump.mean()),
             "entry_jump.std": float(drawn.jump.std()),
             "entry_jump.worst": float(worst_jump[0]),
             "entry_jump.missed_share": drawn.missed,
-            "entry_jump.mouth_worst": mouth.item(),
+            "entry_jump.mouth_worst": mouth_jumps_worst(mechanism).item(),
         }
     else:
-        text = "entry_jump is not known: the law, not the path, sets how the roller enters"
+        unknown.append("entry_jump is not known: the law, not the path, sets how the roller enters")
+    warnings += [Notice("not-known", text) for text in unknown]
+    answers |= _clearances(mechanism, parts, use, warnings)
+    answers["clearances.jam_share"] = drawn.jams
+    known = [name for name, of in angles.items() if of]
+    warnings = spec.accept.applied(warnings)
+    if radius_mm is None and known:
+        text = f"micrometres of {' and '.join(known)}: need --radius"
         warnings.append(Notice("not-known", text))
-    clearances, notes = _clearances(mechanism, parts, use)
-    values |= {**clearances, "clearances.jam_share": drawn.jams}
-    return Study(dwell, motion, values, [*warnings, *notes])
+    values: dict[str, Any] = {"spec": spec.path, "title": spec.title}
+    values |= {"samples": samples, "seed": seed, "distribution": spec.tolerance.distribution}
+    values["radius_mm"] = radius_mm
+    micron = None if radius_mm is None else math.radians(1.0) * radius_mm * 1e3
+    for name, of in angles.items():
+        for unit, scale in {"deg": 1.0, "arcsec": 3600.0, "um": micron}.items():
+            for angle in ANGLES:
+                value = getattr(of, angle) * scale if of and scale is not None else None
+                values[f"{name}.{angle}_{unit}"] = value
+    values |= {"motion_play.at_deg": None, "contributions": _contributions(angles, given)}
+    ends_of = ("mean", "std", "worst", "missed_share", "mouth_worst")
+    values |= {f"entry_jump.{end}": None for end in ends_of}
+    return record_table(values | answers | {"warnings": tuple(warnings)}, spec.title)
+
+
+def _contributions(angles: Mapping[str, Spread | None], given: Mapping[str, float]) -> Table:
+    """A row for each dimension that deviates: its fraction of the squares, its plus or minus."""
+    names = ("dimension", "share", "dwell_position_deg", "motion_share", "motion_play_deg")
+    rows = []
+    for i, name in enumerate(Deviations._fields):
+        each = [(of.fractions[i], of.parts[i]) if of else (None, None) for of in angles.values()]
+        if given[name]:
+            rows.append((name, *each[0], *each[1]))
+    return rows_table(names, sorted(rows, key=lambda row: -(row[1] or 0.0)))
 
 
 def _clearances(
-    mechanism: Mechanism, parts: Parts, use: dict[str, float]
-) -> tuple[dict[str, float | bool | None], list[Notice]]:
-    """The clearances that slot and lock have and need, and a warning unless they are enough."""
-    turned, why = None, mechanism.no_turn or "there are no drawn parts to turn"
+    mechanism: Mechanism, parts: Parts, use: dict[str, float], warnings: list[Notice]
+) -> dict[str, float | bool | None]:
+    """The clearances that slot and lock have and need; adds a warning unless they are enough."""
+    turned, fault = None, mechanism.no_turn or "there are no drawn parts to turn"
     try:
         turned = parts.turned if mechanism.spec.is_turned and not mechanism.no_turn else None
     except GenevaError as error:
-        why = str(error)
+        fault = str(error)
     slot_mm, lock_mm = needed_mm(mechanism, turned, use)
     own = mechanism.spec.size.allowances
     pairs = {"slot": (own.slot_clearance_mm, slot_mm), "lock": (own.lock_clearance_mm, lock_mm)}
@@ -260,54 +287,14 @@ def _clearances(
         for name, (mm, needed) in pairs.items()
         if needed is not None and mm < needed * (1.0 - 1e-12)
     ]
-    fault = ""
-    if not turned:
-        fault = f"no turn was computed: {why}"
-    elif short:
-        fault = f"not every machine turns: {' and '.join(short)}"
-    values = {
+    if short or not turned:
+        text = f"not every machine turns: {' and '.join(short)}"
+        text = text if turned else f"no turn was computed: {fault}"
+        warnings.append(Notice("not-every-machine-turns", text))
+    return {
         "clearances.slot_mm": own.slot_clearance_mm,
         "clearances.slot_needed_mm": slot_mm,
         "clearances.lock_mm": None if lock_mm is None else own.lock_clearance_mm,
         "clearances.lock_needed_mm": lock_mm,
         "clearances.turns": not short if turned else None,
     }
-    return values, [Notice("not-every-machine-turns", fault)] if fault else []
-
-
-def tolerance_table(
-    mechanism: Mechanism, parts: Parts, samples: int, seed: int, radius_mm: float | None = None
-) -> Table:
-    """The study as a record, with micrometres at ``radius_mm``, if not None."""
-    if radius_mm is not None:
-        require_mm("--radius", radius_mm, POSITIVE)
-    results, spec = study(mechanism, parts, samples, seed), mechanism.spec
-    values: dict[str, Any] = {"spec": spec.path, "title": spec.title}
-    values |= {"samples": samples, "seed": seed, "distribution": spec.tolerance.distribution}
-    values["radius_mm"] = radius_mm
-    angles = {"dwell_position": results.dwell, "motion_play": results.motion}
-    micron = None if radius_mm is None else math.radians(1.0) * radius_mm * 1e3
-    for name, of in angles.items():
-        for unit, scale in {"deg": 1.0, "arcsec": 3600.0, "um": micron}.items():
-            for angle in ANGLES:
-                known = of is not None and scale is not None
-                values[f"{name}.{angle}_{unit}"] = getattr(of, angle) * scale if known else None
-    # a row for each dimension that deviates: its fraction of the squares, its plus or minus
-    names = ("dimension", "share", "dwell_position_deg", "motion_share", "motion_play_deg")
-    rows = []
-    for i, name in enumerate(Deviations._fields):
-        if tolerances(spec)[name]:
-            row: list[Any] = [name]
-            for of in angles.values():
-                row += [of.fractions[i], of.parts[i]] if of else [None, None]
-            rows.append(tuple(row))
-    rows.sort(key=lambda row: -(row[1] or 0.0))
-    values |= {"motion_play.at_deg": None, "contributions": rows_table(names, rows)}
-    ends = ("mean", "std", "worst", "missed_share", "mouth_worst")
-    values |= {f"entry_jump.{end}": None for end in ends}
-    warnings = spec.accept.applied(results.warnings)
-    known_angles = [name for name, of in angles.items() if of]
-    if radius_mm is None and known_angles:
-        text = f"micrometres of {' and '.join(known_angles)}: need --radius"
-        warnings.append(Notice("not-known", text))
-    return record_table(values | results.values | {"warnings": tuple(warnings)}, spec.title)

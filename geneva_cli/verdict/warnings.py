@@ -1,13 +1,10 @@
-"""All warnings about a design, in one list.
-
-Here are those about what the wheel carries, unlikely numbers, keys without effect, and the parts
-and their whole turn.
-"""
+"""All warnings about a design: here those about loads, numbers, keys, parts and their turn."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from operator import attrgetter
 from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError, Notice
@@ -65,19 +62,15 @@ def carried_warnings(mechanism: Mechanism, plate: MassProperties | None) -> Iter
         )
     # The largest table expected is solid steel, 6 L across and L/2 thick; J = pi rho h D^4 / 32. A
     # larger inertia is nearly always meant in kg cm2.
-    diameter, thickness, density = 6e-3 * L, 0.5e-3 * L, 7850.0  # m, m, kg/m3
-    most = math.pi * density * thickness * diameter**4 / 32.0
+    most = math.pi * 7850.0 * 0.5e-3 * L * (6e-3 * L) ** 4 / 32.0
     if mechanism.output.turns and inertia > most:
         yield Notice(
             "heavy-inertia",
-            f"an inertia of {inertia:.4g} kg m² is large for a centre distance of {L:.4g} "
-            f"mm. A solid steel table {1e3 * diameter:.4g} mm across and {1e3 * thickness:.4g} "
-            f"mm thick has {most:.3g} kg m². If it is in kg cm², write {1e-4 * inertia:.4g}",
+            f"an inertia of {inertia:.4g} kg m² is more than that of a steel table {6 * L:.4g} mm "
+            f"across: if it is in kg cm², write {1e-4 * inertia:.4g}",
         )
     # a [[mass]] of this name is the wheel itself; a twentieth is within what loads are known to
-    counted = False
-    for mass in spec.mass:
-        counted = counted or mass.name == "wheel"
+    counted = "wheel" in map(attrgetter("name"), spec.mass)
     if plate and inertia and not counted and plate.inertia_kgm2 > 0.05 * inertia:
         own = plate.inertia_kgm2
         helps = f"{own:.4g} on inertia_kgm2 in [load]"
@@ -97,60 +90,29 @@ def carried_warnings(mechanism: Mechanism, plate: MassProperties | None) -> Iter
             yield Notice(
                 "weight-to-one-side",
                 f"{mass.name or mass.shape} stands {mass.radius_mm:g} mm off a horizontal "
-                f"axis. Its weight puts up to {torque:.4g} N m on the wheel in either "
-                "direction. That is not counted: balance it with another body (count = 2), or "
-                "add the torque to torque_Nm in [load]",
+                f"axis. Its weight puts up to {torque:.4g} N m on the wheel, which is not counted: "
+                "balance it (count = 2), or add the torque to torque_Nm in [load]",
             )
 
 
 def key_warnings(spec: Spec) -> Iterator[Notice]:
-    """Warnings about materials that seem to be in another unit, and about keys that lack others."""
-    # No material is stiffer than diamond, heavier than osmium, or as light as a density in g/cm3
-    # suggests.
-    diamond_GPa, osmium_kgm3, foam_kgm3 = 1220.0, 22590.0, 25.0
-    said, dense = list[str](), list[tuple[str, float | None]]()
-    for mass in spec.mass:
-        dense.append(("[[mass]]", mass.density_kgm3))
-    for table in ("material.wheel", "material.roller"):
-        part = spec.table(table)
-        dense.append((f"[{table}]", part["density_kgm3"]))
-        modulus = part["youngs_modulus_GPa"]
-        if modulus is not None and modulus > diamond_GPa:
-            said.append(
-                f"youngs_modulus_GPa = {modulus:g} in [{table}] is stiffer than diamond "
-                f"({diamond_GPa:g} GPa): if it is in MPa, write {1e-3 * modulus:g}"
-            )
-    for table, density in dense:
-        if density is not None and density < foam_kgm3:
-            said.append(
-                f"density_kgm3 = {density:g} in {table} is lighter than foam: if it is in g/cm³, "
-                f"write {1e3 * density:g}"
-            )
-        elif density is not None and density > osmium_kgm3:
-            said.append(
-                f"density_kgm3 = {density:g} in {table} is heavier than osmium: if it is in g/m³, "
-                f"write {1e-3 * density:g}"
-            )
-    for text in said:
-        yield Notice("unlikely-material", text)
-    support = spec.support
+    """Warnings about keys of motor and support without effect, because they lack others."""
+    support, texts = spec.support, list[str]()
     if not spec.is_loaded and spec.motor != Motor():
-        text = "[motor] has no load to drive, so no motor or flywheel is computed: set "
-        yield Notice("nothing-to-act-on", f"{text}{spec.load_keys}")
+        texts.append("[motor] has no load to drive, so no motor or flywheel is computed: set ")
+        texts[0] += spec.load_keys
     if bool(support.friction) != bool(support.radius_mm):
         keys = ("friction", "radius_mm")
         present, lacking = keys if support.friction else reversed(keys)
-        yield Notice(
-            "nothing-to-act-on",
-            f"{present} in [support] has no effect without {lacking}: set {lacking}, or remove "
-            f"{present}",
-        )
+        texts.append(f"{present} in [support] has no effect without {lacking}: set {lacking}")
+        texts[-1] += f", or remove {present}"
     elif support.friction and not (spec.mass or support.force_N):
-        yield Notice(
-            "nothing-to-act-on",
+        texts.append(
             "friction in [support] has no effect, because nothing presses on the support: set "
-            "force_N there, or give the weight as [[mass]]",
+            "force_N there, or give the weight as [[mass]]"
         )
+    for text in texts:
+        yield Notice("nothing-to-act-on", text)
 
 
 def _process_warnings(parts: Parts) -> Iterator[Notice]:
@@ -159,8 +121,7 @@ def _process_warnings(parts: Parts) -> Iterator[Notice]:
     if not spec.has_parts:
         return
     try:
-        unborne = parts.built.unborne
-        named = list(parts.built.by_name()) if spec.size.process else []
+        unborne, named = parts.built.unborne, [*parts.built.by_name()] if spec.size.process else []
     except GenevaError:  # the check of the parts has the reason
         unborne, named = (), []
     for name, reason in unborne:
@@ -192,7 +153,7 @@ def _small_holes(named: list[NamedParts], least: float) -> Iterator[Notice]:
     """A warning that names each part with a hole below ``least`` thicknesses."""
     if not least:
         return
-    from geneva_cli.drawings.single_parts import is_cut
+    from geneva_cli.drawings.parts_list import is_cut
     from geneva_cli.geometry.plates import Plate, solids
     from geneva_cli.geometry.sphere_shell import Shell
     from geneva_cli.parts.projection import built_of
@@ -234,15 +195,12 @@ def _narrow(mechanism: Mechanism, sizes: Sizes) -> Iterator[Notice]:
     for key in ("slot_clearance_mm", *(["lock_clearance_mm"] if sizes.lock else [])):
         own = getattr(size.allowances, key)
         needed = getattr(built.replace(**{key: None}).allowances, key)
-        if keeps(own, "at least", needed):
-            continue
-        why = f"is that of the default thickness; the wheel is {sizes.wheel_thickness:.4g} mm thick"
-        if getattr(size, key) is not None:
-            why = (
-                f'is less than process = "{size.process}" holds at these sizes, so that the parts '
-                "may not go together"
+        if not keeps(own, "at least", needed):
+            yield Notice(
+                "narrow-for-process",
+                f'{key} = {own:g} is less than process = "{size.process}" holds at these '
+                f"thicknesses, so that the parts may not go together: set {key} to {needed:g}",
             )
-        yield Notice("narrow-for-process", f"{key} = {own:g} {why}: set {key} to {needed:g}")
 
 
 def turn_warnings(parts: Parts) -> Iterator[Notice]:
@@ -258,27 +216,16 @@ def turn_warnings(parts: Parts) -> Iterator[Notice]:
         yield Notice(
             "steep-hand-over",
             f"the roller meets a wheel that is off by its play at a pressure angle of "
-            f"{turn.push.deg:.4g}°, at {turn.push.at_deg:.4g}°: from {most:.4g}° on, friction of "
-            f"{1.0 / math.tan(math.radians(most)):.3g} would hold it there. Less "
-            "lock_clearance_mm or a larger wheel_radius_mm makes it less steep",
+            f"{turn.push.deg:.4g}°, at {turn.push.at_deg:.4g}°: from {most:.4g}° on, friction "
+            "would hold it. Less lock_clearance_mm or a larger wheel_radius_mm helps",
         )
     # play to both sides has a limit of its own
     ahead, behind = turn.ahead, turn.behind
     free = max(ahead.deg, behind.deg)
-    if free <= motion_play_max(parts) or turn.motion.deg >= free * (1.0 - SAME):
-        return
-    first = ahead.deg >= behind.deg * (1.0 - SAME)
-    side, at_deg = ("ahead", ahead.at_deg) if first else ("behind", behind.at_deg)
-    helps = "a load that overruns the roller" if first else "a load that holds back"
-    text = (
-        f"in its slot the wheel is free {side} by {free:.4g}° at {at_deg:.4g}°, where one wall "
-        f"alone drives it: {helps} meets a corner. Friction or a brake keeps it on that wall"
-    )
-    if len(parts.assembly.rollers) > len(parts.assembly.motions):
-        text = (
-            f"in its slots the wheel is free ahead by {ahead.deg:.4g}° at {ahead.at_deg:.4g}° and "
-            f"behind by {behind.deg:.4g}° at {behind.at_deg:.4g}°. One wall starts it and one "
-            "stops it: it leaves them if its load overruns the first roller, or stays behind the "
-            "second"
+    if free > motion_play_max(parts) and turn.motion.deg < free * (1.0 - SAME):
+        yield Notice(
+            "driven-by-one-wall",
+            f"in its slot the wheel is free ahead by {ahead.deg:.4g}° at {ahead.at_deg:.4g}° and "
+            f"behind by {behind.deg:.4g}° at {behind.at_deg:.4g}°, where one wall alone drives "
+            "it. Friction or a brake keeps it on that wall",
         )
-    yield Notice("driven-by-one-wall", text)

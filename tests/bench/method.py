@@ -1,7 +1,5 @@
 """A method, a task and a subject of the bench; and the frontier of methods."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
@@ -21,10 +19,7 @@ class Method(NamedTuple):
 
 
 class Task(NamedTuple):
-    """A task for competing methods: one answer, one baseline, one measure of error.
-
-    The error of the baseline's result is None if the baseline is not a method.
-    """
+    """A task for competing methods: one answer, one baseline, one measure of error."""
 
     name: str
     baseline: str
@@ -65,26 +60,18 @@ class BenchRow(NamedTuple):
     memory_exponent: float | None = None
 
 
-def beats(one: BenchRow, other: BenchRow, slack: float, floor: float) -> bool:
-    """Return True if ``one`` is faster and as accurate."""
-    if one.error is None or other.error is None:
-        return False
-    faster = one.time_ratio < (1.0 - slack) * other.time_ratio
-    return faster and max(one.error, floor) <= max(other.error, floor)
-
-
-def with_frontier(rows: Sequence[BenchRow], slack: float, floor: float) -> list[BenchRow]:
-    """Rows of a task, each marked as on the frontier unless another method beats it.
+def with_frontier(rows, slack, floor):
+    """Rows of a task, each marked as on the frontier unless another is faster and as accurate.
 
     Ours are different functions or inputs, and do not compete with each other.
     """
-    return [
-        row
-        if row.error is None
-        else row._replace(
-            frontier=not any(
-                beats(other, row, slack, floor) for other in rows if not (other.ours and row.ours)
-            )
-        )
-        for row in rows
-    ]
+
+    def beats(one, other):
+        faster = one.time_ratio < (1.0 - slack) * other.time_ratio
+        return faster and max(one.error, floor) <= max(other.error, floor)
+
+    out = []
+    for row in rows:
+        rivals = [other for other in rows if not (other.ours and row.ours)]
+        out.append(row._replace(frontier=not any(beats(other, row) for other in rivals)))
+    return out

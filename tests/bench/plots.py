@@ -1,26 +1,21 @@
 """Error against time, a panel for each task: the nearer to the lower left corner, the better."""
 
-from __future__ import annotations
-
 import itertools
 import math
 import os
-from collections.abc import Sequence
-
-from bench.method import BenchRow, Subject
 
 COLUMNS = 4  # of panels
 LEAST = 1e-17  # error that is drawn for 0
 
 
-def write(subject: Subject, rows: Sequence[BenchRow], path: str) -> bool:
+def write(subject, rows, path):
     """Write a subject's panels as an .svg; False if its methods have no error to show."""
     import matplotlib
 
     matplotlib.use("svg")
     from matplotlib import pyplot
 
-    by_task: dict[str, list[BenchRow]] = {}
+    by_task = {}
     for row in rows:
         if row.error is not None:
             by_task.setdefault(row.task, []).append(row)
@@ -42,7 +37,7 @@ def write(subject: Subject, rows: Sequence[BenchRow], path: str) -> bool:
     return True
 
 
-def _draw(panel, task: str, rows: Sequence[BenchRow]) -> None:  # type: ignore[no-untyped-def]
+def _draw(panel, task, rows):
     panel.set(xscale="log", yscale="log", title=task)
     sizes = {row.size for row in rows}
     for row, marker in zip(rows, itertools.cycle("osD^vPX*"), strict=False):

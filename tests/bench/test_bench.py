@@ -9,11 +9,11 @@ import pytest
 from sampling import some
 
 from bench import plots
+from bench.__main__ import SUBJECTS, bench_table, measure
 from bench.kinds import KINDS, values_of
-from bench.method import BenchRow, beats, with_frontier
-from bench.run import SUBJECTS, bench_table, measure
-from bench.subjects import start as bench_start
+from bench.method import BenchRow, with_frontier
 from bench.timing_pairs import exponent, median_ratio, ratios
+from bench.whole_runs import SCRIPTS
 from geneva_cli.motion.mechanism import build
 
 # The greatest error that ours may show, in the subject's own measure; of the others none.
@@ -85,7 +85,6 @@ def test_frontier():
     fast, exact, both, tie = row(1e-3, 1.0), row(1e-16, 9.0), row(1e-3, 2.0), row(5e-16, 8.9)
     found = with_frontier([fast, exact, both, tie], 0.1, 1e-15)
     assert [r.frontier for r in found] == [True, True, False, True]
-    assert beats(row(1e-3, 1.0), row(1e-3, 2.0), 0.1, 0.0)
 
 
 def test_ratios_are_of_pairs():
@@ -107,7 +106,7 @@ def test_costs_have_the_exponent_of_their_growth():
 
 def test_scripts_of_the_start_print_the_row():
     """The competitors do what they are there for."""
-    for code in bench_start.SCRIPTS.values():
+    for code in SCRIPTS.values():
         run = subprocess.run(
             [sys.executable, "-c", code, "table", "--z", "6"], capture_output=True, encoding="utf-8"
         )

@@ -4,13 +4,10 @@ A change in the computer's speed affects both alike. The ratio is the median ove
 calls shorter than SHORTEST it is that of the least times of many runs: interruptions only add.
 """
 
-from __future__ import annotations
-
 import math
 import statistics
-from collections.abc import Callable, Sequence
 from time import perf_counter, process_time
-from typing import Any, NamedTuple, TypeVar
+from typing import NamedTuple, TypeVar
 
 T = TypeVar("T")
 Pair = tuple[float, float]  # seconds of the baseline, and of the run after it
@@ -24,7 +21,7 @@ class Timed(NamedTuple):
     least_s: float
 
 
-def processor_s() -> float:
+def processor_s():
     """Processor time of this process and of the processes that it waited for, in seconds.
 
     Other work of the computer does not add to it. The time of all cores counts. Windows does not
@@ -38,17 +35,17 @@ def processor_s() -> float:
     return process_time() + children.ru_utime + children.ru_stime
 
 
-def wall_s() -> float:
+def wall_s():
     """Seconds on the wall clock, which a user waits for."""
     return perf_counter()
 
 
-def median_ratio(pairs: Sequence[Pair]) -> float:
+def median_ratio(pairs):
     """Median of the pairs' ratios."""
     return statistics.median(own / base for base, own in pairs)
 
 
-def exponent(sizes: Sequence[float], costs: Sequence[float]) -> float:
+def exponent(sizes, costs):
     """Exponent p of costs that grow as a + b n^p, where a is the least cost.
 
     The slope of a line through the logarithms of growth and of the size beyond the smallest, by
@@ -73,12 +70,7 @@ def exponent(sizes: Sequence[float], costs: Sequence[float]) -> float:
     return sum(products) / sum((u - mean_x) ** 2 for u in x)
 
 
-def ratios(
-    baseline: Callable[[], Any],
-    calls: Sequence[Callable[[], T]],
-    seconds: float,
-    clock: Callable[[], float] = processor_s,
-) -> tuple[list[T], list[Timed]]:
+def ratios(baseline, calls, seconds, clock=processor_s):
     """Answer of each call, and its time as a ratio to the baseline's.
 
     Each call first runs once for its answer, without measurement. Then the calls run in turn, round
@@ -88,7 +80,7 @@ def ratios(
     _, base_repeats = _first(baseline, clock)
     answers, repeats = zip(*[_first(call, clock) for call in calls], strict=True)
     spent = [0.0] * len(calls)
-    pairs: list[list[Pair]] = [[] for _ in calls]
+    pairs = [[] for _ in calls]
     while any(s < seconds for s in spent):
         base = -1.0
         for i, call in enumerate(calls):
@@ -107,7 +99,7 @@ def ratios(
     return list(answers), timed
 
 
-def _first(call: Callable[[], T], clock: Callable[[], float]) -> tuple[T, int]:
+def _first(call, clock):
     """Answer of a call, and the number of its runs per round."""
     start = wall_s()
     answer = call()
@@ -117,7 +109,7 @@ def _first(call: Callable[[], T], clock: Callable[[], float]) -> tuple[T, int]:
     return answer, max(1, round(SHORTEST / once))
 
 
-def _time(call: Callable[[], Any], repeats: int, clock: Callable[[], float]) -> float:
+def _time(call, repeats, clock):
     start, start_wall = clock(), wall_s()
     for _ in range(repeats):
         call()

@@ -69,21 +69,6 @@ def with_cranks(z, places):
 built = pytest.mark.parametrize(("z", "places"), BUILT)
 
 
-@pytest.mark.long
-@built
-def test_motion_and_loads_are_those_of_one_crank(z, places):
-    """Equal to the last digit: the same engine, which other tests prove by closed forms."""
-    several = with_cranks(z, places)
-    one = Design(External(z), Crank(rollers=len(places)), load=LOAD)
-    moving, own = (design.motion(181).to_dict() for design in (several, one))
-    assert all(np.array_equal(moving[name], own[name]) for name in own)
-    answers, own = (design.report.table.to_dict() for design in (several, one))
-    for name in own:
-        in_turn = "crank_bearing_N" in name and name.endswith((".mean", ".rms"))
-        if name.startswith(("timing.", "jerk.", "loads.", "cycle.", "life.", "strength.")):
-            assert answers[name] == own[name] or in_turn
-
-
 def polygons(group):
     """The plates of a crank in its own frame, with their heights."""
     out = []
@@ -172,17 +157,6 @@ def test_cranks_that_meet_fail():
     (check,) = (c for c in with_cranks(12, (0, 1)).checks if c.name == "cranks_apart_mm")
     assert check.passes is False
     assert check.value < 0.0
-
-
-@pytest.mark.long
-def test_a_report_lists_when_each_crank_moves_the_wheel():
-    design = Design(External(8), Crank(rollers=2, crank_steps=(0, 3), n_rpm=30))
-    names = ("crank", "place_deg", "behind_deg", "entry_deg", "exit_deg", "entry_s", "slot")
-    rows = [(1, 0.0, 0.0, -67.5, 67.5, 0.0, 0, 2), (2, 135.0, 180.0, 112.5, 247.5, 1.0, 0, 2)]
-    table = design.report.table.to_dict()["cranks"]
-    assert [list(row.values()) for row in table] == [pytest.approx(list(row)) for row in rows]
-    assert tuple(table[0]) == (*names, "slot_every")
-    assert Design(External(8), Crank(rollers=2)).report.table.to_dict()["cranks"] is None
 
 
 @pytest.mark.sampled(9)

@@ -180,7 +180,7 @@ def test_each_null_names_its_key():
 @pytest.mark.sampled(2)
 def test_absurd_units_are_said():
     said = run(text=WHEEL + "[load]\ninertia_kgm2 = 4000\n").stdout
-    assert "If it is in kg cm², write 0.4" in " ".join(said.split())
+    assert "if it is in kg cm², write 0.4" in " ".join(said.split())
 
 
 @pytest.mark.sampled(4)

@@ -1,6 +1,5 @@
 """Loads of many designs: against bodies cut free, dense samples, and sums of many places."""
 
-import load_witness
 import numpy as np
 import pytest
 import repo
@@ -100,33 +99,6 @@ def test_no_friction_among_designs_with():
     _, rms = dense_means(Cycle(build(spec)), "input_torque_Nm")
     assert here.max[1] == pytest.approx(28.93, abs=5e-3)
     assert here.rms[1] == pytest.approx(rms, rel=1e-12)
-
-
-@pytest.mark.sampled(5)
-@pytest.mark.parametrize("name", ["crank", "internal", "side-crank", "offset", "elliptical gears"])
-def test_greatest_against_bodies_cut_free(name):
-    """At its place the witness has that size, and nowhere a greater one by 64 units.
-
-    A greatest force at the entry is compared a share of 1e-12 inwards, where it is less by some
-    times as much.
-    """
-    spec, varied, found = loaded(name, 4, 8, friction=0.1, efficiency=1.0)
-    greatest = load_peaks(found.machine, ("pin_force_N", "input_torque_Nm"))
-    i = int(found.which[0])
-    machine = alone(spec, varied, i)
-    parts = load_witness.machine(machine.spec)
-    engagement = machine.engagements[0]
-
-    def true(x):
-        told, _ = load_witness.loads(machine.spec, *parts, x)
-        return abs(float(told.force)), abs(float(told.shaft))
-
-    places = np.linspace(0.999 * engagement.entry_deg, 0.999 * engagement.exit_deg, 16)
-    dense = np.array([true(x) for x in places]).max(axis=0)
-    for k, one in enumerate(greatest.values()):
-        inwards = 1.0 - 1e-12  # the witness knows no contact before the entry
-        assert true(one.at_deg[0] * inwards)[k] == pytest.approx(one.max[0], rel=1e-11)
-        assert dense[k] <= one.max[0] * (1.0 + 64 * ULP)
 
 
 def test_an_input_torque_that_holds_back_most_is_greatest_by_size():

@@ -6,20 +6,44 @@ from itertools import pairwise
 import numpy as np
 import pytest
 import repo
-from bench import truth
-from swings import greatest_acceleration, residuals, shares
 from words import law as load_law
 from words import load
 
-from geneva_cli import Crank, Design, External, Shaft, SideCrank
-from geneva_cli.loads.vibration.swing import Oscillator, law_shape, local_maxima
+from geneva_cli import Design, External, Shaft
+from geneva_cli.loads.vibration.swing import (
+    Oscillator,
+    greatest_accelerations,
+    law_shape,
+    local_maxima,
+    residual_swing,
+)
 from geneva_cli.loads.vibration.swing import motion_shapes as shape
 from geneva_cli.loads.vibration.vibration import Oscillators, speeds_to_avoid
-from geneva_cli.motion import registry
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 
 DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
+
+
+def swing(ratios, damping):
+    ratios = np.array(ratios, dtype=float)
+    return Oscillator(ratios, np.full(ratios.shape, damping))
+
+
+def residuals(panels, ratios, damping):
+    """Complex residual swings of the first motion among the panels."""
+    return residual_swing(panels, np.zeros(len(ratios), dtype=np.intp), swing(ratios, damping))
+
+
+def shares(panels, ratios, damping):
+    """Residual amplitudes over the step."""
+    return np.abs(residuals(panels, ratios, damping))
+
+
+def greatest_acceleration(panels, ratio, damping):
+    """The greatest acceleration of a load during the motion, over the step."""
+    one = np.zeros(1, dtype=np.intp)
+    return float(greatest_accelerations(panels, one, swing([ratio], damping))[0])
 
 
 def rate(ratio, damping):
@@ -50,33 +74,6 @@ def test_every_machine(path):
         for ratio, damping in ((0.4, 0.0), (3.3, 0.05), (11.0, 0.0)):
             found = residuals(shape(engagement.motion), [ratio], damping)[0]
             assert found == pytest.approx(by_gauss(engagement, ratio, damping), abs=1e-13)
-
-
-@pytest.mark.long
-@pytest.mark.parametrize(
-    ("z", "gearing", "A", "damping"),
-    [(3, "external", 0.0, 0.1), (6, "internal", 0.0, 0.0), (5, "external", 0.7, 0.02)],
-)
-def test_straight_slots_to_the_last_digits(z, gearing, A, damping):
-    """The wheel's acceleration by complex numbers of 50 digits, integrated at 30."""
-    mp = truth.digits()
-    wheel = registry.gearing(gearing)(z)
-    machine = build(Spec(wheel, SideCrank(A=A) if A else Crank()))
-    engagement = machine.engagements[0]
-    half = truth.half_motion(z, gearing, A)
-    cuts = [half * mp.mpf(k) / 16 for k in (-16, -10, -5, -2, -1, 0, 1, 2, 5, 10, 16)]
-    for ratio in (0.9, 6.25):
-        z_ = mp.mpf(damping)
-        p = 2 * mp.pi * mp.mpf(ratio) * mp.mpc(-z_, mp.sqrt(1 - z_ * z_))
-
-        def swing(x, p=p):
-            return truth.motion(z, gearing, A, x)[2] * mp.exp(p * (half - x) / (2 * half))
-
-        mp.dps = 25
-        exact = mp.quad(swing, cuts, maxdegree=5) * 2 * half / (2 * mp.pi / z) / p.imag
-        mp.dps = 50
-        found = shares(shape(engagement.motion), np.array([ratio]), damping)[0]
-        assert abs(found - abs(exact)) <= 1e-13 * abs(exact)
 
 
 @pytest.mark.parametrize(

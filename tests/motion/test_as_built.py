@@ -21,7 +21,6 @@ from geneva_cli import (
     Load,
     SideCrank,
     Size,
-    Spherical,
     Tolerance,
 )
 from geneva_cli.errors import GenevaError
@@ -29,7 +28,6 @@ from geneva_cli.motion.drive import Drive
 from geneva_cli.motion.many import many, worst_peaks
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.peaks import greatest_jumps, worst
-from geneva_cli.motion.registry import drive
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.verdict.checks import single_check
 from geneva_cli.verdict.quantities.batch_designs import Designs
@@ -160,22 +158,6 @@ def test_warning_of_the_impact() -> None:
     loads = design.loads
     assert math.isfinite(loads["pin_force_N"].max or math.nan)
     assert not [w for w in Design(External(6)).warnings if w.name == "taken-as-built"]
-
-
-@pytest.mark.parametrize(
-    ("wheel", "own", "text"),
-    [
-        (Spherical(6), None, "needs 0.5"),
-        (External(6, stop=True), None, "needs 0.5"),
-        (External(6), drive("elliptical-gears")(eccentricity=0.1), "needs 0.5"),
-        (External(6, offset_mm=48.0), None, "below center_distance_mm"),
-    ],
-)
-def test_other_kinds_say_which_ratio_they_need(
-    wheel: Gearing, own: Drive | None, text: str
-) -> None:
-    with pytest.raises(GenevaError, match=text):
-        _ = built(wheel, 100, 53.0, own).mechanism
 
 
 VARIED: list[tuple[Design, dict[str, list[float]]]] = [

@@ -10,22 +10,9 @@ import numpy as np
 import pytest
 import repo
 
-from geneva_cli import Cam, Design, External, Load, Motion, SideCrank, SineGroup, load
+from geneva_cli import Cam, Design, External, Load, Motion, SineGroup, load
 
 OFFSET = External(6, offset_mm=12.0)
-
-
-@pytest.mark.parametrize(
-    "machine",
-    [
-        Design(External(6)),
-        Design(External(6, steps_deg=(72, 48))),
-        Design(External(6), SideCrank(A=0.4, rollers=2)),
-    ],
-)
-def test_some_machines_are_their_own_mirror_images(machine):
-    turned = machine.backwards.spec
-    assert (turned.wheel, turned.drive) == (machine.spec.wheel, machine.spec.drive)
 
 
 def test_a_pattern_of_steps_runs_the_other_way_round():

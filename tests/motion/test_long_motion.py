@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from bench.truth import digits, motion
 from repo import DESIGNS
 from sampling import some
+from witness import Geneva
 
 from geneva_cli.design import load
 from geneva_cli.drives.side_crank import SideCrank
@@ -23,9 +23,8 @@ def test_it_is_exact(z, A):
     input_deg = np.linspace(moving.entry_deg, moving.exit_deg, COUNT + 9)
     input_deg[1] *= 1.0 + UNIT  # not its own mirror image
     found = moving.derivatives(input_deg, ORDERS)
-    mp = digits()
     for i in np.linspace(1, len(input_deg) - 2, 40).astype(int):
-        exact = motion(z, "external", A, mp.mpf(float(input_deg[i])) * mp.pi / 180)
+        exact = Geneva(z, "external", A).derivatives(input_deg[i])
         for order, values in enumerate(found):
             assert abs(values[i] - exact[order]) <= 7 * UNIT * abs(values).max()
 

@@ -1,7 +1,5 @@
 """Functions by polynomials: as exact as the function itself, wherever its formula changes."""
 
-import math
-
 import numpy as np
 import pytest
 
@@ -58,11 +56,3 @@ def test_the_rounding_of_a_function_is_not_taken_for_its_shape():
     (values,) = fitted(rounded, X, ())
     assert sum(computed) < len(X) / 10
     assert abs(values - np.cos(X)).max() < 2e-15
-
-
-def test_equal_places_end_it():
-    """Of ten thousand equal angles no interval has few."""
-    x = np.sort(np.append(X, np.full(10_000, 0.123)))
-    (values,) = fitted(lambda x: [np.exp(x)], x, (0.123,))
-    assert abs(values / np.exp(x) - 1.0).max() < 4 * UNIT
-    assert {*values[x == 0.123].tolist()} == {math.exp(0.123)}

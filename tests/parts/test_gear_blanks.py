@@ -3,14 +3,12 @@
 import math
 from functools import cache
 
-import mpmath
 import numpy as np
 import pytest
 import repo
 
 from geneva_cli import Design, Epicyclic, External, load
 from geneva_cli.geometry.shapes import Arc, Circle
-from geneva_cli.parts.gears.gear_pair import gears_table
 from geneva_cli.parts.links.link_plates import drawn_links
 from geneva_cli.spec.tables import Size
 
@@ -52,32 +50,6 @@ def test_elliptical_gears_are_ellipses_that_turn_about_a_focus():
     of = design("elliptical-gears")
     for name, bore in (("driven gear", 12.0), ("driver gear", 15.0)):
         assert found(of, name) == pytest.approx(whole - disc(bore / 2.0, thick), rel=FITTED)
-
-
-@pytest.mark.long
-def test_noncircular_gears_are_what_their_radii_sweep():
-    """m = rho h/2 integral of r², J = rho h/4 integral of r⁴ over their own turning, in mpmath."""
-    of = design("noncircular-gears")
-    at = dict(zip(*_columns(of), strict=True))
-    thick = 16.0
-    for name, bore, r, turn in (
-        ("driven gear", 12.0, at["driven_radius_mm"], at["crank_deg"]),
-        ("driver gear", 15.0, at["driver_radius_mm"], at["input_deg"]),
-    ):
-        # trapezoids of a period by the input's angle, dturn = ratio dinput: exact beyond digits
-        slope = at["ratio"][:-1] if turn is at["crank_deg"] else np.ones(len(r) - 1)
-        step = mpmath.radians(360) / (len(r) - 1)
-        square, fourth = (
-            mpmath.fsum(mpmath.mpf(x) ** n * s for x, s in zip(r[:-1], slope, strict=True)) * step
-            for n in (2, 4)
-        )
-        swept = RHO * thick * np.array([float(square) / 2.0 * 1e-9, float(fourth) / 4.0 * 1e-15])
-        assert found(of, name) == pytest.approx(swept - disc(bore / 2.0, thick), rel=FITTED)
-
-
-def _columns(of):
-    table = gears_table(of.mechanism, 0.01, 1441)
-    return table.names, [np.asarray(column) for column in table.columns]
 
 
 def test_planet_and_sun_are_discs_with_their_holes():

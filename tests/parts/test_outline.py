@@ -284,30 +284,6 @@ def corners_in_the_disc(z: int, r: float, share: float) -> Iterator[np.ndarray]:
             yield seen[np.abs(seen) < rk - 1e-7]  # at entry they lie on it
 
 
-def arc_clears(z: int, r: float, share: float) -> float:
-    """How far the recess's corners stay off the relief arc in the motion, negative where they cut
-    into what it leaves of the disc."""
-    reach = share * math.cos(math.pi / z)
-    paths = corners_in_the_disc(z, r, share)
-    return L * min(float((reach - np.abs(path - share)).min(initial=math.inf)) for path in paths)
-
-
-@pytest.mark.sampled(4)
-@pytest.mark.parametrize(("z", "least"), [(8, 0.40), (10, 0.46), (12, 0.52), (16, 0.65)])
-def test_from_which_disc_on_the_relief_arc_clears(z: int, least: float) -> None:
-    """The shares rk/R of theory 1.1 by the corners' paths, and the program's choice on either side
-    of them. They are said to two digits: within 0.02."""
-    R, r = L * math.sin(math.pi / z), 5.0
-    low, high = least - 0.05, least + 0.05
-    assert arc_clears(z, r, low) < 0.0 < arc_clears(z, r, high)
-    for _ in range(12):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if arc_clears(z, r, middle) < 0.0 else (low, middle)
-    assert low == pytest.approx(least, abs=0.02)
-    for share, kind in ((low - 0.002, "sector"), (high + 0.002, "arc")):
-        assert made(z, roller_radius_mm=r, lock_radius_mm=share * R).outlines.relief == kind
-
-
 RELIEF = [(3, 0.7), (4, 0.45), (6, 0.31), (7, 0.8), (10, 0.48), (16, 0.67)]
 
 

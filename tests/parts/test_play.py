@@ -7,13 +7,11 @@ import numpy as np
 import pytest
 import repo
 from scipy.optimize import brentq
-from test_outline import made
 from turn_witness import overlapping
-from words import Motion, load
+from words import load
 
 from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.parts.turn.full_turn import DRIVING, full_turn
-from geneva_cli.parts.turn.turned_parts import wheel_stops, windows
 from geneva_cli.verdict.checks import TURNING, applicable
 
 DESIGNS = repo.DESIGNS
@@ -162,33 +160,6 @@ def test_play_in_the_motion(tmp_path: Path, c: float) -> None:
     assert turn.motion.at_deg == pytest.approx(0.0, abs=1e-4)
     row = next(r for r in applicable(TURNING, found, turn) if r.name == "motion_play_deg")
     assert row.passes == (c < 1.0)
-
-
-CHANGES = {
-    "internal-curved-z8": None,
-    "modified-sine-matched": None,
-    "steep": Motion("modified-sine", alpha0_deg=16.02, ratio="matched"),
-}
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("name", CHANGES)
-def test_play_where_the_roller_changes_walls(name: str) -> None:
-    """A narrow peak between two positions: 2 to 3 times as high as those, against a dense scan."""
-    motion = CHANGES[name]
-    parts = (
-        made(8, motion=motion, slot_clearance_mm=0.02)
-        if motion
-        else parts_of(load(str(DESIGNS / f"{name}.toml"))).turned
-    )
-    window = next(w for w in windows(parts) if not w.rests)
-    at_deg = np.linspace(window.start, window.end, 20_000)
-    leads, _ = wheel_stops(parts, at_deg, True)
-    play = np.degrees(leads.min(axis=0))
-    dense = play[parts.past_mouth(0, at_deg) > 0.0].max()
-    # the play changes by a hundredth of itself between two positions of the scan
-    assert full_turn(parts).motion.deg == pytest.approx(dense, rel=0.01)
-    assert full_turn(parts).motion.deg > dense * (1.0 - 1e-9)
 
 
 @pytest.mark.parametrize(("name", "entry"), [("side-crank-z6", -91.306), ("press-straight", -60.0)])

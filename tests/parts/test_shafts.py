@@ -3,9 +3,8 @@
 import math
 
 import pytest
-import repo
 
-from geneva_cli import Design, External, Internal, SideCrank, Size, load
+from geneva_cli import Design, External, Internal, SideCrank, Size
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import plates
 from geneva_cli.parts.shafts.arm_and_shafts import crank_arm
@@ -84,17 +83,6 @@ def test_a_crank_shaft_through_an_internal_wheel():
     radius = part(design, "crank's shaft").outline.radius
     assert found == pytest.approx(sizes.rim - 100.0 - radius, abs=1e-6)
     assert gap_of(Design(Internal(6))) is None
-
-
-def test_a_first_wheel_beside_the_seconds_shaft():
-    """Farther from its crank it is larger, and nearer to that shaft than the arm above it."""
-    wide = ["drive.first_distance_mm=38"]
-    design = load(str(repo.DESIGNS / "geneva-pair.toml"), wide)
-    first = part(design, "first wheel")
-    reach = max(math.hypot(*piece.start) for piece in first.outline.segments)
-    found = gap_of(design)
-    wheel = part(design, "wheel's shaft").outline.radius
-    assert found == pytest.approx(30.0 - reach - wheel, abs=1e-9)
 
 
 @pytest.mark.sampled(3)

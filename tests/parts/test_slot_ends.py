@@ -14,7 +14,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import moments
 from geneva_cli.geometry.shapes import Arc, Line
 from geneva_cli.loads.impacts.entry import RestingAxis, mouth_contacts
-from geneva_cli.loads.strength.horn import horns, single_stress
+from geneva_cli.loads.strength.horn import greatest_stress, horns
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.parts.slots.roller_paths import wall_lost
 from geneva_cli.verdict.checks import checks, single_check
@@ -143,7 +143,7 @@ def test_the_stress_of_a_blunt_horn_by_a_scan() -> None:
     thick = lock - np.sqrt(lock**2 - s * s)
     arm = np.maximum(s - s0[:, None], 0.0)
     most = (6.0 * force[:, None] * arm / (face * thick**2)).max()
-    found = single_stress(horns, design.mechanism, (5.0, lock), face)
+    found = greatest_stress(horns, design.mechanism, (5.0, lock), face)
     assert found.single and found.single.stress_MPa == pytest.approx(most, rel=2e-3)
 
 

@@ -13,10 +13,8 @@ from geneva_cli import (
     Load,
     Mass,
     Motor,
-    RollerMaterial,
     Size,
     Support,
-    WheelMaterial,
     load,
 )
 from geneva_cli.motion import registry
@@ -154,17 +152,3 @@ def test_the_force_of_a_body_off_the_axis():
 def test_what_contradicts_itself_is_said(spec, said):
     (text,) = told(spec, None)
     assert said in text
-
-
-def test_a_material_in_another_unit_is_said():
-    given = {
-        "material_wheel": WheelMaterial(youngs_modulus_GPa=210e3),
-        "material_roller": RollerMaterial(density_kgm3=7.85),
-        "mass": (Mass("disc", density_kgm3=7.85e6, diameter_mm=50.0, thickness_mm=1.0),),
-    }
-    stiff, heavy, light = told(Spec(External(6), **given), None)
-    assert stiff.endswith(
-        "[material.wheel] is stiffer than diamond (1220 GPa): if it is in MPa, write 210"
-    )
-    assert heavy.endswith("in [[mass]] is heavier than osmium: if it is in g/m³, write 7850")
-    assert light.endswith("[material.roller] is lighter than foam: if it is in g/cm³, write 7850")

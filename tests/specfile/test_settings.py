@@ -3,7 +3,6 @@
 import pytest
 
 from geneva_cli import GenevaError, load
-from geneva_cli.specfile.reader import read_value
 
 SPEC = """\
 [wheel]
@@ -22,22 +21,6 @@ def spec(tmp_path):
     path = tmp_path / "spec.toml"
     path.write_text(SPEC)
     return str(path)
-
-
-@pytest.mark.parametrize(
-    ("text", "value"),
-    [
-        ("6", 6),
-        ("1e3", 1000.0),
-        ('"sun"', "sun"),
-        ("sun", "sun"),
-        ("true", True),
-        ("[60, 120]", [60, 120]),
-    ],
-)
-def test_a_value_is_read_as_in_the_file(text, value):
-    found = read_value(text, "--set")
-    assert (found, type(found)) == (value, type(value))
 
 
 @pytest.mark.parametrize("more", ["drive.n_rpm=1", "[drive]\nn_rpm = 1"])

@@ -4,70 +4,38 @@ import math
 import re
 import tomllib
 
+import fuzz_studies
 import pytest
-import schema_agrees
 from scipy import constants as si
 from typer.testing import CliRunner
 
-from geneva_cli import External, GenevaError, Size, load
+from geneva_cli import GenevaError, load
 from geneva_cli.cli.app import app
 from geneva_cli.names import UNITS as OF_KEYS
 from geneva_cli.spec.units import UNITS, in_unit_of, pattern, unit_key
 from geneva_cli.specfile.keys import all_keys
-from geneva_cli.study.sweep.values import axis
 
 # What one of a unit is in SI units and radians, from another source than the table: CODATA's
 # conversion factors in scipy.constants, and products of them.
+# fmt: off
 ONE = {
-    "m": 1.0,
-    "mm": si.milli,
-    "cm": si.centi,
-    "um": si.micro,
-    "in": si.inch,
-    "ft": si.foot,
-    "kg": 1.0,
-    "g": si.gram,
-    "t": si.metric_ton,
-    "lb": si.pound,
-    "oz": si.ounce,
-    "s": 1.0,
-    "ms": si.milli,
-    "min": si.minute,
-    "h": si.hour,
-    "Hz": 1.0,
-    "deg": si.degree,
-    "arcmin": si.arcminute,
-    "rad": 1.0,
-    "rev": 2.0 * math.pi,
-    "rpm": 2.0 * math.pi / si.minute,
-    "N": 1.0,
-    "kN": si.kilo,
-    "lbf": si.pound_force,
-    "kgf": si.kilogram_force,
-    "Nm": 1.0,
-    "J": 1.0,
-    "Pa": 1.0,
-    "MPa": si.mega,
-    "GPa": si.giga,
-    "bar": si.bar,
-    "psi": si.psi,
-    "ksi": si.kilo * si.psi,
-    "W": 1.0,
-    "kW": si.kilo,
-    "hp": si.horsepower,
+    "m": 1.0, "mm": si.milli, "cm": si.centi, "um": si.micro, "in": si.inch, "ft": si.foot,
+    "kg": 1.0, "g": si.gram, "t": si.metric_ton, "lb": si.pound, "oz": si.ounce, "s": 1.0,
+    "ms": si.milli, "min": si.minute, "h": si.hour, "Hz": 1.0, "deg": si.degree,
+    "arcmin": si.arcminute, "rad": 1.0, "rev": 2.0 * math.pi, "rpm": 2.0 * math.pi / si.minute,
+    "N": 1.0, "kN": si.kilo, "lbf": si.pound_force, "kgf": si.kilogram_force, "Nm": 1.0, "J": 1.0,
+    "Pa": 1.0, "MPa": si.mega, "GPa": si.giga, "bar": si.bar, "psi": si.psi,
+    "ksi": si.kilo * si.psi, "W": 1.0, "kW": si.kilo, "hp": si.horsepower,
 }
+# fmt: on
 # Products and quotients, and the key's unit in SI units and radians.
 PRODUCTS = [
     ("inertia_kgm2", "lb ft2", si.pound * si.foot**2),
-    ("inertia_kgm2", "lbf in s2", si.pound_force * si.inch),
     ("torque_Nm", "ft-lbf", si.pound_force * si.foot),
-    ("torque_Nm", "kgf*cm", si.kilogram_force * si.centi),
     ("density_kgm3", "g/cm³", si.gram / si.centi**3),
-    ("stress_max_MPa", "lbf/in2", si.psi / si.mega),
     ("stiffness_Nm_rad", "lbf in/rad", si.pound_force * si.inch),
     ("pv_max_W_m2", "kW/m2", si.kilo),
     ("n_rpm", "rad/s", si.minute / (2.0 * math.pi)),
-    ("n_rpm", "deg/s", si.minute / 360.0),
 ]
 # Two roundings in the constants of SciPy and one in the quotient of two of them.
 CLOSE = 4.0 * 2.0**-53
@@ -100,12 +68,10 @@ def test_products_of_units(key, unit, one):
     ("text", "mm"),
     [
         ("8 in", 203.2),
-        ("0.1in", 2.54),  # 0.1 x 25.4 in floats is 2.54 too; 0.3 x 25.4 is not 7.62
         ("0.3 in", 7.62),
         ("3/8 in", 9.525),
         ("1 1/2 in", 38.1),
         ("-1 1/2 in", -38.1),
-        (" 1e3  um ", 1.0),
         ("5 µm", 0.005),
     ],
 )
@@ -121,13 +87,9 @@ def test_a_length_is_the_nearest_float(text, mm):
         ("a_mm", '8"', 'unknown unit " (did you mean "in"?); use mm or'),
         ("a_mm", "12,5 mm", "with a point"),
         ("a_mm", "8", '; with a unit it is a text such as "10 mm"'),
-        ("a_mm", "wide", '; with a unit it is a text such as "10 mm"'),
         ("a_mm", "1/0 in", "too large"),
-        ("a_mm", "1e9999 in", "unknown unit"),
-        ("a_mm", "9" * 5000 + " in", "must be a number"),
         ("torque_Nm", "12 lb ft", "; as a force write lbf ft"),
         ("inertia_kgm2", "3 kg", "must be in kg m², or units of that kind"),
-        ("friction", "0.1 in", "must be a number"),
     ],
 )
 def test_what_is_wrong_is_said(key, text, wants):
@@ -169,15 +131,10 @@ def test_a_spec_is_read_and_its_values_are_shown(spec):
     assert design.spec.material_wheel.youngs_modulus_GPa == pytest.approx(199.947961, rel=1e-8)
 
 
-def test_a_python_user_may_write_units_too():
-    assert Size(center_distance_mm="8 in") == Size(center_distance_mm=203.2)
-    assert External(6, offset_mm="0.1 in").offset_mm == 2.54
-
-
 def test_the_schema_takes_units_where_the_reader_does():
-    assert schema_agrees.validator().is_valid(tomllib.loads(SPEC))
-    assert not schema_agrees.validator().is_valid(tomllib.loads(SPEC.replace("8 in", "8 inhc")))
-    assert not schema_agrees.validator().is_valid(tomllib.loads('[wheel]\nz = "6 mm"\n'))
+    assert fuzz_studies.validator().is_valid(tomllib.loads(SPEC))
+    assert not fuzz_studies.validator().is_valid(tomllib.loads(SPEC.replace("8 in", "8 inhc")))
+    assert not fuzz_studies.validator().is_valid(tomllib.loads('[wheel]\nz = "6 mm"\n'))
 
 
 @pytest.mark.parametrize(
@@ -193,11 +150,6 @@ def test_a_bare_value_gets_a_hint(tmp_path, value, wants):
     result = CliRunner().invoke(app, ["peaks", str(path)])
     assert result.exit_code == 2
     assert "bare.toml:4: not TOML: " in result.stderr and wants in result.stderr
-
-
-def test_values_of_a_list_with_units():
-    values = axis("size.center_distance_mm=1 cm,8 in,50").values
-    assert list(values) == [10.0, 203.2, 50]
 
 
 def test_every_key_with_a_unit_takes_others_but_for_counts():

@@ -5,16 +5,12 @@ folders of checkouts. With WORDs only the command lines that contain all of them
 each K-th of these. Nothing of the program is imported here: each command line is a process of its
 own, ``python -m geneva_cli`` in a folder with the designs of OLD, with each checkout's package in
 turn. Compared are its exit status, what it prints, and each file that it leaves. An output is
-equal, equal to rounding (16 units in the last place of the greatest number in its column, or in its
-object), or different. Exit status 1 where an output is different.
+equal, equal to rounding (16 units in the last place of the greatest number in its column, or under
+its key), or different. Exit status 1 where an output is different.
 """
 
 import argparse
-import contextlib
-import csv
-import io
 import itertools
-import json
 import os
 import re
 import shutil
@@ -122,54 +118,33 @@ class Difference(NamedTuple):
     where: str
 
 
-def groups(text: str) -> list[list[str]]:
-    """The text in groups of like things: a csv's columns, a json's objects, or its lines."""
-    with contextlib.suppress(ValueError):
-        found: list[list[str]] = []
-
-        def walk(node: object) -> None:
-            if not isinstance(node, dict | list):
-                return
-            children = node.values() if isinstance(node, dict) else node
-            keys = [json.dumps([*node])] if isinstance(node, dict) else []
-            found.append(keys + [json.dumps(c) for c in children if not isinstance(c, dict | list)])
-            for child in children:
-                walk(child)
-
-        walk(json.loads(text))
-        return found
-    rows = list(csv.reader(io.StringIO(text)))
-    if len(rows) > 1 and len(rows[0]) > 1 and len({len(row) for row in rows}) == 1:
-        return [list(column) for column in zip(*rows, strict=True)]
-    return [line.split() for line in text.splitlines()]
-
-
-def scale(group: list[str]) -> float:
-    """The greatest finite number of a group."""
-    sizes = [abs(float(x)) for cell in group for x in NUMBER.findall(cell)]
-    return max((x for x in sizes if x < 1e300), default=0.0)
+def numbers(lines: list[str]) -> dict[tuple[str, int], list[float]]:
+    """The numbers of some lines by a line's words and the number's place: columns, keys."""
+    found: dict[tuple[str, int], list[float]] = {}
+    for line in lines:
+        words = NUMBER.sub("#", line)
+        for place, number in enumerate(NUMBER.findall(line)):
+            found.setdefault((words, place), []).append(float(number))
+    return found
 
 
 def difference(old: bytes, new: bytes) -> Difference:
     """The distance of two outputs, infinite where more than numbers differ."""
     try:
-        ones, others = groups(old.decode()), groups(new.decode())
+        before, now = old.decode().splitlines(), new.decode().splitlines()
     except UnicodeDecodeError:
         return Difference(float("inf"), "bytes")
-    if len(ones) != len(others):
-        return Difference(float("inf"), f"{len(ones)} groups, {len(others)} now")
-    worst = Difference(0.0, "")
-    for one, other in zip(ones, others, strict=True):
-        if one == other:
-            continue
-        unit = 2.0**-52 * max(scale(one), scale(other))
-        for a, b in itertools.zip_longest(one, other, fillvalue=""):
-            if NUMBER.sub("#", a) != NUMBER.sub("#", b):
-                return Difference(float("inf"), f"{a!r} now {b!r}")
-            for x, y in zip(NUMBER.findall(a), NUMBER.findall(b), strict=True):
-                ulps = abs(float(x) - float(y)) / unit if x != y and unit else 0.0
-                if ulps > worst.ulps:
-                    worst = Difference(ulps, f"{x} now {y} (in {a[:40]!r})")
+    for one, other in itertools.zip_longest(before, now, fillvalue=""):
+        if NUMBER.sub("#", one) != NUMBER.sub("#", other):
+            return Difference(float("inf"), f"{one!r} now {other!r}")
+    worst, others = Difference(0.0, ""), numbers(now)
+    for (words, place), values in numbers(before).items():
+        pairs = [*zip(values, others[words, place], strict=True)]
+        unit = 2.0**-52 * max(abs(x) for pair in pairs for x in pair if abs(x) < 1e300)
+        for x, y in pairs:
+            ulps = abs(x - y) / unit if x != y else 0.0
+            if ulps > worst.ulps:
+                worst = Difference(ulps, f"{x!r} now {y!r} (in {words[:40]!r})")
     return worst
 
 

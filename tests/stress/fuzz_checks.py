@@ -19,7 +19,7 @@ from strength_checks import judged
 
 from geneva_cli import design
 from geneva_cli.design import Design
-from geneva_cli.drawings.catalogue import DRAWINGS, PARTS, is_table, part_drawing, part_table
+from geneva_cli.drawings.catalogue import DRAWINGS, PARTS, part_drawing, part_table, table_of
 from geneva_cli.errors import GenevaError
 from geneva_cli.extras.certify.certificate import LOADS, certificate, not_proved
 from geneva_cli.geometry.sheet import prepared
@@ -128,7 +128,7 @@ def parts(text):
     tolerance = TOLERANCE * machine.center_distance_mm / 100.0
     for part in PARTS:
         try:
-            listed = is_table(machine, part, False)
+            listed = bool(table_of(machine, part))
         except GenevaError:  # a part of other machines
             continue
         for samples in (None, 33, 50) if listed else ():

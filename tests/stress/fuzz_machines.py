@@ -73,6 +73,24 @@ def clearance(rng, r):
     return rng.choice([0.0, 0.0, 0.01, 0.1, near(rng, 0.02 * r), r * rng.random()])
 
 
+# Usual sizes over the centre distance, the crank's radius or, for all others, the roller's.
+OVER_L = {
+    **dict.fromkeys(("wheel_bore_mm", "crank_shaft_high_mm", "wheel_shaft_high_mm"), 0.2),
+    **dict.fromkeys(("wheel_hub_length_mm", "crank_hub_length_mm"), 0.2),
+    **dict.fromkeys(("crank_shaft_low_mm", "wheel_shaft_low_mm"), -0.4),
+    **dict.fromkeys(("relief_clearance_mm", "wall_min_mm"), 0.005),
+    **dict.fromkeys(("lock_bolt_mm", "dial_bolt_mm", "gear_bolt_mm"), 0.025),
+    **dict.fromkeys(("lock_thickness_mm", "arm_thickness_mm"), 0.1),
+    **{"wheel_hub_mm": 0.3, "link_thickness_mm": 0.05, "wheel_thickness_mm": 0.25},
+    **{"gear_bolt_circle_mm": 0.8, "dial_bolt_circle_mm": 0.5, "wheel_flat_mm": 0.02},
+}
+OVER_R = {"crank_bore_mm": 0.3, "crank_hub_mm": 0.5, "arm_bore_mm": 0.2, "arm_hub_mm": 0.4}
+OVER_R |= {"lock_bolt_circle_mm": 1.0, "crank_flat_mm": 0.02}
+OVER_r = {"horn_tip_mm": 0.2, "press_fit_mm": 0.01, "shaft_fit_mm": 0.02, "arm_eye_mm": 2.0}
+OVER_r |= {"pin_mm": 1.0, "link_pin_mm": 1.0, "link_width_mm": 3.0, "link_bore_mm": 1.0}
+OVER_r |= dict.fromkeys(("mouth_radius_mm", "pin_gap_mm", "washer_mm"), 0.1)
+
+
 def usual(rng, key, L, R, r, outside):
     """A likely value of a key of ``[size]``, for a centre distance and a crank's radius."""
     if key in ("slot_clearance_mm", "lock_clearance_mm"):
@@ -81,53 +99,15 @@ def usual(rng, key, L, R, r, outside):
         return rng.choice(WORDED[key])
     if key in ("lock_bolts", "dial_bolts", "gear_bolts"):
         return rng.choice([0, 1, 2, 3])
+    lock = rng.choice([0.0, 0.8 * R, R - r, R])
     of = {
-        "mouth_radius_mm": 0.1 * r,
-        "horn_tip_mm": 0.2 * r,
         "wheel_radius_mm": math.sqrt(L * L - R * R if outside and R < L else L * L + R * R),
         "wheel_outer_radius_mm": L + R + 2.0 * r,
-        "slot_bottom_clearance_mm": 0.05 * r,
-        "lock_radius_mm": rng.choice([0.0, 0.8 * R, R - r, R]),
-        "relief_clearance_mm": L / 200.0,
-        "wall_min_mm": L / 200.0,
-        "wheel_bore_mm": 0.2 * L,
-        "wheel_hub_mm": 0.3 * L,
-        "wheel_hub_length_mm": 0.2 * L,
-        "wheel_shaft_low_mm": -0.4 * L,
-        "wheel_shaft_high_mm": 0.2 * L,
-        "crank_bore_mm": 0.3 * R,
-        "crank_hub_mm": 0.5 * R,
-        "crank_hub_length_mm": 0.2 * L,
-        "crank_shaft_low_mm": -0.4 * L,
-        "crank_shaft_high_mm": 0.2 * L,
-        "pin_mm": r,
-        "press_fit_mm": 0.01 * r,
-        "shaft_fit_mm": 0.02 * r,
-        "arm_bore_mm": 0.2 * R,
-        "arm_hub_mm": 0.4 * R,
-        "arm_eye_mm": 2.0 * r,
-        "lock_bolt_mm": L / 40.0,
-        "lock_bolt_circle_mm": R,
-        "pin_gap_mm": 0.1 * r,
-        "washer_mm": 0.1 * r,
-        "link_pin_mm": r,
-        "link_width_mm": 3.0 * r,
-        "link_bore_mm": r,
-        "link_thickness_mm": L / 20.0,
-        "lock_edge_mm": 0.05 * r,
-        "wheel_thickness_mm": L / 4.0,
-        "lock_thickness_mm": L / 10.0,
-        "arm_thickness_mm": L / 10.0,
-        "dial_bolt_mm": L / 40.0,
-        "gear_bolt_mm": L / 40.0,
-        "gear_bolt_circle_mm": 0.8 * L,
-        "dial_bolt_circle_mm": L / 2.0,
-        "wheel_flat_mm": 0.02 * L,
-        "crank_flat_mm": 0.02 * R,
-        "edge_chamfer_mm": 0.05 * r,
-        "edge_fillet_mm": 0.05 * r,
+        "lock_radius_mm": lock,
+        **{name: part * L for name, part in OVER_L.items()},
+        **{name: part * R for name, part in OVER_R.items()},
     }
-    return near(rng, of[key])
+    return near(rng, of.get(key, OVER_r.get(key, 0.05) * r))
 
 
 def wheel(rng, kind):

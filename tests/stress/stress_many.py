@@ -1,6 +1,8 @@
-"""Peaks of many designs: is any missed, and how exact are they? Part of `make stress`.
+"""Peaks of many designs, or of their loads: is any missed, and how exact are they?
 
-    stress_many.py [--designs N] [--machine NAME]... [--seconds S] [--seed N]
+Part of `make stress`:
+
+    stress_many.py [--loads] [--designs N] [--machine NAME]... [--seconds S] [--seed N]
 
 Random designs of every machine (those of tests/design_arrays.py). Each design's greatest velocity
 and acceleration is compared with a dense scan: a peak is missed where a place of the scan has more.
@@ -11,6 +13,11 @@ machine take one to four minutes; with ``--seconds`` a machine gets so much time
 The scan has few places, which differ from design to design: one anywhere in each of some equal
 parts, and some at distances of all orders of magnitude from the motion's ends and from the peaks.
 A very narrow peak, which some hundred designs would hide, shows in a million.
+
+With ``--loads`` each design has a load of its own, with friction and without, and the greatest and
+least of every known quantity are compared with the scan. All are computed together, and some one at
+a time, as a sweep does: a cut of the motion for one quantity may show the extreme of another.
+Greatest sizes are computed alone too, which may need no cut.
 """
 
 import argparse
@@ -21,16 +28,22 @@ from typing import NamedTuple
 
 import numpy as np
 from design_arrays import MACHINES, alone, drawn
+from loaded_arrays import beyond as beyond_loads
+from loaded_arrays import loaded
 from machine_witness import motions
 from witness import QUANTITIES as EXACT
 
+from geneva_cli.loads.load_case import known_quantities
+from geneva_cli.loads.load_peaks import load_peaks, load_summaries
 from geneva_cli.motion.batch import taken
 from geneva_cli.motion.many import many
 from geneva_cli.motion.peak_search import motion_peaks
 
 NAMES = ("velocity", "acceleration")
-CHUNK = 10_000  # designs built together
+ALONE = ("pin_force_N", "input_torque_Nm")  # loads that are computed alone too
+CHUNK, LOADS_CHUNK = 10_000, 4_096  # designs built together
 BLOCK = 256  # designs scanned together: their numbers stay in the processor's cache
+LOADS_PLACES = 200
 PLACES = 256  # of a whole motion; of half of one that is symmetric, half as many
 NEAREST = 1e-9  # fraction of a span: the least distance of a place from an end or a peak
 MORE = 1e-12  # relative: a place of the scan exceeds the peak by more than rounding
@@ -132,33 +145,53 @@ def errors(true, peaks, row):
         yield max(float(abs(size / true_size - 1) - moves), 0.0)
 
 
-def options(doc):
-    """Return ``designs``, ``machine``, ``seconds`` and ``seed`` of the command line.
+def stressed_loads(name, count, seed=12, places=LOADS_PLACES, seconds=math.inf):
+    """Count the designs, and those with a missed extreme; by how much at most; CPU seconds."""
+    start = time.process_time()
+    done, missed, most = 0, 0, -math.inf
+    while done < count and time.process_time() - start < seconds:
+        # every second time without friction, where other signs count
+        rubs = {"friction": 0.0} if seed % 2 else {}
+        batch = loaded(name, min(LOADS_CHUNK, 2 * (count - done) + 20), seed, **rubs)[2]
+        seed += 1
+        if batch.machine is None:
+            continue
+        names = known_quantities(batch.machine)
+        over = beyond_loads(batch, places, seed, names=names)
+        for one in [name for name in ALONE if name in names]:
+            together = load_summaries(batch.machine, (one,), means=False)
+            over = np.hstack((over, beyond_loads(batch, places, seed, (one,), together)))
+            over = np.hstack((over, off(batch.machine, one, together[one])))
+        done += len(over)
+        missed += int((over > MORE).any(axis=1).sum())
+        most = max(most, float(over.max()))
+    return Row(name, done, missed, most, None, time.process_time() - start)
 
-    The first line of ``doc`` is the title of its help.
-    """
-    parser = argparse.ArgumentParser(description=doc.split("\n")[0])
+
+def off(machine, name, ends):
+    """Relative difference of the greatest size, computed alone, from the greater extreme."""
+    size = np.maximum(np.abs(ends.max), np.abs(ends.min))
+    alone = load_peaks(machine, [name])[name].max
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return np.where(alone == size, 0.0, np.abs(alone / size - 1.0))[:, None]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--loads", action="store_true", help="extremes of loads")
     parser.add_argument("--designs", type=int, default=20_000, help="of each machine")
     parser.add_argument("--machine", action="append", choices=list(MACHINES))
     parser.add_argument("--seconds", type=float, default=math.inf, help="for each machine, of CPU")
     parser.add_argument("--seed", type=int, default=12, help="of the designs drawn")
-    chosen = parser.parse_args()
-    chosen.machine = chosen.machine or list(MACHINES)
-    return chosen
-
-
-def main():
-    chosen = options(__doc__)
+    given = parser.parse_args()
+    work = stressed_loads if given.loads else stressed
     print(f"{'machine':26}{'designs':>10}{'missed':>8}{'short':>10}{'error':>10}{'CPU s':>8}")
     wrong = False
-    for name in chosen.machine:
-        row = stressed(name, chosen.designs, chosen.seed, seconds=chosen.seconds)
+    for name in given.machine or MACHINES:
+        row = work(name, given.designs, given.seed, seconds=given.seconds)
         error = "-" if row.worst is None else f"{row.worst:.1e}"
-        print(
-            f"{name:26}{row.designs:>10}{row.missed:>8}{row.short:>10.1e}{error:>10}"
-            f"{row.seconds:>8.0f}",
-            flush=True,
-        )
+        counts = f"{row.machine:26}{row.designs:>10}{row.missed:>8}"
+        print(f"{counts}{row.short:>10.1e}{error:>10}{row.seconds:>8.0f}", flush=True)
         wrong |= bool(row.missed) or (row.worst or 0.0) > EXACT_TO
     sys.exit(wrong)
 

@@ -3,6 +3,8 @@
 import math
 
 import pytest
+import stress_many
+from design_arrays import MACHINES
 from exact.cases import HARD
 from exact.machines import compare_machine, read
 from exact.table import DIGITS, LIMIT, Table
@@ -43,3 +45,26 @@ def test_the_table_can_tell():
     table.add(("crank", "power"), [math.nan, 1.0], 1.0, "there")
     table.add(("crank", "velocity"), [LIMIT + 1.0], 2.0, "there")
     assert [*table.over] == [("crank", "jerk"), ("crank", "power")]
+
+
+# Peaks of many designs
+
+
+@pytest.mark.sampled(4)
+@pytest.mark.parametrize("name", MACHINES)
+def test_none_is_missed(name):
+    row = stress_many.stressed(name, 60, witnessed=0)
+    assert (row.designs, row.missed) == (60, 0)
+
+
+def test_it_can_tell(monkeypatch):
+    """Peaks that are a hundredth too small are found out."""
+    search = stress_many.motion_peaks
+
+    def low(*arguments):
+        return {n: p._replace(max=0.99 * p.max) for n, p in search(*arguments).items()}
+
+    monkeypatch.setattr(stress_many, "motion_peaks", low)
+    row = stress_many.stressed("spherical", 60, witnessed=0)
+    assert row.missed == 60
+    assert row.short > 1e-3

@@ -1,11 +1,8 @@
 """The best of a sweep: against closed forms, brute force and the built design itself."""
 
-import math
-import os
-import re
-
 import numpy as np
 import pytest
+import repo
 from scipy.optimize import brentq
 
 from geneva_cli import GenevaError, load
@@ -13,13 +10,13 @@ from geneva_cli.parts.parts import Parts
 from geneva_cli.study.sweep.best import best_spec
 from geneva_cli.study.sweep.request import Outcome, request
 
-SPEC = os.path.join(os.path.dirname(__file__), *[os.pardir] * 2, "designs", "side-crank-z6.toml")
+SPEC = str(repo.DESIGNS / "side-crank-z6.toml")
 
 
 def best(tmp_path, *vary, **asked):
     """The lines of the winning spec, and the design read back from it."""
     found = request(SPEC, vary, random=asked.pop("random", 32), jobs=1, **asked)
-    lines = best_spec(Outcome(found), found.blocks())
+    lines = best_spec(Outcome(found), found.goal, found.blocks())
     path = tmp_path / "best.toml"
     path.write_text("\n".join(lines))
     return lines, load(str(path))
@@ -39,7 +36,7 @@ def test_the_bound_that_binds_is_met_exactly(tmp_path):
     assert pytest.approx(A, abs=1e-7) == design.spec.drive.A
     # checks forgive 1e-9, and the least of what is forgiven is not the best
     assert 0.55 <= design.timing.dwell_s <= 0.55 * (1.0 + 1e-11)
-    assert any("timing.dwell_s >= 0.55" in line and "(binds)" in line for line in lines)
+    assert any("timing.dwell_s >= 0.55" in line for line in lines)
 
 
 @pytest.mark.long
@@ -64,27 +61,18 @@ def test_it_is_no_worse_than_any_of_a_fine_grid(tmp_path):
     _, design = best(tmp_path, "drive.A=-0.5..0.9", best="min:jerk.max", subject_to=bounds)
     grid = request(SPEC, ["drive.A=-0.5..0.9:0.01"], pick="jerk.max", subject_to=bounds, jobs=1)
     rows = [row for block in grid.chosen(grid.blocks()) for row in block]
-    at = grid.sweep.names.index("jerk.max")
+    at = grid.names.index("jerk.max")
     assert design.peaks.jerk.max <= min(row[at] for row in rows)
     assert 150 * (1 - 1e-11) <= design.timing.motion_deg <= 150
     assert design.peaks.velocity.max <= 0.8
 
 
-def test_bounds_that_contradict_each_other_are_told_with_what_comes_nearest(tmp_path):
+def test_bounds_that_contradict_each_other_are_told(tmp_path):
     """A motion of 200 deg and a velocity of 0.8, which is at most 0.575 there."""
     bounds = ["motion_deg >= 200", "velocity.max >= 0.8"]
-    with pytest.raises(GenevaError) as error:
+    said = r"motion_deg >= 200 is kept by [\d,]+; velocity.max >= 0.8 is kept by"
+    with pytest.raises(GenevaError, match=said):
         best(tmp_path, "drive.A=-0.5..0.9", best="min:jerk.max", subject_to=bounds)
-    said = str(error.value)
-    assert re.search(r"motion_deg >= 200 is kept by [\d,]+; velocity.max >= 0.8 is kept by", said)
-    near = re.search(r"nearest to all has timing.motion_deg (\S+), velocity.max (\S+)$", said)
-    motion, velocity = float(near[1]), float(near[2])
-    # of z = 6: A = sin((motion - 120)/2) / sin 60, and a peak velocity of 1/(1 + A)
-    A = math.sin(math.radians(0.5 * (motion - 120.0))) / math.sin(math.pi / 3.0)
-    assert velocity == pytest.approx(1.0 / (1.0 + A), rel=1e-5)
-    # no more broken than where one of both is just kept: A = 0.742, or 0.25 and 145 deg
-    broken = (200.0 - motion) / 200.0 + (0.8 - velocity) / 0.8
-    assert broken <= min(1.0 - 1.0 / 1.7422 / 0.8, 1.0 - 145.0 / 200.0) * (1 + 1e-3)
 
 
 @pytest.mark.parametrize(
@@ -102,5 +90,5 @@ def test_bounds_that_contradict_each_other_are_told_with_what_comes_nearest(tmp_
 def test_what_has_no_best(asked, said):
     with pytest.raises(GenevaError) as error:
         found = request(SPEC, ["drive.A=0,0.5"], jobs=1, **asked)
-        best_spec(Outcome(found), found.blocks())
+        best_spec(Outcome(found), found.goal, found.blocks())
     assert said in str(error.value)

@@ -10,7 +10,7 @@ import tomli
 from sampling import some
 from typer.testing import CliRunner
 
-from geneva_cli import Design, External, Load, load
+from geneva_cli import Design, load
 from geneva_cli.cli.app import app
 from geneva_cli.specfile.writer import Written, inserted
 from geneva_cli.study.chosen_sizes import KEPT, sized_text
@@ -89,38 +89,16 @@ def test_a_sized_spec_has_the_same_values_in_check(pair):
     assert all(after[name][2] for name in after.keys() - before.keys())
 
 
-# Machines with details, the keys of them that are written, and a drawing that shows them.
-DETAILED = {
-    "epicyclic-z4": (
-        ["size.process=laser"],
-        {"gear_bolt_mm", "gear_bolt_circle_mm"},
-        "links",
-    ),
-    "turret": (
-        ["size.crank_hub_mm=60", "size.pin_gap_mm=0.1", "size.lock_thickness_mm=8"],
-        {"crank_hub_length_mm", "lock_bolts", "lock_bolt_mm"},
-        "assembly",
-    ),
-    "spherical-z6": (
-        ["size.dial_bolts=4", "size.wheel_bore_mm=8"],
-        {"dial_bolt_mm", "lock_bolts", "lock_bolt_mm"},
-        "assembly",
-    ),
-}
-
-
-@pytest.mark.parametrize("name", some([*DETAILED], ["turret"]))
-def test_gears_screws_and_hubs_are_written_and_drawn_as_they_were(name, tmp_path):
-    settings, keys, part = DETAILED[name]
-    origin = load(str(repo.DESIGNS / f"{name}.toml"), settings)
-    assert {f"size.{key}" for key in keys} <= origin.chosen.keys()
+def test_screws_and_hubs_are_written_and_drawn_as_they_were(tmp_path):
+    settings = ["size.crank_hub_mm=60", "size.pin_gap_mm=0.1", "size.lock_thickness_mm=8"]
+    origin = load(str(repo.DESIGNS / "turret.toml"), settings)
+    keys = {"size.crank_hub_length_mm", "size.lock_bolts", "size.lock_bolt_mm"}
+    assert keys <= origin.chosen.keys()
     path = tmp_path / "sized.toml"
     path.write_text(sized_text(origin)[0], encoding="utf-8")
     sized = load(str(path))
     assert sized.chosen == {}
-    before, after = values(origin), values(sized)
-    assert {name: after[name] for name in before} == before
-    assert sized.drawing(part).shapes == origin.drawing(part).shapes
+    assert sized.drawing("assembly").shapes == origin.drawing("assembly").shapes
 
 
 @pytest.mark.long
@@ -163,28 +141,6 @@ def test_every_run_says_what_its_load_chose(command, turret):
     assert (bore["was"], bore["value"]) == (12.0, 17.0)
     assert found["size.pin_mm"]["was"] is None
     assert found["size.pin_mm"]["why"].startswith("by load: ")
-
-
-@pytest.mark.long
-def test_a_run_of_a_sized_spec_chooses_nothing(turret):
-    assert run("size", "turret.toml", "-o", "sized.toml").exit_code == 0
-    assert "chosen" not in run("check", "sized.toml").stdout
-
-
-def test_a_size_that_an_option_sets_is_not_chosen(turret):
-    found = load("turret.toml", ["size.pin_mm=10"]).chosen_by_load.record
-    assert "size.pin_mm" not in found and "size.wheel_bore_mm" in found
-
-
-def test_without_a_load_nothing_is_chosen_by_load():
-    bare = Design(External(6))
-    assert bare.chosen_by_load == ({}, {}) and bare.chosen_by_load.words == ""
-    assert bare.chosen["size.pin_mm"] == (5.0, "default r")
-    assert "size.slot_clearance_mm" not in bare.chosen
-    laser = bare.with_("size.process", "laser")
-    assert laser.chosen["size.slot_clearance_mm"].why == "by process laser"
-    torn = Design(External(6), load=Load(torque_Nm=15.0, friction=0.1, friction_at="pin"))
-    assert "size.pin_mm" not in torn.chosen_by_load.sizes  # which the load leaves as it is
 
 
 def test_advice_says_which_sizes_it_changes(turret):
@@ -248,13 +204,6 @@ def test_what_cannot_be_sized_is_refused_at_its_line(turret):
     assert wide.stderr.startswith("wide.toml:4: wheel_bore_mm = 190: the slots reach down to ")
     picture = run("size", "turret.toml", "-o", "sizes.svg")
     assert picture.exit_code == 2 and ".toml" in picture.stderr
-
-
-def test_a_distance_that_a_crank_radius_gives_is_not_chosen():
-    spec = Design(External(6)).with_("size.crank_radius_mm", 40.0)
-    assert "size.center_distance_mm" not in spec.chosen
-    assert math.isclose(spec.sized.mechanism.center_distance_mm, 80.0)
-    assert Design(External(6)).chosen["size.center_distance_mm"].value == 100.0
 
 
 @pytest.mark.long

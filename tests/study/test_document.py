@@ -5,8 +5,8 @@ import functools
 import json
 import re
 from collections.abc import Iterator
-from html.parser import HTMLParser
 from typing import Any
+from xml.etree import ElementTree
 
 import pytest
 import repo
@@ -19,6 +19,7 @@ from geneva_cli.output import jsonfile
 from geneva_cli.output.document import document_pdf, html
 from geneva_cli.output.document.blocks import BAD, Document, Grid, Heading
 from geneva_cli.study.document import document, short_document
+from geneva_cli.verdict.failures import below_summary
 
 pytestmark = pytest.mark.usefixtures("made_once")
 # Loads and a motor; a sphere; tolerances; a linkage; a groove; unlike engagements.
@@ -27,7 +28,6 @@ JAMS = (
     'title = "Größe ψ <b>&</b> 中"\n[wheel]\nz = 6\n[size]\nwheel_radius_mm = 120\n'
     "[load]\ninertia_kgm2 = 0.2\n[limits]\nacceleration_max = 1.0\n"
 )
-VOID = {"meta", "br", "img", "link"}
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -56,43 +56,14 @@ def jams(tmp_path_factory: pytest.TempPathFactory) -> str:
     return str(file)
 
 
-class Page(HTMLParser):
+def parsed(text: str) -> ElementTree.Element:
     """A page as a strict reader sees it: every element is closed in its order."""
+    closed = re.sub(r"<(meta|br|img|link)\b([^>]*?)/?>", r"<\1\2/>", text)
+    return ElementTree.fromstring(closed.removeprefix("<!DOCTYPE html>"))
 
-    def __init__(self, text: str) -> None:
-        super().__init__()
-        self.open: list[str] = []
-        self.links: list[str] = []
-        self.cells: list[str] = []
-        self.tables: list[list[str]] = []
-        self.tags: list[tuple[str, dict[str, str | None]]] = []
-        self.feed(text)
-        self.close()
-        assert self.open == []
 
-    def handle_starttag(self, tag: str, attrs: Any) -> None:
-        given = dict(attrs)
-        self.tags.append((tag, given))
-        self.links += [v for k, v in attrs if k in ("src", "href", "xlink:href", "srcset")]
-        if tag in ("th", "td", "li", "p", "h1"):
-            self.cells.append("")
-        if tag == "table":
-            self.tables.append([])
-        elif "table" in self.open:
-            self.tables[-1].append(tag)
-        if tag not in VOID:
-            self.open.append(tag)
-
-    def handle_startendtag(self, tag: str, attrs: Any) -> None:
-        self.handle_starttag(tag, attrs)
-        self.open.pop()
-
-    def handle_endtag(self, tag: str) -> None:
-        assert self.open.pop() == tag
-
-    def handle_data(self, data: str) -> None:
-        if self.cells and self.open and self.open[-1] in ("th", "td", "li", "p", "h1"):
-            self.cells[-1] += data
+def cells_of(page: ElementTree.Element) -> list[str]:
+    return ["".join(e.itertext()) for e in page.iter() if e.tag in ("th", "td", "li", "p", "h1")]
 
 
 def values(tree: Any) -> list[Any]:
@@ -106,6 +77,8 @@ def values(tree: Any) -> list[Any]:
 
 def has(cells: set[str], told: str, value: Any) -> bool:
     """Whether a value is in a cell, alone or before its unit; a text in any text."""
+    if isinstance(value, float) and abs(value) < 1e-9:  # an angle of rounding
+        return "0" in cells
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         return value in told if isinstance(value, str) else value_text(value) in cells
     texts = {value_text(value, unit).removesuffix(f" {unit}") for unit in ("", "mm")}
@@ -116,10 +89,10 @@ def has(cells: set[str], told: str, value: Any) -> bool:
 @pytest.mark.parametrize("name", KINDS)
 def test_every_value_of_the_report_is_on_the_page(name: str) -> None:
     design, found = of(name)
-    page = Page("".join(html.chunks(found)))
-    told = "\n".join(page.cells)
-    cells = {part for cell in page.cells for text in cell.split(", ") for part in _parts(text)}
-    tree = json.loads("".join(jsonfile.chunks(design.report.table)))
+    shown = cells_of(parsed("".join(html.chunks(found))))
+    told = "\n".join(shown)
+    cells = {part for cell in shown for text in cell.split(", ") for part in _parts(text)}
+    tree = json.loads("".join(jsonfile.chunks(below_summary(design.report.table))))
     assert tree.pop("spec") == design.spec.path
     assert tree.pop("passes") is True and tree.pop("chosen")
     every = values(tree)
@@ -177,28 +150,22 @@ def test_a_report_shows_limits_beside_loads_and_what_fails() -> None:
 
 @pytest.mark.long
 @pytest.mark.usefixtures("no_advice")
-def test_nothing_is_allowed_without_a_load() -> None:
-    bare = load(str(repo.DESIGNS / "four-bar-z4.toml"))
-    assert "allowed" not in "".join(html.chunks(document(bare))).casefold()
-
-
-@pytest.mark.long
-@pytest.mark.usefixtures("no_advice")
 @pytest.mark.parametrize("name", KINDS)
 def test_a_page_is_well_formed_and_needs_nothing_else(name: str) -> None:
     _, found = of(name)
     text = "".join(html.chunks(found))
-    page = Page(text)
-    assert text.startswith("<!DOCTYPE html>")
+    page = parsed(text)
+    links = re.findall(r'\b(?:src|href|srcset)="([^"]*)"', text)
     data = "data:image/svg+xml;base64,"
-    assert page.links and all(link.startswith(data) for link in page.links)
+    assert text.startswith("<!DOCTYPE html>")
+    assert links and all(link.startswith(data) for link in links)
     assert "@import" not in text and "<script" not in text and "://" not in text
-    assert b"<svg " in base64.b64decode(page.links[0].removeprefix(data))
-    assert "nan" not in " ".join(page.cells).split()
+    assert b"<svg " in base64.b64decode(links[0].removeprefix(data))
+    assert "nan" not in " ".join(cells_of(page)).split()
     # what stands in a table is named for who hears it
-    assert all(table[0] == "caption" for table in page.tables)
-    heads = [given for tag, given in page.tags if tag == "th"]
-    assert heads and all(given["scope"] in ("row", "col") for given in heads)
+    assert all(table[0].tag == "caption" for table in page.iter("table"))
+    heads = [*page.iter("th")]
+    assert heads and all(head.get("scope") in ("row", "col") for head in heads)
     assert text == "".join(html.chunks(found))
 
 

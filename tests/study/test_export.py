@@ -1,7 +1,6 @@
 """`geneva export`: the files of each trade, all or none, and no file of a person replaced."""
 
 import csv
-import shutil
 
 import ezdxf
 import pytest
@@ -119,13 +118,6 @@ def test_refused(spec, tmp_path):
     assert not (tmp_path / "out").exists()
 
 
-@pytest.mark.parametrize(
-    ("name", "own"), [("law.csv", "law.csv"), ("Parts.csv", "points-Parts.csv")]
-)
-def test_points_take_the_name_of_no_other_file(name, own, tmp_path):
-    """Nor of one that Windows and macOS take for the same."""
-    text = (repo.DESIGNS / "table-law.toml").read_text(encoding="utf-8")
-    (tmp_path / "spec.toml").write_text(text.replace("table-law.csv", name), encoding="utf-8")
-    shutil.copy(repo.DESIGNS / "table-law.csv", tmp_path / name)
-    files = export._spec_files(load(str(tmp_path / "spec.toml")), {"parts.csv"})
-    assert [file.name for file in files] == [own, "spec.toml"]
+def test_points_go_with_the_spec():
+    files = export._spec_files(load(str(repo.DESIGNS / "table-law.toml")))
+    assert [file.name for file in files] == ["points-1.csv", "spec.toml"]

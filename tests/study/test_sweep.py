@@ -17,13 +17,11 @@ from geneva_cli import GenevaError, load
 from geneva_cli.cli.app import app
 from geneva_cli.output.growing import GrowingTable
 from geneva_cli.specfile.reader import read
-from geneva_cli.study.pool import possible
 from geneva_cli.study.sweep.request import request
 from geneva_cli.study.sweep.run import plan, sweep
 from geneva_cli.study.sweep.values import axis
 
-DESIGNS = os.path.join(os.path.dirname(__file__), os.pardir, os.pardir, "designs")
-SPEC = os.path.join(DESIGNS, "side-crank-z6.toml")
+SPEC = str(repo.DESIGNS / "side-crank-z6.toml")
 GRID = ["drive.A=-0.4,0,0.6,1", "wheel.z=5,6"]
 
 
@@ -33,22 +31,16 @@ def geneva(*args):
 
 
 def rows(found, **options):
-    return [row for block in found.blocks(**options) for row in block]
+    return [row for block in found._replace(**options).blocks() for row in block]
 
 
 def grid(*texts):
     return plan([axis(t) for t in texts], None, 0)
 
 
-@pytest.mark.parametrize(("platform", "count"), [("win32", 61), ("linux", 128), ("darwin", 128)])
-def test_a_pool_of_windows_has_61_processes_at_most(platform, count):
-    """A wait for processes takes 63 handles there, of which the pool needs two itself."""
-    assert possible(128, platform) == count and possible(4, platform) == 4
-
-
 def test_each_row_is_the_designs_own():
     picks = ["acceleration.max", "dwell_s", "sizes.rollers_max", "drive.kind"]
-    for A, z, *found, error in rows(sweep(read(SPEC), grid(*GRID), picks=picks), workers=1):
+    for A, z, *found, error in rows(sweep(read(SPEC), grid(*GRID), picks=picks), jobs=1):
         try:
             design = load(SPEC, [f"drive.A={A}", f"wheel.z={z}"])
         except GenevaError:
@@ -61,32 +53,10 @@ def test_each_row_is_the_designs_own():
         assert error is None
 
 
-@pytest.mark.parametrize("varied", ["drive.A=0.1,0.2", "drive.stop_s=0,0.01"])
-def test_locks_of_a_varied_drive(varied):
-    """The lock's strength of a batch is that of each design alone, for every key of [drive]."""
-    settings = ["load.dwell_torque_Nm=3", "size.face_width_mm=10"]
-    name = "side-crank-z6.toml" if varied.startswith("drive.A") else "turret.toml"
-    path, picks = os.path.join(DESIGNS, name), ["strength.lock.horn_stress_MPa"]
-    for value, stress, error in rows(
-        sweep(read(path, settings), grid(varied), picks=picks), workers=1
-    ):
-        key = varied.partition("=")[0]
-        alone = load(path, [*settings, f"{key}={value}"]).strength[picks[0]]
-        assert error is None
-        assert stress == pytest.approx(alone, rel=1e-13)
-
-
-def test_words_and_kinds_vary_too():
-    found = sweep(read(SPEC), grid("wheel.gearing=external,internal"), picks=["dwell_deg"])
-    assert [row[1] for row in rows(found)] == [
-        load(SPEC, [f"wheel.gearing={g}"]).timing.dwell_deg for g in ("external", "internal")
-    ]
-
-
 def test_the_same_rows_whatever_the_processes_and_shares():
     some = grid("drive.A=-0.9..0.9:0.05", "wheel.z=4,6")
-    alone = rows(sweep(read(SPEC), some), workers=1)
-    assert rows(sweep(read(SPEC), some), workers=2) == alone
+    alone = rows(sweep(read(SPEC), some), jobs=1)
+    assert rows(sweep(read(SPEC), some), jobs=2) == alone
 
 
 def test_a_stopped_sweep_goes_on(tmp_path):
@@ -99,7 +69,7 @@ def test_a_stopped_sweep_goes_on(tmp_path):
     state = tmp_path / "rows.csv.geneva"
     plan = request(SPEC, GRID)
     rows = next(plan.blocks()).columns
-    with closing(GrowingTable(plan.sweep.names, plan.key, str(file))) as left:
+    with closing(GrowingTable(plan.names, plan.key, str(file))) as left:
         for start, stop in ((0, 2), (2, 3)):
             left.append([column[start:stop] for column in rows])
     half = state.read_bytes()[:-20]

@@ -1,23 +1,26 @@
-"""Designs worked out together are the designs one by one: values, refusals and reasons."""
+"""Designs worked out together are the designs one by one; and the names of their quantities."""
 
-import os
+import math
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
+import repo
 
 from geneva_cli import External, load
-from geneva_cli.cli.app import app
+from geneva_cli.loads.load_peaks import REPORTED_PEAKS
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.spec.tables import Load, Size
 from geneva_cli.specfile.reader import read
 from geneva_cli.study.batches import batch_machines, numbers
+from geneva_cli.study.fields import pick
 from geneva_cli.study.sweep.request import request
 from geneva_cli.study.sweep.run import Sweep, plan, sweep
 from geneva_cli.study.sweep.values import axis
+from geneva_cli.table import Table
+from geneva_cli.verdict.quantities.groups import GROUPS
+from geneva_cli.verdict.quantities.quantity_names import WORDS
 
-DESIGNS = os.path.join(os.path.dirname(__file__), os.pardir, os.pardir, "designs")
 TIMING = ["timing.motion_deg", "timing.dwell_s", "timing.k"]
 # the last bits of one sine by the C library, of many by NumPy
 CLOSE = 1e-13
@@ -26,7 +29,7 @@ CHECKED = ("checks.passes", "checks.failed")
 
 def rows(spec, vary, picks, random=None):
     found = sweep(
-        read(os.path.join(DESIGNS, spec)),
+        read(str(repo.DESIGNS / spec)),
         plan([axis(v, random is not None) for v in vary], random, 5),
         picks=picks,
     )
@@ -58,26 +61,11 @@ def test_together_as_alone(spec, vary):
             assert a == b or a == pytest.approx(b, rel=CLOSE)
 
 
-@pytest.mark.long
-def test_a_row_is_the_same_alone_and_among_thousands(tmp_path, monkeypatch):
-    """Shards promise the bytes of one run: a block here ends with one design alone."""
-    monkeypatch.chdir(tmp_path)
-    spec = '[wheel]\nz = 6\n[drive]\nkind = "side-crank"\nA = 0.3\n[load]\ninertia_kgm2 = 0.5\n'
-    (tmp_path / "spec.toml").write_text(spec + "friction = 0.1\n")
-    picked = "loads.pin_force_N.max,loads.pin_force_N.at_deg,loads.input_torque_Nm.at_deg"
-
-    def last(values):
-        call = ["sweep", "spec.toml", "--vary", f"drive.A={values}", "--pick", picked]
-        return CliRunner().invoke(app, [*call, "--format", "csv"]).stdout.splitlines()[-1]
-
-    assert last("0..0.8:0.0001") == last("0..0.8:0.002")
-
-
 def test_parts_are_kept_for_another_speed_and_not_for_another_drive():
     """Two rollers leave another locking disc, though no key of a size is another."""
 
     def machine(*settings):
-        return load(os.path.join(DESIGNS, "side-crank-z6.toml"), settings).mechanism
+        return load(str(repo.DESIGNS / "side-crank-z6.toml"), settings).mechanism
 
     first = parts_of(machine()).turned
     faster, other = machine("drive.n_rpm=90"), machine("drive.rollers=2")
@@ -89,7 +77,7 @@ def test_parts_are_kept_for_another_speed_and_not_for_another_drive():
 
 
 def test_a_design_that_cannot_be_built_spoils_no_batch():
-    text = read(os.path.join(DESIGNS, "turret.toml"))
+    text = read(str(repo.DESIGNS / "turret.toml"))
     picks = ["checks.pin_stress_MPa", "checks.passes"]
     checked = sweep(text, plan([axis("load.efficiency=0.5,2,0.9")], None, 0), picks=picks)
     first, refused, last = checked.rows_of(checked.plan.columns(0, 3))
@@ -102,15 +90,13 @@ def test_a_design_that_cannot_be_built_spoils_no_batch():
     ("name", "varied"),
     [
         ("modified-trapezoid-z5.toml", "drive.n_rpm=30,60,90"),
-        ("modified-trapezoid-z5.toml", "size.center_distance_mm=90,110,110"),
         ("modified-trapezoid-z5.toml", "motion.alpha0_deg=0,0,5"),
         ("press-straight.toml", "load.inertia_kgm2=1,100"),  # larger sizes under the larger load
-        ("press-straight.toml", "limits.velocity_max=1,2,9"),
     ],
 )
 def test_designs_with_equal_parts_have_one_turn(name, varied):
     """It is computed once for all designs whose parts are equal, and for no others."""
-    text = read(os.path.join(DESIGNS, name))
+    text = read(str(repo.DESIGNS / name))
     checked = sweep(text, plan([axis(varied)], None, 0), picks=["checks.gap_mm", *CHECKED])
     together = [*checked.rows_of(checked.plan.columns(0, len(checked.plan)))]
     assert together == [checked.row(row[:1]) for row in together]
@@ -149,3 +135,51 @@ def test_specs_of_one_kind_keep_their_own_loads_and_sizes():
     ((one, heavy, wide),) = numbers(batch_machines(specs), ["loads.pin_force_N.max"], 3)
     assert heavy == pytest.approx(3.0 * one, rel=1e-12)
     assert wide == pytest.approx(one / 3.0, rel=1e-12)
+
+
+LISTS = {  # of a report's names those of tables and lists, which are no quantities
+    *("stations", "cycle.reversals_deg", "vibration.speeds_to_avoid_rpm", "strength.needs"),
+    *("tolerance.warnings", "wheels", "cranks"),
+}
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", ["tolerances", "press-curved", "unequal-steps", "spherical-z6"])
+def test_every_group_has_the_names_that_are_listed(name):
+    proof = load(str(repo.DESIGNS / f"{name}.toml")).parts
+    for group in GROUPS:
+        if group.table == "parts_list":
+            continue  # tables alone
+        values = group.values(proof)
+        assert {*values} - LISTS == {*group.names}
+        assert not [n for n in group.names if isinstance(values[n], (tuple, Table))]
+        assert {n for n, value in values.items() if isinstance(value, str)} <= WORDS
+
+
+@pytest.mark.parametrize("name", ["turret", "linear"])
+def test_what_loads_shows_is_a_quantity(name):
+    """Issue: sweeps refused loads.power_W.max, which `geneva loads` shows.
+
+    A batch computes them as a single design does. Where a report has the size, ``max`` is one.
+    """
+    design = load(str(repo.DESIGNS / f"{name}.toml"))
+    shown = {
+        f"loads.{of}.{end}": value
+        for of, one in design.loads.items()
+        for end, value in one._asdict().items()
+        if not (of in REPORTED_PEAKS and end in ("max", "max_at_deg"))
+    }
+    assert "loads.power_W.max_at_deg" in shown
+    alone = pick([*shown]).of(design.mechanism)
+    # the cycle searches more functions together: places and sums may differ by rounding
+    for value, (key, own) in zip(alone, shown.items(), strict=True):
+        assert value == (own and pytest.approx(own, rel=1e-14, abs=1e-13)), key
+    together = numbers(batch_machines([design.spec]), [*shown], 1)[:, 0].tolist()
+    for value, (key, own) in zip(together, shown.items(), strict=True):
+        if own is None:  # a wheel has no loads of a rack, nor a rack those of a wheel
+            assert value == math.inf, key
+            continue
+        # sums to 1e-12 of a load's size, places to 1e-6 degrees, as a peak is flat
+        size = max(abs(shown.get(f"{key.rpartition('.')[0]}.{end}", own)) for end in ("min", "max"))
+        near = 1e-6 if key.endswith("deg") else 1e-12 * max(size, abs(own))
+        assert value == pytest.approx(own, rel=0.0, abs=near), key

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import pickle
 import re
 from pathlib import Path
 
@@ -12,9 +11,8 @@ from click.testing import Result
 from repo import ROOT
 from typer.testing import CliRunner
 
-from geneva_cli import Accept, Design, External, Size
+from geneva_cli import Accept
 from geneva_cli.cli.app import app
-from geneva_cli.errors import Notice
 from geneva_cli.spec.schema import fields
 
 SPEC = """\
@@ -78,20 +76,6 @@ def test_lists_of_texts_have_the_reason(spec: str) -> None:
         assert any(text.startswith(f"accepted ({REASON}): z = 30") for text in tree["warnings"])
     written = run("peaks", spec, "--format", "csv", "-o", f"{spec}.csv").stderr
     assert f"warning, accepted ({REASON}): z = 30" in written
-
-
-def test_warnings_of_other_commands_are_accepted_there() -> None:
-    """``vibration`` and ``tolerance`` alone have them: check says nothing of them."""
-    accept = Accept(short_motion="a prototype", tolerance_left_out="agreed")
-    assert Design(External(6), accept=accept).unused_acceptances == []
-    assert Design(External(30), accept=Accept(loose_fit="x")).unused_acceptances == ["loose-fit"]
-
-
-def test_an_accepted_warning_is_copied_with_its_reason() -> None:
-    design = Design(External(30), size=Size(roller_radius_mm=1.5), accept=Accept(many_slots="ok"))
-    (text,) = pickle.loads(pickle.dumps(design.warnings))
-    assert (text.name, text.accepted, text.plain) == ("many-slots", "ok", text.plain)
-    assert Notice("many-slots", text.plain, "ok") == text
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,6 @@ from sampling import some
 from strength_checks import judged
 from words import load
 
-from geneva_cli import Design
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.spec.schema import fields
 from geneva_cli.specfile.writer import keys_of
@@ -35,24 +34,14 @@ LIGHT = "[load]\ninertia_kgm2 = 0.05\n[limits]\n"
 # What a person might write, the checks that then fail, and whether one change can help.
 MOTIONS = {
     "acceleration": LOADED + "acceleration_max = 1.2\n",
-    "entry": LOADED + "acceleration_entry_max = 0.3\n",
-    "jerk": LOADED + "jerk_max = 1.0\n",
     "pin": LOADED + "pin_force_max_N = 250\n",
-    "internal": "[wheel]\nz = 5\ngearing = 'internal'\n[limits]\nvelocity_max = 0.3\n",
-    "spherical": "[wheel]\nz = 5\ngearing = 'spherical'\n[limits]\nvelocity_max = 0.7\n",
     "side-crank": "[wheel]\nz = 6\n[drive]\nkind = 'side-crank'\nA = 0.1\n[limits]\n"
     "acceleration_max = 0.9\n",
-    "elliptical": "[wheel]\nz = 6\n[drive]\nkind = 'elliptical-gears'\neccentricity = 0.1\n"
-    "[limits]\nacceleration_max = 0.8\n",
     "convexity": "[wheel]\nz = 6\n[drive]\nkind = 'noncircular-gears'\nA = 0.9\n",
     "pressure": CURVED + "alpha0_deg = -40\n[limits]\npressure_angle_max_deg = 10\n",
-    "sine": "[wheel]\nz = 6\n[motion]\nlaw = 'sine-group'\nlambda = 0.2\nratio = 'matched'\n",
-    "undercut": "[wheel]\nz = 8\ngearing = 'internal'\n[motion]\nlaw = 'cycloidal'\n"
-    "ratio = 'matched'\n[size]\ncenter_distance_mm = 90\nroller_radius_mm = 5\n",
     "slider-crank": written("slider-crank") + "[limits]\nacceleration_max = 0.40\n",
     "offset": "[wheel]\nz = 6\noffset_mm = 10\n" + LIGHT + "pin_force_max_N = 20\n",
     "two": CURVED + LIGHT + "pin_force_max_N = 20\ninput_torque_max_Nm = 0.3\n",
-    "steps": "[wheel]\nz = 6\nsteps_deg = [70, 50]\n" + LIGHT + "pin_force_max_N = 20\n",
     "epicyclic": "[wheel]\nz = 6\n[drive]\nkind = 'epicyclic'\nplanet_ratio = 'shockless'\n"
     "[limits]\nvelocity_max = 1.0\n",
 }
@@ -159,16 +148,6 @@ def test_no_nearer_value_passes(name: str, tmp_path: Path) -> None:
         assert not all_pass(checks(build(nearer))), share
 
 
-@pytest.mark.long
-def test_a_limit_has_its_advice_although_the_parts_cannot_be_built(tmp_path: Path) -> None:
-    text = LOADED.replace("[size]\n", "[size]\nedge_chamfer_mm = 0.5\nedge_fillet_mm = 0.5\n")
-    rows = judged(read(tmp_path, f"{text}pin_force_max_N = 250\n"))
-    failing = {c.name: c for c in rows if c.passes is False}
-    assert not failing["parts"].passes
-    # as in the same machine with edges that can be made, which one of them left out has
-    assert failing["pin_force_max_N"].nearest.startswith("n_rpm = 46.5 and leaving out edge_")
-
-
 def test_no_requirement_is_relaxed(tmp_path: Path) -> None:
     """Walls of 40 mm leave no room in this machine; thinner ones are not what was wanted."""
     mechanism = read(tmp_path, "[wheel]\nz = 6\n[size]\nwall_min_mm = 40\n")
@@ -184,39 +163,10 @@ def test_trials_are_counted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
     assert (failing.nearest, failing.why) == ("", STOPPED)
 
 
-@pytest.mark.long
-def test_an_error_is_no_advice() -> None:
-    """Its text is the reason; the advice is a change."""
-    given = load(str(DESIGNS / "epicyclic-z4.toml")).spec
-    design = Design.of(given.with_("size.link_bore_mm", 30.0))
-    rows = [c for c in design.checks if c.passes is False]
-    assert rows
-    for c in rows:
-        assert "no plate is left" in c.why and "no plate is left" not in c.nearest
-    _, warned = design.judge()
-    assert warned and not any("some would pass" in said for said in warned)
-
-
 def test_a_linkage_gets_more_slots(tmp_path: Path) -> None:
     """The centre distance that a linkage gives itself is none of the spec's: z = 9 has 0.396."""
     rows = judged(read(tmp_path, ALL["slider-crank"]), parts=False)
     assert {c.name: c.nearest for c in rows}["acceleration_max"] == "z = 9"
-
-
-@pytest.mark.long
-def test_the_drive_before_is_changed_where_it_is_milder(tmp_path: Path) -> None:
-    """A planet without a jump has one motion; the ellipses before it turn it more slowly."""
-    text = (DESIGNS / "behind-gears.toml").read_text(encoding="utf-8")
-    mechanism = read(tmp_path, text + "[limits]\nvelocity_max = 2.1\n")
-    (peak,) = [c for c in judged(mechanism, parts=False) if c.passes is False]
-    key, value = peak.nearest.split(" = ")
-    assert key == "drive.before.eccentricity"
-    # the planet's peak is at mid-motion, and there the gears leave (1 - e)/(1 + e) of its speed
-    e = float(value)
-    planet = Design.of(load(str(DESIGNS / "epicyclic-z4.toml")).spec).peaks.velocity.max
-    assert (1.0 - e) / (1.0 + e) * planet <= 2.1
-    least = (planet - 2.1) / (planet + 2.1)
-    assert e - least <= 0.01 * (e - 0.2) + 5e-4  # to a hundredth of the change, in 3 digits
 
 
 def test_the_key_that_a_reason_names_is_tried_first(tmp_path: Path) -> None:
@@ -228,7 +178,7 @@ def test_the_key_that_a_reason_names_is_tried_first(tmp_path: Path) -> None:
     )
     (parts,) = [c for c in checks(mechanism) if c.passes is False]
     first = next(remedies(parts, mechanism))
-    assert (parts.name, first.key) == ("parts", "wheel_bore_mm")
+    assert (parts.name, first.key) == ("parts", "size.wheel_bore_mm")
     assert "wheel_bore_mm" in parts.why and "roller_radius_mm" not in parts.why
 
 
@@ -268,10 +218,9 @@ def test_a_given_centre_distance_is_kept_for_a_part(tmp_path: Path) -> None:
         names = {c.name for c in checks(mechanism) if c.passes is False}
         assert names
         tried = {
-            change[:2]
+            change.key
             for c in checks(mechanism)
             if c.passes is False
             for change in remedies(c, mechanism)
         }
-        assert ("drive", "n_rpm") not in tried
-        assert (("size", "center_distance_mm") in tried) is not kept
+        assert ("size.center_distance_mm" in tried) is not kept

@@ -8,8 +8,7 @@ import pytest
 from strength_checks import judged
 
 from geneva_cli import Crank, Design, External, Limits, Motion, Size, Tolerance
-from geneva_cli.errors import GenevaError
-from geneva_cli.motion.registry import gearing, law
+from geneva_cli.motion.registry import law
 from geneva_cli.study.sweep.constraints import constraint
 from geneva_cli.study.synth.reading import read_target
 from geneva_cli.study.synth.synth_table import with_limits
@@ -94,21 +93,6 @@ def test_what_cannot_be_computed_says_so() -> None:
     assert check.passes is None and "no drawn locking disc" in check.why
     many = Design(External(400), size=Size(roller_radius_mm=0.1), limits=limits)
     assert "not turned" in check_of(many, "dwell_play_max_deg", parts=True).why
-
-
-@pytest.mark.parametrize(
-    ("design", "message"),
-    [
-        (Design(External(6), limits=Limits(dwell_position_max_deg=0.1)), r"in \[tolerance\]"),
-        (
-            Design(gearing("linear")(6), limits=Limits(index_play_max_deg=0.1)),
-            "not available for a rack",
-        ),
-    ],
-)
-def test_limits_without_their_subject_are_refused(design: Design, message: str) -> None:
-    with pytest.raises(GenevaError, match=message):
-        _ = design.checks
 
 
 def test_synth_writes_what_was_required_as_limits() -> None:

@@ -4,12 +4,9 @@ import math
 
 import numpy as np
 import pytest
-from machine_witness import Front
 from strength_checks import standing_checks
-from witness import to_degrees, to_radians
 from words import Motion, Spec, Wheel
 
-from geneva_cli.motion import registry
 from geneva_cli.motion.mechanism import build
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.spec.tables import Limits, Size
@@ -115,21 +112,6 @@ def test_branches_of_a_curved_slot() -> None:
     # of 400 places: the greatest is flat, so that a step h beside it costs h²
     assert max(values) == pytest.approx(most, rel=1e-4)
     assert rows["branches_apart_mm"].limit == rows["branches_crossed_mm"].limit == 2.0 * r
-
-
-def test_branches_behind_gears_have_the_angle_of_the_input() -> None:
-    """The gap is that of the same slots on a plain crank, at the input angle of its crank angle."""
-    spec = curved("sine-group", 0.5)
-    gears = registry.drive("elliptical-gears")(eccentricity=0.3)
-    behind = spec.replace(drive_before=gears)
-    own, geared = (
-        {c.name: c for c in standing_checks(parts_of(build(one)))} for one in (spec, behind)
-    )
-    for side in ("apart", "crossed"):
-        one, other = own[f"branches_{side}_mm"], geared[f"branches_{side}_mm"]
-        input_deg = float(to_degrees(Front(gears).input(to_radians(one.at_deg))))
-        assert other.value == one.value
-        assert other.at_deg == pytest.approx(input_deg, abs=1e-9)  # rounding of degrees
 
 
 def test_the_pressure_angle_of_a_curved_slot() -> None:

@@ -116,15 +116,6 @@ def test_without_parts_their_keys_are_needed():
         assert limited[name].passes is None
 
 
-def test_a_force_without_bound_is_not_a_number():
-    curved = Motion("sine-group", ratio=0.5)  # not matched: no lever at mid-motion
-    wide = Size(face_width_mm=20.0)
-    of = Strength(build(Spec(Wheel(6), motion=curved, size=wide, load=Load(torque_Nm=5.0))))
-    assert of["strength.pin.stress_MPa"] is None
-    assert of.reason("pin_stress_MPa").startswith("a force with a bound")
-    assert all(v is None or math.isfinite(v) for v in of.life.values())
-
-
 def test_pv_and_the_wheel_shaft_over_the_cycle():
     """Against 20,001 places, as near to the peak as these lie: p v, and the shaft by the code.
 

@@ -74,7 +74,7 @@ def run(
         show_text(content, output, files)
     else:
         show(content, output, "csv", files)
-    text, is_met = load_extra("servo", "cam_words")(controller, rows, error_deg, tolerance)
+    text, is_met = load_extra("servo", "cam_words")(rows, error_deg, tolerance)
     print(clean(f"{spec}: {text}"), file=sys.stderr)
     say(design.spec.path, design.motion_warnings)
     if not is_met:

@@ -37,7 +37,7 @@ def run(
     Without -o it prints points. png needs the extra geneva-cli[plot]. `geneva help plots`.
     """
     from geneva_cli.output import FORMATS, PLOTTED, chosen, show_figure
-    from geneva_cli.study.figures import of_specs, of_table
+    from geneva_cli.study.compare import of_specs, of_table
 
     chosen(output, format, (*PLOTTED, *FORMATS))  # refuse a wrong format before any computation
     tables = [path for path in specs if path.lower().endswith(".csv")]

@@ -10,8 +10,9 @@ from geneva_cli.errors import GenevaError, clean, cut
 from geneva_cli.progress import tracked
 
 if TYPE_CHECKING:
-    from geneva_cli.study.rows import Rows
-    from geneva_cli.study.sweep.request import Outcome, SweepRequest
+    from geneva_cli.study.fields import Rows
+    from geneva_cli.study.sweep.request import Outcome
+    from geneva_cli.study.sweep.run import Sweep
 
 EXAMPLES = (
     "geneva sweep spec.toml --vary wheel.z=4..12 --pick dwell_s,acceleration.max",
@@ -65,7 +66,7 @@ def run(
     Long runs and the best of many: `geneva help search`.
     """
     from geneva_cli.output import FORMATS, show, show_text
-    from geneva_cli.study.rows import joined, without_infinity
+    from geneva_cli.study.fields import joined, without_infinity
     from geneva_cli.study.sweep.request import Outcome, request
     from geneva_cli.table import Table
 
@@ -90,28 +91,26 @@ def run(
         jobs=jobs,
     )
     outcome = Outcome(plan)
-    if best:
+    if plan.goal:
         from geneva_cli.study.sweep.best import best_spec
 
-        lines = best_spec(outcome, _tracked(plan, 0))
+        lines = best_spec(outcome, plan.goal, _tracked(plan, 0))
         show_text("\n".join(lines) + "\n", output, plan.inputs)
     elif resume and (plan.chooses or format not in ("", "csv")):
         raise GenevaError("--resume continues all rows of a sweep, as csv or parquet")
     elif format in ("", "csv"):
         _write_rows(plan, outcome, output, resume, bool(format))
     else:
-        names = plan.sweep.names
+        names = plan.names
         blocks = [*outcome.rows(_tracked(plan, 0))]
         columns = joined(blocks).columns if blocks else [[] for _ in names]
         table = Table(names, [without_infinity(column) for column in columns])
         show(table, output, format, plan.inputs)
-    for note in outcome.refused() if best else outcome.notes():
+    for note in outcome.notes():
         print(clean(f"{spec}: {note}"), file=sys.stderr)
 
 
-def _write_rows(
-    plan: "SweepRequest", outcome: "Outcome", output: str, resume: bool, whole: bool
-) -> None:
+def _write_rows(plan: "Sweep", outcome: "Outcome", output: str, resume: bool, whole: bool) -> None:
     """Write all rows or the chosen ones as they come; show a person some of them and the best.
 
     ``whole`` shows a person all rows too.
@@ -121,14 +120,13 @@ def _write_rows(
     from geneva_cli.study.sweep.request import Digest
     from geneva_cli.study.sweep.run import TEXTS
 
-    sweep, shows_all = plan.sweep, is_seen(output)
-    digest = None
+    shows_all, digest = is_seen(output), None
     if shows_all and not whole:
         digest = Digest(plan)
         for block in outcome.rows(_tracked(plan, 0)):
             digest.add(block)
     else:
-        growing = GrowingTable(sweep.names, plan.key, output, resume, plan.inputs)
+        growing = GrowingTable(plan.names, plan.key, output, resume, plan.inputs)
         with closing(growing) as rows:
             if rows.message:
                 print(clean(rows.message), file=sys.stderr)
@@ -144,6 +142,6 @@ def _write_rows(
         show(table)
 
 
-def _tracked(plan: "SweepRequest", done: int) -> "Iterator[Rows]":
+def _tracked(plan: "Sweep", done: int) -> "Iterator[Rows]":
     """The rows, with a progress bar."""
-    return tracked(plan.blocks(done), "designs", len(plan.sweep.plan) - done, len)
+    return tracked(plan.blocks(done), "designs", len(plan.plan) - done, len)

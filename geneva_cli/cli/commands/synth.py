@@ -88,7 +88,7 @@ def run(
     if write is None:
         _show(target, check, buildable, output, format)
     else:
-        _write(target, write, buildable, output, format)
+        _write(target, write, output, format)
 
 
 def _inputs(target: "Target") -> Sequence[str]:
@@ -98,8 +98,7 @@ def _inputs(target: "Target") -> Sequence[str]:
 
 def _show(target: "Target", check: int, buildable: bool, output: str, format: str) -> None:
     from geneva_cli.output import is_for_people, is_seen, show
-    from geneva_cli.study.synth.shown import for_people
-    from geneva_cli.study.synth.synth_table import synthesis_table
+    from geneva_cli.study.synth.synth_table import for_people, synthesis_table
 
     if output.endswith(".toml") and not format:
         raise GenevaError(f"-o {cut(output, 300)}: a spec is one row of the table; add --write N")
@@ -110,7 +109,7 @@ def _show(target: "Target", check: int, buildable: bool, output: str, format: st
     show(table, output, format, _inputs(target))
 
 
-def _write(target: "Target", number: int, buildable: bool, output: str, format: str) -> None:
+def _write(target: "Target", number: int, output: str, format: str) -> None:
     from geneva_cli.design import Design
     from geneva_cli.output import show_text
     from geneva_cli.study.synth.synth_search import search
@@ -120,7 +119,7 @@ def _write(target: "Target", number: int, buildable: bool, output: str, format: 
         raise GenevaError(f"--format {cut(format)}: --write writes a spec, which is TOML")
     if output != "-" and not output.endswith(".toml"):
         raise GenevaError(f'-o "{cut(output, 300)}": --write writes a spec: it must end in .toml')
-    row, text = chosen(search(target), number, buildable)
+    row, text = chosen(search(target), number)
     show_text(text, output, _inputs(target))
     path = "<stdout>" if output == "-" else output
     if row.trouble:

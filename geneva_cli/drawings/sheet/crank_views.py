@@ -9,8 +9,8 @@ from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.packing import Block
 from geneva_cli.drawings.sheet.paper import table
 from geneva_cli.drawings.sheet.sized import Fits
-from geneva_cli.drawings.sheet.standing import bolted, bored, circle_of, draw_hub, holes_of
 from geneva_cli.drawings.sheet.view import View, grouped, times
+from geneva_cli.drawings.sheet.wheel_views import bolted, bored, circle_of, draw_hub, holes_of
 from geneva_cli.geometry.plates import Member, Plate, plates
 from geneva_cli.geometry.shapes import ORIGIN, Arc, Circle, Contour, Point, Shape, at, legs
 from geneva_cli.geometry.sheet import CENTRE, HIDDEN, OUTLINE
@@ -30,7 +30,7 @@ from geneva_cli.spec.written import degrees, length
 UP = 0.5 * math.pi
 
 
-def draw_disc(view: View, parts: FlatParts) -> None:
+def draw_disc(view: View, parts: FlatParts) -> View:
     """Draw the locking disc, or its sectors, about the crank's axis."""
     outlines, mechanism = parts.outlines, parts.mechanism
     assembly, sizes = outlines.assembly, outlines.sizes
@@ -59,6 +59,7 @@ def draw_disc(view: View, parts: FlatParts) -> None:
         if math.hypot(*arc.centre) > SAME_ON_SHEET and math.hypot(*middle) > SAME_ON_SHEET:
             view.radial(middle, times(len(some), far))
     bolted(view, screwed)
+    return view
 
 
 def _gaps(view: View, lock: float, locking: list[Arc]) -> None:
@@ -80,7 +81,7 @@ def _gaps(view: View, lock: float, locking: list[Arc]) -> None:
         view.angular(pairs, lock, lock, text)
 
 
-def draw_arm(view: View, mechanism: Mechanism, arm: CrankArm) -> None:
+def draw_arm(view: View, mechanism: Mechanism, arm: CrankArm) -> View:
     """Draw the crank arm with its holes."""
     view.draw_all((arm.outline, arm.bore, *arm.pins, *arm.bolts))
     view.cross(ORIGIN, arm.hub)
@@ -100,9 +101,10 @@ def draw_arm(view: View, mechanism: Mechanism, arm: CrankArm) -> None:
     view.diameter(arm.pins, times(len(arm.pins), hole))
     view.radii(arm.outline.segments)
     bolted(view, arm.bolts, tapped=True)
+    return view
 
 
-def draw_roller(view: View, mechanism: Mechanism) -> None:
+def draw_roller(view: View, mechanism: Mechanism) -> View:
     """Draw a roller about its pin."""
     pin, roller = drawn_pin_radius(mechanism), mechanism.roller_radius_mm
     hole = pin + 0.5 * mechanism.spec.size.allowances.shaft_fit_mm
@@ -113,6 +115,7 @@ def draw_roller(view: View, mechanism: Mechanism) -> None:
     if pin:
         view.diameter(circles[1:], sized.made(view.fits, mechanism, "roller bore", hole))
         view.notes.append(f"turns on its pin {sized.shaft(view.fits, pin)}, which is pressed in")
+    return view
 
 
 def draw_assembly(view: View, parts: Outlines, shapes: tuple[Shape, ...]) -> None:
@@ -128,7 +131,7 @@ def draw_assembly(view: View, parts: Outlines, shapes: tuple[Shape, ...]) -> Non
     view.linear(ORIGIN, (L, 0.0), 0.0, sized.plain(L, "L = ", deviation))
 
 
-def draw_link(view: View, member: Member, bars: Links, mechanism: Mechanism) -> None:
+def draw_link(view: View, member: Member, bars: Links, mechanism: Mechanism) -> View:
     """Draw a link, or a block that slides in one, with dimensions from its first hole."""
     plate = member.part
     assert isinstance(plate, Plate) and isinstance(plate.outline, Contour)
@@ -152,27 +155,26 @@ def draw_link(view: View, member: Member, bars: Links, mechanism: Mechanism) -> 
         _slot(view, slot, base)
     view.places((hole.centre for hole in holes), base)
     pressed = [centre for _, centre in roller_pins(mechanism)]  # in a link or in its block
-    named = []
+    texts = []
     for hole, there in zip(holes, placed_holes(member), strict=True):
+        text = sized.bore(view.fits, hole.radius)
         if plate.name in bars.standing:
             text = sized.screw_hole(hole.radius)
         elif any(same(there.centre, p, mechanism.center_distance_mm) for p in pressed):
             text = sized.made(view.fits, mechanism, "pin hole", hole.radius)
-        else:
-            text = sized.bore(view.fits, hole.radius)
-        named.append((text, hole))
-    for text, some in grouped(named):
+        texts.append(text)
+    for text, some in grouped(zip(texts, holes, strict=True)):
         view.diameter(some, text)
     if shaped:
         view.cross(ORIGIN, 2.0 * radius_of(shaped[0]))
         bored(view, shaped, mechanism.spec.size, "crank")  # no other shaft of links has a shape
-    if plate.name not in bars.blocks:
+    if plate.name in bars.blocks:
+        half, end = eyes[0].radius, abs(eyes[0].centre[0]) + eyes[0].radius
+        view.linear((0.0, -half), (0.0, half), UP, sized.fitted(view.fits, 2.0 * half, "", "g6"))
+        view.linear((-end, 0.0), (end, 0.0), 0.0, sized.plain(2.0 * end))
+    else:
         view.radii(eyes)
-        return
-    half, (x, _) = eyes[0].radius, eyes[0].centre
-    end = abs(x) + half
-    view.linear((0.0, -half), (0.0, half), UP, sized.fitted(view.fits, 2.0 * half, "", "g6"))
-    view.linear((-end, 0.0), (end, 0.0), 0.0, sized.plain(2.0 * end))
+    return view
 
 
 def _slot(view: View, slot: Contour, base: Point) -> None:

@@ -22,21 +22,17 @@ from geneva_cli.drawings.sheet.crank_views import (
     round_parts,
 )
 from geneva_cli.drawings.sheet.packing import Block
-from geneva_cli.drawings.sheet.paper import on_paper, scale_name, smaller, table
+from geneva_cli.drawings.sheet.paper import on_paper, scale_name, smaller
 from geneva_cli.drawings.sheet.sized import Fits
-from geneva_cli.drawings.sheet.standing import draw_frame, draw_shaft
 from geneva_cli.drawings.sheet.view import View
-from geneva_cli.drawings.sheet.wheel_views import draw_wheel
+from geneva_cli.drawings.sheet.wheel_views import draw_frame, draw_shaft, draw_wheel
 from geneva_cli.geometry.board import chords
-from geneva_cli.geometry.plates import Group, Member, Plate, in_place, plates
+from geneva_cli.geometry.plates import Member, Plate, in_place, plates
 from geneva_cli.geometry.shapes import Circle, Point, at, bounds, bounds_of, placed, two_arcs
 from geneva_cli.geometry.sheet import HATCH, OUTLINE, Sheet, line, rectangle
-from geneva_cli.geometry.sphere_shell import Shell
-from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.pivots import Dimension, Pivot
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.projection import alike
-from geneva_cli.spec.written import length, number
+from geneva_cli.spec.written import length
 
 
 class Face(NamedTuple):
@@ -64,10 +60,7 @@ def sheet(parts: FlatParts) -> Sheet:
     # chords of 1.5 mm on a part of 500 mm: spans are within 0.1 mm on any paper
     faces = cut_faces(parts.members, 500.0 / largest)
     marked = {items[face.plate] for face in faces}
-    tables = [
-        *round_parts((*parts.links.joined, *parts.framed.spacers), mechanism),
-        *_layout(mechanism),
-    ]
+    tables = round_parts((*parts.links.joined, *parts.framed.spacers), mechanism)
 
     @cache
     def whole(scale: float) -> Block:
@@ -77,28 +70,25 @@ def sheet(parts: FlatParts) -> Sheet:
         view.section((box.x0, 0.0), (box.x1, 0.0), "A")
         tips: dict[int, list[Point]] = {}
         for own, plate in in_place(parts.members):
-            if items[own] in marked:
-                continue
-            shape = plate.outline
-            pieces = two_arcs(shape) if isinstance(shape, Circle) else shape.segments
-            longest = sorted(pieces, key=lambda piece: -math.dist(piece.start, piece.end))
-            tips.setdefault(items[own], []).extend(at(piece, 0.5) for piece in longest[:8])
-        for item, places in sorted(tips.items()):
-            view.balloon(places, str(item))
+            if items[own] not in marked:
+                shape = plate.outline
+                pieces = two_arcs(shape) if isinstance(shape, Circle) else shape.segments
+                longest = sorted(pieces, key=lambda piece: -math.dist(piece.start, piece.end))
+                tips.setdefault(items[own], []).extend(at(piece, 0.5) for piece in longest[:8])
+        view.balloons(tips)
         return view.block()
 
     @cache
     def section(scale: float) -> Block:
         view = View(f"A-A ({scale_name(scale)})", scale)
         _draw_section(view, faces, (0.0, L))
-        sides: dict[int, list[Point]] = {}  # the middles of the faces' sides
+        tips: dict[int, list[Point]] = {}  # the middles of the faces' sides
         for face in sorted(faces, key=lambda f: f.left - f.right):
             low, high = face.plate.low, face.plate.high
             x, z = 0.5 * (face.left + face.right), 0.5 * (low + high)
             own = (x, high), (x, low), (face.right, z), (face.left, z)
-            sides.setdefault(items[face.plate], []).extend(own)
-        for item, places in sorted(sides.items()):
-            view.balloon(places, str(item))
+            tips.setdefault(items[face.plate], []).extend(own)
+        view.balloons(tips)
         return view.block()
 
     def rest(scale: float) -> Iterator[list[Block]]:
@@ -113,82 +103,45 @@ def sheet(parts: FlatParts) -> Sheet:
     return on_paper(mechanism.spec, rows, largest, blocks, area)
 
 
-def _layout(mechanism: Mechanism) -> list[Block]:
-    """Return a table of pivots and lengths of the drive in front of the crank, if any."""
-    rows = [("drive", "x or value", "y or unit")]
-    for p in mechanism.layout:
-        if isinstance(p, Pivot):
-            rows.append((p.name, length(p.x_mm), length(p.y_mm)))
-    for d in mechanism.layout:
-        if isinstance(d, Dimension):
-            value = d.value if isinstance(d.value, str) else number(d.value)
-            rows.append((d.name, value, d.unit))
-    return [table((), rows, (60.0, 36.0, 20.0))] if len(rows) > 1 else []  # mm
-
-
 def _views(rows: list[dict[str, Any]], parts: FlatParts, scale: float) -> Iterator[View]:
     """Yield the view of each part."""
     mechanism, bars = parts.mechanism, parts.links
-    process = mechanism.spec.size.process
-    unborne = {name for name, _ in parts.unborne}
+    process, unborne = mechanism.spec.size.process, dict(parts.unborne)
 
     def begin(*names: str, thick: bool = True) -> View:
         """Begin a view, titled with its parts' numbers and thicknesses.
 
         Its fits are those of the process, for the thickness of the first part.
         """
-        titles: list[str] = []
-        fits = Fits(process)
-        for i, row in enumerate(rows, 1):
-            if row["name"] in names:
-                fits = fits if titles else Fits(process, row["thickness_mm"])
-                titles.append(f"{i} {row['name']}" + f", t = {length(row['thickness_mm'])}" * thick)
-        view = View("; ".join(titles) or names[0], scale, fits)
-        for name in names:
-            if name in unborne:
-                view.notes.append("no bearing: hold it from above")
+        own = {i: row for i, row in enumerate(rows, 1) if row["name"] in names}
+        titles = [
+            f"{i} {row['name']}" + f", t = {length(row['thickness_mm'])}" * thick
+            for i, row in own.items()
+        ]
+        first = next((row["thickness_mm"] for row in own.values()), None)
+        view = View("; ".join(titles) or names[0], scale, Fits(process, first))
+        view.notes += ["no bearing: hold it from above" for name in names if name in unborne]
         return view
 
     for front, of in zip(("", "first "), (parts, *parts.in_front), strict=False):
-        view = begin(f"{front}wheel", f"{front}wheel's hub")
-        draw_wheel(view, of)
-        yield view
+        yield draw_wheel(begin(f"{front}wheel", f"{front}wheel's hub"), of)
         if of.outlines.crank:
             names = ("locking disc", "locking sector", "crank's hub")
-            view = begin(*(f"{front}{name}" for name in names))
-            draw_disc(view, of)
-            yield view
+            yield draw_disc(begin(*(f"{front}{name}" for name in names)), of)
     if parts.arm:
-        view = begin("arm")
-        draw_arm(view, mechanism, parts.arm)
-        yield view
-    view = begin("roller", "pin")
-    draw_roller(view, mechanism)
-    yield view
-    for one in {member.part: member for member in bars.cut}.values():
-        view = begin(one.part.name)
-        draw_link(view, one, bars, mechanism)
-        yield view
-    for part in dict.fromkeys(member.part for member in parts.shafts):
-        assert not isinstance(part, Group | Shell)
-        view = begin(part.name, thick=False)
-        draw_shaft(view, part)
-        yield view
-    for plate in _plates_among(parts.framed.bridge):
-        view = begin(plate.name)
+        yield draw_arm(begin("arm"), mechanism, parts.arm)
+    yield draw_roller(begin("roller", "pin"), mechanism)
+    for member in {one.part: one for one in bars.cut}.values():
+        yield draw_link(begin(member.part.name), member, bars, mechanism)
+    for shaft in dict.fromkeys(plate for one in parts.shafts for plate in plates(one.part)):
+        yield draw_shaft(begin(shaft.name, thick=False), shaft)
+    for plate in (plate for one in parts.framed.bridge for plate in plates(one.part)):
         _, *through = (hole for hole in plate.holes if isinstance(hole, Circle))
         screws = {hole: sized.screw_hole(hole.radius) for hole in through}
-        draw_frame(view, plate, screws, "the crank's axis")
-        yield view
-    (frame,) = _plates_among([parts.frame])
-    view = begin(frame.name)
+        yield draw_frame(begin(plate.name), plate, screws, "the crank's axis")
     threads = {h: sized.screw_hole(h.radius, tapped=True) for h in parts.framed.threads}
-    draw_frame(view, frame, threads)
-    yield view
-
-
-def _plates_among(members: Iterable[Member]) -> list[Plate]:
-    return [one.part for one in members if isinstance(one.part, Plate)]
+    (frame,) = plates(parts.frame.part)
+    yield draw_frame(begin(frame.name), frame, threads)
 
 
 def cut_faces(members: Iterable[Member], scale: float) -> list[Face]:

@@ -6,14 +6,13 @@ most. The sheet is the smallest that fits. Above 1:1 the largest part is no wide
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from geneva_cli.drawings.sheet.packing import Block, is_overfull, packed
 from geneva_cli.drawings.sheet.sized import edge_note
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.shapes import Circle, Point, Shape, polar
+from geneva_cli.geometry.shapes import Point, Shape
 from geneva_cli.geometry.sheet import (
     FRAME,
     LARGE,
@@ -102,22 +101,19 @@ def on_paper(
                 corner = _title_block(spec, rows, scale, paper).moved(right - TITLE_WIDTH, MARGIN)
                 fixed = [corner, items.moved(right - items.width, corner.y1)]
                 placed = packed(every, fixed, inside)
-                if placed is not None:
-                    return _composed(spec, paper, scale, [*fixed, *placed])
+                if placed is None:
+                    continue
+                whole = [*fixed, *placed]
+                return Sheet(
+                    spec.title or spec.wheel.title,
+                    paper.width,
+                    paper.height,
+                    scale,
+                    (*_frame(paper), *(shape for block in whole for shape in block.shapes)),
+                    tuple(label for block in whole for label in block.labels),
+                    tuple(measure for block in whole for measure in block.measures),
+                )
     raise GenevaError("--part sheet: the parts and their tables do not fit on one A1 sheet")
-
-
-def _composed(spec: Spec, paper: PaperSize, scale: float, blocks: list[Block]) -> Sheet:
-    """Return the sheet with blocks at their places."""
-    return Sheet(
-        spec.title or spec.wheel.title,
-        paper.width,
-        paper.height,
-        scale,
-        (*_frame(paper), *(shape for block in blocks for shape in block.shapes)),
-        tuple(label for block in blocks for label in block.labels),
-        tuple(measure for block in blocks for measure in block.measures),
-    )
 
 
 def _frame(paper: PaperSize) -> list[Shape]:
@@ -166,17 +162,12 @@ def _title_block(spec: Spec, rows: list[dict[str, Any]], scale: float, paper: Pa
     high, top = 12.0, 36.0  # mm, of a row, and of all three
     shapes: list[Shape] = [rectangle(FRAME, 0.0, 0.0, TITLE_WIDTH, top + high)]
     labels = _field((0.0, top), "title", spec.title or spec.wheel.title, LARGE, TITLE_WIDTH)
-    # rows from below; the second one has the symbol of projection at its end
-    for k, fields in enumerate((general, surfaces, names)):
-        y = high * k
-        long = TITLE_WIDTH - (30.0 if k == 1 else 0.0)
-        if k == 1:
-            shapes += projection((TITLE_WIDTH - 15.0, y + 0.5 * high))
+    for k, fields in enumerate((general, surfaces, names)):  # rows from below
+        x, y = 0.0, high * k
         shapes.append(line(TEXT, (0.0, y + high), (TITLE_WIDTH, y + high)))
         # what each field needs, and an equal part of what is left
         needed = [max(width(v) * SMALL, width(name) * 1.8) + 4.0 for name, v in fields.items()]
-        spare = (long - sum(needed)) / len(fields)
-        x = 0.0
+        spare = (TITLE_WIDTH - sum(needed)) / len(fields)
         for (name, value), need in zip(fields.items(), needed, strict=True):
             labels += _field((x, y), name, value, SMALL, need + spare)
             x += need + spare
@@ -214,21 +205,6 @@ def cut_to(text: str, height: float, limit: float) -> str:
     return text + "..."
 
 
-def projection(at: Point) -> list[Shape]:
-    """Return the symbol of first angle projection (ISO 5456-2): a frustum and its view."""
-    x, y = at
-    small, large, long = 1.75, 3.5, 7.0
-    side = ((-10.0, -small), (-10.0 + long, -large), (-10.0 + long, large), (-10.0, small))
-    corners = [(x + a, y + b) for a, b in side]
-    centre = (x + 6.0, y)
-    shapes: list[Shape] = [line(OUTLINE, *corners, corners[0])]
-    shapes += [Circle(OUTLINE, centre, small), Circle(OUTLINE, centre, large)]
-    shapes.append(line(TEXT, (x - 11.5, y), (x - 1.5, y)))
-    for angle in (0.0, 0.5 * math.pi):
-        shapes.append(line(TEXT, polar(centre, -5.0, angle), polar(centre, 5.0, angle)))
-    return shapes
-
-
 def table(heading: Sequence[str], rows: Sequence[Sequence[str]], columns: Sequence[float]) -> Block:
     """Return a table, with lines of text above it.
 
@@ -238,20 +214,15 @@ def table(heading: Sequence[str], rows: Sequence[Sequence[str]], columns: Sequen
     wide, high = sum(columns), row_height * len(rows)
     shapes: list[Shape] = [rectangle(OUTLINE, 0.0, 0.0, wide, high)]
     labels: list[Label] = []
+    lefts = [sum(columns[:k]) for k in range(len(columns))]
+    shapes += [line(TEXT, (x, 0.0), (x, high)) for x in lefts[1:]]
     for i, row in enumerate(rows):
         y = high - row_height * (i + 1)
         if i:
             shapes.append(line(TEXT, (0.0, y + row_height), (wide, y + row_height)))
-        x = 0.0
-        for text, column in zip(row, columns, strict=True):
-            shown = cut_to(text, SMALL, column - 2.0)
-            if shown:
+        for text, x, column in zip(row, lefts, columns, strict=True):
+            if shown := cut_to(text, SMALL, column - 2.0):
                 labels.append(Label(shown, (x + 1.0, y + 1.4), SMALL))
-            x += column
-    x = 0.0
-    for column in columns[:-1]:
-        x += column
-        shapes.append(line(TEXT, (x, 0.0), (x, high)))
     top = high
     for text in reversed(heading):
         top += 1.8 * SMALL

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from heapq import merge
 from typing import TypeVar
 
@@ -135,55 +135,56 @@ class View:
 
     def diameter(self, circles: Iterable[Circle], text: str, where: str = "") -> None:
         """Draw the diameter of one of some circles; ``where`` is added if it stands as a note."""
-        candidates = (
-            marks.led(
-                "diameter",
-                self._at(c.centre),
-                self._long(c.radius),
-                marks.around(),
-                text,
-                2.0 * c.radius,
-            )
-            for c in circles
-        )
-        self._put(_short_first(candidates), f"{text} {where}".rstrip())
+        self._led("diameter", ((one, marks.around()) for one in circles), text, where)
 
     def of_arcs(self, arcs: Sequence[Arc], text: str, whole: bool = False) -> None:
         """Draw the radius of one of some arcs, or, with ``whole``, its diameter."""
-        kind, factor = ("diameter", 2.0) if whole else ("radius", 1.0)
+        # at most 48 equal arcs are tried: without a limit the time grows as z squared
+        some = arcs[:: 1 + len(arcs) // 49]
+        turns = ((arc, marks.within(*legs(arc))) for arc in some)
+        self._led("diameter" if whole else "radius", turns, text)
+
+    def _led(
+        self,
+        kind: str,
+        rounds: Iterable[tuple[Circle | Arc, list[float]]],
+        text: str,
+        where: str = "",
+    ) -> None:
+        factor = 1.0 if kind == "radius" else 2.0
         candidates = (
             marks.led(
-                kind,
-                self._at(arc.centre),
-                self._long(arc.radius),
-                marks.within(*legs(arc)),
-                text,
-                factor * arc.radius,
+                kind, self._at(c.centre), self._long(c.radius), turns, text, factor * c.radius
             )
-            # at most 48 equal arcs are tried: without a limit the time grows as z squared
-            for arc in arcs[:: 1 + len(arcs) // 49]
+            for c, turns in rounds
         )
-        self._put(_short_first(candidates), text)
+        self._put(_short_first(candidates), f"{text} {where}".rstrip())
 
-    def radii(self, pieces: Iterable[Segment]) -> None:
-        """Draw the radius of the arcs among some pieces, once for each."""
-        arcs = (piece for piece in pieces if isinstance(piece, Arc))
-        for text, some in grouped((sized.plain(arc.radius, "R "), arc) for arc in arcs):
-            self.of_arcs(some, text)
+    def radii(self, pieces: Iterable[Segment], besides: float = -1.0) -> None:
+        """Draw each radius of the arcs among some pieces, but one, once.
+
+        Rounding does not write one radius as two.
+        """
+        groups: dict[float, list[Arc]] = {}
+        near = 5e-4  # mm: half of the last decimal that a sheet shows
+        for arc in pieces:
+            if isinstance(arc, Arc):
+                same = next((r for r in groups if abs(r - arc.radius) < near), arc.radius)
+                groups.setdefault(same, []).append(arc)
+        for radius, some in groups.items():
+            if abs(radius - besides) > SAME_ON_SHEET:
+                self.of_arcs(some, times(len(some), sized.plain(radius, "R ")))
 
     def note(self, tip: Point, text: str) -> None:
         """Draw a text that points at a place."""
         self._put(marks.led("note", self._at(tip), 0.0, marks.around(), text), text)
 
-    def balloon(self, tips: Iterable[Point], item: str) -> None:
-        """Draw an item's number in a circle that points at one of some places."""
-        candidates = _short_first(marks.balloon(self._at(tip), item) for tip in tips)
-        # the gap keeps the circle clear of lines, too
-        measure = self.board.first(candidates, gap=3.1)
-        if measure is None:
-            self.notes.append(f"item {item} is not marked")
-        else:
-            self.measures.append(measure)
+    def balloons(self, tips: Mapping[int, Iterable[Point]]) -> None:
+        """Draw each item's number in a circle that points at one of its places."""
+        for item, places in sorted(tips.items()):
+            candidates = _short_first(marks.balloon(self._at(tip), f"{item}") for tip in places)
+            # the gap keeps the circle clear of lines, too
+            self._put(candidates, f"item {item} is not marked", gap=3.1)
 
     def section(self, left: Point, right: Point, letter: str) -> None:
         """Draw where a section along a level line is, between two points and beyond."""
@@ -205,12 +206,13 @@ class View:
             x0, low - SMALL, x1, y1, tuple(self.shapes), tuple(labels), tuple(self.measures)
         )
 
-    def _put(self, candidates: Iterable[Measure], text: str) -> None:
-        dimension = self.board.first(candidates)
-        if dimension is None:
+    def _put(self, candidates: Iterable[Measure], text: str, gap: float = 0.6) -> None:
+        """Add the first candidate that fits, or else a note."""
+        measure = self.board.first(candidates, gap)
+        if measure is None:
             self.notes.append(text)
         else:
-            self.measures.append(dimension)
+            self.measures.append(measure)
 
     def _draw(self, shape: Shape) -> None:
         self.shapes.append(shape)

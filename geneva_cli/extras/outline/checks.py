@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 
 import numpy as np
@@ -14,8 +14,8 @@ from geneva_cli.extras.outline.machine import DrawnMachine
 from geneva_cli.extras.outline.turning import (
     LOOSE,
     SenseResult,
+    Struck,
     Turned,
-    hardest_impact,
     least_slack_mm,
     most_slack_mm,
     moving,
@@ -29,7 +29,6 @@ from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.loops import shown
 from geneva_cli.geometry.shapes import at
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.turn.free_ranges import one_sector
 from geneva_cli.spec.defaults import wall_min
@@ -52,30 +51,36 @@ def checks(mechanism: Mechanism) -> list[Check]:
             most = most_slack_mm(machine)
             why = f"it would not turn with {most:.3g} mm less on every face either"
         elif least > given:
-            less = f"{least:.2g} mm less on every face"
-            why = f"it would turn with {less} of the wheel or of the crank"
+            why = (
+                f"it would turn with {least:.2g} mm less on every face of the wheel or of the crank"
+            )
         rows.append(Check("turning_slack_mm", least, "at most", given, not why, why))
     holds = result.is_held or mechanism.spec.wheel.held_by is not None
-    rows.append(Check("dwell_hold", float(holds), "at least", 1.0, holds))
+    rows.append(compared("dwell_hold", float(holds), "at least", 1.0))
     rows += [*_rests(result), *_walls(machine), *_entry(result, mechanism)]
     if result.turns and not put_back(machine, result.rest):
         # a wheel that keeps its place rests at the same place after each index
-        play, drift = result.rest.high - result.rest.low, max(abs(s.drift) for s in result.senses)
-        value, limit = math.degrees(drift), math.degrees(play)
-        rows.append(Check("drift_deg", value, "at most", limit, drift <= play))
+        drift = math.degrees(max(abs(sense.drift) for sense in result.senses))
+        play = math.degrees(result.rest.high - result.rest.low)
+        rows.append(compared("drift_deg", drift, "at most", play))
     return rows
 
 
 def as_built(mechanism: Mechanism) -> list[Check]:
     """The checks that our own parts on a crank as built turn, and of their impact."""
     result = turned(mechanism)
-    check, worst = _turns(result, mechanism), hardest_impact(result)
-    if not check.passes or worst is None:
+    check, struck = _turns(result, mechanism), struck_by(mechanism, result)
+    if not check.passes or struck is None:
         return [check]
-    struck, limit = struck_by(mechanism, result, worst), entry_velocity_limit(mechanism)
-    row = compared("strike_velocity", abs(struck.jump), "at most", limit, struck.at_deg)
-    text = f"roller, clearance and disc strike the wheel{struck.text}"
-    return [check, row if row.passes else row._replace(why=text)]
+    text = "roller, clearance and disc strike the wheel"
+    return [check, _struck("strike_velocity", mechanism, struck, lambda: text)]
+
+
+def _struck(name: str, mechanism: Mechanism, struck: Struck, text: Callable[[], str]) -> Check:
+    """The check of an impact's velocity, over the input's, with its reason where it fails."""
+    limit = entry_velocity_limit(mechanism)
+    row = compared(name, abs(struck.jump), "at most", limit, struck.at_deg)
+    return row if row.passes else row._replace(why=f"{text()}{struck.text}")
 
 
 def warnings(mechanism: Mechanism) -> list[Notice]:
@@ -84,7 +89,7 @@ def warnings(mechanism: Mechanism) -> list[Notice]:
 
 
 def _turns(result: Turned, mechanism: Mechanism) -> Check:
-    machine, z = result.machine, float(mechanism.spec.wheel.z)
+    machine, z, passed, at_deg = result.machine, float(mechanism.spec.wheel.z), 0.0, None
     worst = min(result.senses, key=lambda sense: sense.passed)
     if not result.rest.is_free:
         why = "parts overlap in the middle of the dwell"
@@ -95,23 +100,20 @@ def _turns(result: Turned, mechanism: Mechanism) -> Check:
             why += f": the crank is {depth:.3g} mm inside the wheel at {shown(where)} in its frame"
         why += "; check wheel_turn_deg, crank_turn_deg and mirror in [outline]"
         if mechanism.spec.outline.crank is None:
-            why += (
-                "; the crank is our own: give its drawing with --crank, or set lock_radius_mm = 0 "
-                "in [size] if it has no locking disc"
-            )
-        return Check("turns", 0.0, "at least", z, False, why)
-    if worst.jam is not None:
-        at_deg = _shown_deg(machine, worst.jam.crank)
+            why += "; the crank is our own: give its drawing with --crank, or set "
+            why += "lock_radius_mm = 0 in [size] if it has no locking disc"
+    elif worst.jam is not None:
+        passed, at_deg = float(worst.passed), _shown_deg(machine, worst.jam.crank)
         why = "; ".join(dict.fromkeys(_jam_text(machine, s) for s in result.senses if s.jam))
-        return Check("turns", float(worst.passed), "at least", z, False, why, at_deg)
-    if not result.has_indexed:
-        index = math.degrees(worst.first.gained)
+    elif not result.has_indexed:
+        index = abs(math.degrees(worst.first.gained))
         why = (
-            f"the crank turns, but the wheel goes on by {abs(index):.4g}° only: no roller finds a "
+            f"the crank turns, but the wheel goes on by {index:.4g}° only: no roller finds a "
             "slot; check [size], wheel_turn_deg and crank_turn_deg in [outline]"
         )
-        return Check("turns", 0.0, "at least", z, False, why)
-    return Check("turns", z, "at least", z, True, _summary(result))
+    else:
+        return Check("turns", z, "at least", z, True, _summary(result))
+    return Check("turns", passed, "at least", z, False, why, at_deg)
 
 
 def _jam_text(machine: DrawnMachine, sense: SenseResult) -> str:
@@ -145,14 +147,11 @@ def _shown_deg(machine: DrawnMachine, crank: float) -> float:
 
 def _summary(result: Turned) -> str:
     machine, turn = result.machine, result.senses[0].first
-    index = math.degrees(turn.gained) / len(machine.assembly.motions)
-    is_moving = turn.is_moving
-    free = np.nan_to_num(np.degrees(turn.high - turn.low))
+    index, is_moving = math.degrees(turn.gained) / len(machine.assembly.motions), turn.is_moving
+    free = np.degrees(turn.high - turn.low)
     rest = math.degrees(result.rest.high - result.rest.low)
-    first = turn.pushes[0]
-    begin, end = (
-        _shown_deg(machine, x) for x in (first.begin, max(moving(turn), default=first).end)
-    )
+    first, last = turn.pushes[0], max(moving(turn), default=turn.pushes[0])
+    begin, end = _shown_deg(machine, first.begin), _shown_deg(machine, last.end)
     play, in_motion = (
         f"{x:.4g}° of play" if x > ROUNDING_DEG else "no play"
         for x in (rest, float(free[is_moving].max(initial=0.0)))
@@ -188,22 +187,20 @@ def lag_deg(result: Turned) -> float:
 
 def _rests(result: Turned) -> Iterator[Check]:
     """Check the places of rest from which the wheel turns, where it may stand in a range."""
-    is_free, low, high = result.rest
-    if high - low < LOOSE or not is_free:
+    is_free, *ends = result.rest
+    low, high = map(math.degrees, ends)
+    if ends[1] - ends[0] < LOOSE or not is_free:
         return
-    begin, end = turning(result) or (result.machine.rest, result.machine.rest)
-    is_put_back = put_back(result.machine, result.rest)
-    limit = 0.0 if is_put_back else math.degrees(high - low)
+    places = turning(result) or (result.machine.rest, result.machine.rest)
+    begin, end = map(math.degrees, places)
     whole = end - begin > (high - low) * (1.0 - 1e-6)
-    value = math.degrees(high - low if whole else end - begin)
-    ok = value > 0.0 if is_put_back else value >= limit
-    text = "from no place of rest it turns"
+    value, text = high - low if whole else end - begin, "from no place of rest it turns"
     if value:
-        a, b = math.degrees(begin), math.degrees(end)
-        text = f"turns if it rests between {a:.5g} and {b:.5g}°"
-        text += f", and may stand between {math.degrees(low):.5g} and {math.degrees(high):.5g}°"
-    must_be = "above" if is_put_back else "at least"
-    yield Check("turning_rests_deg", value, must_be, limit, ok, "" if ok else text)
+        text = f"turns if it rests between {begin:.5g} and {end:.5g}°"
+        text += f", and may stand between {low:.5g} and {high:.5g}°"
+    bound = ("above", 0.0) if put_back(result.machine, result.rest) else ("at least", high - low)
+    row = compared("turning_rests_deg", value, *bound)
+    yield row if row.passes else row._replace(why=text)
 
 
 def _walls(machine: DrawnMachine) -> Iterator[Check]:
@@ -212,35 +209,30 @@ def _walls(machine: DrawnMachine) -> Iterator[Check]:
     if spec.outline.wheel is None or (place.sign < 0.0 and len(machine.wheel) == 1):
         return
     sector = one_sector(Polyarc(machine.wheel), math.tau / spec.wheel.z, machine.free.slack)
-    wall = smallest_wall(machine.wheel, sector)
-    if wall is None:
-        return
-    least = wall_min(spec.size, place.L)
-    passes = keeps(wall.thickness, "at least", least)
-    start, end = (shown((z.real, z.imag)) for z in (wall.start, wall.end))
-    why = "" if passes else f"thinnest from {start} to {end}"
-    yield Check("wall_mm", wall.thickness, "at least", least, passes, why)
+    if wall := smallest_wall(machine.wheel, sector):
+        row = compared("wall_mm", wall.thickness, "at least", wall_min(spec.size, place.L))
+        start, end = (shown((z.real, z.imag)) for z in (wall.start, wall.end))
+        yield row if row.passes else row._replace(why=f"thinnest from {start} to {end}")
 
 
 def _entry(result: Turned, mechanism: Mechanism) -> Iterator[Check]:
     """Check the velocity, over the input's, with which the wheel is set in motion."""
-    machine, worst = result.machine, hardest_impact(result)
-    if worst is None or not result.rest.is_free:
+    machine, struck = result.machine, struck_by(mechanism, result)
+    if struck is None or not result.rest.is_free:
         return
-    struck, limit = struck_by(mechanism, result, worst), entry_velocity_limit(mechanism)
-    row = compared("entry_velocity_max", abs(struck.jump), "at most", limit, struck.at_deg)
-    if row.passes:
-        yield row
-        return
-    R, ideal = machine.roller.distance, machine.roller.ideal_distance
-    text = f"the wheel is set in motion at {_from_rest(machine, worst.wheel):.5g}°"
-    if abs(R - ideal) > 1e-4 * ideal:
-        text += f"; R is {R:.5g} mm, and {ideal:.5g} would enter without an impact"
-    with suppress(GenevaError):
-        own = parts_of(mechanism).flat.outlines.sizes.rim
-        sign, wheel = machine.assembly.sign, machine.free.whole
-        corners = np.hypot(wheel.x0, wheel.y0)
-        rim = float(corners.max() if sign > 0.0 else corners.min())
-        if sign * (own - rim) > 1e-3:
-            text += f"; the rim is at {rim:.5g} mm, and must reach {own:.4g}"
-    yield row._replace(why=f"{text}{struck.text}")
+
+    def text() -> str:
+        R, ideal = machine.roller.distance, machine.roller.ideal_distance
+        said = f"the wheel is set in motion at {_from_rest(machine, struck.wheel):.5g}°"
+        if abs(R - ideal) > 1e-4 * ideal:
+            said += f"; R is {R:.5g} mm, and {ideal:.5g} would enter without an impact"
+        with suppress(GenevaError):
+            own = parts_of(mechanism).flat.outlines.sizes.rim
+            sign, wheel = machine.assembly.sign, machine.free.whole
+            corners = np.hypot(wheel.x0, wheel.y0)
+            rim = float(corners.max() if sign > 0.0 else corners.min())
+            if sign * (own - rim) > 1e-3:
+                said += f"; the rim is at {rim:.5g} mm, and must reach {own:.4g}"
+        return said
+
+    yield _struck("entry_velocity_max", mechanism, struck, text)

@@ -212,14 +212,13 @@ def _round(roller: Circle) -> Contour:
 
 def _roller(loop: Loop) -> Circle | None:
     """An outline that is a full circle beside the crank's axis, as one."""
-    first, *_ = pieces = loop.contour.segments
+    first, *others = loop.contour.segments
     if loop.depth % 2 or not isinstance(first, Arc):
         return None
-    near = 1e-6 * first.radius
-    for p in pieces:
-        if not isinstance(p, Arc) or abs(p.radius - first.radius) >= near:
+    centre, radius = first.centre, first.radius
+    for p in others:
+        if not isinstance(p, Arc):
             return None
-        if math.dist(p.centre, first.centre) >= near:
+        if max(abs(p.radius - radius), math.dist(p.centre, centre)) >= 1e-6 * radius:
             return None
-    circle = Circle("ROLLER", first.centre, first.radius)
-    return circle if math.hypot(*circle.centre) > circle.radius else None
+    return Circle("ROLLER", centre, radius) if math.hypot(*centre) > radius else None

@@ -14,15 +14,7 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.extras.outline.contact import contacts
 from geneva_cli.extras.outline.machine import crank_jet
-from geneva_cli.extras.outline.turning import (
-    LOOSE,
-    Struck,
-    Turned,
-    hardest_impact,
-    moving,
-    struck_by,
-    turned,
-)
+from geneva_cli.extras.outline.turning import LOOSE, Turned, moving, struck_by, turned
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.motion_table import (
     check_samples,
@@ -152,10 +144,9 @@ def peaks(mechanism: Mechanism) -> Table:
     begin, end = (place.to_input(math.degrees(x)) for x in (pushes[0].begin, pushes[-1].end))
     values |= {"motion_deg": end - begin, "dwell_deg": mechanism.whole_deg - (end - begin)}
     values["stations"] = None
-    worst = hardest_impact(result)
-    none = (None,) * len(Struck._fields)
-    struck = none if worst is None else struck_by(mechanism, result, worst)
-    values |= {f"impact.{name}": x for name, x in zip(Struck._fields, struck, strict=True)}
+    struck = struck_by(mechanism, result)
+    names = ("jump", "at_deg", "force_N", "moment_Nms")
+    values |= {f"impact.{name}": struck and getattr(struck, name) for name in names}
     return record_table(values)
 
 

@@ -13,6 +13,7 @@ from geneva_cli.extras.outline.machine import DrawnMachine, crank_jet, drawn_mac
 from geneva_cli.loads.impacts.shock_force import forces_N, impulse_Nms
 from geneva_cli.loads.strength.pin_arm_key import PinSize, pin_diameter_mm
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.numerics.roots import boundary
 from geneva_cli.parts.machine_sizes import built
 from geneva_cli.parts.turn.free_ranges import Range
 from geneva_cli.parts.turn.lazy_turn import STEPS, Jam, LazyTurn, Push, Turner
@@ -143,11 +144,8 @@ def turning(result: Turned) -> tuple[float, float] | None:
         i = first
         while 0 <= i + step <= trials and good[i + step]:
             i += step
-        inside, outside = float(places[i]), float(places[min(max(i + step, 0), trials)])
-        for _ in range(HALVINGS if inside != outside else 0):
-            half = 0.5 * (inside + outside)
-            inside, outside = (half, outside) if goes(half) else (inside, half)
-        ends.append(inside)
+        outside = places[min(max(i + step, 0), trials)]
+        ends.append(boundary(goes, float(places[i]), float(outside), HALVINGS))
     return ends[0], ends[1]
 
 
@@ -179,9 +177,7 @@ def least_slack_mm(result: Turned) -> float | None:
         return low
     if high <= low or not turns(high):
         return None
-    for _ in range(12):
-        if high <= CLOSE * low:
-            break
+    while high > CLOSE * low:
         middle = math.sqrt(low * high)
         low, high = (low, middle) if turns(middle) else (middle, high)
     return high
@@ -193,7 +189,6 @@ class Impact(NamedTuple):
     velocity: float
     crank: float  # radians
     wheel: float
-    way: int
     touching: Contact
 
 
@@ -204,6 +199,7 @@ class Struck(NamedTuple):
     at_deg: float
     force_N: float | None
     moment_Nms: float | None
+    wheel: float  # its angle, radians
 
     @property
     def text(self) -> str:
@@ -222,34 +218,36 @@ def moving(turn: LazyTurn) -> list[Push]:
 
 def hardest_impact(result: Turned) -> Impact | None:
     """The hardest impact, the one forwards of two that are equal; None without any."""
-    every: list[Impact] = []
+    every: list[tuple[float, int, Impact]] = []
     for sense in result.senses:
-        for turn in sense.turns:
-            for push in moving(turn):
-                crank, wheel = push.begin, push.begin_wheel
-                after = np.array([crank + sense.way * JUST])
-                touching = contacts(result.machine.free, after, np.array([wheel]))
-                velocity = float(touching.motion(after)[1][0])
-                every.append(Impact(velocity, crank, wheel, sense.way, touching))
-    return max(every, key=lambda one: (round(abs(one.velocity), 4), one.way), default=None)
+        for push in (push for turn in sense.turns for push in moving(turn)):
+            crank, wheel = push.begin, push.begin_wheel
+            after = np.array([crank + sense.way * JUST])
+            touching = contacts(result.machine.free, after, np.array([wheel]))
+            velocity = float(touching.motion(after)[1][0])
+            impact = Impact(velocity, crank, wheel, touching)
+            every.append((round(abs(velocity), 4), sense.way, impact))
+    return max(every, key=lambda one: one[:2])[2] if every else None
 
 
-def struck_by(mechanism: Mechanism, result: Turned, impact: Impact) -> Struck:
-    """What an impact causes: the force of an elastic one, the moment of a plastic one."""
-    machine = result.machine
-    at_deg = machine.assembly.to_input(math.degrees(impact.crank))
+def struck_by(mechanism: Mechanism, result: Turned) -> Struck | None:
+    """What the hardest impact causes: the force of an elastic one, the moment of a plastic one."""
+    machine, impact = result.machine, hardest_impact(result)
+    if impact is None:
+        return None
+    at_deg, force = machine.assembly.to_input(math.degrees(impact.crank)), None
     rate = np.ravel(crank_jet(mechanism, np.array([at_deg]))[0].c[1]).item(0)
     jump = impact.velocity * rate
     shown_deg = machine.assembly.shown_deg(math.degrees(impact.crank))
     moment = impulse_Nms(mechanism, np.array([[abs(jump)]])).item()
     if not moment > 0.0:
-        return Struck(jump, shown_deg, None, None)
-    sizes, force = built(mechanism), None
-    width, radius = sizes.face_width_mm or sizes.wheel_thickness_mm, machine.roller.radius
+        return Struck(jump, shown_deg, None, None, impact.wheel)
+    sizes, radius = built(mechanism), machine.roller.radius
+    width = sizes.face_width_mm or sizes.wheel_thickness_mm
     # whether the roller strikes, and not the disc
     off = abs(float(impact.touching.crank.radius[0]) - radius)
     is_roller = bool(impact.touching.is_known[0]) and off < SAME * radius + machine.free.slack
     if width is not None and is_roller:
         pin = PinSize(sizes.pin_mm or pin_diameter_mm(mechanism), width)
         force = float(forces_N(mechanism, np.array([[abs(jump)]]), pin)[0])
-    return Struck(jump, shown_deg, force, moment)
+    return Struck(jump, shown_deg, force, moment, impact.wheel)

@@ -24,8 +24,7 @@ from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.spec.tables import Load
 from geneva_cli.study.compare import over
-from geneva_cli.study.fields import pick
-from geneva_cli.study.rows import Cell
+from geneva_cli.study.fields import Cell, pick
 from geneva_cli.table import Table, rows_table
 
 # The rows, and their quantities.
@@ -39,7 +38,7 @@ ROWS = {
     "wheel_torque_max_Nm": "loads.torque_Nm.max",
     "motor_torque_max_Nm": "sizing.motor_torque_max_Nm",
     "motor_torque_rms_Nm": "sizing.motor_torque_rms_Nm",
-    "power_max_W": "cycle.power_W.max",
+    "power_max_W": "loads.power_W.max",
     "inertia_ratio": "sizing.inertia_ratio",
     "residual_deg": "vibration.residual_deg",
 }
@@ -77,18 +76,13 @@ def against(path: str, settings: Sequence[str], names: Sequence[str]) -> Table:
 def alternative(design: Design, name: str, rotor: bool = False) -> Mechanism:
     """The machine of a cam indexer or a servo with the step, the times and the load of a design."""
     times = design.timings
-    if design.spec.drive.wheels_on_carrier:
-        raise GenevaError(
-            f'--against: kind = "{design.spec.drive.NAME}" has wheels on a carrier, and an '
-            "alternative stands on the ground"
-        )
     steps = [t.index_deg for t in times if t.index_deg is not None]
-    if not steps:
-        raise GenevaError("--against: cam and servo turn a wheel, and this machine moves a rack")
     spans = [(round(t.motion_s, 12), round(t.cycle_s, 12)) for t in times]
-    if len({*zip(spans, [round(step, 9) for step in steps], strict=True)}) > 1:
+    differ = len({*zip(spans, [round(step, 9) for step in steps], strict=False)}) > 1
+    if design.spec.drive.wheels_on_carrier or not steps or differ:
         raise GenevaError(
-            "--against: this machine's engagements differ, and an alternative has one index a turn"
+            "--against: cam and servo turn one wheel on the ground by one index a turn; this "
+            "machine's engagements differ, it moves a rack, or its wheels are on a carrier"
         )
     first = times[0]
     z = round(360.0 / steps[0])  # equal steps fill a turn
@@ -124,7 +118,7 @@ def _values(design: Design, name: str) -> dict[str, Cell]:
         return values
     motor = design.spec.motor
     rotating = alternative(design, name, rotor=True)
-    most, power = pick(("loads.torque_Nm.max", "cycle.power_W.max")).of(rotating)
+    most, power = pick(("loads.torque_Nm.max", "loads.power_W.max")).of(rotating)
     values |= {
         "motor_torque_max_Nm": over(most, motor.ratio),
         "motor_torque_rms_Nm": _servo_rms_Nm(design) if most is not None else None,

@@ -29,11 +29,6 @@ INSIDE = (np.arange(33) + 0.5) / 33.0  # places in a piece, its middle among the
 # is 0.3 % more at most, one that also changes its sign in the middle 0.8 %.
 BETWEEN = 1.01
 LEAST_DEG = 1e-3  # shorter pieces are not halved: a servo's cycle is longer
-# Why a controller's cam may not meet a tolerance.
-LIMITED = {
-    "polynomial": "its shortest pieces are 0.001 degrees long",
-    "codesys": "a jump becomes a ramp over 0.01 degrees, so --for polynomial is nearer",
-}
 
 
 def cam(
@@ -70,14 +65,12 @@ def cam(
     return text, points.shape[1], error_deg
 
 
-def words(
-    controller: str, rows: int, error_deg: float, tolerance_deg: float | None
-) -> tuple[str, bool]:
+def words(rows: int, error_deg: float, tolerance_deg: float | None) -> tuple[str, bool]:
     """A cam's rows and error in words, and True if it meets a tolerance that was given."""
     text = f"{rows} rows, greatest error {rounded_up(error_deg)} degrees of the wheel"
     if tolerance_deg is None or error_deg <= tolerance_deg:
         return text, True
-    return f"{text}, more than --tolerance {tolerance_deg:g}: {LIMITED[controller]}", False
+    return f"{text}, more than --tolerance {tolerance_deg:g}", False
 
 
 def rounded_up(error_deg: float) -> str:

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from geneva_cli.drives.transmission import Direct
-from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.errors import refuse_text
 from geneva_cli.motion.compatible import Conflict, of_transmission, other_wheels
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.pivots import Dimension, Layout, Pivot, wheel_places
@@ -56,14 +56,10 @@ class Carousel(Direct, kw_only=True):
         """Plan of one wheel; the others do the same later. Only one of them moves at a time."""
         plan = super().plan(wheel, motion, L)
         moving = plan.engagements[0].motion_deg  # several wheels have one kind of motion
-        refuse(
-            self.wheels > 1 and self.wheels * moving >= 360.0,
-            lambda: GenevaError(
-                f"wheels = {self.wheels}: each moves for {moving:.6g} deg of the carrier, so that "
-                f"they would meet; at most {rollers_max(moving)}",
-                (self.TABLE, "wheels"),
-            ),
-        )
+        text = "wheels = {wheels}: each moves for {moving:.6g} deg of the carrier, so that they "
+        values = {"wheels": self.wheels, "moving": moving, "most": rollers_max(moving)}
+        text, meet = text + "would meet; at most {most}", self.wheels * moving >= 360.0
+        refuse_text(self.wheels > 1 and meet, (self.TABLE, "wheels"), text, **values)
         return plan
 
     def layout(self, plan: Plan, sign: float) -> Layout:
@@ -80,38 +76,19 @@ def refuses(spec: Spec) -> Iterator[Conflict]:
     """Rules of wheels on a carrier."""
     yield other_wheels(spec)
     yield from of_transmission(spec)
-    drive = spec.drive
-    yield (
-        drive.stop_s != 0.0,
-        ("drive", "stop_s"),
-        'kind = "{spec.drive.NAME}" carries its wheels round at a constant speed: remove stop_s',
-    )
-    yield (
-        spec.unbalanced,
-        ("mass", "radius_mm"),
-        'kind = "{spec.drive.NAME}" needs balanced wheels, as a body off the axis would pull in '
-        "another direction in each motion: set count to 2 or more, or radius_mm = 0",
-    )
+    drive, kind = spec.drive, 'kind = "{spec.drive.NAME}"'
+    text = f"{kind} carries its wheels round at a constant speed: remove stop_s"
+    yield (drive.stop_s != 0.0, ("drive", "stop_s"), text)
+    text = f"{kind} needs balanced wheels, as a body off the axis would pull in another direction "
+    text += "in each motion: set count to 2 or more, or radius_mm = 0"
+    yield (spec.unbalanced, ("mass", "radius_mm"), text)
     if drive.wheels_on_carrier > 1:
-        yield (
-            drive.rollers > 1 or spec.wheel.steps or drive.roller_angles_deg,
-            ("drive", "wheels"),
-            "several wheels meet one finger, each in turn: remove rollers, roller_angles_deg and "
-            "steps_deg, or set wheels = 1",
-        )
-        yield (
-            spec.wheel.SIGN < 0.0,
-            ("drive", "wheels"),
-            "an internal wheel surrounds the finger, so that one alone fits: set wheels = 1",
-        )
-    yield (
-        spec.product.runs_straight,
-        ("product", "pitch_mm"),
-        'a chain or belt needs a wheel on the ground, not kind = "{spec.drive.NAME}": set '
-        "radius_mm instead",
-    )
-    yield (
-        spec.support.gear_ratio != 1.0,
-        ("support", "gear_ratio"),
-        'gear_ratio is for a table on the ground, not for kind = "{spec.drive.NAME}": set it to 1',
-    )
+        several = drive.rollers > 1 or spec.wheel.steps or drive.roller_angles_deg
+        text = "several wheels meet one finger, each in turn: remove rollers, roller_angles_deg "
+        yield (several, ("drive", "wheels"), text + "and steps_deg, or set wheels = 1")
+        text = "an internal wheel surrounds the finger, so that one alone fits: set wheels = 1"
+        yield (spec.wheel.SIGN < 0.0, ("drive", "wheels"), text)
+    text = f"a chain or belt needs a wheel on the ground, not {kind}: set radius_mm instead"
+    yield (spec.product.runs_straight, ("product", "pitch_mm"), text)
+    text = f"gear_ratio is for a table on the ground, not for {kind}: set it to 1"
+    yield (spec.support.gear_ratio != 1.0, ("support", "gear_ratio"), text)

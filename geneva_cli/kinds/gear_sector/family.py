@@ -13,22 +13,13 @@ from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.roots import boundary
-from geneva_cli.study.synth.families.family import (
-    BARE,
-    Family,
-    allowed_motions,
-    closed_span,
-    is_compatible,
-    machine,
-    natural_deg,
-    speeds,
-)
-from geneva_cli.study.target import Target
+from geneva_cli.study.synth.families.family import Family, is_compatible, natural_deg
+from geneva_cli.study.target import BARE, Target
 
 
 def sectors(target: Target, wheel: Gearing) -> Iterator[Family]:
     """Gear sectors that take over without a jump, with a free half angle b of the slots."""
-    span = closed_span(allowed_motions(target, 1, natural_deg(wheel)), 1)
+    span = target.free_motions(1, natural_deg(wheel))
     example = BARE.replace(wheel=wheel, drive=GearSector(sector_deg=90.0))
     if span is None or not is_compatible(example):
         return
@@ -43,11 +34,7 @@ def sectors(target: Target, wheel: Gearing) -> Iterator[Family]:
     low = max(ends[0], slot(sector_deg, 330.0))
     high = min(ends[1], slot(sector_deg, 1e-3))
     if low <= high:
-
-        def drive(n: float) -> GearSector:
-            return GearSector(sector_deg=90.0, n_rpm=n)
-
-        spec = machine(target, wheel, drive, 1, natural_deg(wheel))
+        spec = target.machine(wheel, GearSector(sector_deg=90.0), natural_deg(wheel))
         keys, plain = partial(_sectors, target, z), wheel.step.b
         yield Family(spec, keys, low, high, plain, plain)
 
@@ -57,7 +44,7 @@ def _sectors(target: Target, z: int, at: Array) -> dict[str, Array]:
     half = at.tolist()
     motions = [sector_motion(z, b) for b in half]
     sectors = np.array([sector_deg(z, b) for b in half])
-    return {"drive.sector_deg": sectors, **speeds(target, 1, motions)}
+    return {"drive.sector_deg": sectors, **target.speeds(1, motions)}
 
 
 def sector_deg(z: int, b: float) -> float:

@@ -9,16 +9,16 @@ its own slot. The step is 2 b + u D, and the pitch circles are R and L - R.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, cast
+from typing import TYPE_CHECKING, Annotated, ClassVar, cast
 
-from geneva_cli.drives.pin_path import PinPath
+from geneva_cli.drives.transmission import PinPath
 from geneva_cli.motion import registry
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.engagement import Engagement, Slot, SlotAxis, Vector, WheelMotion
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Teeth
 from geneva_cli.motion.wheels import classic
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import Array, larger, library, size
+from geneva_cli.numerics.arrays import Array, Batchable, larger, library, size
 from geneva_cli.numerics.jet import Jet, Number, piecewise
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.spec.rules import Range
@@ -144,26 +144,21 @@ class _SectorMotion(WheelMotion):
         return piecewise(input_deg, (-self.half_sector, self.half_sector), (before, gears, after))
 
 
-class _SectorPath(NamedTuple):
+class _SectorPath(Batchable):
     """The roller's path in its slot; while the gears drive it stays on the line of centres."""
 
-    inner: Path
-    motion: _SectorMotion
-
-    def __call__(self, input_deg: Number, order: int = 3) -> Vector:
-        return self.inner(self.motion.slot_deg(input_deg), order)
-
-
-class _SectorSlot(Slot):
-    """The slot, and the gears' pitch circle L/(1+u) while they drive, without sliding."""
-
-    relieved, walls_flat = True, False
-
-    def __init__(self, inner: Slot, motion: _SectorMotion) -> None:
+    def __init__(self, inner: Path, motion: _SectorMotion) -> None:
         self.inner, self.motion = inner, motion
 
     def __call__(self, input_deg: Number, order: int = 3) -> Vector:
         return self.inner(self.motion.slot_deg(input_deg), order)
+
+
+class _SectorSlot(_SectorPath, Slot):
+    """The slot, and the gears' pitch circle L/(1+u) while they drive, without sliding."""
+
+    inner: Slot
+    relieved, walls_flat = True, False
 
     def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
         axis = self.inner.axis(self.motion.slot_deg(input_deg), order)

@@ -2,6 +2,7 @@
 
 from geneva_cli.motion.kind import Kind, Quantities
 
+_STANDING = "guide_locks beside_shafts_mm gear_gap_mm cut_plate_mm cut_slot_mm"
 KINDS = (
     Kind(
         "linear",
@@ -17,13 +18,13 @@ KINDS = (
             "frame": "drawings.part_drawings:frame",
             "guide": "kinds.linear.drawings:guide",
             "assembly": "kinds.linear.drawings:assembly",
-            "plate": "drawings.single_parts:plate",
+            "plate": "drawings.parts_list:plate",
         },
         tables={"slot": "parts.slots.slot_profile:profile_table"},
         dimensions="kinds.linear.drawings:dimensions",
         sizes="kinds.linear.rack:key_sizes",
-        stressed="kinds.linear.frame:rack_stressed",
-        refuses="kinds.linear.refuses:refuses",
+        stressed="kinds.linear.parts:rack_stressed",
+        refuses="kinds.linear.motion:refuses",
         no_parts="kinds.linear.motion:no_parts",
         keys=("load.mass_kg", "load.force_N", "load.guide_friction"),
         quantities=(
@@ -34,17 +35,11 @@ KINDS = (
                 batch="kinds.linear.checks:guide",
             ),
         ),
-        horn_sizes="kinds.linear.frame:horn_sizes",
+        horn_sizes="kinds.linear.parts:horn_sizes",
         load_case="kinds.linear.guide:with_guide",
         scene="kinds.linear.drawings:RackScene",
         motion_checks={"rack_horn_mm": "kinds.linear.checks:rack_horn"},
-        parts_checks={
-            "guide_locks": "kinds.linear.checks:standing",
-            "beside_shafts_mm": "kinds.linear.checks:standing",
-            "gear_gap_mm": "kinds.linear.checks:standing",
-            "cut_plate_mm": "kinds.linear.checks:standing",
-            "cut_slot_mm": "kinds.linear.checks:standing",
-            "parts": "verdict.checks.part_checks:built",
-        },
+        parts_checks=dict.fromkeys(_STANDING.split(), "kinds.linear.checks:standing")
+        | {"parts": "verdict.checks.part_checks:built"},
     ),
 )

@@ -22,7 +22,6 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import value_or
 from geneva_cli.numerics.jet import Jet
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.parts.sizes import drawn_thicknesses
 from geneva_cli.spec.defaults import wall_min
 from geneva_cli.verdict.checks import Check, compared
 from geneva_cli.verdict.checks.part_checks import cuts, least_gap
@@ -56,9 +55,8 @@ def standing(names: Collection[str], parts: RackParts) -> Iterator[Check]:
         yield from least_gap("beside_shafts_mm", _shaft_gaps(parts), L)
     if "gear_gap_mm" in names:
         yield from least_gap("gear_gap_mm", _gear_gaps(parts), L)
-    thick = drawn_thicknesses(mechanism.spec.size, parts.sizes.arm)
-    most, wide = max(thick.wheel, thick.lock, thick.arm), 2.0 * parts.sizes.half_width
-    yield from cuts(mechanism, most, wide, thick.wheel)
+    rack, lock, arm, _ = parts.sizes.thick
+    yield from cuts(mechanism, max(rack, lock, arm), 2.0 * parts.sizes.half_width, rack)
 
 
 def _shaft_gaps(parts: RackParts) -> Iterator[float]:

@@ -12,16 +12,8 @@ from geneva_cli.kinds.linear.parts import RackParts
 from geneva_cli.kinds.linear.rack import rack_sizes, slot_walls
 from geneva_cli.motion.pivots import Dimension
 from geneva_cli.output.scene import Body, Box, Track
-from geneva_cli.parts.projection import (
-    Missing,
-    drawing_of,
-    or_missing,
-    outlines_of,
-    titled,
-    with_frame,
-)
-from geneva_cli.study.animation.animated_turn import MachineTurn
-from geneva_cli.study.animation.tracks import still
+from geneva_cli.parts import projection
+from geneva_cli.study.animation.animated_turn import MachineTurn, still
 from geneva_cli.study.animation.turning_scene import WheelScene
 
 if TYPE_CHECKING:
@@ -30,8 +22,7 @@ if TYPE_CHECKING:
 
 def arm(parts: RackParts) -> Drawing:
     """Return the arm, whose x is from the crank's axis to the roller."""
-    # without an arm the error says why
-    return drawing_of(parts.mechanism, "arm", parts.arm or parts.required_arm)
+    return projection.drawing_of(parts.mechanism, "arm", parts.required_arm)
 
 
 def slot(parts: RackParts) -> Drawing:
@@ -40,32 +31,32 @@ def slot(parts: RackParts) -> Drawing:
     walls = slot_walls(sizes, 0.0)
     outline = closed("WHEEL", [*walls, Line(walls[-1].end, walls[0].start)])
     path = Contour("PITCH", (Line((0.0, 0.0), (sizes.arm, 0.0)),), closed=False)
-    return Drawing(titled(parts.mechanism, "slot"), (outline, path))
+    return Drawing(projection.titled(parts.mechanism, "slot"), (outline, path))
 
 
 def guide(parts: RackParts) -> Drawing:
     """Return rail and wall of the guide, with the bar of the rack between them."""
-    title = titled(parts.mechanism, "guide")
+    title = projection.titled(parts.mechanism, "guide")
     solid = Group(title, (parts.bar, *parts.guide))
-    return Drawing(title, outlines_of(solid), solid=solid)
+    return Drawing(title, projection.outlines_of(solid), solid=solid)
 
 
 def assembly(parts: RackParts) -> Drawing:
     """Return the machine at input angle 0: the roller is at the origin, the axis at (R, 0)."""
     gears = parts.gear_pair if parts.mechanism.spec.has_parts else ()
     moving = parts.wheel, parts.crank, parts.bar, *gears
-    title, drawn = titled(parts.mechanism), with_frame(moving, parts.standing)
+    title, drawn = projection.titled(parts.mechanism), projection.with_frame(moving, parts.standing)
     look = Annotations((LevelDistance((0.0, 0.0), parts.axis, "R"),))
     return Drawing(title, drawn, look, Group(title, parts.members))
 
 
-def dimensions(parts: RackParts) -> Iterator[Dimension | Missing]:
+def dimensions(parts: RackParts) -> Iterator[Dimension | projection.Missing]:
     """Yield the dimensions of the rack, or the reason why there are none."""
 
     def listed() -> Iterator[Dimension]:
         sizes = parts.sizes
         yield Dimension("distance of the slots", 2.0 * sizes.arm, "mm")
-        yield Dimension("edge, from the deepest roller", sizes.edge, "mm")
+        yield Dimension("edge, from the deepest roller", sizes.rim, "mm")
         if sizes.lock:
             yield Dimension("recess radius", sizes.recess, "mm")
             yield Dimension("locking sector: outer radius", sizes.lock, "mm")
@@ -74,7 +65,7 @@ def dimensions(parts: RackParts) -> Iterator[Dimension | Missing]:
         yield Dimension("guide: clearance on either side", sizes.guide.slide, "mm")
         yield Dimension("guide: length", 2.0 * sizes.guide.half, "mm")
 
-    return or_missing("dimensions of the rack", listed)
+    return projection.or_missing("dimensions of the rack", listed)
 
 
 class RackScene(WheelScene):

@@ -9,19 +9,21 @@ length is R too, as no axis gives a centre distance: the crank's axis is at (1, 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, ClassVar
 
+from geneva_cli.motion.compatible import Conflict, is_set
 from geneva_cli.motion.engagement import Slot, SlotAxis
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.path_and_slot import AnchoredPath, StraightSlotMotion
-from geneva_cli.motion.pivots import Pivot
+from geneva_cli.motion.pivots import Pivot, PlaneMotion
 from geneva_cli.motion.wheels.classic import HalfStep, PinPose, middle
 from geneva_cli.motion.wheels.gearing import Gearing, Output, RollerPlace
+from geneva_cli.numerics.arrays import Array, N
 from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.spec.schema import Example
 
 if TYPE_CHECKING:
-    from geneva_cli.motion.machine_spec import Spec
-    from geneva_cli.motion.pivots import PlaneMotion
     from geneva_cli.numerics.jet_functions import Displacement
 
 
@@ -47,31 +49,18 @@ class Linear(Gearing):
 
     def output(self, center_distance_mm: float) -> Output:
         """The travel, in millimetres."""
-        radius_m = center_distance_mm / 1000.0
+        R, radius_m, keys = center_distance_mm, center_distance_mm / 1000.0, "mass_kg or force_N"
         loads = (
             ("rack_speed_m_s", "omega_rad_s", radius_m),
             ("rack_acceleration_m_s2", "alpha_rad_s2", radius_m),
             ("rack_force_N", "wheel_torque_Nm", 1.0 / radius_m),
         )
-        lacks = (
-            *("omega_rad_s", "alpha_rad_s2", "wheel_torque_Nm", "wheel_bearing_N"),
-            *("inertia_kgm2", "acceleration_rad_s2", "inertia_torque_Nm", "friction_torque_Nm"),
-            *("total_torque_Nm", "design_torque_Nm", "moment_Nms", "drag_Nm"),
-            *("residual_deg", "windup_deg"),
-        )
-        return Output(
-            noun="rack",
-            column="rack_mm",
-            unit="mm",
-            per_radian=center_distance_mm,
-            rate_unit="m",
-            rate_per_radian=radius_m,
-            load_keys="mass_kg or force_N in [load]",
-            loads=loads,
-            lacks=lacks,
-            invariants="derivative of its travel over R",
-            turns=False,
-        )
+        lacks = "omega_rad_s alpha_rad_s2 wheel_torque_Nm wheel_bearing_N inertia_kgm2 "
+        lacks += "acceleration_rad_s2 inertia_torque_Nm friction_torque_Nm total_torque_Nm "
+        lacks += "design_torque_Nm moment_Nms drag_Nm residual_deg windup_deg"
+        named = loads, tuple(lacks.split()), "derivative of its travel over R"
+        units = "rack_mm", "mm", R, "m", radius_m
+        return Output("rack", *units, f"{keys} in [load]", *named, turns=False)
 
     @property
     def title(self) -> str:
@@ -84,8 +73,6 @@ class Linear(Gearing):
 
     def plane_motion(self, center_distance_mm: float) -> PlaneMotion:
         """How the rack slides: by the crank's radius a radian."""
-        from geneva_cli.kinds.linear.sliding import Sliding
-
         return Sliding(center_distance_mm)
 
     def words(self, slots: str) -> str:
@@ -167,3 +154,69 @@ def no_parts(spec: Spec) -> str:
         f"frame and guide of a rack behind {spec.drive.WORDS} are not built: the crank's shaft has "
         "no bearing between the rack above it and the input crank below it"
     )
+
+
+class Sliding(PlaneMotion):
+    """The travel of a rack along y, by ``radius`` a radian."""
+
+    PERIOD = math.inf
+    TURNS = 0.0
+
+    def __init__(self, radius: float) -> None:
+        self.radius = radius
+
+    def into(self, points: Array, turn: Array) -> Array:
+        """Return points, moved back along y."""
+        out = points.copy()
+        out[:, 1] -= self.radius * turn
+        return out
+
+    def level(self, points: Array) -> Array:
+        """Return the position across the rack, x."""
+        return points[..., 0]
+
+    def place(self, points: Array) -> Array:
+        """Return the position along the rack, over the radius."""
+        out: Array = points[..., 1] / self.radius
+        return out
+
+    def outwards(self, points: Array) -> Array:
+        """Return the x axis."""
+        out: Array = 0.0 * points + (1.0, 0.0)
+        return out
+
+    def lever(self, level: N) -> N:
+        """Return the radius, at any level."""
+        return 0.0 * level + self.radius
+
+    def half_span(self, reach: float, level: float) -> float:
+        """Return the disc's radius over the rack's."""
+        return reach / self.radius
+
+
+def refuses(spec: Spec) -> Iterator[Conflict]:
+    """Rules of a rack's load; and of tables and keys that only a wheel on a shaft has."""
+    load, turns = spec.load, spec.output.turns
+    text = "mass_kg and force_N are a rack's load, inertia_kgm2 and torque_Nm that of a wheel"
+    wrong = turns & ((load.mass_kg != 0.0) | (load.force_N != 0.0))
+    yield (wrong, ("load", "mass_kg"), text)
+    wrong = (not turns) & ((load.inertia_kgm2 != 0.0) | (load.torque_Nm != 0.0))
+    yield (wrong, ("load", "inertia_kgm2"), text)
+    text = "guide_friction is of the guide of a rack that a plain crank or gears drive: remove it"
+    wrong = not guided(spec) and load.guide_friction is not None
+    yield (wrong, ("load", "guide_friction"), text)
+    if turns:
+        return
+    its = "is for a wheel on a shaft, and not available for a rack: remove it"
+    text = f"dwell_torque_Nm {its}"
+    yield (load.dwell_torque_Nm is not None, ("load", "dwell_torque_Nm"), text)
+    yield (spec.mass, ("mass",), f"[[mass]] {its}")
+    for table in ("support", "tolerance", "product"):
+        yield (is_set(getattr(spec, table)), (table,), f"[{table}] {its}")
+    shaft = "stiffness_Nm_rad damping_ratio wheel_diameter_mm wheel_overhang_mm wheel_span_mm"
+    for table, keys in (("limits", "index_play_max_deg dwell_play_max_deg"), ("shaft", shaft)):
+        values = getattr(spec, table)
+        for key in keys.split():
+            own = getattr(values, key)
+            set_ = own is not None and own != getattr(type(values), key)
+            yield (set_, (table, key), f"{key} {its}")

@@ -13,14 +13,7 @@ from geneva_cli.numerics.arrays import Array, within_half_turn
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.turn.gaps import Gaps
-from geneva_cli.parts.turn.stops import (
-    Branches,
-    Pose,
-    Stops,
-    cut,
-    inset_ends,
-    masked,
-)
+from geneva_cli.parts.turn.stops import Branches, Pose, Stops, cut, inset_ends, masked
 
 
 class SlidingStops(Stops):
@@ -103,11 +96,7 @@ class SlidingStops(Stops):
 
 
 class RackGaps(Gaps):
-    """The gaps between rack, locking sector and roller at any positions.
-
-    The rack has five slots: no part reaches more in one turn, even if the rack is half a step off.
-    A rack has its recesses up to both ends, so that its ends come no nearer to the crank.
-    """
+    """The gaps between rack, locking sector and roller; five slots are all that a turn reaches."""
 
     sizes: RackSizes
 

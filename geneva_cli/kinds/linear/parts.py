@@ -1,42 +1,45 @@
 """All parts of a rack's machine at their positions, at input angle 0.
 
 In the machine's frame the rack's slots run along x, the roller is at the origin, and the crank's
-axis is at (R, 0).
+axis is at (R, 0). A bar under the rack's back slides between a rail, on which the rack lies, and a
+wall with a cover, beyond the sweep of the crank's arm. They are screwed to the frame.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import Self
+from typing import NamedTuple, Self
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Group, Member, Plate, least_wall
-from geneva_cli.geometry.shapes import Point
+from geneva_cli.geometry.shapes import Circle, Point
 from geneva_cli.geometry.sheet import rectangle
 from geneva_cli.kept import cached_property
-from geneva_cli.kinds.linear.frame import bar_bolts, guide, rack_frame, shafts_and_frame
+from geneva_cli.kinds.linear import rack
 from geneva_cli.kinds.linear.outlines import RackOutlines, turned_rack
-from geneva_cli.kinds.linear.rack import (
-    RackSizes,
-    crank_arm,
-    lock_bolts,
-    locking_sector,
-    rack_bore,
-    rack_contour,
-    rack_ends,
-    rack_sizes,
-)
-from geneva_cli.numerics.arrays import Array
+from geneva_cli.loads.strength.pin_arm_key import NO_ARM, NO_KEY, ArmDimensions
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.numerics.arrays import Array, value_or
 from geneva_cli.parts.assembly import assembly
-from geneva_cli.parts.gears.gear_pair import gear_pair
+from geneva_cli.parts.frame import hole_without_shaft, mounted_plate, shaft_holes
+from geneva_cli.parts.gears.gear_pair import gear_pair, gear_shafts, gear_span
 from geneva_cli.parts.parts import EdgedParts, FrameAndShafts, NamedBuilds
 from geneva_cli.parts.projection import NamedParts
-from geneva_cli.parts.shafts.arm_and_shafts import roller_plates
-from geneva_cli.parts.shafts.bores import Screws
-from geneva_cli.parts.sizes import drawn_thicknesses, pin_radius
+from geneva_cli.parts.shafts.arm_and_shafts import Shaft, roller_plates, shaft_ends
+from geneva_cli.parts.shafts.bores import Screws, bolt_radius, bore_of, reach_or_bore, tapped
+from geneva_cli.parts.sized_by_load import ShaftSize, Stressed, key_of, shaft_of
 from geneva_cli.parts.turn.turn_certificate import FlatPairs
 from geneva_cli.spec.defaults import wall_min
+
+
+class Heights(NamedTuple):
+    """Heights along the crank's axis, mm; 0 is the rack's lower face."""
+
+    plain: float  # lower face of a frame of plain shafts
+    top: float  # upper face of the frame
+    low: float  # lower face of what is on the crank's shaft: the arm, or gears below it
+    stands: float  # upper face of the arm
 
 
 class RackParts(EdgedParts):
@@ -47,9 +50,9 @@ class RackParts(EdgedParts):
         return turned_rack(assembly(self.mechanism, flat=False), self.sizes)
 
     @cached_property
-    def sizes(self) -> RackSizes:
+    def sizes(self) -> rack.RackSizes:
         """The sizes of rack and locking sector."""
-        return rack_sizes(self.mechanism)
+        return rack.rack_sizes(self.mechanism)
 
     @property
     def built(self) -> Self:
@@ -64,11 +67,11 @@ class RackParts(EdgedParts):
 
     def past_mouth(self, motion: int, at: Array) -> Array:
         """Return how far the roller is in its slot, beyond the rack's edge, mm, (n,)."""
-        return self.sizes.edge - self.assembly.pin(motion, at, drives=True)[:, 0]
+        return self.sizes.rim - self.assembly.pin(motion, at, drives=True)[:, 0]
 
     def pairs(self, target: float) -> FlatPairs:
         """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""
-        return FlatPairs(self._shape.gaps, self._shape.crank, target, self.sizes.edge)
+        return FlatPairs(self._shape.gaps, self._shape.crank, target, self.sizes.rim)
 
     @property
     def axis(self) -> Point:
@@ -76,43 +79,46 @@ class RackParts(EdgedParts):
         return self.sizes.arm, 0.0
 
     @cached_property
+    def _bar_bolts(self) -> tuple[Circle, ...]:
+        """The holes that fix the guide's bar to the rack, behind each of its slots."""
+        sizes, r = self.sizes, _bolt(self.sizes)
+        places = rack.slot_places(sizes, self.mechanism.spec.wheel.z) if r else ()
+        return tuple(Circle("BORE", (sizes.guide.middle, y), r) for y in places)
+
+    @cached_property
     def wheel(self) -> Member:
         """The rack, with holes for the bolts of its guide bar."""
-        count, sizes = self.mechanism.spec.wheel.z, self.sizes
-        high = drawn_thicknesses(self.mechanism.spec.size, sizes.arm).wheel
-        outline, holes = rack_contour(sizes, count), bar_bolts(sizes, count)
-        return Member(Plate("rack", "WHEEL", outline, holes, 0.0, high))
+        outline, high = (
+            rack.rack_contour(self.sizes, self.mechanism.spec.wheel.z),
+            self.sizes.thick.wheel,
+        )
+        return Member(Plate("rack", "WHEEL", outline, self._bar_bolts, 0.0, high))
 
     @cached_property
     def bar(self) -> Member:
         """The bar under the rack's back; half the height under it is free."""
-        count, sizes, x = self.mechanism.spec.wheel.z, self.sizes, self.sizes.guide.back
-        low, high = rack_ends(sizes, count)
-        outline = rectangle("LINK", x, low, x + sizes.guide.bar, high)
-        under = 0.5 * rack_frame(self.mechanism).top
-        return Member(Plate("guide bar", "LINK", outline, bar_bolts(sizes, count), under, 0.0))
+        place, under = self.sizes.guide, 0.5 * heights(self.mechanism, self.sizes).top
+        low, high = rack.rack_ends(self.sizes, self.mechanism.spec.wheel.z)
+        outline = rectangle("LINK", place.back, low, place.back + place.bar, high)
+        return Member(Plate("guide bar", "LINK", outline, self._bar_bolts, under, 0.0))
 
     @cached_property
     def arm(self) -> Plate | None:
         """The crank's arm, x to the roller; None without a pin for the roller."""
-        return self.required_arm if rack_bore(self.mechanism) else None
+        return self.required_arm if self.sizes.bore else None
 
     @property
     def required_arm(self) -> Plate:
         """The arm. Raises GenevaError, naming the key, where the sizes leave none."""
-        size, R, arm = self.mechanism.spec.size, self.sizes.arm, crank_arm(self.mechanism)
+        size, sizes = self.mechanism.spec.size, self.sizes
+        arm, high = rack.crank_arm(size, sizes), -size.allowances.pin_gap_mm
         holes = (arm.bore, *arm.pins, *arm.bolts)
-        least, needed = least_wall(holes, [arm.outline]), wall_min(size, R)
+        least, needed = least_wall(holes, [arm.outline]), wall_min(size, sizes.arm)
         if least < needed:
-            raise GenevaError(
-                f"--part arm: the least wall around the arm's holes is {least:.4g} mm, below "
-                f"{needed:g}; use a larger arm_eye_mm or arm_hub_mm, or a smaller arm_bore_mm, "
-                "pin_mm or lock_bolt_mm",
-                ("size", "arm_bore_mm"),
-            )
-        high = -size.allowances.pin_gap_mm
-        thick = drawn_thicknesses(size, R).arm
-        return Plate("arm", "ARM", arm.outline, holes, high - thick, high)
+            text = f"--part arm: the least wall around the arm's holes is {least:.4g} mm, below "
+            text += f"{needed:g}; use a larger arm_eye_mm or arm_hub_mm, or a smaller arm_bore_mm, "
+            raise GenevaError(text + "pin_mm or lock_bolt_mm", ("size", "arm_bore_mm"))
+        return Plate("arm", "ARM", arm.outline, holes, high - sizes.thick.arm, high)
 
     @cached_property
     def crank_without_arm(self) -> Member:
@@ -126,15 +132,14 @@ class RackParts(EdgedParts):
 
     def _crank(self, arm: Plate | None) -> Member:
         """The crank's parts in the arm's frame; the locking sector stands on the arm."""
-        size, sizes = self.mechanism.spec.size, self.sizes
-        thick, stands = drawn_thicknesses(size, sizes.arm), -size.allowances.pin_gap_mm
-        pin, fit = pin_radius(size, sizes.roller), size.allowances.shaft_fit_mm
-        turned = roller_plates(sizes.roller, pin, stands - thick.arm, thick.wheel, fit)
+        size, sizes, thick = self.mechanism.spec.size, self.sizes, self.sizes.thick
+        stands, fit = -size.allowances.pin_gap_mm, size.allowances.shaft_fit_mm
+        turned = roller_plates(sizes.roller, sizes.pin, stands - thick.arm, thick.wheel, fit)
         members = [Member(arm)] if arm else []
         members += [Member(one, (sizes.arm, 0.0)) for one in turned]
-        sector = locking_sector(sizes)
+        sector = rack.locking_sector(sizes)
         if sector is not None:
-            holes, high = tuple(lock_bolts(self.mechanism)), stands + thick.lock
+            holes, high = tuple(rack.lock_bolts(size, sizes)), stands + thick.lock
             members.append(Member(Plate("locking sector", "CRANK", sector, holes, stands, high)))
         # the roller is on the rack's side
         return Member(Group("crank", tuple(members)), self.axis, math.pi)
@@ -142,19 +147,54 @@ class RackParts(EdgedParts):
     @cached_property
     def gear_pair(self) -> tuple[Member, ...]:
         """The noncircular gears that turn the crank, up to their pitch curves."""
-        return gear_pair(self.mechanism, None, self.writer, rack_bore(self.mechanism))
+        return gear_pair(self.mechanism, None, self.writer, self.sizes.bore)
 
     @cached_property
     def guide(self) -> tuple[Member, ...]:
         """Rail, wall and cover of the guide."""
         self._require_built()
-        return tuple(Member(plate) for plate in guide(self.mechanism))
+        sizes, place, top = self.sizes, self.sizes.guide, heights(self.mechanism, self.sizes).top
+        x, bar, slide, half = place.back, place.bar, place.slide, place.half
+        if half < bar:
+            text = f"roller_radius_mm = {sizes.roller:g}: use a smaller one: a guide that the rack "
+            text += f"always covers would be {2.0 * half:.4g} mm long, and its screws need "
+            raise GenevaError(text + f"{2.0 * bar:.4g}", ("size", "roller_radius_mm"))
+        over = sizes.thick.wheel + self.mechanism.spec.size.allowances.pin_gap_mm
+        on_rail, on_wall = (tuple(one for one in row if one.radius) for row in _screws(sizes))
+        rail = rectangle("FRAME", x + bar + slide, -half, x + 2.0 * bar + slide, half)
+        wall = rectangle("FRAME", x - slide - 2.0 * bar, -half, x - slide, half)
+        # the cover ends a tenth of a bar inside the edges of wall and bar
+        cover = rectangle("FRAME", x - slide - 1.9 * bar, -half, x + 0.9 * bar, half)
+        return (
+            Member(Plate("guide rail", "FRAME", rail, on_rail, top, 0.0)),
+            Member(Plate("guide wall", "FRAME", wall, on_wall, top, over)),
+            Member(Plate("guide cover", "FRAME", cover, on_wall, over, over + sizes.thick.arm)),
+        )
 
     @cached_property
     def framed(self) -> FrameAndShafts:
-        """The frame and the shafts."""
+        """The shafts and the frame, with holes for them and the guide's screws."""
         self._require_built()
-        return shafts_and_frame(self.mechanism)
+        mechanism, size, sizes = self.mechanism, self.mechanism.spec.size, self.sizes
+        plain, top, _, stands = heights(mechanism, sizes)
+        axis, L, own = self.axis, 2.0 * sizes.arm, list[Shaft]()  # as a wheel of 6 slots has it
+        if sizes.bore:  # the crank's shaft, up to the arm's upper face
+            ends = shaft_ends(size, "crank", plain, stands)
+            # the keyway is on the side of the locking sector, as in the arm
+            bore = bore_of(size, "crank", sizes.bore)._replace(direction=math.pi)
+            own.append(Shaft("crank's shaft", "crank", bore, *ends, axis, math.pi))
+        own += gear_shafts(mechanism, None, plain, True, sizes.bore)
+        axles = tuple(one.member for one in own)
+        bored = shaft_holes(size, axles, top)
+        if not sizes.bore:
+            bored.insert(0, hole_without_shaft(mechanism.spec.shaft.crank_diameter_mm, axis, L))
+        rows = zip(("guide rail", "guide wall"), _screws(sizes), strict=True)
+        screwed = tuple((hole, name) for name, row in rows for hole in row)
+        within = [*bored, *(tapped(hole) for hole, _ in screwed)]
+        holes = [one for one in within if one.radius]
+        eye = max(L / 20.0, 3.0 * wall_min(size, L))  # it leaves walls around mounting holes
+        frame = mounted_plate(holes, within, eye, (plain, top))
+        return FrameAndShafts(frame, axles, screwed=screwed if _bolt(sizes) else ())
 
     def _require_built(self) -> None:
         """Raise GenevaError where the crank's shaft has no bearing in the frame."""
@@ -169,16 +209,13 @@ class RackParts(EdgedParts):
     @property
     def screws(self) -> tuple[Screws, ...]:
         """The screws of locking sector, guide bar, and what is fixed to the frame."""
-        count = self.mechanism.spec.wheel.z
-        own = [
-            Screws(fixed, len(holes), 2.0 * holes[0].radius, thread)
-            for fixed, holes, thread in (
-                ("locking sector", lock_bolts(self.mechanism) if self.arm else [], "the arm"),
-                ("rack", bar_bolts(self.sizes, count), "nuts under the guide bar"),
-            )
-            if holes
-        ]
-        return (*own, *(self.framed.screws if self.mechanism.spec.has_parts else ()))
+        spec, own = self.mechanism.spec, list[Screws]()
+        if self.arm and (bolts := rack.lock_bolts(spec.size, self.sizes)):
+            own.append(Screws("locking sector", len(bolts), 2.0 * bolts[0].radius, "the arm"))
+        if bolted := self._bar_bolts:
+            nuts = "nuts under the guide bar"
+            own.append(Screws("rack", len(bolted), 2.0 * bolted[0].radius, nuts))
+        return (*own, *(self.framed.screws if spec.has_parts else ()))
 
     @property
     def standing(self) -> tuple[Member, ...]:
@@ -201,3 +238,48 @@ class RackParts(EdgedParts):
         yield "shafts", lambda: [one.part for one in self.shafts]
         yield "guide", lambda: [one.part for one in self.guide]
         yield "frame", lambda: [self.frame.part]
+
+
+def heights(mechanism: Mechanism, sizes: rack.RackSizes) -> Heights:
+    """Return the heights of a machine's parts."""
+    stands = 0.0 - mechanism.spec.size.allowances.pin_gap_mm  # no -0.0
+    low = gear_span(mechanism, None)[0] if mechanism.spec.gears else stands - sizes.thick.arm
+    top = low - mechanism.spec.size.washer_mm
+    return Heights(top - sizes.thick.arm, top, low, stands)
+
+
+def _screws(sizes: rack.RackSizes) -> list[tuple[Circle, ...]]:
+    """Return three screws' holes in rail and in wall; of no width where no screw is so thin."""
+    place, r = sizes.guide, _bolt(sizes)
+    far = place.half - 0.5 * place.bar  # half a bar's width from the ends
+    rows = place.back + 1.5 * place.bar + place.slide, place.back - place.slide - place.bar
+    return [tuple(Circle("BORE", (x, y), r) for y in (-far, 0.0, far)) for x in rows]
+
+
+def _bolt(sizes: rack.RackSizes) -> float:
+    return bolt_radius(None, 2.0 * sizes.arm, 0.5 * sizes.guide.bar)
+
+
+def rack_stressed(mechanism: Mechanism) -> Stressed:
+    """Return the dimensions of the parts of a machine that their strength depends on."""
+    spec, size, sizes = mechanism.spec, mechanism.spec.size, rack.rack_sizes(mechanism)
+    _, _, low, stands = heights(mechanism, sizes)
+    (deep, _, thick, _), bore, bend = sizes.thick, sizes.bore, NO_ARM
+    contact = value_or(size.face_width_mm, deep)
+    if bore:
+        arm, bored = rack.crank_arm(size, sizes), reach_or_bore(size, "crank", bore)
+        offset = 0.5 * (contact + thick) - stands
+        bend = ArmDimensions(sizes.arm, arm.hub, arm.eye, bored, arm.pins[0].radius, thick, offset)
+    crank = shaft_of(spec, "crank", bore, 0.5 * deep - (low - size.washer_mm), thick)
+    key = key_of(size.crank_keyway, bore, thick)
+    no_shaft = ShaftSize(math.nan, math.nan)
+    return Stressed(contact, 2.0 * sizes.pin, no_shaft, crank, bend, NO_KEY, key)
+
+
+def horn_sizes(mechanism: Mechanism) -> tuple[float, float]:
+    """Return half the slot's width and the recess's radius, NaN for a rack that cannot be cut."""
+    try:
+        sizes = rack.rack_sizes(mechanism)
+    except GenevaError:  # the check of the parts reports the error
+        return math.nan, math.nan
+    return sizes.half_width, sizes.recess

@@ -2,8 +2,7 @@
 
 In the rack's frame its slots run along x, and the roller is at the origin at mid-motion. The edge,
 by default x = R, passes through the crank's axis. So no disc can lock the rack: a ring does, half
-way round, opposite the roller. The recesses have the radius rho, and are R from the slots. At
-mid-motion the rack covers the edge but for R - rho to R + rho, where the ring's end lies.
+way round, opposite the roller. The recesses have the radius rho, and are R from the slots.
 """
 
 from __future__ import annotations
@@ -23,12 +22,14 @@ from geneva_cli.parts.sizes import (
     KeySizes,
     arm_bore,
     drawn_thicknesses,
+    hole_radius,
     hub_and_eye,
     lock_bolt_directions,
     pin_hole,
     pin_radius,
 )
 from geneva_cli.spec.defaults import wall_min
+from geneva_cli.spec.tables import Size, Thicknesses
 
 
 class RackSizes(NamedTuple):
@@ -37,23 +38,21 @@ class RackSizes(NamedTuple):
     arm: float  # R, the crank's radius
     roller: float
     half_width: float  # of the slot
-    edge: float  # distance of the rack's edge from the deepest roller
+    rim: float  # distance of the rack's edge from the deepest roller
     slot_bottom: float  # clearance between the deepest roller and the slot's end
     lock: float  # outer radius of the locking sector
     floor: float  # its inner radius
     recess: float
     relief: float  # clearance of the recess inside the locking sector
     guide: GuidePlace
-
-    @property
-    def rim(self) -> float:
-        """The edge, for the full turn."""
-        return self.edge
+    pin: float  # of the roller, 0 for none
+    bore: float  # of the arm, in which the crank's shaft ends; 0 without a pin
+    thick: Thicknesses
 
     @property
     def horn(self) -> float:
         """Thickness of the horn between slot and recess at its thinnest place."""
-        below = min(self.edge - self.arm, 0.0)  # an edge below the crank's axis has wider horns
+        below = min(self.rim - self.arm, 0.0)  # an edge below the crank's axis has wider horns
         half_recess = math.sqrt(max(self.recess**2 - below**2, 0.0))
         return self.arm - self.half_width - half_recess
 
@@ -75,60 +74,55 @@ class RackSizes(NamedTuple):
 
 def rack_sizes(mechanism: Mechanism) -> RackSizes:
     """Return the sizes of a machine's rack. Raises GenevaError, naming the key, if none fit."""
-    size, r = mechanism.spec.size, mechanism.roller_radius_mm
-    arm, allowed = mechanism.ratio * mechanism.center_distance_mm, size.allowances
-    guide = guide_place(mechanism)
+    size, r, arm = mechanism.spec.size, mechanism.roller_radius_mm, mechanism.center_distance_mm
+    guide, allowed = guide_place(mechanism), size.allowances
     w = guide.slot
     if w >= arm:
-        raise GenevaError(
-            f"roller_radius_mm = {r:g}: the slots overlap; half a slot must be below {arm:.6g}, "
-            "half the distance of the slots",
-            ("size", "roller_radius_mm"),
-        )
+        text = f"roller_radius_mm = {r:g}: the slots overlap; half a slot must be below {arm:.6g}, "
+        text += "half the distance of the slots"
+        raise GenevaError(text, ("size", "roller_radius_mm"))
     relief, lock = value_or(size.relief_clearance_mm, arm / 200.0), size.lock_radius_mm
     # the locking sector must be wider than its inner radius
     least, limit = 0.5 * (arm + relief), arm - w - allowed.lock_clearance_mm
     if lock != 0.0 and limit <= least:
-        raise GenevaError(
-            f"the locking sector does not fit: roller and clearances limit it to {limit:.4g} mm, "
-            f"and it must reach {least:.4g}; use a smaller roller, or lock_radius_mm = 0",
-            ("size", "lock_radius_mm"),
-        )
+        text = f"the locking sector does not fit: roller and clearances limit it to {limit:.4g} mm "
+        text += f"and it must reach {least:.4g}; use a smaller roller, or lock_radius_mm = 0"
+        raise GenevaError(text, ("size", "lock_radius_mm"))
     if lock != 0.0:
         lock = lock_between(lock, least, limit, r)
     recess = lock + allowed.lock_clearance_mm if lock else 0.0
     floor = arm - recess + relief if lock else 0.0
-    edge = value_or(size.wheel_radius_mm, arm)
+    edge, pin = value_or(size.wheel_radius_mm, arm), pin_radius(size, r)
     if lock and abs(edge - arm) >= recess:
-        raise GenevaError(
-            f"wheel_radius_mm = {edge:g}: the rack's edge must meet its recesses, between "
-            f"{arm - recess:.6g} and {arm + recess:.6g} mm",
-            ("size", "wheel_radius_mm"),
-        )
-    return RackSizes(arm, r, w, edge, guide.bottom, lock, floor, recess, relief, guide)
+        text = f"wheel_radius_mm = {edge:g}: the rack's edge must meet its recesses, between "
+        text += f"{arm - recess:.6g} and {arm + recess:.6g} mm"
+        raise GenevaError(text, ("size", "wheel_radius_mm"))
+    # as if R were L/2, as for 6 slots
+    space = arm - hole_radius(size, pin)
+    bore = arm_bore(mechanism.spec, 0.0, 2.0 * arm, space) if pin else 0.0
+    widths = arm, r, w, edge, guide.bottom, lock, floor, recess, relief
+    return RackSizes(*widths, guide, pin, bore, drawn_thicknesses(size, arm))
 
 
 def key_sizes(mechanism: Mechanism) -> KeySizes:
     """Return the sizes of a rack and its crank by the keys of the spec, without its load."""
-    size, r = mechanism.spec.size, mechanism.roller_radius_mm
     try:
-        sizes, bore = rack_sizes(mechanism), rack_bore(mechanism)
-        arm = crank_arm(mechanism) if bore else None
+        sizes = rack_sizes(mechanism)
+        arm = crank_arm(mechanism.spec.size, sizes) if sizes.bore else None
     except GenevaError:  # reported by the check of the parts
         return {}, ()
-    thick = drawn_thicknesses(size, sizes.arm)
     known = {
-        "wheel_radius_mm": sizes.edge,
+        "wheel_radius_mm": sizes.rim,
         "slot_bottom_clearance_mm": sizes.slot_bottom,
         "lock_radius_mm": sizes.lock,
         "relief_clearance_mm": sizes.relief,
-        "pin_mm": 2.0 * pin_radius(size, r),
-        "wheel_thickness_mm": thick.wheel,
-        "lock_thickness_mm": thick.lock,
-        "arm_thickness_mm": thick.arm,
+        "pin_mm": 2.0 * sizes.pin,
+        "wheel_thickness_mm": sizes.thick.wheel,
+        "lock_thickness_mm": sizes.thick.lock,
+        "arm_thickness_mm": sizes.thick.arm,
     }
     if arm:
-        wide = {"bore": bore, "hub": arm.hub, "eye": arm.eye}
+        wide = {"bore": sizes.bore, "hub": arm.hub, "eye": arm.eye}
         known |= {f"arm_{name}_mm": 2.0 * radius for name, radius in wide.items()}
     return known, ()
 
@@ -140,7 +134,7 @@ def rack_contour(sizes: RackSizes, count: int) -> Contour:
     cuts = [slot_walls(sizes, y) for y in places]
     if sizes.recess:
         between = places[0] - sizes.arm, *(y + sizes.arm for y in places)
-        beyond = math.asin((sizes.edge - sizes.arm) / sizes.recess)
+        beyond = math.asin((sizes.rim - sizes.arm) / sizes.recess)
         start, sweep = beyond - 0.5 * math.pi, -math.pi - 2.0 * beyond
         recesses: list[list[Segment]] = [
             [about((sizes.arm, y), sizes.recess, start, sweep)] for y in between
@@ -148,11 +142,11 @@ def rack_contour(sizes: RackSizes, count: int) -> Contour:
         pairs = zip(recesses, [*cuts, []], strict=True)
         cuts = [cut for pair in pairs for cut in pair if cut]
     edge: list[Segment] = []
-    at = (sizes.edge, low)
+    at = (sizes.rim, low)
     for cut in cuts:
         edge += [Line(at, cut[0].start), *cut]
         at = cut[-1].end
-    corners = (sizes.edge, high), (back, high), (back, low), (sizes.edge, low)
+    corners = (sizes.rim, high), (back, high), (back, low), (sizes.rim, low)
     sides = [Line(at, corners[0])]
     sides += [Line(a, b) for a, b in zip(corners, corners[1:], strict=False)]
     return closed("WHEEL", [*edge, *sides])
@@ -172,7 +166,7 @@ def rack_ends(sizes: RackSizes, count: int) -> tuple[float, float]:
 
 def slot_walls(sizes: RackSizes, y: float) -> list[Segment]:
     """Return the walls of a slot at y, from the lower corner of its mouth to the upper one."""
-    edge, w, bottom = sizes.edge, sizes.half_width, -sizes.slot_bottom
+    edge, w, bottom = sizes.rim, sizes.half_width, -sizes.slot_bottom
     end = about((bottom, y), w, -0.5 * math.pi, -math.pi)
     return [Line((edge, y - w), end.start), end, Line(end.end, (edge, y + w))]
 
@@ -187,30 +181,19 @@ def locking_sector(sizes: RackSizes) -> Contour | None:
     return closed("CRANK", [outer, inwards, inner, outwards])
 
 
-def crank_arm(mechanism: Mechanism) -> CrankArm:
+def crank_arm(size: Size, sizes: RackSizes) -> CrankArm:
     """Return the arm: its outline about hub and eye, and the holes of shaft, pin and bolts."""
-    size, sizes = mechanism.spec.size, rack_sizes(mechanism)
-    R = sizes.arm
-    hole, bore = pin_hole(size, pin_radius(size, sizes.roller)), rack_bore(mechanism)
-    form = bore_of(size, "crank", bore)
-    hub, eye = hub_and_eye(size, wall_min(size, R), hole, bore, math.inf, sizes.lock)
+    R, hole = sizes.arm, pin_hole(size, sizes.pin)
+    hub, eye = hub_and_eye(size, wall_min(size, R), hole, sizes.bore, math.inf, sizes.lock)
     outline = convex_hull("ARM", [Circle("ARM", (0.0, 0.0), hub), Circle("ARM", (R, 0.0), eye)])
-    pins, bored = [Circle("BORE", (R, 0.0), hole)], form.shape("BORE", math.pi)
-    threads = [tapped(hole) for hole in lock_bolts(mechanism)]
+    bored = bore_of(size, "crank", sizes.bore).shape("BORE", math.pi)
+    threads = [tapped(hole) for hole in lock_bolts(size, sizes)]
+    pins = [Circle("BORE", (R, 0.0), hole)]
     return CrankArm(outline, bored, pins, threads, hub, eye, math.inf)
 
 
-def rack_bore(mechanism: Mechanism) -> float:
-    """Return the radius of the arm's bore, in which the crank's shaft ends."""
-    size, R = mechanism.spec.size, mechanism.ratio * mechanism.center_distance_mm
-    pin = pin_radius(size, mechanism.roller_radius_mm)
-    # as if R were L/2, as for 6 slots
-    return arm_bore(mechanism.spec, 0.0, 2.0 * R, R - pin_hole(size, pin)) if pin else 0.0
-
-
-def lock_bolts(mechanism: Mechanism) -> list[Circle]:
+def lock_bolts(size: Size, sizes: RackSizes) -> list[Circle]:
     """Return the holes of the bolts that fix the locking sector to the arm, 2 by default."""
-    size, sizes = mechanism.spec.size, rack_sizes(mechanism)
     count = size.lock_bolts
     if count is None:
         count = 2 if sizes.lock else 0

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from functools import reduce
 from typing import Annotated, ClassVar, NamedTuple, Self
 
-from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.errors import refuse_text
 from geneva_cli.kinds.linkages.link_path import LinkPath, PointDisplacement
 from geneva_cli.kinds.linkages.linkage import Linkage, Moving
 from geneva_cli.motion.drive import Plan
@@ -75,17 +75,10 @@ class FourBar(Linkage, kw_only=True):
         # it is below the sum of the other two.
         others = [self.ground_mm, self.coupler_mm, self.rocker_mm]
         limit = smaller(reduce(smaller, others), sum(others) - 2.0 * reduce(larger, others))
-
-        def error() -> GenevaError:
-            below = f"it must be below {limit:.6g}"
-            remedy = below if limit > 0.0 else "change the other links first"
-            return GenevaError(
-                f"crank_mm = {self.crank_mm:g}: the crank cannot make a full turn (Grashof's "
-                f"condition); {remedy}",
-                ("drive", "crank_mm"),
-            )
-
-        refuse(self.crank_mm >= limit, error)
+        text = "crank_mm = {a:g}: the crank cannot make a full turn (Grashof's condition); it must "
+        text += "be below {limit:.6g}, which the other links decide"
+        wrong, key = self.crank_mm >= limit, ("drive", "crank_mm")
+        refuse_text(wrong, key, text, a=self.crank_mm, limit=limit)
 
     def backwards(self, plan: Plan) -> Self:
         """The mirrored linkage: the other branch, the roller across the coupler."""
@@ -152,16 +145,11 @@ class CouplerPath(LinkPath):
         """Displacement since a crank angle."""
         a, g, b, c, p, q = self.numbers
         m = library(phi, a, g)
-        sine, cosine, half_sine, half_cosine = (
-            m.sin(phi),
-            m.cos(phi),
-            m.sin(0.5 * phi),
-            m.cos(0.5 * phi),
-        )
+        sine, cosine = m.sin(phi), m.cos(phi)
         x, y = g - cosine * a, sine * -a
         # by Grashof's condition sums of positive terms: (b + c)² - D and D - (b - c)²
-        above = (b + c - g - a) * (b + c + g + a) + 4.0 * g * a * half_cosine**2
-        below = (g - a - b + c) * (g - a + b - c) + 4.0 * g * a * half_sine**2
+        above = (b + c - g - a) * (b + c + g + a) + 4.0 * g * a * m.cos(0.5 * phi) ** 2
+        below = (g - a - b + c) * (g - a + b - c) + 4.0 * g * a * m.sin(0.5 * phi) ** 2
         root = parameter(library(above).sqrt(above * below))
         sizes = a * sine, a * cosine, x, x * x + y * y, 2.0 * g, above, below, root
         half = 0.5 / b

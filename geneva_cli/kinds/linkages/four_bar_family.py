@@ -21,28 +21,20 @@ from geneva_cli.kinds.linkages.four_bar_search import (
     Costs,
     Goal,
     WheelGoal,
-    coupler_point,
     four_bars_at,
     is_known,
     search_four_bars,
 )
 from geneva_cli.kinds.linkages.path_wheels import driven
-from geneva_cli.kinds.linkages.tangent_pairs import Pairs, points, residual, sampled
+from geneva_cli.kinds.linkages.tangent_pairs import Pairs, sampled
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.wheels.gearing import Gearing
-from geneva_cli.study.synth.families.family import (
-    BARE,
-    Family,
-    allowed_motions,
-    closed_span,
-    is_compatible,
-    machine,
-    natural_deg,
-)
-from geneva_cli.study.synth.optimiser import Places
+from geneva_cli.study.synth.families.family import Family, is_compatible, natural_deg
+from geneva_cli.study.synth.family_search import Places
 from geneva_cli.study.target import AllowedSpan, Target
 
 _EXAMPLE: Any = FourBar.EXAMPLE.tables["drive"]
+_LENGTHS = ("crank_mm", "ground_mm", "coupler_mm", "rocker_mm")
 
 
 def four_bars(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
@@ -59,12 +51,12 @@ def four_bars(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
 
 def _task(target: Target, wheel: Gearing) -> WheelGoal | None:
     """The goal of the search for a wheel; None for a wheel that no four-bar drives."""
-    free = closed_span(allowed_motions(target, 1, natural_deg(wheel)), 1)
+    free = target.free_motions(1, natural_deg(wheel))
     if free is None:
         return None
     if not is_compatible(_machine(target, wheel, FourBar(**_EXAMPLE), free.low)):
         return None
-    frame = target.frame or BARE
+    frame = target.own
     radius_mm = frame.size.roller_radius_mm
     # half the usual roller, and at most a third of sin b, which is the crank of a plain wheel
     roller = min(0.025, (1.0 / 3.0) * math.sin(wheel.step.b))
@@ -104,35 +96,24 @@ def _spec(target: Target, goal: Goal, places: Places, number: int) -> Spec | Non
     one = places.take(slice(number, number + 1))
     with np.errstate(all="ignore"):
         machine = four_bars_at(goal, one.of, one.at)
-    links, (entry, motion, sense, _) = machine.links, machine.drive
+    links, (entry, motion, sense, w) = machine.links, machine.drive
     wheel = goal.wheels[one.of[0]].wheel
-    b, required, wide = wheel.step.b, float(motion[0, 0]), motion
-    own = _machine(target, wheel, FourBar(**_EXAMPLE), math.degrees(required))
-    scale = (target.frame or BARE).given_distance_mm / float(machine.distance[0])
-    for _ in range(4):  # until the motion has its digits
-        w = complex(coupler_point(links, entry, entry + wide, b, sense)[0, 0]) * scale
-        crank, ground, coupler, rocker = (float(np.ravel(x)[0]) * scale for x in links.numbers[:4])
-        try:
-            keys = FourBar(
-                crank_mm=crank,
-                ground_mm=ground,
-                coupler_mm=coupler,
-                rocker_mm=rocker,
-                point_mm=abs(w),
-                point_deg=math.degrees(cmath.phase(w)),
-                entry_deg=math.degrees(math.remainder(float(entry[0, 0]), math.tau)),
-                n_rpm=own.drive.n_rpm,
-            )
-        except GenevaError:
-            return None
-        path, phi = keys.roller_path, np.hstack((entry, entry + wide))
-        phi = phi + residual(points(path, phi), np.array([b]), sense[0]).step
-        reached = float(np.diff(phi)[0, 0])
-        if abs(reached - required) <= 2e-13 * required:  # rounding
-            break
-        wide = wide + (required - reached)  # the part lost to rounding
-    else:
+    own = _machine(target, wheel, FourBar(**_EXAMPLE), math.degrees(float(motion[0, 0])))
+    scale = target.own.given_distance_mm / float(machine.distance[0])
+    at = complex(w[0, 0]) * scale
+    lengths = [float(np.ravel(x)[0]) * scale for x in links.numbers[:4]]
+    sides: Any = dict(zip(_LENGTHS, lengths, strict=True))
+    try:
+        keys = FourBar(
+            **sides,
+            point_mm=abs(at),
+            point_deg=math.degrees(cmath.phase(at)),
+            entry_deg=math.degrees(math.remainder(float(entry[0, 0]), math.tau)),
+            n_rpm=own.drive.n_rpm,
+        )
+    except GenevaError:
         return None
+    path, phi = keys.roller_path, np.hstack((entry, entry + motion))
     wheels = driven(path, Pairs(np.zeros(1, dtype=int), phi, sense[0]), sampled(path, 1))
     return own.replace(drive=keys) if len(wheels.which) else None
 
@@ -140,7 +121,7 @@ def _spec(target: Target, goal: Goal, places: Places, number: int) -> Spec | Non
 def _machine(target: Target, wheel: Gearing, drive: FourBar, motion_deg: float) -> Spec:
     """A machine with the requirement's frame; its centre distance follows from the links."""
     unlocked = wheel.replace(held_by="detent")  # there is no locking disc
-    spec = machine(target, unlocked, lambda n: drive.replace(n_rpm=n), 1, motion_deg)
+    spec = target.machine(unlocked, drive, motion_deg)
     # the coupler passes below the wheel's axis, where a shaft without a hub ends in the wheel
     hub = 0.0 if spec.size.wheel_hub_mm is None else spec.size.wheel_hub_mm
     return spec.replace(size=spec.size.replace(center_distance_mm=None, wheel_hub_mm=hub))

@@ -13,7 +13,6 @@ the solution.
 from __future__ import annotations
 
 import math
-from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -21,14 +20,14 @@ import numpy as np
 from geneva_cli.kinds.linkages.four_bar import CouplerPath
 from geneva_cli.kinds.linkages.link_path import LinkPath
 from geneva_cli.kinds.linkages.path_wheels import top
-from geneva_cli.kinds.linkages.tangent_pairs import complex_of, taken
+from geneva_cli.kinds.linkages.tangent_pairs import complex_of
 from geneva_cli.motion.peak_search import ORDERS
 from geneva_cli.motion.timing import Timing, timing
 from geneva_cli.motion.wheels.gearing import Gearing
-from geneva_cli.numerics.arrays import Array, Complex, Number, Whole, parameter
+from geneva_cli.numerics.arrays import Array, Complex, Number, Whole, mapped, parameter
 from geneva_cli.numerics.jet import Jet, atan2, sin_cos
 from geneva_cli.study.sweep.constraints import Constraint
-from geneva_cli.study.synth.optimiser import Places, Zoom, sampled, zoom
+from geneva_cli.study.synth.family_search import Places, Zoom, sampled, zoom
 from geneva_cli.study.target import AllowedSpan, Target
 from geneva_cli.verdict.quantities.groups import RATES
 
@@ -66,11 +65,14 @@ class CouplerDrive(NamedTuple):
     sense: Array
     w: Complex
 
+    def of(self, which: Whole) -> CouplerDrive:
+        """The drives of some of the wheels."""
+        return mapped(lambda column: column[which], self)
+
 
 class FourBars(NamedTuple):
-    """Machines of the search: which of the places have one, and their links, drive and costs."""
+    """Machines of the search; violations and costs of all places, infinite without a machine."""
 
-    which: Whole
     links: CouplerPath
     drive: CouplerDrive
     distance: Array
@@ -89,7 +91,12 @@ def search_four_bars(goal: Goal) -> list[Places]:
     count = min(max(6000 // slots, SAMPLES[0]), SAMPLES[1])
     samplings = min(max(300 // slots, SAMPLINGS[0]), SAMPLINGS[1])
     parents, children = 4, 12  # the best places of a wheel, and the closer samples near each
-    coarse, fine = (partial(_costs, goal, places) for places in (COARSE, FINE))
+
+    def coarse(of: Whole, at: Array) -> tuple[Array, Array]:
+        return four_bars_at(goal, of, at, COARSE)[-2:]
+
+    def fine(of: Whole, at: Array) -> tuple[Array, Array]:
+        return four_bars_at(goal, of, at)[-2:]
 
     def offsets(number: int) -> Array:
         return np.column_stack((_spread(children, number) - 0.5, np.zeros(children)))
@@ -118,36 +125,26 @@ def _spread(count: int, start: int = 0) -> Array:
     return points
 
 
-def _costs(goal: Goal, places: int, of: Whole, at: Array) -> tuple[Array, Array]:
-    """Violations and costs of places; infinite without a machine."""
-    found = four_bars_at(goal, of, at, places)
-    out = np.full((2, len(of)), np.inf)
-    out[:, found.which] = found.violation, found.cost
-    return out[0], out[1]
-
-
 def four_bars_at(goal: Goal, of: Whole, at: Array, places: int = FINE) -> FourBars:
     """The machines at places of the cube, for wheels by their numbers."""
     rows = [(w.wheel.step.b, *w.motion, w.roller, float(w.wheel.z)) for w in goal.wheels]
     half, low, high, radius, slots = np.array(rows).T[:, of, None]
     u = at.T[:, :, None]
-    g, sense = np.ones(u[0].shape), np.where(u[5] > 0.5, 1.0, -1.0)
+    sense = np.where(u[5] > 0.5, 1.0, -1.0)
     # coupler and rocker are 1/4 to 4 times as long as the ground link
-    b, c = (4.0 ** (2.0 * x - 1.0) for x in u[:2])
-    sides = np.stack((g, b, c))
-    longest = np.minimum(sides.min(axis=0), g + b + c - 2.0 * sides.max(axis=0))
+    sides = np.stack((np.ones(u[0].shape), *(4.0 ** (2.0 * x - 1.0) for x in u[:2])))
+    longest = np.minimum(sides.min(axis=0), sides.sum(axis=0) - 2.0 * sides.max(axis=0))
     # the crank is 0.05 to 0.97 times as long as the longest that turns fully
-    lengths = (longest * (0.05 + (0.97 - 0.05) * u[2]), g, b, c)
+    lengths = (longest * (0.05 + (0.97 - 0.05) * u[2]), *sides)
     links = CouplerPath(*map(parameter, lengths), reach_mm=0.0, angle_deg=0.0)
     # the gentlest is often at an end of a range: a sixth of all places is at either
     degrees = low + (high - low) * np.clip(1.5 * u[4] - 0.25, 0.0, 1.0)
     entry, motion = math.tau * u[3], np.radians(degrees)
-    drive = CouplerDrive(
-        entry, motion, sense, coupler_point(links, entry, entry + motion, half, sense)
-    )
+    w = coupler_point(links, entry, entry + motion, half, sense)
+    drive = CouplerDrive(entry, motion, sense, w)
     # the further tests run on few places
     able = np.flatnonzero((longest > 0.0) & np.isfinite(drive.w))
-    links, drive = links.of(able), taken(drive, able)
+    links, drive = links.of(able), drive.of(able)
     # coarse samples miss the nearest places, which a larger roller makes up for
     roller = radius[able] * (1.15 if places < FINE else 1.0)
     names = (goal.least, *(bound.name for bound in goal.bounds))
@@ -157,8 +154,9 @@ def four_bars_at(goal: Goal, of: Whole, at: Array, places: int = FINE) -> FourBa
     costs = Costs(goal.target, (360.0 / slots[able])[:, 0], rates, degrees[able, 0])
     cost = goal.sign * costs.of(goal.least)
     within = (reach <= goal.target.space * distance) & np.isfinite(cost)
-    violation = np.where(within, costs.broken(goal.bounds), np.inf)
-    return FourBars(able, links.of(which), taken(drive, which), distance, violation, cost)
+    out = np.full((2, len(of)), np.inf)
+    out[:, able] = np.where(within, costs.broken(goal.bounds), np.inf), cost
+    return FourBars(links.of(which), drive.of(which), distance, *out)
 
 
 def _coupler(links: LinkPath, phi: Array, order: int) -> tuple[Complex, Complex]:
@@ -197,9 +195,8 @@ def _driven(
 ) -> tuple[Whole, list[Array], Array, Array]:
     """Numbers of the wheels that are driven, at samples, and let the roller pass on its way back.
 
-    ``b`` is half the step and ``roller`` the roller's radius over the centre distance, (n, 1) each.
-    Also the derivatives of their angles to an order, (m, places + 1) each; the centre distance; and
-    the greatest distance of a joint or the roller from the crank's axis, (m,) each.
+    Also their angles' derivatives to an order, (m, places + 1) each; centre distances; and the
+    greatest distances of joints and roller from the crank's axis. ``roller`` is its radius over L.
     """
     entry, motion, sense, w = drive
     pin, along = _coupler(links, entry + motion * (np.arange(places + 1) / places), order)
@@ -214,7 +211,7 @@ def _driven(
     drives &= (near.min(axis=1, keepdims=True) * np.sin(b) >= (roller + half_wall) * L)[:, 0]
     which = np.flatnonzero(drives)
     # the way back is tested for these only
-    links, (entry, motion, sense, w) = links.of(which), taken(drive, which)
+    links, (entry, motion, sense, w) = links.of(which), drive.of(which)
     away = np.arange(1, 2 * places) / (2 * places)  # the way back has twice the motion's samples
     back, back_along = _coupler(links, entry + motion + (math.tau - motion) * away, 0)
     returns = back[0] + w * back_along[0]
@@ -230,11 +227,9 @@ def _driven(
     touch = 1e-6  # a roller that leaves its slot is this near to it
     passes = np.all((gap >= -touch) & (d > 1.0), axis=1)
     _, ground, coupler, *_ = links.numbers
-    moving = (
-        *(pin[0, which] + coupler * along[0, which], path[0, which]),
-        *(back[0] + coupler * back_along[0], returns),
-    )
-    reach = np.maximum.reduce([np.ravel(ground), *(np.abs(z).max(axis=1) for z in moving)])
+    joints = pin[0, which] + coupler * along[0, which], back[0] + coupler * back_along[0]
+    moving = [np.abs(z).max(axis=1) for z in (*joints, path[0, which], returns)]
+    reach = np.maximum.reduce([np.ravel(ground), *moving])
     kept = which[passes]
     rays = [ray[kept], *(path[k, kept] / math.factorial(k) for k in range(1, order + 1))]
     angles = atan2(Jet([z.imag for z in rays]), Jet([z.real for z in rays]))

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import copy
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
 from typing import NamedTuple, Protocol, Self, cast
 
-from geneva_cli.motion.engagement import Vector, cross
+from geneva_cli.motion.engagement import Held, Loads, Vector, cross
 from geneva_cli.numerics.angles import radians, sin_cos_deg
 from geneva_cli.numerics.arrays import Array, Batchable, Which
 from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
@@ -15,17 +14,17 @@ from geneva_cli.spec.rules import is_array
 
 
 class PointDisplacement(Protocol):
-    """The pin's displacement since a moment, as a function of the crank's rotation d since then."""
+    """The pin's displacement since a moment, by the crank's rotation d since then."""
 
-    def __call__(self, sine: Jet, versine: Jet) -> tuple[Jet, Jet]:
+    def __call__(self, sine: Jet, versine: Jet) -> Vector:
         """Displacement (x, y), from sin d and 1 - cos d."""
 
 
 class LinkPath(Batchable, ABC):
     """The closed path of a point of the link that crank pin A carries, about the crank's axis.
 
-    ``numbers`` are floats, or arrays (n, 1) of a batch: the lengths in mm, with the crank's a
-    first, and last the point's coordinates p along the link and q across it.
+    ``numbers`` are the lengths in mm, the crank's a first, and last the point's coordinates p along
+    the link and q across it: floats, or arrays (n, 1) of a batch.
     """
 
     def __init__(self, *lengths: float, reach_mm: float, angle_deg: float) -> None:
@@ -91,15 +90,12 @@ class LinkReactions(NamedTuple):
     x: float  # direction of the line of centres from the wheel's axis, on the path's axes
     y: float
 
-    def __call__(
-        self, input_deg: Number, path: Vector, loads: Sequence[tuple[Vector, Jet]]
-    ) -> list[tuple[Vector, Vector]]:
+    def __call__(self, input_deg: Number, path: Vector, loads: Loads) -> Held:
         """Reactions of the crank's shaft, equal to those at A, and of the third body."""
         tau = Jet.variable(radians(input_deg) + self.middle, path[0].order - 1)
         sine, cosine = sin_cos(tau)
-        ex, ey = self.path.link(sine, cosine)
-        px, py = self.path.place(sine, cosine)
-        ax, ay = self.path.joint(sine, cosine)
+        known = self.path.link, self.path.place, self.path.joint
+        (ex, ey), (px, py), (ax, ay) = (f(sine, cosine) for f in known)
         arm, h = self.path.hold(sine, cosine)
         place, lever = (px - ax, py - ay), cross((ex * arm, ey * arm), h)
         out = []

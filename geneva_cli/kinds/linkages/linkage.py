@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from functools import reduce
 from typing import TYPE_CHECKING, Annotated, ClassVar, Self, TypeAlias, TypeVar, cast
 
-from geneva_cli.drives.pin_path import PinPath
-from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.drives.transmission import PinPath
+from geneva_cli.errors import refuse_text
 from geneva_cli.kinds.linkages.link_path import LinkPath, LinkReactions
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot
@@ -35,25 +35,16 @@ class Linkage(PinPath, kw_only=True):
     LOCKS: ClassVar[bool] = False
     CARRIER: ClassVar[str]  # link that carries the roller
     LENGTHS: ClassVar[Mapping[str, str]]  # their keys by their names
-    entry_deg: Annotated[
-        float | None, Range(-360.0, 360.0), "crank angle near entry, to choose among several wheels"
-    ] = None
+    entry_deg: Annotated[float | None, Range(-360.0, 360.0), "crank angle near its entry"] = None
 
     def __post_init__(self) -> None:
         super().__post_init__()
         ratio = 1e4  # of two links: beyond it the path is a point, or rounding
-        lengths = {key: vars(self)[key] for key in self.LENGTHS.values() if key != "height_mm"}
-        limit = ratio * reduce(smaller, lengths.values())
-
-        def error() -> GenevaError:
-            name = max(lengths, key=lengths.__getitem__)
-            return GenevaError(
-                f"{name} = {lengths[name]:g}: links differ by more than {ratio:g} times: it must "
-                f"be at most {limit:g}",
-                ("drive", name),
-            )
-
-        refuse(reduce(larger, lengths.values()) > limit, error)
+        lengths = [vars(self)[key] for key in self.LENGTHS.values() if key != "height_mm"]
+        limit, text = ratio * reduce(smaller, lengths), "links differ by more than 10000 times: "
+        text += "the longest must be at most {limit:g} mm"
+        wrong = reduce(larger, lengths) > limit
+        refuse_text(wrong, ("drive", "crank_mm"), text, limit=limit)
 
     @property
     @abstractmethod
@@ -61,19 +52,12 @@ class Linkage(PinPath, kw_only=True):
         """The roller's path about the crank's axis."""
 
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
-        """The engagement of the wheel that the path can drive.
+        """The engagement of the wheel that the path can drive: the gentlest, or by ``entry_deg``.
 
-        If there are several wheels, it is the one with the least peak velocity, or the one whose
-        entry is nearest to ``entry_deg``. Raises GenevaError if there is none, or if the spec sets
-        the centre distance, which follows from the linkage.
+        Raises GenevaError if there is none, or if the spec sets the centre distance.
         """
-        refuse(
-            L != DISTANCE_MM,
-            lambda: GenevaError(
-                f'center_distance_mm follows from the linkage of kind = "{self.NAME}": remove it',
-                ("size", "center_distance_mm"),
-            ),
-        )
+        text = 'center_distance_mm follows from the linkage of kind = "{name}": remove it'
+        refuse_text(L != DISTANCE_MM, ("size", "center_distance_mm"), text, name=self.NAME)
         from geneva_cli.kinds.linkages.path_wheels import solve
 
         wanted = None if self.entry_deg is None else radians(self.entry_deg)

@@ -1,8 +1,7 @@
 """The wheel that a linkage's path can drive, and its engagement, for one design or a batch.
 
-A pair of entry and exit gives the wheel's centre. From entry to exit the roller must turn the wheel
-one way, nearer to its centre than at both ends; on the way back it must be farther away. This is
-tested at samples: a shorter excursion is left to the gaps of the parts.
+From entry to exit the roller must turn the wheel one way, nearer to its centre than at both ends,
+and be farther away on the way back. Shorter excursions than samples show are left to the gaps.
 """
 
 from __future__ import annotations
@@ -12,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.errors import refuse_text
 from geneva_cli.kinds.linkages.link_path import LinkPath, LinkRate, LinkReactions, PointDisplacement
 from geneva_cli.kinds.linkages.tangent_pairs import (
     SAME_ENTRY,
@@ -22,13 +21,12 @@ from geneva_cli.kinds.linkages.tangent_pairs import (
     points,
     residual,
     sampled,
-    taken,
 )
 from geneva_cli.motion.engagement import Anchor, Engagement, Vector
 from geneva_cli.motion.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
 from geneva_cli.motion.wheels.classic import HalfStep
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Array, Complex, Mask, Whole, library, parameter
+from geneva_cli.numerics.arrays import Array, Complex, Mask, Whole, library, mapped, parameter
 from geneva_cli.numerics.jet import Jet, Number, sine_versine
 
 SAME_PEAK = 1e-8  # fraction by which two wheels' peak velocities may differ and count as equal
@@ -67,14 +65,15 @@ def driven(path: LinkPath, found: Pairs, samples: tuple[Array, Complex]) -> Path
     end = np.minimum(np.abs(since - motion), math.pi - np.abs(since - math.pi)) < SAME_ENTRY
     velocity, near = wheels.velocity(*samples[1][:2, which])
     good = np.where(since < motion, near & (velocity > 0.0), ~near) | end
-    wheels = taken(wheels, good.all(axis=1))
+    inside = good.all(axis=1)
+    wheels = mapped(lambda column: column[inside], wheels)
     (some, phi), even = (path.of(wheels.which), wheels.phi), np.arange(1, 2 * EVEN) / (2 * EVEN)
     motion = np.diff(phi)
     velocity, near = wheels.velocity(*points(some, phi[:, :1] + motion * even[1::2], 1))
     back = points(some, phi[:, 1:] + (math.tau - motion) * even, 0)[0]
     good = near & (velocity > 0.0)
     kept = good.all(axis=1) & (np.abs(back - wheels.centre) > wheels.distance).all(axis=1)
-    return taken(wheels._replace(peak=top(velocity)), kept)
+    return mapped(lambda column: column[kept], wheels._replace(peak=top(velocity)))
 
 
 def _centre(ends: Complex) -> tuple[Complex, Array]:
@@ -100,9 +99,8 @@ def top(values: Array) -> Array:
 def chosen(wheels: PathWheels, wanted: Array | None = None) -> Whole:
     """Numbers of one wheel of each design that has any, in the order of the designs.
 
-    Without ``wanted`` it is the gentlest, with the least peak velocity. ``wanted`` are entry angles
-    of all designs in radians, (n, 1): then it is the wheel with the nearest entry. Among equal
-    wheels, as on a symmetric path, it is the one with the first entry.
+    It has the least peak velocity, or the entry nearest to that ``wanted``, radians (n, 1). Among
+    equal wheels, as on a symmetric path, it is the one with the first entry.
     """
     which, entry, cost = wheels.which, wheels.phi[:, 0], wheels.peak
     if wanted is not None:
@@ -117,28 +115,21 @@ def chosen(wheels: PathWheels, wanted: Array | None = None) -> Whole:
 
 def solve(path: LinkPath, step: HalfStep, wanted: float | None) -> tuple[Engagement, float]:
     """Return the engagement of a path's wheel, and the centre distance in mm."""
-    numbers = (*path.numbers, step.b, 0.0 if wanted is None else wanted)
+    numbers = step.b, 0.0 if wanted is None else wanted, *path.numbers
     single = not any(np.ndim(x) for x in numbers)
-    shape = np.broadcast_shapes((1, 1), *(np.shape(x) for x in numbers))
-    half = np.broadcast_to(np.asarray(step.b, dtype=float), shape)
-    goal = np.broadcast_to(np.asarray(numbers[-1], dtype=float), shape)
-    found = np.full((3, *shape), np.nan)
+    half, goal, *_ = np.broadcast_arrays(*numbers, np.zeros((1, 1)))
+    found = np.full((3, *half.shape), np.nan)
     for start in range(0, len(half), 256):  # designs searched together, in the processor's cache
         part = np.arange(start, min(start + 256, len(half)))
         wheels = solved_wheels(path.of(part), half[part])
         best = chosen(wheels, None if wanted is None else goal[part])
         found[:, part[wheels.which[best]], 0] = *wheels.phi[best].T, wheels.sense[best]
     entry, exit_, sense = found
-    none, z = entry != entry, step.q
-    refuse(
-        bool(none.any()) if single else none,
-        lambda: GenevaError(
-            f"no wheel of z = {z} slots fits this path: change the linkage, or z. The path needs "
-            f"two equally long tangents that meet at {360.0 / z:.6g} deg, with the roller nearer "
-            "to that point only between them",
-            ("drive", "kind"),
-        ),
-    )
+    none = entry != entry
+    text = "no wheel of z = {z} slots fits this path, which needs two equally long tangents that "
+    text += "meet at {angle:.6g} deg: change the linkage, or z"
+    where, key = bool(none.any()) if single else none, ("drive", "kind")
+    refuse_text(where, key, text, z=step.q, angle=360.0 / step.q)
     with np.errstate(all="ignore"):
         return _engagement(path, step, np.hstack((entry, exit_)), sense, single)
 
@@ -151,9 +142,8 @@ def _engagement(
     def plain(x: Array) -> float:
         return parameter(x.item() if single else x)
 
-    # A roller that moves much more slowly than its links has few digits in its place at a crank
-    # angle, and in a short motion the angle itself has few. Its displacement from the place in the
-    # middle of the motion has them all.
+    # A slow roller's place has few digits at a crank angle, and so has the angle in a short motion.
+    # The displacement from the place in the middle of the motion has them all.
     middle = 0.5 * (ends[:, :1] + ends[:, 1:])
     ends, b = ends - middle, np.broadcast_to(step.b, sense.shape)[:, 0]
     move = path.about(parameter(middle))

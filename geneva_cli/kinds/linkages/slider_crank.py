@@ -8,7 +8,7 @@ from the line AB. The wheel's centre is solved for.
 from collections.abc import Mapping
 from typing import Annotated, ClassVar, NamedTuple, Self
 
-from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.errors import refuse_text
 from geneva_cli.kinds.linkages.link_path import LinkPath, PointDisplacement
 from geneva_cli.kinds.linkages.linkage import Linkage, Moving
 from geneva_cli.motion.drive import Plan
@@ -57,14 +57,9 @@ class SliderCrank(Linkage, kw_only=True):
     def __post_init__(self) -> None:
         super().__post_init__()
         a, b, h = self.crank_mm, self.rod_mm, self.height_mm
-        refuse(
-            a + abs(h) >= b,
-            lambda: GenevaError(
-                f"crank_mm = {a:g}: the crank cannot make a full turn; it must be below "
-                f"{b - abs(h):.6g}, the rod minus the height of the slider's line",
-                ("drive", "crank_mm"),
-            ),
-        )
+        text = "crank_mm = {a:g}: the crank cannot make a full turn; it must be below {limit:.6g}, "
+        text += "the rod minus the height of the slider's line"
+        refuse_text(a + abs(h) >= b, ("drive", "crank_mm"), text, a=a, limit=b - abs(h))
 
     def backwards(self, plan: Plan) -> Self:
         """The mirrored linkage: the slider's line and the roller on their other sides."""

@@ -5,31 +5,28 @@ With the unit tangents t1 and t2 there, its centre is
 
     O = P1 + rho t1 = P2 - rho t2 ,    the angle from -t1 to t2 = the index angle 2b ,
 
-so that the chord P2 - P1 is parallel to t1 + t2. Draw the line of the chord through each point of
-the path, as an entry and as an exit. By its angle and its offset from an origin it is a point in
-a plane. So entries and exits are two curves, cubics between samples, and the pairs are their
-crossings. From there Newton's method leads to the pairs.
+so that the chord P2 - P1 is parallel to t1 + t2. Through each point of the path there is the line
+of its chord, as an entry and as an exit: by angle and offset two curves in a plane, cubics between
+samples. From their crossings Newton's method leads to the pairs.
 """
 
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple, TypeAlias, TypeVar
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
 from geneva_cli.kinds.linkages.link_path import LinkPath
-from geneva_cli.numerics.arrays import Array, Complex, Mask, Whole, record_of
+from geneva_cli.numerics.arrays import Array, Complex, Mask, Whole
 from geneva_cli.numerics.jet import Jet
 
 SAME_ENTRY = 1e-6  # radians: entries nearer to each other are one
-# Slope of the index angle along the family of pairs. With less, two roots are nearly one: they are
-# within 5e-11 radians of index angle from a double root, and known to fewer digits than the rest.
+# Slope of the index angle along the family of pairs. With less, two roots are nearly one: within
+# 5e-11 radians of index angle.
 DOUBLE_ROOT_SLOPE = 1e-5
-STEPS = 24  # samples of a turn that every path has
-CUBIC_ERROR = 0.01  # of an offset, as a fraction of its range in an arc
+STEPS, CUBIC_ERROR = 24, 0.01  # least samples of a turn; of an offset, over its range in an arc
 
-R = TypeVar("R", bound=tuple[object, ...])
 # numbers of the designs (N,), crank angles (N,), and position, velocity, acceleration (3, N)
 Samples: TypeAlias = "tuple[Whole, Array, Complex]"
 
@@ -56,12 +53,6 @@ def points(path: LinkPath, phi: Array, order: int = 2) -> Complex:
     return complex_of(*path.at(phi, order))
 
 
-def taken(record: R, where: Any) -> R:
-    """Select some rows of each array of a record."""
-    parts: Any = record
-    return record_of(record, [part[where] for part in parts])
-
-
 def turning_rate(at: Complex) -> Array:
     """The rate at which the tangents turn."""
     _, v, a = at
@@ -72,8 +63,7 @@ def turning_rate(at: Complex) -> Array:
 def sampled(path: LinkPath, count: int) -> tuple[Array, Complex]:
     """Samples of a full turn of ``count`` designs: angles (n, k), and points (3, n, k).
 
-    The last is the first, one turn later; designs with fewer samples than others repeat it. A bend
-    within 1e-5 radians of the crank counts as a cusp. A path that is not closed has no number.
+    The last is the first, one turn later; designs with fewer samples than others repeat it.
     """
     # Samples begin after 0.3 of a step: symmetrical paths have their cusps at 0 and at pi.
     even = (np.arange(STEPS + 1) + 0.3) * (math.tau / STEPS)
@@ -188,12 +178,10 @@ def _starts(
     once = gap * last_gap <= 0.0
     # the difference may change its sign twice, or the cubics' error may hide a pair near an end
     error = CUBIC_ERROR * (np.abs(entry[5] - entry[4]) + np.abs(exit_[5] - exit_[4]))
-    near = np.minimum(
-        gap * (gap + slope * span / 3.0), last_gap * (last_gap - last_slope * span / 3.0)
-    )
-    begin = (~once & (near < 0.0)) | (np.abs(gap) < error)
-    stop = (~once & (near < 0.0)) | (np.abs(last_gap) < error)
+    twice = (gap * (gap + slope * span / 3.0) < 0.0) & ~once
+    twice |= (last_gap * (last_gap - last_slope * span / 3.0) < 0.0) & ~once
     chord = span * np.nan_to_num(gap / (gap - last_gap))
+    begin, stop = twice | (np.abs(gap) < error), twice | (np.abs(last_gap) < error)
     starts = ((once, low + chord), (begin, low), (stop, high))
     cells = np.concatenate([np.flatnonzero(where) for where, _ in starts])
     angles = np.concatenate([common[where] for where, common in starts])
@@ -222,11 +210,10 @@ def _cubic(arcs: Array, place: Array) -> tuple[Array, Array]:
 
 
 class Residual(NamedTuple):
-    """Residuals of both conditions of pairs, their slopes, and Newton's step (n, 2).
+    """Residuals of both conditions of pairs, with slopes, determinant and Newton's step (n, 2).
 
-    ``away`` is the chord's component across the sum of the tangents, with its slopes by entry and
-    by exit. ``excess`` is the error of the index angle, which turns with the tangents. ``det`` is
-    the determinant of both.
+    ``away`` is the chord's component across the sum of the tangents, and ``excess`` the error of
+    the index angle, which turns with the tangents.
     """
 
     away: Array
@@ -235,11 +222,7 @@ class Residual(NamedTuple):
     excess: Array
     det: Array
     step: Array
-
-    @property
-    def double(self) -> Mask:
-        """True where two roots are nearly one: a step towards them would only be rounding."""
-        return np.abs(self.det) < DOUBLE_ROOT_SLOPE * np.abs(self.by_exit)
+    double: Mask  # two roots are nearly one: a step towards them would only be rounding
 
 
 def residual(at: Complex, b: Array, sense: Array) -> Residual:
@@ -253,14 +236,14 @@ def residual(at: Complex, b: Array, sense: Array) -> Residual:
     excess = np.angle(-u * t.conj() * np.exp(-2j * sense * b))
     det = by_entry * turn_out + by_exit * turn
     step = (excess * by_exit - away * turn_out, -excess * by_entry - away * turn)
-    return Residual(away, by_entry, by_exit, excess, det, (np.stack(step) / det).T)
+    double = np.abs(det) < DOUBLE_ROOT_SLOPE * np.abs(by_exit)
+    return Residual(away, by_entry, by_exit, excess, det, (np.stack(step) / det).T, double)
 
 
 def _solved(path: LinkPath, starts: Pairs, low: Array, wide: Array, b: Array) -> Pairs:
     """Pairs to which Newton's method leads from places in arcs, which begin at ``low``."""
-    which, phi, sense = starts
-    good, flat = np.zeros((2, len(which)), dtype=bool)
-    excess, live = np.zeros(len(which)), np.arange(len(which))
+    (which, phi, sense), n = starts, len(low)
+    (good, flat), excess, live = np.zeros((2, n), dtype=bool), np.zeros(n), np.arange(n)
     for _ in range(24):  # towards a double root each step halves the error
         rest = residual(points(path.of(which[live]), phi[live]), b[which[live], 0], sense[live])
         move, arc = rest.step, wide[live]

@@ -7,16 +7,8 @@ from collections.abc import Iterator
 from geneva_cli.kinds.series.geneva_pair import GenevaPair
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.wheels.gearing import Gearing
-from geneva_cli.study.synth.families.family import (
-    BARE,
-    Family,
-    allowed_motions,
-    allows,
-    is_compatible,
-    machine,
-    natural_deg,
-)
-from geneva_cli.study.target import Target
+from geneva_cli.study.synth.families.family import Family, is_compatible, natural_deg
+from geneva_cli.study.target import BARE, Target
 
 
 def pairs(target: Target, wheel: Gearing) -> Iterator[Family]:
@@ -27,9 +19,5 @@ def pairs(target: Target, wheel: Gearing) -> Iterator[Family]:
             return
         natural = build(spec).engagements[0].motion_deg
         m = 1.0 / first_z  # motions in a turn of the input
-        if allows(allowed_motions(target, m, natural), natural):
-
-            def drive(n: float, first_z: int = first_z) -> GenevaPair:
-                return GenevaPair(first_z=first_z, n_rpm=n)
-
-            yield Family(machine(target, wheel, drive, m, natural))
+        if target.motions(m, natural).allows(natural):
+            yield Family(target.machine(wheel, GenevaPair(first_z=first_z), natural))

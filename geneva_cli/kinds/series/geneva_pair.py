@@ -11,26 +11,17 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
-from geneva_cli.drives.pushed import PushedCrank
+from geneva_cli.drives.pushed import CirclingPush, PushedCrank
 from geneva_cli.drives.transmission import LocalTransmission, Transmission
 from geneva_cli.motion.compatible import Conflict, of_transmission, several_rollers
 from geneva_cli.motion.drive import Plan
-from geneva_cli.motion.engagement import Vector
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot, ShaftPlace
 from geneva_cli.motion.wheels import classic
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import of_each, radians, sin_cos_pi
 from geneva_cli.numerics.arrays import choose, choose_record, library
-from geneva_cli.numerics.jet import (
-    Array,
-    Jet,
-    Number,
-    atan2,
-    rotation,
-    sin_cos,
-    sine_versine_of,
-)
+from geneva_cli.numerics.jet import Array, Jet, Number, atan2, rotation, sine_versine_of
 from geneva_cli.spec.rules import POSITIVE, Z_MAX, Range
 from geneva_cli.spec.schema import Example
 
@@ -54,9 +45,7 @@ class GenevaPair(Transmission, kw_only=True):
         {"wheel": {"z": 4}, "drive": {"first_z": 4}},
     )
     first_z: Annotated[int, Range(3, Z_MAX), "number of slots of the first, external wheel"]
-    first_distance_mm: Annotated[
-        float | None, POSITIVE, "first centre distance, for its forces (parts use L by default)"
-    ] = None
+    first_distance_mm: Annotated[float | None, POSITIVE, "first centre distance, for forces"] = None
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -114,7 +103,10 @@ class GenevaPair(Transmission, kw_only=True):
         if self.first_distance_mm is None:
             return None
         l = classic.HalfStep.of(1, self.first_z).sin_cos[0]
-        return FirstRoller(l, self.first_distance_mm / L, wheel.SIGN, radians(mid_deg))
+        distance = self.first_distance_mm / L
+        # the first crank turns against its wheel, which turns with the second crank
+        height = -wheel.SIGN * l * distance
+        return CirclingPush(1.0, -l, distance, height, radians(mid_deg))
 
     def about(self, crank_deg: float) -> LocalTransmission:
         """Transmission about an angle of the second crank (degrees) within the first step."""
@@ -125,23 +117,6 @@ class GenevaPair(Transmission, kw_only=True):
         ends = choose_record(crank_deg < 0.0, entry, exit_)
         pose = choose_record(abs(crank_deg) == reach, ends, running)
         return pose.crank_deg, FirstWheelRotation(pose)
-
-
-class FirstRoller(PushedCrank):
-    """The first crank's roller in the first wheel's slot.
-
-    ``l`` is its radius over its centre distance, and ``distance`` is that distance over L. The
-    first crank turns against the first wheel, which turns with the second crank.
-    """
-
-    def __init__(self, l: float, distance: float, sign: float, mid: float) -> None:
-        self.l, self.distance, self.sign, self.mid = l, distance, sign, mid
-
-    def line(self, input_deg: Number, order: int) -> tuple[Vector, Vector]:
-        """Roller position from the first wheel's axis, and the direction across its slot."""
-        s, c = sin_cos(Jet.variable(radians(input_deg) + self.mid, order))
-        x, y = (1.0 - c * self.l) * self.distance, s * (-self.sign * self.l * self.distance)
-        return (x, y), (y * -1.0, x)
 
 
 class FirstWheelRotation(NamedTuple):

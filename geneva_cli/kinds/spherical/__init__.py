@@ -2,6 +2,10 @@
 
 from geneva_cli.motion.kind import Kind
 
+_STANDING = (
+    "wall_between_slots_mm horn_mm wheel_bore_wall_mm beside_shafts_mm arm_wall_mm cut_plate_mm "
+    "cut_slot_mm"
+)
 KINDS = (
     Kind(
         "shells",
@@ -20,16 +24,8 @@ KINDS = (
         locks="kinds.spherical.locking:sphere_locks",
         horn_sizes="kinds.spherical.sizes:horn_sizes",
         horns="kinds.spherical.horn:sphere_horns",
-        roller="kinds.spherical.roller:ball_roller",
-        parts_checks={
-            "wall_between_slots_mm": "kinds.spherical.checks:standing",
-            "horn_mm": "kinds.spherical.checks:standing",
-            "wheel_bore_wall_mm": "kinds.spherical.checks:standing",
-            "beside_shafts_mm": "kinds.spherical.checks:standing",
-            "arm_wall_mm": "kinds.spherical.checks:standing",
-            "cut_plate_mm": "kinds.spherical.checks:standing",
-            "cut_slot_mm": "kinds.spherical.checks:standing",
-            "parts": "verdict.checks.part_checks:built",
-        },
+        roller="kinds.spherical.sizes:ball_roller",
+        parts_checks=dict.fromkeys(_STANDING.split(), "kinds.spherical.checks:standing")
+        | {"parts": "verdict.checks.part_checks:built"},
     ),
 )

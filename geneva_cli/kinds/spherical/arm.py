@@ -15,7 +15,7 @@ from typing import NamedTuple
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.sphere import POLE, Cap, Region, convex_hull, dot, place
 from geneva_cli.geometry.sphere_arcs import RoundHole, least_wall
-from geneva_cli.kinds.spherical.ball import Ball, refuse_wide
+from geneva_cli.kinds.spherical.ball import Ball, refuse_above, refuse_wide
 from geneva_cli.kinds.spherical.regions import locked
 from geneva_cli.parts.shafts.bores import Bore, bolt_radius, bore_of
 from geneva_cli.parts.sizes import hub_and_eye, lock_bolt_directions, pin_hole
@@ -52,11 +52,9 @@ def crank_arm(ball: Ball, sectors: Sequence[Region], size: Size) -> CapArm:
         bolted = (_arm(ball, sectors, size, count) for count in (2, 1))
         arm = next((one for one in bolted if one.wall >= least), arm)
     if arm.wall <= 0.0:
-        raise GenevaError(
-            "the round holes of the crank arm overlap, or cut an edge: reduce lock_bolt_mm, "
-            "arm_hub_mm, pin_mm or lock_bolts, or change lock_bolt_circle_mm",
-            ("size", "lock_bolts" if arm.bolts else "arm_hub_mm"),
-        )
+        text = "the round holes of the crank arm overlap, or cut an edge: reduce lock_bolt_mm, "
+        text += "arm_hub_mm, pin_mm or lock_bolts, or change lock_bolt_circle_mm"
+        raise GenevaError(text, ("size", "lock_bolts" if arm.bolts else "arm_hub_mm"))
     return arm
 
 
@@ -68,19 +66,12 @@ def _arm(ball: Ball, sectors: Sequence[Region], size: Size, bolts_each: int) -> 
     hole = pin_hole(size, ball.pin_mm)
     hub, eye = hub_and_eye(size, wall, hole, ball.arm_bore_mm, ball.passing_mm(ball.opening_mm))
     refuse_wide("arm_hub_mm", hub, under, over)
-    if ball.arm + eye / L >= 0.5 * math.pi:
-        raise GenevaError(
-            f"arm_eye_mm = {2.0 * eye:g}: the arm would cover more than half of the sphere; "
-            f"it must be below {2.0 * L * (0.5 * math.pi - ball.arm):.6g}",
-            ("size", "arm_eye_mm"),
-        )
+    most = 2.0 * L * (0.5 * math.pi - ball.arm)
+    why = "the arm would cover more than half of the sphere"
+    refuse_above("arm_eye_mm", 2.0 * eye, most, why)
     limit = under * math.sin(ball.arm - RoundHole(POLE, hole).angle(under))
-    if hub >= limit:
-        raise GenevaError(
-            f"arm_bore_mm, arm_hub_mm: the hub, {2.0 * hub:.6g} mm in diameter, cuts the pin's "
-            f"hole; it must be below {2.0 * limit:.6g}",
-            ("size", "arm_hub_mm" if size.arm_hub_mm else "arm_bore_mm"),
-        )
+    why = "the hub, about arm_bore_mm, cuts the pin's hole"
+    refuse_above("arm_hub_mm", 2.0 * hub, 2.0 * limit, why)
     form = bore_of(size, "crank", ball.arm_bore_mm)
     pins = tuple(RoundHole(place(ball.arm, azimuth), hole) for azimuth in ball.rollers)
     bolts = _bolts(ball, sectors, size, bolts_each)
@@ -92,18 +83,9 @@ def _arm(ball: Ball, sectors: Sequence[Region], size: Size, bolts_each: int) -> 
     for k, sector in enumerate(sectors if bolts else []):
         of_sector = bolts[k * bolts_each : (k + 1) * bolts_each]
         walls.append(least_wall(sector, of_sector, ball.lock_span_mm[0]))
-    return CapArm(
-        boundary=boundary,
-        bore=form,
-        keyway=next((0.5 * (a + b) for a, b in locked(ball)), 0.5 * ball.rollers[-1] + math.pi),
-        hub=hub,
-        pins=pins,
-        bolts=bolts,
-        cap=cap,
-        eye=eye,
-        reach=max(math.acos(dot(one.middle, POLE)) + one.angle for one in caps),
-        wall=min(walls),
-    )
+    keyway = next((0.5 * (a + b) for a, b in locked(ball)), 0.5 * ball.rollers[-1] + math.pi)
+    reach = max(math.acos(dot(one.middle, POLE)) + one.angle for one in caps)
+    return CapArm(boundary, form, keyway, hub, pins, bolts, cap, eye, reach, min(walls))
 
 
 def _bolts(ball: Ball, sectors: Sequence[Region], size: Size, count: int) -> tuple[RoundHole, ...]:

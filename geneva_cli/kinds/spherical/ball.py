@@ -1,9 +1,8 @@
 """The sizes of a spherical wheel and its crank: angles at the sphere's centre, in radians.
 
 All walls lead to the centre, and so does the surface of the roller, a cone. Its radius, the slots
-and the clearances are arcs on the sphere of radius ``center_distance_mm``. Radii of the lock and of
-bores are distances from their axes. Below the wheel on a plane is outside the wheel here: a height
-above the wheel's lower face is a distance inwards from its outer sphere.
+and the clearances are arcs on the sphere of radius ``center_distance_mm``; radii of lock and bores
+are distances from their axes. Below the wheel on a plane is outside the wheel here.
 """
 
 from __future__ import annotations
@@ -16,23 +15,10 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import value_or
+from geneva_cli.parts import sizes
 from geneva_cli.parts.machine_sizes import lock_between
-from geneva_cli.parts.sizes import (
-    arm_bore,
-    drawn_thicknesses,
-    hole_radius,
-    pin_and_edge_faults,
-    pin_radius,
-    reach_and_hub,
-    refuse,
-    wheel_bore,
-)
 from geneva_cli.spec.defaults import wall_min
 from geneva_cli.spec.tables import Z_DRAWN, Size
-
-
-class PartDoesNotFit(GenevaError):
-    """Error for a part that does not fit, but would with a smaller roller."""
 
 
 class Ball(NamedTuple):
@@ -153,27 +139,18 @@ def usual_ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
     # the roller touches the wall that faces the crank's axis at the foot of the perpendicular
     rim = math.acos(math.cos(mouth) * math.cos(w))
     if bottom <= 0.0 or math.sin(bottom) * math.sin(math.pi / z) <= math.sin(w):
-        raise PartDoesNotFit(
-            "the slots meet near their ends: reduce roller_radius_mm, slot_clearance_mm or "
-            f"slot_bottom_clearance_mm, or use fewer than {z} slots",
-            ("size", "roller_radius_mm"),
-        )
-    thick = drawn_thicknesses(size.replace(wheel_thickness_mm=thickness_mm), L)
+        text = "the slots meet near their ends: reduce roller_radius_mm, slot_clearance_mm or "
+        text += f"slot_bottom_clearance_mm, or use fewer than {z} slots"
+        raise GenevaError(text, ("size", "roller_radius_mm"))
+    thick = sizes.drawn_thicknesses(size.replace(wheel_thickness_mm=thickness_mm), L)
     inside, outside = L - 0.5 * thick.wheel, L + 0.5 * thick.wheel
     under = outside + allowed.pin_gap_mm  # the arm's inner face, on which the sectors stand
-    for key, value, most in (
-        ("wheel_thickness_mm", thick.wheel, L),
-        ("lock_thickness_mm", thick.lock, under),
-    ):
-        if value >= most:
-            raise GenevaError(
-                f"{key} = {value:g}: the part would reach inwards to the sphere's centre; it must "
-                f"be below {most:g}",
-                ("size", key),
-            )
-    pin = pin_radius(size, radius_mm)
+    why = "the part would reach inwards to the sphere's centre"
+    refuse_above("wheel_thickness_mm", thick.wheel, L, why)
+    refuse_above("lock_thickness_mm", thick.lock, under, why)
+    pin = sizes.pin_radius(size, radius_mm)
     thin = min(thick.wheel, thick.lock, thick.arm)
-    refuse(pin_and_edge_faults(size, pin, inside * math.sin(roller), thin))
+    sizes.refuse(sizes.pin_and_edge_faults(size, pin, inside * math.sin(roller), thin))
     # the locking sectors' edge is between the wheel's rim and the rollers
     limit, least = arm - w - allowed.lock_clearance_mm / L, abs(deepest + arm - rim)
     lock_mm = _lock_mm(spec, L, least, limit, roller) if spec.has_lock else 0.0
@@ -182,70 +159,40 @@ def usual_ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
     turns = [first.crank_deg, *(p.crank_deg for p in others)] if others else even
     bored = 0.0
     if spec.drive.crank and pin:
-        bored = arm_bore(spec, 0.0, L, L * arm - hole_radius(size, pin))
-    ball = Ball(
-        radius_mm=L,
-        z=z,
-        axes=deepest + arm,
-        arm=arm,
-        half_motion=math.radians(first.half_motion_deg),
-        rollers=tuple(math.radians(t) for t in turns),
-        roller=roller,
-        half_width=w,
-        bottom=bottom,
-        bottom_mm=bottom_mm,
-        mouth=mouth,
-        rim=rim,
-        lock=lock,
-        lock_mm=lock_mm,
-        recess=lock + allowed.lock_clearance_mm / L if lock else 0.0,
-        span_mm=(inside, outside),
-        lock_span_mm=(under - thick.lock, under),
-        arm_span_mm=(under, under + thick.arm),
-        bore_mm=0.0,
-        hub_mm=0.0,
-        pin_mm=pin,
-        arm_bore_mm=bored,
-    )
+        bored = sizes.arm_bore(spec, 0.0, L, L * arm - sizes.hole_radius(size, pin))
+    crank = deepest + arm, arm, math.radians(first.half_motion_deg), tuple(map(math.radians, turns))
+    slots = roller, w, bottom, bottom_mm, mouth, rim
+    locks = lock, lock_mm, lock + allowed.lock_clearance_mm / L if lock else 0.0
+    spans = (inside, outside), (under - thick.lock, under), (under, under + thick.arm)
+    ball = Ball(L, z, *crank, *slots, *locks, *spans, 0.0, 0.0, pin, bored)
     end = ball.slot_end_mm
-    bore = wheel_bore(spec, end, wall_min(size, L), L)
+    bore = sizes.wheel_bore(spec, end, wall_min(size, L), L)
     hub = hub_about(size, L, bore, end)
-    for key, radius in (("wheel_bore_mm", bore), ("wheel_hub_mm", hub)):
-        if radius >= end:
-            raise GenevaError(
-                f"{key} = {2.0 * radius:g}: the slots reach this diameter; it must be below "
-                f"{2.0 * end:.6g}, or the roller smaller",
-                ("size", key),
-            )
+    why = "the slots of this roller reach this diameter"
+    refuse_above("wheel_bore_mm", 2.0 * bore, 2.0 * end, why)
+    refuse_above("wheel_hub_mm", 2.0 * hub, 2.0 * end, why)
     ball = ball._replace(bore_mm=bore, hub_mm=hub)
     if ball.inner <= 0.0:
-        raise PartDoesNotFit(
-            "the wheel's middle is not open: the slots end within a roller's width of its axis; "
-            "set a wheel_bore_mm or reduce the roller",
-            ("size", "wheel_bore_mm"),
-        )
+        text = "the wheel's middle is not open: the slots end within a roller's width of its axis; "
+        text += "set a wheel_bore_mm or reduce the roller"
+        raise GenevaError(text, ("size", "wheel_bore_mm"))
     # a horn thinner than a thousandth of half a step counts as none
     if ball.opened + ball.corner > (1.0 - 1e-3) * ball.half_step:
-        raise PartDoesNotFit(
-            "no horn is left between slot and recess at the rim: reduce lock_radius_mm",
-            ("size", "lock_radius_mm"),
-        )
+        text = "no horn is left between slot and recess at the rim: reduce lock_radius_mm"
+        raise GenevaError(text, ("size", "lock_radius_mm"))
     return ball
 
 
 def _refuse_undrawn(spec: Spec) -> None:
     """Raise GenevaError for too many slots, and for keys of parts that a sphere does not have."""
     if spec.wheel.z > Z_DRAWN:
-        raise GenevaError(
-            f"z = {spec.wheel.z}: parts are drawn up to {Z_DRAWN} slots", ("wheel", "z")
-        )
+        text = f"z = {spec.wheel.z}: parts are drawn up to {Z_DRAWN} slots"
+        raise GenevaError(text, ("wheel", "z"))
     for key in ("crank_bore_mm", "crank_hub_mm", "crank_hub_length_mm", "dial_bolts"):
         if vars(spec.size)[key]:
-            raise GenevaError(
-                f"{key}: a sphere's crank has its bore and hub in the arm (arm_bore_mm, "
-                f"arm_hub_mm), and its wheel no dial; remove {key}",
-                ("size", key),
-            )
+            text = f"{key}: a sphere's crank has its bore and hub in the arm (arm_bore_mm, "
+            text += f"arm_hub_mm), and its wheel no dial; remove {key}"
+            raise GenevaError(text, ("size", key))
 
 
 def _lock_mm(spec: Spec, L: float, least: float, limit: float, roller: float) -> float:
@@ -255,11 +202,9 @@ def _lock_mm(spec: Spec, L: float, least: float, limit: float, roller: float) ->
     """
     low, high = (L * math.sin(max(0.0, x)) for x in (least, limit))
     if limit <= least:
-        raise PartDoesNotFit(
-            f"the locking sector does not fit: lock_radius_mm must be above {low:.4g} to reach the "
-            f"rim, but the roller limits it to {high:.4g}; 0 omits it",
-            ("size", "lock_radius_mm"),
-        )
+        text = f"the locking sector does not fit: lock_radius_mm must be above {low:.4g} to reach "
+        text += f"the rim, but the roller limits it to {high:.4g}; 0 omits it"
+        raise GenevaError(text, ("size", "lock_radius_mm"))
     own = spec.size.lock_radius_mm
     if own is None:
         return L * math.sin(lock_between(None, least, limit, roller))
@@ -269,7 +214,7 @@ def _lock_mm(spec: Spec, L: float, least: float, limit: float, roller: float) ->
 def hub_about(size: Size, L: float, bore: float, end: float) -> float:
     """Return the radius of the wheel's hub about a bore; ``end`` is that of the slots' ends."""
     wall = wall_min(size, L)
-    bored, hub = reach_and_hub(size, "wheel", bore, wall, end)
+    bored, hub = sizes.reach_and_hub(size, "wheel", bore, wall, end)
     return bore if size.wheel_hub_mm is None and hub < bored + wall else hub
 
 
@@ -280,10 +225,12 @@ def flat_radius(inner: float, outer: float) -> float:
 
 def refuse_wide(key: str, radius: float, inner: float, outer: float) -> None:
     """Raise GenevaError for a hub with flat faces that is too wide for its curved shell."""
-    flat = flat_radius(inner, outer)
-    if radius >= flat:
-        raise GenevaError(
-            f"{key} = {2.0 * radius:g}: a hub with flat faces this wide misses its shell, which "
-            f"is {outer - inner:g} mm thick; it must be below {2.0 * flat:.6g}",
-            ("size", key),
-        )
+    why = f"a hub with flat faces this wide misses its shell, which is {outer - inner:g} mm thick"
+    refuse_above(key, 2.0 * radius, 2.0 * flat_radius(inner, outer), why)
+
+
+def refuse_above(key: str, value: float, most: float, why: str) -> None:
+    """Raise GenevaError for a size that is not below the most that its parts leave, mm."""
+    if value >= most:
+        text = f"{key} = {value:g}: {why}; it must be below {most:.6g}"
+        raise GenevaError(text, ("size", key))

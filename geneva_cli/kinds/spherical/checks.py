@@ -9,7 +9,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Plate, plates
 from geneva_cli.geometry.sphere import POLE
 from geneva_cli.geometry.sphere_arcs import RoundHole
@@ -18,14 +17,15 @@ from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.shafts.bores import around, reach_or_bore
 from geneva_cli.parts.sizes import hub_faults, refuse
-from geneva_cli.verdict.checks import Check, compared
+from geneva_cli.spec.defaults import wall_min
+from geneva_cli.verdict.checks import Check, compared, measured
 from geneva_cli.verdict.checks.part_checks import cuts, least_gap
 from geneva_cli.verdict.shaft_gap import ring_gap
 
 
 def standing(names: Collection[str], parts: SphereParts) -> Iterator[Check]:
     """Walls of wheel and arm, gaps at shafts, and what the process can cut."""
-    ball, sizes, least = parts.ball, parts.shells.sizes, parts.shells.sizes.wall_min
+    ball, least = parts.ball, wall_min(parts.mechanism.spec.size, parts.ball.radius_mm)
     # between adjacent slots: at their ends, or at a rim beyond a quarter sphere
     apart = 2.0 * math.asin(math.sin(ball.bottom) * math.sin(ball.half_step))
     wall = apart - 2.0 * ball.half_width
@@ -34,21 +34,12 @@ def standing(names: Collection[str], parts: SphereParts) -> Iterator[Check]:
         wall = min(wall, 2.0 * math.asin(corners))
     yield compared("wall_between_slots_mm", wall * ball.radius_mm, "at least", least)
     if parts.shells.crank:  # between a slot and the recess of the locking sectors
-        yield compared("horn_mm", sizes.horn, "at least", least)
-    try:
-        yield compared("wheel_bore_wall_mm", _bore_wall(parts), "at least", least)
-    except GenevaError as error:
-        yield Check("wheel_bore_wall_mm", None, "at least", least, False, str(error))
-    wall_of_arm: Check | None = None
-    try:
-        if parts.arm:
-            wall_of_arm = compared("arm_wall_mm", parts.arm.wall, "at least", least)
-    except GenevaError as error:
-        wall_of_arm = Check("arm_wall_mm", None, "at least", least, False, str(error))
-    if "beside_shafts_mm" in names and not (wall_of_arm and wall_of_arm.value is None):
+        yield compared("horn_mm", parts.sizes.horn, "at least", least)
+    yield from measured("wheel_bore_wall_mm", least, lambda: _bore_wall(parts))
+    arm = [*measured("arm_wall_mm", least, lambda: parts.arm.wall if parts.arm else None)]
+    if "beside_shafts_mm" in names and not (arm and arm[0].value is None):
         yield from least_gap("beside_shafts_mm", _shaft_gaps(parts), ball.radius_mm)
-    if wall_of_arm:
-        yield wall_of_arm
+    yield from arm
     spans = ball.span_mm, ball.lock_span_mm, ball.arm_span_mm
     (inner, outer), thickest = ball.span_mm, max(end - start for start, end in spans)
     wide = 2.0 * inner * math.sin(ball.half_width)  # of the slots inside

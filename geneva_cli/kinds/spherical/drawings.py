@@ -1,9 +1,8 @@
 """Drawings and dimensions of a spherical machine: its parts laid flat, and their solids.
 
-A shell is projected from the centre on a tangent cone and unrolled. All walls lead to the centre.
-So a sheet that is cut by this outline and rolled up to the cone lets the roller pass as the shell
-does. On the flat sheet a point keeps the distance from the apex that it has on the cone. The cone's
-sector is 2 pi cos(polar) wide; at 90 degrees it is a cylinder.
+A shell is projected from the centre on a tangent cone and unrolled: a sheet cut by this outline and
+rolled up lets the roller pass as the shell does. The cone's sector is 2 pi cos(polar) wide; at 90
+degrees it is a cylinder.
 
 Layers: WHEEL and CRANK are cut; ROLLER is the hole of a roller; PITCH is the rollers' path.
 """
@@ -17,24 +16,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.geometry import fit
+from geneva_cli.geometry import fit, shapes
 from geneva_cli.geometry.plates import Group, Member, Part, Plate
-from geneva_cli.geometry.shapes import (
-    Arc,
-    Contour,
-    Layer,
-    Line,
-    Point,
-    Segment,
-    Shape,
-    bounds,
-    closed,
-    joined,
-    placed,
-)
 from geneva_cli.geometry.sheet import Annotations, Drawing
 from geneva_cli.geometry.sphere import Region, SphereArc
-from geneva_cli.geometry.sphere_arcs import RoundHole
 from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.kinds.spherical.parts import SphereParts
 from geneva_cli.kinds.spherical.regions import edge, locked, rollers
@@ -56,8 +41,8 @@ class Cone(NamedTuple):
     polar: float
     # of curves that are neither lines nor arcs: the greatest distance from them, mm, and "arcs" or
     # "cubics"
-    tolerance_mm: float = 0.0
-    curves: str = "arcs"
+    tolerance_mm: float
+    curves: str
 
     @property
     def apex_mm(self) -> float:
@@ -69,20 +54,16 @@ class Cone(NamedTuple):
         """The angle of the whole cone, laid flat."""
         return 360.0 * abs(math.cos(self.polar))
 
-    def point(self, polar: float, azimuth: float) -> Point:
+    def point(self, polar: float, azimuth: float) -> shapes.Point:
         """Return the point of the flat cone, mm, that a point of the sphere is projected to."""
         points, _ = self._flat(*(np.array([v]) for v in (polar, azimuth, 0.0, 0.0)))
         return float(points[0, 0]), float(points[0, 1])
 
-    def within(self, parts: SphereParts) -> Cone:
-        """Return the cone with the accuracy of the parts."""
-        return self._replace(tolerance_mm=parts.tolerance or 0.0, curves=parts.curves)
-
-    def region(self, layer: Layer, region: Region, about: float) -> Contour:
+    def region(self, layer: shapes.Layer, region: Region, about: float) -> shapes.Contour:
         """Return a region laid flat, whose azimuths are within half a turn of ``about``."""
-        return closed(layer, chain(*(self.segments(arc, about) for arc in region.boundary)))
+        return shapes.closed(layer, chain(*(self.segments(arc, about) for arc in region.boundary)))
 
-    def segments(self, arc: SphereArc, about: float) -> list[Segment]:
+    def segments(self, arc: SphereArc, about: float) -> list[shapes.Segment]:
         """Return an arc of the sphere on the flat cone."""
         ends = []
         for x, y, z in (arc.start, arc.end):
@@ -90,7 +71,7 @@ class Cone(NamedTuple):
             ends.append(self.point(math.atan2(math.hypot(x, y), z), azimuth))
         # a meridian: a great circle is at 90 degrees from its axis
         if not arc.axis[2] and abs(math.cos(arc.angle)) < 1e-12:
-            return [Line(*ends)]
+            return [shapes.Line(*ends)]
         if not arc.axis[0] and not arc.axis[1]:
             return [self.level(ends[0], ends[1], math.copysign(arc.sweep, arc.axis[2]))]
 
@@ -105,10 +86,10 @@ class Cone(NamedTuple):
 
         return [*fit.KINDS[self.curves](curve, 0.0, arc.sweep, self.tolerance_mm)]
 
-    def level(self, start: Point, end: Point, azimuth: float) -> Segment:
+    def level(self, start: shapes.Point, end: shapes.Point, azimuth: float) -> shapes.Segment:
         """Return the arc about the apex between two points, over an azimuth."""
         bulge = math.tan(0.25 * azimuth * math.cos(self.polar))
-        return Arc(start, end, bulge) if abs(bulge) > SAME_ANGLE else Line(start, end)
+        return shapes.Arc(start, end, bulge) if abs(bulge) > SAME_ANGLE else shapes.Line(start, end)
 
     def _flat(
         self, polar: Array, azimuth: Array, d_polar: Array, d_azimuth: Array
@@ -130,9 +111,10 @@ class Cone(NamedTuple):
         )
 
 
-def wheel_cone(ball: Ball) -> Cone:
+def wheel_cone(parts: SphereParts) -> Cone:
     """Return the cone that touches the sphere in the middle of the slots' length."""
-    return Cone(ball.radius_mm, 0.5 * (ball.bottom + _wall_mouth(ball)))
+    ball, accuracy = parts.ball, (parts.tolerance or 0.0, parts.curves)
+    return Cone(ball.radius_mm, 0.5 * (ball.bottom + _wall_mouth(ball)), *accuracy)
 
 
 def _wall_mouth(ball: Ball) -> float:
@@ -140,20 +122,20 @@ def _wall_mouth(ball: Ball) -> float:
     return math.acos(math.cos(ball.rim) / math.cos(ball.half_width))
 
 
-def crank_cone(ball: Ball) -> Cone:
+def crank_cone(parts: SphereParts) -> Cone:
     """Return the cone that touches the sphere at the rollers."""
-    return Cone(ball.radius_mm, ball.arm)
+    return Cone(parts.ball.radius_mm, parts.ball.arm, parts.tolerance or 0.0, parts.curves)
 
 
 def wheel(parts: SphereParts) -> Drawing:
     """Return the wheel's cone, cut open between two slots; x is along the first slot."""
-    title = _titled(parts, "wheel", wheel_cone(parts.ball))
+    title = _titled(parts, "wheel", wheel_cone(parts))
     return _drawing(parts, title, wheel_flat(parts), parts.wheel.part)
 
 
 def crank(parts: SphereParts) -> Drawing:
     """Return the crank's cone: locking sectors, and the rollers where they pass through it."""
-    title = _titled(parts, "crank", crank_cone(parts.ball))
+    title = _titled(parts, "crank", crank_cone(parts))
     return _drawing(parts, title, crank_flat(parts), parts.crank.part)
 
 
@@ -161,9 +143,9 @@ def assembly(parts: SphereParts) -> Drawing:
     """Return both laid flat, side by side; the solid is the machine at input angle 0."""
     title, left, right = titled(parts.mechanism), wheel_flat(parts), crank_flat(parts)
     # wheel and crank are 0.1 of the sphere's radius apart
-    shift = 0.1 * parts.ball.radius_mm + max(bounds(shape).x1 for shape in left)
-    shift -= min(bounds(shape).x0 for shape in right)
-    moved = [placed(shape, (shift, 0.0)) for shape in right]
+    shift = 0.1 * parts.ball.radius_mm + max(shapes.bounds(shape).x1 for shape in left)
+    shift -= min(shapes.bounds(shape).x0 for shape in right)
+    moved = [shapes.placed(shape, (shift, 0.0)) for shape in right]
     whole = Group(title, parts.members)
     return _drawing(parts, title, [*left, *moved], whole)._replace(look=Annotations())
 
@@ -179,49 +161,49 @@ def _titled(parts: SphereParts, name: str, cone: Cone) -> str:
     return titled(parts.mechanism, f"{name}, flat: {text}")
 
 
-def _drawing(parts: SphereParts, title: str, shapes: list[Shape], shells: Part) -> Drawing:
+def _drawing(parts: SphereParts, title: str, drawn: list[shapes.Shape], shells: Part) -> Drawing:
     """Return a drawing of plates of sheet, and the shells that they become."""
     inner, outer = parts.ball.span_mm
     plates = [
         Member(Plate(s.layer.lower(), s.layer, s, (), 0.0, outer - inner))
-        for s in shapes
+        for s in drawn
         if s.layer in ("WHEEL", "CRANK")  # others are not cut from sheet
     ]
-    return Drawing(title, tuple(shapes), solid=Group(title, tuple(plates)), shells=shells)
+    return Drawing(title, tuple(drawn), solid=Group(title, tuple(plates)), shells=shells)
 
 
-def wheel_flat(parts: SphereParts) -> list[Shape]:
+def wheel_flat(parts: SphereParts) -> list[shapes.Shape]:
     """Return the wheel's outline on its flat cone, and the rollers' paths."""
-    ball, cone = parts.ball, wheel_cone(parts.ball).within(parts)
-    b = ball.half_step
-    # the edge about the first slot, half-way to the adjacent slots on either side
-    slot = joined(chain(*(cone.segments(arc, 0.0) for arc in edge(ball))))
-    path = Line(*(cone.point(polar, 0.0) for polar in (_wall_mouth(ball), ball.bottom)))
-    both = Contour("PITCH", (*slot, path), closed=False)
-    outer: list[Segment] = []
-    pitch: list[Shape] = []
-    for k in range(ball.z):
-        at, turn = cone.point(cone.polar, 2 * k * b), 2 * k * b * math.cos(cone.polar)
-        *walls, axis = placed(both, at, turn).segments  # as the sphere is turned about z
-        outer += walls
-        pitch.append(Contour("PITCH", (axis,), closed=False))
+    ball, cone = parts.ball, wheel_cone(parts)
+    b, ends = ball.half_step, (_wall_mouth(ball), ball.bottom)
+    outer: list[shapes.Segment] = []
+    pitch: list[shapes.Shape] = []
+    for at in (2 * k * b for k in range(ball.z)):
+        # the edge about a slot, half-way to the adjacent slots on either side
+        outer += shapes.joined(chain(*(cone.segments(arc, at) for arc in edge(ball, at))))
+        path = shapes.Line(*(cone.point(polar, at) for polar in ends))
+        pitch.append(shapes.Contour("PITCH", (path,), closed=False))
     inner = [cone.point(ball.inner, (2 * k - 1) * b) for k in range(ball.z + 1)][::-1]
     back = [cone.level(p, q, -2.0 * b) for p, q in zip(inner, inner[1:], strict=False)]
     first, last = outer[0].start, outer[-1].end
-    rim = closed("WHEEL", [*outer, Line(last, inner[0]), *back, Line(inner[-1], first)])
+    rim = shapes.closed(
+        "WHEEL", [*outer, shapes.Line(last, inner[0]), *back, shapes.Line(inner[-1], first)]
+    )
     return [rim, *pitch]
 
 
-def crank_flat(parts: SphereParts) -> list[Shape]:
+def crank_flat(parts: SphereParts) -> list[shapes.Shape]:
     """Return locking sectors, rollers and the rollers' circle on the crank's flat cone."""
-    ball, cone = parts.ball, crank_cone(parts.ball).within(parts)
+    ball, cone = parts.ball, crank_cone(parts)
     locking = zip(parts.shells.crank, locked(ball), strict=True)
-    shapes: list[Shape] = [cone.region("CRANK", one, 0.5 * (a + b)) for one, (a, b) in locking]
+    drawn: list[shapes.Shape] = [
+        cone.region("CRANK", one, 0.5 * (a + b)) for one, (a, b) in locking
+    ]
     rolling = zip(rollers(ball), ball.rollers, strict=True)
-    shapes += [cone.region("ROLLER", one, about) for one, about in rolling]
+    drawn += [cone.region("ROLLER", one, about) for one, about in rolling]
     ends = cone.point(ball.arm, 0.0), cone.point(ball.arm, math.tau)
-    shapes.append(Contour("PITCH", (cone.level(*ends, math.tau),), closed=False))
-    return shapes
+    drawn.append(shapes.Contour("PITCH", (cone.level(*ends, math.tau),), closed=False))
+    return drawn
 
 
 def dimensions(parts: SphereParts) -> Iterator[Dimension | Missing]:
@@ -249,7 +231,7 @@ def _dimensions(parts: SphereParts) -> Iterator[Dimension | Missing]:
         yield _angle(f"locking sector {k}: begins", start)
         yield _angle(f"locking sector {k}: width", rim.sweep)
     yield from or_missing("arm's dimensions", lambda: _arm(parts))
-    for whose, cone in (("wheel", wheel_cone(ball)), ("crank", crank_cone(ball))):
+    for whose, cone in (("wheel", wheel_cone(parts)), ("crank", crank_cone(parts))):
         flat = f"{whose} laid flat"
         yield _angle(f"{flat}: cone touches the sphere at", cone.polar)
         yield Dimension(f"{flat}: from there to its apex", abs(cone.apex_mm), "mm")
@@ -266,7 +248,11 @@ def _arm(parts: SphereParts) -> Iterator[Dimension]:
     yield _angle("arm's eyes, half angle", arm.eye)
     yield Dimension("pins", 2.0 * ball.pin_mm, "mm")
     yield Dimension("pins' holes in the arm", 2.0 * arm.pins[0].radius, "mm")
-    yield from _bolts("lock's bolt", arm.bolts)
+    for k, bolt in enumerate(arm.bolts, 1):
+        x, y, z = bolt.axis
+        yield Dimension(f"lock's bolt {k}: hole", 2.0 * bolt.radius, "mm")
+        yield _angle(f"lock's bolt {k}: from the axis", math.acos(z))
+        yield _angle(f"lock's bolt {k}: azimuth", math.atan2(y, x))
 
 
 def _axle(part: str, bore: float, hub: float) -> Iterator[Dimension]:
@@ -274,14 +260,6 @@ def _axle(part: str, bore: float, hub: float) -> Iterator[Dimension]:
         yield Dimension(f"{part}'s bore", 2.0 * bore, "mm")
     if hub > bore:
         yield Dimension(f"{part}'s hub", 2.0 * hub, "mm")
-
-
-def _bolts(name: str, holes: tuple[RoundHole, ...]) -> Iterator[Dimension]:
-    for k, bolt in enumerate(holes, 1):
-        x, y, z = bolt.axis
-        yield Dimension(f"{name} {k}: hole", 2.0 * bolt.radius, "mm")
-        yield _angle(f"{name} {k}: from the axis", math.acos(z))
-        yield _angle(f"{name} {k}: azimuth", math.atan2(y, x))
 
 
 def _lengths(whose: str, span_mm: tuple[float, float]) -> Iterator[Dimension]:

@@ -1,12 +1,9 @@
 """The gaps between wheel, crank and rollers on a sphere, and proved lower bounds of them.
 
-All walls lead to the sphere's centre, and so do the rollers' cones. So gaps are angles at the
-centre; they are returned as arc lengths on the sphere, mm.
-
-On intervals of the input angle they are bounded as on a plane, in ``turn_certificate``. A point at
-an angle r from an axis moves at most sin r times the angle by which its part turns about it. A
-roller's path is exact: an arc about the crank's axis while the wheel rests, and a piece of the
-meridian in its own slot.
+All walls lead to the sphere's centre: gaps are angles there, returned as arc lengths on the sphere,
+mm. A point at an angle r from an axis moves at most sin r times the angle by which its part turns
+about it. A roller's path is exact: an arc about the crank's axis while the wheel rests, and a piece
+of the meridian in its own slot.
 """
 
 from __future__ import annotations
@@ -59,8 +56,7 @@ class BallGaps:
     def pose(self, input_deg: Array) -> Pose:
         """Return the positions at input angles (n,), degrees."""
         turn = np.radians(input_deg)
-        pins = np.stack([self._out(one, turn) for one in self._rollers], axis=1)
-        return Pose(self.assembly.wheel(input_deg), turn, pins)
+        return Pose(self.assembly.wheel(input_deg), turn, self._out_each(self._rollers, turn))
 
     def rollers(self, pose: Pose, lead: Array | float = 0.0, near: float | None = None) -> Array:
         """Return the gap of each roller, mm (n, m), at most ``near``."""
@@ -177,9 +173,7 @@ class SpherePairs:
     ) -> tuple[Array, Array]:
         """Return the gap of a roller in its slot between two angles, or outside the one it drives.
 
-        In its slot it moves along a meridian. Outside, the gap is that in the middle, less the
-        roller's travel in the wheel's frame. While the wheel rests, the centre is also on its
-        circle about the crank's axis.
+        Outside, the gap is that in the middle, less the roller's travel in the wheel's frame.
         """
         ball, gaps, pose, pins = self.ball, self.gaps, on.at_middle, on.at_middle.pins[:, number]
         centre, gap = about(pins, -pose.wheel), gaps.rollers(pose)[:, number]

@@ -8,7 +8,7 @@ point at p from it and at a from the crank's axis,
 
 the wheel turns by d = chi(p, rho) - chi(p, k) until a corner of the recess, at p, meets the sector.
 If the recess reaches farther round, an end of the sector, at q, meets it: then d is chi(q, rho)
-minus the azimuth of the end. The radii of ``[tolerance]`` are L times the sine of an angle.
+minus the azimuth of the end.
 """
 
 from __future__ import annotations

@@ -22,24 +22,24 @@ from geneva_cli.geometry.plates import (
     mass_properties,
 )
 from geneva_cli.geometry.shapes import ORIGIN, Circle
-from geneva_cli.geometry.sphere import POLE, Cap, Region, Rotation, axis_frame, place
+from geneva_cli.geometry.sphere import POLE, Cap, Region, axis_frame, place
 from geneva_cli.geometry.sphere_arcs import RoundHole
 from geneva_cli.geometry.sphere_shell import Shell
 from geneva_cli.kept import cached_property
 from geneva_cli.kinds.spherical.arm import CapArm, crank_arm
 from geneva_cli.kinds.spherical.ball import Ball, refuse_wide
 from geneva_cli.kinds.spherical.gaps import BallGaps, SpherePairs
-from geneva_cli.kinds.spherical.regions import at_mid_motion, wheel_regions
-from geneva_cli.kinds.spherical.sizes import ball, fitted
+from geneva_cli.kinds.spherical.regions import at_mid_motion, sectors, wheel_regions
+from geneva_cli.kinds.spherical.sizes import ball
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.projection import NamedParts
 from geneva_cli.parts.shafts.arm_and_shafts import Shaft, shaft_ends
-from geneva_cli.parts.shafts.bores import bore_of, has_shape
+from geneva_cli.parts.shafts.bores import Bore, bore_of, has_shape
 from geneva_cli.parts.sizes import hub_faults, refuse
-from geneva_cli.spec.defaults import wall_min, wheel_material
+from geneva_cli.spec.defaults import wheel_material
 from geneva_cli.spec.tables import Size
 
 
@@ -51,7 +51,6 @@ class BallLengths(NamedTuple):
     rim: float
     arm: float
     horn: float
-    wall_min: float
 
 
 class Shells(NamedTuple):
@@ -71,17 +70,11 @@ class SphereParts(Parts):
 
     @cached_property
     def _shape(self) -> Shells:
-        ball, locks = fitted(self.mechanism, self.advice)
-        L, where = ball.radius_mm, assembly(self.mechanism, flat=False)
-        lengths = BallLengths(
-            roller=L * ball.roller,
-            half_width=L * ball.half_width,
-            rim=L * math.sin(ball.rim),
-            arm=L * math.sin(ball.arm),
-            horn=L * ball.horn,
-            wall_min=wall_min(self.mechanism.spec.size, L),
-        )
-        return Shells(where, ball, lengths, locks, BallGaps(where, ball, locks))
+        own, where = ball(self.mechanism), assembly(self.mechanism, flat=False)
+        L, locks = own.radius_mm, sectors(own)
+        rim, arm = L * math.sin(own.rim), L * math.sin(own.arm)
+        lengths = BallLengths(L * own.roller, L * own.half_width, rim, arm, L * own.horn)
+        return Shells(where, own, lengths, locks, BallGaps(where, own, locks))
 
     @property
     def shells(self) -> Shells:
@@ -137,7 +130,11 @@ class SphereParts(Parts):
             bolts = arm.bolts[k * each : (k + 1) * each] if arm else ()
             sector = Shell("locking sector", "CRANK", (region,), *ball.lock_span_mm, bolts)
             members.append(Member(sector))
-        members += map(Member, arm_solids(ball, arm) if arm else ())
+        if arm:
+            cap = Shell("arm", "ARM", (arm.boundary,), *ball.arm_span_mm, arm.holes)
+            hub, bore = Circle("ARM", ORIGIN, arm.hub), arm.bore.shape("BORE", arm.keyway)
+            hub_plate = Plate("arm's hub", "ARM", hub, (bore,), *ball.arm_span_mm)
+            members += [Member(cap), Member(hub_plate)]
         bored = ball.pin_mm + 0.5 * size.allowances.shaft_fit_mm
         hole = (RoundHole(POLE, bored),) if arm else ()
         roller = Shell("roller", "ROLLER", (Cap(POLE, ball.roller).region,), *ball.span_mm, hole)
@@ -154,24 +151,22 @@ class SphereParts(Parts):
         ball, size, arm = self.ball, self.mechanism.spec.size, self.arm
         (inside, outside), (under, over) = ball.span_mm, ball.arm_span_mm
         lowest = outside - ball.shafts_end_mm(size) - (over - under)
-        own: list[tuple[Shaft, Rotation | None]] = []
+        members = []
+
+        def add(part: str, bore: Bore, ends: tuple[float, float], keyway: float) -> None:
+            own = Shaft(f"{part}'s shaft", part, bore, *ends, ORIGIN, keyway).member.part
+            assert isinstance(own, Plate)
+            frame = None if part == "wheel" else at_mid_motion(ball)
+            # heights become distances inwards
+            inwards = own._replace(low=outside - own.high, high=outside - own.low)
+            members.append(Member(inwards, frame=frame))
+
         if ball.bore_mm:
             hub = ball.hub_mm > ball.bore_mm
-            bore, high = bore_of(size, "wheel", ball.bore_mm), outside - inside
-            ends = shaft_ends(size, "wheel", lowest if hub else 0.0, high)
-            wheel = Shaft("wheel's shaft", "wheel", bore, *ends, ORIGIN, ball.half_step)
-            own.append((wheel, None))
+            ends = shaft_ends(size, "wheel", lowest if hub else 0.0, outside - inside)
+            add("wheel", bore_of(size, "wheel", ball.bore_mm), ends, ball.half_step)
         if arm:
-            ends = shaft_ends(size, "crank", lowest, outside - under)
-            crank = Shaft("crank's shaft", "crank", arm.bore, *ends, ORIGIN, arm.keyway)
-            own.append((crank, at_mid_motion(ball)))
-        members = []
-        for one, frame in own:
-            part = one.member.part
-            assert isinstance(part, Plate)
-            # heights become distances inwards
-            part = part._replace(low=outside - part.high, high=outside - part.low)
-            members.append(Member(part, frame=frame))
+            add("crank", arm.bore, shaft_ends(size, "crank", lowest, outside - under), arm.keyway)
         return tuple(members)
 
     @property
@@ -197,11 +192,9 @@ def wheel_hub(size: Size, ball: Ball) -> Plate | None:
     wide = ball.hub_mm > ball.bore_mm
     if has_shape(size, "wheel") and not (wide and ball.bore_mm):
         name = "wheel_bore" if size.wheel_keyway is None else "wheel_keyway"
-        raise GenevaError(
-            f"{name}: on a sphere only the wheel's hub has a bore that is not round; set "
-            f"wheel_bore_mm and wheel_hub_mm, or remove {name}",
-            ("size", name),
-        )
+        text = f"{name}: on a sphere only the wheel's hub has a bore that is not round; set "
+        text += f"wheel_bore_mm and wheel_hub_mm, or remove {name}"
+        raise GenevaError(text, ("size", name))
     if not wide:
         return None
     inside, outside = ball.span_mm
@@ -221,13 +214,6 @@ def shell_body(mechanism: Mechanism) -> MassProperties:
     mass = density * shell.volume * MM**3
     rim = MassProperties(mass, (0.0, 0.0), density * shell.inertia(POLE) * MM**5)
     return added(rim, mass_properties(hub, density)) if hub else rim
-
-
-def arm_solids(ball: Ball, arm: CapArm) -> tuple[Shell, Plate]:
-    """Return the arm's cap and its hub, which has flat faces and the bore."""
-    cap = Shell("arm", "ARM", (arm.boundary,), *ball.arm_span_mm, arm.holes)
-    hub, bored = Circle("ARM", ORIGIN, arm.hub), arm.bore.shape("BORE", arm.keyway)
-    return cap, Plate("arm's hub", "ARM", hub, (bored,), *ball.arm_span_mm)
 
 
 def screw_sizes(mechanism: Mechanism) -> dict[str, float]:

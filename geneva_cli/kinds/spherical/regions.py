@@ -13,6 +13,7 @@ from functools import cache
 
 import numpy as np
 
+from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.sphere import (
     POLE,
     Cap,
@@ -24,7 +25,7 @@ from geneva_cli.geometry.sphere import (
     opposite,
     place,
 )
-from geneva_cli.kinds.spherical.ball import Ball, PartDoesNotFit
+from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.numerics.arrays import Array, within_half_turn
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.outlines.crank_outline import widest
@@ -33,10 +34,9 @@ QUARTER = 0.5 * math.pi
 
 
 def wheel_regions(ball: Ball) -> list[Region]:
-    """Return the wheel: its slotted ring, a region for each slot, and the cap that closes it.
+    """Return the wheel: a region for each slot, up to the next, and the cap that closes the ring.
 
-    Adjacent regions share the meridian between their slots. A ring without a hole for shaft or hub
-    stays open.
+    A ring without a hole for shaft or hub stays open.
     """
     b, z = ball.half_step, ball.z
     inner = min(ball.inner, 1.0) if ball.opening_mm else ball.inner  # radian: far from the edge
@@ -123,11 +123,8 @@ def sectors(ball: Ball) -> list[Region]:
 
         half = widest(0.5 * (end - start), lambda half: nearest(half) <= most)
         if half is None:
-            raise PartDoesNotFit(
-                "the wheel sweeps over the whole locking sector: another lock_radius_mm may leave "
-                "part of it; 0 omits it",
-                ("size", "lock_radius_mm"),
-            )
+            text = "the wheel sweeps over the whole locking sector: another lock_radius_mm may "
+            raise GenevaError(text + "leave part of it; 0 omits it", ("size", "lock_radius_mm"))
         high, low, ends = ball.lock, nearest(half), (middle - half, middle + half)
         far, inner = ([place(polar, a) for a in ends] for polar in (high, low))
         sides = [(-math.sin(a), math.cos(a), 0.0) for a in ends]
@@ -167,8 +164,7 @@ def swept(ball: Ball) -> tuple[Array, Array]:
     """Return the paths of points of the wheel's edge in the crank's frame, in the first motion.
 
     These are polar angles from the crank's axis and azimuths about it, radians, one row for each
-    position. Only points that come within the locking edge are included. The crank turns clockwise
-    about its axis where the wheel turns counterclockwise.
+    position, of points that come within the locking edge.
     """
     frame = np.column_stack(at_mid_motion(ball))
     wheel = edge_points(ball, 100)

@@ -10,16 +10,8 @@ from contextlib import suppress
 from functools import lru_cache
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.sphere import Region
-from geneva_cli.kinds.spherical.ball import (
-    Ball,
-    PartDoesNotFit,
-    flat_radius,
-    hub_about,
-    usual_ball,
-)
+from geneva_cli.kinds.spherical.ball import Ball, flat_radius, hub_about, usual_ball
 from geneva_cli.kinds.spherical.horn import sphere_horns
-from geneva_cli.kinds.spherical.regions import sectors
 from geneva_cli.loads.strength.horn import greatest_stress
 from geneva_cli.loads.strength.lock import dwell_torque_Nm
 from geneva_cli.loads.strength.part_loads import shaft_squares, single_loads
@@ -27,8 +19,7 @@ from geneva_cli.loads.strength.pin_arm_key import NO_ARM, ArmDimensions, arm_str
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import half_or, value_or
-from geneva_cli.numerics.roots import boundary
-from geneva_cli.numerics.tolerances import keeps, sizes_from, to_digits
+from geneva_cli.numerics.tolerances import keeps, sizes_from
 from geneva_cli.parts.machine_sizes import keys_by_load
 from geneva_cli.parts.shafts.bores import reach_or_bore
 from geneva_cli.parts.sized_by_load import (
@@ -48,29 +39,7 @@ from geneva_cli.parts.sizes import (
     within_hub,
 )
 from geneva_cli.spec.defaults import eye_about, wall_min, wheel_material
-
-
-def fitted(mechanism: Mechanism, advice: bool = True) -> tuple[Ball, list[Region]]:
-    """Return the sizes of a spherical machine, and its locking sectors."""
-
-    def fits(roller_mm: float) -> bool:
-        spec = mechanism.spec.with_("size.roller_radius_mm", roller_mm)
-        try:
-            sectors(ball(mechanism._replace(spec=spec)))
-        except GenevaError:
-            return False
-        return True
-
-    try:
-        sizes = ball(mechanism)
-        return sizes, sectors(sizes)
-    except PartDoesNotFit as error:
-        # 10 halvings give the two digits that are shown
-        most = advice and boundary(fits, 0.0, mechanism.roller_radius_mm, 10)
-        if not most:
-            raise
-        text = f"{error}; a roller of {to_digits(most, 2, math.floor):g} mm fits"
-        raise GenevaError(text, error.key) from None
+from geneva_cli.study.synth.suiting import LOCK, SIZES, USUAL, with_roller
 
 
 @lru_cache(maxsize=16)
@@ -247,12 +216,25 @@ def sphere_stressed(spec: Spec, ball: Ball) -> Stressed:
         off = middle - L * math.cos(ball.arm)
         radii = L * ball.arm, middle * cap, middle * eye / L, bored, hole
         arm = ArmDimensions(*radii, thick, off)
-    return Stressed(
-        value_or(size.face_width_mm, ball.span_mm[1] - ball.span_mm[0]),
-        2.0 * ball.pin_mm,
-        shaft_of(spec, "wheel", ball.bore_mm, *end),
-        shaft_of(spec, "crank", bore, *end),
-        arm,
-        key_of(size.wheel_keyway, ball.bore_mm, ball.hub_length_mm(size)),
-        key_of(size.crank_keyway, bore, thick),
-    )
+    contact = value_or(size.face_width_mm, ball.span_mm[1] - ball.span_mm[0])
+    shafts = shaft_of(spec, "wheel", ball.bore_mm, *end), shaft_of(spec, "crank", bore, *end)
+    in_wheel = key_of(size.wheel_keyway, ball.bore_mm, ball.hub_length_mm(size))
+    in_arm = key_of(size.crank_keyway, bore, thick)
+    return Stressed(contact, 2.0 * ball.pin_mm, *shafts, arm, in_wheel, in_arm)
+
+
+def ball_roller(mechanism: Mechanism) -> tuple[float, str]:
+    """Return the largest usual roller that suits, NaN for the spec's; or the obstacle to parts."""
+    L, spec = mechanism.center_distance_mm, mechanism.spec
+    least, why = wall_min(spec.size, L), ""
+    given = spec.size.roller_radius_mm
+    for r in (0.01 * percent * L for percent in USUAL) if given is None else (given,):
+        try:
+            shells = ball(mechanism._replace(spec=with_roller(spec, r)))
+        except GenevaError as error:
+            why = LOCK if error.key == ("size", "lock_radius_mm") else SIZES
+            continue
+        why = LOCK if shells.lock and shells.horn * L < least else ""
+        if not why:
+            return math.nan if given or r == 0.01 * USUAL[0] * L else r, ""
+    return math.nan, why

@@ -6,7 +6,8 @@ more than half the sphere.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
+from typing import TypeAlias
 
 import numpy as np
 
@@ -15,6 +16,8 @@ from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.numerics.arrays import Array, within_half_turn
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.turn.stops import CONCENTRIC, Branches, Pose, Stops, cut, masked
+
+Out: TypeAlias = Callable[[Array, Array], Array]
 
 
 class SphereStops(Stops):
@@ -25,13 +28,7 @@ class SphereStops(Stops):
     one at n angles of the crank: (n, k, 3). A roller is a cap.
     """
 
-    def __init__(
-        self,
-        edge: SphereArcs,
-        crank: Sequence[SphereArcs],
-        out: Callable[[Array, Array], Array],
-        ball: Ball,
-    ) -> None:
+    def __init__(self, edge: SphereArcs, crank: list[SphereArcs], out: Out, ball: Ball) -> None:
         self.outline, self.crank, self.out = edge, crank, out
         self.pitch, self.roller, self.radius_mm = 2.0 * ball.half_step, ball.roller, ball.radius_mm
 

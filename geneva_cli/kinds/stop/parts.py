@@ -19,7 +19,6 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.load_case import contact_modulus_GPa, hertz_MPa
-from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.flat_parts import FlatParts
@@ -98,7 +97,7 @@ def stop(parts: Parts) -> Values:
         return {}
     stops = wheel_stop(outlines)
     assert stops is not None  # the wheel has a convex face
-    force, stress = stop_contact(parts.mechanism, stops.lever_mm, outlines.sizes.rim)
+    force, stress = stop_contact(outlines, stops)
     return {
         **{"turns": stops.turns, "first_deg": stops.first_deg, "last_deg": stops.last_deg},
         **{"overlap_mm": stops.overlap_mm, "lever_mm": stops.lever_mm},
@@ -106,9 +105,7 @@ def stop(parts: Parts) -> Values:
     }
 
 
-def stop_contact(
-    mechanism: Mechanism, lever_mm: float, face_radius_mm: float
-) -> tuple[float | None, float | None]:
+def stop_contact(outlines: Outlines, stop: WheelStop) -> tuple[float | None, float | None]:
     """Return force, N, and Hertz stress, MPa, under ``winding_torque_Nm``; None without a key.
 
     A sharp end of the disc has no stress. The face is an arc about the wheel's axis. So the force
@@ -116,15 +113,16 @@ def stop_contact(
     roller. About the crank's axis its lever is h = L sin delta, where delta is the contact's
     direction from the line of centres, seen from the wheel's axis: F = T/h.
     """
-    size, torque = mechanism.spec.size, mechanism.spec.load.winding_torque_Nm
+    spec = outlines.assembly.full.spec
+    size, torque = spec.size, spec.load.winding_torque_Nm
     if torque is None:
         return None, None
-    force = 1e3 * torque / lever_mm
+    force = 1e3 * torque / stop.lever_mm
     if size.face_width_mm is None or size.lock_edge_mm is None:
         return force, None
-    material = wheel_material(mechanism.spec)
+    material = wheel_material(spec)
     modulus = contact_modulus_GPa(material, material)
-    radius = 1.0 / (1.0 / size.lock_edge_mm + 1.0 / face_radius_mm)
+    radius = 1.0 / (1.0 / size.lock_edge_mm + 1.0 / outlines.sizes.rim)
     return force, hertz_MPa(modulus, force / size.face_width_mm, radius)
 
 
@@ -156,7 +154,7 @@ def standing(names: Collection[str], parts: FlatParts) -> Iterator[Check]:
     limit, name = parts.mechanism.spec.limits.stop_stress_max_MPa, "stop_stress_max_MPa"
     if limit is None:
         return
-    _, value = stop_contact(parts.mechanism, stop.lever_mm, outlines.sizes.rim)
+    _, value = stop_contact(outlines, stop)
     if value is None:
         needs = "lock_edge_mm in [size], for a sharp end has no stress, and winding_torque_Nm"
         yield Check(name, None, "at most", limit, None, f"not known: it needs {needs}")

@@ -18,7 +18,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from functools import lru_cache
-from typing import NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -37,10 +37,7 @@ STOUT = 0.5  # thickness at the mouth over the recess's radius, beyond which a h
 
 
 class HornStress(NamedTuple):
-    """The greatest stress in a horn, with the roller's place and the section.
-
-    (m,) each for m designs, NaN for those without a horn or a load.
-    """
+    """The greatest stress in horns, its place and section; (m,) each, NaN without a load."""
 
     stress_MPa: float
     at_deg: float  # input angle from the engagement's mid-motion
@@ -159,7 +156,7 @@ class Horn(NamedTuple):
 
 
 # Horns of a mechanism and its sizes; those of a sphere have the members that are used of a Horn.
-Sides: TypeAlias = Callable[..., Sequence[Horn]]
+Sides: TypeAlias = Callable[..., Sequence[Any]]
 
 
 def horns(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> list[Horn]:
@@ -190,10 +187,7 @@ def horns(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> list[
 def greatest_stress(
     sides: Sides, mechanism: Mechanism, sizes: Sizes, width: float = 1.0
 ) -> HornStress:
-    """Greatest stress of m designs, for a width of the contact, mm; sizes may be (m, 1).
-
-    NaN for a recess of 0, or without a load. That of a single design is kept.
-    """
+    """Greatest stress of m designs for a width of the contact, mm; of a single one it is kept."""
     every, m = (mechanism, sizes, width), mechanism.designs
     if isinstance(mechanism.design, int):
         return _single_stress(sides, *every)

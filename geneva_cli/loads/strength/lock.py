@@ -73,10 +73,7 @@ def held_force_N(mechanism: Mechanism, by: Lock | None) -> Array:
 def loaded_locks(
     mechanism: Mechanism, half_width_mm: float, by: Lock, width_mm: Number
 ) -> LockUnderTorque | None:
-    """Locks of m designs, whose sizes may be (m, 1); NaN for those without a torque or a lock.
-
-    None if all are without a torque.
-    """
+    """Locks of m designs, of sizes (m, 1); NaN without a torque or a lock, None if none has one."""
     load, width = mechanism.spec.load, width_mm
     torque = value_or(load.dwell_torque_Nm, load.torque_Nm)
     if all_true(torque == 0.0):
@@ -117,10 +114,7 @@ def loaded_locks(
 def horn_MPa(
     machine: Mechanism, half_width: float, by: Lock, known: HornStress | None = None
 ) -> Array:
-    """Return the greatest stress in horns 1 mm thick, (m,), under the roller or the dwell's torque.
-
-    ``known`` is that under the roller, if computed already.
-    """
+    """Return the greatest stress in horns 1 mm thick, (m,), by the roller or the dwell's torque."""
     from geneva_cli.loads.strength.horn import greatest_stress, horns
 
     own = known or greatest_stress(horns, machine, (half_width, by.recess))

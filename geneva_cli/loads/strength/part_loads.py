@@ -39,10 +39,7 @@ from geneva_cli.numerics.jet import Array, Jet, Number, sqrt
 
 
 class ShaftLoad(NamedTuple):
-    """A row for ``load_peaks``, which the grip bounds: the square (Kb M)² + (Kt T)² of a shaft.
-
-    Of the torque alone without an overhang.
-    """
+    """The square (Kb M)² + (Kt T)² of a shaft, for ``load_peaks``; T² without an overhang."""
 
     part: str
     on_sphere: bool
@@ -117,8 +114,9 @@ def shaft_squares(
             own[part] = _shaft_load(mechanism, part, overhang_mm)
     out = load_peaks(mechanism, tuple(own), own) if own else {}
     for part, (force_N, torque_Nm) in held.items():
-        if part in out:
-            bent = np.ravel(table.bending_factor) * force_N * np.ravel(overhangs_mm[part]) / 1000.0
+        lever = overhangs_mm[part]
+        if lever is not None and part in out:
+            bent = np.ravel(table.bending_factor) * force_N * np.ravel(lever) / 1000.0
             square = bent**2 + (np.ravel(table.torsion_factor) * torque_Nm) ** 2
             first = mechanism.under_load.engagements[0]
             exit_deg = np.ravel(mechanism.shown_deg(first.mid_deg + first.exit_deg))

@@ -46,10 +46,7 @@ NO_ARM = ArmDimensions(*[math.nan] * 7)
 
 
 def arm_stress_MPa(dimensions: ArmDimensions, force_N: Number) -> Array:
-    """The greatest von Mises stress in an arm, over the directions of the force.
-
-    It is infinite where a hole leaves nothing of the width.
-    """
+    """The greatest von Mises stress in an arm, over all directions of the force; or infinite."""
     force_N, length, hub, eye, bored, pin, h, offset = np.broadcast_arrays(force_N, *dimensions)
     taper, none = (hub - eye) / length, 0.0 * length
     with np.errstate(divide="ignore"):

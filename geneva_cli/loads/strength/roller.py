@@ -31,10 +31,7 @@ LIFE_EXPONENT = 10.0 / 3.0  # p, of line contact
 
 
 class SlotPassage(NamedTuple):
-    """One roller's passage through one slot, in SI units; infinite if the force has no bound.
-
-    (m,) each for m designs.
-    """
+    """One roller's passage through one slot, (m,) each, SI units; infinite if the force is."""
 
     travel_m: float  # of the contact along the walls, in and out
     rolled_m: float  # ∫ |v_s| dt
@@ -43,17 +40,7 @@ class SlotPassage(NamedTuple):
 
 
 def passage(engagement: Engagement, case: LoadCase, half: float = 0.0) -> SlotPassage:
-    """Integrals over one motion of m designs, (m,) each.
-
-    Only before mid-motion for a ``half`` of -1, only after it for 1.
-
-    >>> from geneva_cli import External, Load, Size
-    >>> from geneva_cli.motion.mechanism import build
-    >>> from geneva_cli.motion.machine_spec import Spec
-    >>> m = build(Spec(External(6), size=Size(200.0, 8.0), load=Load(torque_Nm=15.0)))
-    >>> passage(m.engagements[0], load_case(m)).travel_m.round(12)  # 2 L (cos b - (1 - l))
-    array([0.14641016])
-    """
+    """Integrals over a motion of m designs, (m,) each; or over the ``half`` before or after 0."""
     curved = engagement.slot.curved
     # A roller on a crank's arm turns back on the line of centres, unless its motion is tilted. In a
     # curved slot both branches begin at mid-motion. Spans end there.

@@ -5,17 +5,18 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from itertools import product
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from geneva_cli.loads.tolerance.entry_jump import EntryJump
 from geneva_cli.loads.tolerance.locking import CutLock, Deviations, deviations, slope_of
-from geneva_cli.loads.tolerance.motion_error import MotionError
+from geneva_cli.loads.tolerance.motion_error import EntryJump, MotionError
 from geneva_cli.numerics.jet import Array, Jet, Number
 from geneva_cli.numerics.sobol import Sobol
 from geneva_cli.progress import tracked
 
+# a motion's error, the input angle in degrees, and the side on which the roller bears
+Place: TypeAlias = tuple[MotionError, float, float]
 BLOCK = 32768  # machines at once: they stay in the processor's cache
 
 
@@ -56,20 +57,15 @@ class RandomMachines(NamedTuple):
 
 
 def random_machines(
-    machines: Draws,
-    samples: int,
-    lock: CutLock | None,
-    error: tuple[MotionError, float, float] | None,
-    entry: EntryJump | None,
+    draws: Draws, samples: int, lock: CutLock | None, error: Place | None, entry: EntryJump | None
 ) -> RandomMachines:
     """Errors of ``samples`` machines: the play of a lock, the error of a motion, the jump at entry.
 
-    ``error`` is a motion's error, the input angle in degrees, and the side on which the roller
-    bears.
+    ``error`` is a motion's at a place.
     """
     dwell, motion, jump = (np.zeros(samples) for _ in range(3))
     start = missed = jams = 0
-    for by in tracked(machines.blocks(samples, BLOCK), "blocks of machines", -(-samples // BLOCK)):
+    for by in tracked(draws.blocks(samples, BLOCK), "blocks of machines", -(-samples // BLOCK)):
         part = slice(start, start + BLOCK)
         jam = np.zeros(len(dwell[part]), dtype=bool)
         if lock:
@@ -106,15 +102,13 @@ class Spread(NamedTuple):
         return tuple(part * part / total if total else 0.0 for part in self.parts)
 
 
-def likely_place(
-    machines: Draws, samples: int, errors: Sequence[MotionError]
-) -> tuple[MotionError, float, float]:
+def likely_place(machines: Draws, samples: int, errors: Sequence[MotionError]) -> Place:
     """The motion, the input angle and the side with the greatest error of 99.7 % of machines.
 
     The mean and some deviations of few machines name places, of which many machines select one.
     """
     few, many = (next(machines.blocks(min(samples, count), count)) for count in (4096, 65536))
-    places: list[tuple[MotionError, float, float]] = []
+    places: list[Place] = []
     for one, side in product(errors, (1.0, -1.0)):
         grid = np.linspace(one.engagement.entry_deg, one.engagement.exit_deg, 121)
         drawn = [one(few, at_deg, side).c[0] for at_deg in grid]

@@ -44,7 +44,6 @@ NAMES = (
     *("period_ratio", "damping_ratio", "natural_Hz"),
     *("residual_share", "residual_deg", "dynamic_factor", "windup_deg"),
 )
-STATION_COLUMNS = ("period_ratio", *NAMES[3:])
 SPECTRUM_COLUMNS = ("n_rpm", "period_ratio", "residual_share", "residual_deg")
 # a speed with a local maximum of the residual, and its range for a stiffness of +-20 %
 AVOID_COLUMNS = ("rpm", "from_rpm", "to_rpm", "residual_share")
@@ -240,10 +239,7 @@ def speeds_to_avoid(own: Oscillators) -> list[tuple[float, float, float, float]]
 def values(mechanism: Mechanism, load: Oscillator) -> dict[str, Any]:
     """Named values of one design, with equal names for every machine."""
     own, lacks = Oscillators(mechanism, load), mechanism.output.lacks
-    avoid, windup = speeds_to_avoid(own), own.windup_deg
-    rows = (own.ratio, own.share, own.residual_deg, own.swung_deg / windup, windup)
-    each = np.array(rows)[:, :, 0].T.tolist()
-    warnings = list[Notice]()
+    avoid, warnings = speeds_to_avoid(own), list[Notice]()
     if (least := float(own.ratio.min())) < 1.0:
         text = (
             f"a motion takes only {least:.4g} natural periods of the load, too few to follow: "
@@ -254,7 +250,6 @@ def values(mechanism: Mechanism, load: Oscillator) -> dict[str, Any]:
         **{name: None if name in lacks else x.item() for name, x in vibrations(own).items()},
         "speeds_to_avoid_rpm": tuple(row[0] for row in avoid),
         "avoid": rows_table(AVOID_COLUMNS, avoid),
-        "stations": rows_table(STATION_COLUMNS, each) if len(each) > 1 else None,
         "warnings": tuple(mechanism.spec.accept.applied(warnings)),
     }
 

@@ -199,19 +199,20 @@ class Motion(SpecTable):
     def backwards(self) -> Self:
         """The motion that the same law gives a machine that turns the other way.
 
-        >>> motion = Motion(SineGroup(0.1))
-        >>> round(motion.law(0.5).c[0], 6), round(motion.backwards.law(0.5).c[0], 6)
-        (0.364188, 0.635812)
+        >>> Motion(Cycloidal()).backwards  # a symmetric law is its own
+        Motion(law=Cycloidal(), alpha0_deg=0.0, ratio=None)
         """
         return self.replace(law=self.law.backwards)
 
-    @property
-    def own_keys(self) -> dict[str, Field]:
-        """Fields of the law and of the motion by their keys in the file."""
-        return self.law.own_keys | super().own_keys
+    def _own_keys(self) -> dict[str, Field]:
+        return self.law._own_keys() | super()._own_keys()
 
     def as_dict(self) -> dict[str, Any]:
-        """Values of the law and of the motion by key."""
+        """Values of the law and of the motion by key.
+
+        >>> Motion(SineGroup(0.1)).as_dict()
+        {'lambda': 0.1, 'alpha0_deg': 0.0, 'ratio': None}
+        """
         return self.law.as_dict() | super().as_dict()
 
     def with_keys(self, values: Mapping[str, Any]) -> Self:
@@ -221,6 +222,6 @@ class Motion(SpecTable):
         SineGroup(lambda_=0.05)
         """
         own = dict(values)
-        law = {key: own.pop(key) for key in self.law.own_keys if key in own}
+        law = {key: own.pop(key) for key in self.law._own_keys() if key in own}
         changed = super().with_keys(own)
         return changed.replace(law=self.law.with_keys(law)) if law else changed

@@ -91,18 +91,13 @@ class SineConstantCosine(Law):
         whole = self.b + self.c + self.d
         # thirds are written with six digits
         if abs(whole - 1.0) > 2e-6:
-            raise GenevaError(
-                f"b + c + d = {whole:.9g} must be 1, the whole time: for example b = 0.25, "
-                "c = 0.5, d = 0.25 for a modified trapezoid",
-                (self.TABLE, "d"),
-            )
+            text = f"b + c + d = {whole:.9g} must be 1, the whole time, as 0.25, 0.5 and 0.25"
+            raise GenevaError(text, (self.TABLE, "d"))
         least = 1e-3  # in a shorter rise the jerk is as large as a jump
         for key, fraction in self.as_dict().items():
             if 0.0 < fraction < least:
-                raise GenevaError(
-                    f"{key} = {fraction:g} must be 0, for none, or at least {least:g}",
-                    (self.TABLE, key),
-                )
+                text = f"{key} = {fraction:g} must be 0, for none, or at least {least:g}"
+                raise GenevaError(text, (self.TABLE, key))
 
     def may_vary(self, table: str, key: str) -> bool:
         return table != "motion" or key not in self.as_dict()

@@ -39,10 +39,8 @@ class TableLaw(Law):
         super().__post_init__()
         pairs, file = self.points
         if pairs[0] != (0.0, 0.0) or pairs[-1] != (1.0, 1.0):
-            raise GenevaError(
-                f"{file or 'points'}: a law runs from 0,0 to 1,1: change the first or last point",
-                ("motion", "file"),
-            )
+            text = f"{file or 'points'}: a law runs from 0,0 to 1,1: change its first or last point"
+            raise GenevaError(text, ("motion", "file"))
 
     @cached_property
     def _halves(self) -> tuple[PiecewisePolynomial, PiecewisePolynomial]:

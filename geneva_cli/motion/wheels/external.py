@@ -102,11 +102,8 @@ class External(Gearing):
 
     def distance_mm(self, crank_radius_mm: float) -> float:
         if self.steps:
-            raise GenevaError(
-                "each of steps_deg has a crank radius of its own: set center_distance_mm instead "
-                "of crank_radius_mm",
-                ("size", "crank_radius_mm"),
-            )
+            text = "each of steps_deg has its own crank_radius_mm: set center_distance_mm instead"
+            raise GenevaError(text, ("size", "crank_radius_mm"))
         sin_b, cos_b = self.step.sin_cos
         along, across = crank_radius_mm / sin_b, self.offset_mm / cos_b
         return choose(across == 0.0, along, library(along, across).hypot(along, across))

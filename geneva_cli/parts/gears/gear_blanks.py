@@ -27,10 +27,7 @@ from geneva_cli.parts.shafts.bores import Bore, bolt_circle
 
 
 def link_gear(link: Link, at: Point, on: Bore, sizes: LinkSizes, mechanism: Mechanism) -> Gear:
-    """Return the gear of a link that is a pitch circle, on a shaft.
-
-    A gear that is fixed to the frame does not turn with the shaft, and is bored round.
-    """
+    """Return the gear of a link that is a pitch circle, on a shaft; bored round if it is fixed."""
     teeth, L, radius = link.teeth, mechanism.center_distance_mm, link.radius_mm
     if teeth.fixed:
         on = Bore(on.around, on.loose)

@@ -92,10 +92,7 @@ def required_gears(mechanism: Mechanism) -> Gears:
 
 
 def convexity(gears: Gears) -> tuple[float, float]:
-    """Return the least value of the convexity conditions of driver and driven gear in a turn.
-
-    It is not above 0 for a hollow gear.
-    """
+    """Return the least convexity of driver and driven gear in a turn; not above 0 if hollow."""
     driver, driven = _convexities(_ratio(gears, np.linspace(-np.pi, np.pi, SAMPLES))[1])
     return float(driver.min()), float(driven.min())
 
@@ -224,8 +221,7 @@ def gear_shafts(
 ) -> Iterator[Shaft]:
     """Yield the shafts that carry only gears, from the frame's lower face up; none without gears.
 
-    The driver's shaft goes through it, or ends below one that is too small for a bore. The crank's
-    is included if neither arm, locking disc nor links have one.
+    The driver's shaft goes through it, or ends below one that is too small for a bore.
     """
     if mechanism.spec.gears is None:
         return
@@ -243,10 +239,7 @@ def gear_shafts(
 def _shafts(
     mechanism: Mechanism, parts: Outlines | None, on_crank: float
 ) -> tuple[tuple[Point, float], tuple[Point, float], bool]:
-    """Return position and radius of both gears' shafts, and whether the driver has a bore.
-
-    The first is the crank's, or that of another drive. Otherwise driver and shaft are one piece.
-    """
+    """Return position and radius of both gears' shafts, and whether the driver has a bore."""
     pair, L = required_gears(mechanism), mechanism.center_distance_mm
     sizes, ((driven, _), (driver, _)) = link_sizes(mechanism, [], parts), pitch_radii(pair)
     usual, x = bore_radius(L / 20.0), mechanism.gear_shaft.x_mm

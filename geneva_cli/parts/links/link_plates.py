@@ -49,21 +49,14 @@ def drawn_links(mechanism: Mechanism, parts: Outlines | None = None) -> Links:
     sizes, L = link_sizes(mechanism, links, parts), mechanism.center_distance_mm
     linked = [link for link in links if not link.radius_mm]
     bars = [_bar(link, sizes, L) for link in linked]
-    axes, free = [], False
+    axes = []
     for axis in _axes(links, SAME_LENGTH * L):
         # the shaft of wheel or crank is as wide as their own bores
         on_crank, on_wheel = (same(axis.at, at, L) for at in ((L, 0.0), ORIGIN))
         known = (sizes.crank_shaft or 0.0) if on_crank else 0.0
         if on_wheel and parts and not on_crank:
             known = parts.sizes.wheel_bore
-        free = free or (SHAFT in axis.kinds and not known)
         axes.append(_with_shaft(axis, bars, links, sizes, known, mechanism))
-    if sizes.shaft is not None and not free:
-        raise GenevaError(
-            f"link_bore_mm = {2.0 * sizes.shaft:g}: it applies to no link: all are on the shafts "
-            "of wheel and crank; set crank_bore_mm, arm_bore_mm or wheel_bore_mm instead",
-            ("size", "link_bore_mm"),
-        )
     gears = []
     for link in (one for one in links if one.radius_mm):
         from geneva_cli.parts.gears.gear_blanks import link_gear

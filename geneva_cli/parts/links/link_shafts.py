@@ -30,11 +30,7 @@ Span: TypeAlias = tuple[float, float]  # lower and upper face, mm
 
 
 def carried(bars: Links, axis: LinkAxis, others: Iterable[Member], L: float) -> list[Span]:
-    """Return lower and upper faces of the links and gears on an axis, with or without a bore.
-
-    ``others`` are plates that turn with a link: a first wheel, whose gear is no part then, and the
-    locking disc on a first crank.
-    """
+    """Return the faces of links, gears and ``others`` that turn with a link, on an axis."""
     found = [plate for plate in bars.plates if plate.name in axis.names]
     names = {*axis.names}
     for member in others:
@@ -84,8 +80,7 @@ def planes(
 ) -> tuple[Meeting | None, Meeting | None]:
     """Return the least gap in a whole turn between links and what passes through their planes.
 
-    ``bars`` are the links of the machine with the outlines ``parts``, and ``spacers`` the rings on
-    its frame. The second gap is that of the crank's shaft to its bearings, None where it is free.
+    The second gap is that of the crank's shaft to its bearings, None where it is free.
     """
     if bars.sizes is None:
         return None, None
@@ -160,10 +155,7 @@ def _blocked(
 
 
 def _gears(parts: Outlines, bars: Links, gears: list[Link], turn: Array) -> Iterator[Meeting]:
-    """Yield the gaps of gears to the wheel's hub and shaft, which pass through their plane.
-
-    A first wheel is no gear: ``shaft_gap`` computes its gap.
-    """
+    """Yield the gaps of gears to the wheel's hub and shaft, which pass through their plane."""
     if parts.assembly.full.first_wheel or bars.sizes is None:
         return
     for gear, link in zip(bars.gears, gears, strict=True):

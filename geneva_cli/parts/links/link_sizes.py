@@ -27,10 +27,7 @@ from geneva_cli.spec.defaults import eye_about, wall_min
 def link_sizes(
     mechanism: Mechanism, links: Iterable[Link], parts: Outlines | None = None
 ) -> LinkSizes:
-    """Return the sizes of links, whose joints are known at many input angles.
-
-    ``parts`` are the machine's outlines, if it has any.
-    """
+    """Return the sizes of links, whose joints are known at many input angles."""
     spec, L = mechanism.spec, mechanism.center_distance_mm
     size, bars = spec.size, [link for link in links if not link.radius_mm]
     drawn = parts.sizes if parts else None
@@ -94,10 +91,7 @@ def point_at_zero(path: Array) -> Point:
 
 
 def joined(links: Iterable[Link], near: float) -> Iterator[tuple[Array, list[Link]]]:
-    """Yield the pin joints of several links: those nearer than ``near`` mm at all input angles.
-
-    Each is the joint's path, complex points, and its links from the upper to the lower plane.
-    """
+    """Yield each pin of several links: its path, and the links from the upper plane down."""
     pins = [
         (link, at)
         for link in links

@@ -148,13 +148,10 @@ def crank_contours(
     if relief == "sector":
         lengths = sizes.roller, sizes.half_width, sizes.recess, sizes.rim, sizes.horn_tip
         around = widened(assembly, sizes, horn_corners(assembly, *lengths))
-    covered = 0.0
-    for start, end, _ in around:
-        covered += end - start
-    if covered > math.tau - SAME_ANGLE:
+    segments, locking = list[Segment](), dict(sectors(around))
+    if not locking:
         text = f"reliefs leave no locking disc: use fewer rollers, or below {sizes.roller:g} mm"
         raise GenevaError(text, ("size", "roller_radius_mm"))
-    segments, locking = list[Segment](), dict(sectors(around))
     for start, end, _ in around:
         middle, half = 0.5 * (start + end), 0.5 * (end - start)
         if relief == "sector":  # down to where the wheel never comes

@@ -166,9 +166,7 @@ def slot_walls(
     along = array(L * (x.c[0] * c + y.c[0] * s))
     bottom = float(along.min() if out > 0.0 else along.max()) - out * sizes.slot_bottom
     # if the spec sets the rim, it moves all mouths by as much as the widest one
-    widest, starts = 0.0, list[float]()
-    for one in assembly.kinds:
-        widest = max(widest, paths.mouth(assembly, one, sizes.roller))
+    widest, starts = max(map(partial(paths.mouth, assembly, r=sizes.roller), assembly.kinds)), []
     for side in (-1.0, 1.0):
         rim, across = paths.mouth(assembly, engagement, sizes.roller), level + side * w
         if level:

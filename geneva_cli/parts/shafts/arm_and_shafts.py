@@ -96,10 +96,7 @@ def crank_hub(parts: Outlines) -> Plate | None:
 
 
 def shafts(parts: Outlines, lowest: float, stop: float | None) -> Iterator[Shaft]:
-    """Yield the shafts of wheel and crank, from the frame's lower face, ``lowest``, up.
-
-    The crank's shaft ends at ``stop`` if links block it.
-    """
+    """Yield the shafts of wheel and crank, from ``lowest`` up, or the crank's from ``stop``."""
     assembly, sizes, still = parts.assembly, parts.sizes, np.zeros(1)
     size = assembly.mechanism.spec.size
     if sizes.wheel_bore:
@@ -232,10 +229,7 @@ def bolts(parts: Outlines) -> list[Circle]:
 
 
 def _bolts(parts: Outlines, count: int) -> list[Circle]:
-    """Return the holes of so many bolts in each sector, all of one size.
-
-    They are at the radius that leaves the widest walls in the disc.
-    """
+    """Return the holes of so many equal bolts in each sector, where the disc's walls are widest."""
     size, sizes = parts.assembly.mechanism.spec.size, parts.sizes
     spans: list[tuple[float, float]] = []
     for start, end in sectors(reliefs(parts.assembly)) if parts.crank and count else ():
@@ -277,10 +271,7 @@ def walls(arm: CrankArm, parts: Outlines) -> float:
 def roller_plates(
     radius: float, pin_radius: float, low: float, high: float, fit: float
 ) -> list[Plate]:
-    """Return a roller in the wheel's plane, up to ``high``, and its pin from ``low`` to there.
-
-    The roller's bore is wider than the pin by ``fit`` mm of the diameter.
-    """
+    """Return a roller from 0 up to ``high``, and its pin from ``low``, looser by ``fit``."""
     outline = Circle("ROLLER", ORIGIN, radius)
     if not pin_radius:
         return [Plate("roller", "ROLLER", outline, (), 0.0, high)]

@@ -8,7 +8,7 @@ s = sqrt(k² - (d - t)²) before the centre. With ``mouth_radius_mm`` an arc rou
 from __future__ import annotations
 
 import math
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import numpy as np
 
@@ -103,13 +103,11 @@ def horn_corners(
 
     They are those of its mouth's corners where the roller comes and goes, or of tips cut to flats.
     """
-    kinds, widest = assembly.kinds, []
-    for kind in kinds:
-        widest.append(mouth(assembly, kind, r))
+    widest = [*map(partial(mouth, assembly, r=r), assembly.kinds)]
     shift = rim - max(widest)
     least = least_mouth(assembly.L, recess, rim) if assembly.sign > 0.0 else 0.0
     out = {}
-    for kind, wide in zip(kinds, widest, strict=True):
+    for kind, wide in zip(assembly.kinds, widest, strict=True):
         ends = []
         for end in (-1.0, 1.0):
             at = math.hypot(*corner(assembly, kind, end, r)) if kind.slot.offset else wide

@@ -21,7 +21,6 @@ from geneva_cli.parts.turn.stops import Branches, Meetings, Stops
 
 SAME = 1e-12  # radians: intervals of adjacent pieces leave no gap
 BLOCK = 32  # crank angles that are computed together, as much the same pieces are near then
-FEW = 4000  # pairs of pieces that are not worth a selection
 
 Intervals: TypeAlias = tuple[Whole, Array, Array]  # rows, starts and ends
 
@@ -55,49 +54,14 @@ class FreeRanges:
         sector = wheel if which is None else wheel.subset(which)
         # copies of one sector, so that rounded numbers of a drawing make no difference
         self.whole = sector.around(round(math.tau / self.period))
-        self.window: tuple[float, float] | None = None
-        self._meets(sector)
-
-    def _meets(self, wheel: Polyarc) -> None:
-        self.stops = Stops(wheel, self.period, [self.crank], self.L, 0.0)
-        self.own = self.stops.branches(wheel, None, 0.0)
+        self.stops = Stops(sector, self.period, [self.crank], L, 0.0)
+        self.own = self.stops.branches(sector, None, 0.0)
 
     def with_slack(self, slack: float) -> FreeRanges:
         """Return the ranges in which parts may overlap by another ``slack``, mm."""
         out = copy(self)
         out.slack = slack
         return out
-
-    def near(self, low: float, high: float, wheel: float, most: float) -> FreeRanges:
-        """Return the ranges of pieces that may touch between two crank angles, radians.
-
-        The wheel is within ``most`` radians of an angle. Farther ends of a range are missing.
-        """
-        if len(self.crank) * len(self.whole) < FEW:
-            return self
-        half, whole = 0.5 * abs(high - low), self.whole
-        x, y = self._fixed(0.5 * (low + high))
-        reach = self.crank.size + half * np.hypot(self.crank.ox, self.crank.oy) + self.slack
-        rim = float((np.hypot(whole.ox, whole.oy) + whole.size).max())
-        ours = np.flatnonzero(np.hypot(x, y) - reach <= rim)
-        c, s = math.cos(wheel), math.sin(wheel)
-        wx, wy = whole.ox * c - whole.oy * s, whole.ox * s + whole.oy * c
-        own = whole.size + most * np.hypot(wx, wy)
-        around = float((np.hypot(x - self.L, y) + reach).max())
-        theirs = np.flatnonzero(np.hypot(wx - self.L, wy) - own <= around)
-        away = np.hypot(x[ours, None] - wx[theirs], y[ours, None] - wy[theirs])
-        close = away <= reach[ours, None] + own[theirs]
-        out = copy(self)
-        out.crank = self.crank.subset(ours[close.any(axis=1)])
-        out.period, out.window = math.tau, (wheel, most)
-        out._meets(whole.subset(theirs[close.any(axis=0)]))
-        return out
-
-    def _fixed(self, crank_angle: float) -> tuple[Array, Array]:
-        """Return the middles of the crank's pieces in the fixed frame."""
-        turn = float(self.crank_direction(np.array([crank_angle]))[0])
-        c, s, crank = math.cos(turn), math.sin(turn), self.crank
-        return self.L + crank.ox * c - crank.oy * s, crank.ox * s + crank.oy * c
 
     def crank_direction(self, crank_angle: Array) -> Array:
         """Return the direction of the crank's x axis, radians, at crank angles (n,)."""
@@ -118,15 +82,17 @@ class FreeRanges:
         """Yield the pairs of branches that meet at crank angles (n,), which are near each other."""
         middle, half = 0.5 * (crank_angle[0] + crank_angle[-1]), 0.5 * np.ptp(crank_angle)
         reach = self.crank.size + half * np.hypot(self.crank.ox, self.crank.oy)
-        far = np.hypot(*self._fixed(float(middle)))
+        turn, crank = float(self.crank_direction(middle)), self.crank
+        c, s = math.cos(turn), math.sin(turn)
+        far = np.hypot(self.L + crank.ox * c - crank.oy * s, crank.ox * s + crank.oy * c)
         own = Branches(*self.own)
         low, high = own.low.min(initial=np.inf), own.high.max(initial=0.0)
         some = np.flatnonzero((far - reach <= high) & (far + reach >= low))
         if not len(some):
             return
         direction = self.crank_direction(crank_angle)
-        crank = self.stops.branches(self.crank.subset(some), direction, self.slack)
-        yield from self.stops.meetings(crank, self.own, self.window)
+        near = self.stops.branches(crank.subset(some), direction, self.slack)
+        yield from self.stops.meetings(near, self.own)
 
 
 class Ranges:

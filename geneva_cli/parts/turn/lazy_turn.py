@@ -53,7 +53,7 @@ class Jam(NamedTuple):
 
 
 class LazyTurn(NamedTuple):
-    """The wheel at crank angles (n,), radians, and its free range there; NaN between the grid's."""
+    """The wheel at crank angles (n,), radians, and its free range there."""
 
     crank: Array
     wheel: Array
@@ -148,11 +148,11 @@ class _Path:
         if self.begun is None:
             if self.exact:
                 # the crank angle from which on the wheel is not free, just before it
-                first, bad, free = good, crank, self.free.near(good, crank, wheel, SAME)
+                first, bad = good, crank
                 # 1e-13 radians with a slack of 1e-6 mm: events of facets are not known so closely
                 while abs(bad - good) > 1e-7 * self.free.slack:
                     places = np.linspace(good, bad, PARTS + 1)
-                    ranges, i = free.at(places[1:-1]), 0
+                    ranges, i = self.free.at(places[1:-1]), 0
                     while i < PARTS - 1 and ranges.around(i, wheel).is_free:
                         i += 1
                     if places[i] == good and places[i + 1] == bad:
@@ -164,27 +164,24 @@ class _Path:
             self.begun = good, wheel
         self._follow(crank, around)
 
-    def _follow(self, crank: float, around: Around, is_near: bool = False) -> None:
+    def _follow(self, crank: float, around: Around) -> None:
         """Go on to a crank angle to which the wheel is pushed."""
         before, wheel = self.rows[-1][:2]
         step, there = abs(crank - before), around(wheel)
         pushed = _pushed(there, wheel)
         steepest = STEEPEST if step < 1e-4 else SLOW
         if abs(pushed - wheel) <= steepest * step + SAME:
-            self._add(crank, pushed, around, is_near)
+            self._add(crank, pushed, around)
             return
         if step < SHORTEST:
             raise _Stuck(Jam(before, wheel, there.low, there.high))
         places = np.linspace(before, crank, PARTS + 1)[1:]
-        ranges = self.free.near(before, crank, wheel, STEEPEST * step).at(places)
+        ranges = self.free.at(places)
         for i in range(PARTS):
-            self._follow(float(places[i]), partial(ranges.around, i), is_near=True)
+            self._follow(float(places[i]), partial(ranges.around, i))
 
-    def _add(self, crank: float, wheel: float, around: Around, is_near: bool = False) -> None:
-        """Add a position that touches, with the free range on the other side, if that is known."""
-        if is_near or not self.exact:
-            self.rows.append((crank, wheel, math.nan, math.nan))
-            return
+    def _add(self, crank: float, wheel: float, around: Around) -> None:
+        """Add a position that touches, with the free range on the other side."""
         low, high = wheel, wheel
         for at in (wheel, wheel - SAME, wheel + SAME):
             there = around(at)
@@ -200,10 +197,9 @@ class _Path:
         end, farthest, there = before, wheel, around
         if self.exact:
             low, high = self.rows[max(len(self.rows) - 2, 0)][0], crank
-            free = self.free.near(low, high, wheel, SLOW * abs(high - low))
             for _ in range(7 if self.free.slack < FACETED else 4):
                 places = np.linspace(low, high, PARTS + 1)
-                ranges = free.at(places)
+                ranges = self.free.at(places)
                 moved = [_pushed(ranges.around(i, wheel), wheel) for i in range(PARTS + 1)]
                 k = max(range(PARTS + 1), key=lambda i: abs(moved[i] - wheel))
                 if abs(moved[k] - wheel) > abs(farthest - wheel):
@@ -213,7 +209,7 @@ class _Path:
         if end != before:
             if (end - before) * self.way < 0.0:
                 del self.rows[-1]
-            self._add(end, farthest, there, is_near=there is not around)
+            self._add(end, farthest, there)
         self.pushes.append(Push(*self.begun, end, farthest))
         self.begun = None
         self._add(crank, farthest, around)

@@ -124,24 +124,17 @@ class Stops:
                 levels[k, row[hit]] = level[hit]
         return leads, levels
 
-    def meetings(
-        self, others: Array, wheel: Array, window: tuple[float, float] | None = None
-    ) -> Iterator[Meetings]:
+    def meetings(self, others: Array, wheel: Array) -> Iterator[Meetings]:
         """Yield the intervals of the wheel's angle at which other branches meet the wheel's.
 
         The others are in the fixed frame, in n poses, and the wheel's in its own. An interval
-        may be whole pitches away, and must reach into a ``window``: angle and half width, radians.
+        may be whole pitches away.
         """
         own, step = Branches(*wheel), max(1, BLOCK // max(1, wheel.shape[1]))
         for block in range(0, others.shape[1], step):
             some = others[:, block : block + step]
             one = Branches(*some)
             common = (one.low[:, None] <= own.high) & (one.high[:, None] >= own.low)
-            if window is not None:
-                (one_at, one_half), (two_at, two_half) = spread(one), spread(own)
-                away = one_at[:, None] - two_at - window[0]
-                away -= self.pitch * np.round(away / self.pitch)
-                common &= np.abs(away) <= one_half[:, None] + two_half + window[1]
             i, j = np.nonzero(common)
             # take() keeps each row in one piece of memory
             crank_side, wheel_side = some.take(i, axis=1), wheel.take(j, axis=1)
@@ -254,16 +247,6 @@ class Stops:
         out = (level * level + radius * radius - square) / (2.0 * radius)  # along the normal
         lean: Array = (out + close) / np.sqrt(level * level + close * (2.0 * out + close))
         return lean
-
-
-def spread(branches: Branches) -> tuple[Array, Array]:
-    """Return middles of the places of branches, radians, and bounds of their distance from them."""
-    ends = branches.at_low, branches.at_high
-    middle = branches.ahead + 0.5 * branches.sign * (ends[0] + ends[1])
-    # an arc may be widest between its ends; 1 + size * excess is its centre's distance over radius
-    far = np.maximum(1.0 + branches.size * branches.excess, 1.0)
-    wide = np.where(branches.size > 0.0, np.arcsin(1.0 / far), 0.0)
-    return middle, 0.5 * np.abs(ends[1] - ends[0]) + branches.half + wide
 
 
 def cut(

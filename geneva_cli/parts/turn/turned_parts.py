@@ -58,18 +58,13 @@ class TurnedParts(ABC):
     """Wheel, crank and rollers of one machine, which a full turn checks.
 
     Curves are "arcs" or "cubics" within ``tolerance`` mm; by default they are as accurate as the
-    checks need them. Without ``advice`` an error does not name the roller that fits.
+    checks need them.
     """
 
     def __init__(
-        self,
-        mechanism: Mechanism,
-        advice: bool = True,
-        tolerance: float | None = None,
-        curves: str = "arcs",
+        self, mechanism: Mechanism, tolerance: float | None = None, curves: str = "arcs"
     ) -> None:
-        self.mechanism, self.advice = mechanism, advice
-        self.tolerance, self.curves = tolerance, curves
+        self.mechanism, self.tolerance, self.curves = mechanism, tolerance, curves
 
     @property
     @abstractmethod

@@ -4,24 +4,23 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
+from itertools import pairwise
+from typing import TypeAlias
 
 import numpy as np
 
-from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.plates import Plate
 from geneva_cli.loads.cycle import Cycle
 from geneva_cli.motion.engagement import WheelMotion
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.pivots import AxisPlace, Joint, Link, turned_points
+from geneva_cli.motion.pivots import AxisPlace, Link, turned_points
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.output.scene import Bar, CarriedShapes, Place, Push, Track
 from geneva_cli.parts.assembly import Passage, assembly, links_at
-from geneva_cli.parts.links.link_plates import drawn_links
-from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.study.animation.tracks import Moving, cut, resting, sampled, track
 
+# value and slope by the input in degrees, at input angles in degrees
+Moving: TypeAlias = "Callable[[Array], tuple[Array, Array]]"
 ANGLE_ERROR = 1e-7  # rad, of wheel and crank: a tenth of the page's own error
 
 
@@ -44,17 +43,21 @@ class MachineTurn:
         """
         turned, behind = place.turn, place.behind_deg
         first = self.passages[0].engagement.half_step
+
+        def resting(value: float) -> Moving:
+            return lambda x: (0.0 * x + value, 0.0 * x)
+
         pieces = [(self.start, self.start + behind, resting(turned - first))]
         for one, after in zip(self.passages, (*self.passages[1:], None), strict=True):
             motion = one.engagement.motion
             mid = one.mid + behind
-            for a, b in cut(motion.entry_deg, motion.exit_deg, motion.breaks_deg):
+            for a, b in _cut(motion.entry_deg, motion.exit_deg, motion.breaks_deg):
                 pieces.append((mid + a, mid + b, _by_motion(motion, mid, turned)))
             turned += one.engagement.half_step
             end = after.entry if after else self.end - behind
             pieces.append((one.exit + behind, end + behind, resting(turned)))
             turned += after.engagement.half_step if after else 0.0
-        return track(pieces, ANGLE_ERROR, self.start, turned + first - place.turn)
+        return _track(pieces, ANGLE_ERROR, self.start, turned + first - place.turn)
 
     def on_crank(self, number: int) -> AxisPlace:
         """The place of the crank that carries a roller."""
@@ -117,24 +120,19 @@ class MachineTurn:
         numbers = range(len(self.assembly.rollers))
         return tuple(self._place(partial(self.centre, number)) for number in numbers)
 
-    def bars(self, outlines: Outlines | None) -> tuple[Bar, ...]:
-        """The links with their plates; ``outlines`` are those of the other parts, if drawn."""
+    def bars(self, plates: Mapping[str, tuple[CarriedShapes, ...]]) -> tuple[Bar, ...]:
+        """The links with their plates, which are given by the links' names."""
 
         def joint(i: int, j: int) -> Place:
             return self._place(
                 lambda x: np.column_stack([c + 0.0 * x for c in self._links_at(x)[i].joints[j]])
             )
 
-        plates = _plates(self.mechanism, outlines)
-        return tuple(
-            Bar(
-                link.name,
-                tuple(joint(i, j) for j in range(len(link.joints))),
-                link.radius_mm,
-                plates.get(link.name, ()),
-            )
-            for i, link in enumerate(links_at(self.mechanism, np.zeros(1)))
-        )
+        bars = []
+        for i, link in enumerate(links_at(self.mechanism, np.zeros(1))):
+            joints = tuple(joint(i, j) for j in range(len(link.joints)))
+            bars.append(Bar(link.name, joints, link.radius_mm, plates.get(link.name, ())))
+        return tuple(bars)
 
     def _links_at(self, input_deg: Array) -> tuple[Link, ...]:
         """All links at input angles, cached: each joint's x and y are sampled at equal angles."""
@@ -153,28 +151,8 @@ class MachineTurn:
     def _sampled(self, f: Callable[[Array], Array], error: float, gain: float = 0.0) -> Track:
         """A track over the whole turn, divided at entry, middle and exit of each passage."""
         places = [x for one in self.passages for x in (one.entry, one.mid, one.exit)]
-        pieces = [(a, b, sampled(f, a, b)) for a, b in cut(self.start, self.end, places)]
-        return track(pieces, error, self.start, gain)
-
-
-def _plates(
-    mechanism: Mechanism, outlines: Outlines | None
-) -> dict[str, tuple[CarriedShapes, ...]]:
-    """The plates of each link by its name; empty if the links' sizes allow none."""
-    out: dict[str, tuple[CarriedShapes, ...]] = {}
-    try:
-        plates = [m.part for m in drawn_links(mechanism, outlines).cut if isinstance(m.part, Plate)]
-    except GenevaError:
-        return out
-    for link in links_at(mechanism, np.zeros(1)):
-        slid = [j for j, kind in enumerate(link.kinds) if kind in (Joint.SLIDE, Joint.CARRIED)]
-        blocks = [plate for plate in plates if plate.name == f"{link.name}'s block"]
-        own = [plate for plate in plates if plate.name == link.name]
-        out[link.name] = tuple(
-            CarriedShapes(j, (plate.outline, *plate.holes))
-            for j, plate in zip([0] * len(own) + slid, [*own, *blocks], strict=False)
-        )
-    return out
+        pieces = [(a, b, _with_slopes(f, a, b)) for a, b in _cut(self.start, self.end, places)]
+        return _track(pieces, error, self.start, gain)
 
 
 def _by_motion(motion: WheelMotion, mid: float, turned: float) -> Moving:
@@ -237,3 +215,66 @@ def _normals(one: Passage, local: Array, turn: MachineTurn, pin: Array) -> Array
         psi = one.engagement.motion(local, 0).c[0] - np.sign(local) * one.engagement.apart
         direction = turned_points(direction, psi)
     return np.column_stack((-direction[:, 1], direction[:, 0])) / np.hypot(*direction.T)[:, None]
+
+
+def still() -> Track:
+    """The track of what stands at the angle 0."""
+    return Track((0.0,), (0.0,), (0.0,))
+
+
+def _track(
+    pieces: Iterable[tuple[float, float, Moving]], error: float, start: float, gain: float = 0.0
+) -> Track:
+    """The track of consecutive smooth functions, each on its own stretch, within ``error``.
+
+    ``start`` is the input angle at the track's 0.
+    """
+    columns: tuple[list[float], ...] = ([], [], [])
+    for a, b, moving in pieces:
+        if b > a:
+            knots, v, s = _knots(a, b, moving, error)
+            for column, more in zip(columns, (knots - start, v, s), strict=True):
+                column += more.tolist()
+    at, value, slope = map(tuple, columns)
+    return Track(at, value, slope, gain)
+
+
+def _with_slopes(f: Callable[[Array], Array], a: float, b: float) -> Moving:
+    """Add numerical slopes to a function on a stretch."""
+
+    def moving(x: Array) -> tuple[Array, Array]:
+        d = min(1e-3, 0.1 * (b - a))  # degrees
+        left, right = np.maximum(x - d, a), np.minimum(x + d, b)
+        return f(x), (f(right) - f(left)) / (right - left)
+
+    return moving
+
+
+def _cut(a: float, b: float, places: Sequence[float]) -> list[tuple[float, float]]:
+    """Divide a stretch at the places inside it, where a function's derivatives may jump."""
+    return list(pairwise([a, *sorted(x for x in set(places) if a < x < b), b]))
+
+
+def _knots(a: float, b: float, moving: Moving, error: float) -> tuple[Array, Array, Array]:
+    """Knots, values and slopes: even steps, halved where the cubic is not within the error."""
+    knots = np.linspace(a, b, 5)
+    while True:
+        v, s = moving(knots)
+        h = np.diff(knots)
+        off = np.zeros(len(h))
+        for u in (0.2, 0.5, 0.8):  # places in a step
+            there = moving(knots[:-1] + u * h)[0]
+            off = np.maximum(off, np.abs(_hermite(u, h, v, s) - there))
+        wide = (off > error) & (h > 1e-3)  # degrees: knots are no nearer to each other
+        if not wide.any():
+            return knots, v, s
+        knots = np.sort(np.concatenate((knots, (knots[:-1] + 0.5 * h)[wide])))
+
+
+def _hermite(u: float, h: Array, v: Array, s: Array) -> Array:
+    w = 1.0 - u
+    return (
+        w * w * (1.0 + 2.0 * u) * v[:-1]
+        + u * u * (1.0 + 2.0 * w) * v[1:]
+        + u * w * h * (w * s[:-1] - u * s[1:])
+    )

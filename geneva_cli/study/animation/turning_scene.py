@@ -12,16 +12,19 @@ import numpy as np
 
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.plates import Plate
 from geneva_cli.geometry.shapes import Circle, Contour, Line, Shape, at, bounds, polygon
 from geneva_cli.motion.drive import Gears
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.pivots import Joint
 from geneva_cli.motion.registry import thing
 from geneva_cli.numerics.angles import radians
 from geneva_cli.output.scene import (
     Bar,
     Body,
     Box,
+    CarriedShapes,
     Phase,
     Place,
     Rotation,
@@ -29,11 +32,12 @@ from geneva_cli.output.scene import (
     Track,
     pose,
 )
+from geneva_cli.parts.assembly import links_at
 from geneva_cli.parts.gears.gear_pair import gears_table
+from geneva_cli.parts.links.link_plates import drawn_links
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.specfile.writer import quoted, spec_lines
-from geneva_cli.study.animation.animated_turn import MachineTurn, pushes
-from geneva_cli.study.animation.tracks import still
+from geneva_cli.study.animation.animated_turn import MachineTurn, pushes, still
 from geneva_cli.study.summary.load_lines import title_of
 from geneva_cli.verdict.report import words
 
@@ -46,17 +50,26 @@ def scene(design: Design) -> Scene:
     outlines = None
     with suppress(GenevaError):  # no flat parts
         outlines = design.parts.outlines
-    bars, rollers = turn.bars(outlines), turn.rollers()
+    bars, rollers = turn.bars(_plates(mechanism, outlines)), turn.rollers()
     spec, title = design.spec, title_of(design)
-    frame = _frame_rotation(mechanism, turn.start, turn.turn_deg)
     wheels = wheels_of(spec)
     loads = ("pin_force_N", "input_torque_Nm") if design.cycle.is_loaded else ()
     turning = tuple(body for body in parts if not body.travel)
     box = _box(turning, bars, rollers, mechanism.roller_radius_mm, turn.turn_deg)
-    if frame:  # it makes whole turns
-        x, y = frame.centre
-        reach = max(math.dist(b.centre, frame.centre) + max(map(_reach, b.shapes)) for b in parts)
+    frame = None
+    if mechanism.frame:  # the carrier makes whole turns
+        rate = mechanism.frame * radians(1.0)
+        ends = rate * turn.start, rate * turn.end
+        angle = Track((0.0, turn.turn_deg), ends, (rate, rate), ends[1] - ends[0])
+        x, y = centre = mechanism.center_distance_mm, 0.0
+        frame = Rotation(centre, angle)
+        reach = max(math.dist(b.centre, centre) + max(map(_reach, b.shapes)) for b in parts)
         box = x - reach, y - reach, x + reach, y + reach
+    pauses = []
+    if spec.drive.stop_s:  # in the middle of each dwell, also of one without length
+        entries = [*(one.entry for one in turn.passages[1:]), turn.end]
+        dwells = zip(turn.passages, entries, strict=True)
+        pauses = [0.5 * (one.exit + after) - turn.start for one, after in dwells]
     return Scene(
         title=title,
         caption=words(mechanism) + _remark(design, bars),
@@ -73,10 +86,30 @@ def scene(design: Design) -> Scene:
         figure=design.figure(("velocity", "acceleration", *loads)),
         box=wheels.view(parts[0], box, turn),
         stops=wheels.stops(outlines, turn),
-        pauses=tuple(_pauses(turn)) if spec.drive.stop_s else (),
+        pauses=tuple(pauses),
         stop_s=spec.drive.stop_s,
         frame=frame,
     )
+
+
+def _plates(
+    mechanism: Mechanism, outlines: Outlines | None
+) -> dict[str, tuple[CarriedShapes, ...]]:
+    """The plates of each link by its name; empty if the links' sizes allow none."""
+    out: dict[str, tuple[CarriedShapes, ...]] = {}
+    try:
+        plates = [m.part for m in drawn_links(mechanism, outlines).cut if isinstance(m.part, Plate)]
+    except GenevaError:
+        return out
+    for link in links_at(mechanism, np.zeros(1)):
+        slid = [j for j, kind in enumerate(link.kinds) if kind in (Joint.SLIDE, Joint.CARRIED)]
+        blocks = [plate for plate in plates if plate.name == f"{link.name}'s block"]
+        own = [plate for plate in plates if plate.name == link.name]
+        out[link.name] = tuple(
+            CarriedShapes(j, (plate.outline, *plate.holes))
+            for j, plate in zip([0] * len(own) + slid, [*own, *blocks], strict=False)
+        )
+    return out
 
 
 def _bodies(design: Design, turn: MachineTurn) -> Iterator[Body]:
@@ -126,13 +159,6 @@ def _shapes(design: Design, part: str) -> tuple[Shape, ...]:
     with suppress(GenevaError):
         return design.drawing(part).shapes
     return ()
-
-
-def _pauses(turn: MachineTurn) -> Iterator[float]:
-    """Yield the middle of each dwell, also of one without length, degrees from the start."""
-    entries = [*(one.entry for one in turn.passages[1:]), turn.end]
-    for one, after in zip(turn.passages, entries, strict=True):
-        yield 0.5 * (one.exit + after) - turn.start
 
 
 def _remark(design: Design, bars: tuple[Bar, ...]) -> str:
@@ -220,16 +246,6 @@ def _reach(shape: Shape) -> float:
         return math.hypot(*shape.centre) + shape.radius
     ends = (at(segment, t) for segment in shape.segments for t in (0.0, 0.25, 0.5, 0.75, 1.0))
     return max(math.hypot(*point) for point in ends)
-
-
-def _frame_rotation(mechanism: Mechanism, start: float, whole: float) -> Rotation | None:
-    """The carrier's rotation over ``whole`` degrees of the input from ``start``; None without."""
-    if not mechanism.frame:
-        return None
-    rate = mechanism.frame * radians(1.0)
-    ends = rate * start, rate * (start + whole)
-    angle = Track((0.0, whole), ends, (rate, rate), ends[1] - ends[0])
-    return Rotation((mechanism.center_distance_mm, 0.0), angle)
 
 
 class WheelScene:

@@ -39,14 +39,14 @@ def load_lines(design: Design) -> Iterator[SummaryLine]:
     yield motor_line(design)
     yield from cycle_lines(design)
     if design.spec.drive.stop_s:  # what braking and starting the rotor in each dwell takes
-        names = ("brake_torque_Nm", "start_torque_Nm", "energy_J", "power_W", "inertia_kgm2")
         values = design.report.table.to_dict()
-        brake, start, energy, power, inertia = (values[f"input_stop.{name}"] for name in names)
-        took = [f"{what} {measured(torque, 'N m')}"
-                for what, torque in (("stops with", brake), ("starts with", start))
-                if torque is not None]  # fmt: skip
+        took = []
+        for what, name in (("stops with", "brake_torque_Nm"), ("starts with", "start_torque_Nm")):
+            if (torque := values[f"input_stop.{name}"]) is not None:
+                took.append(f"{what} {measured(torque, 'N m')}")
         text = "not known: set inertia_kgm2 in [motor]"
-        if inertia is not None:
+        if values["input_stop.inertia_kgm2"] is not None:
+            energy, power = values["input_stop.energy_J"], values["input_stop.power_W"]
             took.append(f"{measured(energy, 'J')} each time, {measured(power, 'W')}")
             text = ", ".join(took)
             text += "; set brake_s and start_s in [drive] for both torques" * (len(took) < 3)
@@ -69,22 +69,21 @@ def flywheel_line(design: Design) -> Iterator[SummaryLine]:
 def cycle_lines(design: Design) -> Iterator[SummaryLine]:
     """The loads of input, pin and wheel over the cycle, and the impact at a change of sides."""
     loads = design.loads
-    force, stress = loads["pin_force_N"], loads["contact_stress_MPa"]
     torque = design.cycle.extremes["input_torque_Nm"]  # with its signs
     if not math.isfinite(torque.max - torque.min):
         yield SummaryLine("input", f"torque {NO_BOUND}")
     else:
         text = f"{value_text(torque.min)} to {measured(torque.max, 'N m')}"
         text += f", rms {value_text(torque.rms)}" if torque.rms is not None else ""
-        drives = f"drives the motor with up to {measured(-torque.min, 'N m')}"
-        driven = drives if torque.min < 0.0 else "never drives the motor"
+        driven = "never drives the motor"
+        if torque.min < 0.0:
+            driven = f"drives the motor with up to {measured(-torque.min, 'N m')}"
         yield SummaryLine("input", f"{text}; the {design.spec.output.noun} {driven}")
-    pin = _greatest(force, "N")
-    if design.spec.size.face_width_mm is None:
-        pin += "; contact stress needs face_width_mm in [size]"
-    else:
-        pin += f"; contact stress {_greatest(stress, 'MPa')}"
-    yield SummaryLine("pin", pin)
+    stress = "needs face_width_mm in [size]"
+    if design.spec.size.face_width_mm is not None:
+        stress = _greatest(loads["contact_stress_MPa"], "MPa")
+    pin = _greatest(loads["pin_force_N"], "N")
+    yield SummaryLine("pin", f"{pin}; contact stress {stress}")
     impact = design.strength.reversal  # of the roller on the other wall of its slot
     if impact["jump"] is not None and impact["at_deg"] is not None:
         text = f"speed jumps by {measured(impact['jump'])} of the input's"
@@ -94,14 +93,13 @@ def cycle_lines(design: Design) -> Iterator[SummaryLine]:
         if impact["contact_stress_MPa"] is not None:
             text += f"; contact stress {measured(impact['contact_stress_MPa'], 'MPa')}"
         yield SummaryLine("impact", text, "geneva explain reversal_shock_N")
+    label, moved, unit = "rack", "rack_acceleration_m_s2", "m/s²"
+    what, pushed, unit_of = "force", "rack_force_N", "N"
     if design.spec.output.turns:
-        turned = _greatest(loads["alpha_rad_s2"], "rad/s²")
-        twisted = _greatest(loads["wheel_torque_Nm"], "N m")
-        yield SummaryLine("wheel", f"{turned}; torque {twisted}")
-    else:
-        moved = _greatest(loads["rack_acceleration_m_s2"], "m/s²")
-        pushed = _greatest(loads["rack_force_N"], "N")
-        yield SummaryLine("rack", f"{moved}; force {pushed}")
+        label, moved, unit = "wheel", "alpha_rad_s2", "rad/s²"
+        what, pushed, unit_of = "torque", "wheel_torque_Nm", "N m"
+    text = f"{_greatest(loads[moved], unit)}; {what} {_greatest(loads[pushed], unit_of)}"
+    yield SummaryLine(label, text)
 
 
 def greatest(ends: LoadSummary[float | None]) -> tuple[float, float | None] | None:
@@ -147,20 +145,15 @@ def motor_line(design: Design) -> SummaryLine:
         torque_Nm = motor.needed_W * 60.0 / (motor.rpm * math.tau)
         power = f"{measured(motor.needed_W, 'W')}, {measured(torque_Nm, 'N m')}"
     four_poles_rpm = 1400.0  # at full load, of small motors with four poles at 50 Hz
-    geared = f"{measured(motor.rpm, 'rpm')}, gear ratio {measured(keys.ratio)}"
+    geared = f", gear ratio {measured(keys.ratio)}"
     if keys.gear_ratio is None and 2.0 * motor.rpm <= four_poles_rpm:  # a slow input
+        ratio = measured(four_poles_rpm / motor.rpm, digits=3)
         geared = (
-            f"{measured(motor.rpm, 'rpm')} behind its reducer, as gear ratio "
-            f"{measured(four_poles_rpm / motor.rpm, digits=3)} from "
-            f"{measured(four_poles_rpm, 'rpm')}"
+            f" behind its reducer, as gear ratio {ratio} from {measured(four_poles_rpm, 'rpm')}"
         )
-    torque = measured(motor.input_torque_Nm, "N m")
-    return SummaryLine(
-        "motor",
-        f"{power}, {geared}",
-        f"{needed}; {torque} on the input by the cam-indexer formula; {source} "
-        "(geneva explain motor)",
-    )
+    torque = f"{measured(motor.input_torque_Nm, 'N m')} on the input by the cam-indexer formula"
+    note = f"{needed}; {torque}; {source} (geneva explain motor)"
+    return SummaryLine("motor", f"{power}, {measured(motor.rpm, 'rpm')}{geared}", note)
 
 
 def _powers(design: Design) -> Iterator[SummaryLine]:

@@ -28,7 +28,7 @@ from geneva_cli.study.verdicts import (
     warning_lines,
 )
 from geneva_cli.table import Reading, Table, record_table, rows_table
-from geneva_cli.verdict.checks import LIMITS
+from geneva_cli.verdict.checks import LIMITS, Check
 from geneva_cli.verdict.failures import below_summary
 
 LOADS = (
@@ -48,20 +48,21 @@ def greatest_loads(design: Design) -> Table:
     """
     checks = {check.name: check for check in design.checks}
     rows: list[tuple[Any, ...]] = []
+
+    def add(words: str, size: float, unit: str, at_deg: float | None, check: Check | None) -> None:
+        bound = (check.must_be, check.limit, check.passes) if check else (None, None, None)
+        rows.append((words[:1].upper() + words[1:], size, unit, at_deg, *bound))
+
     for name in LOADS if design.cycle.is_loaded else ():
         axis, known = AXIS_BY_NAME[name], greatest(design.loads[name])
         stem, _, unit = name.rpartition("_")
         if known:  # else the row of its check says that it has no bound
-            check = checks.pop(f"{stem}_max_{unit}", None)
-            bound = (check.must_be, check.limit, check.passes) if check else (None, None, None)
-            size, at_deg = known
-            rows.append((axis.label, size, axis.unit, at_deg, *bound))
+            add(axis.label, known[0], axis.unit, known[1], checks.pop(f"{stem}_max_{unit}", None))
     for name, check in checks.items():
         words, unit = spoken(name)
         shown = name in LIMITS or unit in UNITS or name == "pressure_angle_deg"
         if shown and check.value is not None:
-            bound = (check.must_be, check.limit, check.passes)
-            rows.append((words[:1].upper() + words[1:], check.value, unit, check.at_deg, *bound))
+            add(words, check.value, unit, check.at_deg, check)
     first = ("load", "value", "limit", "unit", "must_be", "at_deg")
     return rows_table(COLUMNS, rows).replaced(reading=Reading(first, decide=("passes",)))
 
@@ -77,19 +78,17 @@ def of_report(design: Design, is_full: bool) -> Answer:
 
     If ``is_full``, all values of the report stand below the summary instead.
     """
-    record = design.report.table
-    state, text = headline(design.checks, design.warnings)
-    checks, warnings = design.checks, design.warnings
-    first = failure_lines(checks)
+    record, checks, warnings = design.report.table, design.checks, design.warnings
+    state, text = headline(checks, warnings)
     last = warning_lines(checks, warnings, design.unused_acceptances)
-    lines = (*first, *key_figures(design), *last)
-    summary = Summary(f"{title_of(design)}: {text}", lines, state)
-    shown = ("title", "passes", "checks_failed", "not_proved", "chosen")
-    page = below_summary(record, without=shown)
-    if not is_full:
+    lines = (*failure_lines(checks), *key_figures(design), *last)
+    if is_full:
+        shown = ("title", "passes", "checks_failed", "not_proved", "chosen")
+        page = below_summary(record, without=shown)
+    else:
         tables = {"greatest_loads": greatest_loads(design), "parts": parts_of(design)}
         page = record_table({n: t for n, t in tables.items() if t}, prose=record.prose)
-    return Answer((summary,), page, record)
+    return Answer((Summary(f"{title_of(design)}: {text}", lines, state),), page, record)
 
 
 OF_LOADS = ("input", "pin", "wheel", "rack", "tightest", "motor")
@@ -108,13 +107,10 @@ def key_figures(design: Design) -> Iterator[SummaryLine]:
     """Six figures of a machine and its motor; without a load its peaks instead."""
     values = design.report.table.to_dict()
     unit, times = design.mechanism.output.unit, design.timings
+    texts = [(measured(t.step, unit), measured(t.motion_s, "s"), measured(t.dwell_s, "s"))
+             for t in times]  # fmt: skip
     steps, motions, dwells = (
-        " and ".join(dict.fromkeys(each))
-        for each in (
-            [measured(t.step, unit) for t in times],
-            [measured(t.motion_s, "s") for t in times],
-            [measured(t.dwell_s, "s") for t in times],
-        )
+        " and ".join(dict.fromkeys(each)) for each in zip(*texts, strict=True)
     )
     n_rpm = measured(design.spec.drive.n_rpm, "rpm")
     text = f"{steps} in {motions}, then {dwells} of dwell; input at {n_rpm}"
@@ -137,11 +133,8 @@ def key_figures(design: Design) -> Iterator[SummaryLine]:
         yield from chosen_lines(design.chosen_by_load, design.spec.path)
     else:
         unit = design.mechanism.output.rate_unit
-        for name, digit, power in (
-            ("velocity", "", ""),
-            ("acceleration", "2", "²"),
-            ("jerk", "3", "³"),
-        ):
+        powers = {"velocity": ("", ""), "acceleration": ("2", "²"), "jerk": ("3", "³")}
+        for name, (digit, power) in powers.items():
             size = measured(values[f"{name}.max_{unit}_s{digit}"], f"{unit}/s{power}")
             yield SummaryLine(name, f"{size} at {measured(values[f'{name}.at_deg'], 'deg')}")
         yield from tightest(design.checks)

@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from itertools import chain
 
 import numpy as np
 
 from geneva_cli.errors import GenevaError, clean, cut
 from geneva_cli.numerics.arrays import Array, Whole
-from geneva_cli.progress import Meter, tracked
+from geneva_cli.progress import Meter
 from geneva_cli.spec.schema import TEXT_MAX
 from geneva_cli.specfile.writer import quoted, spec_lines
-from geneva_cli.study.rows import Cell, Rows, joined, rows_of
-from geneva_cli.study.sweep.constraints import Nearness, is_number
-from geneva_cli.study.sweep.request import Outcome, SweepRequest
+from geneva_cli.study.fields import Cell, Column, Rows, joined, rows_of
+from geneva_cli.study.sweep.constraints import Objective, is_number
+from geneva_cli.study.sweep.request import Outcome
+from geneva_cli.study.sweep.run import Sweep
+from geneva_cli.study.synth.family_search import Zoom, sampled, zoom
 
 MOST = 300  # designs of one run of the optimiser, far more than it needs with one or two keys
 # The same where each design is computed alone, often with its parts: up to half a minute a run. It
@@ -24,47 +25,35 @@ FAR = 1e3  # violation, or scaled cost, of a design that cannot be built
 PLACES_MAX = 24  # that are kept and refined
 
 
-def best_spec(outcome: Outcome, row_blocks: Iterable[Rows]) -> list[str]:
+def best_spec(outcome: Outcome, goal: Objective, row_blocks: Iterable[Rows]) -> list[str]:
     """Return the lines of a spec of the best design of a sweep; its rows are not kept.
 
-    The spec's own design is tried too, if its values are among those varied. ``outcome`` counts the
-    rows and the spec's own design. The keys that vary in a span are refined: first by clouds of
+    ``outcome`` counts the rows. The keys that vary in a span are refined: first by clouds of
     designs that shrink about the best places, then by an optimiser from the best of these.
     """
-    request = outcome.request
-    sweep, search = request.sweep, _SweepSearch(request)
-    # a random sample comes near the spec's own design, but does not contain it
-    own = sweep.own_values if search.free else None
-    nearness, tried, feasible, found = Nearness(search.bounds), 0, 0, list[Rows]()
-    own_design = [] if own is None else [rows_of([sweep.row(own)])]
-    for rows in outcome.counted(chain(row_blocks, own_design)):
-        tried += len(rows)
+    sweep, feasible = outcome.sweep, 0
+    search, found = _SweepSearch(sweep, goal), list[Rows]()
+    for rows in outcome.counted(row_blocks):
         feasible += int((search.merits(rows)[0] == 0.0).sum())
-        nearness.add(rows.numbers)
         found = [search.foremost(joined([*found, rows]), 4 * PLACES_MAX)]
     places = search.closer(search.foremost(found[0], PLACES_MAX))
     starts = places.taken(search.merits(places)[0] == 0.0)
     if not len(starts):
-        why = nearness.phrases() or [f"no design has a value of {search.name}"]
-        near = {c.name: places.row(0)[i] for i, c in search.bounds}
-        if len(search.bounds) > 1 and all(map(is_number, near.values())):
-            texts = (f"{name} {value:.6g}" for name, value in near.items())
-            why.append(f"the design that comes nearest to all has {', '.join(texts)}")
-        raise GenevaError(f"--best: none of {tried:,} designs is feasible: {'; '.join(why)}")
+        why = outcome.nearness.phrases() or [f"no design has a value of {goal.name}"]
+        raise GenevaError(f"--best: none of {outcome.all:,} designs is feasible: {'; '.join(why)}")
     # the best of them suffice; at last onto the bounds that bind
     each = [search.refined(row) for row in [*starts][: 3 if sweep.is_batched else 1]]
     refined = search.foremost(rows_of(each), 1).row(0)
-    keys = search.keys(search.refined(refined, reach=2e-3))
+    keys = search.refined(refined, reach=2e-3)[: len(sweep.keys)]
     best = sweep.row(keys)  # computed again as a single design: this row is the result
     values = {n: float(v) for n, v in zip(sweep.names, best, strict=True) if is_number(v)}
-    word = "least" if search.sign > 0.0 else "greatest"
     spec = (machine := sweep.machine(keys)).spec
     notes = [
-        f"# The {word} {search.name} of {tried:,} designs, {feasible:,} of them within the bounds: "
-        f"{values[search.name]:.9g}."
+        f"# The {goal} of {outcome.all:,} designs, {feasible:,} of them within the bounds: "
+        f"{values[goal.name]:.9g}."
     ]
-    notes += [f"# {c}: {values[c.name]:.9g}{c.standing(values[c.name])}" for _, c in search.bounds]
-    for name, value in zip(request.of_best.names, request.of_best.of(machine), strict=True):
+    notes += [f"# {c}: {values[c.name]:.9g}" for c in sweep.bounds]
+    for name, value in zip(sweep.of_best.names, sweep.of_best.of(machine), strict=True):
         if value is None or isinstance(value, bool):
             text = "none" if value is None else "yes" if value else "no"
         else:
@@ -77,7 +66,7 @@ def best_spec(outcome: Outcome, row_blocks: Iterable[Rows]) -> list[str]:
             "give a narrower range."
         )
     if spec.title:  # the spec's own title may describe what was varied
-        title = f"{word.capitalize()} {search.name}, varied from: {spec.title}"
+        title = f"The {goal}, varied from: {spec.title}"
         notes.append(f"title = {quoted(cut(title, TEXT_MAX))}")
     return [*notes, *spec_lines(spec)]
 
@@ -85,23 +74,15 @@ def best_spec(outcome: Outcome, row_blocks: Iterable[Rows]) -> list[str]:
 class _SweepSearch:
     """The rows of a sweep for an optimiser, with free keys as fractions of their spans."""
 
-    def __init__(self, request: SweepRequest) -> None:
-        self.sweep, (self.sign, self.name) = request.sweep, request.objectives[0]
-        names, axes = self.sweep.names, self.sweep.plan.axes
-        self.at = names.index(self.name)
-        self.bounds = [(names.index(c.name), c) for c in request.constraints]
-        self.free = [i for i, a in enumerate(axes) if a.span]
-        ends = [axes[i].values for i in self.free]
+    def __init__(self, sweep: Sweep, goal: Objective) -> None:
+        self.sweep, self.sign = sweep, goal.sign
+        self.at = sweep.names.index(goal.name)
+        self.bounds = [(sweep.names.index(c.name), c) for c in sweep.bounds]
+        self.free = [i for i, a in enumerate(sweep.plan.axes) if a.span]
+        ends = [sweep.plan.axes[i].values for i in self.free]
         self.low, self.high = np.array(ends, dtype=float).reshape(-1, 2).T
-        self.most = MOST if self.sweep.is_batched else MOST_ALONE
+        self.most = MOST if sweep.is_batched else MOST_ALONE
         self.is_cut_short = False  # True once the optimiser has reached that number
-
-    def keys(self, row: Sequence[Cell]) -> list[Cell]:
-        return [*row[: len(self.sweep.plan.axes)]]
-
-    def costs(self, rows: Rows) -> Array:
-        """The objective (n,), signed so that it is minimised; infinite for one that lacks it."""
-        return np.nan_to_num(self.sign * rows.numbers(self.at), nan=np.inf)
 
     def margins(self, rows: Rows) -> Array:
         """The relative margins to the bounds (b, n); -FAR for a design without the quantity."""
@@ -109,8 +90,11 @@ class _SweepSearch:
         return np.reshape(each, (len(each), len(rows)))
 
     def merits(self, rows: Rows) -> tuple[Array, Array]:
-        """Violations of the bounds, 0 where they are kept apart from rounding, and costs."""
-        costs = self.costs(rows)
+        """Violations of the bounds, 0 where they are kept apart from rounding, and costs.
+
+        The costs are the objective (n,), signed so that it is minimised; infinite without it.
+        """
+        costs = np.nan_to_num(self.sign * rows.numbers(self.at), nan=np.inf)
         kept = np.isfinite(costs)
         for i, c in self.bounds:
             kept &= c.kept_by(rows.numbers(i))
@@ -132,7 +116,7 @@ class _SweepSearch:
         violations, costs = self.merits(rows)
         order = np.lexsort((costs, violations))
         if self.free:
-            fixed = [i for i in range(len(self.sweep.plan.axes)) if i not in self.free]
+            fixed = [i for i in range(len(self.sweep.keys)) if i not in self.free]
             choices = [tuple(row[i] for i in fixed) for row in rows]
             thirds = np.minimum(self.fractions(rows) * 3.0, 2.0).astype(int).tolist()
             places = [*zip(choices, map(tuple, thirds), strict=True)]
@@ -149,34 +133,29 @@ class _SweepSearch:
         """
         if not (self.free and self.sweep.is_batched):
             return rows
-        draw = np.random.default_rng(0)
-        count = 48  # designs about each place in a round
-        width = 0.25  # half of the cloud's, as a fraction of the span; 16 rounds take it to 1e-4
-        of = np.arange(len(rows))
-        for _ in tracked(range(16), "rounds", 16):
-            parents = np.repeat(of, count)
-            steps = draw.uniform(-width, width, (len(parents), len(self.free)))
-            at = self.fractions(rows)[parents] + steps
-            about = self.moved(rows.taken(parents), at)
-            every = joined([rows, self.sweep.rows_of(about.columns)])
-            violations, costs = self.merits(every)
-            owner = np.concatenate((of, parents))
-            order = np.lexsort((costs, violations, owner))
-            rows = every.taken(_first_of_each(order, owner.tolist()))
-            width *= 0.6
-        violations, costs = self.merits(rows)
-        order = np.lexsort((costs, violations))
-        least = costs[order[0]]
-        # clouds come far closer to a minimum than 1 %, so that a place above it is no rival
-        return rows.taken(order[costs[order] <= least + 0.01 * abs(least)])
+        draw, every = np.random.default_rng(0), np.arange(len(rows))
 
-    def moved(self, rows: Rows, at: Array) -> Rows:
+        def cloud(number: int) -> Array:
+            return draw.uniform(-1.0, 1.0, (48, len(self.free)))
+
+        def evaluate(of: Whole, at: Array) -> tuple[Array, Array]:
+            return self.merits(self.sweep.rows_of(self.moved(rows.taken(of), at)))
+
+        # half a span wide at first; 16 rounds take it to 1e-4
+        near = Zoom(cloud, 0.25, 0.6, 0.6, 16)
+        found = zoom(evaluate, sampled(evaluate, every, self.fractions(rows)), near, keep=1)
+        found = found.take(np.lexsort((found.cost, found.violation)))
+        # clouds come far closer to a minimum than 1 %, so that a place above it is no rival
+        found = found.take(found.cost <= found.cost[0] + 0.01 * abs(found.cost[0]))
+        return self.sweep.rows_of(self.moved(rows.taken(found.of), found.at))
+
+    def moved(self, rows: Rows, at: Array) -> list[Column]:
         """The keys of designs, with the free ones at the fractions (n, k)."""
-        keys = rows.columns[: len(self.sweep.plan.axes)]
+        keys = rows.columns[: len(self.sweep.keys)]
         values = self.low + np.clip(at, 0.0, 1.0) * (self.high - self.low)
         for i, own in zip(self.free, values.T, strict=True):
             keys[i] = own
-        return Rows(keys)
+        return keys
 
     def refined(self, start: Sequence[Cell], reach: float = 0.05) -> list[Cell]:
         """The best design among a start and all that the optimiser evaluates from there.
@@ -188,19 +167,19 @@ class _SweepSearch:
         from scipy.optimize import NonlinearConstraint, minimize
 
         meter, first = Meter("designs near the best", self.most), rows_of([start])
-        scale = abs(self.costs(first)[0]) or 1.0
+        scale = abs(self.merits(first)[1][0]) or 1.0
         evaluated: dict[bytes, Rows] = {}
 
         def rows(x: Array) -> Rows:
             place = x.tobytes()
             if place not in evaluated:
-                keys = self.moved(first, x[None]).row(0)
+                keys = Rows(self.moved(first, x[None])).row(0)
                 evaluated[place] = rows_of([self.sweep.row(keys)])
                 meter.report(len(evaluated))
             return evaluated[place]
 
         def cost(x: Array) -> float:
-            return min(float(self.costs(rows(x))[0]) / scale, FAR)
+            return min(float(self.merits(rows(x))[1][0]) / scale, FAR)
 
         def margins(x: Array) -> Array:
             return self.margins(rows(x))[:, 0]
@@ -219,7 +198,7 @@ class _SweepSearch:
         self.is_cut_short |= len(evaluated) >= self.most
         kept = [r for r in (first, *evaluated.values()) if self.merits(r)[0][0] == 0.0]
         inside = [r for r in kept if (self.margins(r) >= 0.0).all()]
-        return min(inside or kept, key=lambda r: float(self.costs(r)[0])).row(0)
+        return min(inside or kept, key=lambda r: float(self.merits(r)[1][0])).row(0)
 
 
 def _first_of_each(order: Whole, groups: Sequence[object]) -> Whole:

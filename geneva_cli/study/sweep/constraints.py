@@ -1,4 +1,4 @@
-"""Bounds such as ``dwell_s >= 0.8``, and objectives such as ``min:acceleration.max``."""
+"""Bounds such as ``dwell_s >= 0.8``, objectives such as ``min:acceleration.max``, Pareto fronts."""
 
 from __future__ import annotations
 
@@ -10,9 +10,11 @@ from typing import NamedTuple, TypeGuard
 import numpy as np
 
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.numerics.arrays import Array, Mask, N, parameter
+from geneva_cli.numerics.arrays import Array, Mask, N, Whole, parameter
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.verdict.quantities.quantity_names import WORDS, whole_name
+
+BLOCK = 256  # rows of a front that are compared at once with all that are kept before them
 
 
 class Constraint(NamedTuple):
@@ -32,27 +34,17 @@ class Constraint(NamedTuple):
 
     def kept(self, value: object) -> bool:
         """Return True for a number that keeps the bound, apart from rounding."""
-        return is_number(value) and keeps(float(value), self._must_be, self.bound)
+        return is_number(value) and bool(self.kept_by(np.array([value], dtype=float))[0])
 
     def kept_by(self, values: Array) -> Mask:
         """True for the values (n,) that keep the bound, False for NaN."""
-        return np.asarray(keeps(parameter(values), self._must_be, self.bound))
-
-    @property
-    def _must_be(self) -> str:
-        return "at least" if self.sign == ">=" else "at most"
+        must_be = "at least" if self.sign == ">=" else "at most"
+        return np.asarray(keeps(parameter(values), must_be, self.bound))
 
     def margin(self, value: N) -> N:
         """The margin of values to the bound, relative to its size; negative outside."""
         margin = value - self.bound if self.sign == ">=" else self.bound - value
         return margin / (abs(self.bound) or 1.0)
-
-    def standing(self, value: float) -> str:
-        """A remark on a value that keeps the bound; empty for a value well inside."""
-        margin = self.margin(value)
-        if margin < 0.0:
-            return " (binds, met to rounding)"
-        return " (binds)" if margin <= 1e-6 else ""  # the optimiser leaves it less than this
 
 
 def is_number(value: object) -> TypeGuard[float]:
@@ -63,17 +55,15 @@ def is_number(value: object) -> TypeGuard[float]:
 def constraint(text: str) -> Constraint:
     """Return the bound in a text such as ``"dwell_s >= 0.8"``, with its quantity's whole name."""
     match = re.fullmatch(r"\s*([A-Za-z][\w.\-]*)\s*(<=|>=)\s*(\S+)\s*", text)
-    option = f"--subject-to {cut(text.strip())!r}"
-    if not match:
-        raise GenevaError(
-            f'{option}: it must be FIELD >= NUMBER or FIELD <= NUMBER, as "dwell_s >= 0.8"'
-        )
     try:
-        bound = float(match[3])
+        bound = float(match[3]) if match else math.nan
     except ValueError:
-        raise GenevaError(f'{option}: "{cut(match[3])}" is no number') from None
-    if not math.isfinite(bound):
-        raise GenevaError(f"{option}: the bound must be a finite number")
+        bound = math.nan
+    if not (match and math.isfinite(bound)):
+        raise GenevaError(
+            f"--subject-to {cut(text.strip())!r}: it must be FIELD >= NUMBER or FIELD <= NUMBER, "
+            'as "dwell_s >= 0.8"'
+        )
     return Constraint(whole_name(match[1], "--subject-to"), match[2], bound)
 
 
@@ -107,34 +97,33 @@ class Nearness:
 
         Where no design keeps one bound, others may not have been computed.
         """
-        some = None in self.nearest and any(x is not None for x in self.nearest)
-        return [
-            f"no design has a value of {c.name}"
-            if nearest is None
-            else f"{c} is kept by {count:,}" + (f" (nearest {nearest:.6g})" if not count else "")
-            for (_, c), count, nearest in zip(self.bounds, self.kept, self.nearest, strict=True)
-            if nearest is not None or not some
-        ]
+        some = any(x is not None for x in self.nearest)
+        phrases = []
+        for (_, c), count, nearest in zip(self.bounds, self.kept, self.nearest, strict=True):
+            if nearest is not None:
+                near = "" if count else f" (nearest {nearest:.6g})"
+                phrases.append(f"{c} is kept by {count:,}{near}")
+            elif not some:
+                phrases.append(f"no design has a value of {c.name}")
+        return phrases
 
 
-def refuse_words(options: Mapping[str, str], instead: str) -> None:
-    """Raise GenevaError for a quantity whose values are words.
+def refuse_unsound(
+    constraints: Sequence[Constraint], options: Mapping[str, str], instead: str
+) -> None:
+    """Raise GenevaError for bounds that no value keeps together, and for values that are words.
 
     ``options`` are the options that request quantities, by the quantities' names; ``instead`` says
     what would be right.
     """
-    for name, option in options.items():
-        if name in WORDS:
-            raise GenevaError(f"{option} {name}: a word has no order; {instead}")
-
-
-def refuse_contradictions(constraints: Sequence[Constraint]) -> None:
-    """Raise GenevaError for two bounds that no value keeps together."""
     for low in constraints:
         for high in constraints:
             apart = low.sign == ">=" and high.sign == "<=" and low.bound > high.bound
             if apart and low.name == high.name:
                 raise GenevaError(f"--subject-to: nothing is both {low} and {high}")
+    for name, option in options.items():
+        if name in WORDS:
+            raise GenevaError(f"{option} {name}: a word has no order; {instead}")
 
 
 class Objective(NamedTuple):
@@ -157,3 +146,29 @@ def objective(text: str, option: str) -> Objective:
             "min:acceleration.max"
         )
     return Objective(sign, whole_name(name, option))
+
+
+def front(costs: Array) -> Whole:
+    """The numbers of the rows of costs (n, d) on the Pareto front, ascending.
+
+    A row is on it if no other is as good in all objectives and better in one. Rows with a NaN are
+    left out. Equal rows stay together.
+    """
+    known = np.flatnonzero(~np.isnan(costs).any(axis=1))
+    if not len(known):
+        return known
+    rows, same = np.unique(costs[known], axis=0, return_inverse=True)
+    kept = np.zeros(len(rows), dtype=bool)
+    for start in range(0, len(rows), BLOCK):
+        # in lexicographic order nothing later dominates anything earlier
+        block = rows[start : start + BLOCK]
+        stays: Mask = np.logical_not(_as_good(block, rows[:start][kept[:start]]).any(axis=1))
+        left = block[stays]
+        stays[stays] = _as_good(left, left).sum(axis=1) <= 1  # as itself
+        kept[start : start + BLOCK] = stays
+    return known[kept[same.ravel()]]
+
+
+def _as_good(rows: Array, by: Array) -> Mask:
+    """Mask (n, m) of the pairs in which a row of ``by`` is as good or better in all costs."""
+    return np.logical_and.reduce([x[:, None] >= y for x, y in zip(rows.T, by.T, strict=True)])

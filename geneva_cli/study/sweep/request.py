@@ -2,99 +2,28 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
-from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.errors import GenevaError, below, cut
+from geneva_cli.errors import GenevaError, cut
 from geneva_cli.motion.mechanism import build
 from geneva_cli.parts.chosen import OF_SIZES, ByLoad, by_load
-from geneva_cli.specfile.columns import digest
 from geneva_cli.specfile.reader import read
-from geneva_cli.study.fields import Pick
+from geneva_cli.study.fields import Cell, Pick, Rows, cells_of
 from geneva_cli.study.fields import pick as pick_of
-from geneva_cli.study.rows import Cell, Rows, cells_of, joined
 from geneva_cli.study.sweep.constraints import (
-    Constraint,
     Nearness,
     Objective,
     constraint,
     is_number,
     objective,
-    refuse_contradictions,
-    refuse_words,
+    refuse_unsound,
 )
-from geneva_cli.study.sweep.front import front
 from geneva_cli.study.sweep.run import DEFAULT, Sweep, plan, sweep, with_values
 from geneva_cli.study.sweep.values import axis, refuse_twice
 from geneva_cli.table import Table, rows_table
-
-
-class SweepRequest(NamedTuple):
-    """A sweep, and the selection among its rows."""
-
-    sweep: Sweep
-    constraints: tuple[Constraint, ...]
-    objectives: tuple[Objective, ...]
-    jobs: int | None
-    files: tuple[str, ...]  # that the spec is read from
-    of_best: Pick  # quantities that are computed for the best design of --best only
-
-    @property
-    def chooses(self) -> bool:
-        """Return True if only some of the rows are kept."""
-        return bool(self.constraints or self.objectives)
-
-    @property
-    def key(self) -> str:
-        """A digest of all that the rows depend on: the sweep, and the files of points."""
-        return f"{self.sweep.key} {digest(self.inputs[1:])}"
-
-    @property
-    def inputs(self) -> tuple[str, ...]:
-        """The input files: the spec, the points that it names, and files named by a varied word.
-
-        A word that names no file is listed too, which is harmless.
-        """
-        folder = os.path.dirname(self.files[0])
-        words = [word for a in self.sweep.plan.axes for word in a.words]
-        return (*self.files, *(below(folder, word) for word in words))
-
-    def blocks(self, done: int = 0) -> Iterator[Rows]:
-        """All rows, in blocks; the first ``done`` rows are skipped."""
-        return self.sweep.blocks(done, self.jobs)
-
-    def chosen(self, row_blocks: Iterable[Rows]) -> Iterator[Rows]:
-        """The rows that keep all bounds and, of these, the Pareto front."""
-        names = self.sweep.names
-        bounds = [(names.index(c.name), c) for c in self.constraints]
-        signed = [(names.index(o.name), o.sign) for o in self.objectives]
-        best, size, count = list[Rows](), 0, 0  # the front so far, its size; all rows since then
-
-        def foremost() -> Rows:
-            rows = joined(best)
-            return rows.taken(front(np.column_stack([s * rows.numbers(i) for i, s in signed])))
-
-        for rows in row_blocks:
-            kept = np.full(len(rows), True)
-            for i, c in bounds:
-                kept &= c.kept_by(rows.numbers(i))
-            if bounds:
-                rows = rows.taken(kept)
-            if not signed:
-                if len(rows):
-                    yield rows
-                continue
-            best.append(rows)  # a row that the front dominates never returns
-            count += len(rows)
-            if count >= 2 * size:  # not for a few rows more, if the front is long
-                best = [foremost()]
-                size = count = len(best[0])
-        if best and len(rows := foremost()):
-            yield rows
 
 
 def request(
@@ -110,8 +39,8 @@ def request(
     pareto: str = "",
     best: str = "",
     jobs: int | None = None,
-) -> SweepRequest:
-    """Return the request of these options. Raises GenevaError, naming the option that is wrong.
+) -> Sweep:
+    """Return the sweep of these options. Raises GenevaError, naming the option that is wrong.
 
     ``settings``, texts ``KEY=VALUE``, replace keys of the spec.
     """
@@ -125,7 +54,7 @@ def request(
     except GenevaError as error:
         middle = [a.values[len(a.values) // 2] for a in axes]
         try:  # a spec that is invalid on its own
-            spec = with_values(text, axes, middle).spec()
+            spec = with_values(text, [a.key for a in axes], middle).spec()
         except GenevaError:
             raise error from None
     if spec.outline.files:
@@ -148,31 +77,34 @@ def request(
     names += ["checks.passes", "checks.failed"] if check else []
     of_best, picks = (pick_of(names), needed) if best else (Pick(), [*needed, *names])
     swept = sweep(text, plan(axes, random, seed or 0), picks)
-    if not best:  # which needs all values of designs that break a bound
-        swept = swept._replace(bounds=tuple(bounds))
-    refuse_contradictions(bounds)
     if len(by) < len({*goals}):
         twice = next(name for name in by if [o.name for o in {*goals}].count(name) > 1)
         raise GenevaError(f"--pareto {twice}: it cannot be both min and max; keep one of them")
-    refuse_words(dict.fromkeys(needed, "--subject-to") | by, "--vary or --set picks it")
-    return SweepRequest(swept, tuple(bounds), tuple(goals), jobs, spec.files, of_best)
+    refuse_unsound(bounds, dict.fromkeys(needed, "--subject-to") | by, "--vary or --set picks it")
+    return swept._replace(
+        bounds=tuple(bounds),
+        objectives=() if best else tuple(goals),
+        goal=goals[0] if best else None,
+        of_best=of_best,
+        jobs=jobs,
+        files=spec.files,
+    )
 
 
 class Outcome:
     """Counts of rows as they arrive: all, those that cannot be built, and those that are kept."""
 
-    def __init__(self, request: SweepRequest) -> None:
-        self.request = request
+    def __init__(self, sweep: Sweep) -> None:
+        self.sweep = sweep
         self.all = self.failed = self.left = 0
         self._first = ""  # why the first of them cannot be built
-        names = request.sweep.names
-        self._nearness = Nearness([(names.index(c.name), c) for c in request.constraints])
-        self._unknown = {names.index(o.name): o.name for o in request.objectives}
+        self.nearness = Nearness([(sweep.names.index(c.name), c) for c in sweep.bounds])
+        self._unknown = {sweep.names.index(o.name): o.name for o in sweep.objectives}
 
     def rows(self, row_blocks: Iterable[Rows]) -> Iterator[Rows]:
-        """The rows of the request, counted: all of them, or those that it chooses."""
+        """The rows of the sweep, counted: all of them, or those that it chooses."""
         counted = self.counted(row_blocks)
-        for block in self.request.chosen(counted) if self.request.chooses else counted:
+        for block in self.sweep.chosen(counted) if self.sweep.chooses else counted:
             self.left += len(block)
             yield block
 
@@ -183,26 +115,25 @@ class Outcome:
             self.all += len(rows)
             self.failed += len(errors) - errors.count(None)
             self._first = self._first or next((str(e) for e in errors if e is not None), "")
-            self._nearness.add(rows.numbers)
+            self.nearness.add(rows.numbers)
             for i in list(self._unknown):
                 if np.isfinite(rows.numbers(i)).any():
                     del self._unknown[i]
             yield rows
 
-    def refused(self) -> list[str]:
-        """The number of designs that cannot be built, with the first reason or where to find it."""
-        if not self.failed:
-            return []
-        why = f"the first: {self._first}" if self.request.chooses else "column error says why"
-        return [f"{self.failed:,} of {self.all:,} designs cannot be built: {why}"]
-
     def notes(self) -> list[str]:
-        """Notes for the user besides the rows."""
-        notes, sweep = self.refused(), self.request.sweep
+        """Notes for the user besides the rows, or the best design."""
+        notes, sweep = list[str](), self.sweep
+        if self.failed:
+            is_shown = not (sweep.chooses or sweep.goal)
+            why = "column error says why" if is_shown else f"the first: {self._first}"
+            notes.append(f"{self.failed:,} of {self.all:,} designs cannot be built: {why}")
+        if sweep.goal:
+            return notes
         if self.all and not self.left:
             unknown = [f"no design has a value of {name}" for name in self._unknown.values()]
-            why = dict.fromkeys([*unknown, *self._nearness.phrases()])
-            notes.append(f"none of {self.all:,} rows is left: {'; '.join(why)}")
+            reasons = dict.fromkeys([*unknown, *self.nearness.phrases()])
+            notes.append(f"none of {self.all:,} rows is left: {'; '.join(reasons)}")
         if any(group.table.startswith(OF_SIZES) for group in sweep.pick.groups):
             with suppress(GenevaError):  # the spec may lack a varied key
                 if words := ByLoad(by_load(build(sweep.text.spec())), {}).words:
@@ -224,12 +155,9 @@ class Digest:
     least of the first numeric quantity. ``place`` names the file with all rows.
     """
 
-    def __init__(self, request: SweepRequest, place: str = "-o FILE.csv") -> None:
-        self.place = place
-        self.names = request.sweep.names
-        self.goal = request.objectives[0] if request.objectives else None
-        self.quantities = request.sweep.pick.names
-        self.count = 0
+    def __init__(self, sweep: Sweep, place: str = "-o FILE.csv") -> None:
+        self.sweep, self.place, self.count = sweep, place, 0
+        self.goal = sweep.objectives[0] if sweep.objectives else None
         # rows behind their numbers, counted from 1; of the best behind their costs
         self.first: list[tuple[Cell, ...]] = []
         self.best: list[tuple[float, tuple[Cell, ...]]] = []
@@ -240,13 +168,14 @@ class Digest:
         def numbered(i: int) -> tuple[Cell, ...]:
             return (self.count + i + 1, *rows.row(i))
 
+        names = self.sweep.names
         self.first += map(numbered, range(min(len(rows), 2 * ROWS - len(self.first))))
-        for name in () if self.goal else self.quantities:  # the first that is a number somewhere
-            cells = cells_of(rows.columns[self.names.index(name)])
+        for name in () if self.goal else self.sweep.pick.names:  # the first with a number
+            cells = cells_of(rows.columns[names.index(name)])
             if any(is_number(cell) and not isinstance(cell, bool) for cell in cells):
                 self.goal = self.goal or Objective(1.0, name)
         if self.goal:
-            costs = self.goal.sign * rows.numbers(self.names.index(self.goal.name))
+            costs = self.goal.sign * rows.numbers(names.index(self.goal.name))
             best = np.argsort(costs, kind="stable")[:ROWS].tolist()  # NaN comes last
             self.best += [(costs[i], numbered(i)) for i in best if not np.isnan(costs[i])]
             self.best = sorted(self.best, key=lambda one: one[0])[:ROWS]
@@ -261,7 +190,7 @@ class Digest:
             if self.goal:
                 title = f"The {len(self.best)} rows with the {self.goal}"
                 titled.append(([row for _, row in self.best], title))
-        names = ("row", *self.names)
+        names = ("row", *self.sweep.names)
         for rows, title in titled:
             kept = [i for i in range(len(names)) if any(row[i] is not None for row in rows)]
             shown = [tuple(row[i] for i in kept) for row in rows]

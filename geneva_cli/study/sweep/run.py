@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import hashlib
 import math
-from collections.abc import Iterator, Mapping, Sequence
+import os
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import partial
 from itertools import chain
@@ -13,19 +14,19 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli import __version__
-from geneva_cli.errors import GenevaError, cut
+from geneva_cli.errors import GenevaError, below, cut
 from geneva_cli.kept import KEPT
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.parts import Parts, parts_of
+from geneva_cli.specfile.columns import digest
 from geneva_cli.specfile.reader import Setting, Text, setting
 from geneva_cli.study.batches import Batch, batch_rows, numbers
-from geneva_cli.study.fields import Pick, pick
+from geneva_cli.study.fields import Cell, Column, Pick, Rows, joined, pick, rows_of
 from geneva_cli.study.pool import cores, mapped
-from geneva_cli.study.rows import Cell, Column, Rows, rows_of
-from geneva_cli.study.sweep.constraints import Constraint
-from geneva_cli.study.sweep.values import POINTS_MAX, Value, VariedKey
+from geneva_cli.study.sweep.constraints import Constraint, Objective, front
+from geneva_cli.study.sweep.values import POINTS_MAX, VariedKey
 from geneva_cli.verdict.quantities.batch_members import share
 
 DEFAULT = ("timing.motion_deg", "timing.dwell_s", "velocity.max", "acceleration.max", "jerk.max")
@@ -47,9 +48,9 @@ class SweepPlan(NamedTuple):
     def __len__(self) -> int:
         return self.random or math.prod(len(a.values) for a in self.axes)
 
-    def rows(self, start: int, stop: int) -> list[tuple[Value, ...]]:
+    def rows(self, start: int, stop: int) -> list[list[Cell]]:
         """The values of the keys of the designs ``start`` to ``stop - 1``."""
-        return _values(self.columns(start, stop))
+        return [*Rows(self.columns(start, stop))]
 
     def columns(self, start: int, stop: int) -> list[Column]:
         """The values of each key in the designs ``start`` to ``stop - 1``."""
@@ -68,10 +69,6 @@ class SweepPlan(NamedTuple):
             numbers, at = np.divmod(numbers, len(a.values))
             columns.append(a.column(at))
         return columns[::-1]
-
-
-def _values(columns: Sequence[Column]) -> list[tuple[Value, ...]]:
-    return [tuple(value for value in row if value is not None) for row in Rows(columns)]
 
 
 def plan(axes: Sequence[VariedKey], random: int | None, seed: int) -> SweepPlan:
@@ -95,41 +92,70 @@ def plan(axes: Sequence[VariedKey], random: int | None, seed: int) -> SweepPlan:
 
 
 class Sweep(NamedTuple):
-    """A spec, the plan of its varied keys, and the quantities to compute for each design."""
+    """A spec, the plan of its varied keys, the quantities of each design, and the rows to keep."""
 
     text: Text
     plan: SweepPlan
     pick: Pick
-    bounds: tuple[Constraint, ...] = ()  # no parts are made of designs that break one of them
+    bounds: tuple[Constraint, ...] = ()
+    objectives: tuple[Objective, ...] = ()  # those of a Pareto front
+    jobs: int | None = None  # processes; all cores for None
+    files: tuple[str, ...] = ()  # that the spec is read from
+    goal: Objective | None = None  # of --best, in place of a front
+    of_best: Pick = Pick()  # quantities that are computed for the best design only
 
     @property
     def names(self) -> tuple[str, ...]:
         """The names of the columns."""
-        return (*(a.key for a in self.plan.axes), *self.pick.names, ERROR)
+        return (*self.keys, *self.pick.names, ERROR)
+
+    @property
+    def keys(self) -> list[str]:
+        """The names of the varied keys."""
+        return [a.key for a in self.plan.axes]
+
+    @property
+    def chooses(self) -> bool:
+        """Return True if only some of the rows are kept."""
+        return bool(self.bounds or self.objectives)
 
     @property
     def key(self) -> str:
-        """A digest of all that the rows depend on."""
-        inputs = repr((__version__, self.text, self.plan, self.pick.names))
-        return hashlib.sha256(inputs.encode()).hexdigest()
+        """A digest of all that the rows depend on: the sweep, and the files of points."""
+        own = repr((__version__, self.text, self.plan, self.pick.names))
+        return f"{hashlib.sha256(own.encode()).hexdigest()} {digest(self.inputs[1:])}"
+
+    @property
+    def inputs(self) -> tuple[str, ...]:
+        """The input files: the spec, the points that it names, and files named by a varied word.
+
+        A word that names no file is listed too, which is harmless.
+        """
+        folder = os.path.dirname(self.files[0])
+        words = [word for a in self.plan.axes for word in a.words]
+        return (*self.files, *(below(folder, word) for word in words))
 
     @property
     def is_batched(self) -> bool:
         """Return True if all quantities can be computed for a batch of designs."""
         return bool(self.pick.names) and not self.pick.rest.names
 
-    def blocks(self, done: int = 0, workers: int | None = None) -> Iterator[Rows]:
+    @property
+    def _makes_parts(self) -> bool:
+        return any(group.makes_parts for group in self.pick.groups)
+
+    def blocks(self, done: int = 0) -> Iterator[Rows]:
         """The rows in blocks and in order; the first ``done`` rows are skipped."""
         if self.is_batched:
             size = BLOCK
-        elif not any(group.makes_parts for group in self.pick.groups):
+        elif not self._makes_parts:
             size = 64
         else:
             # Parts are slow: eight tasks keep several processes busy. Four designs or more share
             # the searches of their batch, which keeps the results of at most KEPT.
             size = min(KEPT, max(4, math.ceil(len(self.plan) / 8)))
         starts = range(done, len(self.plan), size)
-        count = min(len(starts), cores() if workers is None else workers)
+        count = min(len(starts), cores() if self.jobs is None else self.jobs)
         yield from mapped(partial(self._block, size), starts, count)
 
     def _block(self, size: int, start: int) -> Rows:
@@ -147,21 +173,20 @@ class Sweep(NamedTuple):
 
     def known(self, keys: Sequence[Column]) -> Array:
         """The quantities of ``pick.batched`` (q, n) of designs, NaN where a batch lacks them."""
-        names, designs = self.pick.batched, Rows(keys)
-        return numbers(self._batches(designs), names, len(designs))
+        return numbers(self._batches(Rows(keys)), self.pick.batched, len(keys[0]))
 
     def _batches(self, designs: Rows) -> Iterator[Batch]:
         def spec(values: Sequence[Cell]) -> Spec:
-            return with_values(self.text, self.plan.axes, values).spec()
+            return with_values(self.text, self.keys, values).spec()
 
-        return batch_rows(designs, [a.key for a in self.plan.axes], spec)
+        return batch_rows(designs, self.keys, spec)
 
     def _rows_alone(self, designs: Rows, values: Array) -> list[list[Cell]]:
         """The rows of designs with quantities that are computed for each; ``values`` are known."""
-        keys = [*designs]
-        whole = np.flatnonzero(~np.isnan(values).any(axis=0)).tolist() if len(values) else []
-        cells = Rows([*values[:, whole]]) if whole else ()
-        known = dict(zip(whole, cells, strict=True))
+        keys, known = [*designs], dict[int, list[Cell]]()
+        if len(values):
+            whole = np.flatnonzero(~np.isnan(values).any(axis=0))
+            known = dict(zip(whole.tolist(), Rows([*values[:, whole]]), strict=True))
         out: dict[int, list[Cell]] = {}
         for i, own in known.items():
             if not self._keeps(by_name := dict(zip(self.pick.batched, own, strict=True))):
@@ -171,58 +196,41 @@ class Sweep(NamedTuple):
             part = left[start : start + KEPT]
             last: Parts | None = None
             for i, machine in zip(part, self._machines(designs.taken(np.array(part))), strict=True):
-                if isinstance(machine, GenevaError):
-                    out[i] = self.row(keys[i], machine)
-                    continue
-                last = last.following(machine) if last else parts_of(machine)
-                out[i] = self.row(keys[i], last, known.get(i))
+                if machine:
+                    last = last.following(machine) if last else parts_of(machine)
+                out[i] = self.row(keys[i], last if machine else None, known.get(i))
         return [out[i] for i in range(len(keys))]
 
     def _keeps(self, cells: Mapping[str, Cell]) -> bool:
-        return all(bound.kept(cells[bound.name]) for bound in self.bounds if bound.name in cells)
+        """Return False for a design whose parts nobody needs, as it breaks a bound."""
+        known = () if self.goal else self.bounds  # a search needs them to come nearer
+        return all(bound.kept(cells[bound.name]) for bound in known if bound.name in cells)
 
-    def _machines(self, designs: Rows) -> list[Mechanism | GenevaError]:
-        """The machine of each row, or why it cannot be built."""
-        machines: list[Mechanism | GenevaError] = []
-        for values in designs:
-            try:
-                machines.append(self.machine(values))
-            except GenevaError as error:
-                machines.append(error)
+    def _machines(self, designs: Rows) -> list[Mechanism | None]:
+        """The machine of each row, None if it cannot be built."""
+        machines: list[Mechanism | None] = [None] * len(designs)
+        for i, values in enumerate(designs):
+            with suppress(GenevaError):  # its row says why
+                machines[i] = self.machine(values)
         # the loads of their checks are those of batches
-        makes_parts = any(group.makes_parts for group in self.pick.groups)
-        for members, machine in self._batches(designs) if makes_parts else ():
-            own = [one for i in members.tolist() if isinstance(one := machines[i], Mechanism)]
+        for members, batch in self._batches(designs) if self._makes_parts else ():
+            own = [one for i in members.tolist() if (one := machines[i])]
             if len(own) == len(members) > 1:
-                share(machine, own)
+                share(batch, own)
         return machines
-
-    @property
-    def own_values(self) -> list[Value] | None:
-        """The spec's own values of the varied keys; None if one is not among those varied."""
-        with suppress(GenevaError):  # the spec may lack a varied key
-            spec, own = self.text.spec(), list[Value]()
-            for axis in self.plan.axes:
-                table, _, name = axis.key.rpartition(".")
-                own.append(spec.table(table).get(name, ""))
-            if all(value in axis for value, axis in zip(own, self.plan.axes, strict=True)):
-                return own
-        return None
 
     def row(
         self,
         values: Sequence[Cell],
-        parts: Parts | GenevaError | None = None,
+        parts: Parts | None = None,
         known: Sequence[Cell] | None = None,
     ) -> list[Cell]:
-        """The row of the design with these values of the keys.
+        """The row of the design with these values of the keys, computed alone.
 
-        It is computed alone, with the parts of its machine or the reason for none, if they are
-        given; ``known`` are the quantities of ``pick.batched`` from a batch.
+        ``parts`` are those of its machine, if they are made, and ``known`` the quantities of
+        ``pick.batched`` from a batch.
         """
         try:
-            if isinstance(parts, GenevaError):
-                raise parts
             parts = parts or parts_of(self.machine(values))
             return [*values, *self.pick.of_parts(parts, known, self._keeps), None]
         except GenevaError as error:
@@ -230,20 +238,45 @@ class Sweep(NamedTuple):
 
     def machine(self, values: Sequence[Cell]) -> Mechanism:
         """The machine with these values. Raises GenevaError if it cannot be built."""
-        text = with_values(self.text, self.plan.axes, values)
+        text = with_values(self.text, self.keys, values)
         spec = text.spec()
         with text.located():
             return build(spec)
 
+    def chosen(self, row_blocks: Iterable[Rows]) -> Iterator[Rows]:
+        """The rows that keep all bounds and, of these, the Pareto front."""
+        bounds = [(self.names.index(c.name), c) for c in self.bounds]
+        signed = [(self.names.index(o.name), o.sign) for o in self.objectives]
+        best, size, count = list[Rows](), 0, 0  # the front so far, its size; all rows since then
+
+        def foremost() -> Rows:
+            rows = joined(best)
+            return rows.taken(front(np.column_stack([s * rows.numbers(i) for i, s in signed])))
+
+        for rows in row_blocks:
+            for i, c in bounds:
+                rows = rows.taken(c.kept_by(rows.numbers(i)))
+            if not signed:
+                if len(rows):
+                    yield rows
+                continue
+            best.append(rows)  # a row that the front dominates never returns
+            count += len(rows)
+            if count >= 2 * size:  # not for a few rows more, if the front is long
+                best = [foremost()]
+                size = count = len(best[0])
+        if best and len(rows := foremost()):
+            yield rows
+
 
 def sweep(text: Text, plan: SweepPlan, picks: Sequence[str] = DEFAULT) -> Sweep:
-    """Return the sweep of a spec."""
+    """Return the sweep of a spec. Raises GenevaError if no design of a sample can be built."""
     varied = [a.key for a in plan.axes]  # these have their columns already: no name may occur twice
     names = tuple(name for name in pick(picks).names if name not in varied)
     run, size, most = Sweep(text, plan, Pick(names)), len(plan), 1000  # designs of the sample
     count, reasons = min(size, most), list[str]()
     # the middle design comes first: most ranges have one that can be built
-    middle = _values([a.between(np.array([0.5])) for a in plan.axes])
+    middle = [*Rows([a.between(np.array([0.5])) for a in plan.axes])]
     starts, some = [i * size // count for i in range(count)], 1
     if plan.random:  # its first ones, at once
         starts, some = [0], count
@@ -259,10 +292,10 @@ def sweep(text: Text, plan: SweepPlan, picks: Sequence[str] = DEFAULT) -> Sweep:
     raise GenevaError(f"{said} can be built: {reasons[1]}")  # the first may be one of the others
 
 
-def with_values(text: Text, axes: Sequence[VariedKey], values: Sequence[Cell]) -> Text:
+def with_values(text: Text, keys: Sequence[str], values: Sequence[Cell]) -> Text:
     """The spec with the values of the varied keys set over its own."""
     changes = []
-    for (key, *_), value in zip(axes, values, strict=True):
+    for key, value in zip(keys, values, strict=True):
         shown = f"{value:.12g}" if isinstance(value, float) else str(value)
         path = setting(f"{key}=0", "--vary").path
         changes.append(Setting(cut(f"{key}={shown}"), path, value))

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Sequence
-from contextlib import suppress
 from decimal import Decimal, InvalidOperation
 from typing import NamedTuple, TypeAlias
 
@@ -17,7 +16,7 @@ from geneva_cli.spec.rules import range_text
 from geneva_cli.spec.units import in_unit_of, unit_key
 from geneva_cli.specfile.keys import is_whole
 from geneva_cli.specfile.reader import Setting, read_value, whole_key
-from geneva_cli.study.rows import Column, column_of
+from geneva_cli.study.fields import Column, column_of
 
 Value: TypeAlias = float | int | str
 POINTS_MAX = 100_000_000  # rows of a sweep: some hours and some gigabytes
@@ -29,13 +28,6 @@ class VariedKey(NamedTuple):
     key: str  # table.key, as in the spec
     values: Sequence[Value]
     span: bool = False
-
-    def __contains__(self, value: object) -> bool:
-        """Return True for one of the values, or for a number between the ends of a span."""
-        if not self.span:
-            return value in self.values
-        low, high = map(float, self.values)
-        return isinstance(value, float | int) and low <= value <= high
 
     @property
     def words(self) -> list[str]:
@@ -118,43 +110,29 @@ def _whole(parts: Iterable[str]) -> bool:
 
 def _range(ends: tuple[str, str, str], option: str) -> Sequence[float]:
     """The values from LOW to HIGH by STEP; whole numbers need no step."""
-    least, most, by_step = ends
-    if _whole(filter(None, ends)) and least and most:
-        first, last, by = int(least), int(most), int(by_step or 1)
-        if by:
-            _refuse_many(option, abs((last - first) / by) + 1)
-            if numbers := range(first, last + (1 if by > 0 else -1), by):
-                return numbers
-    low, high = _decimal(least, option), _decimal(most, option)
-    if not by_step and not _whole(ends[:2]):
+    low, high, step = (_decimal(text, option) for text in (*ends[:2], ends[2] or "1"))
+    if not ends[2] and not _whole(ends[:2]):
         raise GenevaError(f"{option}: a range of fractions needs its step: LOW..HIGH:STEP")
-    step = _decimal(by_step or "1", option)
     if not step or (high - low) / step < 0:
         raise GenevaError(
             f"{option}: a step of {step:g} does not lead from {low:g} to {high:g}; "
             "give LOW..HIGH:STEP"
         )
-    count = (high - low) / step
-    _refuse_many(option, count + 1)
-    return Steps(low, step, math.floor(count) + 1)
-
-
-def _in_unit_of(key: str, text: str, option: str) -> str:
-    """A text with a unit as the number in the key's unit, and any other text unchanged."""
-    if not text.strip()[-1:].isalnum() or not unit_key(key):
-        return text
-    with suppress(ValueError):
-        float(text)
-        return text
-    try:
-        return repr(in_unit_of(key, text))
-    except GenevaError as error:
-        raise GenevaError(f"{option}: {error}") from None
+    _refuse_many(option, (high - low) / step + 1)
+    places = -min(0, *(int(x.as_tuple().exponent) for x in (low, high, step)))
+    first, last, by = (int(x.scaleb(places)) for x in (low, high, step))
+    whole = range(first, last + (1 if by > 0 else -1), by)
+    return whole if _whole(filter(None, ends)) else Steps(whole, 10**places)
 
 
 def _one(key: str, text: str, option: str) -> Value:
     """A number, a word, or true or false; a text with a unit is a number in the key's unit."""
-    value = read_value(_in_unit_of(key, text, option), option)
+    value = read_value(text, option)
+    if isinstance(value, str) and text.strip()[-1:].isalnum() and unit_key(key):
+        try:
+            value = in_unit_of(key, text)
+        except GenevaError as error:
+            raise GenevaError(f"{option}: {error}") from None
     if not isinstance(value, (int, float, str)) or not text.strip():
         raise GenevaError(f"{option}: {cut(text)!r} is neither a number nor a word")
     if isinstance(value, float) and not math.isfinite(value):
@@ -176,35 +154,30 @@ def _decimal(text: str, option: str) -> Decimal:
 
 
 class Steps(Sequence[float]):
-    """LOW, LOW + STEP, ... in decimals: 0..0.9:0.1 holds 0.3 and ends with 0.9.
+    """Whole numbers over a power of ten: 0..0.9:0.1 holds 0.3 and ends with 0.9.
 
     They are computed when read, so ten million of them take no memory.
     """
 
-    def __init__(self, low: Decimal, step: Decimal, length: int) -> None:
-        self.low, self.step, self.length = low, step, length
+    def __init__(self, whole: range, divisor: int) -> None:
+        self.whole, self.divisor = whole, divisor
 
     def __len__(self) -> int:
-        return self.length
+        return len(self.whole)
 
     def __getitem__(self, at: int) -> float:  # type: ignore[override]
-        if not 0 <= at < self.length:
-            raise IndexError(at)
-        return float(self.low + self.step * at)
+        return self.whole[at] / self.divisor
 
     def column(self, numbers: Whole) -> Array:
         """The values with these numbers, (n,)."""
-        places = -min(0, *(int(x.as_tuple().exponent) for x in (self.low, self.step)))
-        if places <= 22:  # a power of ten that a float holds exactly
-            low, step = (int(x.scaleb(places)) for x in (self.low, self.step))
-            if max(abs(low), abs(low + step * (self.length - 1))) < 2**53:
-                # of exact numbers, so that the quotient is rounded once, as the decimal is
-                exact: Array = (low + step * numbers) / 10.0**places
-                return exact
-        return np.array([self[i] for i in numbers.tolist()])
+        if self.divisor > 1e22 or max(map(abs, (self.whole[0], self.whole[-1]))) >= 2**53:
+            return np.array([self[i] for i in numbers.tolist()])
+        # floats hold these exactly, so that the quotient is rounded once
+        values: Array = (self.whole.start + self.whole.step * numbers) / float(self.divisor)
+        return values
 
     def __repr__(self) -> str:
-        return f"Steps({self.low}, {self.step}, {self.length})"
+        return f"Steps({self.whole}, {self.divisor})"
 
 
 def _refuse_many(option: str, count: float | Decimal, most: int = POINTS_MAX) -> None:

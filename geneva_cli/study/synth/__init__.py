@@ -4,10 +4,8 @@ Its steps, one file each:
 
     reading        typed options                    -> a requirement (``study.target``)
     families/      machines that may meet it, with free numbers in each family
-    optimiser      a grid and ever closer samples, of many tasks as one batch
-    family_search  the best machine of each family
+    family_search  the best machine of each family: a grid and ever closer samples
     suiting        the roller that suits each machine, or the obstacle to its parts
-    machine_rows   description and costs of each
-    synth_search   the rows of all groups that keep the bounds, the best first
-    synth_table    the rows, the first of them turned, and a row as a spec; ``shown``: for people
+    synth_search   the rows of all groups with their costs, the best first
+    synth_table    the rows, the first of them turned, and a row as a spec
 """

@@ -1,40 +1,169 @@
 """The best machine of each family that keeps the bounds, or the one nearest to them.
 
-The best has the least peak acceleration (in rad/s² if times are required), or the least of the
-goal's quantity. If any motion is allowed, it is the nearest to the plain crank.
+A search has many tasks as one batch: a grid, then samples ever closer. The places of a task are
+points of a unit cube. A place is better if it violates its bounds less or, at equal violations, if
+it costs less.
+
+The best machine has the least peak acceleration (in rad/s² if times are required), or the least of
+the goal's quantity. If any motion is allowed, it is the nearest to the plain crank.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import Any, TypeAlias
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
+from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.numerics.arrays import Array, Whole
+from geneva_cli.motion.many import changed
+from geneva_cli.numerics.arrays import Array, Mask, Whole, joined
 from geneva_cli.numerics.tolerances import ROUNDED
-from geneva_cli.study.batches import BatchKey, built, columns, split
+from geneva_cli.study.batches import built, columns, split
 from geneva_cli.study.sweep.constraints import Objective
 from geneva_cli.study.synth.families.family import Family
-from geneva_cli.study.synth.optimiser import SETTLED, Places, Zoom, sampled, tops, zoom
 from geneva_cli.study.target import Target
 from geneva_cli.verdict.quantities.quantity_names import in_batch
 
-FamilyMachine: TypeAlias = tuple[Spec, Family]
+ROUNDING = 1e-200  # a violation below it is rounding; each bound kept by rounding adds 1e-300
+SETTLED = 1e-11  # fraction of a cost: samples nearer to the best than this are equally good
+# Violations, and costs, of places (n, d) of tasks by their numbers; infinite without a machine.
+Evaluate: TypeAlias = Callable[[Whole, Array], "tuple[Array, Array]"]
 SOFT = 1e-60  # weight of the limits of a frame, which matter less than any bound
 BROKEN = 1e-40  # a violation below it is of such limits, or rounding
 GRID, TRACKS = 24, 3  # intervals of a span, sampled first; the best places that are improved
 QUARTERS = np.array([-3.0, -2.0, -1.0, 1.0, 2.0, 3.0])[:, None] / 4.0
+
+
+class Places(NamedTuple):
+    """Sampled places: the number of the task of each, its point, violation and cost."""
+
+    of: Whole
+    at: Array  # (n, d)
+    violation: Array
+    cost: Array
+
+    def take(self, which: Any) -> Places:
+        """Some of the places."""
+        return Places(*(part[which] for part in self))
+
+    def best(self, count: int) -> Places:
+        """The best places of each task, at most ``count``, in order of the tasks."""
+        return self.take(_first(self, self.of, count))
+
+    def joined(self, *others: Places) -> Places:
+        """These places and others."""
+        return joined([self, *others], 0)
+
+
+class Zoom(NamedTuple):
+    """Samplings near the best places.
+
+    ``offsets`` returns those of a sampling by its number, (k, d) in steps. The first step is a
+    fraction of the cube's side; after each sampling it is multiplied by ``better`` if the place was
+    improved, and else by ``worse``. ``around`` are the coordinates that wrap round.
+    """
+
+    offsets: Callable[[int], Array]
+    step: float
+    better: float
+    worse: float
+    most: int  # samplings
+    around: Sequence[int] = ()
+
+
+def sampled(evaluate: Evaluate, of: Whole, at: Array) -> Places:
+    """The places of tasks by their numbers, with violations and costs."""
+    return Places(of, at, *evaluate(of, at))
+
+
+def tops(evaluate: Evaluate, tasks: int, line: Array, most: int) -> Places:
+    """The places of a line that are better than both neighbours, at most ``most`` of each task."""
+    at = np.tile(line, tasks)[:, None]
+    every = sampled(evaluate, np.repeat(np.arange(tasks), len(line)), at)
+    rank = np.empty(len(at), dtype=int)
+    rank[np.lexsort((every.cost, every.violation))] = np.arange(len(at))
+    wide = np.pad(rank.reshape(tasks, -1), ((0, 0), (1, 1)), constant_values=len(at))
+    beside = np.minimum(wide[:, :-2], wide[:, 2:]).ravel()
+    return every.take((rank < beside) & np.isfinite(every.violation)).best(most)
+
+
+def zoom(
+    evaluate: Evaluate, best: Places, how: Zoom, keep: int = 0, patient: bool = False
+) -> Places:
+    """Improve places by samples ever closer to them.
+
+    Each place is improved alone until samples near it are equally good. With ``keep`` that many
+    places of each task are kept together, and all samplings are made. Without ``patient`` a place
+    is given up where no small step can keep the bounds.
+    """
+    track = best.of if keep else np.arange(len(best.of))
+    step, live = np.full(len(track), how.step), np.full(len(track), True)
+    for number in range(how.most):
+        if not live.any():
+            break
+        parents, offsets = best.take(live), how.offsets(number)
+        k, d = offsets.shape
+        at = (parents.at[:, None] + step[live][:, None, None] * offsets).reshape(-1, d)
+        inside = np.clip(at, 0.0, 1.0)
+        inside[:, how.around] = at[:, how.around] % 1.0
+        near = sampled(evaluate, np.repeat(parents.of, k), inside)
+        tracks = np.concatenate((track, np.repeat(track[live], k)))
+        steps = np.concatenate((step * how.worse, np.repeat(step[live] * how.better, k)))
+        every = best.joined(near)
+        kept = _first(every, tracks, keep or 1)
+        best, track, step = every.take(kept), tracks[kept], steps[kept]
+        if keep:
+            live = np.full(len(track), True)
+        else:
+            violation, cost = near.violation.reshape(-1, k), near.cost.reshape(-1, k)
+            live[live] = ~_done(best, live, violation, cost, patient)
+    return best
+
+
+def _first(places: Places, group: Whole, count: int) -> Whole:
+    """Numbers of the best ``count`` places of each group, in order of groups."""
+    order = np.lexsort((places.cost, places.violation, group))
+    own = group[order]
+    which: Whole = order[np.arange(len(own)) - np.searchsorted(own, own) < count]
+    return which
+
+
+def _done(best: Places, live: Mask, violation: Array, cost: Array, patient: bool) -> Mask:
+    """Mask of the live places that need no closer samples, from their last ones (n, k)."""
+    own = best.take(live)
+    with np.errstate(invalid="ignore"):
+        spread = np.abs(cost - own.cost[:, None]).max(axis=1)
+        # as good as all samples, or the best in a corner; or broken alike
+        kept = (violation < ROUNDING).all(axis=1) & (own.violation < ROUNDING)
+        corner = np.isin(own.at, (0.0, 1.0)).all(axis=1)
+        settled = kept & ((spread <= SETTLED * np.abs(own.cost)) | corner)
+        off = np.abs(violation - own.violation[:, None]).max(axis=1)
+        broken = own.violation > ROUNDING
+        settled |= broken & (off <= SETTLED * own.violation)
+        # beaten by another place of the task, by more than samples differ
+        least = np.full(best.of.max() + 1, math.inf)
+        np.minimum.at(least, best.of, np.where(best.violation < ROUNDING, best.cost, math.inf))
+        beaten = own.cost - 4.0 * spread > least[own.of]
+        beaten |= broken & np.isfinite(least[own.of])
+        if patient:
+            return settled | beaten
+        # the violation is more than twice what a step near it changes
+        hopeless = broken & (own.violation > 2.0 * (violation.max(axis=1) - own.violation))
+        return settled | beaten | hopeless
+
+
 # Samples on both sides of the best, each time four times as close.
 LINE = Zoom(lambda number: QUARTERS, 1.0 / GRID, 0.25, 0.25, 20)
 
 
 def best(
     families: Sequence[Family], target: Target, how_near: bool = False
-) -> tuple[list[FamilyMachine], list[FamilyMachine]]:
-    """The best machine of each family, with it: those that keep the bounds, and the others.
+) -> tuple[list[Spec], list[Spec]]:
+    """The best machine of each family: those that keep the bounds, and the others.
 
     The others break the bounds least, with ``how_near`` to the last digit.
     """
@@ -49,12 +178,14 @@ def best(
         kept = (found.violation < BROKEN).tolist()
         for of, x, keep in zip(found.of.tolist(), own, kept, strict=True):
             numbers[searched[of]], keeps[searched[of]] = x, keep
-    out: dict[bool | None, list[FamilyMachine]] = {True: [], False: []}
+    out: dict[bool | None, list[Spec]] = {True: [], False: []}
     for i, (f, x) in enumerate(zip(families, numbers, strict=True)):
         is_known = abs(x - f.known) <= 1e-4 * (f.high - f.low)  # of another family
         if keeps[i] is not None and not is_known:
-            spec = f.at(x) if math.isnan(f.best) else f.spec
-            out[keeps[i]] += [(spec, f)] if spec else []
+            values = f.keys(np.array([x])) if f.keys and math.isnan(f.best) else {}
+            with suppress(GenevaError):  # no machine at a number
+                spec = changed(f.spec, {key: float(v[0]) for key, v in values.items()})
+                out[keeps[i]].append(spec)
     return out[True], out[False]
 
 
@@ -68,8 +199,7 @@ def _best_places(free: FamilyCosts, how_near: bool) -> Places:
     left = np.setdiff1d(every, done.of)
     if not len(left):
         return done
-    grid = [np.arange(GRID + 1) / GRID]
-    first = tops(lambda of, at: free(left[of], at), len(left), grid, TRACKS)
+    first = tops(lambda of, at: free(left[of], at), len(left), np.arange(GRID + 1) / GRID, TRACKS)
     first = first._replace(of=left[first.of])
     tracks = first.joined(nearest.take(np.isin(nearest.of, left))).best(TRACKS)
     # at equal costs the plain crank's place, which may be another family's machine
@@ -95,8 +225,7 @@ class FamilyCosts:
         self.names = [self.goal.name, *(b.name for b in (*self.bounds, *self.soft))]
         each = [(f.low, f.high, f.plain) for f in families]
         self.low, self.high, self.plain = np.array(each).T
-        keys: dict[Any, list[BatchKey]] = {}
-        own = [split(f.spec, keys) for f in families]
+        own = split([f.spec for f in families])
         shapes = {shape: i for i, (shape, _) in enumerate(own)}
         self._own = [values for _, values in own]
         self._shape = np.array([shapes[shape] for shape, _ in own])

@@ -6,17 +6,14 @@ import math
 from collections.abc import Sequence
 
 from geneva_cli.errors import GenevaError, cut, few, nearest
-from geneva_cli.motion import registry
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.registry import STANDARD_LAWS as LAWS
 from geneva_cli.spec.rules import POSITIVE, Range, range_text
-from geneva_cli.spec.schema import fields
 from geneva_cli.study.survey import parse_z
 from geneva_cli.study.sweep.constraints import (
     constraint,
     objective,
-    refuse_contradictions,
-    refuse_words,
+    refuse_unsound,
 )
 from geneva_cli.study.target import GEARINGS, ROLLERS_MAX, SPACE, AllowedSpan, Target
 
@@ -62,27 +59,18 @@ def read_target(
     phrases = [spans[name].words(*SPANS[name][1:]) for name in spans]
     phrases = [w if w[:2] == "a " else " = ".join(w.split(" ", 1)) for w in phrases]
     bounds = tuple(constraint(text) for text in subject_to)
-    refuse_contradictions(bounds)
-    refuse_words(dict.fromkeys([b.name for b in bounds], "--subject-to"), "only numbers are bound")
+    options = dict.fromkeys([b.name for b in bounds], "--subject-to")
+    refuse_unsound(bounds, options, "only numbers are bound")
     phrases += [str(bound) for bound in bounds]
-    able: tuple[str, ...] = GEARINGS
     chosen = dict(zip(GEARINGS, (external, internal, spherical), strict=True))
     gearings = tuple(name for name, is_chosen in chosen.items() if is_chosen)
     if rollers is not None and not 1 <= rollers <= ROLLERS_MAX:
         raise GenevaError(f"--rollers {cut(rollers)}: it must be at least 1, at most {ROLLERS_MAX}")
-    if frame is not None and frame.wheel.stopped:
-        keys = {name: [f.key for f in fields(registry.gearing(name))] for name in GEARINGS}
-        able = tuple(name for name in GEARINGS if "stop" in keys[name])
-        if wrong := next((name for name in gearings if name not in able), None):
-            raise GenevaError(f"--{wrong}: the spec has a stop, which this wheel cannot have")
-        if rollers not in (None, 1):
-            raise GenevaError(f"--rollers {rollers}: the spec has a stop, which needs one roller")
-        rollers = 1
     words = ", ".join(phrases) or "the spec alone"
     target = Target(
         words if words.startswith("tau") else words[:1].upper() + words[1:],
         _slots(z, frame),
-        gearings or able,
+        gearings or GEARINGS,
         rollers,
         _laws(law),
         spans,
@@ -133,10 +121,10 @@ def read_frame(path: str, settings: Sequence[str] = ()) -> Spec:
                 "[drive.before] would change: remove it; `geneva sweep --best` varies both drives",
                 ("drive", "before"),
             )
-        if not spec.output.turns or spec.drive.wheels_on_carrier:
+        if not spec.output.turns or spec.drive.wheels_on_carrier or spec.wheel.stopped:
             raise GenevaError(
-                "--from: synth finds wheels on axes that stand; `geneva sweep --best` varies racks "
-                "and carousels too",
+                "--from: synth finds wheels that turn without end on axes that stand; `geneva "
+                "sweep --best` varies racks, carousels and wheels with a stop too",
                 ("wheel", "gearing"),
             )
     return spec

@@ -125,15 +125,12 @@ def suiting(
         return found
 
     radius, is_island = np.full(len(which), math.nan), radii < least
-    if given is not None:
-        why = np.where((code[0] == 0) & (first_of(code == 0) < 0), UNDERCUT, code[0])
-        return radius, [OBSTACLES[i] for i in np.where((why == 0) & is_island[0], ISLAND, why)]
     why = np.where(code[-1] == 0, UNDERCUT, code[-1])
     for obstacle, able in ((0, ~is_island), (ISLAND, is_island))[: 1 + largest]:
         first = first_of((code == 0) & able & np.isnan(radius))
         found = np.flatnonzero(first >= 0)
         why[found], radius[found] = obstacle, radii[first[found], found]
-    radius[radius == radii[0]] = math.nan  # the default
+    radius[radius == radii[0]] = math.nan  # the spec's own, or the default
     return radius, [OBSTACLES[i] for i in why]
 
 

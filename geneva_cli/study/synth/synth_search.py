@@ -1,4 +1,7 @@
-"""The search for machines that meet a requirement, with their costs, the best first."""
+"""The search for machines that meet a requirement, with their costs, the best first.
+
+A row is a machine with its description and its costs.
+"""
 
 from __future__ import annotations
 
@@ -6,29 +9,176 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from itertools import pairwise
-from typing import NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
+from geneva_cli.drives.crank import Crank
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
-from geneva_cli.motion.registry import families_of_kinds
+from geneva_cli.motion.registry import families_of_kinds, gearing, thing
+from geneva_cli.motion.timing import Timing, timing
 from geneva_cli.motion.wheels.classic import rollers_max
 from geneva_cli.motion.wheels.gearing import Gearing
+from geneva_cli.numerics.angles import omega
 from geneva_cli.progress import tracked
-from geneva_cli.study.batches import batch_machines, numbers
-from geneva_cli.study.fields import Pick
+from geneva_cli.study.batches import batch_machines, columns, numbers
+from geneva_cli.study.fields import Cell, Pick, rows_of
 from geneva_cli.study.pool import cores, mapped
-from geneva_cli.study.rows import Cell, rows_of
 from geneva_cli.study.sweep.constraints import Nearness, is_number
 from geneva_cli.study.synth.families.curved_slots import with_laws
 from geneva_cli.study.synth.families.family import Family, natural_deg, pieces
-from geneva_cli.study.synth.families.straight_slots import MOST, straight
+from geneva_cli.study.synth.families.straight_slots import straight
 from geneva_cli.study.synth.family_search import best
-from geneva_cli.study.synth.machine_rows import MachineRow, rows
-from geneva_cli.study.target import TURNS, Target
+from geneva_cli.study.synth.suiting import suiting, with_roller
+from geneva_cli.study.target import USUAL_RPM, Target
 from geneva_cli.verdict.quantities.quantity_names import in_batch
+
+# Entries of the table for parts that pass a full turn, and for parts that were not turned.
+YES = "yes"
+MAYBE = "maybe"
+COSTS = ("velocity.max", "acceleration.max", "acceleration.entry", "jerk.max", "power.max")
+TIMES = ("motion_deg", "dwell_deg", "tau", "k", "motion_s", "dwell_s")
+# The cells of a row: its number from 1, the machine's keys as far as it has them, its costs
+# (invariants), its times in seconds if they are required, and whether its parts can be built; None
+# if they are not drawn.
+CELLS = (
+    *("no", "z", "gearing", "rollers", "drive", "A", "eccentricity", "phase", "axes_deg"),
+    "alpha0_deg",
+    *("law", "ratio", "motion_deg", "dwell_deg", "tau", "k", "velocity_max", "acceleration_max"),
+    *("acceleration_entry", "jerk_max", "power_max", "n_rpm", "acceleration_max_rad_s2", "parts"),
+    *("offset_mm", "planet_ratio", "fixed", "motion_s", "dwell_s", "crank_mm", "ground_mm"),
+    *("coupler_mm", "rocker_mm", "point_mm", "point_deg", "entry_deg", "sector_deg", "first_z"),
+)
+
+
+class MachineRow(NamedTuple):
+    """A machine: its spec, cells by their names, and further requested quantities."""
+
+    spec: Spec
+    cells: dict[str, Any]
+    extra: tuple[float | int | str | bool | None, ...] = ()
+
+    @property
+    def peak(self) -> float:
+        """The greatest acceleration, in rad/s² if the speed is required."""
+        per_s2: float | None = self.cells["acceleration_max_rad_s2"]
+        return self.cells["acceleration_max"] if per_s2 is None else per_s2
+
+    @property
+    def trouble(self) -> str:
+        """The reason why its parts cannot be built; empty if none is known."""
+        return (self.cells["parts"] or "").partition(": ")[2]
+
+
+def rows(target: Target, specs: Sequence[Spec], errors: list[str]) -> list[MachineRow]:
+    """The rows of machines that can be built and have the required motion.
+
+    The reasons against others are added to ``errors``.
+    """
+    limits = target.soft_bounds
+    # at the usual speed with one of its equal rollers a machine has the same peaks
+    alone = [s.replace(drive=s.drive.replace(n_rpm=USUAL_RPM, rollers=1)) for s in specs]
+    costs, sized = _costs_and_rollers(specs, alone)
+    limited = numbers(batch_machines(specs), [b.name for b in limits.values()], len(specs))
+    out: list[MachineRow] = []
+    each = zip(specs, alone, sized, limited.T.tolist(), strict=True)
+    for spec, one, (radius, why), held in each:
+        cost, drive = costs.get(one), spec.drive
+        *_, motion_deg, period, entry, end = cost or [math.nan] * 4
+        dwell_deg = period / drive.rollers + entry - end
+        if not dwell_deg > 1e-9:  # there is no machine, or rollers without a dwell may jam
+            try:
+                build(spec)
+            except GenevaError as error:
+                errors.append(str(error))
+                continue
+        if cost is None:
+            continue
+        if not target.motions(drive.rollers / drive.turns, motion_deg).allows(motion_deg):
+            continue
+        dwell_deg = dwell_deg if dwell_deg > 1e-9 else 0.0
+        index_deg = spec.wheel.index_deg(0)
+        times = timing(motion_deg, dwell_deg, index_deg, drive.n_rpm, None, drive.stop_s)
+        bounds = zip(limits.items(), held, strict=True)
+        over = [key for (key, bound), x in bounds if not (np.isnan(x) or bound.kept(x))]
+        parts = MAYBE if spec.is_turned else None
+        if why or (over and parts):
+            parts = f"no: {why or ', '.join(over)}"
+        cells = _cells(target, spec, cost, times, parts)
+        out.append(MachineRow(with_roller(spec, radius), cells))
+    return out
+
+
+def _costs_and_rollers(
+    specs: Sequence[Spec], alone: Sequence[Spec]
+) -> tuple[dict[Spec, list[float]], list[tuple[float, str]]]:
+    """The costs, R/L, motion, period and ends of the machines ``alone``; the rollers that suit.
+
+    ``alone`` are the specs with one roller each. The rollers are those of specs, with obstacles.
+    Both come from the same batches. A spec that makes no machine, or one whose acceleration has no
+    bound, has no costs.
+    """
+    # with the same slots and rollers' paths: plain cranks, whatever turns them
+    slots = [
+        one.replace(drive=Crank(n_rpm=USUAL_RPM)) if s.motion is None and s.drive.crank else one
+        for s, one in zip(specs, alone, strict=True)
+    ]
+    several: dict[Spec, dict[int, None]] = {}  # the numbers of rollers with such slots
+    for spec, one in zip(specs, slots, strict=True):
+        if spec.is_flat:
+            several.setdefault(one, {})[spec.drive.rollers] = None
+    costs: dict[Spec, list[float]] = {}
+    found: dict[tuple[Spec, int], tuple[float, str]] = {}
+    each = [*dict.fromkeys((*alone, *several))]
+    for members, machine in batch_machines(each):
+        own = [each[i] for i in members.tolist()]
+        if values := columns(machine, COSTS, len(own)):
+            (moved,) = machine.engagements
+            ends = moved.mid_deg + moved.entry_deg, moved.mid_deg + moved.exit_deg
+            more = machine.ratio, moved.motion_deg, machine.period_deg, *ends
+            table = np.broadcast_arrays(*values, *map(np.ravel, more))
+            known = zip(own, np.column_stack(table).tolist(), strict=True)
+            costs |= {spec: row for spec, row in known if math.isfinite(row[1])}
+        pairs = [(i, one, m) for i, one in enumerate(own) for m in several.get(one, ())]
+        if pairs:
+            which, suited_specs, counts = zip(*pairs, strict=True)
+            radii, why = suiting(machine, np.array(which), np.array(counts))
+            suited = zip(radii.tolist(), why, strict=True)
+            found.update(zip(zip(suited_specs, counts, strict=True), suited, strict=True))
+    out = []
+    for spec, one in zip(specs, slots, strict=True):
+        roller = found.get((one, spec.drive.rollers), (math.nan, ""))
+        if not spec.is_flat and spec.is_turned and (suits := thing(spec.wheel.NAME, "roller")):
+            try:
+                roller = suits(build(spec))
+            except GenevaError as error:
+                roller = math.nan, str(error)
+        out.append(roller)
+    return costs, out
+
+
+def _cells(
+    target: Target, spec: Spec, costs: list[float], times: Timing, parts: str | None
+) -> dict[str, Any]:
+    keys, motion, n = spec.wheel.as_dict() | spec.drive.as_dict(), spec.motion, spec.drive.n_rpm
+    cells: dict[str, Any] = {name: keys.get(name) for name in CELLS}
+    cells |= {name.replace(".", "_"): cost for name, cost in zip(COSTS, costs, strict=False)}
+    cells |= {name: getattr(times, name) for name in TIMES if target.timed or name[-2:] != "_s"}
+    return cells | {
+        "gearing": spec.wheel.NAME,
+        "rollers": spec.drive.rollers,
+        "drive": spec.drive.NAME,
+        "alpha0_deg": motion.alpha0_deg if motion else None,
+        "law": motion.law.NAME if motion else None,
+        "ratio": costs[len(COSTS)],
+        "n_rpm": n if target.timed else None,
+        "acceleration_max_rad_s2": costs[1] * omega(n) ** 2 if target.timed else None,
+        "parts": parts,
+        "offset_mm": cells["offset_mm"] or None,
+    }
+
 
 KIND = ("gearing", "z", "drive", "law", "fixed", "rollers")
 TURNED = 20  # rows whose parts are turned by default
@@ -70,14 +220,13 @@ def search(target: Target) -> Ranking:
     if not every:
         raise GenevaError(_out_of_reach(target, errors))
     ranking = Ranking([], narrowed, target)
-    kept = sorted(bounded(target, every), key=ranking.rank)
+    kept = sorted(_bounded(target, every), key=ranking.rank)
     # without a search for the goal or a bound a family has several rows: the first of each kind,
     # and the first that may be built
-    every_kind, can_be = in_batch(target.names), dict[object, bool]()
+    has_one, can_be = in_batch(target.names), dict[object, bool]()
     for i, row in enumerate(kept):
-        kind: object = tuple(row.cells[name] for name in KIND)
-        if every_kind and row.cells["crank_mm"] is None:
-            kind = i
+        is_single = has_one and row.cells["crank_mm"] is None
+        kind: object = i if is_single else tuple(row.cells[name] for name in KIND)
         if kind not in can_be or (not can_be[kind] and not row.trouble):
             ranking.rows.append(row)
             row.cells["no"] = len(ranking.rows)
@@ -119,68 +268,53 @@ def _group(
 ) -> tuple[list[MachineRow], list[str]]:
     """The rows of a group, and the reasons against the other machines."""
     kind, target = task
-    wheels = [target.wheel(gearing, z) for gearing in target.gearings for z in target.z]
+    wheels = [gearing(name)(z) for name in target.gearings for z in target.z]
     families: Sequence[Family] = [*kind(target, wheels)]
     if not in_batch(target.names):
         # the search cannot see them: they are computed for the best of several pieces of a family
         families = pieces(families, 120)
-    machines, near = best(families, target, how_near)
+    specs, near = best(families, target, how_near)
     # the bounds that do not depend on the roller; what no batch computes may keep them
     bounds = [b for b in target.bounds if in_batch([b.name]) and not b.name.startswith("loads.")]
-    specs = [spec for spec, _ in machines]
     values = numbers(batch_machines(specs), [b.name for b in bounds], len(specs))
     keeps = np.full(len(specs), True)
     for bound, own in zip(bounds, values, strict=True):
         keeps &= bound.kept_by(own) | np.isnan(own)
-    shown = [machines[i] for i in np.flatnonzero(keeps).tolist()]
+    shown = [specs[i] for i in np.flatnonzero(keeps).tolist()]
     if how_near:
-        shown += [*(machines[i] for i in np.flatnonzero(~keeps).tolist()), *near]
+        shown += [*(specs[i] for i in np.flatnonzero(~keeps).tolist()), *near]
     errors: list[str] = []
-    found = rows(target, [*dict(shown).items()], errors)
-    return with_batch_values(names, found), errors
-
-
-def with_batch_values(names: Sequence[str], found: Sequence[MachineRow]) -> list[MachineRow]:
-    """The rows with their quantities from batches; without them if a row needs its own machine."""
+    found = rows(target, [*dict.fromkeys(shown)], errors)
     if not (names and in_batch(names)):
-        return list(found)
-    out = []
-    values = numbers(batch_machines([row.spec for row in found]), names, len(found))
+        return found, errors
+    out, values = [], numbers(batch_machines([row.spec for row in found]), names, len(found))
     for row, own in zip(found, values.T.tolist(), strict=True):
         cells = tuple(None if math.isinf(x) else x for x in own)
+        # a row without one of them needs its own machine
         out.append(row if any(map(math.isnan, own)) else row._replace(extra=cells))
-    return out
+    return out, errors
 
 
-def bounded(target: Target, found: Sequence[MachineRow]) -> list[MachineRow]:
+def _bounded(target: Target, found: list[MachineRow]) -> list[MachineRow]:
     """The rows, with the requested quantities, that keep the bounds."""
     names = target.names
     if not names:
-        return list(found)
+        return found
     alone = [row.spec for row in found if not row.extra]
     rest = mapped(partial(_values, Pick(names)), alone, min(cores(), len(alone)), "machines")
     rest = tracked(rest, "machines computed", len(alone))
     values = [row.extra or next(rest) for row in found]
-    known = [(row, cells) for row, cells in zip(found, values, strict=True) if cells is not None]
+    pairs = zip(found, values, strict=True)
+    known = [row._replace(extra=cells) for row, cells in pairs if cells is not None]
     bounds = [(names.index(b.name), b) for b in target.bounds]
-    kept = [
-        row._replace(extra=cells)
-        for row, cells in known
-        if all(b.kept(cells[i]) for i, b in bounds)
-    ]
-    if kept:
-        return kept
-    nearness = Nearness(bounds)
-    if known:
-        nearness.add(rows_of([cells for _, cells in known]).numbers)
-    phrases = [
-        f"{b} (not known)" if nearest is None else f"{b} (nearest {nearest:.6g})"
-        for (_, b), count, nearest in zip(bounds, nearness.kept, nearness.nearest, strict=True)
-        if not count
-    ]
-    each = " and ".join(phrases or [f"{b}" for _, b in bounds]) + " at once" * (not phrases)
-    others = f"none of {len(found)} machines that keep all other bounds"
-    raise GenevaError(f"--subject-to: {others} keeps {each}")
+    kept = [row for row in known if all(b.kept(row.extra[i]) for i, b in bounds)]
+    if not kept:
+        nearness = Nearness(bounds)
+        if known:
+            nearness.add(rows_of([row.extra for row in known]).numbers)
+        why = "; ".join(nearness.phrases())
+        raise GenevaError(f"--subject-to: none of {len(found)} machines keeps all bounds: {why}")
+    return kept
 
 
 def _values(of: Pick, spec: Spec) -> tuple[Cell, ...] | None:
@@ -191,37 +325,13 @@ def _values(of: Pick, spec: Spec) -> tuple[Cell, ...] | None:
 
 
 def _out_of_reach(target: Target, errors: list[str]) -> str:
-    """The error message if no machine was found: what would be within reach."""
-    counts = target.counts
-    m = target.rollers or next((int(m) for m in counts if m >= 1.0), 1)
-    motion = target.motion_for(m)
-    most = max(
-        rollers_max(natural_deg(target.wheel(g, z))) for z in target.z for g in target.gearings
-    )
+    """The error message if no machine was found."""
+    m = target.rollers or next((int(m) for m in target.counts if m >= 1.0), 1)
+    wheels = [gearing(name)(z) for name in target.gearings for z in target.z]
+    most = max(rollers_max(natural_deg(wheel)) for wheel in wheels)
     first = f"; the first says: {errors[0]}" if errors else ""
-    if motion is None:
-        return f"--rollers {m}: they jam on every requested wheel; at most {most}"
-    if target.rollers is None and m > most:
-        why = (
-            f"it takes {m} rollers, but straight slots carry at most {most} here. No curved slots "
-            "or cam with so many can be built"
-        )
-    elif motion.low * m >= 360.0:
-        return (
-            f"{target.words}: {m} motions of {motion.low:.7g} deg leave no dwell in a turn of 360. "
-            f"With {m} rollers a motion must be below {360.0 / m:.7g} deg (tau below 1)"
-        )
-    elif max(counts) < 1.0:
-        why = (
-            "a wheel rests so long only behind a first wheel. That turns the crank once in "
-            f"{TURNS[0]} to {TURNS[-1]} turns: none of these rests so long"
-        )
-    else:
-        drives = f"no drive goes beyond A or eccentricity {MOST}"
-        return (
-            f"{target.words}: out of reach with {'one roller' if m == 1 else f'{m} rollers'}: "
-            "curved slots turn an internal wheel at most half as fast as the crank"
-            + (f", and {drives}" if m == 1 else "")
-            + f"; use more slots or a longer motion{first}"
-        )
-    return f"{target.words}: out of reach: {why}"
+    rollers = "one roller" if m == 1 else f"{m} rollers"
+    return (
+        f"{target.words}: out of reach with {rollers}; straight slots carry at most {most} here: "
+        f"use more slots or a longer motion{first}"
+    )

@@ -1,11 +1,14 @@
-"""The rows that a search found as a table, the first of them turned, and a row as a spec."""
+"""The rows that a search found as a table, the first of them turned, and a row as a spec.
+
+For people rows have short names and a description of each machine.
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from contextlib import suppress
 from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -19,17 +22,19 @@ from geneva_cli.spec.tables import LIMITED
 from geneva_cli.specfile.writer import quoted, spec_lines
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.sweep.constraints import Constraint
-from geneva_cli.study.synth.machine_rows import CELLS, COSTS, MAYBE, YES, MachineRow, rows
 from geneva_cli.study.synth.suiting import SPARE, USUAL, slot_paths, with_roller
 from geneva_cli.study.synth.synth_search import (
+    CELLS,
+    COSTS,
+    MAYBE,
     TURNED,
+    YES,
+    MachineRow,
     Ranking,
-    bounded,
     search,
-    with_batch_values,
 )
 from geneva_cli.study.target import Target
-from geneva_cli.table import Table, rows_table
+from geneva_cli.table import Reading, Table, rows_table
 from geneva_cli.verdict.checks import (
     LIMITS,
     MOTION,
@@ -49,7 +54,35 @@ _LIMITED = {
 # keys that conflict with a crank's bore
 SHAFT = {"crank_shaft_mm", "crank_hub_mm", "crank_bore_wall_mm"}
 UNSIZED = {*MOTION, *LIMITS} - {"undercut_mm"}  # checks that no other roller can mend
-HALVINGS = 5  # of the numbers between a machine that fails in its turn and the plain crank's
+# Columns in order, the requested quantities before the parts, and short names of some.
+COLUMNS = (
+    *("no", "z", "gearing", "rollers", "machine", "ratio", "motion_deg", "dwell_deg", "motion_s"),
+    *("dwell_s", "tau", "k", "n_rpm", "velocity_max", "acceleration_max", "acceleration_entry"),
+    *("jerk_max", "power_max", "acceleration_max_rad_s2", "extra", "parts"),
+)
+SHORT = {
+    "gearing": "wheel",
+    "n_rpm": "rpm",
+    "acceleration_max": "accel_max",
+    "acceleration_entry": "accel_entry",
+    "acceleration_max_rad_s2": "accel_rad/s2",
+}
+# The most important first. Rows are sorted by the peak acceleration, and --write takes their
+# number: a narrow window keeps both.
+RANKED = (
+    *("no", "machine", "parts", "acceleration_max", "z", "gearing", "n_rpm", "extra", "rollers"),
+    *("motion_deg", "dwell_s", "acceleration_max_rad_s2", "acceleration_entry", "velocity_max"),
+    *("jerk_max", "tau", "power_max", "motion_s", "dwell_deg", "k", "ratio"),
+)
+LINKS = ("crank_mm", "ground_mm", "coupler_mm", "rocker_mm", "point_mm")
+WORDS = {
+    "A": "A {}",
+    "planet_ratio": "rp {}",
+    "axes_deg": "axes {}",
+    "offset_mm": "offset {} mm",
+    "sector_deg": "D {}",
+    "first_z": "first z {}",
+}
 
 
 def synthesis_table(target: Target, count: int = TURNED, buildable: bool = False) -> Table:
@@ -71,13 +104,12 @@ def turned(ranking: Ranking, count: int = TURNED, buildable: bool = False) -> li
     """The rows, the first ``count`` of them turned; with ``buildable`` the first that pass.
 
     A turned row says yes, with sizes that pass, or no. Others say maybe, or no if that is known
-    without turning. With ``buildable`` a row that fails is replaced, under its number, by a machine
-    of its family that passes, and stands where its own quantities belong.
+    without turning.
     """
     maybe = [row for row in ranking.rows if row.cells["parts"] == MAYBE]
     if not buildable:
         maybe = [row for row in maybe if row.cells["no"] <= count]
-    work = partial(_turned, ranking._replace(rows=[]), buildable)
+    work = partial(_turned, _fixed(ranking.target))
     done = mapped(work, maybe, min(len(maybe), cores()), "machines")
     results, passed = dict[int, MachineRow](), list[MachineRow]()
     for row in tracked(done, "machines turned", len(maybe)):
@@ -85,46 +117,21 @@ def turned(ranking: Ranking, count: int = TURNED, buildable: bool = False) -> li
         passed += [row] if row.cells["parts"] == YES else []
         if buildable and len(passed) >= count:
             break
-    if buildable:
-        return sorted(passed, key=ranking.rank)
-    return [results.get(row.cells["no"], row) for row in ranking.rows]
+    return passed if buildable else [results.get(row.cells["no"], row) for row in ranking.rows]
 
 
-def _turned(ranking: Ranking, buildable: bool, row: MachineRow) -> MachineRow:
-    """A row with sizes that pass a full turn, or with the checks that fail.
+def _fixed(target: Target) -> frozenset[str]:
+    """The sizes of the requirement's frame."""
+    sizes = target.frame.size.as_dict() if target.frame else {}
+    return frozenset(key for key, value in sizes.items() if value is not None)
 
-    With ``buildable`` a machine that fails is replaced by one of its family that passes, between it
-    and that which moves as the plain crank does.
-    """
-    sizes = ranking.target.frame.size.as_dict() if ranking.target.frame else {}
-    fixed = frozenset(key for key, value in sizes.items() if value is not None)
 
-    def with_result(one: MachineRow) -> MachineRow:
-        spec, trouble = built(one.spec, fixed)
-        parts = f"no: {trouble}" if trouble else YES
-        return one._replace(spec=spec, cells=one.cells | {"no": row.cells["no"], "parts": parts})
-
-    out, family = row if row.trouble else with_result(row), row.family
-    if not (buildable and out.trouble and family and family.is_free) or math.isnan(family.plain):
-        return out
-    low, high, plain = family.low, family.high, family.plain
-    is_high = abs(high - plain) > abs(low - plain)  # the end that is farther from the plain crank
-    fails, passing = (high, max(low, plain)) if is_high else (low, min(high, plain))
-    if not math.isnan(family.best):
-        fails = family.best
-    for _ in range(HALVINGS):
-        middle = 0.5 * (fails + passing)
-        spec, own = family.at(middle), None
-        other = rows(ranking.target, [(spec, family)], []) if spec else []
-        with suppress(GenevaError):  # it breaks a bound
-            other = with_batch_values(ranking.requested.names, other)
-            for kept in bounded(ranking.requested, other) if other else ():
-                own = None if kept.trouble else with_result(kept)
-        if own and not own.trouble:
-            out, passing = own, middle
-        else:
-            fails = middle
-    return out
+def _turned(fixed: frozenset[str], row: MachineRow) -> MachineRow:
+    """A row with sizes that pass a full turn, or with the checks that fail."""
+    if row.trouble:
+        return row
+    spec, trouble = built(row.spec, fixed)
+    return MachineRow(spec, row.cells | {"parts": f"no: {trouble}" if trouble else YES}, row.extra)
 
 
 def built(spec: Spec, fixed: frozenset[str] = frozenset()) -> tuple[Spec, str]:
@@ -178,14 +185,14 @@ def _passes(spec: Spec, failing: Sequence[str]) -> bool:
     return all_pass(every_check(machine, parts, quick=True))
 
 
-def chosen(ranking: Ranking, number: int, buildable: bool = False) -> tuple[MachineRow, str]:
+def chosen(ranking: Ranking, number: int) -> tuple[MachineRow, str]:
     """Row ``number``, and the text of its spec with comments, as ``turned`` shows it.
 
     The parts are turned through a whole turn, unless they are known to be impossible.
     """
     if not 1 <= number <= len(ranking.rows):
         raise GenevaError(f"--write {cut(number)}: the table has rows 1 to {len(ranking.rows)}")
-    row = _turned(ranking._replace(rows=[]), buildable, ranking.rows[number - 1])
+    row = _turned(_fixed(ranking.target), ranking.rows[number - 1])
     row = row._replace(spec=with_limits(ranking.requested, row.spec))
     return row, commented(ranking.target, number, row)
 
@@ -227,3 +234,51 @@ def commented(target: Target, number: int, machine: MachineRow) -> str:
     if machine.trouble:
         lines.append(f"# Warning: its parts cannot be built: {machine.trouble}.")
     return "\n".join([*lines, *spec_lines(machine.spec)]) + "\n"
+
+
+def for_people(table: Table, most: int | None = None) -> Table:
+    """The first ``most`` rows with a description of each machine, without empty columns.
+
+    Columns are in order of importance. The title says how to get the other rows.
+    """
+    every_row = table.to_rows()
+    rows, title = every_row[:most], table.title
+    if len(rows) < len(every_row):
+        title += f" The first {most} rows. All {len(every_row)} rows: -o FILE.csv"
+    several = len({row["law"] for row in rows if row["law"]}) > 1
+    for row in rows:
+        row["machine"] = _machine(row, several)
+        row["gearing"] = row["gearing"][:3]  # ext, int, sph
+        no, colon, reasons = (row["parts"] or "").partition(": ")
+        if colon:  # of several reasons the first, without its unit
+            first, *others = reasons.split(", ")
+            name = first.removesuffix("_mm").removesuffix("_deg")
+            row["parts"] = f"{no}: {name}{' +' if others else ''}"
+    columns, ranks = dict[str, list[Any]](), dict[str, float]()
+    for source in COLUMNS:
+        for name in table.names[len(CELLS) :] if source == "extra" else (source,):
+            cells = [row[name] for row in rows]
+            if any(v is not None for v in cells):
+                columns[name], ranks[name] = cells, RANKED.index(source)
+    peak, per_s2 = "acceleration_max", "acceleration_max_rad_s2"
+    if per_s2 in columns:  # rows are sorted by it
+        ranks[peak], ranks[per_s2] = ranks[per_s2], ranks[peak]
+    heads = {name: SHORT.get(name, name.replace(".", "_")) for name in columns}
+    first = tuple(heads[name] for name in sorted(ranks, key=ranks.__getitem__))
+    reading = Reading(first, decide=("parts",))
+    return Table(tuple(heads.values()), [*columns.values()], title=title, reading=reading)
+
+
+def _machine(row: dict[str, Any], several: bool) -> str:
+    """A short description of the machine: its drive, and the number that determines the motion."""
+    own = [row["drive"], row["law"] if several else "", row["fixed"]]
+    own.append(f"alpha0 {row['alpha0_deg']:.5g}" if row["law"] else "")
+    if row["phase"]:
+        own.append(f"e {row['eccentricity']:.5g} {row['phase']}")
+    for key, text in WORDS.items():
+        value = row[key]
+        if value is not None and (key, value) != ("axes_deg", 90.0):
+            own.append(text.format(f"{value:.5g}" if isinstance(value, float) else value))
+    if row["ground_mm"]:
+        own += (f"{row[key]:.3g}" for key in LINKS)
+    return " ".join(filter(None, own))

@@ -1,6 +1,6 @@
 """The checks of a design: each has a value, a limit, and says whether the value keeps it.
 
-A check is a name in a table here, in the order shown, with the function that yields it. The
+A check is a name in a row here, in the order shown, with the function that yields it. The
 function gets the names that are asked for, and what it checks. It yields no check that does not
 apply. Its module is imported when the first of its checks is asked for.
 """
@@ -25,100 +25,63 @@ if TYPE_CHECKING:
 
 Checks: TypeAlias = dict[str, str]  # name -> module:function
 
-# Checks of the motion, if they apply.
-MOTION: Checks = dict.fromkeys(
-    (
-        *("dwell_deg", "driver_gear_convexity", "driven_gear_convexity", "velocity_min"),
-        *("groove_pressure_deg", "pressure_angle_deg", "driven_fraction", "undercut_mm"),
-    ),
-    "verdict.checks.motion_checks:motion",
-)
-MOTION |= dict.fromkeys(
-    ("entry_shock_N", "reversal_shock_N", "reversal_stress_MPa", "stopping_torque_Nm"),
-    "verdict.checks.load_checks:shocks",
-)
-# Checks of limits that the spec sets.
-LIMITS: Checks = dict.fromkeys(
-    (
-        *("velocity_max", "acceleration_max", "acceleration_entry_max", "jerk_max"),
-        *("entry_velocity_max", "dwell_min_s", "motion_max_s", "cycle_max_s"),
-        *("pin_force_max_N", "input_torque_max_Nm", "contact_stress_max_MPa"),
-    ),
-    "verdict.checks.motion_checks:limits",
-)
-LIMITS |= dict.fromkeys(
-    (
-        *("pv_max_W_m2", "roller_life_min_h", "pin_stress_MPa", "horn_stress_MPa"),
-        *("lock_horn_stress_MPa", "lock_stress_max_MPa", "lock_deflection_max_deg"),
-        *("wheel_shaft_stress_MPa", "crank_shaft_stress_MPa", "arm_stress_MPa"),
-        *("wheel_key_pressure_MPa", "crank_key_pressure_MPa"),
-    ),
-    "verdict.checks.load_checks:strength_limits",
-)
-LIMITS |= dict.fromkeys(
-    ("product_acceleration_max_m_s2", "product_slip"), "verdict.checks.load_checks:product"
-)
-# Checks of flat parts at rest.
-STATIC: Checks = dict.fromkeys(
-    (
-        *("wall_between_slots_mm", "horn_mm", "rollers_apart_mm", "wheel_bore_wall_mm"),
-        *("outer_wall_mm", "dial_wall_mm", "crank_bore_wall_mm"),
-    ),
-    "verdict.checks.part_checks:walls",
-)
-STATIC |= dict.fromkeys(
-    (
-        *("crank_shaft_mm", "crank_hub_mm", "wheel_shaft_mm", "beside_shafts_mm", "gear_gap_mm"),
-        *("arm_wall_mm", "arm_to_hub_mm", "link_wall_mm", "link_gap_mm"),
-    ),
-    "verdict.checks.part_checks:clearances",
-)
 FIRST = "first_"  # of the first of two wheels in series, and of its crank
-STATIC |= dict.fromkeys(
-    (
-        *("first_pin_stress_MPa", "first_horn_stress_MPa", "first_crank_shaft_stress_MPa"),
-        "first_arm_stress_MPa",
-    ),
-    "verdict.checks.load_checks:first_stresses",
-)
-STATIC |= dict.fromkeys(
-    ("branches_apart_mm", "branches_crossed_mm", "wheels_apart_mm", "cranks_apart_mm"),
-    "verdict.checks.part_checks:places",
-)
-# Checks of flat parts at rest, shown behind those that a kind adds.
-PROCESS: Checks = dict.fromkeys(
-    ("cut_plate_mm", "cut_slot_mm"), "verdict.checks.part_checks:process"
-)
-PROCESS["parts"] = "verdict.checks.part_checks:built"
+# Checks that fail where a roller does not find its slot, or meets the rim next to it, and jams.
+JAMS = ("hand_over_play_deg", "hand_over_play_mm", "hand_over_pressure_deg", "hand_over_offset_mm")
+# Plays that the spec limits; a machine whose parts cannot be turned has no value of them. Then the
+# clearances of all the machines within the tolerances.
+PLAYS = ("index_play_max_deg", "dwell_play_max_deg", "dwell_position_max_deg")
+TOLERANCES = ("tolerance_slot_mm", "tolerance_lock_mm")
+# The checks of the motion, if they apply; of limits that the spec sets; of flat parts at rest, and
+# those shown behind what a kind adds; of plates or shells in a whole turn; and of flat parts at
+# every angle of the turn, made for a design's own answer. Each row: table, function, names.
+_ROWS = """
+MOTION motion_checks:motion dwell_deg driver_gear_convexity driven_gear_convexity velocity_min
+  groove_pressure_deg pressure_angle_deg driven_fraction undercut_mm
+MOTION load_checks:shocks entry_shock_N reversal_shock_N reversal_stress_MPa stopping_torque_Nm
+LIMITS motion_checks:limits velocity_max acceleration_max acceleration_entry_max jerk_max
+  entry_velocity_max dwell_min_s motion_max_s cycle_max_s pin_force_max_N input_torque_max_Nm
+  contact_stress_max_MPa
+LIMITS load_checks:strength_limits pv_max_W_m2 roller_life_min_h pin_stress_MPa horn_stress_MPa
+  lock_horn_stress_MPa lock_stress_max_MPa lock_deflection_max_deg wheel_shaft_stress_MPa
+  crank_shaft_stress_MPa arm_stress_MPa wheel_key_pressure_MPa crank_key_pressure_MPa
+LIMITS load_checks:product product_acceleration_max_m_s2 product_slip
+STATIC part_checks:walls wall_between_slots_mm horn_mm rollers_apart_mm wheel_bore_wall_mm
+  outer_wall_mm dial_wall_mm crank_bore_wall_mm
+STATIC part_checks:clearances crank_shaft_mm crank_hub_mm wheel_shaft_mm beside_shafts_mm
+  gear_gap_mm arm_wall_mm arm_to_hub_mm link_wall_mm link_gap_mm
+STATIC load_checks:first_stresses first_pin_stress_MPa first_horn_stress_MPa
+  first_crank_shaft_stress_MPa first_arm_stress_MPa
+STATIC part_checks:places branches_apart_mm branches_crossed_mm wheels_apart_mm cranks_apart_mm
+PROCESS part_checks:process cut_plate_mm cut_slot_mm
+PROCESS part_checks:built parts
+TURNING motion_checks:turning dwell_hold gap_mm idle_roller_mm dwell_play_deg dwell_play_mm
+  hand_over_play_deg hand_over_play_mm hand_over_pressure_deg hand_over_offset_mm motion_play_deg
+  motion_play_mm
+TURNING motion_checks:within_tolerances index_play_max_deg dwell_play_max_deg
+  dwell_position_max_deg tolerance_slot_mm tolerance_lock_mm
+PROOFS motion_checks:proof gap_proved_mm
+"""
+_TABLES: dict[str, Checks] = {}
+for _row in _ROWS.strip().replace("\n  ", " ").splitlines():
+    _table, _function, *_names = _row.split()
+    _TABLES.setdefault(_table, {}).update(dict.fromkeys(_names, f"verdict.checks.{_function}"))
+MOTION, LIMITS, STATIC, PROCESS, TURNING, PROOFS = _TABLES.values()
 # All checks of parts at rest, of whatever kind.
 STANDING: Checks = {**STATIC}
 for _kind in KINDS:
     MOTION |= _kind.motion_checks
     STANDING |= _kind.parts_checks
 STANDING |= PROCESS
-# Checks of plates or shells in a whole turn. JAMS are those that fail where a roller does not find
-# its slot, or meets the rim next to it, and jams.
-JAMS = ("hand_over_play_deg", "hand_over_play_mm", "hand_over_pressure_deg", "hand_over_offset_mm")
-TURNING: Checks = dict.fromkeys(
-    (
-        *("dwell_hold", "gap_mm", "idle_roller_mm", "dwell_play_deg", "dwell_play_mm"),
-        *(*JAMS, "motion_play_deg", "motion_play_mm"),
-    ),
-    "verdict.checks.motion_checks:turning",
-)
-# Plays that the spec limits; a machine whose parts cannot be turned has no value of them.
-PLAYS = ("index_play_max_deg", "dwell_play_max_deg", "dwell_position_max_deg")
-# Of all the machines within the tolerances.
-TOLERANCES = ("tolerance_slot_mm", "tolerance_lock_mm")
-TURNING |= dict.fromkeys((*PLAYS, *TOLERANCES), "verdict.checks.motion_checks:within_tolerances")
-# Of flat parts at every angle of the turn, made for a design's own answer.
-PROOFS: Checks = {"gap_proved_mm": "verdict.checks.motion_checks:proof"}
 # Of machines as built, by what touches.
 PUSHED = ("turns", "strike_velocity")
 # The names of all checks but those of the whole turn; ``parts``: they can be built.
 BEFORE_TURN = tuple(dict.fromkeys((*MOTION, *LIMITS, "parts", *STANDING)))
 # The names of those of the whole turn; ``full_turn``: the parts can be turned.
 OF_TURN = ("full_turn", *TURNING)
+# For an adviser: checks without parts, checks that turn them, and checks of no drawn size.
+QUICK, TURNED = (*MOTION, *LIMITS), (*OF_TURN, *PUSHED, "parts")
+SIZELESS = (*QUICK, *TOLERANCES, *PUSHED)
 
 
 class Check(NamedTuple):
@@ -152,16 +115,6 @@ class Check(NamedTuple):
         return f"{self.why}; {anew}" if self.why else anew
 
     @property
-    def not_computed(self) -> str:
-        """The reason why there is no value, in words; empty if there is one."""
-        return f"{self.name} is not computed: {self.why}" if self.value is None else ""
-
-    @property
-    def where(self) -> str:
-        """Input angle of the value in words, with a space before it."""
-        return "" if self.at_deg is None else f" at input angle {self.at_deg:.6g}°"
-
-    @property
     def spare(self) -> float:
         """The margin to the limit, negative if the check fails; infinite without a value."""
         if self.value is None or self.limit is None:
@@ -178,8 +131,9 @@ def compared(
     limit: float,
     at_deg: float | None = None,
     noise: float = 0.0,
+    reason: Callable[[], str] | None = None,
 ) -> Check:
-    """The check that a value is "at least", "at most" or "above" a limit.
+    """The check that a value is "at least", "at most" or "above" a limit, with why it fails.
 
     ``noise`` is the rounding error of the value, if it is larger than the limit's.
 
@@ -187,12 +141,33 @@ def compared(
     False
     """
     passes = keeps(value, must_be, limit, noise)
-    return Check(name, value, must_be, limit, passes, at_deg=at_deg)
+    own = None if passes else reason
+    return Check(name, value, must_be, limit, passes, at_deg=at_deg, reason=own)
+
+
+def unknown(
+    name: str, why: str, must_be: str = "proved", limit: float | None = None, fails: bool = False
+) -> Check:
+    """The check of a value that is not known, or, where it ``fails``, cannot be."""
+    return Check(name, None, must_be, limit, False if fails else None, why)
 
 
 def refused(name: str, error: GenevaError) -> Check:
     """A failing check for parts that cannot be built, with the reason."""
     return Check(name, 0.0, "at least", 1.0, False, str(error))
+
+
+def measured(
+    name: str, limit: float, measure: Callable[[], float | None], noise: float = 0.0
+) -> Iterator[Check]:
+    """The check that a size, if there is one, is at least a limit; it fails for an error."""
+    try:
+        value = measure()
+    except GenevaError as error:
+        yield unknown(name, str(error), "at least", limit, True)
+    else:
+        if value is not None:
+            yield compared(name, value, "at least", limit, None, noise)
 
 
 def all_pass(rows: Iterable[Check]) -> bool:
@@ -253,13 +228,13 @@ def every_check(
     yield from applicable(motion, mechanism, reasons=not quick)
     if quick:
         yield from limits
-    unbuilt = [] if spec.has_parts else [Check("parts", None, "proved", None, None, spec.no_parts)]
+    unbuilt = [] if spec.has_parts else [unknown("parts", spec.no_parts)]
     if parts and not spec.is_turned:
         yield from unbuilt
         for name in PLAYS:
             if (limit := spec.limits.as_dict()[name]) is not None:
                 why = "not computed, because the parts of this machine are not turned"
-                yield Check(name, None, "at most", limit, None, why)
+                yield unknown(name, why, "at most", limit)
     elif parts:
         from geneva_cli.parts.parts import parts_of
 
@@ -325,7 +300,7 @@ def pushed_round(mechanism: Mechanism) -> list[Check]:
     try:
         rows: list[Check] = load_extra("outline", "as_built")(mechanism)
     except GenevaError:
-        return [Check("full_turn", None, "proved", None, None, mechanism.no_turn)]
+        return [unknown("full_turn", mechanism.no_turn)]
     return rows
 
 

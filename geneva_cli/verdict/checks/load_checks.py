@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterator
+from collections.abc import Callable, Collection, Iterator
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -12,7 +12,7 @@ from geneva_cli.numerics.roots import boundary
 from geneva_cli.numerics.tolerances import to_digits
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.spec.tables import LIMITED
-from geneva_cli.verdict.checks import FIRST, Check, compared
+from geneva_cli.verdict.checks import FIRST, Check, compared, unknown
 
 if TYPE_CHECKING:  # a spec without limits or loads is checked without NumPy
     from geneva_cli.loads.impacts.shock_force import Impact
@@ -21,6 +21,7 @@ if TYPE_CHECKING:  # a spec without limits or loads is checked without NumPy
 
 # Each limited quantity of strength and life: the key that limits it, its whole name, and the loaded
 # part whose default steel limits it if the spec does not.
+_DEFLECTION = "limits.lock_deflection_max_deg"
 _WHEEL, _SHAFT = "material.wheel.stress_max_MPa", "shaft.shear_stress_max_MPa"
 BOUNDS = {
     "pv_max_W_m2": ("limits.pv_max_W_m2", LIMITED["pv_max_W_m2"], ""),
@@ -29,9 +30,7 @@ BOUNDS = {
     "horn_stress_MPa": (_WHEEL, "strength.horn.stress_MPa", "horn"),
     "lock_horn_stress_MPa": (_WHEEL, "strength.lock.horn_stress_MPa", "horn"),
     "lock_stress_max_MPa": ("limits.lock_stress_max_MPa", "strength.lock.greatest_MPa", ""),
-    "lock_deflection_max_deg": (
-        *("limits.lock_deflection_max_deg", "strength.lock.deflection_deg", ""),
-    ),
+    "lock_deflection_max_deg": (_DEFLECTION, "strength.lock.deflection_deg", ""),
     "wheel_shaft_stress_MPa": (_SHAFT, "strength.wheel_shaft.stress_MPa", "wheel_shaft"),
     "crank_shaft_stress_MPa": (_SHAFT, "strength.crank_shaft.stress_MPa", "crank_shaft"),
     "arm_stress_MPa": (_WHEEL, "strength.arm.stress_MPa", "arm"),
@@ -68,14 +67,11 @@ def shocks(names: Collection[str], mechanism: Mechanism) -> Iterator[Check]:
         # where the roller changes from one wall of its slot to the other
         impact, words = reversal_impacts(mechanism, _pin(mechanism)).only, partial(_drag, mechanism)
         if impact is not None and struck:
-            check = _force_check("reversal_shock_N", mechanism, impact)
-            if check.passes is None:
-                check = check._replace(why=f"{check.why}; {words()}")
-            yield check if check.passes is not False else check._replace(reason=words)
+            check = _force_check("reversal_shock_N", mechanism, impact, words)
+            yield check._replace(why=f"{check.why}; {words()}") if check.why else check
         if impact is not None and most_MPa is not None and impact.contact_stress_MPa is not None:
-            value, at_deg = impact.contact_stress_MPa, impact.at_deg
-            check = compared("reversal_stress_MPa", value, "at most", most_MPa, at_deg)
-            yield check if check.passes else check._replace(reason=words)
+            found = impact.contact_stress_MPa, "at most", most_MPa, impact.at_deg
+            yield compared("reversal_stress_MPa", *found, reason=words)
     if mechanism.engagements[0].paired and "stopping_torque_Nm" in names:
         from geneva_cli.loads.impacts.reversal import arrival
 
@@ -92,19 +88,14 @@ def _entry_shock(mechanism: Mechanism) -> Iterator[Check]:
     """The impact at entry if R/L is wrong and the roller does not enter along its slot."""
     from geneva_cli.loads.impacts.entry import entry_impacts
 
-    pin = _pin(mechanism)
-    impact = entry_impacts(mechanism, pin=pin).only
-    if impact is None:
-        return
-    check = _force_check("entry_shock_N", mechanism, impact)
+    pin, limit = _pin(mechanism), mechanism.spec.limits.pin_force_max_N or 0.0
+
+    def holds(fraction: float) -> bool:
+        reduced = entry_impacts(mechanism, fraction, pin).only
+        return reduced is None or (reduced.force_N or 0.0) <= limit
 
     def tolerable() -> str:
         """The tolerances, reduced by one fraction, with which the force is at its limit."""
-
-        def holds(fraction: float) -> bool:
-            reduced = entry_impacts(mechanism, fraction, pin).only
-            return reduced is None or (reduced.force_N or 0.0) <= (check.limit or 0.0)
-
         low, given = boundary(holds, 0.0, 1.0, 40), mechanism.spec.tolerance.as_dict()
         names = [  # two digits are shown
             f"{key} = {to_digits(low * given[key] * (1.0 + 1e-9), 2, math.floor):g}"
@@ -113,7 +104,8 @@ def _entry_shock(mechanism: Mechanism) -> Iterator[Check]:
         ]
         return " and ".join(names) + " in [tolerance]"
 
-    yield check._replace(reason=tolerable) if check.passes is False else check
+    if impact := entry_impacts(mechanism, pin=pin).only:
+        yield _force_check("entry_shock_N", mechanism, impact, tolerable)
 
 
 def _drag(mechanism: Mechanism) -> str:
@@ -138,11 +130,14 @@ def _pin(mechanism: Mechanism) -> PinSize | None:
     return drawn_pin(single(mechanism))
 
 
-def _force_check(name: str, mechanism: Mechanism, impact: Impact) -> Check:
+def _force_check(
+    name: str, mechanism: Mechanism, impact: Impact, reason: Callable[[], str]
+) -> Check:
     """The impact's force, compared with the limit of the pin force if there is one."""
     spec, limit = mechanism.spec, mechanism.spec.limits.pin_force_max_N
     if impact.force_N is not None and limit is not None:
-        return compared(name, impact.force_N, "at most", limit, impact.at_deg)
+        found = impact.force_N, "at most", limit, impact.at_deg
+        return compared(name, *found, reason=reason)
     lacks = [] if spec.is_loaded else ["inertia_kgm2 in [load]"]
     if impact.force_N is None and spec.size.face_width_mm is None:
         lacks.append("face_width_mm in [size]")
@@ -194,12 +189,11 @@ def strength_limits(names: Collection[str], mechanism: Mechanism) -> Iterator[Ch
         if value is not None and limit is not None:
             placed = name in ("horn_stress_MPa", "wheel_shaft_stress_MPa", "crank_shaft_stress_MPa")
             at_deg = of[f"strength.{part}.at_deg"] if placed else None
-            check = compared(name, value, must_be, limit, at_deg)
-            words = partial(_needed, part, value, limit, of)
-            yield check if check.passes else check._replace(reason=words)
+            needed = partial(_needed, part, value, limit, of)
+            yield compared(name, value, must_be, limit, at_deg, reason=needed)
         # without a limit in the spec, a value that needs another key is not asked for
         elif (reason := of.reason(name)) and (own is not None or reason == BOUND):
-            yield Check(name, None, must_be, limit, None, f"not known: it needs {reason}")
+            yield unknown(name, f"not known: it needs {reason}", must_be, limit)
 
 
 def _needed(part: str, value: float, limit: float, of: Strength) -> str:

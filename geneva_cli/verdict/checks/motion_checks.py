@@ -14,7 +14,7 @@ from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.turn.full_turn import IDLE, FullTurn
 from geneva_cli.parts.turn.turn_certificate import UNKNOWN, certificate
 from geneva_cli.spec.tables import LIMITED
-from geneva_cli.verdict.checks import Check, compared
+from geneva_cli.verdict.checks import Check, compared, unknown
 from geneva_cli.verdict.motion_warnings import SHOWN_UNDERCUT, turns_back
 
 # A steeper groove wedges its roller on the crank, which friction of 0.58 would hold.
@@ -136,7 +136,7 @@ def _entry_velocity(name: str, mechanism: Mechanism) -> Check:
             "the roller's centre does not cross the axis of the slot at rest inside the rim: it "
             "meets the wheel beside its slot, or misses it"
         )
-        return Check(name, None, "at most", limit, False, why)
+        return unknown(name, why, "at most", limit, True)
     end = own[0].entry_deg if sizes[0] >= sizes[1] else own[0].exit_deg
     at_deg = mechanism.shown_deg(own[0].mid_deg + end) if own[0].built else None
     return compared(name, max(sizes), "at most", limit, at_deg)
@@ -211,7 +211,7 @@ def within_tolerances(names: Collection[str], parts: Parts, turn: FullTurn) -> I
         if parts.locked or name == "index_play_max_deg":
             yield compared(name, play.deg, "at most", limit, play.at_deg if play.deg else None)
         else:
-            yield Check(name, None, "at most", limit, None, unlocked)
+            yield unknown(name, unlocked, "at most", limit)
     limit = limits.dwell_position_max_deg
     if limit is not None and "dwell_position_max_deg" in names:
         from geneva_cli.verdict.tolerance import worst_dwell_deg
@@ -222,8 +222,10 @@ def within_tolerances(names: Collection[str], parts: Parts, turn: FullTurn) -> I
             worst = worst_dwell_deg(machine, parts)
         except GenevaError as error:
             worst, why = None, str(error)
-        unknown = Check("dwell_position_max_deg", None, "at most", limit, None, why)
-        yield unknown if worst is None else compared(unknown.name, worst, "at most", limit)
+        if worst is None:
+            yield unknown("dwell_position_max_deg", why, "at most", limit)
+        else:
+            yield compared("dwell_position_max_deg", worst, "at most", limit)
     if machine.spec.tolerance.is_given and machine.output.turns:
         # a spec without tolerances is checked without their modules
         from geneva_cli.loads.tolerance.motion_error import used
@@ -257,7 +259,7 @@ def proof(names: Collection[str], parts: Parts, to_mm: float | None) -> Iterator
         f"{found.between}, after {found.intervals:,} intervals. There the gap is {known:.4g} mm in "
         f"the middle and {bound} throughout"
     )
-    check = Check(name, None, "at least", -to_mm, None, why)
+    check = unknown(name, why, "at least", -to_mm)
     if known < -max(to_mm, parts.contact):
         check = check._replace(value=known, at_deg=0.5 * (start + end), passes=False)
     yield check

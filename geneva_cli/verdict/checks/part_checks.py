@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterator
-from itertools import combinations
+from itertools import combinations, product
 
 import numpy as np
 
@@ -25,7 +25,7 @@ from geneva_cli.parts.shafts.arm_and_shafts import walls as arm_walls
 from geneva_cli.parts.shafts.bores import has_shape
 from geneva_cli.parts.slots.roller_paths import roller_centres
 from geneva_cli.spec.workshops import WORKSHOPS
-from geneva_cli.verdict.checks import Check, compared, refused
+from geneva_cli.verdict.checks import Check, compared, measured, refused, unknown
 
 
 def walls(names: Collection[str], parts: FlatParts) -> Iterator[Check]:
@@ -105,71 +105,44 @@ def clearances(names: Collection[str], parts: FlatParts) -> Iterator[Check]:
             yield compared("crank_hub_mm", outlines.relief_depth - crank, "at least", 0.0)
     if wheel and assembly.sign > 0.0:  # to a roller at the bottom of its slot
         yield compared("wheel_shaft_mm", sizes.slot_end - wheel, "at least", 0.0)
-    yield from _passing(names, parts)
-    arm = "arm_bore_mm", "arm_hub_mm", "arm_eye_mm", "press_fit_mm", "lock_bolts"
-    shaped = has_shape(parts.mechanism.spec.size, "crank")
-    if shaped or any(map(size.get, arm)):
-        yield from _arm(parts)
-    links = "link_pin_mm", "link_bore_mm", "link_width_mm", "press_fit_mm", "pin_mm"
-    if any(map(size.get, links)):
-        try:
-            least = min(map(plate_wall, parts.links.plates), default=None)
-        except GenevaError as error:
-            yield Check("link_wall_mm", None, "at least", sizes.wall_min, False, str(error))
-        else:
-            if least is not None:
-                yield compared("link_wall_mm", least, "at least", sizes.wall_min)
-    if "link_gap_mm" in names:
-        yield from _links_gap("link_gap_mm", parts)
-
-
-def _passing(names: Collection[str], parts: FlatParts) -> Iterator[Check]:
-    """Gaps of hubs, shafts and noncircular gears to what turns past them.
-
-    Default sizes of hubs and shafts always pass, except for a first wheel's.
-    """
-    spec, size = parts.mechanism.spec, vars(parts.mechanism.spec.size)
-    sized = bool(parts.mechanism.first_wheel)
-    for part in ("wheel", "crank"):
-        for key in ("hub", "hub_length", "shaft_low", "shaft_high"):
-            sized = sized or size[f"{part}_{key}_mm"] is not None
-    for name, is_there in (("beside_shafts_mm", sized), ("gear_gap_mm", spec.gears is not None)):
+    # default sizes of hubs and shafts always pass, except for a first wheel's
+    keys = product(("wheel", "crank"), ("hub", "hub_length", "shaft_low", "shaft_high"))
+    sized = [size[f"{part}_{key}_mm"] for part, key in keys] != [None] * 8
+    passing = {"beside_shafts_mm": sized or bool(parts.mechanism.first_wheel)}
+    passing["gear_gap_mm"] = parts.mechanism.spec.gears is not None
+    for name, is_there in passing.items():
         if is_there and name in names:
             from geneva_cli.verdict.shaft_gap import gear_gaps, shaft_gaps  # for few machines
 
             gaps = shaft_gaps if name == "beside_shafts_mm" else gear_gaps
-            yield from least_gap(name, gaps(parts), parts.outlines.assembly.L)
+            yield from least_gap(name, gaps(parts), assembly.L)
+    arm = "arm_bore_mm", "arm_hub_mm", "arm_eye_mm", "press_fit_mm", "lock_bolts"
+    shaped = has_shape(parts.mechanism.spec.size, "crank")
+    if shaped or any(map(size.get, arm)):
+        yield from measured(
+            "arm_wall_mm",
+            sizes.wall_min,
+            lambda: arm_walls(parts.arm, outlines) if parts.arm else None,
+        )
+        if assembly.sign > 0.0:  # the arm's end passes below the wheel
+            yield from measured(
+                "arm_to_hub_mm", 0.0, lambda: parts.arm.hub_gap if parts.arm else None
+            )
+    links = "link_pin_mm", "link_bore_mm", "link_width_mm", "press_fit_mm", "pin_mm"
+    if any(map(size.get, links)):
+        yield from measured(
+            "link_wall_mm",
+            sizes.wall_min,
+            lambda: min(map(plate_wall, parts.links.plates), default=None),
+        )
+    if "link_gap_mm" in names:
+        yield from _links_gap("link_gap_mm", parts)
 
 
 def least_gap(name: str, gaps: Iterator[float], L: float) -> Iterator[Check]:
     """The least of the gaps, mm, if there is one; the check fails if parts cannot be built."""
-    try:
-        least = min(gaps, default=None)
-    except GenevaError as error:
-        yield Check(name, None, "at least", 0.0, False, str(error))
-    else:
-        if least is not None:
-            # A gap is rounded to 1e-12 of the centre distance, or of the sphere's radius.
-            yield compared(name, least, "at least", 0.0, None, 1e-12 * L)
-
-
-def _arm(parts: FlatParts) -> Iterator[Check]:
-    """Walls around the arm's holes and the disc's bolts; the gap to the wheel's shaft or hub.
-
-    The arm's end passes below the wheel. An internal wheel is open in the middle.
-    """
-    outlines = parts.outlines
-    limits = {"arm_wall_mm": outlines.sizes.wall_min}
-    if outlines.assembly.sign > 0.0:
-        limits["arm_to_hub_mm"] = 0.0
-    for name, limit in limits.items():
-        try:
-            arm = parts.arm
-            if arm:
-                value = arm_walls(arm, outlines) if name == "arm_wall_mm" else arm.hub_gap
-                yield compared(name, value, "at least", limit)
-        except GenevaError as error:
-            yield Check(name, None, "at least", limit, False, str(error))
+    # a gap is rounded to 1e-12 of the centre distance, or of the sphere's radius
+    return measured(name, 0.0, lambda: min(gaps, default=None), 1e-12 * L)
 
 
 def _links_gap(name: str, parts: FlatParts) -> Iterator[Check]:
@@ -183,7 +156,7 @@ def _links_gap(name: str, parts: FlatParts) -> Iterator[Check]:
         spacers = parts.framed.spacers if mechanism.spec.drive_before else ()
         near, blocked = planes(parts.outlines, parts.links, spacers)
     except GenevaError as error:
-        yield Check(name, None, "at least", 0.0, False, str(error))
+        yield unknown(name, str(error), "at least", 0.0, True)
         return
     if blocked:
         at_deg = mechanism.shown_deg(blocked.input_deg)

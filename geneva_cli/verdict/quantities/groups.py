@@ -49,15 +49,6 @@ RATES = {
 }
 
 
-# The loads of a cycle: those whose ``max`` is the greatest size, which a report shows, and others.
-SIZED = ("pin_force_N", "contact_stress_MPa", "input_torque_Nm", "rack_force_N")
-_SIGNED = (
-    "omega_rad_s,alpha_rad_s2,wheel_torque_Nm,sliding_m_s,power_W,wheel_bearing_N,crank_bearing_N,"
-    "pv_W_m2,rack_speed_m_s,rack_acceleration_m_s2,guide_force_N,"
-    "wheel_near_bearing_N,wheel_far_bearing_N,crank_near_bearing_N,crank_far_bearing_N"
-)
-
-
 class QuantityGroup(NamedTuple):
     """Quantities that are computed together.
 
@@ -152,162 +143,114 @@ def _words(names: str) -> tuple[str, ...]:
     return tuple(out)
 
 
-def _batch(table: str, names: str, function: str) -> QuantityGroup:
-    """A group that a function of this folder computes for a batch."""
-    return QuantityGroup(table, _words(names), batch=f"verdict.quantities.{function}")
+def _groups(rows: str) -> Iterator[QuantityGroup]:
+    """The groups of a text: functions, table, names; "!" behind names that no batch computes."""
+    for row in rows.strip().replace("\n  ", " ").splitlines():
+        functions, table, *names = row.split(maxsplit=2)
+        words = _words("".join(names))
+        paths = {one.startswith("quantities"): f"verdict.{one}" for one in functions.split(",")}
+        yield QuantityGroup(
+            table.rstrip("-"),
+            tuple(word.rstrip("!") for word in words),
+            paths.get(False, ""),
+            paths.get(True, ""),
+            tuple(word.rstrip("!") for word in words if word.endswith("!")),
+            table in ("parts", "parts_list", "tolerance", "checks"),
+        )
 
 
-def _alone(
-    table: str, names: str, function: str, parts: bool = False, module: str = "report_sections"
-) -> QuantityGroup:
-    """A group that is computed for one design at a time."""
-    return QuantityGroup(table, _words(names), f"verdict.{module}:{function}", makes_parts=parts)
-
-
-MACHINE = _alone(
-    "", "wheel.z wheel.gearing drive.kind drive.rollers drive.before.kind motion.law", "machine"
-)
-_INPUTS = " ".join(f"{table}.{{{' '.join(keys)}}}" for table, keys in ECHOED.items())
 # Quantities of a report, in the order shown, but those of kinds.
-_REPORT = (
-    _alone("inputs", _INPUTS, "inputs"),
-    _batch(
-        "timing",
-        "motion_deg dwell_deg index_deg k tau motion_s dwell_s cycle_s index_mm",
-        "motion_quantities:timing",
-    ),
-    _batch("timing", "k_r", "motion_quantities:timing"),
-    _batch(
-        "input_stop",
-        "stands_s brake_deg start_deg inertia_kgm2 brake_torque_Nm start_torque_Nm energy_J "
-        "power_W",
-        "motion_quantities:input_stop",
-    ),
-    _batch("timing", "index_gained_deg", "motion_quantities:index_gained"),
-    _batch(
-        "",
-        "velocity.{max at_deg max_rad_s max_m_s entry exit} "
-        "acceleration.{max at_deg max_rad_s2 max_m_s2 entry exit entry_rad_s2 entry_m_s2} "
-        "jerk.{max at_deg max_rad_s3 max_m_s3 entry exit} "
-        "power.{max at_deg max_rad2_s3 max_m2_s3}",
-        "motion_quantities:peaks",
-    ),
-    _alone("", "", "stations"),
-    _batch(
-        "loads",
-        "torque_Nm,rack_force_N,pin_force_N,input_torque_Nm,contact_stress_MPa.{max at_deg} "
-        "kinetic_power_W",
-        "load_quantities:greatest",
-    ),
-    _alone("cycle", "input_torque_Nm,power_W,crank_bearing_N.{max min mean rms}", "cycle"),
-    _batch("shock.entry", "at_deg jump force_N moment_Nms", "load_quantities:entry"),
-    _batch(
-        "shock.reversal",
-        "at_deg jump force_N moment_Nms contact_stress_MPa drag_Nm",
-        "load_quantities:reversal",
-    ),
-    _alone("slot", "positively_driven", "slot"),
-    _batch("slot", "not_driven_share branch_gap_mm branch_gap_at_deg", "load_quantities:slot"),
-    _alone(
-        "vibration",
-        "none period_ratio damping_ratio natural_Hz residual_share residual_deg "
-        "dynamic_factor windup_deg",
-        "vibration",
-    )._replace(batch="verdict.quantities.load_quantities:vibration", one_by_one=("none",)),
-    _batch(
-        "product",
-        "travel_mm chord_mm friction_needed "
-        "speed_m_s,acceleration_m_s2,tangential_m_s2,centripetal_m_s2,jerk_m_s3.{max at_deg}",
-        "motion_quantities:product",
-    ),
-    _alone("", "", "wheels"),
-    _alone("", "", "cranks"),
-    _alone(
-        "sizes",
-        "axes_deg sphere_radius_mm crank_arm_mm slot_mouth_polar_deg slot_bottom_polar_deg "
-        "center_distance_mm crank_radius_mm ratio roller_radius_mm slot_width_mm clearances_from "
-        "slot_mouth_radius_mm slot_bottom_radius_mm wheel_radius_mm rim_radius_mm "
-        "pressure_angle_max_deg rollers_max",
-        "sizes",
-    ),
-    _alone(
-        "parts",
-        "none rim_radius_mm slot_end_radius_mm lock_radius_mm recess_radius_mm relief horn_mm "
-        "wheel_bore_mm crank_bore_mm",
-        "parts",
-        True,
-    ),
-    _alone(
-        "parts", "smallest_gap_mm smallest_gap_at_deg dwell_play_deg dwell_play_mm", "turned", True
-    ),
-    _alone("parts_list", "", "parts_list_tables", True),
-    _alone(
-        "tolerance",
-        "dwell_position,motion_play.{worst_deg rss_deg p997_deg} "
-        "entry_jump.{mean worst mouth_worst} clearances.{slot_needed_mm lock_needed_mm turns}",
-        "tolerances",
-        True,
-    )._replace(
-        batch="verdict.quantities.load_quantities:tolerances",
-        one_by_one=_words(
-            "dwell_position.{worst_deg rss_deg p997_deg} motion_play.p997_deg "
-            "entry_jump.{mean mouth_worst} clearances.{slot_needed_mm lock_needed_mm turns}"
-        ),
-    ),
-    _batch(
-        "strength.pin",
-        "diameter_mm bending_MPa shear_MPa stress_MPa allowed_MPa margin least_diameter_mm",
-        "part_strength:pin",
-    ),
-    _batch(
-        "strength.horn",
-        "stress_MPa at_deg inwards_mm thickness_mm allowed_MPa margin",
-        "part_strength:horn",
-    ),
-    _batch(
-        "strength.lock",
-        "torque_Nm force_N contact_stress_MPa pressure_MPa allowed_MPa margin horn_stress_MPa "
-        "play_deg approach_deg bending_deg deflection_deg",
-        "part_strength:lock",
-    ),
-    *(
-        _batch(
-            f"strength.{shaft}",
-            "diameter_mm moment_Nm at_deg stress_MPa allowed_MPa margin least_diameter_mm",
-            f"part_strength:{shaft}",
-        )
-        for shaft in ("wheel_shaft", "crank_shaft")
-    ),
-    _batch("strength.arm", "thickness_mm stress_MPa allowed_MPa margin", "part_strength:arm"),
-    _batch("strength.arm", "least_thickness_mm", "part_strength:arm_thickness"),
-    *(
-        _batch(
-            f"strength.{key}",
-            "length_mm pressure_MPa shear_MPa allowed_MPa margin least_length_mm",
-            f"part_strength:{key}",
-        )
-        for key in ("wheel_key", "crank_key")
-    ),
-    _batch(
-        "life",
-        "slot_travel_m roller_turns_per_motion equivalent_force_N friction_work_J",
-        "part_strength:wear",
-    ),
-    _batch("life", "pv_max_W_m2", "part_strength:pressure_speed"),
-    _batch("life", "pin_stress_MPa horn_stress_MPa", "part_strength:bending"),
-    _batch(
-        "life",
-        "roller_life_turns roller_life_motions roller_life_h",
-        "part_strength:wear",
-    ),
-    _alone("strength", "", "needs"),
-)
+_REPORT = """
+report_sections:inputs inputs INPUTS
+quantities.motion_quantities:timing timing motion_deg dwell_deg index_deg k tau motion_s dwell_s
+  cycle_s index_mm k_r
+quantities.motion_quantities:input_stop input_stop stands_s brake_deg start_deg inertia_kgm2
+  brake_torque_Nm start_torque_Nm energy_J power_W
+quantities.motion_quantities:index_gained timing index_gained_deg
+quantities.motion_quantities:peaks - velocity.{max at_deg max_rad_s max_m_s entry exit}
+  acceleration.{max at_deg max_rad_s2 max_m_s2 entry exit entry_rad_s2 entry_m_s2}
+  jerk.{max at_deg max_rad_s3 max_m_s3 entry exit} power.{max at_deg max_rad2_s3 max_m2_s3}
+report_sections:stations -
+quantities.load_quantities:greatest loads
+  torque_Nm,rack_force_N,pin_force_N,input_torque_Nm,contact_stress_MPa.{max at_deg} kinetic_power_W
+quantities.load_quantities:summaries loads input_torque_Nm.{min mean rms}
+  power_W,crank_bearing_N.{max min mean rms}
+report_sections:reversals loads
+quantities.load_quantities:entry shock.entry at_deg jump force_N moment_Nms
+quantities.load_quantities:reversal shock.reversal
+  at_deg jump force_N moment_Nms contact_stress_MPa drag_Nm
+report_sections:slot slot positively_driven
+quantities.load_quantities:slot slot not_driven_share branch_gap_mm branch_gap_at_deg
+report_sections:vibration,quantities.load_quantities:vibration vibration none! period_ratio
+  damping_ratio natural_Hz residual_share residual_deg dynamic_factor windup_deg
+quantities.motion_quantities:product product travel_mm chord_mm friction_needed
+  speed_m_s,acceleration_m_s2,tangential_m_s2,centripetal_m_s2,jerk_m_s3.{max at_deg}
+report_sections:wheels -
+report_sections:cranks -
+report_sections:sizes sizes axes_deg sphere_radius_mm crank_arm_mm slot_mouth_polar_deg
+  slot_bottom_polar_deg center_distance_mm crank_radius_mm ratio roller_radius_mm slot_width_mm
+  clearances_from slot_mouth_radius_mm slot_bottom_radius_mm wheel_radius_mm rim_radius_mm
+  pressure_angle_max_deg rollers_max
+report_sections:parts parts none rim_radius_mm slot_end_radius_mm lock_radius_mm recess_radius_mm
+  relief horn_mm wheel_bore_mm crank_bore_mm
+report_sections:turned parts smallest_gap_mm smallest_gap_at_deg dwell_play_deg dwell_play_mm
+report_sections:parts_list_tables parts_list
+report_sections:tolerances,quantities.load_quantities:tolerances tolerance
+  dwell_position.{worst_deg! rss_deg! p997_deg!} motion_play.{worst_deg rss_deg p997_deg!}
+  entry_jump.{mean! worst mouth_worst!} clearances.{slot_needed_mm! lock_needed_mm! turns!}
+quantities.part_strength:pin strength.pin
+  diameter_mm bending_MPa shear_MPa stress_MPa allowed_MPa margin least_diameter_mm
+quantities.part_strength:horn strength.horn
+  stress_MPa at_deg inwards_mm thickness_mm allowed_MPa margin
+quantities.part_strength:lock strength.lock torque_Nm force_N contact_stress_MPa pressure_MPa
+  allowed_MPa margin horn_stress_MPa play_deg approach_deg bending_deg deflection_deg
+quantities.part_strength:wheel_shaft strength.wheel_shaft
+  diameter_mm moment_Nm at_deg stress_MPa allowed_MPa margin least_diameter_mm
+quantities.part_strength:crank_shaft strength.crank_shaft
+  diameter_mm moment_Nm at_deg stress_MPa allowed_MPa margin least_diameter_mm
+quantities.part_strength:arm strength.arm thickness_mm stress_MPa allowed_MPa margin
+quantities.part_strength:arm_thickness strength.arm least_thickness_mm
+quantities.part_strength:wheel_key strength.wheel_key
+  length_mm pressure_MPa shear_MPa allowed_MPa margin least_length_mm
+quantities.part_strength:crank_key strength.crank_key
+  length_mm pressure_MPa shear_MPa allowed_MPa margin least_length_mm
+quantities.part_strength:wear life
+  slot_travel_m roller_turns_per_motion equivalent_force_N friction_work_J
+quantities.part_strength:pressure_speed life pv_max_W_m2
+quantities.part_strength:bending life pin_stress_MPa horn_stress_MPa
+quantities.part_strength:wear life roller_life_turns roller_life_motions roller_life_h
+report_sections:needs strength
+"""
+_INPUTS = " ".join(f"{table}.{{{' '.join(keys)}}}" for table, keys in ECHOED.items())
+# The kind of machine; then further quantities, for studies. Whether a design passes is found alone,
+# too: until the first check that fails.
+_STUDY = f"""
+report_sections:machine - wheel.z wheel.gearing drive.kind drive.rollers drive.before.kind
+  motion.law
+quantities.load_quantities:summaries loads input_torque_Nm.min_at_deg
+  power_W,crank_bearing_N.{{min_at_deg max_at_deg}}
+  pin_force_N,contact_stress_MPa,rack_force_N.{{min min_at_deg mean rms}}
+  omega_rad_s,alpha_rad_s2,wheel_torque_Nm,sliding_m_s.{{max max_at_deg min min_at_deg mean rms}}
+  wheel_bearing_N,pv_W_m2,rack_speed_m_s.{{max max_at_deg min min_at_deg mean rms}}
+  rack_acceleration_m_s2,guide_force_N.{{max max_at_deg min min_at_deg mean rms}}
+  wheel_near_bearing_N,wheel_far_bearing_N.{{max max_at_deg min min_at_deg mean rms}}
+  crank_near_bearing_N,crank_far_bearing_N.{{max max_at_deg min min_at_deg mean rms}}
+quantities.load_quantities:sizing sizing inertia_kgm2 acceleration_rad_s2 inertia_torque_Nm
+  friction_torque_Nm total_torque_Nm design_torque_Nm input_torque_Nm power_W Am Vm Qm
+  energy_fluctuation_J flywheel_kgm2 motor_rpm motor_torque_max_Nm motor_torque_rms_Nm
+  inertia_ratio flywheel_to_add_kgm2
+checks:values_before_turn checks {" ".join(BEFORE_TURN)}
+checks:check_values checks {" ".join(OF_TURN)} passes failed
+checks:passed checks passes
+checks:proved checks {" ".join(PROOFS)}
+"""
 
 
 def _with_kinds() -> Iterator[QuantityGroup]:
     """The groups of a report, each kind's own behind the tables that it names."""
-    last = {group.table: group for group in _REPORT}
-    for group in _REPORT:
+    core = [*_groups(_REPORT.replace("INPUTS", _INPUTS))]
+    last = {group.table: group for group in core}
+    for group in core:
         yield group
         for kind in KINDS:
             for own in kind.quantities:
@@ -319,30 +262,6 @@ def _with_kinds() -> Iterator[QuantityGroup]:
 
 
 REPORT = (*_with_kinds(),)
-_CHECKS = {
-    "values_before_turn": BEFORE_TURN,
-    "check_values": (*OF_TURN, "passes", "failed"),
-    "passed": ("passes",),  # alone, until the first check that fails
-    "proved": PROOFS,
-}
-# Further quantities, for studies.
-STUDY = (
-    _batch(
-        "loads",
-        f"{','.join(SIZED)},{_SIGNED}.{{min min_at_deg mean rms}} {_SIGNED}.{{max max_at_deg}}",
-        "load_quantities:summaries",
-    ),
-    _batch(
-        "sizing",
-        "inertia_kgm2 acceleration_rad_s2 inertia_torque_Nm friction_torque_Nm total_torque_Nm "
-        "design_torque_Nm input_torque_Nm power_W Am Vm Qm energy_fluctuation_J flywheel_kgm2 "
-        "motor_rpm motor_torque_max_Nm motor_torque_rms_Nm inertia_ratio flywheel_to_add_kgm2",
-        "load_quantities:sizing",
-    ),
-    *(
-        _alone("checks", " ".join(names), function, True, "checks")
-        for function, names in _CHECKS.items()
-    ),
-)
+MACHINE, *STUDY = _groups(_STUDY)
 # All quantities; those that make parts come last.
 GROUPS = tuple(sorted((MACHINE, *REPORT, *STUDY), key=lambda group: group.makes_parts))

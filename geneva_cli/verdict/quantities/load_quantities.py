@@ -49,18 +49,14 @@ def pressure(of: Designs) -> Columns:
     return {"max_deg": peak.max, "at_deg": peak.at_deg}
 
 
-def summary_ends(load: str) -> tuple[str, ...]:
-    """The values of a load's summary that are quantities: not its ``max`` if that is a size."""
-    return LoadSummary._fields[2:] if load in REPORTED_PEAKS else LoadSummary._fields
-
-
 def summaries(of: Designs) -> Columns:
     """Greatest and least values, means and rms of loads; None for loads that no design has."""
     known = sources(of.machine)
     ends: dict[str, list[str]] = {}
     for name in of.requested("loads"):
         load, _, end = name.rpartition(".")
-        if end in summary_ends(load):
+        # the ``max`` of loads that are sizes is a quantity of the report
+        if end in LoadSummary._fields[2 * (load in REPORTED_PEAKS) :]:
             ends.setdefault(load, []).append(end)
     out: dict[str, Number | None] = {
         f"{load}.{end}": None for load, own in ends.items() if load not in known for end in own
@@ -142,8 +138,7 @@ def tolerances(of: Designs) -> Columns:
     None for racks, whose deviations are not studied. The jump at entry is computed as a batch if
     all designs have tolerances, none of which is too wide.
     """
-    from geneva_cli.loads.tolerance.entry_jump import entry_jumps_worst
-    from geneva_cli.loads.tolerance.motion_error import motion_plays, used
+    from geneva_cli.loads.tolerance.motion_error import entry_jumps_worst, motion_plays, used
 
     plays = motion_plays(of.machine) if of.machine.output.turns else None
     if plays is None:

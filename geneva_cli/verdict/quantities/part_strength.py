@@ -92,10 +92,7 @@ def horn(of: Designs) -> Columns:
 
 
 def lock(of: Designs) -> Columns:
-    """The lock under the torque in the dwell; it needs a width of the contact.
-
-    ``greatest_MPa`` is the stress between disc and recess, on an end or between the arcs.
-    """
+    """The lock under the torque in the dwell; ``greatest_MPa``: between disc and recess."""
     state, allowed = under_load(of).lock, of.spec.limits.lock_stress_max_MPa
     out: dict[str, Number | None] = {"allowed_MPa": allowed}
     if state is None:

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
 
 from geneva_cli.errors import GenevaError, cut, nearest
-from geneva_cli.verdict.quantities.groups import CHECKS, GROUPS, INPUTS, SIZED, QuantityGroup
+from geneva_cli.verdict.quantities.groups import CHECKS, GROUPS, INPUTS, QuantityGroup
 
 # Quantities whose values are words, which have no order.
 WORDS = frozenset(
@@ -79,26 +79,8 @@ def _readings(typed: str) -> Iterator[list[str]]:
     quantities = [name for name in others if not name.startswith(CHECKS)]
     yield [name for name in quantities if name.replace(".", "_") == typed]
     for names in (quantities, others):
-        # of a value of the report's cycle that is among the loads under its name, the load's
-        names = [name for name in names if not _is_repeated(name)]
         yield [name for name in names if name.endswith(f".{typed}")]
-        yield [
-            name
-            for name in names
-            if name.replace(".", "_").endswith(f"_{typed}")
-            and typed in {end.replace(".", "_") for end in _ends(name)}
-        ]
-
-
-def _is_repeated(name: str) -> bool:
-    """True for a value of the report's cycle that is among the loads under the same name.
-
-    A ``max`` that is a size among the loads is not.
-    """
-    table, _, own = name.partition(".")
-    load, _, end = own.partition(".")
-    is_size = end == "max" and load in SIZED
-    return table == "cycle" and f"loads.{own}" in group_of() and not is_size
+        yield [name for name in names if typed in (e.replace(".", "_") for e in _ends(name))]
 
 
 def _ends(name: str) -> list[str]:

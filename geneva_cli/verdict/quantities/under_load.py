@@ -78,28 +78,23 @@ class UnderLoad:
     @cached_property
     def _unloaded(self) -> list[Unloaded | None]:
         """The parts of the designs without their loads; None for one without flat parts."""
-        of, count = self.machine.spec, self.machine.designs
-        with marking():  # the values of the designs are checked
-            drive = of.drive.replace(n_rpm=1.0)
-            bare = Spec(
-                of.wheel, drive, of.motion, of.size, shaft=of.shaft, drive_before=of.drive_before
-            )
-        if self.designs.are_built or designs_in(bare) > 1:
-            return [_bare(one) for one in self.designs.each]
-        # designs that differ in speed and loads only have the same
-        return [_bare(build(taken(bare, 0)))] * count
+        if not self.designs.are_built:
+            of = self.machine.spec
+            with marking():  # the values of the designs are checked
+                drive, keys = of.drive.replace(n_rpm=1.0), (of.motion, of.size)
+                before = of.drive_before
+                bare = Spec(of.wheel, drive, *keys, shaft=of.shaft, drive_before=before)
+            if designs_in(bare) == 1:  # designs that differ in speed and loads have the same
+                return [_bare(build(taken(bare, 0)))] * self.machine.designs
+        return [*map(_bare, self.designs.each)]
 
     @cached_property
     def lock_sizes(self) -> tuple[float, Lock] | None:
-        """Half the slot's width, and the lock in its narrowest sector, mm; (m, 1) for m designs.
-
-        NaN for designs without a lock; None if none has one.
-        """
+        """Half the slot's width, and the lock in its narrowest sector, mm (m, 1)."""
         each = list[tuple[float, Lock] | None]()
         drawn = self.layouts if self.designs.are_built else self._unloaded
         for of, is_drawn in zip(self._unloaded, drawn, strict=True):
-            known = of and of.lock and is_drawn
-            each.append((of.sizes.half_width, of.lock) if of and of.lock and known else None)
+            each.append((of.sizes.half_width, of.lock) if of and of.lock and is_drawn else None)
         return batched(each, as_numbers)
 
     @cached_property
@@ -186,10 +181,7 @@ class UnderLoad:
         return reversal_impacts(self.machine)
 
     def pin_N(self, pin: PinSize) -> Array:
-        """The greatest force on a roller, with its friction, in the cycle or by an impact; (m, 1).
-
-        A pin of another size is struck by another force.
-        """
+        """The greatest force on a roller with its friction, in the cycle or by impact, (m, 1)."""
         jump = self.reversals.jump[:, None]
         if np.isnan(jump).all():
             return self.roller_N
@@ -237,10 +229,7 @@ def batched(
 
     Each number of it is ``column`` of the (m,) numbers of the designs, NaN for those without.
     """
-    like: Record | None = None
-    for like in records:
-        if like is not None:
-            break
+    like = next(filter(None, records), None)
     if like is None:
         return None
     fields = list[object]()

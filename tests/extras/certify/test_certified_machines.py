@@ -21,7 +21,6 @@ from geneva_cli import (
     External,
     Harmonic,
     Internal,
-    Linear,
     ModifiedConstantVelocity,
     ModifiedSine,
     ModifiedTrapezoid,
@@ -109,18 +108,6 @@ def spherical(rng):
     return Design(Spherical(z, axes_deg=axes_deg)), angle
 
 
-def unequal(rng):
-    """The longer step has every peak."""
-    longer = round(rng.uniform(61.0, 75.0), 2)
-    l = mpmath.sin(mpmath.radians(decimal(longer) / 2))
-    wheel = External(6, steps_deg=(longer, round(120.0 - longer, 2)))
-    return Design(wheel, Crank(rollers=2)), straight(lambda a: a, 1, l)
-
-
-def rack(rng):
-    return Design(Linear(rng.randint(3, 20))), mpmath.sin
-
-
 ROUNDED = 1e-12  # of a peak: what the rounding of a spec's numbers may change
 DECIMALS = {
     "external": lambda rng: crank(rng, 1),
@@ -130,8 +117,6 @@ DECIMALS = {
     "elliptical gears": elliptical,
     "offset": offset,
     "spherical": spherical,
-    "unequal steps": unequal,
-    "linear": rack,
 }
 
 

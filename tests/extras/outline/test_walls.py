@@ -5,11 +5,10 @@ import math
 import numpy as np
 import pytest
 import shapely
-from drawn_wheels import corners, disc, drawn_wheel
+from drawn_wheels import disc, drawn_wheel
 
 from geneva_cli.extras.outline.walls import smallest_wall
 from geneva_cli.geometry.plates import with_material_left
-from geneva_cli.geometry.shapes import Line, closed
 
 
 def test_walls_of_plain_wheels():
@@ -26,18 +25,6 @@ def test_walls_of_plain_wheels():
     near = drawn_wheel(4, 20.0, 3.0, 45.0, (60.0, 38.0))  # the recess comes close to a slot's side
     least = 60.0 * math.sin(math.pi / 4.0) - 38.0 - 3.0
     assert smallest_wall([near]).thickness == pytest.approx(least, abs=1e-9)
-
-
-def faceted(contour):
-    points = corners(contour)
-    pieces = [Line(p, q) for p, q in zip(points, [*points[1:], points[0]], strict=True)]
-    return closed("", pieces)
-
-
-def test_facets_have_the_walls_of_their_arcs():
-    contour = drawn_wheel(6, 30.0, 3.25, 45.0, (60.0, 22.0))
-    arcs, facets = (smallest_wall([each]).thickness for each in (contour, faceted(contour)))
-    assert facets == pytest.approx(arcs, abs=0.03)  # their sagittas
 
 
 def test_a_wall_is_the_shortest_line_through_the_material():

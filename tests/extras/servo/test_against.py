@@ -62,14 +62,6 @@ def test_s_curve(cruise, ramp):
                 assert float(jet[2]) == pytest.approx(float(acceleration(u)), abs=1e-13)
 
 
-def test_same_step_and_time():
-    """All three have the motion's time, the dwell and the step of the design."""
-    own = columns()
-    for name in ("motion_s", "dwell_s"):
-        values = [column[name] for column in own.values()]
-        assert values == pytest.approx([values[0]] * 3, rel=1e-12)
-
-
 def test_peaks_of_the_laws():
     """Modified sine: 1.75960 and 5.52796; S-curve: 2/(1 + c) and 4/((1 - c²)(1 - r))."""
     own = columns()

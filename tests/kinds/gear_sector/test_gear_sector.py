@@ -58,20 +58,6 @@ def test_against_50_digits(z, sector):
         assert worst <= (16.0 + 8.0) * math.ulp(peak)
 
 
-@pytest.mark.parametrize(("z", "sector"), CASES)
-def test_a_step(z, sector):
-    """The step and both handovers: 2 b + u D, speeds that agree."""
-    s = machine(z, sector).engagements[0]
-    first, last = (s.motion(x).derivatives() for x in (s.entry_deg, s.exit_deg))
-    assert last[0] - first[0] == pytest.approx(2.0 * math.pi / z, abs=1e-14)
-    assert (first[1], last[1]) == (0.0, 0.0)
-    before, after = (
-        s.motion(x, 1).c[1] for x in (-s.motion.half_sector, -s.motion.half_sector + 1e-9)
-    )
-    assert before == pytest.approx(after, abs=4e-15)
-    assert s.motion_deg == pytest.approx(2.0 * s.through.exit_deg + sector, rel=1e-15)
-
-
 def test_no_jump_at_l_over_1_minus_l():
     """u = l/(1-l), and the wheel of six slots' first half is Geneva's own."""
     s = machine(3, 60.0).engagements[0]

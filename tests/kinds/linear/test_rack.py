@@ -9,16 +9,13 @@ import mpmath
 import pytest
 import repo
 from other_shape import with_shape
-from test_parts_by_hand import dimensions
 
 from geneva_cli import Design, Linear, Size
 from geneva_cli.design import load
-from geneva_cli.drawings.sheet.crank_views import draw_arm
 from geneva_cli.geometry.plates import moments, solids
 from geneva_cli.geometry.shapes import bounds
-from geneva_cli.kinds.linear.frame import guide
 from geneva_cli.kinds.linear.outlines import turned_rack
-from geneva_cli.kinds.linear.rack import crank_arm, locking_sector, rack_contour, rack_sizes
+from geneva_cli.kinds.linear.rack import locking_sector, rack_contour, rack_sizes
 from geneva_cli.parts.turn.full_turn import full_turn
 
 R, r = 50.0, 6.0
@@ -83,16 +80,13 @@ def test_a_ring_that_reaches_the_axis_collides():
 @pytest.mark.long
 @pytest.mark.usefixtures("no_advice")
 def test_checks():
-    rows = {one.name: one for one in design(slot_clearance_mm=0.1).checks}
-    assert rows["rack_horn_mm"].value == pytest.approx(
-        R - 6.1 - rack_sizes(design(slot_clearance_mm=0.1).mechanism).recess
-    )
-    assert rows["gap_mm"].value == 0.0
-    assert rows["gap_proved_mm"].passes
-    assert "parts" not in rows  # it has a row only where a part cannot be built
+    rack = design(slot_clearance_mm=0.1)
+    rows = {one.name: one for one in rack.checks}
+    horn = R - 6.1 - rack_sizes(rack.mechanism).recess
+    assert rows["rack_horn_mm"].value == pytest.approx(horn)
+    assert rows["gap_mm"].value == 0.0 and rows["gap_proved_mm"].passes
     free = {one.name for one in design(lock_radius_mm=0.0).checks}
-    assert "rack_horn_mm" not in free
-    assert "gap_mm" in free
+    assert "rack_horn_mm" not in free and "gap_mm" in free
     thin = {one.name: one for one in design(lock_radius_mm=43.9).checks}
     assert thin["rack_horn_mm"].passes is False
 
@@ -183,28 +177,3 @@ def test_the_horn_of_a_rack_is_its_formula():
     assert values["strength.horn.at_deg"] == pytest.approx(-90.0, abs=1e-6)
     assert values["life.horn_stress_MPa"] == values["strength.horn.stress_MPa"]
     assert "horn_stress_MPa" in {one.name for one in rack.checks}
-
-
-def test_the_bolts_of_a_racks_arm_are_amid_its_locking_sector():
-    """R = 50, r = 6: the sector reaches from R - rho + R/200 to rho = R - 2 r.
-
-    It lies over half a turn opposite the roller, so the bolts are at 135° and 225°. A hole of up to
-    2 R/40 = 2.5 mm is one of 2.4 mm for M2, whose pitch is 0.4 mm.
-    """
-    mechanism = design().mechanism
-    far = 0.5 * (50.0 - 38.0 + 0.25 + 38.0)
-    arm, at = crank_arm(mechanism), far * math.sqrt(0.5)
-    holes = [(*bolt.centre, bolt.radius) for bolt in arm.bolts]
-    assert holes == [pytest.approx((-at, at, 0.8)), pytest.approx((-at, -at, 0.8))]
-    on_sheet = {"50", "Ø 6 P7 (-0.008/-0.02)", "R 38", "R 6", "Ø 10 H7 (+0.015/0)"}
-    on_sheet.add(f"2× Ø 1.6, tapped M2 on Ø {2.0 * far:g}")
-    assert dimensions(draw_arm, mechanism, arm) == on_sheet
-
-
-def test_screws_are_amid_the_guides_bars():
-    """R = 50, half a slot 6.1: bars of R/10, whose screws are half a bar from their ends."""
-    for bar in guide(design(slot_clearance_mm=0.1).mechanism)[:2]:
-        box = bounds(bar.outline)
-        middle, far = 0.5 * (box.x0 + box.x1), 50.0 - 6.1 - 2.5
-        places = [pytest.approx((middle, y)) for y in (-far, 0.0, far)]
-        assert [one.centre for one in bar.holes] == places

@@ -5,11 +5,7 @@ import math
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
-from geneva_cli.cli.app import app
-from geneva_cli.design import load
-from geneva_cli.drives.crank import Crank
 from geneva_cli.kinds.linkages import four_bar_family as families
 from geneva_cli.kinds.linkages.four_bar import FourBar
 from geneva_cli.motion.machine_spec import Spec
@@ -17,10 +13,8 @@ from geneva_cli.motion.many import many, worst_peaks
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.peaks import peak as peak_of
 from geneva_cli.motion.wheels.external import External
-from geneva_cli.spec.tables import Size
 from geneva_cli.study.synth.reading import read_target
 from geneva_cli.study.synth.synth_search import search
-from geneva_cli.study.synth.synth_table import chosen
 
 KEYS = ("crank_mm", "ground_mm", "coupler_mm", "rocker_mm", "point_mm", "point_deg", "entry_deg")
 
@@ -62,39 +56,10 @@ def test_a_four_bar_makes_the_motion(z, motion):
     assert reach(row.spec.drive) <= 300.0 * (1.0 + 1e-3)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("space", ["0.9"])
-def test_it_is_as_large_as_the_frame_and_no_larger_than_the_space(space):
-    frame = Spec(External(6), Crank(n_rpm=30.0), size=Size(center_distance_mm=80.0))
-    (row,) = four_bars(motion_deg="110", frame=frame, space=space)
-    assert build(row.spec).center_distance_mm == pytest.approx(80.0, rel=1e-12)
-    assert row.spec.drive.n_rpm == 30.0
-    # the search looks at 192 places: a joint goes no farther between them than 1/1000
-    assert reach(row.spec.drive) <= float(space) * 80.0 * (1.0 + 1e-3)
-
-
 def test_it_takes_one_roller_on_an_external_wheel():
     assert not four_bars(motion_deg="120", z="6", rollers=2)
     assert not four_bars(motion_deg="220", z="6", internal=True)
     assert not four_bars(motion_deg="120", z="6", spherical=True)
-
-
-@pytest.mark.long
-def test_its_row_written_is_what_check_says_and_is_cut(tmp_path):
-    """A long motion, whose gentlest four-bar without room for a roller ran into its wheel, and
-    whose coupler passes below the wheel's axis.
-    """
-    found = search(read_target(motion_deg="168", z="6", external=True))
-    (number,) = [i for i, row in enumerate(found.rows, 1) if row.cells["drive"] == "four-bar"]
-    assert found.rows[number - 1].cells["parts"] == "maybe"
-    made, text = chosen(found, number)
-    assert not made.trouble
-    file, wheel = tmp_path / "spec.toml", tmp_path / "wheel.dxf"
-    file.write_text(text, encoding="utf-8")
-    assert [c.name for c in load(str(file)).checks if c.passes is False] == []
-    words = ["profile", str(file), "--part", "wheel", "-o", str(wheel)]
-    assert CliRunner().invoke(app, words).exit_code == 0
-    assert wheel.stat().st_size > 1000
 
 
 @pytest.mark.long
@@ -114,15 +79,6 @@ def test_it_keeps_bounds(bounds, name, low, high):
     )
     assert low * (1 - 1e-9) <= row.cells[name] <= high * (1 + 1e-9)
     assert 90.0 * (1 - 1e-9) <= row.cells["motion_deg"] <= 200.0 * (1 + 1e-9)
-
-
-@pytest.mark.long
-def test_what_it_sorts_by_is_the_least():
-    target = {"motion_deg": "100..180", "z": "6", "external": True}
-    (gentle,) = four_bars(**target)
-    (slow,) = four_bars(**target, sort="min:velocity.max")
-    assert slow.cells["velocity_max"] < gentle.cells["velocity_max"]
-    assert slow.cells["acceleration_max"] >= gentle.cells["acceleration_max"]
 
 
 @functools.cache

@@ -4,11 +4,11 @@ import math
 
 import pytest
 from test_parts_by_hand import L
-from words import Spec, Wheel
 
-from geneva_cli import Design, Size
+from geneva_cli import Design, Size, Spherical
 from geneva_cli.geometry.plates import solids
 from geneva_cli.parts.parts import parts_of
+from geneva_cli.verdict.checks import single_check
 
 
 def test_the_crank_of_a_sphere():
@@ -19,18 +19,9 @@ def test_the_crank_of_a_sphere():
     """
 
     bolts = {"lock_bolts": 2, "lock_bolt_circle_mm": 60.0, "lock_bolt_mm": 2.0}
-    size = Size(
-        L,
-        6.0,
-        shaft_fit_mm=0.2,
-        pin_mm=6.0,
-        press_fit_mm=0.1,
-        pin_gap_mm=0.5,
-        washer_mm=0.25,
-        **bolts,
-    )
-    mechanism = Design.of(Spec(Wheel(6, "spherical"), size=size)).mechanism
-    parts = parts_of(mechanism)
+    pins = {"shaft_fit_mm": 0.2, "pin_mm": 6.0, "press_fit_mm": 0.1, "pin_gap_mm": 0.5}
+    size = Size(L, 6.0, washer_mm=0.25, **pins, **bolts)
+    parts = parts_of(Design(Spherical(6), size=size).mechanism)
     far, height = 30.0 * math.sqrt(0.5), math.sqrt(L**2 - 30.0**2)
     places = [(hole.axis[0] * L, hole.axis[1] * L, hole.axis[2] * L) for hole in parts.arm.bolts]
     assert places == [pytest.approx((-far, side * far, height)) for side in (1.0, -1.0)]
@@ -47,3 +38,19 @@ def test_the_crank_of_a_sphere():
     # a cap about a hub leaves a wall as thick as the hub's, or the least one
     for bore, edge in ((50.0, 70.0), (59.0, 62.0)):
         assert parts.ball.cap(60.0, bore, 2.0) == pytest.approx(math.asin(edge / 105.5))
+
+
+@pytest.mark.parametrize(
+    ("size", "wall"),
+    [
+        ({"wheel_bore_mm": 20.0, "wheel_hub_mm": 20.4}, 0.2),
+        # DIN 6885-1: the keyway of a bore of 20 mm is 2.8 mm deep
+        ({"wheel_bore_mm": 20.0, "wheel_hub_mm": 27.0, "wheel_keyway": "DIN 6885-1"}, 0.7),
+    ],
+)
+def test_the_wall_of_a_spherical_hub_is_checked_around_its_bore(size, wall):
+    design = Design(Spherical(5, axes_deg=75.0), size=Size(100.0, 5.0, **size))
+    check = single_check(design.mechanism, "wheel_bore_wall_mm")
+    assert check.value == pytest.approx(wall, rel=1e-12)  # halves of the numbers above
+    assert check.limit == 0.5  # L/200
+    assert check.passes is (wall >= 0.5)

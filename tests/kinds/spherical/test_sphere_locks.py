@@ -5,7 +5,7 @@ import math
 import mpmath as mp
 import pytest
 
-from geneva_cli import Crank, Design, Size, Spherical
+from geneva_cli import Crank, Design, Size, Spherical, Tolerance
 from geneva_cli.kinds.spherical.locking import sphere_locks
 from geneva_cli.loads.tolerance.locking import Deviations, deviations, slope_of
 
@@ -71,3 +71,21 @@ def test_slopes_of_a_lock_on_a_sphere(axes_deg, rollers):
     for i, way in ((5, (1, 0)), (6, (0, 1))):
         true = mp.diff(lambda h, w=way: play(h * w[0], h * w[1]), 0)
         assert abs(lock(slope_of(i)).angle.c[1] - true) < 1e-13
+
+
+@pytest.mark.long
+def test_the_clearance_of_a_lock_on_a_sphere(axes_deg=60.0):
+    """Radii of disc and recess, from the crank's axis, are L sin of their angles."""
+    given = Tolerance(lock_radius_mm=0.01, recess_radius_mm=0.015)
+    arm = Design(Spherical(6, axes_deg=axes_deg)).mechanism.ratio * 100.0
+    disc = 0.85 * arm
+    size = Size(lock_radius_mm=disc, slot_clearance_mm=0.01, lock_clearance_mm=0.0)
+    design = Design(Spherical(6, axes_deg=axes_deg), size=size, tolerance=given)
+    found = design.tolerance(64).to_dict()
+    with mp.workdps(50):
+        needed = 100 * (mp.asin((mp.mpf(disc) + 0.025) / 100) - mp.asin(disc / 100))
+    assert found["clearances.lock_needed_mm"] == pytest.approx(float(needed), rel=1e-12)
+    assert found["clearances.turns"] is False
+    for share, turns in ((1.001, True), (0.999, False)):
+        one = design.with_("size.lock_clearance_mm", share * float(needed)).tolerance(64).to_dict()
+        assert one["clearances.turns"] is turns

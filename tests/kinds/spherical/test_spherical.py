@@ -218,7 +218,7 @@ def test_laid_flat(machine, curves):
     drawing = machine.drawing("wheel", 0.01, curves)
     (outline,) = (s for s in drawing.shapes if s.layer == "WHEEL")
     flat = np.array(vertices(outline, 1e-3))
-    cone = wheel_cone(found)
+    cone = wheel_cone(machine.parts)
     m, share = cone.polar, math.cos(cone.polar)
     apex = np.array((-L * math.tan(m), 0.0))
     way = flat - apex
@@ -238,7 +238,7 @@ def test_the_crank_laid_flat():
     """Its lock is an arc about the apex; the roller's outline is as wide as its cone."""
     design = MACHINES["90"]
     found = sizes(design)
-    drawing, cone = design.drawing("crank", 0.001), crank_cone(found)
+    drawing, cone = design.drawing("crank", 0.001), crank_cone(design.parts)
     sector, roller = (s for s in drawing.shapes if s.layer in ("CRANK", "ROLLER"))
     assert isinstance(sector, Contour)
     apex = -cone.apex_mm

@@ -6,6 +6,9 @@ from typing import NamedTuple
 import numpy as np
 from witness import mp
 
+from geneva_cli.output import show
+from geneva_cli.table import rows_table
+
 LIMIT = 16.0
 DIGITS = 120  # A within 1e-12 of 1 costs a fourth derivative four times 12 of them, and more
 
@@ -40,18 +43,12 @@ class Table:
         self.faults.append(what)
 
     def print(self):
-        head = ("machine", "quantity", "error", "condition", "share")
-        lines = []
-        for row, w in sorted(self.rows.items(), key=lambda item: item[0][0]):
-            cells = (*row, f"{w.error:.3g}", f"{w.condition:.3g}", f"{w.share:.3g}")
-            lines.append((*cells, w.where))
-        widths = [max(len(x[i]) for x in [head, *lines]) for i in range(5)]
-        for line in [(*head, "where"), *lines]:
-            cells = [
-                c.ljust(n) if i < 2 else c.rjust(n)
-                for i, (c, n) in enumerate(zip(line, widths, strict=False))
-            ]
-            print("  ".join([*cells, line[5]]).rstrip())
+        rows = [
+            (*row, f"{w.error:.3g}", f"{w.condition:.3g}", f"{w.share:.3g}", w.where)
+            for row, w in sorted(self.rows.items(), key=lambda item: item[0][0])
+        ]
+        names = ("machine", "quantity", "error", "condition", "share", "where")
+        show(rows_table(names, rows), "-", "csv")
 
     @property
     def over(self):

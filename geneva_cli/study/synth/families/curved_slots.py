@@ -22,18 +22,9 @@ from geneva_cli.motion.wheels.classic import rollers_max
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.arrays import Array, Mask
 from geneva_cli.study.batches import built
-from geneva_cli.study.synth.families.family import (
-    OPEN_END,
-    Family,
-    allowed_motions,
-    allows,
-    closed_span,
-    machine,
-    natural_deg,
-    speeds,
-)
+from geneva_cli.study.synth.families.family import Family, natural_deg
 from geneva_cli.study.synth.suiting import suiting
-from geneva_cli.study.target import AllowedSpan, Target
+from geneva_cli.study.target import OPEN_END, AllowedSpan, Target
 
 MORE = 4  # rollers that are tried where nothing demands more
 PARTS, ROUNDS = 4, 5  # of a range of motions: its division, and how often a part is divided again
@@ -53,7 +44,7 @@ def with_laws(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
     for wheel, m in product(wheels, several):
         natural = natural_deg(wheel)
         if m <= rollers_max(natural) or target.rollers is None:
-            span = closed_span(allowed_motions(target, m, natural), m)
+            span = target.free_motions(m, natural)
             free |= {(wheel, m): span} if span else {}
     for name, is_cam in product(target.laws, (False, True)):
         lines, law = list[_LawLine](), registry.law(name)()
@@ -83,11 +74,8 @@ class _LawLine(NamedTuple):
     def spec(self, motion_deg: float) -> Spec:
         alpha0 = _alpha0(natural_deg(self.wheel), motion_deg)
         motion = Motion(self.law, alpha0_deg=alpha0, ratio=None if self.is_cam else "matched")
-
-        def drive(n_rpm: float) -> Cam | Crank:
-            return (Cam if self.is_cam else Crank)(n_rpm=n_rpm, rollers=self.m)
-
-        return machine(self.target, self.wheel, drive, self.m, motion_deg, motion)
+        drive = (Cam if self.is_cam else Crank)(rollers=self.m)
+        return self.target.machine(self.wheel, drive, motion_deg, motion)
 
     def families(self, longest: float) -> Iterator[Family]:
         """Those of the allowed motions, of which ``longest`` can be built; NaN if none can."""
@@ -98,7 +86,7 @@ class _LawLine(NamedTuple):
             longest = free.high
         is_searched = target.bounds or target.sort or target.soft_bounds
         keys = partial(_keys, target, natural, self.m)
-        own = allows(free, natural)
+        own = free.allows(natural)
         if not (own and free.exact):
             best = math.nan if is_searched else longest
             yield Family(self.spec(longest), keys, free.low, longest, natural, best=best)
@@ -145,7 +133,7 @@ def _buildable(lines: Sequence[_LawLine], motions: Array) -> Mask:
 def _keys(target: Target, natural: float, m: int, at: Array) -> dict[str, Array]:
     motions = at.tolist()
     alpha0 = np.array([_alpha0(natural, motion) for motion in motions])
-    return {"motion.alpha0_deg": alpha0, **speeds(target, m, motions)}
+    return {"motion.alpha0_deg": alpha0, **target.speeds(m, motions)}
 
 
 def _alpha0(natural: float, motion: float) -> float:

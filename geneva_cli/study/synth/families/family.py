@@ -7,23 +7,11 @@ from collections.abc import Callable, Sequence
 from itertools import pairwise
 from typing import NamedTuple, TypeAlias
 
-import numpy as np
-
 from geneva_cli.errors import GenevaError
-from geneva_cli.motion import registry
 from geneva_cli.motion.compatible import refuse_conflicts
-from geneva_cli.motion.drive import Drive
-from geneva_cli.motion.laws.law import Motion
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.many import changed
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.study.target import AllowedSpan, Target
-
-# fraction of a turn over m that an open end of a range leaves to motion and to dwell
-OPEN_END = 0.01
-BARE = Spec(registry.gearing("external")(3))  # the tables of a machine without a frame
-
 
 Keys: TypeAlias = Callable[[Array], dict[str, Array]]
 
@@ -50,16 +38,6 @@ class Family(NamedTuple):
         """Return True if the family has more than one machine."""
         return self.low < self.high
 
-    def at(self, number: float) -> Spec | None:
-        """The machine at a number; None if it cannot be built."""
-        try:
-            if self.keys is None:
-                return self.spec
-            values = self.keys(np.array([number]))
-            return changed(self.spec, {key: float(value[0]) for key, value in values.items()})
-        except GenevaError:
-            return None
-
 
 def pieces(families: Sequence[Family], most: int) -> list[Family]:
     """The families, with those of one free number divided into equal pieces, about ``most`` in all.
@@ -74,38 +52,6 @@ def pieces(families: Sequence[Family], most: int) -> list[Family]:
     return out
 
 
-def speeds(target: Target, m: float, motion_deg: Sequence[float]) -> dict[str, Array]:
-    """The key of the input speeds for m motions of these angles in a turn; none without times."""
-    if not target.timed:
-        return {}
-    return {"drive.n_rpm": np.array([target.n_rpm(m, x) for x in motion_deg])}
-
-
-def machine(
-    target: Target,
-    wheel: Gearing,
-    drive: Callable[[float], Drive],
-    m: float,
-    motion_deg: float,
-    motion: Motion | None = None,
-) -> Spec:
-    """A machine with the sizes, loads and limits of the requirement's frame.
-
-    ``drive`` makes the drive for the input speed of m motions of ``motion_deg`` in a turn.
-    """
-    own, made = target.frame or BARE, drive(target.n_rpm(m, motion_deg))
-    size = own.size
-    L = size.center_distance_mm
-    if L is None and not made.ONE_ARM:  # it has no crank of one radius: the frame's distance
-        L = size.derived_distance_mm
-    as_built = L is not None and size.crank_radius_mm is not None  # a candidate has its own R/L
-    if size.center_distance_mm != L or as_built:
-        size = size.replace(center_distance_mm=L, crank_radius_mm=None)
-    return own.replace(
-        wheel=wheel, drive=made, motion=motion, size=size, title="", path="", files=()
-    )
-
-
 def is_compatible(spec: Spec) -> bool:
     """Return True if a drive is compatible with its wheel."""
     try:
@@ -118,28 +64,3 @@ def is_compatible(spec: Spec) -> bool:
 def natural_deg(wheel: Gearing) -> float:
     """The motion angle of the plain crank."""
     return 2.0 * wheel.half_motion_deg(wheel.step)
-
-
-def allowed_motions(target: Target, m: float, natural: float) -> AllowedSpan:
-    """The allowed motion angles for m motions in a turn: required, any, or the plain one."""
-    allowed = target.motion_for(m)
-    if allowed is None:
-        return AllowedSpan(0.0, 360.0 / m) if target.any_motion else AllowedSpan(natural, natural)
-    return allowed
-
-
-def allows(motion: AllowedSpan, natural: float) -> bool:
-    """Return True if a motion angle is allowed, within the tolerance of the plain crank."""
-    # fraction of the motion angle by which the plain crank may miss the required one
-    slack = 1e-6 * natural
-    return motion.low - slack <= natural <= motion.high + slack
-
-
-def closed_span(motion: AllowedSpan, m: int) -> AllowedSpan | None:
-    """The range with open ends replaced by values near their limits; None if it is empty."""
-    whole = 360.0 / m
-    if motion.low >= whole or motion.high <= 0.0 or motion.empty:
-        return None
-    low = motion.low if motion.low > 0.0 else OPEN_END * whole
-    high = motion.high if motion.high < whole else (1.0 - OPEN_END) * whole
-    return motion if motion.exact else AllowedSpan(min(low, high), high)

@@ -19,8 +19,8 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.drives.crank import Crank
-from geneva_cli.drives.elliptical_gears import EllipticalGears
 from geneva_cli.drives.epicyclic import Epicyclic
+from geneva_cli.drives.gears import EllipticalGears
 from geneva_cli.drives.side_crank import SideCrank
 from geneva_cli.motion.drive import Drive
 from geneva_cli.motion.machine_spec import Spec
@@ -29,16 +29,7 @@ from geneva_cli.motion.wheels.classic import half_motion_deg, rollers_max
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import DEGREE, sin_cos_pi
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.study.synth.families.family import (
-    Family,
-    allowed_motions,
-    allows,
-    closed_span,
-    is_compatible,
-    machine,
-    natural_deg,
-    speeds,
-)
+from geneva_cli.study.synth.families.family import Family, is_compatible, natural_deg
 from geneva_cli.study.target import AllowedSpan, Target
 
 AXES = AllowedSpan(1.0, 179.0)  # angles between the shafts of a spherical wheel, degrees
@@ -136,13 +127,12 @@ def straight(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
 def _natural_rollers(target: Target, natural: float) -> list[int]:
     """The numbers of rollers for which the plain crank's motion is allowed."""
     several = [target.rollers] if target.rollers else range(1, rollers_max(natural) + 1)
-    return [m for m in several if allows(allowed_motions(target, m, natural), natural)]
+    return [m for m in several if target.motions(m, natural).allows(natural)]
 
 
 def plain(target: Target, wheel: Gearing, m: int) -> Spec:
     """The plain crank."""
-    natural = natural_deg(wheel)
-    return machine(target, wheel, lambda n: Crank(n_rpm=n, rollers=m), m, natural)
+    return target.machine(wheel, Crank(rollers=m), natural_deg(wheel))
 
 
 def offset_slots(target: Target, wheel: Gearing) -> Iterator[Family]:
@@ -175,10 +165,7 @@ def planets(target: Target, wheel: Gearing) -> Iterator[Family]:
         return
 
     def planet(fixed: str, ratio: float | str) -> Spec:
-        def drive(n: float) -> Epicyclic:
-            return Epicyclic(planet_ratio=ratio, fixed=fixed, n_rpm=n)
-
-        return machine(target, wheel, drive, 1, natural)
+        return target.machine(wheel, Epicyclic(planet_ratio=ratio, fixed=fixed), natural)
 
     for fixed in ("sun", "ring"):
         shockless = planet(fixed, "shockless")
@@ -200,19 +187,15 @@ def driven(target: Target, wheel: Gearing) -> Iterator[Family]:
     """Changes of the plain crank's motion by a drive in front of it."""
     natural = natural_deg(wheel)
     has_one = target.rollers in (None, 1)
-    motion = closed_span(allowed_motions(target, 1, natural), 1) if has_one else None
-    if motion is None or (motion.exact and allows(motion, natural)):
+    motion = target.free_motions(1, natural) if has_one else None
+    if motion is None or (motion.exact and motion.allows(natural)):
         return
-    known = 0.0 if allows(motion, natural) else math.nan
+    known = 0.0 if motion.allows(natural) else math.nan
     for one in IN_FRONT:
         span = AllowedSpan(*(one.parameter(natural, x) for x in motion))
         span = span.within(AllowedSpan(one.low, one.high))
         if not span.empty:
-
-            def drive(n_rpm: float, kind: Drive = one.drive) -> Drive:
-                return kind.replace(n_rpm=n_rpm)
-
-            spec = machine(target, wheel, drive, 1, natural)
+            spec = target.machine(wheel, one.drive, natural)
             if one.parameter is eccentricity:  # gears are as far apart as wheel and crank
                 spec = spec.with_("drive.gear_distance_mm", spec.given_distance_mm)
             keys = partial(_in_front, target, natural, one)
@@ -222,7 +205,7 @@ def driven(target: Target, wheel: Gearing) -> Iterator[Family]:
 def _in_front(target: Target, natural: float, one: _InFront, at: Array) -> dict[str, Array]:
     motions = [one.motion(natural, x) for x in at.tolist()]
     size = at if one.low * one.high else abs(at)
-    return {one.key: size, **speeds(target, 1, motions)}
+    return {one.key: size, **target.speeds(1, motions)}
 
 
 def inclined(target: Target, wheel: Gearing) -> Iterator[Family]:
@@ -230,16 +213,16 @@ def inclined(target: Target, wheel: Gearing) -> Iterator[Family]:
     z = wheel.z
     least = 2.0 * half_motion_deg(1.0, 1, z)
     for m in [target.rollers] if target.rollers else range(1, rollers_max(least) + 1):
-        free = closed_span(allowed_motions(target, m, 180.0), m)
-        if free is None or (free.exact and allows(free, 180.0)):
+        free = target.free_motions(m, 180.0)
+        if free is None or (free.exact and free.allows(180.0)):
             continue
         span = AllowedSpan(*(axes(z, x) for x in free)).within(AXES)
         if not span.empty:
-            known = 90.0 if allows(free, 180.0) else math.nan
+            known = 90.0 if free.allows(180.0) else math.nan
             keys = partial(_on_axes, target, z, m)
             yield Family(plain(target, wheel, m), keys, *span, 90.0, known)
 
 
 def _on_axes(target: Target, z: int, m: int, at: Array) -> dict[str, Array]:
     motions = [axes_motion(z, x) for x in at.tolist()]
-    return {"wheel.axes_deg": at, **speeds(target, m, motions)}
+    return {"wheel.axes_deg": at, **target.speeds(m, motions)}

@@ -1,33 +1,25 @@
 """The motion of one design at very many angles: the plain wheel, then every machine."""
 
-from __future__ import annotations
-
 import math
-from collections.abc import Callable, Sequence
 from functools import cache, partial
-from typing import Any
 
 import numpy as np
+from witness import Geneva, mp
 
-from bench.closed_forms import compiled
-from bench.formulas import textbook
-from bench.kinds import KINDS, VariedMachine, values_of
+from bench.formulas import compiled, textbook
+from bench.kinds import KINDS, values_of
 from bench.method import Method, Subject, Task
-from bench.truth import digits
-from bench.truth import motion as exact_motion
-from geneva_cli.motion.engagement import WheelMotion
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.jet import Array
 
 Z = 3  # the wheel that is hardest for a formula
 NAMES = ("position", "velocity", "acceleration", "jerk")
 ORDERS = (1, 2)  # the derivatives of every machine
 
 
-def stable(l: float, x: Array, orders: Sequence[int]) -> list[Array]:
+def stable(l, x, orders):
     """Derivatives with the half angle, over whole arrays."""
     half = 0.5 * x
     h, g = np.sin(half), np.cos(half)
@@ -46,24 +38,19 @@ def stable(l: float, x: Array, orders: Sequence[int]) -> list[Array]:
     return out
 
 
-def differences(l: float, x: Array, orders: Sequence[int]) -> list[Array]:
-    """Position, and repeated np.gradient of it, as scripts do."""
-    values = [np.arctan2(l * np.sin(x), 1.0 - l * np.cos(x))]
-    for _ in range(max(orders)):
-        values.append(np.gradient(values[-1], x))
-    return [values[k] for k in orders]
-
-
-def blocks(l: float, x: Array, orders: Sequence[int], size: int = 8192) -> list[Array]:
-    """The stable formula in blocks of ``size`` angles, which stay in the cache."""
-    out = [np.empty(len(x)) for _ in orders]
+def in_blocks(formula, x, count=2, size=8192):
+    """The ``count`` arrays of a formula in blocks of angles that stay in the cache."""
+    out = np.empty((count, len(x)))
     for i in range(0, len(x), size):
-        for whole, part in zip(out, stable(l, x[i : i + size], orders), strict=True):
-            whole[i : i + size] = part
+        out[:, i : i + size] = formula(x[i : i + size])
     return out
 
 
-def subject(quick: bool) -> Subject:
+def stable_blocks(l, x, orders):
+    return in_blocks(lambda part: stable(l, part, orders), x, len(orders))
+
+
+def motion(quick):
     """Every formula for velocity and acceleration, and for position to jerk."""
     tasks = [
         _task(count, orders)
@@ -77,7 +64,7 @@ def subject(quick: bool) -> Subject:
     )
 
 
-def _task(count: int, orders: tuple[int, ...]) -> Task:
+def _task(count, orders):
     mechanism = build(Spec(External(Z)))
     engagement, l = mechanism.engagements[0], mechanism.ratio
     half = np.linspace(engagement.entry_deg, 0.0, count // 2 + 1)[: count // 2]
@@ -86,65 +73,51 @@ def _task(count: int, orders: tuple[int, ...]) -> Task:
     skew[1] = math.nextafter(skew[1], 0.0)  # no longer its own mirror image
     x = np.radians(skew)
 
-    formulas: list[tuple[str, Callable[[float, Array, Sequence[int]], list[Array]]]] = [
+    formulas = [
         ("textbook formula", textbook),
         ("stable formula, whole arrays", stable),
-        ("stable formula, in blocks", blocks),
-        ("numerical differentiation of the position", differences),
+        ("stable formula, in blocks", stable_blocks),
     ]
     methods = [Method(name, count, partial(formula, l, x, orders)) for name, formula in formulas]
+    motion = engagement.motion
     methods += [
-        Method(
-            "jets, whole arrays",
-            count,
-            lambda: [engagement.motion(skew, max(orders)).derivatives()[k] for k in orders],
-            rival=False,
-        ),
-        Method("ours", count, lambda: engagement.motion.derivatives(skew, orders), True),
-        Method(
-            "ours, mirrored", count, lambda: engagement.motion.derivatives(mirrored, orders), True
-        ),
+        Method("jets, whole arrays", count, partial(_jets, motion, skew, orders), rival=False),
+        Method("ours", count, lambda: motion.derivatives(skew, orders), True),
+        Method("ours, mirrored", count, lambda: motion.derivatives(mirrored, orders), True),
     ]
-    return angle_task(
-        _named(orders), skew, lambda results: _error(results, mirrored, orders), methods
-    )
+    return angle_task(_named(orders), skew, lambda found: _error(found, mirrored, orders), methods)
 
 
-def _named(orders: Sequence[int]) -> str:
+def _named(orders):
     return ", ".join(NAMES[k] for k in orders)
 
 
-def _error(results: Any, input_deg: Array, orders: Sequence[int]) -> float:
+def _error(results, input_deg, orders):
     """Greatest error at an even sample of the angles, with the ends and the two middle ones."""
     n = len(input_deg)
-    sample = np.unique(
-        np.concatenate((np.linspace(0, n - 1, 200).astype(int), [n // 2 - 1, n // 2]))
-    )
+    sample = np.unique([*np.linspace(0, n - 1, 200).astype(int), n // 2 - 1, n // 2])
     exact = [_exact(float(input_deg[i])) for i in sample]
     worst = 0.0
     for values, k in zip(results, orders, strict=True):
         peak = _peak(k)
         for i, derivatives in zip(sample, exact, strict=True):
-            error = abs(digits().mpf(float(values[i])) - derivatives[k]) / peak
+            error = abs(mp.mpf(float(values[i])) - derivatives[k]) / peak
             worst = max(worst, float(error))
     return worst
 
 
-@cache
-def _exact(degrees: float) -> tuple[Any, ...]:
-    mp = digits()
-    return exact_motion(Z, "external", 0.0, mp.mpf(degrees) * mp.pi / 180)
+_exact = cache(Geneva(Z).derivatives)
 
 
 @cache
-def _peak(k: int) -> float:
+def _peak(k):
     """Size of the peak of a derivative, to one per cent: the unit of its error."""
     half = 90.0 - 180.0 / Z
     scan = np.linspace(0.0, half, 1001) * DEGREE
     return float(np.abs(stable(math.sin(math.pi / Z), scan, (k,))[0]).max())
 
 
-def _kind_task(kind: VariedMachine, count: int) -> Task:
+def _kind_task(kind, count):
     value = values_of(kind, 1)[0].item()
     engagement = build(kind.spec.with_(kind.key, value)).engagements[0]
     motion = engagement.motion
@@ -154,22 +127,20 @@ def _kind_task(kind: VariedMachine, count: int) -> Task:
     if kind.formula:
         argument = kind.argument(value, engagement)
         formula, radians = partial(kind.formula, argument), np.radians(angles)
-        script = partial(_in_blocks, formula, radians)
+        script = partial(in_blocks, formula, radians)
         methods.append(Method("a handbook's formulas, in blocks", count, script))
         fast = compiled(kind.formula)
         if fast:
             methods.append(Method("the same by Numba", count, lambda: fast(argument, radians)))
     methods += [
-        Method("jets, whole arrays", count, lambda: _jet_rates(motion, angles), rival=False),
+        Method("jets, whole arrays", count, partial(_jets, motion, angles, ORDERS), rival=False),
         Method("ours", count, lambda: motion.derivatives(angles, ORDERS), True),
     ]
     what = f"{kind.name}: {_named(ORDERS)}"
     return angle_task(what, angles, lambda results: _kind_error(motion, angles, results), methods)
 
 
-def angle_task(
-    what: str, angles: Array, error: Callable[[Any], float], methods: Sequence[Method]
-) -> Task:
+def angle_task(what, angles, error, methods):
     """A task over angles in degrees, whose baseline is their sine and cosine."""
     radians = np.radians(angles)
     return Task(
@@ -181,20 +152,13 @@ def angle_task(
     )
 
 
-def _in_blocks(formula: Callable[[Array], Any], x: Array, size: int = 8192) -> Array:
-    """Velocity and acceleration by a formula in blocks of angles that stay in the cache."""
-    out = np.empty((len(ORDERS), len(x)))
-    for i in range(0, len(x), size):
-        out[:, i : i + size] = formula(x[i : i + size])
-    return out
-
-
-def _jet_rates(motion: WheelMotion, angles: Array) -> list[Any]:
+def _jets(motion, angles, orders):
     """The derivatives from one jet."""
-    return list(motion(angles, ORDERS[-1]).derivatives()[1:])
+    every = motion(angles, max(orders)).derivatives()
+    return [every[k] for k in orders]
 
 
-def _kind_error(motion: WheelMotion, angles: Array, results: Sequence[Any]) -> float:
+def _kind_error(motion, angles, results):
     """Greatest difference from the values of single angles, by ``math`` instead of NumPy."""
     # the error is measured at 50 angles
     some = np.linspace(0, len(angles) - 1, 50).astype(int)

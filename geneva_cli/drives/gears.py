@@ -1,22 +1,24 @@
-"""Two equal elliptical gears, each turning about a focus, in front of the crank.
+"""Noncircular gears in front of the crank: equal ellipses, or the ratio of a side-crank.
 
-With the driver at phi the driven gear is at f: tan(f/2) = (1-e)/(1+e) tan(phi/2), as Kepler's true
-anomaly; the directions of the half angles are (cos phi/2, sin phi/2), ((1+e) cos .., (1-e) sin ..).
+Elliptical gears each turn about a focus. With the driver at phi the driven gear is at f:
+tan(f/2) = (1-e)/(1+e) tan(phi/2), as Kepler's true anomaly; the directions of the half angles are
+(cos phi/2, sin phi/2) and ((1+e) cos .., (1-e) sin ..).
 """
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
-from geneva_cli.drives.pushed import Mesh, PushedCrank
+from geneva_cli.drives.pushed import PushedCrank
 from geneva_cli.drives.transmission import LocalTransmission, Transmission
-from geneva_cli.errors import refuse_text
+from geneva_cli.drives.whitworth import Whitworth, refuse_near_one
 from geneva_cli.motion.drive import Gears, Plan
+from geneva_cli.motion.engagement import Vector
 from geneva_cli.motion.pivots import Dimension, Layout, Pivot, ShaftPlace
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import sin_cos_deg
 from geneva_cli.numerics.arrays import enclosed, library
-from geneva_cli.numerics.jet import Jet, Number, cosines_after, sine_versine_of
+from geneva_cli.numerics.jet import Jet, Number, cosines_after, sine_versine_of, turning
 from geneva_cli.spec.rules import POSITIVE, OneOf, Range
 from geneva_cli.spec.schema import Example
 
@@ -24,7 +26,29 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet_functions import Path
 
 
-class EllipticalGears(Transmission, kw_only=True):
+class GearPair(Transmission, kw_only=True):
+    """Two gears with pitch curves that are no circles about their axes."""
+
+    gear_distance_mm: Annotated[float, POSITIVE, "distance between the two gears' axes, C"] = 100.0
+
+    @property
+    def gears(self) -> Gears:
+        return Gears(self.gear_distance_mm, self.about(0.0)[1])
+
+    def input_shaft(self, plan: Plan, sign: float, sense: float) -> ShaftPlace:
+        return ShaftPlace(plan.center_distance_mm + self.gear_distance_mm, -sense)
+
+    def layout(self, plan: Plan, sign: float) -> Layout:
+        return (
+            Pivot("driver gear axis", plan.center_distance_mm + self.gear_distance_mm, 0.0),
+            Dimension("gears' axes", self.gear_distance_mm, "mm"),
+        )
+
+    def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> PushedCrank | None:
+        return Mesh(path, self.gear_distance_mm / L)
+
+
+class EllipticalGears(GearPair, kw_only=True):
     """Two equal elliptical gears, with the index in their slow phase or in their quick one.
 
     ``eccentricity`` is that of the pitch ellipses, 0 or more and below 1; they turn about a focus.
@@ -42,34 +66,19 @@ class EllipticalGears(Transmission, kw_only=True):
     )
     eccentricity: Annotated[float, Range(0.0, 1.0, "[)"), "of the gears' pitch ellipses"]
     phase: Annotated[str, OneOf(("slow", "quick")), "phase of the gears at mid-motion"] = "slow"
-    gear_distance_mm: Annotated[float, POSITIVE, "distance between the two gears' axes, C"] = 100.0
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        e, text = self.eccentricity, "eccentricity = {e!r}: too close to 1 to be computed; it must "
-        # 1 - 1e-12, as a double, passes
-        near, key = e > 1.0 - 0.999e-12, ("drive", "eccentricity")
-        refuse_text(near, key, text + "be at most 1 - 1e-12", e=e)
-
-    @property
-    def gears(self) -> Gears:
-        return Gears(self.gear_distance_mm, self.about(0.0)[1])
-
-    def input_shaft(self, plan: Plan, sign: float, sense: float) -> ShaftPlace:
-        return ShaftPlace(plan.center_distance_mm + self.gear_distance_mm, -sense)
+        refuse_near_one("eccentricity", self.eccentricity)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
         a = 0.5 * self.gear_distance_mm
         return (
-            Pivot("driver gear axis", plan.center_distance_mm + self.gear_distance_mm, 0.0),
-            Dimension("gears' axes", self.gear_distance_mm, "mm"),
+            *super().layout(plan, sign),
             Dimension("gears' semi-major axis", a, "mm"),
             Dimension("gears' focus from centre", a * self.eccentricity, "mm"),
             Dimension("index in the gears' phase", self.phase),
         )
-
-    def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> PushedCrank | None:
-        return Mesh(path, self.gear_distance_mm / L)
 
     def about(self, crank_deg: float) -> LocalTransmission:
         e = self.eccentricity if self.phase == "slow" else -self.eccentricity
@@ -112,3 +121,43 @@ class Focal(NamedTuple):
         cosines = cosines_after(sin_phi, cos_phi, max(order, 1) - 1)
         rate = least / Jet((W, *[2.0 * e * t for t in cosines[1:]]))
         return sine_versine_of(rate, y, x, order)
+
+
+class NoncircularGears(GearPair, Whitworth, kw_only=True):
+    """Gears with the ratio of a side-crank, whose ``A`` they have.
+
+    >>> round(Design(External(6), NoncircularGears(A=0.6)).peaks.velocity.max, 12)
+    0.625
+    """
+
+    NAME: ClassVar[str] = "noncircular-gears"
+    WORDS: ClassVar[str] = "a crank behind noncircular gears"
+    IN_FRONT: ClassVar[str] = "noncircular gears"
+    EXAMPLE: ClassVar[Example] = Example(
+        "noncircular gears in front, with the ratio of a side-crank",
+        {"wheel": {"z": 6}, "drive": {"A": 0.6}},
+    )
+    A: Annotated[float, Range(-1.0, 1.0, "()"), "ratio of a side-crank with this A"]
+
+    def layout(self, plan: Plan, sign: float) -> Layout:
+        ratio = Dimension("gears' ratio as of side-crank A", self.A)
+        return (*super().layout(plan, sign), ratio)
+
+
+class Mesh(PushedCrank):
+    """Gears whose axes are ``distance`` over L apart, the driver's on the line of centres."""
+
+    def __init__(self, path: Path, distance: float) -> None:
+        self.path, self.distance = path, distance  # the roller turns as the crank does
+
+    def line(self, input_deg: Number, order: int) -> tuple[Vector, Vector]:
+        x, y = self.path(input_deg, order + 2)
+        rate = turning(x - 1.0, y)
+        i, slope = Jet(rate.c[: order + 1]), rate.derivative()
+        # sense of the crank's rotation; the ratio itself is a size
+        sense = library(i.c[0]).copysign(1.0, i.c[0])
+        size, grows = i * sense, slope * sense
+        none = i * 0.0
+        # tangent of the driven gear's curve, (dr, r df), as it turns by df
+        across = none - sense
+        return (self.distance / (size + 1.0), none), (grows / ((size + 1.0) * size) * -1.0, across)

@@ -1,15 +1,43 @@
-"""Rows of ``motion`` at chosen input angles, and the rates at the spec's speed."""
+"""Rows of ``motion``: over a period, at chosen input angles, and the rates at the spec's speed."""
 
 from __future__ import annotations
 
 import math
 
 import mpmath as mp
+import numpy as np
 import pytest
 from typer.testing import CliRunner
+from words import Drive, Keys, Motion, Spec, Wheel
 
 from geneva_cli import Crank, Design, External, Linear, Size
 from geneva_cli.cli.app import app
+
+SPECS = [
+    Spec(Wheel(5, "internal")),
+    Spec(Wheel(6), Drive("side-crank", rollers=2), Keys("side-crank", 0.6)),
+    Spec(Wheel(6), motion=Motion("sine-group", 0.1, alpha0_deg=-20.0)),
+]
+
+
+@pytest.mark.parametrize("spec", SPECS)
+def test_dwell_is_still_and_motion_is_not(spec: Spec) -> None:
+    design = Design.of(spec)
+    at = design.motion(7201)
+    moving = np.zeros(7201, dtype=bool)
+    for s in design.mechanism.engagements:
+        local = at["input_deg"] - s.mid_deg
+        inside = (local > s.entry_deg + 1e-9) & (local < s.exit_deg - 1e-9)
+        moving |= (local > s.entry_deg - 1e-9) & (local < s.exit_deg + 1e-9)
+        # every row is the engagement's own motion, evaluated one by one
+        for i in np.flatnonzero(inside)[::97]:
+            value = s.motion(float(local[i])).derivatives()
+            for name, order in (("velocity", 1), ("acceleration", 2), ("jerk", 3)):
+                # the row's angle in the machine is rounded once more: 1e-13 of the peak
+                close = 2e-13 * np.abs(at[name]).max()
+                assert at[name][i] == pytest.approx(value[order], abs=close)
+    for name in ("velocity", "acceleration", "jerk"):
+        assert (at[name][~moving] == 0.0).all()
 
 
 def test_rates_against_the_closed_form_at_50_digits() -> None:

@@ -1,15 +1,13 @@
 """The peak acceleration of one design."""
 
-from __future__ import annotations
-
 import math
 from functools import partial
 
 import numpy as np
+from witness import Geneva, mp
 
 from bench.formulas import Proportions, acceleration, jerk
 from bench.method import Method, Subject, Task
-from bench.truth import acceleration_peak, relative
 from geneva_cli.drives.crank import Crank
 from geneva_cli.drives.side_crank import SideCrank
 from geneva_cli.motion import registry
@@ -19,7 +17,7 @@ from geneva_cli.motion.peaks import peak as program
 from geneva_cli.motion.wheels import classic
 
 
-def brentq(d: Proportions, tolerance: float, scan: int = 17) -> float:
+def brentq(d, tolerance, scan=17):
     """Peak by SciPy's brentq on the slope between the points of a scan, or the value at the end."""
     from scipy.optimize import brentq as solve
 
@@ -33,12 +31,12 @@ def brentq(d: Proportions, tolerance: float, scan: int = 17) -> float:
     return best
 
 
-def grid(d: Proportions, n: int) -> float:
+def grid(d, n):
     """Greatest of n even points."""
     return float(np.abs(acceleration(np, d, np.linspace(0.0, d.half, n))).max())
 
 
-def closed(d: Proportions) -> float:
+def closed(d):
     """Peak for A = 0 outside, in the textbook form.
 
     cos a* = sqrt(q² + 2) - q, q = (1 + l²)/(4 l).
@@ -50,14 +48,14 @@ def closed(d: Proportions) -> float:
     return l * (1.0 - l * l) * math.sqrt(1.0 - cosine * cosine) / (D * D)
 
 
-def subject(quick: bool) -> Subject:
+def peaks(quick):
     """Every method on a few designs."""
     designs = ((3, "external", 0.0), (6, "external", 0.6), (4, "internal", 0.95))
     tasks = [_task(*design, quick) for design in designs[: 2 if quick else None]]
     return Subject("Peak acceleration of one design", "relative error of the peak", tasks)
 
 
-def _task(z: int, gearing: str, A: float, quick: bool) -> Task:
+def _task(z, gearing, A, quick):
     wheel = registry.gearing(gearing)(z)
     d = Proportions.of(wheel.SIGN, z, A)
     methods = [
@@ -73,20 +71,14 @@ def _task(z: int, gearing: str, A: float, quick: bool) -> Task:
             Method("closed form of the textbook", None, partial(closed, d)),
             Method("ours", None, lambda: classic.acceleration_peak(l, gap)[0], True),
         ]
-    methods.append(
-        Method(
-            "ours, as geneva peaks does",
-            None,
-            lambda: program(engagement.motion, "acceleration").max,
-            True,
-        )
-    )
+    ours = partial(program, engagement.motion, "acceleration")
+    methods.append(Method("ours, as geneva peaks does", None, lambda: ours().max, True))
     name = f"{gearing}, z = {z}" + (f", A = {A:g}" if A else "")
-    x = 0.3 * d.half
+    x, exact = 0.3 * d.half, Geneva(z, gearing, A).peak("acceleration")[0]
     return Task(
         name,
         "one evaluation of the formula in plain Python",
         lambda: acceleration(math, d, x),
-        lambda peak: relative(peak, acceleration_peak(z, gearing, A)),
+        lambda peak: float(abs(mp.mpf(float(peak)) / exact - 1)),
         methods,
     )

@@ -1,1 +1,0 @@
-"""Subjects of the bench, one file each."""
