@@ -141,18 +141,6 @@ def _placeholder(argument: Any) -> str:
     return "" if is_option else str(argument.metavar or argument.name)
 
 
-def table_options(
-    columns: Annotated[
-        str | None,
-        typer.Option("--columns", metavar="NAME,...", help="Only these columns, named as in csv."),
-    ] = None,
-    wide: Annotated[
-        bool, typer.Option("--wide", help="All columns on a terminal, however wide.")
-    ] = False,
-) -> None:
-    """Options of every command that prints a table."""
-
-
 def as_command(name: str, run: Any) -> Any:
     """A function as a command."""
     one = typer.Typer(add_completion=False, rich_markup_mode=None)
@@ -195,6 +183,13 @@ output_option = partial(option, name="-o --output", show=False)
 def flag(name: str, help: str, heading: str | None = None) -> Any:
     """An option without a value, below a heading of the help."""
     return typer.Option(name, help=help, rich_help_panel=heading)
+
+
+def table_options(
+    columns: Annotated[str | None, option("NAME,...", "Only these columns, as in csv.")] = None,
+    wide: Annotated[bool, flag("--wide", "All columns on a terminal, however wide.")] = False,
+) -> None:
+    """Options of every command that prints a table."""
 
 
 SpecPath: TypeAlias = Annotated[
