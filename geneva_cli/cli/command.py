@@ -207,6 +207,11 @@ Output: TypeAlias = Annotated[str, output_option("FILE", "Write to this file; - 
 Format: TypeAlias = Annotated[str, option("FORMAT", "table, csv, json or md.", name="--format")]
 
 
+def tell(text: str) -> None:
+    """Print a message on standard error."""
+    print(clean(text), file=sys.stderr)
+
+
 def say(path: str, warnings: Iterable[str]) -> None:
     """Print warnings about a spec on standard error, one a line, with names for `explain`."""
     for text in warnings:
@@ -214,7 +219,7 @@ def say(path: str, warnings: Iterable[str]) -> None:
         if isinstance(text, Notice):
             named = f"{text.plain} [{text.name}]"
             kind = f"warning, accepted ({text.accepted})" if text.accepted else kind
-        print(clean(f"{path}: {kind}: {named}"), file=sys.stderr)
+        tell(f"{path}: {kind}: {named}")
 
 
 def require_written(design: "Design", verdict: tuple[str, list[str]], force: bool) -> None:
@@ -223,7 +228,7 @@ def require_written(design: "Design", verdict: tuple[str, list[str]], force: boo
     refused, warned = verdict
     if refused and not force:
         text = f"not written: {refused}; --force writes it anyway"
-        print(clean(f"{path}: {text}"), file=sys.stderr)
+        tell(f"{path}: {text}")
         raise typer.Exit(1)
     for text in [refused, *warned] if refused else warned:
-        print(clean(f"{path}: warning: {text}"), file=sys.stderr)
+        tell(f"{path}: warning: {text}")

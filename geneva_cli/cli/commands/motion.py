@@ -1,12 +1,11 @@
 """``geneva motion``."""
 
-import sys
 from typing import Annotated
 
 import typer
 
-from geneva_cli.cli.command import Output, Reverse, Settings, SpecPath, one_of, option, say
-from geneva_cli.errors import GenevaError, clean
+from geneva_cli.cli.command import Output, Reverse, Settings, SpecPath, one_of, option, say, tell
+from geneva_cli.errors import GenevaError
 from geneva_cli.output import CAMS, CONTROLLERS, FORMATS
 
 EXAMPLES = (
@@ -75,7 +74,7 @@ def run(
     else:
         show(content, output, "csv", files)
     text, is_met = load_extra("servo", "cam_words")(rows, error_deg, tolerance)
-    print(clean(f"{spec}: {text}"), file=sys.stderr)
+    tell(f"{spec}: {text}")
     say(design.spec.path, design.motion_warnings)
     if not is_met:
         raise typer.Exit(1)

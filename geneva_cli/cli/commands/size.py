@@ -1,11 +1,10 @@
 """``geneva size``."""
 
 import os
-import sys
 from typing import Annotated
 
-from geneva_cli.cli.command import Format, Settings, SpecPath, output_option
-from geneva_cli.errors import GenevaError, clean, cut
+from geneva_cli.cli.command import Format, Settings, SpecPath, output_option, tell
+from geneva_cli.errors import GenevaError, cut
 
 EXAMPLES = (
     "geneva size spec.toml",
@@ -53,4 +52,4 @@ def run(
     if beside and os.path.dirname(output) != os.path.dirname(design.spec.path):
         notes.append(f"warning: it needs {', '.join(beside)} in its folder")
     for note in notes:
-        print(clean(f"{output}: {note}"), file=sys.stderr)
+        tell(f"{output}: {note}")

@@ -1,12 +1,11 @@
 """``geneva sweep``."""
 
-import sys
 from collections.abc import Iterator
 from contextlib import closing
 from typing import TYPE_CHECKING, Annotated
 
-from geneva_cli.cli.command import Format, Settings, SpecPath, flag, option, output_option
-from geneva_cli.errors import GenevaError, clean, cut
+from geneva_cli.cli.command import Format, Settings, SpecPath, flag, option, output_option, tell
+from geneva_cli.errors import GenevaError, cut
 from geneva_cli.progress import tracked
 
 if TYPE_CHECKING:
@@ -107,7 +106,7 @@ def run(
         table = Table(names, [without_infinity(column) for column in columns])
         show(table, output, format, plan.inputs)
     for note in outcome.notes():
-        print(clean(f"{spec}: {note}"), file=sys.stderr)
+        tell(f"{spec}: {note}")
 
 
 def _write_rows(plan: "Sweep", outcome: "Outcome", output: str, resume: bool, whole: bool) -> None:
@@ -129,7 +128,7 @@ def _write_rows(plan: "Sweep", outcome: "Outcome", output: str, resume: bool, wh
         growing = GrowingTable(plan.names, plan.key, output, resume, plan.inputs)
         with closing(growing) as rows:
             if rows.message:
-                print(clean(rows.message), file=sys.stderr)
+                tell(rows.message)
             if is_seen("-") and not (shows_all or rows.done):
                 digest = Digest(plan, output)
             blocks = plan.blocks(rows.done) if shows_all else _tracked(plan, rows.done)

@@ -1,11 +1,10 @@
 """``geneva synth``."""
 
-import sys
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated
 
-from geneva_cli.cli.command import Format, Output, Settings, flag, option, say
-from geneva_cli.errors import GenevaError, clean, cut
+from geneva_cli.cli.command import Format, Output, Settings, flag, option, say, tell
+from geneva_cli.errors import GenevaError, cut
 
 if TYPE_CHECKING:
     from geneva_cli.study.target import Target
@@ -124,5 +123,5 @@ def _write(target: "Target", number: int, output: str, format: str) -> None:
     path = "<stdout>" if output == "-" else output
     if row.trouble:
         note = f"{path}: warning: its parts cannot be built: {row.trouble}"
-        print(clean(note), file=sys.stderr)
+        tell(note)
     say(path, Design.of(row.spec.replace(path=path)).motion_warnings)
