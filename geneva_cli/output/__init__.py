@@ -80,6 +80,11 @@ def chosen(output: str, format: str, formats: Iterable[str] = FORMATS) -> str:
     raise GenevaError(f'-o "{cut(output)}": it must end in {", ".join(known)}, or give a --format')
 
 
+def require_spec(output: str, format: str = "") -> None:
+    """Raise GenevaError for a file or a format that is not that of a spec."""
+    chosen(output, format or "toml" * (output == "-"), ("toml",))
+
+
 def named(output: str, format: str) -> str:
     """The format that is given, or that of a file's extension."""
     extension = os.path.splitext(output)[1].lower().lstrip(".")
@@ -210,10 +215,10 @@ def show_text(text: str, output: str = "-", inputs: Paths = ()) -> None:
     _put([text], output, inputs)
 
 
-def show_markdown(text: str) -> None:
-    """Print a text in Markdown, laid out on a terminal and unchanged elsewhere."""
-    if not is_seen("-"):
-        _put([text], "-")
+def show_markdown(text: str, output: str = "-") -> None:
+    """Print or write a text in Markdown, laid out on a terminal and unchanged elsewhere."""
+    if not is_seen(output):
+        _put([text], output)
         return
     from geneva_cli.output.terminal.layout import window
     from geneva_cli.output.terminal.page_reader import chunks

@@ -4,7 +4,6 @@ import os
 from typing import Annotated
 
 from geneva_cli.cli.command import Format, Settings, SpecPath, output_option, tell
-from geneva_cli.errors import GenevaError, cut
 
 EXAMPLES = (
     "geneva size spec.toml",
@@ -30,7 +29,7 @@ def run(
     json or md has the table instead.
     """
     from geneva_cli.design import load
-    from geneva_cli.output import FORMATS, chosen, show_answer, show_text
+    from geneva_cli.output import FORMATS, chosen, require_spec, show_answer, show_text
     from geneva_cli.study.chosen_sizes import of_sizes, sized_text
 
     design = load(spec, settings or ())
@@ -40,11 +39,7 @@ def run(
         answer = of_sizes(design, chosen(output, format) == "json")
         show_answer(answer, output, format, design.spec.files)
         return
-    if output != "-" and extension != "toml":
-        raise GenevaError(
-            f'-o "{cut(output, 300)}": a spec ends in .toml, and the table of its sizes in .csv, '
-            ".json or .md"
-        )
+    require_spec(output)
     text, lost = sized_text(design)
     show_text(text, output, design.spec.files)
     notes = [f"note: {lost}"] if lost else []

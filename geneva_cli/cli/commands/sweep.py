@@ -5,7 +5,7 @@ from contextlib import closing
 from typing import TYPE_CHECKING, Annotated
 
 from geneva_cli.cli.command import Format, Settings, SpecPath, flag, option, output_option, tell
-from geneva_cli.errors import GenevaError, cut
+from geneva_cli.errors import GenevaError
 from geneva_cli.progress import tracked
 
 if TYPE_CHECKING:
@@ -64,18 +64,15 @@ def run(
     whole range between.
     Long runs and the best of many: `geneva help search`.
     """
-    from geneva_cli.output import FORMATS, show, show_text
+    from geneva_cli.output import chosen, require_spec, show, show_text
     from geneva_cli.study.fields import joined, without_infinity
     from geneva_cli.study.sweep.request import Outcome, request
     from geneva_cli.table import Table
 
-    if format and format not in FORMATS:
-        raise GenevaError(f"--format {cut(format)}: it must be one of {', '.join(FORMATS)}")
-    if best and output != "-" and not output.endswith(".toml"):
-        raise GenevaError(f'-o "{cut(output, 300)}": --best writes a spec: it must end in .toml')
-    if best and (format or resume):
-        wrong = f"--format {format}" if format else "--resume"
-        raise GenevaError(f"{wrong}: --best writes a spec, as TOML, and no rows")
+    if best:
+        require_spec(output, format)
+    else:
+        chosen("-", format)
     plan = request(
         spec,
         vary or (),
@@ -89,14 +86,14 @@ def run(
         best=best,
         jobs=jobs,
     )
+    if resume and (best or plan.chooses or format not in ("", "csv")):
+        raise GenevaError("--resume continues all rows of a sweep, as csv or parquet")
     outcome = Outcome(plan)
     if plan.goal:
         from geneva_cli.study.sweep.best import best_spec
 
         lines = best_spec(outcome, plan.goal, _tracked(plan, 0))
         show_text("\n".join(lines) + "\n", output, plan.inputs)
-    elif resume and (plan.chooses or format not in ("", "csv")):
-        raise GenevaError("--resume continues all rows of a sweep, as csv or parquet")
     elif format in ("", "csv"):
         _write_rows(plan, outcome, output, resume, bool(format))
     else:

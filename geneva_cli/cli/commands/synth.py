@@ -110,18 +110,14 @@ def _show(target: "Target", check: int, buildable: bool, output: str, format: st
 
 def _write(target: "Target", number: int, output: str, format: str) -> None:
     from geneva_cli.design import Design
-    from geneva_cli.output import show_text
+    from geneva_cli.output import require_spec, show_text
     from geneva_cli.study.synth.synth_search import search
     from geneva_cli.study.synth.synth_table import chosen
 
-    if format:
-        raise GenevaError(f"--format {cut(format)}: --write writes a spec, which is TOML")
-    if output != "-" and not output.endswith(".toml"):
-        raise GenevaError(f'-o "{cut(output, 300)}": --write writes a spec: it must end in .toml')
+    require_spec(output, format)
     row, text = chosen(search(target), number)
     show_text(text, output, _inputs(target))
     path = "<stdout>" if output == "-" else output
     if row.trouble:
-        note = f"{path}: warning: its parts cannot be built: {row.trouble}"
-        tell(note)
+        tell(f"{path}: warning: its parts cannot be built: {row.trouble}")
     say(path, Design.of(row.spec.replace(path=path)).motion_warnings)
