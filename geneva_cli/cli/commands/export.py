@@ -53,7 +53,6 @@ def run(
     design = load(spec, settings or ())
     if not output:
         raise GenevaError("the files need a folder: give -o FOLDER")
-    design.refuse_drawn("the files for a shop are those")
     if design.spec.is_turned:
         require_written(design, design.judge(), force)
     files, missing = export_files(design, needed)

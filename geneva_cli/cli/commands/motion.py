@@ -56,8 +56,15 @@ def run(
     if format not in CAMS:
         if controller is not None or tolerance is not None:
             raise GenevaError("--for and --tolerance are for electronic cams: --format cam")
+        angles = None
+        if at:
+            from geneva_cli.study.sweep.values import numbers
+
+            if samples is not None or turns is not None:
+                raise GenevaError("--at sets the rows: leave out --samples and --turns")
+            angles = numbers(at, "--at")
         rows = 361 if samples is None else samples
-        show(design.motion(rows, turns, _angles(at, samples, turns)), output, format, files)
+        show(design.motion(rows, turns, angles), output, format, files)
         say(design.spec.path, design.motion_warnings)
         return
     from geneva_cli.kept import load_extra
@@ -78,15 +85,3 @@ def run(
     say(design.spec.path, design.motion_warnings)
     if not is_met:
         raise typer.Exit(1)
-
-
-def _angles(at: str, samples: int | None, turns: int | None) -> list[float] | None:
-    """The input angles of ``--at``, degrees; None without it."""
-    if not at:
-        return None
-    from geneva_cli.study.sweep.values import numbers
-
-    if samples is not None or turns is not None:
-        other = "--samples" if turns is None else "--turns"
-        raise GenevaError(f"--at sets the rows, and {other} too: give one of them")
-    return numbers(at, "--at")
