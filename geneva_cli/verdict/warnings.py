@@ -118,7 +118,7 @@ def key_warnings(spec: Spec) -> Iterator[Notice]:
 def _process_warnings(parts: Parts) -> Iterator[Notice]:
     """Warnings about gears, holes and clearances, and shafts without a bearing."""
     spec = parts.mechanism.spec
-    if not spec.has_parts:
+    if spec.no_parts:
         return
     try:
         unborne, named = parts.built.unborne, [*parts.built.by_name()] if spec.size.process else []
