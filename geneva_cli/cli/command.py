@@ -141,18 +141,6 @@ def _placeholder(argument: Any) -> str:
     return "" if is_option else str(argument.metavar or argument.name)
 
 
-def table_options(
-    columns: Annotated[
-        str | None,
-        typer.Option("--columns", metavar="NAME,...", help="Only these columns, named as in csv."),
-    ] = None,
-    wide: Annotated[
-        bool, typer.Option("--wide", help="All columns on a terminal, however wide.")
-    ] = False,
-) -> None:
-    """Options of every command that prints a table."""
-
-
 def as_command(name: str, run: Any) -> Any:
     """A function as a command."""
     one = typer.Typer(add_completion=False, rich_markup_mode=None)
@@ -177,34 +165,31 @@ def one_of(names: Iterable[str]) -> str:
 
 
 def option(
-    metavar: str,
-    help: str,
-    heading: str | None = None,
-    *,
-    short: str = "",
-    name: str = "",
-    default: str | bool = True,
+    metavar: str, help: str, heading: str | None = None, name: str = "", show: str | bool = True
 ) -> Any:
     """An option with a value, below a heading of the help.
 
-    ``name`` is its name where the parameter's is another, and ``default`` is shown as the default.
+    ``name`` has its names if the parameter's is another; the default is shown, or ``show``.
     """
     return typer.Option(
-        *filter(None, (short, name)),
-        metavar=metavar,
-        help=help,
-        rich_help_panel=heading,
-        show_default=default,
+        *name.split(), metavar=metavar, help=help, rich_help_panel=heading, show_default=show
     )
 
 
 # the option of a file or folder to write
-output_option = partial(option, short="-o", name="--output", default=False)
+output_option = partial(option, name="-o --output", show=False)
 
 
 def flag(name: str, help: str, heading: str | None = None) -> Any:
     """An option without a value, below a heading of the help."""
     return typer.Option(name, help=help, rich_help_panel=heading)
+
+
+def table_options(
+    columns: Annotated[str | None, option("NAME,...", "Only these columns, as in csv.")] = None,
+    wide: Annotated[bool, flag("--wide", "All columns on a terminal, however wide.")] = False,
+) -> None:
+    """Options of every command that prints a table."""
 
 
 SpecPath: TypeAlias = Annotated[
@@ -222,6 +207,11 @@ Output: TypeAlias = Annotated[str, output_option("FILE", "Write to this file; - 
 Format: TypeAlias = Annotated[str, option("FORMAT", "table, csv, json or md.", name="--format")]
 
 
+def tell(text: str) -> None:
+    """Print a message on standard error."""
+    print(clean(text), file=sys.stderr)
+
+
 def say(path: str, warnings: Iterable[str]) -> None:
     """Print warnings about a spec on standard error, one a line, with names for `explain`."""
     for text in warnings:
@@ -229,7 +219,7 @@ def say(path: str, warnings: Iterable[str]) -> None:
         if isinstance(text, Notice):
             named = f"{text.plain} [{text.name}]"
             kind = f"warning, accepted ({text.accepted})" if text.accepted else kind
-        print(clean(f"{path}: {kind}: {named}"), file=sys.stderr)
+        tell(f"{path}: {kind}: {named}")
 
 
 def require_written(design: "Design", verdict: tuple[str, list[str]], force: bool) -> None:
@@ -238,7 +228,7 @@ def require_written(design: "Design", verdict: tuple[str, list[str]], force: boo
     refused, warned = verdict
     if refused and not force:
         text = f"not written: {refused}; --force writes it anyway"
-        print(clean(f"{path}: {text}"), file=sys.stderr)
+        tell(f"{path}: {text}")
         raise typer.Exit(1)
     for text in [refused, *warned] if refused else warned:
-        print(clean(f"{path}: warning: {text}"), file=sys.stderr)
+        tell(f"{path}: warning: {text}")

@@ -10,9 +10,10 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Iterable, Iterator, Mapping
+from functools import partial
 from itertools import chain
 from types import SimpleNamespace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.kept import load_named
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
     from geneva_cli.output.document.blocks import Document
     from geneva_cli.output.scene import Scene
 
+Paths: TypeAlias = Iterable[str]
 # what is written, by format: the module for tables, the function for others
 FORMATS = {"table": "text", "csv": "delimited", "json": "jsonfile", "md": "markdown"}
 MESHES = {"stl": "mesh_files:stl", "3mf": "mesh_files:threemf"}  # of solids, in bytes
@@ -78,6 +80,11 @@ def chosen(output: str, format: str, formats: Iterable[str] = FORMATS) -> str:
     raise GenevaError(f'-o "{cut(output)}": it must end in {", ".join(known)}, or give a --format')
 
 
+def require_spec(output: str, format: str = "") -> None:
+    """Raise GenevaError for a file or a format that is not that of a spec."""
+    chosen(output, format or "toml" * (output == "-"), ("toml",))
+
+
 def named(output: str, format: str) -> str:
     """The format that is given, or that of a file's extension."""
     extension = os.path.splitext(output)[1].lower().lstrip(".")
@@ -111,7 +118,7 @@ def is_seen(output: str) -> bool:
     return output == "-" and sys.stdout.isatty()
 
 
-def show(table: Table, output: str = "-", format: str = "", inputs: Iterable[str] = ()) -> None:
+def show(table: Table, output: str = "-", format: str = "", inputs: Paths = ()) -> None:
     """Print the table, or write it to the file ``output``."""
     name = chosen(output, format)
     _put(_chunks(table, output, name), output, inputs, name)
@@ -132,9 +139,7 @@ def _chunks(table: Table, output: str, name: str) -> Iterator[str]:
     return load_named(f"output.{FORMATS[name]}:chunks")(table)
 
 
-def show_answer(
-    answer: Answer, output: str = "-", format: str = "", inputs: Iterable[str] = ()
-) -> None:
+def show_answer(answer: Answer, output: str = "-", format: str = "", inputs: Paths = ()) -> None:
     """Print an answer, or write it to the file ``output``: for people a summary above a table."""
     name = chosen(output, format)
     people = name in ("table", "md")
@@ -157,7 +162,7 @@ def _write(
     formats: Mapping[str, str],
     output: str,
     format: str,
-    inputs: Iterable[str],
+    inputs: Paths,
     version: str = "",
 ) -> None:
     """Print or write what is shown, in one of these formats."""
@@ -169,26 +174,21 @@ def _write(
 
 
 def draw(
-    drawing: Drawing,
+    drawing: Drawing | Sheet,
     output: str = "-",
     format: str = "",
-    inputs: Iterable[str] = (),
+    inputs: Paths = (),
     version: str = "",
+    formats: Mapping[str, str] = DRAWN,
 ) -> None:
     """Print the drawing, or write it; ``version`` is that of a DXF file."""
-    _write(drawing, DRAWN, output, format, inputs, version)
+    _write(drawing, formats, output, format, inputs, version)
 
 
-def draw_sheet(
-    sheet: Sheet, output: str = "-", format: str = "", inputs: Iterable[str] = (), version: str = ""
-) -> None:
-    """Print the drawing sheet, or write it to the file ``output``."""
-    _write(sheet, SHEETS, output, format, inputs, version)
+draw_sheet = partial(draw, formats=SHEETS)
 
 
-def show_figure(
-    figure: Figure, output: str = "-", format: str = "", inputs: Iterable[str] = ()
-) -> None:
+def show_figure(figure: Figure, output: str = "-", format: str = "", inputs: Paths = ()) -> None:
     """Print the figure, or write it to the file ``output``; formats of tables get its points."""
     if chosen(output, format, (*PLOTTED, *FORMATS)) in PLOTTED:
         _write(figure, PLOTTED, output, format, inputs)
@@ -196,7 +196,7 @@ def show_figure(
         show(figure.table(), output, format, inputs)
 
 
-def animate(scene: Scene, output: str, inputs: Iterable[str] = ()) -> None:
+def animate(scene: Scene, output: str, inputs: Paths = ()) -> None:
     """Write the scene as a page of HTML; ``-`` prints it."""
     if is_seen(output):
         raise GenevaError("a page is not for a terminal: give -o FILE.html, or --open to show it")
@@ -204,21 +204,21 @@ def animate(scene: Scene, output: str, inputs: Iterable[str] = ()) -> None:
 
 
 def show_document(
-    document: Document, output: str = "-", format: str = "", inputs: Iterable[str] = ()
+    document: Document, output: str = "-", format: str = "", inputs: Paths = ()
 ) -> None:
     """Print the document, or write it to the file ``output``."""
     _write(document, DOCUMENTS, output, format, inputs)
 
 
-def show_text(text: str, output: str = "-", inputs: Iterable[str] = ()) -> None:
+def show_text(text: str, output: str = "-", inputs: Paths = ()) -> None:
     """Print a text as it is, or write it to the file ``output``."""
     _put([text], output, inputs)
 
 
-def show_markdown(text: str) -> None:
-    """Print a text in Markdown, laid out on a terminal and unchanged elsewhere."""
-    if not is_seen("-"):
-        _put([text], "-")
+def show_markdown(text: str, output: str = "-") -> None:
+    """Print or write a text in Markdown, laid out on a terminal and unchanged elsewhere."""
+    if not is_seen(output):
+        _put([text], output)
         return
     from geneva_cli.output.terminal.layout import window
     from geneva_cli.output.terminal.page_reader import chunks
@@ -235,7 +235,7 @@ def refuse_existing(output: str) -> None:
 
 
 def _put(
-    chunks: Iterable[str] | Iterable[bytes], output: str, inputs: Iterable[str] = (), name: str = ""
+    chunks: Iterable[str] | Iterable[bytes], output: str, inputs: Paths = (), name: str = ""
 ) -> None:
     """Write chunks of the format ``name``; a table on standard output is for people."""
     if name not in FORMATS:

@@ -11,11 +11,11 @@ import os
 import re
 import sys
 import zlib
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from typing import Any
 
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.output import refuse_columns
+from geneva_cli.output import Paths, refuse_columns
 from geneva_cli.output.delimited import one_line, text_of
 from geneva_cli.output.files import open_locked, place, remove, replacing, write_errors
 from geneva_cli.output.text import refuse_nonsense
@@ -35,12 +35,7 @@ class GrowingTable:
     """
 
     def __init__(
-        self,
-        names: Sequence[str],
-        key: str,
-        output: str,
-        resume: bool = False,
-        inputs: Iterable[str] = (),
+        self, names: Sequence[str], key: str, output: str, resume: bool = False, inputs: Paths = ()
     ) -> None:
         refuse_columns()
         self.names, self.path, self.inputs = names, output, tuple(inputs)

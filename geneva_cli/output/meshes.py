@@ -11,11 +11,10 @@ import manifold3d as m3
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.plates import Group, Part, Plate, Solid, oriented
+from geneva_cli.geometry.plates import Group, Part, Plate, Shell, Solid, oriented
 from geneva_cli.geometry.shapes import STRAIGHT, Arc, Cubic, Layer, Segment, points
 from geneva_cli.geometry.sheet import Drawing
-from geneva_cli.geometry.sphere import Vector, cross, square_to, unit
-from geneva_cli.geometry.sphere_shell import Shell
+from geneva_cli.geometry.sphere import Vector, axis_frame, unit
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.output.solid_part import plate_contours, require_thick, solid_part
 
@@ -143,7 +142,7 @@ def _shell(shell: Shell, tolerance: float) -> m3.Manifold:
         ]
         around = np.concatenate(arcs)
         reach = max(reach, float(np.arccos(around @ middle).max()))
-        frame = _frame(region.middle)
+        frame = np.array(axis_frame(region.middle))
         seen = around @ frame.T
         flat = far * seen[:, :2] / seen[:, 2:]  # great circles are straight lines
         here = np.arange(len(flat))
@@ -155,7 +154,7 @@ def _shell(shell: Shell, tolerance: float) -> m3.Manifold:
     for hole in shell.holes:
         chords = arc_chords(hole.radius, math.tau, tolerance)
         drill = m3.Manifold.cylinder(far, hole.radius, circular_segments=chords)
-        body -= drill.transform(np.column_stack((_frame(hole.axis).T, np.zeros(3))))
+        body -= drill.transform(np.column_stack((np.array(axis_frame(hole.axis)).T, np.zeros(3))))
     return body
 
 
@@ -171,7 +170,7 @@ def _block(shell: Shell, middle: Vector, reach: float, tolerance: float) -> m3.M
     angle = np.hypot(x, y)
     ahead = np.column_stack((x, y, np.cos(angle)))
     ahead[:, :2] *= np.sinc(angle / math.pi)[:, None]
-    sphere = ahead @ _frame(middle)
+    sphere = ahead @ np.array(axis_frame(middle))
     number = np.arange(len(sphere)).reshape(count + 1, count + 1)
     a, b = number[:-1, :-1].ravel(), number[1:, :-1].ravel()
     face = np.concatenate((np.column_stack((a, b, b + 1)), np.column_stack((a, b + 1, a + 1))))
@@ -179,11 +178,6 @@ def _block(shell: Shell, middle: Vector, reach: float, tolerance: float) -> m3.M
     walls = _strips(np.concatenate(ring), len(sphere))
     corners = np.concatenate((shell.inner * sphere, shell.outer * sphere))
     return _manifold(corners, [face[:, ::-1], face + len(sphere), *walls])
-
-
-def _frame(axis: Vector) -> Array:
-    x = square_to(axis)
-    return np.array((x, cross(axis, x), axis))
 
 
 def arc_chords(radius: float, sweep: float, tolerance: float) -> int:

@@ -104,7 +104,7 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
     }
     del known["source"]
     of_kind: Callable[[Mechanism], KeySizes] | None
-    of_kind = thing(mechanism.spec.wheel.NAME, "sizes") if mechanism.spec.has_parts else None
+    of_kind = None if mechanism.spec.no_parts else thing(mechanism.spec.wheel.NAME, "sizes")
     if of_kind:
         values, by_load = of_kind(mechanism)
         return known | values, by_load

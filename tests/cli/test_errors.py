@@ -225,7 +225,7 @@ OPTIONS = [
     ],
     (f"synth --rollers -{ZEROS} --tau 1/3", "at least 1"),
     ("table --z 2", "at least 3"),
-    ("table --z 12..3", "backwards", "3..12"),
+    ("table --z 12..3", "the lesser first"),
     ("table --z " + "9" * 5000, "at most"),
     ("table --n", "requires an argument"),
     ("table --rollers 0", "at least 1"),

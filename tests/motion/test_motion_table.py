@@ -85,8 +85,8 @@ def test_any_turn_and_any_order() -> None:
         (("--at", "1..x"), '"x" is no number'),
         (("--at", "1,,2"), "neither a number nor a word"),
         (("--at", "1e9"), "at most 360000 degrees"),
-        (("--at", "3", "--samples", "3"), "--at sets the rows, and --samples too"),
-        (("--at", "3", "--turns", "2"), "--at sets the rows, and --turns too"),
+        (("--at", "3", "--samples", "3"), "--at sets the rows: leave out"),
+        (("--at", "3", "--turns", "2"), "--at sets the rows: leave out"),
         (("--at", "3", "--format", "cam"), "a cam has the points"),
     ],
 )

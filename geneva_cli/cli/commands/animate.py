@@ -18,7 +18,7 @@ def run(
     settings: Settings = None,
     open_: Annotated[bool, flag("--open", "Open the page in the desktop's browser.")] = False,
     output: Annotated[
-        str, output_option("FILE", "Write to this .html; - prints it.", default=True)
+        str, output_option("FILE", "Write to this .html; - prints it.", show=True)
     ] = "-",
 ) -> None:
     """Animate the machine on a page that needs no network.

@@ -1,13 +1,12 @@
 """``geneva check``."""
 
 import os
-import sys
 from typing import Annotated
 
 import typer
 
-from geneva_cli.cli.command import Format, Output, Reverse, Settings, option, say
-from geneva_cli.errors import clean, open_warnings
+from geneva_cli.cli.command import Format, Output, Reverse, Settings, option, say, tell
+from geneva_cli.errors import open_warnings
 
 EXAMPLES = ("geneva check spec.toml", "geneva check spec.toml --set size.slot_clearance_mm=0.05")
 DRAWN = "A drawing from elsewhere"
@@ -58,7 +57,7 @@ def run(
     fails = False
     for v in results:
         if v.error:
-            print(clean(v.error), file=sys.stderr)
+            tell(v.error)
         elif output != "-" or name == "csv":
             say(v.path, v.warnings)
         fails = fails or not v.passes or (strict and bool(open_warnings(v.warnings)))

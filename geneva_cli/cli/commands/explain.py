@@ -27,7 +27,7 @@ def run(
 ) -> None:
     """Explain a word of the output: meaning, formula, unit, source, what to do, manual page."""
     from geneva_cli.cli.pages import search
-    from geneva_cli.output import is_for_people, show, show_markdown, show_text
+    from geneva_cli.output import is_for_people, show, show_markdown
     from geneva_cli.specfile.meanings import (
         Meaning,
         as_markdown,
@@ -58,7 +58,5 @@ def run(
         show(rows_table(names, found, title).replaced(reading=Reading(names[1:])), output, format)
     elif not people:
         show(rows_table(Meaning._fields, entries), output, format)
-    elif output == "-":
-        show_markdown(as_markdown(entries))
     else:
-        show_text(as_markdown(entries), output)
+        show_markdown(as_markdown(entries), output)

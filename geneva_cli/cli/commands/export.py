@@ -1,7 +1,6 @@
 """``geneva export``."""
 
 import os
-import sys
 from typing import Annotated
 
 from geneva_cli.cli.command import (
@@ -12,8 +11,9 @@ from geneva_cli.cli.command import (
     output_option,
     require_written,
     say,
+    tell,
 )
-from geneva_cli.errors import GenevaError, below, clean
+from geneva_cli.errors import GenevaError, below
 
 EXAMPLES = (
     "geneva export spec.toml -o turret",
@@ -53,7 +53,6 @@ def run(
     design = load(spec, settings or ())
     if not output:
         raise GenevaError("the files need a folder: give -o FOLDER")
-    design.refuse_drawn("the files for a shop are those")
     if design.spec.is_turned:
         require_written(design, design.judge(), force)
     files, missing = export_files(design, needed)
@@ -64,17 +63,14 @@ def run(
     rows = [(below(output, one.file), one.content) for one in entries]
     show(rows_table(("file", "content"), rows, design.spec.title))
     for one in missing:
-        print(clean(f"{spec}: warning: {one.name}: not written: {one.why}"), file=sys.stderr)
+        tell(f"{spec}: warning: {one.name}: not written: {one.why}")
     for name in kept:
         text = "no file of this design now, but somebody changed it: it stays"
-        print(clean(f"{below(output, name)}: warning: {text}"), file=sys.stderr)
+        tell(f"{below(output, name)}: warning: {text}")
     process = design.spec.size.process
     if trade and process != trade:
-        print(
-            clean(
-                f"{spec}: warning: size.process is {process or 'not set'}, so clearances are not "
-                f"those of {trade}; --set size.process={trade} sets them"
-            ),
-            file=sys.stderr,
+        tell(
+            f"{spec}: warning: size.process is {process or 'not set'}, so clearances are not "
+            f"those of {trade}; --set size.process={trade} sets them"
         )
     say(design.spec.path, shop_warnings(design))

@@ -1,12 +1,11 @@
 """``geneva motion``."""
 
-import sys
 from typing import Annotated
 
 import typer
 
-from geneva_cli.cli.command import Output, Reverse, Settings, SpecPath, one_of, option, say
-from geneva_cli.errors import GenevaError, clean
+from geneva_cli.cli.command import Output, Reverse, Settings, SpecPath, one_of, option, say, tell
+from geneva_cli.errors import GenevaError
 from geneva_cli.output import CAMS, CONTROLLERS, FORMATS
 
 EXAMPLES = (
@@ -57,8 +56,15 @@ def run(
     if format not in CAMS:
         if controller is not None or tolerance is not None:
             raise GenevaError("--for and --tolerance are for electronic cams: --format cam")
+        angles = None
+        if at:
+            from geneva_cli.study.sweep.values import numbers
+
+            if samples is not None or turns is not None:
+                raise GenevaError("--at sets the rows: leave out --samples and --turns")
+            angles = numbers(at, "--at")
         rows = 361 if samples is None else samples
-        show(design.motion(rows, turns, _angles(at, samples, turns)), output, format, files)
+        show(design.motion(rows, turns, angles), output, format, files)
         say(design.spec.path, design.motion_warnings)
         return
     from geneva_cli.kept import load_extra
@@ -75,19 +81,7 @@ def run(
     else:
         show(content, output, "csv", files)
     text, is_met = load_extra("servo", "cam_words")(rows, error_deg, tolerance)
-    print(clean(f"{spec}: {text}"), file=sys.stderr)
+    tell(f"{spec}: {text}")
     say(design.spec.path, design.motion_warnings)
     if not is_met:
         raise typer.Exit(1)
-
-
-def _angles(at: str, samples: int | None, turns: int | None) -> list[float] | None:
-    """The input angles of ``--at``, degrees; None without it."""
-    if not at:
-        return None
-    from geneva_cli.study.sweep.values import numbers
-
-    if samples is not None or turns is not None:
-        other = "--samples" if turns is None else "--turns"
-        raise GenevaError(f"--at sets the rows, and {other} too: give one of them")
-    return numbers(at, "--at")

@@ -1,11 +1,9 @@
 """``geneva size``."""
 
 import os
-import sys
 from typing import Annotated
 
-from geneva_cli.cli.command import Format, Settings, SpecPath, output_option
-from geneva_cli.errors import GenevaError, clean, cut
+from geneva_cli.cli.command import Format, Settings, SpecPath, output_option, tell
 
 EXAMPLES = (
     "geneva size spec.toml",
@@ -31,7 +29,7 @@ def run(
     json or md has the table instead.
     """
     from geneva_cli.design import load
-    from geneva_cli.output import FORMATS, chosen, show_answer, show_text
+    from geneva_cli.output import FORMATS, chosen, require_spec, show_answer, show_text
     from geneva_cli.study.chosen_sizes import of_sizes, sized_text
 
     design = load(spec, settings or ())
@@ -41,11 +39,7 @@ def run(
         answer = of_sizes(design, chosen(output, format) == "json")
         show_answer(answer, output, format, design.spec.files)
         return
-    if output != "-" and extension != "toml":
-        raise GenevaError(
-            f'-o "{cut(output, 300)}": a spec ends in .toml, and the table of its sizes in .csv, '
-            ".json or .md"
-        )
+    require_spec(output)
     text, lost = sized_text(design)
     show_text(text, output, design.spec.files)
     notes = [f"note: {lost}"] if lost else []
@@ -53,4 +47,4 @@ def run(
     if beside and os.path.dirname(output) != os.path.dirname(design.spec.path):
         notes.append(f"warning: it needs {', '.join(beside)} in its folder")
     for note in notes:
-        print(clean(f"{output}: {note}"), file=sys.stderr)
+        tell(f"{output}: {note}")

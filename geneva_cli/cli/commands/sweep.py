@@ -1,12 +1,11 @@
 """``geneva sweep``."""
 
-import sys
 from collections.abc import Iterator
 from contextlib import closing
 from typing import TYPE_CHECKING, Annotated
 
-from geneva_cli.cli.command import Format, Settings, SpecPath, flag, option, output_option
-from geneva_cli.errors import GenevaError, clean, cut
+from geneva_cli.cli.command import Format, Settings, SpecPath, flag, option, output_option, tell
+from geneva_cli.errors import GenevaError
 from geneva_cli.progress import tracked
 
 if TYPE_CHECKING:
@@ -65,18 +64,15 @@ def run(
     whole range between.
     Long runs and the best of many: `geneva help search`.
     """
-    from geneva_cli.output import FORMATS, show, show_text
+    from geneva_cli.output import chosen, require_spec, show, show_text
     from geneva_cli.study.fields import joined, without_infinity
     from geneva_cli.study.sweep.request import Outcome, request
     from geneva_cli.table import Table
 
-    if format and format not in FORMATS:
-        raise GenevaError(f"--format {cut(format)}: it must be one of {', '.join(FORMATS)}")
-    if best and output != "-" and not output.endswith(".toml"):
-        raise GenevaError(f'-o "{cut(output, 300)}": --best writes a spec: it must end in .toml')
-    if best and (format or resume):
-        wrong = f"--format {format}" if format else "--resume"
-        raise GenevaError(f"{wrong}: --best writes a spec, as TOML, and no rows")
+    if best:
+        require_spec(output, format)
+    else:
+        chosen("-", format)
     plan = request(
         spec,
         vary or (),
@@ -90,14 +86,14 @@ def run(
         best=best,
         jobs=jobs,
     )
+    if resume and (best or plan.chooses or format not in ("", "csv")):
+        raise GenevaError("--resume continues all rows of a sweep, as csv or parquet")
     outcome = Outcome(plan)
     if plan.goal:
         from geneva_cli.study.sweep.best import best_spec
 
         lines = best_spec(outcome, plan.goal, _tracked(plan, 0))
         show_text("\n".join(lines) + "\n", output, plan.inputs)
-    elif resume and (plan.chooses or format not in ("", "csv")):
-        raise GenevaError("--resume continues all rows of a sweep, as csv or parquet")
     elif format in ("", "csv"):
         _write_rows(plan, outcome, output, resume, bool(format))
     else:
@@ -107,7 +103,7 @@ def run(
         table = Table(names, [without_infinity(column) for column in columns])
         show(table, output, format, plan.inputs)
     for note in outcome.notes():
-        print(clean(f"{spec}: {note}"), file=sys.stderr)
+        tell(f"{spec}: {note}")
 
 
 def _write_rows(plan: "Sweep", outcome: "Outcome", output: str, resume: bool, whole: bool) -> None:
@@ -129,7 +125,7 @@ def _write_rows(plan: "Sweep", outcome: "Outcome", output: str, resume: bool, wh
         growing = GrowingTable(plan.names, plan.key, output, resume, plan.inputs)
         with closing(growing) as rows:
             if rows.message:
-                print(clean(rows.message), file=sys.stderr)
+                tell(rows.message)
             if is_seen("-") and not (shows_all or rows.done):
                 digest = Digest(plan, output)
             blocks = plan.blocks(rows.done) if shows_all else _tracked(plan, rows.done)

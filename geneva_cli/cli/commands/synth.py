@@ -1,11 +1,10 @@
 """``geneva synth``."""
 
-import sys
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated
 
-from geneva_cli.cli.command import Format, Output, Settings, flag, option, say
-from geneva_cli.errors import GenevaError, clean, cut
+from geneva_cli.cli.command import Format, Output, Settings, flag, option, say, tell
+from geneva_cli.errors import GenevaError, cut
 
 if TYPE_CHECKING:
     from geneva_cli.study.target import Target
@@ -31,7 +30,7 @@ def run(
     subject_to: Annotated[
         list[str] | None, option("BOUND", 'Of any quantity, as "jerk.max <= 5"; repeat.', WANTED)
     ] = None,
-    z: Annotated[str, option("Z", "Slots: 6, 3..12 or 3,4,6.", MACHINES, default="3..24")] = "",
+    z: Annotated[str, option("Z", "Slots: 6, 3..12 or 3,4,6.", MACHINES, show="3..24")] = "",
     internal: Annotated[bool, flag("--internal", "Internal wheels.", MACHINES)] = False,
     external: Annotated[bool, flag("--external", "External wheels.", MACHINES)] = False,
     spherical: Annotated[bool, flag("--spherical", "Spherical wheels.", MACHINES)] = False,
@@ -40,7 +39,7 @@ def run(
     ] = None,
     law: Annotated[str, option("NAME", "Law of curved slots, or all.", MACHINES)] = "modified-sine",
     space: Annotated[
-        str, option("X", "Largest four-bar, in centre distances.", MACHINES, default="3")
+        str, option("X", "Largest four-bar, in centre distances.", MACHINES, show="3")
     ] = "",
     from_: Annotated[
         str,
@@ -111,18 +110,14 @@ def _show(target: "Target", check: int, buildable: bool, output: str, format: st
 
 def _write(target: "Target", number: int, output: str, format: str) -> None:
     from geneva_cli.design import Design
-    from geneva_cli.output import show_text
+    from geneva_cli.output import require_spec, show_text
     from geneva_cli.study.synth.synth_search import search
     from geneva_cli.study.synth.synth_table import chosen
 
-    if format:
-        raise GenevaError(f"--format {cut(format)}: --write writes a spec, which is TOML")
-    if output != "-" and not output.endswith(".toml"):
-        raise GenevaError(f'-o "{cut(output, 300)}": --write writes a spec: it must end in .toml')
+    require_spec(output, format)
     row, text = chosen(search(target), number)
     show_text(text, output, _inputs(target))
     path = "<stdout>" if output == "-" else output
     if row.trouble:
-        note = f"{path}: warning: its parts cannot be built: {row.trouble}"
-        print(clean(note), file=sys.stderr)
+        tell(f"{path}: warning: its parts cannot be built: {row.trouble}")
     say(path, Design.of(row.spec.replace(path=path)).motion_warnings)

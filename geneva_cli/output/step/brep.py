@@ -12,13 +12,12 @@ from __future__ import annotations
 import math
 from itertools import pairwise
 
-from geneva_cli.geometry.plates import Plate, with_material_left
+from geneva_cli.geometry.plates import Plate, Shell, with_material_left
 from geneva_cli.geometry.shapes import Arc, Circle, Line, Point
 from geneva_cli.geometry.sphere import POLE, SphereArc, Vector, cross, opposite, square_to, unit
-from geneva_cli.geometry.sphere_shell import Shell
 from geneva_cli.output.solid_part import plate_contours, require_thick
 from geneva_cli.output.splines import Piece, Spline, pieces
-from geneva_cli.output.step.entities import DIRECTION, ORIGIN, Entities, listed, real
+from geneva_cli.output.step.entities import AHEAD, DIRECTION, ORIGIN, Entities, listed, real
 
 FLAT = 1e-12  # cosine of a cone's angle below which it is a plane
 
@@ -32,7 +31,8 @@ def plate_solid(file: Entities, plate: Plate) -> str:
     for shape in plate_contours(plate):
         lower, upper = list[tuple[str, bool]](), list[tuple[str, bool]]()
         if isinstance(shape, Circle):
-            low, high, wall = file.tube(shape.radius, levels, outside, (*shape.centre, 0.0))
+            frame = (*shape.centre, 0.0), POLE, AHEAD
+            low, high, wall = file.tube(shape.radius, levels, outside, frame)
             faces.append(wall)
             lower.append((low, not outside))
             upper.append((high, outside))
@@ -121,22 +121,22 @@ def shell_solid(file: Entities, shell: Shell) -> str:
     bored = []
     for hole in shell.holes:
         levels = [math.sqrt((r - hole.radius) * (r + hole.radius)) for r in edges.radii]
-        ahead = square_to(hole.axis)
-        bored.append(file.tube(hole.radius, levels, False, ORIGIN, hole.axis, ahead))
+        frame = ORIGIN, hole.axis, square_to(hole.axis)
+        bored.append(file.tube(hole.radius, levels, False, frame))
     faces = [wall for _, _, wall in bored]
     for region in shell.regions:
         sides = [edges.side(arc) for arc in region.boundary]
         # a sphere whose poles and seam are away from the region
         sideways = cross(POLE, region.middle)
         axis = unit(sideways) if math.hypot(*sideways) > FLAT else (1.0, 0.0, 0.0)
-        frame = file.placement(ORIGIN, axis, unit(opposite(region.middle)))
+        place = file.placement(ORIGIN, axis, unit(opposite(region.middle)))
         for k, radius in enumerate(edges.radii):
             high = k == 1
             around = [(own[k], along is high) for *own, along in sides]
             bounds = [file.loop(around if high else around[::-1])]
             if region is shell.regions[-1]:
                 bounds += [file.loop([(hole[k], not high)]) for hole in bored]
-            sphere = file.add(f"SPHERICAL_SURFACE('',{frame},{real(radius)})")
+            sphere = file.add(f"SPHERICAL_SURFACE('',{place},{real(radius)})")
             faces.append(file.face(bounds, sphere, high))
         for arc, side in zip(region.boundary, sides, strict=True):
             if arc.back.key not in arcs:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TypeAlias
 
 from geneva_cli.geometry.sphere import POLE, Vector, combined
 
 LENGTH = 12  # decimals of lengths in mm: with large coordinates more than a double has
 DIRECTION = 16  # decimals of directions, which act through a length
 ORIGIN, AHEAD = (0.0, 0.0, 0.0), (1.0, 0.0, 0.0)
+Frame: TypeAlias = tuple[Vector, Vector, Vector]  # origin, axis, and x ahead
 
 
 class Entities:
@@ -82,11 +84,10 @@ class Entities:
         radius: float,
         levels: Sequence[float],
         outside: bool,
-        at: Vector = ORIGIN,
-        axis: Vector = POLE,
-        ahead: Vector = AHEAD,
+        frame: Frame = (ORIGIN, POLE, AHEAD),
     ) -> tuple[str, str, str]:
-        """Circles between two levels on an axis, counterclockwise about it, and their wall."""
+        """Circles on two levels of a frame's axis, counterclockwise about it, and their wall."""
+        at, axis, ahead = frame
         middles = [combined(axis, level, at, 1.0) for level in levels]
         starts = [combined(ahead, radius, middle, 1.0) for middle in middles]
         ends = [self.vertex(start) for start in starts]

@@ -164,7 +164,7 @@ class UnderLoad:
         own = thing(self.machine.spec.wheel.NAME, "stressed")
         if own:
             machines = self.designs.each
-            return batched([_or_none(own, one) if one.spec.has_parts else None for one in machines])
+            return batched([None if one.spec.no_parts else _or_none(own, one) for one in machines])
         each = list[Stressed | None]()
         for one in self.layouts:
             each.append(stressed(*one) if one else None)
