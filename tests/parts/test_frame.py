@@ -79,7 +79,8 @@ def test_a_hole_for_every_shaft_that_reaches_it(name):
     pivots = rows(design, "pivot")
     # two screws hold a guide or a bridge besides, and four a gear
     guide = {"slider-crank": 2, "epicyclic-z4": 4, "side-crank-z6": 2}.get(name, 0)
-    assert len(holes) == len(STANDING[name]) + guide + MOUNTS
+    mounts = 0 if name == "geneva-pair" else MOUNTS  # it is too small for M1.6
+    assert len(holes) == len(STANDING[name]) + guide + mounts
     for pivot, hole in zip(STANDING[name], holes, strict=False):
         at = pivots[pivot]["x_mm"], pivots[pivot]["y_mm"]
         assert hole.centre == pytest.approx(at, abs=1e-9)
