@@ -228,7 +228,11 @@ class Design:
         >>> [round(d.peaks.ends.acceleration_entry, 4) for d in (offset, offset.backwards)]
         [0.5342, 0.6281]
         """
-        spec, plan = self.spec, self.mechanism.plan
+        spec, plan, motion = self.spec, self.mechanism.plan, self.spec.motion
+        if motion:
+            from geneva_cli.motion.given_motion import run_backwards
+
+            motion = motion.replace(law=run_backwards(motion.law))
         loaded: Mapping[str, Chosen] = {}
         with suppress(GenevaError):  # sizes that leave no parts: the checks say why
             loaded = self.chosen_by_load.sizes
@@ -236,7 +240,7 @@ class Design:
             wheel=spec.wheel.backwards,
             drive=spec.drive.backwards(plan),
             drive_before=spec.drive_before and spec.drive_before.backwards(plan),
-            motion=spec.motion and spec.motion.backwards,
+            motion=motion,
             size=_with_chosen(spec.size, loaded),
             title=", ".join(text for text in (spec.title, "backwards") if text),
         )
@@ -268,7 +272,7 @@ class Design:
         """
         from geneva_cli.parts.chosen import chosen, detail_sizes
 
-        if self.spec.has_parts:
+        if not self.spec.no_parts:
             _ = self.parts.built
         return chosen(self.mechanism, detail_sizes(self.mechanism))
 

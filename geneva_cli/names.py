@@ -102,9 +102,12 @@ def spoken(name: str) -> tuple[str, str]:
     >>> spoken("wheel_bore_mm"), spoken("loads.pin_force_N.max")
     (('wheel bore', 'mm'), ('loads pin force max', 'N'))
     """
-    parts = [_in_words(part, WORDS) for part in name.split(".")]
-    unit = next((unit for _, unit in reversed(parts) if unit), "")
-    return " ".join(words for words, _ in parts), unit
+    words, unit = [], ""
+    for part in name.split("."):
+        text, own = _in_words(part, WORDS)
+        words.append(text)
+        unit = own or unit
+    return " ".join(words), unit
 
 
 def described(name: str) -> tuple[str, str]:

@@ -6,25 +6,15 @@ Nothing is shown by default: only the command line sets ``maker``.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from typing import Protocol, TypeAlias, TypeVar
+from typing import Any, TypeVar
 
 T = TypeVar("T")
 
 
-class ProgressBar(Protocol):
-    """A display of the progress of one piece of work."""
-
-    def update(self, done: int) -> None:
-        """Show that ``done`` items are done."""
-
-    def close(self) -> None:
-        """Remove the bar."""
-
-
-# Makes a bar from the word for the items and their number; None if nobody watches.
-BarMaker: TypeAlias = Callable[[str, int], ProgressBar | None]
-maker: BarMaker | None = None
-_shown: list[ProgressBar] = []  # at most one: work within other work is not shown
+# Makes a bar, such as ``TextBar``, from the word for the items and their number; None if nobody
+# watches.
+maker: Callable[[str, int], Any] | None = None
+_shown: list[Any] = []  # at most one bar: work within other work is not shown
 
 
 def close() -> None:

@@ -7,7 +7,6 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.motion import machine_spec as spec
 from geneva_cli.motion import registry
 from geneva_cli.motion.laws.table_law import TableLaw
-from geneva_cli.motion.many import changed
 from geneva_cli.motion.mechanism import build
 
 
@@ -148,6 +147,6 @@ def drawn(rules, n, seed):
 def alone(spec, varied, i):
     """The i-th design, built alone; None if it is refused."""
     try:
-        return build(changed(spec, {key: values[i].item() for key, values in varied.items()}))
+        return build(spec.with_keys({key: values[i].item() for key, values in varied.items()}))
     except GenevaError:
         return None

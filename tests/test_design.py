@@ -142,21 +142,6 @@ def test_another_object_is_refused_where_it_is_given(make):
         make()
 
 
-@pytest.mark.parametrize(
-    ("ask", "said"),
-    [
-        (lambda d: d.drawing("whel"), '--part whel: .*did you mean "wheel"'),
-        (lambda d: d.drawing("gears"), "--part gears: .*crank.* has no gears"),
-        (lambda d: d.part_table("crank"), "--part crank is a drawing"),
-        (lambda d: d.slot(-1.0), "--tolerance -1: must be above 0, at most 5 mm"),
-    ],
-    ids=range(4),
-)
-def test_a_wrong_question_is_refused(ask, said):
-    with pytest.raises(GenevaError, match=said):
-        ask(Design(External(6)))
-
-
 # What if
 
 FULL = Design(

@@ -84,7 +84,7 @@ def file_of(name: str) -> bytes:
 
 def _all_files(design: Design) -> bytes:
     """The files of ``geneva export`` in an archive, without meshes: manifold3d is not here."""
-    refused = design.judge()[0] if design.spec.has_parts else ""
+    refused = "" if design.spec.no_parts else design.judge()[0]
     if refused:
         raise GenevaError(f"not written: {refused}")
     files, _ = export_files(design, trade_of(None))

@@ -147,7 +147,7 @@ class LazyGroup(PlainValues, TyperGroup):
             _fail("out of memory; ask for fewer samples or a coarser tolerance")
 
 
-def _bar(what: str, total: int) -> progress.ProgressBar | None:
+def _bar(what: str, total: int) -> Any:
     """A progress bar, if standard error is a terminal."""
     if not sys.stderr.isatty():
         return None

@@ -66,10 +66,7 @@ def table_of(mechanism: Mechanism, part: str, drawn: bool = False) -> str:
 
 
 def part_table(mechanism: Mechanism, part: str, tolerance_mm: float, samples: int | None) -> Table:
-    """Return a part's points: for a chord tolerance, or at ``samples`` even input angles.
-
-    Raises GenevaError for a part that the machine does not have.
-    """
+    """Return a part's points: for a chord tolerance, or at ``samples`` even input angles."""
     if samples is not None and not 2 <= samples <= SAMPLES_MAX:
         raise GenevaError(f"--samples {cut(samples)}: must be at least 2, at most {SAMPLES_MAX}")
     function = table_of(mechanism, part)
@@ -81,10 +78,7 @@ def part_table(mechanism: Mechanism, part: str, tolerance_mm: float, samples: in
 
 
 def require_tolerance(mechanism: Mechanism, tolerance_mm: float) -> None:
-    """Raise GenevaError for a tolerance that is not above 0, or wider than half a slot.
-
-    A slot may not miss its curve by its own half width.
-    """
+    """Raise GenevaError for a tolerance that is not above 0, or wider than half a slot."""
     allowed = Range(0.0, mechanism.roller_radius_mm, "(]")
     require_mm("--tolerance", tolerance_mm, allowed, "the roller's radius")
 

@@ -41,10 +41,7 @@ BEYOND = 0.04  # of the centre distance: from a part to the arrow that shows how
 
 
 def wheel(parts: EdgedParts) -> Drawing:
-    """Return the wheel or rack; x is along the first slot.
-
-    The origin is the wheel's axis, or the roller's at mid-motion of a rack.
-    """
+    """Return the wheel or rack; x is along the first slot."""
     return drawing_of(parts.mechanism, parts.mechanism.output.noun, parts.wheel.part)
 
 
@@ -110,10 +107,7 @@ def frame(parts: EdgedParts) -> Drawing:
 
 
 def gears(parts: EdgedParts) -> Drawing:
-    """Return all gears with bores and bolts, and the line of centres.
-
-    The crank's axis is the origin. Raises GenevaError for a machine without gears.
-    """
+    """Return all gears with bores and bolts, and the line of centres."""
     from geneva_cli.parts.gears.gear_pair import FINE, required_gears
 
     mechanism, name = parts.mechanism, "gears"
@@ -132,11 +126,7 @@ def gears(parts: EdgedParts) -> Drawing:
 
 
 def groove_plate(parts: FlatParts) -> Drawing:
-    """Return outline, both flanks, bore and holes of the groove's plate.
-
-    The crank's axis is the origin. Raises GenevaError for a machine without a groove, and where the
-    plate meets the wheel's shaft.
-    """
+    """Return outline, both flanks, bore and holes of the groove's plate."""
     *_, pitch = parts.groove
     title = titled(parts.mechanism, "groove plate")
     stack = Group(title, tuple(Member(one.part) for one in parts.groove_plate))
@@ -144,10 +134,7 @@ def groove_plate(parts: FlatParts) -> Drawing:
 
 
 def pitch_lines(parts: FlatParts, engagement: Engagement) -> list[Contour]:
-    """Return the slot's pitch curve; of a pair of slots, both.
-
-    Where the roller returns on the same path, it is the first half.
-    """
+    """Return the slot's pitch curve; of a pair of slots, both."""
     assembly, apart, through = parts.outlines.assembly, engagement.apart, engagement.through
     x, y = through.slot(np.array([through.entry_deg, 0.0]), 0)
     if not through.slot.curved:

@@ -25,13 +25,13 @@ from geneva_cli.geometry.plates import (
     Member,
     Part,
     Plate,
+    Shell,
     Solid,
     mass_properties,
     solids,
 )
 from geneva_cli.geometry.shapes import bounds_of
 from geneva_cli.geometry.sheet import Drawing
-from geneva_cli.geometry.sphere_shell import Shell
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Dimension, Pivot
@@ -170,7 +170,7 @@ def _dimensions(parts: Parts) -> list[Dimension | Missing]:
         kind = "rounding" if spec.size.edge_chamfer_mm is None else "chamfer"
         entries.append(Dimension(f"{kind} of all edges", spec.size.edge_mm, "mm"))
     with suppress(GenevaError):  # the rows of what cannot be built have the reason
-        screws = parts.built.screws if spec.has_parts else ()
+        screws = () if spec.no_parts else parts.built.screws
         entries += (Dimension(one.name, one.text) for one in screws)
     entries += [d for d in spec.wheel.layout if isinstance(d, Dimension)]
     own = thing(spec.wheel.NAME, "dimensions")

@@ -223,11 +223,8 @@ def _at_angles(angles: tuple[float, ...], rollers: list[RollerPlace]) -> list[Ro
     """Rollers at the angles of the spec, each gap wide enough for half of both adjacent motions."""
     if list(angles) != sorted(set(angles)) or angles[0] != 0.0 or angles[-1] >= 360.0:
         raise GenevaError("roller_angles_deg must rise from 0 to below 360", ANGLES_KEY)
-    text = (
-        "the rollers at {a:g} and {b:g} deg jam: half of both motions takes {motions:.6g} deg, and "
-        "they are {apart:.6g} deg apart"
-    )
-
+    text = "the rollers at {a:g} and {b:g} deg jam: half of both motions takes {motions:.6g} deg, "
+    text += "and they are {apart:.6g} deg apart"
     following = (*angles[1:], 360.0), (*rollers[1:], rollers[0])
     for a, one, b, after in zip(angles, rollers, *following, strict=True):
         motions = one.half_motion_deg + after.half_motion_deg

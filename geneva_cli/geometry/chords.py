@@ -35,8 +35,6 @@ def nodes(curves: Curves, ends: Sequence[float], tolerance_mm: float, fewest: bo
 
     Without ``fewest`` the first sufficient number is used, some ten per cent more.
     """
-    if not tolerance_mm > 0.0:
-        raise GenevaError(f"--tolerance {tolerance_mm:g}: it must be above 0 mm")
     aim = AIM * tolerance_mm
     parts = [_smooth(curves, a, b, aim, fewest)[:-1] for a, b in pairwise(ends)]
     return np.concatenate((*parts, [ends[-1]]))

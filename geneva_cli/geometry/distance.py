@@ -14,7 +14,6 @@ from geneva_cli.geometry.shapes import Arc, Contour, Line
 from geneva_cli.numerics.arrays import Array, Mask, Number, Whole
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 
-PLACES = (0, 2, 4, 8, 12, 16)  # columns of a boundary that are x, and y behind it
 BLOCK = 1 << 14  # distances in a block: they stay in the processor's cache
 
 
@@ -75,19 +74,6 @@ class Polyarc:
         """The boundary's pieces at some indices, for points that are near no other pieces."""
         out = object.__new__(Polyarc)
         out._name(self._columns[:, keep])
-        return out
-
-    def around(self, count: int) -> Polyarc:
-        """The pieces and their copies, turned about the origin by 1/``count`` turn each."""
-        out, turned = object.__new__(Polyarc), []
-        for k in range(count):
-            c, s = math.cos(math.tau * k / count), math.sin(math.tau * k / count)
-            copy = self._columns.copy()
-            for i in PLACES:
-                x, y = self._columns[i], self._columns[i + 1]
-                copy[i], copy[i + 1] = c * x - s * y, s * x + c * y
-            turned.append(copy)
-        out._name(np.concatenate(turned, axis=1))
         return out
 
     def signed(self, points: Array) -> Array:

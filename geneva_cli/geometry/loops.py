@@ -15,7 +15,7 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.plates import with_material_left
-from geneva_cli.geometry.shapes import Arc, Contour, Line, Point, Segment, at, closed, flipped
+from geneva_cli.geometry.shapes import Arc, Contour, Line, Point, Segment, at, backwards, closed
 from geneva_cli.numerics.arrays import Array, Mask, Whole
 
 JOINED_MM = 1e-3  # ends that are nearer to each other are one
@@ -47,7 +47,8 @@ def loops(pieces: Sequence[Line | Arc]) -> list[Loop]:
         while not used[end // 2]:
             piece = kept[end // 2]
             used[end // 2] = True
-            chain.append(flipped(piece) if end % 2 else piece)
+            way = Contour("", (piece,), closed=False)
+            chain += (backwards(way) if end % 2 else way).segments
             end = partner[end ^ 1]
         if chain:
             contours.append(with_material_left(closed("", chain), True))

@@ -14,7 +14,7 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry import shapes
 from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.geometry.plates import Plate, plates, with_material_left
+from geneva_cli.geometry.plates import plates, with_material_left
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Layer, Line, Point, Segment
 from geneva_cli.geometry.sheet import SHORTEST_MM, Drawing, prepared
 from geneva_cli.numerics.tolerances import SAME_CUT_MM
@@ -194,39 +194,30 @@ def judged(drawing: Drawing, cutter_mm: float) -> tuple[str, list[str]]:
     Raises GenevaError for a diameter outside of TOOL_MM, and for outlines with cubics.
     """
     require_mm("--cutter", cutter_mm, TOOL_MM)
-    stops, notes = list[str](), list[str]()
+    stops, notes, radius = list[str](), list[str](), 0.5 * cutter_mm
     for plate in dict.fromkeys(plates(drawing.solid)) if drawing.solid else ():
-        _judge_plate(plate, 0.5 * cutter_mm, stops, notes)
+        for original in (plate.outline, *plate.holes):
+            outside, layer = original is plate.outline, f"{plate.name}, layer {original.layer}"
+            if isinstance(original, Circle):
+                if not outside and original.radius < radius - SAME_CUT_MM:
+                    x, y = original.centre
+                    size = f"hole of {2.0 * original.radius:.6g} mm at x = {x:.6g}, y = {y:.6g}"
+                    notes.append(f"{size} in {plate.name}: narrower than the cutter; drill it")
+                continue
+            try:
+                offset(original, outside, radius - SAME_CUT_MM)
+            except Closed as error:
+                # a micrometre's last digit moves with rounding; six decimals in mm are steady
+                x, y = (round(v, 6) + 0.0 for v in error.at)
+                text = f"it does not enter {layer}, at x = {x:.5g}, y = {y:.5g}"
+                stops.append(f"{text}: {error.what} is narrower; use a smaller one")
+                continue
+            _, own = _cleaned(original, outside)
+            for i, _, turn in _turns(own):
+                # less than 1e-4 mm of material is no corner
+                if -math.pi < turn < 0.0 and radius * (1.0 / math.cos(0.5 * turn) - 1.0) > 1e-4:
+                    x, y = own[i].end
+                    text = f"the corner of {layer}, at x = {x:.5g}, y = {y:.5g}"
+                    notes.append(f"it leaves a radius of {radius:.6g} mm in {text}")
     refused = f"--cutter {cutter_mm:g}: {'; '.join(stops)}" if stops else ""
     return refused, [f"--cutter {cutter_mm:g}: {text}" for text in notes]
-
-
-def _judge_plate(plate: Plate, radius: float, stops: list[str], notes: list[str]) -> None:
-    """Add narrow places, at most one per outline, and else round corners and narrow holes."""
-    for original in (plate.outline, *plate.holes):
-        outside = original is plate.outline
-        if isinstance(original, Circle):
-            if not outside and original.radius < radius - SAME_CUT_MM:
-                x, y = original.centre
-                size = f"hole of {2.0 * original.radius:.6g} mm at x = {x:.6g}, y = {y:.6g}"
-                notes.append(f"{size} in {plate.name}: narrower than the cutter; drill it")
-            continue
-        try:
-            offset(original, outside, radius - SAME_CUT_MM)
-        except Closed as error:
-            # a micrometre's last digit moves with rounding; six decimals in mm are steady
-            x, y = (round(v, 6) + 0.0 for v in error.at)
-            stops.append(
-                f"it does not enter {plate.name}, layer {original.layer}, at x = {x:.5g}, "
-                f"y = {y:.5g}: {error.what} is narrower; use a smaller one"
-            )
-            continue
-        _, own = _cleaned(original, outside)
-        for i, _, turn in _turns(own):
-            # less than 1e-4 mm of material is no corner
-            if -math.pi < turn < 0.0 and radius * (1.0 / math.cos(0.5 * turn) - 1.0) > 1e-4:
-                x, y = own[i].end
-                notes.append(
-                    f"it leaves a radius of {radius:.6g} mm in the corner of {plate.name}, layer "
-                    f"{original.layer}, at x = {x:.5g}, y = {y:.5g}"
-                )

@@ -1,4 +1,4 @@
-"""Solids extruded along the axis from z = 0, and groups of them; their mass and walls; in mm."""
+"""Plates, shells of a sphere, and groups of them; the mass and the walls of plates; in mm."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Layer, Point, Shape
 
 if TYPE_CHECKING:
-    from geneva_cli.geometry.sphere import Rotation
-    from geneva_cli.geometry.sphere_shell import Shell
+    from geneva_cli.geometry.sphere import Region, Rotation, Vector
+    from geneva_cli.geometry.sphere_arcs import RoundHole
 
 MM = 1e-3  # metres
 SAMPLED = 1e-4, 0.5  # mm: sagitta and length of samples of a hole that is not a circle
@@ -45,6 +45,52 @@ class Plate(NamedTuple):
     def thickness(self) -> float:
         """Thickness along the axis."""
         return self.high - self.low
+
+
+class Shell(NamedTuple):
+    """A solid between two spheres about the origin, over regions that touch along whole arcs.
+
+    Round holes are all within the last of the regions, and separate from each other.
+    """
+
+    name: str
+    layer: Layer
+    regions: tuple[Region, ...]
+    inner: float
+    outer: float
+    holes: tuple[RoundHole, ...] = ()
+
+    @property
+    def volume(self) -> float:
+        """Solid angle times a third of the difference of the cubes, minus the holes, mm³."""
+        covered = math.fsum(r.area for r in self.regions)
+        bored = math.fsum(hole.volume(self.inner, self.outer) for hole in self.holes)
+        return covered * (self.outer**3 - self.inner**3) / 3.0 - bored
+
+    @property
+    def centroid(self) -> Vector:
+        """Centre of mass of a uniform shell, mm."""
+        covered = np.sum([r.moments[0] for r in self.regions], axis=0)
+        first = covered * (self.outer**4 - self.inner**4) / 4.0
+        for hole in self.holes:
+            first = first - hole.first(self.inner, self.outer) * np.array(hole.axis)
+        x, y, z = (first / self.volume).tolist()
+        return x, y, z
+
+    def reach(self, direction: Vector) -> float:
+        """Greatest coordinate of the shell along a direction, mm from the centre."""
+        from geneva_cli.geometry.sphere_arcs import SphereArcs
+
+        if any(SphereArcs(r.boundary).signed(np.array([direction]))[0] < 0.0 for r in self.regions):
+            return self.outer
+        most = max(arc.reach(direction) for region in self.regions for arc in region.boundary)
+        return most * (self.outer if most > 0.0 else self.inner)
+
+    def inertia(self, axis: Vector) -> float:
+        """The volume's moment of inertia about an axis through the centre, mm⁵."""
+        covered = math.fsum(r.area - float(r.moments[1] @ axis @ axis) for r in self.regions)
+        bored = math.fsum(hole.inertia(self.inner, self.outer, axis) for hole in self.holes)
+        return covered * (self.outer**5 - self.inner**5) / 5.0 - bored
 
 
 class Group(NamedTuple):

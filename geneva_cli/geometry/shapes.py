@@ -131,16 +131,15 @@ def polygon(layer: Layer, corners: Sequence[Point]) -> Contour:
     return closed(layer, [Line(p, q) for p, q in zip(corners, after, strict=True)])
 
 
-def flipped(piece: Segment) -> Segment:
-    """The segment with the opposite sense of travel."""
-    if isinstance(piece, Arc):
-        return Arc(piece.end, piece.start, -piece.bulge)
-    return type(piece)(*piece[::-1])
-
-
 def backwards(contour: Contour) -> Contour:
     """The contour with the opposite sense of travel."""
-    return contour._replace(segments=tuple(map(flipped, reversed(contour.segments))))
+    pieces: list[Segment] = []
+    for piece in reversed(contour.segments):
+        if isinstance(piece, Arc):
+            pieces.append(Arc(piece.end, piece.start, -piece.bulge))
+        else:
+            pieces.append(type(piece)(*piece[::-1]))
+    return contour._replace(segments=tuple(pieces))
 
 
 def convex_hull(layer: Layer, circles: Sequence[Circle]) -> Contour:
@@ -149,9 +148,14 @@ def convex_hull(layer: Layer, circles: Sequence[Circle]) -> Contour:
     It touches a circle in the directions in which this circle reaches farthest. Going round, the
     next circle takes over where both reach equally far, on their common tangent.
     """
-
-    def following(turn: float, here: Circle) -> tuple[float, Circle]:
-        """Return where the next circle takes over: a whole turn on if none does."""
+    here = circles[0]
+    for one in circles:  # the farthest along x
+        ahead = one.centre[0] + one.radius - (here.centre[0] + here.radius)
+        if ahead > 0.0 or (ahead == 0.0 and one.centre[1] >= here.centre[1]):
+            here = one
+    turns = [(0.0, here)]  # directions from which on circles reach farthest
+    while len(turns) == 1 or turns[-1][0] < turns[1][0] + math.tau - HULL_ROUNDING:
+        turn, here = turns[-1]
         step, far, after = math.tau, 0.0, here
         for other in circles:
             x, y = other.centre[0] - here.centre[0], other.centre[1] - here.centre[1]
@@ -162,19 +166,12 @@ def convex_hull(layer: Layer, circles: Sequence[Circle]) -> Contour:
             to = max((at - turn + HULL_ROUNDING) % math.tau - HULL_ROUNDING, 0.0)
             if to < step - HULL_ROUNDING or (to < step + HULL_ROUNDING and apart > far):
                 step, far, after = to, apart, other
-        return turn + step, after
-
-    # the farthest along x
-    here = max(circles, key=lambda one: (one.centre[0] + one.radius, one.centre[1]))
-    first, after = following(0.0, here)
-    if first == math.tau:
-        return closed(layer, two_arcs(here))
-    turns = [(first, after)]
-    while turns[-1][0] < first + math.tau - HULL_ROUNDING:
-        turns.append(following(*turns[-1]))
+        if step == math.tau:
+            return closed(layer, two_arcs(here))
+        turns.append((turn + step, after))
     last, here = turns[-2]
     pieces: list[Segment] = []
-    for (start, circle), (end, _) in pairwise([(last - math.tau, here), *turns[:-1]]):
+    for (start, circle), (end, _) in pairwise([(last - math.tau, here), *turns[1:-1]]):
         arc = about(circle.centre, circle.radius, start, end - start)
         if pieces and math.dist(pieces[-1].end, arc.start) > HULL_ROUNDING:
             pieces.append(Line(pieces[-1].end, arc.start))

@@ -91,7 +91,7 @@ class Cycle:
                 near = np.where(free - step < engagement.entry_deg, free + step, free - step)
                 beside = contact(engagement, near, reactions=False)
                 drives = np.broadcast_to(here.drives, x.shape).copy()
-                drives[none] = Instant(case, beside, feeds=1.0).drives
+                drives[none] = Instant(case, beside, None, None, 1.0).drives
                 here = Instant(case, at, drives)
             each = [self.sources.get(name, (name, 1.0)) for name in names]  # or of a pinion
             sought = ["wall_force_N" if source == "pin_force_N" else source for source, _ in each]
@@ -117,7 +117,10 @@ class Cycle:
     @cached_property
     def ends(self) -> Mapping[str, LoadSummary[float]]:
         """The same without mean and rms, which take longest."""
-        return {name: only(one) for name, one in single_extremes(self.machine)[0].items()}
+        out = dict[str, LoadSummary[float]]()
+        for name, one in single_extremes(self.machine)[0].items():
+            out[name] = only(one)
+        return out
 
     @cached_property
     def stretches(self) -> list[tuple[Engagement, Stretch]]:

@@ -11,12 +11,13 @@ roller, fixed to its body, rubs along the wall.
 
 from __future__ import annotations
 
-from typing import Any, Generic, Protocol
+from collections.abc import Mapping
+from typing import Any, Generic, Protocol, TypeAlias
 
 import numpy as np
 
 from geneva_cli.kept import cached_property
-from geneva_cli.loads.contact import Contact, LoadCase, QuantityValue, lesser, value
+from geneva_cli.loads.contact import PRESSED, Contact, LoadCase, QuantityValue, lesser, value
 from geneva_cli.numerics.arrays import all_true
 from geneva_cli.numerics.jet import Array, Jet, Number, V
 
@@ -39,15 +40,9 @@ class Instant(Generic[V]):
     drag: V  # friction in a guide over the pin's force
     grip: V  # torque on the wheel over L times the pin force, the margin of all forces
 
-    def __init__(
-        self,
-        case: LoadCase,
-        at: Contact[V],
-        drives: Number | None = None,
-        slides: Number | None = None,
-        feeds: Number | None = None,
-    ) -> None:
-        """The signs that are None, or NaN in arrays, are those of the values here."""
+    def __init__(self, case: LoadCase, at: Contact[V], *signs: Number | None) -> None:
+        """Of wheel torque, sliding and input torque those that are None, or NaN, are as here."""
+        drives, slides, feeds = (*signs, None, None, None)[:3]
         self.case, self.at = case, at
         self.wheel_torque_Nm = at.acceleration * case.inertia_Nm + case.resists_Nm
         self.drives = sign_of(self.wheel_torque_Nm, drives)
@@ -150,9 +145,9 @@ class Instant(Generic[V]):
         """The square of the reaction on the shaft whose crank carries the roller or link, N²."""
         if self.at.reactions is None:  # the crank is the roller's body, and its drive turns it
             return self.wheel_bearing_N * self.wheel_bearing_N
-        return self.reaction(0)
+        return self._reaction(0)
 
-    def reaction(self, joint: int) -> V:
+    def _reaction(self, joint: int) -> V:
         """The square of the reaction of a joint that holds the roller's body, N²."""
         assert self.at.reactions is not None
         normal, tangent, couple = self.at.reactions
@@ -164,23 +159,43 @@ class Instant(Generic[V]):
         )
         return self.force_N * self.force_N * (x * x + y * y)
 
-    @property
-    def sliding_m_s(self) -> V:
-        """Speed at which a roller that is fixed to its pin rubs along the wall."""
-        return self.slip * (self.case.L * self.case.speed_rad_s) * self.at.touches
-
-    @property
-    def stress_squared(self) -> QuantityValue[V]:
-        """The square of the Hertz stress on the wall, MPa²."""
-        case, friction = self.case, self.friction_margin
-        assert case.hertz is not None  # there is a face width
-        margin = self.edge if friction is None else lesser(friction, self.edge)
-        return QuantityValue(self.force_N * self.at.touches * case.hertz / self.edge, margin)
-
     def quantity(self, of: str | LoadQuantity) -> QuantityValue[V]:
         """A quantity of the cycle, squared if it is one of ``SQUARED``, or a function's."""
-        found: QuantityValue[Any] = (QUANTITIES[of] if isinstance(of, str) else of)(self)
-        return found
+        at, w = self.at, self.case.speed_rad_s
+        if not isinstance(of, str):
+            known: QuantityValue[Any] = of(self)
+            return known
+        if of == "omega_rad_s":
+            return QuantityValue(at.velocity * w)
+        if of == "alpha_rad_s2":
+            return QuantityValue(at.acceleration * (w * w))
+        if of == "wall_force_N":
+            return QuantityValue(self.force_N * self.drives, self.grip, self.drives)
+        if of == "guide_force_N":  # of rocker, slider, groove or fixed gear
+            return QuantityValue(self._reaction(1), self.grip)
+        if of in ATTRIBUTES:
+            name, margin = ATTRIBUTES[of]
+            return QuantityValue(getattr(self, name), margin and getattr(self, margin))
+        # of a roller that is fixed to its pin, m/s
+        sliding = self.slip * (self.case.L * w) * at.touches
+        if of not in PRESSED:
+            return QuantityValue(sliding)
+        assert self.case.hertz is not None  # there is a face width
+        square = self.force_N * at.touches * self.case.hertz / self.edge  # MPa²
+        if of == "pv_W_m2":  # W²/m⁴
+            square = square * (sliding * sliding * 1e12)
+        friction = self.friction_margin
+        return QuantityValue(square, self.edge if friction is None else lesser(friction, self.edge))
+
+
+# quantities that are attributes of an instant, and their margins
+ATTRIBUTES: dict[str, tuple[str, str | None]] = {
+    "wheel_torque_Nm": ("wheel_torque_Nm", None),
+    "input_torque_Nm": ("input_torque_Nm", "friction_margin"),
+    "pin_force_N": ("force_N", "grip"),
+    "wheel_bearing_N": ("wheel_bearing_N", "grip"),
+    "crank_bearing_N": ("crank_bearing_squared", "grip"),
+}
 
 
 class LoadQuantity(Protocol):
@@ -190,28 +205,7 @@ class LoadQuantity(Protocol):
         """The quantity, and the margin that bounds it."""
 
 
-def _pv(i: Instant[Any]) -> QuantityValue[Any]:
-    """The square of the Hertz stress times the speed of sliding, W²/m⁴."""
-    stress, slid = i.stress_squared, i.sliding_m_s
-    return stress._replace(value=stress.value * (slid * slid * 1e12))
-
-
-QUANTITIES: dict[str, LoadQuantity] = {
-    "omega_rad_s": lambda i: QuantityValue(i.at.velocity * i.case.speed_rad_s),
-    "alpha_rad_s2": lambda i: QuantityValue(
-        i.at.acceleration * (i.case.speed_rad_s * i.case.speed_rad_s)
-    ),
-    "wheel_torque_Nm": lambda i: QuantityValue(i.wheel_torque_Nm),
-    "input_torque_Nm": lambda i: QuantityValue(i.input_torque_Nm, i.friction_margin),
-    "pin_force_N": lambda i: QuantityValue(i.force_N, i.grip),
-    "wall_force_N": lambda i: QuantityValue(i.force_N * i.drives, i.grip, i.drives),
-    "wheel_bearing_N": lambda i: QuantityValue(i.wheel_bearing_N, i.grip),
-    "crank_bearing_N": lambda i: QuantityValue(i.crank_bearing_squared, i.grip),
-    "guide_force_N": lambda i: QuantityValue(i.reaction(1), i.grip),  # of rocker, slider, groove
-    "sliding_m_s": lambda i: QuantityValue(i.sliding_m_s),
-    "contact_stress_MPa": lambda i: i.stress_squared,
-    "pv_W_m2": _pv,
-}
+Own: TypeAlias = "Mapping[str, LoadQuantity] | None"  # functions for names of a search
 
 
 def sign_of(jet: V, known: Number | None) -> Number:

@@ -8,7 +8,7 @@ are lost to rounding: there the loads are known by themselves.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from itertools import pairwise
 from operator import attrgetter
 
@@ -16,7 +16,7 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.contact import NEAR_CUSP, NEGLIGIBLE, LoadCase, contact, value
-from geneva_cli.loads.instant import Instant, LoadQuantity, sign_of
+from geneva_cli.loads.instant import Instant, LoadQuantity, Own, sign_of
 from geneva_cli.motion.batch import selection
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.path_and_slot import retraces
@@ -48,7 +48,7 @@ class LoadFunctions:
         engagement: Engagement,
         case: LoadCase,
         names: Sequence[str],
-        own: Mapping[str, LoadQuantity] | None = None,
+        own: Own = None,
         more: Sequence[str] = (),
     ) -> None:
         self.engagement, self.case, self.names = engagement, case, names

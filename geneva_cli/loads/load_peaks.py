@@ -17,7 +17,7 @@ from geneva_cli.loads.contact import (
     QuantityValue,
     plain_values,
 )
-from geneva_cli.loads.instant import Instant, LoadQuantity
+from geneva_cli.loads.instant import Instant, LoadQuantity, Own
 from geneva_cli.loads.load_case import load_case, sources
 from geneva_cli.loads.load_functions import LoadFunctions, on_breaks
 from geneva_cli.motion.engagement import Engagement
@@ -55,7 +55,8 @@ class LoadSummary(NamedTuple, Generic[S]):
 
 def only(one: LoadSummary[Array]) -> LoadSummary[float]:
     """The summary of a single design."""
-    return LoadSummary(*[cast(float, None if row is None else row.item()) for row in one])
+    known = one[:4] if one.mean is None else one
+    return LoadSummary(*np.concatenate(cast("tuple[Array, ...]", known)).tolist())
 
 
 Search: TypeAlias = tuple[LoadFunctions, SearchResult]  # of an engagement
@@ -63,10 +64,7 @@ Found: TypeAlias = tuple[dict[str, LoadSummary[Array]], list[Search]]
 
 
 def load_peaks(
-    mechanism: Mechanism,
-    names: Sequence[str],
-    own: Mapping[str, LoadQuantity] | None = None,
-    case: LoadCase | None = None,
+    mechanism: Mechanism, names: Sequence[str], own: Own = None, case: LoadCase | None = None
 ) -> dict[str, PeakArray]:
     """The greatest sizes of quantities, and the first input angles that have them: (m,)."""
     mechanism = mechanism.under_load
@@ -168,9 +166,10 @@ def _extremes(mechanism: Mechanism, names: Sequence[str] | None = None) -> Found
     They are those of all quantities that the designs have, or of some by their names.
     """
     mechanism = mechanism.under_load
-    known = sources(mechanism)
-    every = {name: known.get(name, (name, 1.0)) for name in (known if names is None else names)}
-    sought = list(dict.fromkeys(source for source, _ in every.values()))
+    known, every, sought = sources(mechanism), dict[str, tuple[str, float]](), list[str]()
+    for name in known if names is None else names:
+        source, _ = every[name] = known.get(name, (name, 1.0))
+        sought += [source] if source not in sought else []
     case, searches, places = load_case(mechanism), list[Search](), list[Array]()
     for engagement in mechanism.engagements:
         load = LoadFunctions(engagement, case, sought)

@@ -30,15 +30,9 @@ class PositiveDrives(NamedTuple):
     def loose_deg(self) -> list[tuple[float, float]]:
         """Intervals of a single design without the needed wall, input angles in degrees."""
         ((at,), (loose,)) = self.input_deg, self.loose
-        step = (at[1] - at[0]).item()
-        out: list[tuple[float, float]] = []
-        for x in at[loose].tolist():  # each is half a step wide on both sides
-            low, high = x - 0.5 * step, x + 0.5 * step
-            if out and low - out[-1][1] < 0.1 * step:
-                out[-1] = (out[-1][0], high)
-            else:
-                out.append((low, high))
-        return out
+        half = 0.5 * (at[1] - at[0])  # each place is half a step wide on both sides
+        ends = np.flatnonzero(np.diff(np.pad(loose.astype(int), 1))).reshape(-1, 2)
+        return [((at[a] - half).item(), (at[b - 1] + half).item()) for a, b in ends.tolist()]
 
 
 def positive_drives(mechanism: Mechanism) -> PositiveDrives | None:

@@ -30,11 +30,8 @@ class ProductMotion(NamedTuple):
     """What the products of m designs feel, (m,) each; NaN for what a design does not have."""
 
     travel_mm: Array  # along the path in the longest step
-    chord_mm: Array  # straight from stop to stop; NaN for a chain
     speed_m_s: PeakArray
-    tangential_m_s2: PeakArray  # along the path
-    centripetal_m_s2: PeakArray  # towards the axis; 0 for a chain
-    acceleration_m_s2: PeakArray  # of both together
+    acceleration_m_s2: PeakArray  # along the path, and of a dial towards the axis
     jerk_m_s3: PeakArray  # along the path
     friction_needed: Array  # friction coefficient at which the product just does not slip
 
@@ -63,9 +60,7 @@ def product_motion(mechanism: Mechanism) -> ProductMotion | None:
         entry = np.ravel(mechanism.shown_deg(first.mid_deg + first.entry_deg))
         at_deg = np.where(most > 1.0, velocity.at_deg, entry)
         velocity = PeakArray(np.maximum(most, 1.0), at_deg)
-    straight = product.runs_straight
-    inwards = PeakArray(np.zeros(m) if straight else ratio * velocity.max**2, velocity.at_deg)
-    both = along if straight else _resultant(mechanism, ratio)
+    both = along if product.runs_straight else _resultant(mechanism, ratio)
 
     def scaled(peak: PeakArray, by: Array, more: Array | float = 0.0) -> PeakArray:
         return PeakArray(np.broadcast_to(peak.max * by + more, m), peak.at_deg)
@@ -73,10 +68,7 @@ def product_motion(mechanism: Mechanism) -> ProductMotion | None:
     acceleration, none = scaled(both, scale * w, orbit * w), np.full(m, np.nan)
     return ProductMotion(
         r_mm * ratio * step,
-        none if straight else 2.0 * r_mm * abs(np.sin(0.5 * ratio * step)),
         scaled(velocity, scale, orbit),
-        scaled(along, scale * w),
-        scaled(inwards, scale * w),
         acceleration,
         scaled(jerk, scale * w * w),
         acceleration.max / G if spec.support.axis == "vertical" else none,

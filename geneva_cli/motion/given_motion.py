@@ -17,7 +17,15 @@ from geneva_cli.kept import cached_property
 from geneva_cli.motion.engagement import Anchor, Peak, Slot, SlotAxis, WheelMotion
 from geneva_cli.motion.laws.law import Law, greatest, remaining
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import Batchable, Enclosed, all_true, ascending, enclosed, library
+from geneva_cli.numerics.arrays import (
+    Batchable,
+    Enclosed,
+    Truth,
+    all_true,
+    ascending,
+    enclosed,
+    library,
+)
 from geneva_cli.numerics.jet import Jet, Number, piecewise, sin, sin_cos
 
 # Where psi and phi nearly vanish together, a series of psi / phi serves. Within this fraction of
@@ -244,3 +252,46 @@ def refuse_alpha0(alpha0_deg: float, natural_deg: float) -> None:
     outside = (alpha0_deg <= low) | (alpha0_deg >= high)
     key = ("motion", "alpha0_deg")
     refuse_text(outside, key, text, angle=alpha0_deg, low=low, high=high)
+
+
+class Backwards(Law):
+    """A law run backwards: the halves of ``of`` change places. It is no kind of its own."""
+
+    of: Law
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        # a law's class declares these, and finds in its keys if it varies; this one has none
+        own = {"NAME": f"{self.of.NAME}, backwards", "TURNS_BACK": self.of.TURNS_BACK}
+        vars(self).update(own, ANALYTIC=self.of.ANALYTIC, varies=self.of.varies)
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        return tuple(1.0 - u for u in reversed(self.of.breaks))
+
+    @property
+    def knots(self) -> tuple[float, ...]:
+        return tuple(1.0 - u for u in reversed(self.of.knots))
+
+    @property
+    def symmetric(self) -> Truth:
+        return self.of.symmetric
+
+    def may_vary(self, table: str, key: str) -> bool:
+        return self.of.may_vary(table, key)
+
+    def doubt(self) -> tuple[int, float] | None:
+        return self.of.doubt()
+
+    def first(self, u: Number, order: int) -> Jet:
+        return self.of.second(u, order)
+
+    def second(self, w: Number, order: int) -> Jet:
+        return self.of.first(w, order)
+
+
+def run_backwards(law: Law) -> Law:
+    """The law 1 - s by 1 - u; a symmetric law is its own."""
+    if isinstance(law, Backwards):
+        return law.of
+    return law if all_true(law.symmetric) else Backwards(law)

@@ -5,7 +5,7 @@ And the tables of its file whose keys depend on the kind of wheel, drive or law.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import field
 from operator import attrgetter
 from typing import Any, ClassVar, NamedTuple, Self
@@ -70,6 +70,7 @@ class Spec(SpecTable):
     has_lock: ClassVar[bool]  # the crank has a part that locks the wheel in the dwell
     output: ClassVar[Output]  # what the wheel gives out, with its units
     unloaded: ClassVar[Truth]  # there is neither inertia nor torque nor friction
+    is_loaded: ClassVar[bool]  # a design, or one of a batch, is not unloaded
     wheel: Gearing
     drive: Drive = field(default_factory=lambda: load_named(CRANK)())
     motion: Motion | None = None
@@ -119,7 +120,7 @@ class Spec(SpecTable):
         nothing = nothing & (load.mass_kg == 0.0) & (load.force_N == 0.0)
         support_Nmm = support.friction * support.force_N * support.radius_mm
         nothing = nothing & (support_Nmm == 0.0) & (not self.mass)
-        vars(self)["unloaded"] = nothing
+        vars(self).update(unloaded=nothing, is_loaded=not all_true(nothing))
         limits = vars(self.limits)
         for limit, (key, of, what) in NEEDED.items():
             if limits[limit] is not None and self.table(of)[key] is None:
@@ -161,16 +162,28 @@ class Spec(SpecTable):
         >>> Spec(External(6)).with_("wheel.z", 8).wheel.z
         8
         """
-        table, _, name = key.rpartition(".")
-        part = self.part(table)
-        if part is None:
-            raise GenevaError(f"{key}: this spec has no [{table or key}]", tuple(key.split(".")))
-        changed, (one_of, _, number) = part.with_keys({name: value}), table.partition(".")
-        if one_of not in LISTS:
-            return self.replace(**{table.replace(".", "_"): changed})
-        several = [*vars(self)[one_of]]
-        several[int(number)] = changed
-        return self.replace(**{one_of: several})
+        return self.with_keys({key: value})
+
+    def with_keys(self, values: Mapping[str, Any]) -> Self:
+        """Return a copy with several keys changed, as by ``with_``; only the result must be valid.
+
+        >>> Spec(External(6)).with_keys({"wheel.z": 8, "drive.n_rpm": 30}).drive.n_rpm
+        30.0
+        """
+        tables, parts = dict[str, dict[str, Any]](), dict[str, Any]()
+        for key, value in values.items():
+            table, _, name = key.rpartition(".")
+            tables.setdefault(table, {})[name] = value
+        for table, new in tables.items():
+            part, (one_of, _, number) = self.part(table), table.partition(".")
+            if part is None:
+                text = ".".join(filter(None, (table, *new)))
+                raise GenevaError(f"{text}: this spec has no [{table or text}]", (table, *new))
+            if one_of in LISTS:
+                parts.setdefault(one_of, [*vars(self)[one_of]])[int(number)] = part.with_keys(new)
+            else:
+                parts[table.replace(".", "_")] = part.with_keys(new)
+        return self.replace(**parts)
 
     def input_deg(self, crank_deg: float) -> float:
         """Input angle from mid-motion at a crank angle from mid-motion, degrees."""
@@ -186,11 +199,6 @@ class Spec(SpecTable):
         return self.wheel.held_by or (self.wheel.LOCK if self.has_lock else None)
 
     @property
-    def is_loaded(self) -> bool:
-        """True if there is an inertia, a torque or friction, so that forces are computed."""
-        return not all_true(self.unloaded)
-
-    @property
     def load_keys(self) -> str:
         """Keys that set a load of this kind of wheel, in words."""
         return self.output.load_keys
@@ -204,11 +212,6 @@ class Spec(SpecTable):
     def is_flat(self) -> bool:
         """True if wheel and crank are flat outlines that are drawn."""
         return self.wheel.FLAT and not self.no_parts
-
-    @property
-    def has_parts(self) -> bool:
-        """True if wheel and crank have outlines, on flat plates or on the shells of a sphere."""
-        return not self.no_parts
 
     @property
     def is_turned(self) -> bool:
@@ -271,25 +274,12 @@ class KindTable(NamedTuple):
         return [field for field in fields(kind) if field not in self.without]
 
 
-WHEELS = KindTable(
-    "wheel",
-    Field("gearing", "", (str,), OneOf(registry.GEARINGS), "external", "type of wheel and crank"),
-    registry.GEARINGS,
-    registry.gearing,
-)
-DRIVES = KindTable(
-    "drive",
-    Field("kind", "", (str,), None, "crank", "type of drive"),
-    registry.DRIVES,
-    registry.drive,
-)
-LAWS = KindTable(
-    "motion",
-    Field("law", "", (str,), None, None, "motion law of curved slots (`geneva laws`)"),
-    registry.LAWS,
-    registry.law,
-    fields(Motion),
-)
+_WHEEL = Field("gearing", "", (str,), OneOf(registry.GEARINGS), "external", "type of wheel")
+_DRIVE = Field("kind", "", (str,), None, "crank", "type of drive")
+_LAW = Field("law", "", (str,), None, None, "motion law of curved slots (`geneva laws`)")
+WHEELS = KindTable("wheel", _WHEEL, registry.GEARINGS, registry.gearing)
+DRIVES = KindTable("drive", _DRIVE, registry.DRIVES, registry.drive)
+LAWS = KindTable("motion", _LAW, registry.LAWS, registry.law, fields(Motion))
 
 
 def drives_before(names: Collection[str] = registry.DRIVES) -> KindTable:

@@ -26,7 +26,7 @@ from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.peak_search import QUANTITIES, PeakArray, greater, motion_peaks
 from geneva_cli.numerics.arrays import Array, Mask, Number, Whole, parameter
 from geneva_cli.spec.rules import is_array
-from geneva_cli.spec.schema import SpecTable, unknown
+from geneva_cli.spec.schema import unknown
 
 # tables whose numbers may vary
 TABLES = (
@@ -75,7 +75,7 @@ def many(spec: Spec, varied: Mapping[str, object]) -> Many:
     with np.errstate(all="ignore"), marking() as marks:
         try:
             numbers = np.arange(n)[:, None]
-            machine = build(changed(spec, columns))._replace(design=numbers) if n else None
+            machine = build(spec.with_keys(columns))._replace(design=numbers) if n else None
         except GenevaError:  # the error is the same for all designs
             machine = None
     refused = np.full(n, machine is None)
@@ -91,7 +91,10 @@ def may_vary(spec: Spec, key: str) -> bool:
     table, _, name = key.rpartition(".")
     if table not in TABLES:
         return False
-    known = _part(spec, table)._own_keys()
+    part = spec.part(table)
+    if part is None:
+        raise GenevaError(f"{key}: this spec has no [{table}]", (table, name))
+    known = part._own_keys()
     if name not in known:
         raise unknown(name, table, tuple(known))
     numeric = bool({int, float} & set(known[name].types))
@@ -102,25 +105,6 @@ def may_vary(spec: Spec, key: str) -> bool:
     if spec.drive_before is not None:  # it sees its own table as that of a drive
         able = able and spec.drive_before.may_vary("drive" if table == BEFORE else table, name)
     return able
-
-
-def changed(spec: Spec, values: Mapping[str, object]) -> Spec:
-    """Return the spec with several keys changed at once; only the result must be valid."""
-    tables: dict[str, dict[str, object]] = {}
-    for key, value in values.items():
-        table, _, name = key.rpartition(".")
-        tables.setdefault(table, {})[name] = value
-    parts = {}
-    for table, new in tables.items():
-        parts[table.replace(".", "_")] = _part(spec, table).with_keys(new)
-    return spec.replace(**parts)
-
-
-def _part(spec: Spec, table: str) -> SpecTable:
-    part = spec.part(table)
-    if part is None:
-        raise GenevaError(f"this spec has no [{table}]", (table,))
-    return part
 
 
 def worst_peaks(

@@ -7,12 +7,7 @@ from operator import attrgetter
 from typing import NamedTuple
 
 from geneva_cli.kept import load_named
-from geneva_cli.motion.compatible import (
-    SAME_RATIO,
-    refuse_conflicts,
-    refuse_sizes,
-    refuse_tolerances,
-)
+from geneva_cli.motion import compatible
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.laws.law import Law
@@ -97,11 +92,6 @@ class Mechanism(NamedTuple):
         return own if self.axes else tuple(one for one in own if not isinstance(one, Pivot))
 
     @property
-    def input_law(self) -> Law | None:
-        """Motion law by the input's own angle; None for straight slots or behind another drive."""
-        return None if self.spec.drive_before else self.law
-
-    @property
     def roller_radius_mm(self) -> float:
         """Roller radius r in millimetres, by default L/20."""
         return self.spec.size.roller_radius(self.center_distance_mm)
@@ -170,7 +160,7 @@ def build(spec: Spec, like: Mechanism | None = None) -> Mechanism:
 
     Raises GenevaError, naming the key, if the values do not make a machine together.
     """
-    refuse_conflicts(spec)
+    compatible.refuse_conflicts(spec)
     radius, given = spec.size.crank_radius_mm, spec.size.center_distance_mm
     if like and spec.moving == like.spec.moving:
         plan, own = Plan(*like[1:6]), like.plan
@@ -183,9 +173,9 @@ def build(spec: Spec, like: Mechanism | None = None) -> Mechanism:
             plan = load_named(IN_FRONT)(plan, spec, spec.drive_before)
             own = plan._replace(engagements=tuple(map(attrgetter("own"), plan.engagements)))
     L, wheel, wheels = plan.center_distance_mm, spec.wheel, spec.drive.wheels_on_carrier
-    refuse_sizes(spec, L, plan.ratio)
+    compatible.refuse_sizes(spec, L, plan.ratio)
     if spec.tolerance is not Spec.tolerance:  # whose deviations are all 0
-        refuse_tolerances(spec, L, plan.ratio)
+        compatible.refuse_tolerances(spec, L, plan.ratio)
     cranks, steps = [], spec.drive.cranks
     for k, step in enumerate(steps):
         sine, cosine = sin_cos_pi(2 * int(step), wheel.z)
@@ -211,7 +201,7 @@ def _as_built(spec: Spec, radius: float, L: float) -> Plan | None:
     """The plan of a crank as built, whose R/L is not what the slots need; None for any other."""
     wheel = spec.wheel
     derived = wheel.place(wheel.step, L)
-    off = abs(radius / L - derived.ratio) > SAME_RATIO
+    off = abs(radius / L - derived.ratio) > compatible.SAME_RATIO
     if not all_true(off) and (isinstance(off, bool) or not off.any()):
         return None
     from geneva_cli.motion.wheels.as_built import as_derived

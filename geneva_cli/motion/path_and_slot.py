@@ -11,15 +11,7 @@ from itertools import pairwise
 from operator import attrgetter
 from typing import NamedTuple, cast
 
-from geneva_cli.motion.engagement import (
-    Anchor,
-    Engagement,
-    Peak,
-    Slot,
-    SlotAxis,
-    Vector,
-    WheelMotion,
-)
+from geneva_cli.motion import engagement as base
 from geneva_cli.motion.wheels import classic
 from geneva_cli.numerics.arrays import (
     SINGLE,
@@ -46,7 +38,7 @@ class AnchoredPath(Batchable):
     ``ahead`` is the angle from the line of centres to the ray of the ``middle`` anchor, in radians.
     """
 
-    def __init__(self, anchors: tuple[Anchor, ...], ahead: float = 0.0) -> None:
+    def __init__(self, anchors: tuple[base.Anchor, ...], ahead: float = 0.0) -> None:
         self.anchors, self.ahead = anchors, ahead
         self.middle = anchors[len(anchors) // 2]  # of mid-motion
         first, *inner, last = map(attrgetter("input_deg"), anchors)
@@ -56,7 +48,7 @@ class AnchoredPath(Batchable):
             self.cuts.append(0.5 * (before + after))
         self.cuts.append(inner[-1] + NEAR_END * (last - inner[-1]))
 
-    def __call__(self, input_deg: Number, order: int = 3) -> Vector:
+    def __call__(self, input_deg: Number, order: int = 3) -> base.Vector:
         """Pin (x, y) on its path at input angles in degrees from mid-motion."""
         along, across = self.middle.place(input_deg, order)
         return turned(along, across, self.ahead)
@@ -79,30 +71,30 @@ class AnchoredPath(Batchable):
 
 
 @dataclass(eq=False)
-class RadialSlot(Slot):
+class RadialSlot(base.Slot):
     """A straight slot towards the wheel's centre."""
 
     path: AnchoredPath
 
-    def __call__(self, input_deg: Number, order: int = 3) -> Vector:
+    def __call__(self, input_deg: Number, order: int = 3) -> base.Vector:
         x, y = self.path.middle.place(input_deg, order)
         depth = sqrt(x * x + y * y)
         return turned(depth, depth * 0.0, self.path.ahead - self.path.middle.wheel)
 
-    def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
+    def axis(self, input_deg: Number, order: int = 0) -> base.SlotAxis:
         along, across, _ = self.path.nearest(input_deg, order + 1)
         depth = sqrt(along * along + across * across)
         return depth.lower, depth.derivative()
 
 
-class StraightSlotMotion(WheelMotion):
+class StraightSlotMotion(base.WheelMotion):
     """Motion of a wheel whose straight slot follows the pin.
 
     ``closed`` is for a radial slot on a plain crank, whose peaks have closed forms: 1 for an
     external wheel or -1 for an internal one, l = sin b and 1 - l.
     """
 
-    entry: Anchor
+    entry: base.Anchor
 
     def __init__(
         self,
@@ -131,23 +123,23 @@ class StraightSlotMotion(WheelMotion):
         along, across, _ = self.path.nearest(input_deg, order + 1)
         return turning(along, across)
 
-    def closed_peak(self, quantity: str) -> Peak[float] | None:
+    def closed_peak(self, quantity: str) -> base.Peak[float] | None:
         if self.closed is None:
             return None
         sign, l, rest = self.closed
         outside = sign > 0.0
         gap = rest if outside else 1.0 + l
         if quantity == "velocity":
-            return Peak(l / gap, 0.0)
+            return base.Peak(l / gap, 0.0)
         if quantity == "acceleration" and not outside:  # the jump at entry
-            return Peak(self.end_rates(self.entry_deg)[0], self.entry_deg)
+            return base.Peak(self.end_rates(self.entry_deg)[0], self.entry_deg)
         if quantity == "acceleration":
             size, at_deg = classic.acceleration_peak(l, gap)
         elif quantity == "jerk":
             size, at_deg = classic.jerk_peak(l, gap, self.exit_deg)
         else:
             size, at_deg = classic.power_peak(l, gap)
-        return Peak(size, 0.0 - at_deg)
+        return base.Peak(size, 0.0 - at_deg)
 
     def end_rates(self, input_deg: float) -> tuple[float, float]:
         if self.closed is None:
@@ -156,7 +148,7 @@ class StraightSlotMotion(WheelMotion):
         return jump, 3.0 * jump * jump
 
 
-def turned(x: Jet, y: Jet, angle: float) -> Vector:
+def turned(x: Jet, y: Jet, angle: float) -> base.Vector:
     """Turn a vector by a fixed angle in radians."""
     if isinstance(angle, float) and angle == 0.0:
         return x, y
@@ -185,7 +177,7 @@ class Pitch(NamedTuple):
 
 
 @lru_cache(maxsize=16)
-def retraces(engagement: Engagement) -> bool:
+def retraces(engagement: base.Engagement) -> bool:
     """True if the pin stops in the wheel at mid-motion and leaves along the path it came by.
 
     This holds for straight slots and at the mid condition. Otherwise the pin passes mid-motion
@@ -203,7 +195,7 @@ def retraces(engagement: Engagement) -> bool:
     return cast("bool", left < bar)
 
 
-def pitch(engagement: Engagement, input_deg: Number) -> Pitch:
+def pitch(engagement: base.Engagement, input_deg: Number) -> Pitch:
     """Compute the pitch curve at input angles other than a retracing mid-motion."""
     x, y = engagement.slot(input_deg, 2)
     m = library(x.c[0])
@@ -214,13 +206,13 @@ def pitch(engagement: Engagement, input_deg: Number) -> Pitch:
     return Pitch(x0, y0, x1 / speed, y1 / speed, speed, turning, pressure)
 
 
-def opposites(engagement: Engagement, input_deg: Array) -> Array:
+def opposites(engagement: base.Engagement, input_deg: Array) -> Array:
     """Input angles on the other branch at which the roller is as far from the wheel's axis."""
     return engagement.inputs_deg(-engagement.own_deg(input_deg))
 
 
 @lru_cache(maxsize=16)
-def pitch_at_retrace(engagement: Engagement) -> Pitch:
+def pitch_at_retrace(engagement: base.Engagement) -> Pitch:
     """Limit of the pitch curve at mid-motion for a pin that retraces, approached from the entry."""
     x, y = engagement.slot(0.0, 3)
     m = library(x.c[0])

@@ -86,7 +86,11 @@ IN_FRONT = "drives.retimed:retimed"
 
 def of_wheel(name: str) -> list[Kind]:
     """The records of a kind of wheel: its own, then those that add to it."""
-    return [k for k in KINDS if name == k.adds_to or (k.wheel and name == k.name)]
+    out = []
+    for kind in KINDS:
+        if name == kind.adds_to or (kind.wheel and name == kind.name):
+            out.append(kind)
+    return out
 
 
 def thing(wheel: str, field: str) -> Any:

@@ -51,13 +51,8 @@ _DERIVED = np.where((_rise > 0) & (_rise % 2 == 1), 2.0 * _k, 0.0)
 _DERIVED[0] *= 0.5
 _TERMS = at(np.eye(DEGREE + 1)[..., None], GRID).T
 # from samples to values and to slopes at ``GRID``
-_ON_GRID = product(_TERMS, SERIES)
-_SLOPES = product(_TERMS, product(_DERIVED, SERIES))
-
-
-def on_grid(values: Array) -> tuple[Array, Array]:
-    """Values and slopes at ``GRID`` of the series with these samples."""
-    return product(_ON_GRID, values), product(_SLOPES, values)
+ON_GRID = product(_TERMS, SERIES)
+SLOPES = product(_TERMS, product(_DERIVED, SERIES))
 
 
 def remainder(values: Array) -> Array:
@@ -124,7 +119,7 @@ class Rows(NamedTuple):
         """The spread places and the places at positions in the rows, from ``w`` of all designs."""
         (a, b), own = self.u, w[self.design]
         u = 0.5 * (a + b) + 0.5 * (b - a) * t
-        return u, np.clip(gathered(u, own), *self.x)
+        return u, np.clip(own * np.sinh(u / own), *self.x)
 
     def part(self, t: Array, w: Array) -> Rows:
         """The parts between two positions (2, m)."""
@@ -183,7 +178,10 @@ class Cutter:
         count = np.bincount(rows.design, minlength=len(self.noisy))
         # more rows of a design than these are rounding
         self.noisy |= (count > 100 + 2 * self.first) | (self.depth == 59)
-        return [record_taken(rows, some) for some in blocks(len(rows.design), BLOCK)]
+        out = []
+        for some in blocks(len(rows.design), BLOCK):
+            out.append(record_taken(rows, some))
+        return out
 
     def again(self, rows: Rows, part: Array, which: Mask) -> Mask:
         """Sample some rows again: both halves of a whole row, or a part as a row of its own.
@@ -260,7 +258,7 @@ class Cutter:
         if not len(some):
             return unsure, *none
         q, size, left = q.take(some, axis=1), size[some], left[some]
-        g, d = on_grid(q)
+        g, d = product(ON_GRID, q), product(SLOPES, q)
         # below 1e-12 of its size on a row, or some roundings of that in its design's whole motion,
         # a function has no sign
         rounding = 4e-15 * self.size[kind, rows.design[some]]

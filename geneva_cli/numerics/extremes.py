@@ -19,13 +19,14 @@ from geneva_cli.numerics.cuts import (
     GRID,
     LATER_TERMS,
     MIDDLE,
+    ON_GRID,
     POINTS,
     SERIES,
+    SLOPES,
     Cutter,
     Pieces,
     Rows,
     at,
-    on_grid,
     product,
     remainder,
 )
@@ -243,7 +244,7 @@ class _Extremes:
             a, b = part[:, cut]
             t = 0.5 * (a + b) + 0.5 * (b - a) * POINTS[:, None]
             samples[:, cut] = at(product(SERIES, samples.take(cut, axis=1)), t)
-        value, slope = on_grid(samples)
+        value, slope = product(ON_GRID, samples), product(SLOPES, samples)
         terms, every = product(SERIES, samples), np.arange(len(number))
         size = np.abs(samples).max(axis=0)
         # of a constant the start alone: a range of rounding says nothing about places

@@ -11,11 +11,10 @@ import manifold3d as m3
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.plates import Group, Part, Plate, Solid, oriented
+from geneva_cli.geometry.plates import Group, Part, Plate, Shell, Solid, oriented
 from geneva_cli.geometry.shapes import STRAIGHT, Arc, Cubic, Layer, Segment, points
 from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.geometry.sphere import Vector, axis_frame, unit
-from geneva_cli.geometry.sphere_shell import Shell
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.output.solid_part import plate_contours, require_thick, solid_part
 

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.plates import Part, Plate
+from geneva_cli.geometry.plates import Part, Plate, Shell
 from geneva_cli.geometry.shapes import Circle, Contour
 from geneva_cli.geometry.sheet import Drawing, prepared
-from geneva_cli.geometry.sphere_shell import Shell
 
 
 def solid_part(drawing: Drawing, format: str) -> Part:

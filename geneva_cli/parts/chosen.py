@@ -211,7 +211,7 @@ def _flat_details(parts: Outlines) -> Values:
             out[f"{part}_flat_mm"] = flat
     links = drawn_links(parts.assembly.full, parts)
     for gear in links.gears:
-        if gear.screws and gear.screws.holes:
+        if gear.screws.holes:
             out["gear_bolt_mm"] = 2.0 * gear.screws.hole
             out["gear_bolt_circle_mm"] = 2.0 * gear.screws.radius
     if links.sizes and any(links.plates):

@@ -6,14 +6,14 @@ The wheel's axis is the origin, and the crank's is on the x axis.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, NoReturn, Self
 
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.plates import Group, Member, Plate, solids
-from geneva_cli.geometry.shapes import Contour, Point, turned
+from geneva_cli.geometry.plates import Group, Member, Plate
+from geneva_cli.geometry.shapes import Contour, turned
 from geneva_cli.kept import cached_property
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
@@ -31,7 +31,7 @@ from geneva_cli.parts.shafts.arm_and_shafts import (
     bolts,
     crank_arm,
     crank_hub,
-    roller_plates,
+    rollers_about,
 )
 from geneva_cli.parts.shafts.bores import Screws
 from geneva_cli.parts.sizes import drawn_thicknesses, pin_radius
@@ -168,20 +168,12 @@ class FlatParts(EdgedParts):
         if low is None:
             arm = drawn.sizes.arm_thickness if drawn.has_arm else 0.0
             low = -self.mechanism.spec.size.allowances.pin_gap_mm - arm
-        sizes, centres = drawn.sizes, roller_centres(drawn.assembly)
-        return self._rollers(centres, sizes.pin, low, sizes.wheel_thickness)
-
-    def _rollers(
-        self, centres: Iterable[Point], pin: float, low: float, high: float
-    ) -> tuple[Member, ...]:
-        """Return rollers about some points, with pins of a radius from ``low`` up to ``high``."""
-        fit = self.mechanism.spec.size.allowances.shaft_fit_mm
-        plates = roller_plates(self.mechanism.roller_radius_mm, pin, low, high, fit)
-        out = list[Member]()
-        for centre in centres:
-            for plate in plates:
-                out.append(Member(plate, centre))
-        return tuple(out)
+        sizes, r = drawn.sizes, self.mechanism.roller_radius_mm
+        heights, fit = (
+            (low, sizes.wheel_thickness),
+            self.mechanism.spec.size.allowances.shaft_fit_mm,
+        )
+        return rollers_about(roller_centres(drawn.assembly), r, sizes.pin, *heights, fit)
 
     @property
     def horn_mm(self) -> float | None:
@@ -306,10 +298,11 @@ class FlatParts(EdgedParts):
         lows.append(-self.mechanism.spec.size.allowances.pin_gap_mm - arm)
         for gear in self.links.gears:
             lows.append(gear.plate.low)
-        for one in (self.wheel, *self.linked, *self.first):
-            for solid in solids(one.part):
-                assert isinstance(solid, Plate)
-                lows.append(solid.low)
+        for one in (*self.links.cut, *self.links.joined, *self.first):
+            assert isinstance(one.part, Plate)
+            lows.append(one.part.low)
+        if hub := wheel_hub(parts.assembly, parts.sizes):
+            lows.append(hub.low)
         if self.mechanism.spec.gears:
             from geneva_cli.parts.gears.gear_pair import gear_span
 
@@ -404,7 +397,8 @@ class FrontParts(FlatParts):
         high = drawn_thicknesses(size, mechanism.center_distance_mm).wheel
         low = value_or(links.pin_low, -size.allowances.pin_gap_mm)
         own = *links.cut, *links.joined
-        return (*own, *self._rollers(centres, pin_radius(size, r), low, high))
+        fit = size.allowances.shaft_fit_mm
+        return (*own, *rollers_about(centres, r, pin_radius(size, r), low, high, fit))
 
     @property
     def members(self) -> tuple[Member, ...]:

@@ -117,7 +117,7 @@ def _screwed(bars: Links, plates: Iterable[Plate | None], L: float) -> list[tupl
         if isinstance(member.part, Plate) and member.part.name in bars.standing:
             fixed += [(hole, member.part) for hole in placed_holes(member)]
     for gear in bars.gears:
-        for hole in gear.screws.holes if gear.screws else ():
+        for hole in gear.screws.holes:
             (x, y), (u, v) = gear.at, hole.centre
             fixed.append((Circle("BORE", (x + u, y + v), hole.radius), gear.plate))
     for plate in plates:

@@ -16,7 +16,7 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.registry import thing
 from geneva_cli.numerics.arrays import value_or
-from geneva_cli.numerics.tolerances import SAME_LENGTH, bore_radius
+from geneva_cli.numerics.tolerances import SAME_LENGTH, bore_radius, rounded_below
 from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.outlines.crank_outline import arc_floor
 from geneva_cli.parts.outlines.cut_outlines import cut_lock
@@ -26,7 +26,6 @@ from geneva_cli.parts.sizes import (
     Sizes,
     Unloaded,
     arm_bore,
-    drawn_thicknesses,
     hole_radius,
     hub_faults,
     pin_and_edge_faults,
@@ -105,7 +104,7 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
     }
     del known["source"]
     of_kind: Callable[[Mechanism], KeySizes] | None
-    of_kind = thing(mechanism.spec.wheel.NAME, "sizes") if mechanism.spec.has_parts else None
+    of_kind = None if mechanism.spec.no_parts else thing(mechanism.spec.wheel.NAME, "sizes")
     if of_kind:
         values, by_load = of_kind(mechanism)
         return known | values, by_load
@@ -199,7 +198,8 @@ def _usual_sizes(assembly: Assembly) -> tuple[Sizes, float]:
     axle = wheel_bore(full, end, wall, L) if outside or size.wheel_bore_mm else 0.0
     wheel_reach, wheel_hub = reach_and_hub(size, "wheel", axle, wall, end)
     crank_reach, crank_hub = reach_and_hub(size, "crank", bore, wall)
-    thick, pin, armed = drawn_thicknesses(size, L), pin_radius(size, r), 0.0
+    thick, pin = size.thicknesses(L, rounded_below), 0.5 * value_or(size.pin_mm, rounded_below(r))
+    armed = 0.0
     if full.drive.ONE_ARM and pin:  # without pins there is no arm
         armed = arm_bore(full, bore, L, min(reaches) - hole_radius(size, pin))
     usual = Sizes(

@@ -247,6 +247,6 @@ class EdgedParts(Parts):
 def parts_of(mechanism: Mechanism) -> Parts:
     """Return the parts of a machine; nothing is built yet."""
     name = mechanism.spec.wheel.NAME
-    drawn = mechanism.spec.has_parts or named(name, "front")
+    drawn = not mechanism.spec.no_parts or named(name, "front")
     kind: type[Parts] = (drawn and thing(name, "parts")) or load_named(FRONT)
     return kind(mechanism)

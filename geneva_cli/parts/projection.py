@@ -6,10 +6,9 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import NamedTuple, TypeAlias, TypeVar
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.plates import Member, Part, Plate, Solid, in_place, solids
+from geneva_cli.geometry.plates import Member, Part, Plate, Shell, Solid, in_place, solids
 from geneva_cli.geometry.shapes import Circle, Shape
 from geneva_cli.geometry.sheet import Drawing
-from geneva_cli.geometry.sphere_shell import Shell
 from geneva_cli.motion.mechanism import Mechanism
 
 Kind: TypeAlias = "Solid | tuple[str, str] | tuple[Plate, float]"

@@ -148,21 +148,22 @@ def load_sizes(
     the loads need of a first wheel, 0 without one. A load without a bound leaves all sizes.
     """
     spec, size, sizes = machine.spec, machine.spec.size, of.sizes
+    by = of.cut_lock() if sizes.lock else None
     if not all(map(math.isfinite, loads)):
         return sizes
     if link:
         sizes = sizes._replace(link_thickness=link)
     linked = machine.first_wheel or size.link_thickness_mm is not None  # links have their own
     # the force between disc and wheel in the dwell loads both shafts
-    held = lock.held_force_N(machine, of.lock).item()
+    held = lock.held_force_N(machine, by).item() if spec.load.dwell_torque_Nm else 0.0
     carried = float(np.max(centrifugal_N(machine))) if machine.frame else 0.0
     loads = loads._replace(
         wheel_shaft_N=max(loads.wheel_shaft_N, held + carried), crank_N=max(loads.crank_N, held)
     )
     allowed = wheel_material(spec).allowed_MPa
-    if of.lock and size.wheel_thickness_mm is None and size.face_width_mm is None:
+    if by and size.wheel_thickness_mm is None and size.face_width_mm is None:
         if bent_MPa is None:
-            bent_MPa = float(lock.horn_MPa(machine, sizes.half_width, of.lock)[0])
+            bent_MPa = float(lock.horn_MPa(machine, sizes.half_width, by)[0])
         # a thicker wheel bends its pins more than its horns
         for wide in sizes_from(sizes.wheel_thickness, 2.0 * sizes.wheel_thickness):
             if keeps(bent_MPa / wide, "at most", allowed):
@@ -292,7 +293,8 @@ def shaft_and_key_hold(
 
 def key_holds(spec: Spec, key: KeyDimensions, torque_Nm: float) -> bool:
     """Return True if a key holds a torque, or for no key."""
+    if key is NO_KEY:
+        return True
     sides, shear = wheel_material(spec).allowed_MPa, shear_allowed_MPa(spec.shaft)
     torque = spec.shaft.torsion_factor * torque_Nm
-    least = float(key_stress(key, torque, sides, shear)[2])
-    return key is NO_KEY or keeps(float(key.length), "at least", least)
+    return keeps(float(key.length), "at least", float(key_stress(key, torque, sides, shear)[2]))

@@ -83,12 +83,7 @@ class Unloaded(NamedTuple):
     assembly: Assembly
     sizes: Sizes
     space: float  # radius about the crank's axis inside the relief, mm
-    cut: Callable[[], Lock]  # the lock as it is cut, which no load changes; for sizes with one
-
-    @property
-    def lock(self) -> Lock | None:
-        """The lock; None without one."""
-        return self.cut() if self.sizes.lock else None
+    cut_lock: Callable[[], Lock]  # which no load changes; for sizes with a lock
 
 
 # The sizes of a machine's parts by keys of ``[size]``, mm and diameters as the keys say; and those

@@ -103,15 +103,13 @@ def _usual(
         "limits": {"acceleration_max": 1.5, "pin_force_max_N": 600},
     }
     usual = usual_tables.get(name, {})
-    shown = [field for field in table if field.key in values or field.key in usual]
-    settings = [
-        f"{field.key} = {quoted(values[field.key])}"
-        if field.key in values
-        else f"# {field.key} = {quoted(usual[field.key])}"
-        for field in shown
-    ]
-    notes = [_note(field.meaning, gearing.NAME) for field in shown]
-    return noted([*zip(settings, notes, strict=True)])
+    block = []
+    for field in table:
+        key, sign = field.key, "" if field.key in values else "# "
+        if key in values or key in usual:
+            setting = f"{sign}{key} = {quoted(values.get(key, usual.get(key)))}"
+            block.append((setting, _note(field.meaning, gearing.NAME)))
+    return noted(block)
 
 
 def _note(meaning: str, gearing: str) -> str:

@@ -151,10 +151,7 @@ def _begin(design: Design, lines: Iterable[SummaryLine]) -> Iterator[Block]:
         title = "Put together, at mid-motion" if flat else "Wheel and crank, laid flat"
         yield Picture(drawing._replace(title=title))
     except GenevaError as error:
-        message, path = str(error), design.spec.path
-        if path and message.startswith(path):  # without the file and the line
-            message = message.removeprefix(path).lstrip(":0123456789").lstrip()
-        yield Prose(f"Not drawn: {message}")
+        yield Prose(f"Not drawn: {error}")
     command = re.compile(r" ?\(?geneva explain [\w.-]+\)?")
     rows = [(capital(x.label), "; ".join(filter(None, (x.text, command.sub("", x.note)))))
             for x in lines]  # fmt: skip

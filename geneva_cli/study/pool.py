@@ -24,10 +24,7 @@ R = TypeVar("R")
 def mapped(
     work: Callable[[T], R], items: Iterable[T], workers: int, what: str = "designs"
 ) -> Iterator[R]:
-    """Yield ``work`` of each item, in order, from several processes or, for 1 worker, this one.
-
-    ``what`` is the plural noun for the items in messages.
-    """
+    """Yield ``work`` of each item, in order, from several processes or, for 1 worker, this one."""
     if workers < 2:
         yield from map(work, items)
         return

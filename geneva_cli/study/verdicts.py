@@ -39,11 +39,7 @@ class Verdict(NamedTuple):
 def verdict(
     path: str, settings: Sequence[str] = (), to_mm: float | None = None, reverse: bool = False
 ) -> Verdict:
-    """Return the verdict on one spec; ``settings``, texts ``KEY=VALUE``, replace its own keys.
-
-    ``to_mm`` is the tolerance of the proof that no parts collide. With ``reverse`` the machine
-    turns the other way.
-    """
+    """Return the verdict on one spec; ``settings``, texts ``KEY=VALUE``, replace its own keys."""
     try:
         design = load(path, settings, reverse)
         if design.spec.is_loaded and not design.is_drawn:
@@ -78,10 +74,7 @@ def verdicts(
     to_mm: float | None = None,
     reverse: bool = False,
 ) -> Iterator[Verdict]:
-    """The verdicts on specs, in their order, each as ``verdict`` returns it.
-
-    This process reads standard input (``-``) itself. Raises GenevaError if it stands there twice.
-    """
+    """The verdicts on specs, in their order, each as ``verdict`` returns it."""
     if list(paths).count("-") > 1:
         raise GenevaError("<stdin>: given twice, but it can be read only once; name it once")
     judge = partial(verdict, settings=settings, to_mm=to_mm, reverse=reverse)
@@ -107,11 +100,7 @@ def checks_table(verdicts: Sequence[Verdict]) -> Table:
 
 
 def checks_record(verdicts: Sequence[Verdict]) -> Table:
-    """The checks, the overall result, the warnings and the sizes by load, as json contains them.
-
-    A spec that could not be read is a row of its own kind. Of several specs, the sizes stand below
-    the path of each.
-    """
+    """The checks, the overall result, the warnings and the sizes by load, as json contains them."""
     warnings = [(v.path, w.name, w.plain, w.accepted or None) for v in verdicts for w in v.warnings]
     errors = [(v.path, v.error) for v in verdicts if v.error]
     chosen = {v.path: v.chosen.record for v in verdicts}
@@ -127,11 +116,7 @@ def checks_record(verdicts: Sequence[Verdict]) -> Table:
 
 
 def of_checks(verdicts: Sequence[Verdict], page: bool, as_json: bool) -> Answer:
-    """The answer on specs: a headline for each that was read, then the changes.
-
-    The proof and the tightest check are shown for a single spec only; ``page`` shows all checks
-    below.
-    """
+    """The answer on specs: a headline for each that was read, then the changes."""
     # a page for people has the table only where it or some of its columns are asked for
     is_shown = page or choice.columns
     data = table = checks_table(verdicts) if is_shown else Table((), ())

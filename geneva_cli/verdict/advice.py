@@ -210,10 +210,7 @@ def _now(mechanism: Mechanism, table: str, key: str) -> Value:
 
 
 def advised(mechanism: Mechanism, rows: list[Check]) -> list[Check]:
-    """The checks, those that fail with one change of the spec with which all checks pass.
-
-    Without such a change they say why, and name a change with which they pass themselves.
-    """
+    """The checks, those that fail with one change of the spec with which all checks pass."""
     failing = [c for c in rows if c.passes is False]
     if not failing:
         return rows

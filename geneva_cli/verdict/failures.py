@@ -66,10 +66,7 @@ def below_summary(record: Table, *, without: Sequence[str] = ()) -> Table:
 
 
 def failures(rows: list[Check], parts: Parts) -> tuple[str, list[str]]:
-    """The reason why the parts jam or cannot be cut, and a sentence on each other failing check.
-
-    The first text is empty if the parts can be written.
-    """
+    """The reason why the parts jam or cannot be cut, and a sentence on each other failing check."""
     refused, warned, advice = [], [], ""
     for c in rows:
         if c.passes is not False:
@@ -112,10 +109,7 @@ def _where(c: Check) -> str:
 
 
 def meaning(c: Check, parts: str = "") -> str:
-    """The meaning of a failing check; empty if its value is enough.
-
-    ``parts`` names those that overlap, where they are known.
-    """
+    """The meaning of a failing check; empty if its value is enough."""
     value, limit = c.value or 0.0, c.limit or 0.0
     if c.name in NO_WALL and value < 0.0:
         return f"{NO_WALL[c.name]} by {-value:.4g} mm"

@@ -76,10 +76,7 @@ def _of_sizes(mechanism: Mechanism) -> Iterator[Notice]:
 
 
 def _fits(mechanism: Mechanism) -> Iterator[Notice]:
-    """Clearances larger than the loosest running fit, or the process, needs; and too small ones.
-
-    A default locking disc is smaller than the crank, whose fit is looser.
-    """
+    """Clearances larger than the loosest running fit, or the process, needs; and too small ones."""
     size, disc = mechanism.spec.size, mechanism.spec.size.lock_radius_mm
     pairs = [("slot_clearance_mm", "roller", "slot", mechanism.roller_radius_mm)]
     if mechanism.spec.has_lock:

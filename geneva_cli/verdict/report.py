@@ -1,7 +1,4 @@
-"""A report on a design for people: words, timing, peaks, loads, sizes, warnings.
-
-A section is a group of quantities in ``verdict.quantities.groups``, and its function.
-"""
+"""A report on a design for people: words, timing, peaks, loads, sizes, warnings."""
 
 from __future__ import annotations
 
@@ -31,12 +28,7 @@ class Report(NamedTuple):
 def report(
     parts: Parts, rows: Sequence[Check], warnings: Sequence[Notice], by_load: ByLoad
 ) -> Report:
-    """Everything about one design, as a tree of named values under a paragraph of words.
-
-    The names are equal for every machine; a value is None if it does not apply. ``rows`` and
-    ``warnings`` are the checks and the warnings of the machine of ``parts``, and ``by_load`` its
-    sizes that the load chose.
-    """
+    """Everything about one design, as a tree of named values under a paragraph of words."""
     mechanism = parts.mechanism
     passes = all_pass(rows)
     title = mechanism.spec.title

@@ -66,10 +66,7 @@ def stations(parts: Parts) -> Values:
 
 
 def wheels(parts: Parts) -> Values:
-    """A row for each of several wheels: where it stands, and when it moves.
-
-    Angles are those of the carrier from the middle of the first wheel's motion.
-    """
+    """A row for each of several wheels: where it stands, and when it moves."""
     mechanism = parts.mechanism
     places = mechanism.wheel_places
     if len(places) < 2:
@@ -133,11 +130,7 @@ def slot(parts: Parts) -> Values:
 
 
 def vibration(parts: Parts) -> Values:
-    """The load on its elastic shaft: what an index leaves swinging, and the speeds to avoid.
-
-    None without a stiffness, and why where inertia is missing or its period is out of range.
-    Bands and warnings are those of ``geneva vibration``.
-    """
+    """The load on its elastic shaft: what an index leaves swinging, and the speeds to avoid."""
     mechanism = parts.mechanism
     none: Values = {"speeds_to_avoid_rpm": None}
     if mechanism.spec.shaft.stiffness_Nm_rad is None:
@@ -166,10 +159,7 @@ def tolerances(parts: Parts) -> Values:
 
 
 def sizes(parts: Parts) -> Values:
-    """Sizes of a flat wheel as cut, or of a spherical wheel as turned.
-
-    The rim is None if the spec's sizes leave no wheel; the slots too if no wheel is drawn.
-    """
+    """Sizes of a flat wheel as cut, or of a spherical wheel as turned."""
     mechanism, spec = parts.mechanism, parts.mechanism.spec
     L, r, first = mechanism.center_distance_mm, mechanism.roller_radius_mm, mechanism.engagements[0]
     values: Values = {"roller_radius_mm": r, "rollers_max": mechanism.rollers_max}
@@ -207,12 +197,9 @@ def sizes(parts: Parts) -> Values:
 
 
 def parts(of: Parts) -> Values:
-    """Sizes of the parts, or the reason in ``none`` why there are none.
-
-    A sphere has the horn; its other sizes are angles, in the list of parts.
-    """
+    """Sizes of the parts, or the reason in ``none`` why there are none."""
     spec = of.mechanism.spec
-    if not spec.has_parts:
+    if spec.no_parts:
         return {}
     try:
         values: Values = {"horn_mm": of.built.horn_mm}

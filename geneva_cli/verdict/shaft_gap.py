@@ -50,25 +50,14 @@ def ring_gap(apart: float, inner: float, outer: Measure, radius: Measure) -> Mea
     return gap - radius
 
 
-def shaft_gaps(parts: FlatParts) -> Iterator[float]:
-    """Yield the gaps of parts to the hubs and shafts that they pass, mm, negative at an overlap.
-
-    Raises GenevaError for sizes that leave no parts.
-    """
-    turning = rings_of((parts.wheel, parts.crank))
-    others = rings_of((*parts.first, *parts.groove_plate))
-    yield from ring_gaps(parts.mechanism, turning, [*turning, *others], parts.shafts)
-
-
-def gear_gaps(parts: FlatParts) -> Iterator[float]:
-    """Yield the gaps of noncircular gears to hubs, shafts and spacers, mm.
-
-    The spacers are those of a fixed gear or a guide above the gears. Raises GenevaError for sizes
-    that leave no parts.
-    """
-    turning = rings_of((parts.wheel, parts.crank))
-    rings = list(gear_rings(parts.mechanism, parts.drawn))
-    yield from ring_gaps(parts.mechanism, turning, rings, (*parts.shafts, *parts.framed.spacers))
+def shaft_gaps(parts: FlatParts, gears: bool = False) -> Iterator[float]:
+    """Yield the gaps of parts, or of noncircular gears, to hubs, shafts and spacers, mm."""
+    turning, shafts = rings_of((parts.wheel, parts.crank)), parts.shafts
+    rings = [*turning, *rings_of((*parts.first, *parts.groove_plate))]
+    if gears:  # the spacers are those of a fixed gear or a guide above the gears
+        rings = list(gear_rings(parts.mechanism, parts.drawn))
+        shafts = (*shafts, *parts.framed.spacers)
+    yield from ring_gaps(parts.mechanism, turning, rings, shafts)
 
 
 def ring_gaps(
@@ -84,10 +73,7 @@ def ring_gaps(
 
 
 def gear_rings(mechanism: Mechanism, drawn: Outlines | None) -> Iterator[Ring]:
-    """Yield the rings of noncircular gears, out to their farthest points.
-
-    ``drawn`` are the outlines of wheel and crank, if they are drawn.
-    """
+    """Yield the rings of noncircular gears, out to their farthest points."""
     pair, x = mechanism.spec.gears, mechanism.gear_shaft.x_mm
     if pair is None:
         return

@@ -16,7 +16,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from geneva_cli.errors import GenevaError, Notice, cut
-from geneva_cli.loads.impacts.entry import arm_mm, mouth_jumps_worst
+from geneva_cli.loads.impacts.entry import arm_mm
 from geneva_cli.loads.tolerance.locking import (
     CutLock,
     Deviations,
@@ -114,11 +114,7 @@ def needed_mm(
 
 
 def worst_dwell_deg(mechanism: Mechanism, parts: Parts) -> float | None:
-    """The greatest error of the resting wheel's angle within the tolerances, degrees.
-
-    None without a drawn locking disc. Raises GenevaError for tolerances that are too wide, and for
-    parts that cannot be built.
-    """
+    """The greatest error of the resting wheel's angle within the tolerances, degrees."""
     use = used(mechanism)
     _refuse_large(mechanism, use)
     loosest = _loosest_lock(mechanism, parts, use)
@@ -159,10 +155,7 @@ def _refuse(mechanism: Mechanism, samples: int, seed: int) -> None:
 
 
 def _refuse_large(mechanism: Mechanism, use: dict[str, float]) -> None:
-    """Raise GenevaError if some machine's roller may reach the wheel's axis or the crank's.
-
-    A normal distribution has tails: deviations lie within three times the plus or minus.
-    """
+    """Raise GenevaError if some machine's roller may reach the wheel's axis or the crank's."""
     for one in motion_errors(mechanism):
         margin_mm = one.margin_mm(mechanism.spec, use)
         if not use["center_distance_mm"] + use["crank_radius_mm"] < margin_mm:
@@ -177,11 +170,7 @@ def _refuse_large(mechanism: Mechanism, use: dict[str, float]) -> None:
 def tolerance_table(
     mechanism: Mechanism, parts: Parts, samples: int, seed: int, radius_mm: float | None = None
 ) -> Table:
-    """The study of a machine by its ``[tolerance]``, with micrometres at ``radius_mm``.
-
-    Values that do not exist are None, as the warnings say. Raises GenevaError without tolerances,
-    and for numbers of samples and seeds out of range.
-    """
+    """The study of a machine by its ``[tolerance]``, with micrometres at ``radius_mm``."""
     if radius_mm is not None:
         require_mm("--radius", radius_mm, POSITIVE)
     _refuse(mechanism, samples, seed)
@@ -232,7 +221,6 @@ def tolerance_table(
             "entry_jump.std": float(drawn.jump.std()),
             "entry_jump.worst": float(worst_jump[0]),
             "entry_jump.missed_share": drawn.missed,
-            "entry_jump.mouth_worst": mouth_jumps_worst(mechanism).item(),
         }
     else:
         unknown.append("entry_jump is not known: the law, not the path, sets how the roller enters")
@@ -254,7 +242,7 @@ def tolerance_table(
                 value = getattr(of, angle) * scale if of and scale is not None else None
                 values[f"{name}.{angle}_{unit}"] = value
     values |= {"motion_play.at_deg": None, "contributions": _contributions(angles, given)}
-    ends_of = ("mean", "std", "worst", "missed_share", "mouth_worst")
+    ends_of = ("mean", "std", "worst", "missed_share")
     values |= {f"entry_jump.{end}": None for end in ends_of}
     return record_table(values | answers | {"warnings": tuple(warnings)}, spec.title)
 

@@ -118,7 +118,7 @@ def key_warnings(spec: Spec) -> Iterator[Notice]:
 def _process_warnings(parts: Parts) -> Iterator[Notice]:
     """Warnings about gears, holes and clearances, and shafts without a bearing."""
     spec = parts.mechanism.spec
-    if not spec.has_parts:
+    if spec.no_parts:
         return
     try:
         unborne, named = parts.built.unborne, [*parts.built.by_name()] if spec.size.process else []
@@ -154,8 +154,7 @@ def _small_holes(named: list[NamedParts], least: float) -> Iterator[Notice]:
     if not least:
         return
     from geneva_cli.drawings.parts_list import is_cut
-    from geneva_cli.geometry.plates import Plate, solids
-    from geneva_cli.geometry.sphere_shell import Shell
+    from geneva_cli.geometry.plates import Plate, Shell, solids
     from geneva_cli.parts.projection import built_of
 
     missing: list[Missing] = []  # the check of the parts reports them

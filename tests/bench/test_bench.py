@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from sampling import some
 
-from bench import plots
 from bench.__main__ import SUBJECTS, bench_table, measure
 from bench.kinds import KINDS, values_of
 from bench.method import BenchRow, with_frontier
@@ -66,15 +65,6 @@ def test_closed_forms_are_the_motions():
             ours = engagement.motion.derivatives(input_deg, (1, 2))
             for own, other in zip(ours, theirs, strict=True):
                 assert other == pytest.approx(own, abs=3e-14 * np.abs(own).max()), kind.name
-
-
-@pytest.mark.long
-def test_a_plot_has_a_panel_for_each_task(tmp_path):
-    subject, rows = measured("peaks")
-    path = tmp_path / "new" / "peaks.svg"
-    assert plots.write(subject, rows, str(path))
-    assert path.read_text(encoding="utf-8").count("<!-- scan of 17") == len(subject.tasks)
-    assert not plots.write(subject, [], str(path))
 
 
 def row(error, time):

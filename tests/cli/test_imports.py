@@ -249,7 +249,7 @@ print(len(functions), len({file for file, _ in functions}), deepest, file=sys.st
 # A reader of a number follows these: how many functions of the program a run calls, in how many
 # files, and how deep. Who exceeds one finds a shorter way, or names the reason where he raises it.
 BOUNDS = {
-    "peaks": (206, 35, 14),
+    "peaks": (200, 35, 14),
     "check": (768, 89, 24),
 }
 

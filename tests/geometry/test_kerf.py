@@ -14,7 +14,7 @@ from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.offsets import judged, offset, paths
 from geneva_cli.geometry.plates import Plate, plates
-from geneva_cli.geometry.shapes import Arc, Circle, Line, about, backwards, closed
+from geneva_cli.geometry.shapes import Arc, Circle, Line, about, closed
 from geneva_cli.geometry.shapes import polygon as corners
 from geneva_cli.geometry.sheet import Drawing
 
@@ -39,25 +39,6 @@ def require_cut(shape, outside, kerf, corner=0.0):
     assert outer.buffer(MICRON).contains(inner)
     assert inner.buffer(MICRON + corner).contains(outer)
     return path
-
-
-@pytest.mark.parametrize("turn", [False, True])
-def test_corners_that_stand_in(turn):
-    """Line and line, line and arc, arc and arc; whichever way the contour runs."""
-    notched = closed(
-        "WHEEL",
-        [
-            Line((0.0, 0.0), (20.0, 0.0)),
-            Line((20.0, 0.0), (20.0, 10.0)),
-            Line((20.0, 10.0), (14.0, 4.0)),
-            Line((14.0, 4.0), (10.0, 10.0)),
-            Arc((10.0, 10.0), (6.0, 6.0), 0.3),
-            Arc((6.0, 6.0), (0.0, 10.0), 0.5),
-            Line((0.0, 10.0), (0.0, 0.0)),
-        ],
-    )
-    notched = backwards(notched) if turn else notched
-    require_cut(notched, True, 0.3, corner=0.15 * 2.0)
 
 
 @pytest.mark.sampled(12)

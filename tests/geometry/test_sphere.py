@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from geneva_cli.geometry.plates import Shell
 from geneva_cli.geometry.sphere import (
     Cap,
     Region,
@@ -16,7 +17,6 @@ from geneva_cli.geometry.sphere import (
     unit,
 )
 from geneva_cli.geometry.sphere_arcs import RoundHole, SphereArcs
-from geneva_cli.geometry.sphere_shell import Shell
 
 POLE = (0.0, 0.0, 1.0)
 CLOSE = 1e-14  # sums of some numbers up to 2 pi

@@ -63,12 +63,7 @@ def test_a_straight_slot_s_horn_is_its_formula(z, L, r, h, f):
 @pytest.mark.sampled(8)
 @pytest.mark.parametrize(
     ("z", "L", "r", "h"),
-    [
-        (3, 100.0, 5.0, 2.0),
-        (6, 100.0, 5.0, 5.0),
-        (8, 250.0, 12.0, 12.0),
-        (12, 100.0, 4.0, 2.0),
-    ],
+    [(3, 100.0, 5.0, 2.0), (6, 100.0, 5.0, 5.0), (8, 250.0, 12.0, 12.0), (12, 100.0, 4.0, 2.0)],
 )
 def test_plane_stress_agrees_with_the_beam(z, L, r, h):
     """To 2 % where the horn is thinner than a sixth of the recess's radius.

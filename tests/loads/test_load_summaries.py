@@ -99,13 +99,3 @@ def test_no_friction_among_designs_with():
     _, rms = dense_means(Cycle(build(spec)), "input_torque_Nm")
     assert here.max[1] == pytest.approx(28.93, abs=5e-3)
     assert here.rms[1] == pytest.approx(rms, rel=1e-12)
-
-
-def test_an_input_torque_that_holds_back_most_is_greatest_by_size():
-    """Slots offset to one side brake harder than they start: the least torque is the peak."""
-    keys = ["wheel.offset_mm=12", "load.torque_Nm=0", "load.inertia_kgm2=0.01"]
-    of = design.load(str(repo.DESIGNS / "offset-slots.toml"), keys)
-    ends, shown = of.cycle.extremes["input_torque_Nm"], of.loads["input_torque_Nm"]
-    assert -ends.min > 1.01 * ends.max
-    assert (shown.max, shown.max_at_deg) == (-ends.min, ends.min_at_deg)
-    assert shown.min == ends.min

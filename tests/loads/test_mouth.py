@@ -84,7 +84,7 @@ def test_the_corner_s_and_the_roller_s_motions(gearing, z, error, roller, cleara
     round_one = isinstance(gearing, int)
     wheel = Wheel(z, "spherical", axes_deg=gearing) if round_one else Wheel(z, gearing)
     [engagement] = build(Spec(wheel)).engagements
-    found = mouth_contacts(RestingAxis.of(engagement), sign * error, 0.0, roller, clearance)
+    found = mouth_contacts(RestingAxis.of(engagement), sign * error, 0.0, (roller, clearance, 0.0))
     about = math.radians(found.at_deg[0] - engagement.entry_deg)
     witness = round_ if round_one else flat
     early, jump = witness(z, gearing, sign * error, roller, clearance, about)
@@ -114,7 +114,7 @@ def test_whatever_leads_the_roller(name, errors):
     engagement = FAMILY[name]().mechanism.engagements[0]
     crank, center = errors
     roller, clearance = 0.02, 1e-5
-    found = mouth_contacts(RestingAxis.of(engagement), crank, center, roller, clearance)
+    found = mouth_contacts(RestingAxis.of(engagement), crank, center, (roller, clearance, 0.0))
 
     def pin(deg):
         x, y = (jet.c[0] for jet in engagement.path(deg, 0))

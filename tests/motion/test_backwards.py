@@ -31,16 +31,6 @@ def test_torques_by_the_law_of_motion(inertia, drag):
     assert got == pytest.approx(drag - inertia * w * w * bend, rel=1e-11)
 
 
-def test_inertia_alone_loads_the_pin_alike():
-    """Without drag and friction a film of the motion, run backwards, has the same forces."""
-    of = Design(OFFSET, load=Load(inertia_kgm2=0.02))
-    one, other = (d.loads["pin_force_N"] for d in (of, of.backwards))
-    assert max(other.max, -other.min) == pytest.approx(max(one.max, -one.min), rel=1e-12)
-    resisted = Design(OFFSET, load=Load(inertia_kgm2=0.02, torque_Nm=3.0))
-    one, other = (d.loads["pin_force_N"].max for d in (resisted, resisted.backwards))
-    assert other > 1.05 * one
-
-
 @pytest.mark.parametrize("e", [4.0, 12.0, -20.0])
 def test_the_ends_of_an_offset_slot_change_places(e):
     """Entry l/cos(b + d) backwards, with sin d = e/(L cos b): theory.md 1.4."""

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from geneva_cli import (
-    Cam,
     Cycloidal,
     Design,
     External,
@@ -77,28 +76,6 @@ def test_a_batch_has_the_distances_of_its_designs() -> None:
     assert batch.spread(batch.machine.center_distance_mm).tolist() == pytest.approx(
         alone, rel=1e-15
     )
-
-
-@pytest.mark.parametrize(
-    ("wheel", "own", "motion", "key"),
-    [
-        (External(6), Cam(), Motion(Cycloidal()), "remove crank_radius_mm"),
-        (External(6), drive("epicyclic")(planet_ratio="shockless"), None, "remove crank_radius_mm"),
-        (External(6, steps_deg=(72.0, 48.0)), None, None, "set center_distance_mm"),
-        (
-            External(8),
-            drive("slider-crank")(crank_mm=20.0, rod_mm=60.0, point_mm=60.0, point_deg=0.0),
-            None,
-            "remove crank_radius_mm",
-        ),
-    ],
-)
-def test_a_machine_without_one_crank_radius_names_its_own_key(
-    wheel: Gearing, own: Drive | None, motion: Motion | None, key: str
-) -> None:
-    with pytest.raises(GenevaError, match="crank_radius_mm") as caught:
-        Design(wheel, own, motion, size=Size(crank_radius_mm=R))
-    assert key in str(caught.value)
 
 
 def test_keys_that_agree_pass_and_others_name_both() -> None:

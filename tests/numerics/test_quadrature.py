@@ -86,16 +86,6 @@ def test_what_is_left_is_told_by_the_series(pole, monkeypatch):
         assert found == pytest.approx(math.log1p(1.0 / pole), rel=left + 4e-15)
 
 
-@pytest.mark.parametrize("power", [1, 3, 5, 7])
-def test_a_kink_is_no_series_that_falls(power):
-    """∫ |x - c|^p: each halving leaves the half that has the kink."""
-    c = 1.0 / math.pi
-    found, places = summed(lambda x, _: np.abs(x - c) ** power)
-    exact = (c ** (power + 1) + (1.0 - c) ** (power + 1)) / (power + 1)
-    assert found == pytest.approx(exact, rel=LAST_TERMS)
-    assert places > 2 * NODES
-
-
 @pytest.mark.parametrize("ends", [False, True])
 def test_designs_that_need_more_are_halved(ends):
     """∫ dx/(x² + s²) over [0, 1] is atan(1/s)/s: of a narrow peak the rule sees nothing."""

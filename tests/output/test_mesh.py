@@ -15,10 +15,9 @@ from drawing_witness import polygon
 from geneva_cli import Design, External, Size
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.plates import Plate, face, solids
+from geneva_cli.geometry.plates import Plate, Shell, face, solids
 from geneva_cli.geometry.shapes import Arc, Circle, Cubic, Line, bounds, closed
 from geneva_cli.geometry.sheet import Drawing
-from geneva_cli.geometry.sphere_shell import Shell
 from geneva_cli.output.inks import INKS
 from geneva_cli.output.mesh_files import stl, threemf
 from geneva_cli.output.meshes import DECIMALS, bodies

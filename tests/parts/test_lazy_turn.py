@@ -139,9 +139,3 @@ def test_a_loose_lock_leaves_the_play_of_its_triangle():
     assert at.is_free
     assert at.high + math.pi / 4 == pytest.approx(play, abs=1e-9)
     assert at.low + math.pi / 4 == pytest.approx(-play, abs=1e-9)
-
-
-def test_nothing_in_reach_leaves_the_wheel_free():
-    wheel = drawn_wheel(Z, L - R, HALF, 20.5)
-    free = FreeRanges(outline(wheel), outline(disc(R, 0.0, ROLLER)), L, 1.0, math.tau / Z, 1e-6)
-    assert free.at(np.array([0.0])).around(0, 0.3).is_free

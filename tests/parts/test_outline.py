@@ -243,33 +243,6 @@ def test_areas_lengths_and_walls_of_radial_slots(case: dict) -> None:
 # --- the crank
 
 
-def lock_sweep(found: Parts) -> float:
-    """The angle of the crank's outline that lies on the locking circle about its axis."""
-    return math.fsum(
-        s.sweep
-        for contour in found.outlines.crank
-        for s in contour.segments
-        if isinstance(s, Arc)
-        and math.hypot(*s.centre) < 1e-9 * L
-        and abs(s.radius - found.sizes.lock) < 1e-9 * L
-    )
-
-
-@pytest.mark.parametrize("case", [c for c in STRAIGHT if c.get("gearing") != "internal"], ids=str)
-def test_the_disc_locks_all_but_the_motion(case: dict) -> None:
-    found = made(**case)
-    assert all(ends_meet(c) and polygon(c, FLAT).is_valid for c in found.outlines.crank)
-    assert all(polygon(c, FLAT).exterior.is_ccw for c in found.outlines.crank)
-    steps = case.get("steps") or (360.0 / case["z"],) * case.get("rollers", 1)
-    motions = sum(180.0 - step for step in steps)
-    # Offset slots and low mouths may need a wider relief than the motion, never less.
-    locked = math.degrees(lock_sweep(found))
-    if case.get("offset") or case.get("steps") == (90.0, 30.0):
-        assert locked <= 360.0 - motions + 1e-9
-    else:
-        assert locked == pytest.approx(360.0 - motions, abs=1e-9)
-
-
 def corners_in_the_disc(z: int, r: float, share: float) -> Iterator[np.ndarray]:
     """The paths of the recess's corners within the disc, in the crank's frame in units of L."""
     b = math.pi / z

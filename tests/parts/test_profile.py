@@ -10,7 +10,7 @@ from words import Motion, Spec, Wheel, named
 
 from geneva_cli.geometry.chords import chord_errors
 from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.parts.slots.slot_profile import flanks, nodes, profile_table, slot
+from geneva_cli.parts.slots.slot_profile import flanks, nodes, profile_table, slot_columns
 from geneva_cli.spec.tables import Size
 
 L = 200.0
@@ -28,7 +28,8 @@ def test_pitch_curve_flanks_pressure_and_curvature(law: str, ratio: float | str)
     derivatives by psi1 and psi2. Positions to 4 ulp of L, the rest as its own digits allow."""
     mechanism = curved(law, ratio)
     x = np.array([-59.5, -47.0, -30.5, -11.0, -3.0, 5.0, 28.0, 44.5, 59.0])
-    at = slot(mechanism, x)
+    centre, left_, right_ = flanks(mechanism, x)
+    *_, pressure, radius = slot_columns(mechanism, x)
     R = L * mechanism.ratio
     offset = 9.25
     for i, degrees in enumerate(x):
@@ -39,15 +40,15 @@ def test_pitch_curve_flanks_pressure_and_curvature(law: str, ratio: float | str)
         psi, psi1, psi2 = step * (s - mp.mpf(1) / 2), step * s1 / angle, step * s2 / angle**2
         M = L * mp.expj(-psi) - R * mp.expj(-(psi + phi))
         M1 = -1j * L * psi1 * mp.expj(-psi) + 1j * R * (1 + psi1) * mp.expj(-(psi + phi))
-        assert abs(complex(M) - complex(*at.centre[i])) < 4 * math.ulp(L)
+        assert abs(complex(M) - complex(*centre[i])) < 4 * math.ulp(L)
         normal = 1j * M1 / abs(M1)
         retrace = ratio == "matched" or abs(named(law)(0.5, 1).c[1] / 2.0 - R / (L - R)) < 1e-9
         side = -1 if retrace and degrees > 0 else 1
         left, right = M + side * offset * normal, M - side * offset * normal
         # the normal's direction is known to eps / |M'|, which is smallest beside the cusp
         close = offset * 1e-15 * L / float(abs(M1)) * 8 + 4 * math.ulp(L)
-        assert abs(complex(left) - complex(*at.left[i])) < close
-        assert abs(complex(right) - complex(*at.right[i])) < close
+        assert abs(complex(left) - complex(*left_[i])) < close
+        assert abs(complex(right) - complex(*right_[i])) < close
         bend = (
             psi1**3 * L**2
             + (1 + psi1) ** 3 * R**2
@@ -55,9 +56,9 @@ def test_pitch_curve_flanks_pressure_and_curvature(law: str, ratio: float | str)
             + psi2 * L * R * mp.sin(phi)
         ) / abs(M1) ** 3
         # the textbook M turns the other way round than the pin travels in our frame
-        assert at.radius[i] == pytest.approx(float(-side / bend), rel=1e-9)
+        assert radius[i] == pytest.approx(float(-side / bend), rel=1e-9)
         lever = L * R * abs(mp.sin(phi)) / abs(M1)
-        assert math.cos(math.radians(at.pressure_deg[i])) == pytest.approx(
+        assert math.cos(math.radians(pressure[i])) == pytest.approx(
             float(lever / abs(M)), rel=1e-12
         )
 
@@ -95,8 +96,7 @@ def test_no_chord_misses_by_more_than_the_tolerance(
 def dense_error(mechanism: Mechanism, x: np.ndarray) -> float:
     """The greatest distance of 31 points a chord from it, by another formula than the program's."""
     at, worst = np.linspace(0.0, 1.0, 33), 0.0
-    points = slot(mechanism, (x[:-1, None] + np.diff(x)[:, None] * at).ravel())
-    for line in (points.centre, points.left, points.right):
+    for line in flanks(mechanism, (x[:-1, None] + np.diff(x)[:, None] * at).ravel()):
         p = (line @ [1, 1j]).reshape(-1, 33)
         turned = (p - p[:, :1]) * np.exp(-1j * np.angle(p[:, -1:] - p[:, :1]))
         worst = max(worst, float(np.abs(turned.imag).max()))

@@ -153,7 +153,7 @@ def test_a_roller_meets_a_rounded_mouth(own: Gearing, error: float) -> None:
     """A circle about the rounding's centre, and the wheel's angle that keeps the roller on it."""
     (one,) = Design(own).mechanism.engagements
     r, c, b, sign = 0.05, 0.02, math.pi / Z, own.SIGN
-    found = mouth_contacts(RestingAxis.of(one), error, 0.0, r, 0.0, c)
+    found = mouth_contacts(RestingAxis.of(one), error, 0.0, (r, 0.0, c))
     assert found
     rim = math.hypot(math.cos(b), r)
     x = math.sqrt((rim - sign * c) ** 2 - (r + c) ** 2)

@@ -6,17 +6,7 @@ import pytest
 import repo
 from drawing_witness import vertices
 
-from geneva_cli import (
-    Crank,
-    Design,
-    External,
-    Load,
-    Mass,
-    Motor,
-    Size,
-    Support,
-    load,
-)
+from geneva_cli import Crank, Design, External, Load, Mass, Motor, Size, Support, load
 from geneva_cli.motion import registry
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build

@@ -64,15 +64,6 @@ def test_misprint_table_1_has_laws_that_turn_back(engagement, shape, least, sign
         assert np.min(velocity) == pytest.approx(least, abs=5e-4)  # as printed
 
 
-def test_overshoot_at_a_quarter(engagement):
-    """At lambda = 0.25 the wheel goes 2.33 degrees too far before it comes back (or first)."""
-    x = np.linspace(-60.0, 60.0, 20001)
-    for sign in (-1.0, 1.0):
-        wheel = np.degrees(engagement(6, law="sine-group", lambda_=0.25 * sign).motion(x, 0).c[0])
-        over = max(-30.0 - np.min(wheel), np.max(wheel) - 30.0)
-        assert over == pytest.approx(2.33, abs=5e-3)  # as printed
-
-
 @pytest.mark.parametrize("alpha0", [-60.0, -20.0, 0.0, 15.0, 60.0])
 def test_16_work_coefficient(machine, alpha0):
     """phi_l = pi - 2 pi/z - alpha_0 and k = phi_l/(2 pi - phi_l), (12) to (16)."""
@@ -119,12 +110,6 @@ def test_mid_condition_at_the_usual_radius(machine, law, z, motion_deg):
     m = machine(z, law=law, alpha0_deg=alpha0, ratio="matched")
     # the motion angle is printed to half a hundredth of a degree, of some hundred
     assert m.ratio == near(math.sin(math.pi / z), 1e-4)
-
-
-@pytest.mark.parametrize(("z", "ratio"), [(4, 8.0 / 11.0), (6, 4.0 / 7.0)])
-def test_matched_radius_of_the_sine_group(machine, z, ratio):
-    """R/L = V/(1+V), V = (2 pi/z) (8/3)/phi_l: 8/3 for 4 slots, 4/3 (R/L = 0.5714) for 6."""
-    assert machine(z, law="sine-group", ratio="matched").ratio == near(ratio, 4e-16)
 
 
 def test_misprint_geometry_of_6_slots_at_half_radius(engagement):

@@ -1,6 +1,5 @@
 """JSON Schema of a spec: it says what the reader says."""
 
-import json
 import random
 import tomllib
 
@@ -8,9 +7,7 @@ import fuzz_studies
 import pytest
 import repo
 from fuzz import folder
-from typer.testing import CliRunner
 
-from geneva_cli.cli.app import app
 from geneva_cli.specfile.keys import FILE, schema
 from geneva_cli.specfile.template import KINDS, template
 
@@ -54,11 +51,6 @@ def test_it_agrees_with_the_reader_on_mutated_specs():
     with folder():
         ends = [fuzz_studies.schema(fuzz_studies.schema_case(rng)) for _ in range(60)]
     assert 6 < ends.count("machine") < 54
-
-
-def test_the_command_prints_it():
-    result = CliRunner().invoke(app, ["schema"])
-    assert result.exit_code == 0 and json.loads(result.stdout) == schema()
 
 
 def test_a_key_of_several_kinds_has_the_meaning_of_the_first():

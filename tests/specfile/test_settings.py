@@ -60,10 +60,3 @@ def test_an_error_names_the_option(spec, given, said):
         load(spec, [given])
     assert said in str(error.value)
     assert "spec.toml" not in str(error.value)
-
-
-def test_an_error_of_the_file_still_names_its_line(spec, tmp_path):
-    path = tmp_path / "bad.toml"
-    path.write_text(SPEC.replace("z = 6", "z = 1"))
-    with pytest.raises(GenevaError, match=r"bad.toml:2: "):
-        load(str(path), ["drive.n_rpm=90"])

@@ -2,7 +2,7 @@
 
 import pytest
 
-from geneva_cli import Design, External, GenevaError, Mass, design
+from geneva_cli import GenevaError, design
 from geneva_cli.spec.defaults import roller_material, wheel_material
 from geneva_cli.specfile.writer import spec_lines
 
@@ -79,10 +79,3 @@ def test_one_of_a_list_is_changed(turret):
     assert changed.spec.material_wheel.density_kgm3 == 1190.0
     with pytest.raises(GenevaError, match=r"no \[mass.2\]"):
         changed.with_("mass.2.count", 4)
-
-
-def test_a_python_user_gives_objects():
-    design_ = Design(External(6), mass=[Mass(shape="point", mass_kg=1.0, radius_mm=50.0)])
-    assert design_.spec.is_loaded
-    with pytest.raises(GenevaError, match="mass must be a list"):
-        Design(External(6), mass=[3])

@@ -34,7 +34,7 @@ from words import LAWS
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.registry import DRIVES, GEARINGS
-from geneva_cli.parts.slots.slot_profile import nodes, slot
+from geneva_cli.parts.slots.slot_profile import flanks, nodes
 
 
 def missing():
@@ -76,7 +76,7 @@ def chord_case(table, name, L, tolerance, rng):
         if "--tolerance" not in str(error):
             table.fault(f"chords {name} {where}: refused without naming --tolerance: {error}")
         return
-    got = strictly(slot, mechanism, x).centre
+    got, *_ = strictly(flanks, mechanism, x)
     (w,) = machine_witness.motions(mechanism.spec)
     for i in rng.sample(range(len(x) - 1), min(len(x) - 1, 12)):
         a, b = (mp.mpc(*got[k].tolist()) for k in (i, i + 1))

@@ -220,18 +220,12 @@ def test_exported_specs_have_the_sizes_of_the_parts_beside_them(turret):
     [
         ("[wheel]\nz = 6", "[wheel]\nz = 6\n\n[size]\npin_mm = 6.0  # why\n"),
         ("[size]\n# none\n\n[wheel]\n", "[size]\npin_mm = 6.0  # why\n# none\n\n[wheel]\n"),
-        (
-            "[ size ] # mine\nrelief = 'arc' # two\n\n[wheel]\nz = 6\n",
-            "[ size ] # mine\nrelief = 'arc' # two\npin_mm = 6.0  # why\n\n[wheel]\nz = 6\n",
-        ),
         ("size = {relief = 'arc'}\n", None),
-        ("size.relief = 'arc'\n[wheel]\nz = 6\n", None),
         ('title = """\n[size]\n"""\n', None),
         (
             "[size]\npin_mm = 4 # mine\nrelief = 'a#b' # two\n",
             "[size]\npin_mm = 6.0 # mine\nrelief = 'a#b' # two\n",
         ),
-        ("[size]\npin_mm = 4", "[size]\npin_mm = 6.0\n"),
     ],
 )
 def test_keys_are_inserted_or_refused(text, out):

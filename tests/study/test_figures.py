@@ -55,9 +55,6 @@ def test_marks_are_the_answers_and_nothing_is_beyond_them(path):
             assert max(values) > want.max * (1.0 - 2e-3)
 
 
-# of a stop no load is known
-
-
 def test_jumps_have_both_values():
     """Harmonic: s'' = pi²/2 cos(pi u): it jumps to psi'' = +-(pi²/2) b / a² and back.
 

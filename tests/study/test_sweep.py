@@ -135,14 +135,6 @@ def test_parquet_holds_the_same(tmp_path):
     assert os.listdir(tmp_path) == ["rows.parquet"]
 
 
-def test_parquet_of_no_rows_has_its_columns(tmp_path):
-    file = tmp_path / "none.parquet"
-    none = ["--vary", "drive.A=0,0.5", "--subject-to", "dwell_s >= 5", "-o", str(file)]
-    assert geneva("sweep", SPEC, *none).exit_code == 0
-    types, found = parquet(file)
-    assert found == [] and types["timing.dwell_s"] == "double" and types["error"] == "string"
-
-
 def test_types_of_a_column_follow_from_all_blocks(tmp_path):
     """Numbers that one block has and words of another are words; whole numbers are numbers."""
     path = str(tmp_path / "rows.parquet")

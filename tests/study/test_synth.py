@@ -296,7 +296,7 @@ def test_the_longest_motion_is_the_longest_that_may_be_built(z):
         alpha0 = natural - (found + (200.0 - found) * k / steps)
         spec = other.spec.replace(motion=Motion(ModifiedSine(), alpha0_deg=alpha0, ratio="matched"))
         spec = spec.with_("size.roller_radius_mm", None)
-        (row,) = rows(target, [spec], [])
+        (row,) = rows(target, [spec])
         assert row.trouble, alpha0
 
 

@@ -208,24 +208,3 @@ def test_a_frame_s_limits_choose_the_machine_of_a_range(limit, field, most):
     # of a plain crank there is no other: it stays, and says what it breaks
     (plain,) = [r for r in found if r.cells["drive"] == "crank" and not r.cells["law"]][:1]
     assert plain.cells["parts"] == f"no: {limit}"
-
-
-@pytest.mark.long
-def test_a_refusal_says_how_near_the_nearest_come():
-    """What no machine keeps: the nearest value is the least of dense sweeps, not of some row's."""
-    target = {"motion_deg": "..160", "z": "6", "spherical": True, "rollers": 1}
-    with pytest.raises(GenevaError, match="nearest") as refused:
-        rows(**target, subject_to=["power.max <= 0.2"])
-    wheel, peaks = Wheel(6, "spherical"), []
-    for drive, key, values in (
-        ("side-crank", "drive.A", np.linspace(-0.9, 0.9, 1801)),
-        ("crank", "wheel.axes_deg", np.linspace(30.0, 90.0, 1801)),
-    ):
-        keys = Keys(drive, 0.1) if drive != "crank" else {}
-        power, motion = dense(
-            Spec(wheel, Drive(drive), keys), key, values, ["power.max", "timing.motion_deg"]
-        )
-        peaks.append(power[motion <= 160.0].min())
-    nearest = float(str(refused.value).rpartition("nearest ")[2].rstrip(")"))
-    assert nearest == pytest.approx(min(peaks), rel=2e-3)
-    assert nearest <= min(peaks) * (1 + 1e-5)

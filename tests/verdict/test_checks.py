@@ -78,9 +78,7 @@ def test_something_must_hold_the_wheel_in_the_dwell() -> None:
     ("value", "must_be", "limit", "noise", "kept"),
     [
         (0.4999999999999787, "at least", 0.5, 0.0, True),
-        (40.001, "at most", 40.0, 0.0, False),
         (0.0, "above", 0.0, 0.0, False),
-        (-1e-12, "at least", 0.0, 0.0, False),
         (-2e-6, "at least", 0.0, 1e-5, True),  # a gap is known as nearly as its outlines
         (-2e-5, "at least", 0.0, 1e-5, False),
     ],

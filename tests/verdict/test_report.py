@@ -75,17 +75,6 @@ def test_a_program_finds_the_same_names_for_every_machine() -> None:
     assert two["timing"]["dwell_deg"] == pytest.approx(45.0)
 
 
-def test_tolerances_say_what_is_not_known(tmp_path: Path) -> None:
-    spec = written(tmp_path, "[wheel]\nz = 400\n[tolerance]\ncrank_radius_mm = 0.01\n")
-    found = json.loads(run("report", spec, "--format", "json").stdout)["tolerance"]
-    assert found["dwell_position"]["worst_deg"] is None
-    (said, _) = found["warnings"]
-    assert said.startswith("dwell_position is not known: no drawn locking disc")
-    page = tmp_path / "page.md"
-    run("report", spec, "--full", "-o", str(page))
-    assert said in page.read_text(encoding="utf-8")
-
-
 @pytest.mark.parametrize("format", ["table", "json"])
 def test_what_is_not_proved_shows(format: str, tmp_path: Path) -> None:
     spec = written(tmp_path, "[wheel]\nz = 400\n")

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 import pytest
-from strength_checks import judged
 
 from geneva_cli import Crank, Design, External, Limits, Motion, Size, Tolerance
 from geneva_cli.motion.registry import law
@@ -47,15 +46,6 @@ def test_times_of_unequal_steps_and_of_a_law() -> None:
     motion = Motion(law("cycloidal")(), alpha0_deg=30.0, ratio="matched")
     curved = Design(External(6), motion=motion, limits=limits)
     assert check_of(curved, "motion_max_s").value == pytest.approx(0.25, rel=1e-14)
-
-
-@pytest.mark.parametrize(
-    ("limits", "advice"),
-    [(Limits(dwell_min_s=0.8), "n_rpm = 50"), (Limits(cycle_max_s=0.5), "n_rpm = 120")],
-)
-def test_advice_on_a_time_is_a_speed(limits: Limits, advice: str) -> None:
-    *_, check = judged(Design(External(6), limits=limits).mechanism, parts=False)
-    assert check.nearest == advice
 
 
 def test_plays_by_hand() -> None:

@@ -52,7 +52,9 @@ def test_values_are_those_of_the_worst_machine():
     assert check.at_deg == contact.at_deg
     assert check.passes
     # and on its mouth's far corner where it has but 0.02 - 0.02/2
-    harder = mouth_contacts(RestingAxis.of(engagement), 0.02 / 50.0, -0.03 / 100.0, 0.05, 1e-4)
+    harder = mouth_contacts(
+        RestingAxis.of(engagement), 0.02 / 50.0, -0.03 / 100.0, (0.05, 1e-4, 0.0)
+    )
     check = row(of, "entry_shock_N")
     assert check.value == force_of(of.mechanism, harder.jump[0])
     assert check.at_deg == harder.at_deg[0]

@@ -12,8 +12,7 @@ from geneva_cli.drawings.sheet.sized import Fits
 from geneva_cli.drawings.sheet.view import View, grouped, times
 from geneva_cli.drawings.sheet.wheel_views import bolted, bored, circle_of, draw_hub, holes_of
 from geneva_cli.geometry.plates import Member, Plate, plates
-from geneva_cli.geometry.shapes import ORIGIN, Arc, Circle, Contour, Point, Shape, at, legs
-from geneva_cli.geometry.sheet import CENTRE, HIDDEN, OUTLINE
+from geneva_cli.geometry.shapes import ORIGIN, Arc, Circle, Contour, Point, at, legs
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.assembly import same
@@ -22,7 +21,6 @@ from geneva_cli.parts.links.link_sizes import roller_pins
 from geneva_cli.parts.links.links import Links, placed_holes
 from geneva_cli.parts.machine_sizes import drawn_pin_radius
 from geneva_cli.parts.outlines.crank_outline import is_whole
-from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.shafts.arm_and_shafts import CrankArm
 from geneva_cli.parts.shafts.bores import radius_of
 from geneva_cli.spec.written import degrees, length
@@ -116,19 +114,6 @@ def draw_roller(view: View, mechanism: Mechanism) -> View:
         view.diameter(circles[1:], sized.made(view.fits, mechanism, "roller bore", hole))
         view.notes.append(f"turns on its pin {sized.shaft(view.fits, pin)}, which is pressed in")
     return view
-
-
-def draw_assembly(view: View, parts: Outlines, shapes: tuple[Shape, ...]) -> None:
-    """Draw the assembled machine, with the centre distance."""
-    layers = {"PITCH": CENTRE, "ARM": HIDDEN, "FRAME": HIDDEN, "HUB": HIDDEN}
-    for shape in shapes:
-        view.draw(shape, layers.get(shape.layer, OUTLINE))
-    L = parts.assembly.L
-    view.cross(ORIGIN, parts.sizes.outer or parts.sizes.rim)
-    for place in parts.assembly.full.crank_places:
-        view.cross(place.at, max(parts.sizes.lock, 0.1 * L))
-    deviation = parts.assembly.mechanism.spec.tolerance.center_distance_mm
-    view.linear(ORIGIN, (L, 0.0), 0.0, sized.plain(L, "L = ", deviation))
 
 
 def draw_link(view: View, member: Member, bars: Links, mechanism: Mechanism) -> View:

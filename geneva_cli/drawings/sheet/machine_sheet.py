@@ -1,12 +1,9 @@
-"""The drawing sheet of a flat machine: dimensioned parts, the list of items and a title block.
-
-The assembled machine and its section are drawn at the scale of the parts, or at half of it.
-"""
+"""The drawing sheet of a flat machine: dimensioned parts, the list of items and a title block."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator
 from functools import cache, partial
 from typing import Any, NamedTuple
 
@@ -15,7 +12,6 @@ from geneva_cli.drawings.parts_list import part_rows
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.crank_views import (
     draw_arm,
-    draw_assembly,
     draw_disc,
     draw_link,
     draw_roller,
@@ -28,11 +24,24 @@ from geneva_cli.drawings.sheet.view import View
 from geneva_cli.drawings.sheet.wheel_views import draw_frame, draw_shaft, draw_wheel
 from geneva_cli.geometry.board import chords
 from geneva_cli.geometry.plates import Member, Plate, in_place, plates
-from geneva_cli.geometry.shapes import Circle, Point, at, bounds, bounds_of, placed, two_arcs
-from geneva_cli.geometry.sheet import HATCH, OUTLINE, Sheet, line, rectangle
+from geneva_cli.geometry.shapes import (
+    ORIGIN,
+    Circle,
+    Layer,
+    Point,
+    at,
+    bounds,
+    bounds_of,
+    placed,
+    two_arcs,
+)
+from geneva_cli.geometry.sheet import CENTRE, HATCH, HIDDEN, OUTLINE, Sheet, line, rectangle
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.projection import alike
 from geneva_cli.spec.written import length
+
+# Layers on the sheet of shapes of the assembled machine that are no outlines.
+LAYERS: dict[str, Layer] = {"PITCH": CENTRE, "ARM": HIDDEN, "FRAME": HIDDEN, "HUB": HIDDEN}
 
 
 class Face(NamedTuple):
@@ -46,7 +55,7 @@ class Face(NamedTuple):
 def sheet(parts: FlatParts) -> Sheet:
     """Return the drawing sheet of a machine. Raises GenevaError where no scale fits on one."""
     mechanism, L = parts.mechanism, parts.mechanism.center_distance_mm
-    drawn = machine(parts).shapes
+    drawn, sizes = machine(parts).shapes, parts.outlines.sizes
     every = [one.part for one in parts.members]
     rows: list[dict[str, Any]] = list(part_rows(mechanism.spec, every))
     largest = max(row[f"size_{axis}_mm"] for row in rows for axis in "xy")
@@ -65,8 +74,13 @@ def sheet(parts: FlatParts) -> Sheet:
     @cache
     def whole(scale: float) -> Block:
         view = View(f"assembly ({scale_name(scale)})", scale)
-        draw_assembly(view, parts.outlines, drawn)
-        box = bounds_of(drawn)
+        for shape in drawn:
+            view.draw(shape, LAYERS.get(shape.layer, OUTLINE))
+        view.cross(ORIGIN, sizes.outer or sizes.rim)
+        for place in mechanism.crank_places:
+            view.cross(place.at, max(sizes.lock, 0.1 * L))
+        off, box = mechanism.spec.tolerance.center_distance_mm, bounds_of(drawn)
+        view.linear(ORIGIN, (L, 0.0), 0.0, sized.plain(L, "L = ", off))
         view.section((box.x0, 0.0), (box.x1, 0.0), "A")
         tips: dict[int, list[Point]] = {}
         for own, plate in in_place(parts.members):
@@ -109,10 +123,7 @@ def _views(rows: list[dict[str, Any]], parts: FlatParts, scale: float) -> Iterat
     process, unborne = mechanism.spec.size.process, dict(parts.unborne)
 
     def begin(*names: str, thick: bool = True) -> View:
-        """Begin a view, titled with its parts' numbers and thicknesses.
-
-        Its fits are those of the process, for the thickness of the first part.
-        """
+        """Begin a view, titled with its parts' numbers and thicknesses."""
         own = {i: row for i, row in enumerate(rows, 1) if row["name"] in names}
         titles = [
             f"{i} {row['name']}" + f", t = {length(row['thickness_mm'])}" * thick
@@ -145,10 +156,7 @@ def _views(rows: list[dict[str, Any]], parts: FlatParts, scale: float) -> Iterat
 
 
 def cut_faces(members: Iterable[Member], scale: float) -> list[Face]:
-    """Return the faces that the plane y = 0 cuts, by chords of 1.5 mm at a scale.
-
-    They lie inside of an outline and outside of its holes.
-    """
+    """Return the faces that the plane y = 0 cuts, by chords of 1.5 mm at a scale."""
     faces = []
     for own, plate in in_place(members):
         crossings: list[float] = []
@@ -167,16 +175,14 @@ def cut_faces(members: Iterable[Member], scale: float) -> list[Face]:
 
 def _draw_section(view: View, cut: list[Face], axes: Iterable[float]) -> None:
     """Draw cut faces and the height; all but rods are hatched (ISO 128-3)."""
-    numbers: Mapping[Plate, int] = {
-        plate: k for k, plate in enumerate(dict.fromkeys(face.plate for face in cut))
-    }
+    numbers = [*dict.fromkeys(face.plate for face in cut)]
     low, high = min(f.plate.low for f in cut), max(f.plate.high for f in cut)
     for face in cut:
         plate = face.plate
         corners = face.left, plate.low, face.right, plate.high
         view.draw(rectangle("", *corners), OUTLINE)
         if plate.layer not in ("SHAFT", "ROLLER"):
-            _hatch(view, face, numbers[plate])
+            _hatch(view, face, numbers.index(plate))
     for x in axes:
         view.centre_line((x, low), (x, high))
     left = min(face.left for face in cut)

@@ -65,10 +65,7 @@ def is_overfull(blocks: Sequence[Block], area: Box) -> bool:
 
 
 def packed(blocks: Sequence[Block], taken: Sequence[Block], area: Box) -> list[Block] | None:
-    """Return the blocks at free positions in an area, clear of the ``taken`` ones.
-
-    None where they do not fit.
-    """
+    """Return the blocks at free positions in an area, clear of the ``taken`` ones."""
     orders: tuple[Callable[[Block], float], ...] = (
         lambda block: -block.width * block.height,
         lambda block: -block.height,

@@ -10,7 +10,6 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from geneva_cli.drawings.sheet.packing import Block, is_overfull, packed
-from geneva_cli.drawings.sheet.sized import edge_note
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.shapes import Point, Shape
 from geneva_cli.geometry.sheet import (
@@ -127,10 +126,7 @@ def _frame(paper: PaperSize) -> list[Shape]:
 
 
 def _title_block(spec: Spec, rows: list[dict[str, Any]], scale: float, paper: PaperSize) -> Block:
-    """Return the title block; its lower left corner is the origin.
-
-    Fields without a value are empty, for a pen.
-    """
+    """Return the title block; its lower left corner is the origin."""
     own, shop, materials = spec.drawing, WORKSHOPS[spec.size.process], material_names(spec)
     mass = sum(row["mass_kg"] * row["count"] for row in rows)
     # mg where kg would have too many zeros for the field
@@ -148,9 +144,14 @@ def _title_block(spec: Spec, rows: list[dict[str, Any]], scale: float, paper: Pa
         f"Ra {um:g}" if um else "" for um in (own.roughness_um, own.flank_roughness_um)
     )
     hard = f"{own.flank_hardness_HRC:g} HRC" if own.flank_hardness_HRC else ""
+    chamfer, fillet, edges = spec.size.edge_chamfer_mm, spec.size.edge_fillet_mm, "free of burrs"
+    if chamfer is not None:
+        edges = f"chamfered {length(chamfer)} × 45°"
+    elif fillet is not None:
+        edges = f"rounded R {length(fillet)}"
     surfaces = {
         "roughness": rough or shop.roughness,
-        "edges": edge_note(spec.size) or "free of burrs",
+        "edges": edges,
         "faces that roll, slide, lock": ", ".join(filter(None, (flanks, hard))),
     }
     names = {
@@ -206,10 +207,7 @@ def cut_to(text: str, height: float, limit: float) -> str:
 
 
 def table(heading: Sequence[str], rows: Sequence[Sequence[str]], columns: Sequence[float]) -> Block:
-    """Return a table, with lines of text above it.
-
-    The first row has the names of its columns. ``columns`` are widths in mm.
-    """
+    """Return a table, with lines of text above it."""
     row_height = 5.0  # mm
     wide, high = sum(columns), row_height * len(rows)
     shapes: list[Shape] = [rectangle(OUTLINE, 0.0, 0.0, wide, high)]

@@ -7,7 +7,6 @@ from typing import NamedTuple
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.shafts.bores import SCREWS, screw_through
-from geneva_cli.spec.tables import Size
 from geneva_cli.spec.workshops import WORKSHOPS, fit_limits
 from geneva_cli.spec.written import length, signed
 
@@ -121,15 +120,3 @@ def screw_hole(radius: float, tapped: bool = False) -> str:
 def shaft(fits: Fits, radius: float) -> str:
     """Return the diameter of a shaft that fits into a bore, or of a pin in its hole and roller."""
     return fitted(fits.turned, 2.0 * radius, "Ø ", "h6")
-
-
-def edge_note(size: Size) -> str:
-    """Return the note on edges; "" where the spec has none.
-
-    >>> edge_note(Size(edge_chamfer_mm=0.5)), edge_note(Size(edge_fillet_mm=1.0))
-    ('chamfered 0.5 × 45°', 'rounded R 1')
-    """
-    if size.edge_chamfer_mm is not None:
-        return f"chamfered {length(size.edge_chamfer_mm)} × 45°"
-    rounded = size.edge_fillet_mm
-    return "" if rounded is None else f"rounded {plain(rounded, 'R ')}"

@@ -78,10 +78,7 @@ class View:
     def linear(
         self, p: Point, q: Point, turn: float, text: str, where: str = "", near: bool = False
     ) -> None:
-        """Draw a distance in a direction; ``near`` allows a line inside the part's outline.
-
-        ``where`` is added if the distance stands as a note.
-        """
+        """Draw a distance in a direction; ``near`` allows a line inside the part's outline."""
         ends = self._at(p), self._at(q)
         if turn < SAME_ON_SHEET - math.pi:  # rounding does not choose between -180 and 180 degrees
             turn += math.tau
@@ -96,10 +93,7 @@ class View:
     def places(
         self, centres: Iterable[Point], base: Point, notes: tuple[str, str] = ("", "")
     ) -> None:
-        """Draw the distances of points from a base across and up, each once; nearest ones first.
-
-        So their lines do not cross. ``notes`` are added to distances that stand as notes.
-        """
+        """Draw the distances of points from a base across and up, each once; nearest ones first."""
         points = list(centres)
         for k, turn in ((0, 0.0), (1, 0.5 * math.pi)):
             texts = {length(0.0)}
@@ -161,10 +155,7 @@ class View:
         self._put(_short_first(candidates), f"{text} {where}".rstrip())
 
     def radii(self, pieces: Iterable[Segment], besides: float = -1.0) -> None:
-        """Draw each radius of the arcs among some pieces, but one, once.
-
-        Rounding does not write one radius as two.
-        """
+        """Draw each radius of the arcs among some pieces, but one, once."""
         groups: dict[float, list[Arc]] = {}
         near = 5e-4  # mm: half of the last decimal that a sheet shows
         for arc in pieces:

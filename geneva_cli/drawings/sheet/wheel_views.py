@@ -172,10 +172,7 @@ def _steps(view: View, parts: Outlines, reach: float) -> None:
 def draw_frame(
     view: View, plate: Plate, screws: Mapping[Circle, str], axis_name: str = "the wheel's axis"
 ) -> View:
-    """Draw the frame: its size, and diameter and position of each hole from the axis.
-
-    ``screws`` has the texts of holes for screws, without those for mounting.
-    """
+    """Draw the frame: its size, and diameter and position of each hole from the axis."""
     view.draw_all((plate.outline, *plate.holes))
     holes = [hole for hole in plate.holes if isinstance(hole, Circle)]
     # the axis may have no hole

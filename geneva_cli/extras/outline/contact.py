@@ -44,10 +44,7 @@ class Contact(NamedTuple):
     point: Array  # where they touch, in the wheel's own frame: (n, 2)
 
     def motion(self, crank_angle: Array) -> tuple[Array, ...]:
-        """The wheel's angle, velocity, acceleration and jerk, by the crank's angle.
-
-        Positions without a contact have a velocity of 0.
-        """
+        """The wheel's angle, velocity, acceleration and jerk, by the crank's angle."""
         crank, L, w = self.crank, self.L, np.maximum(self.wheel.far, 1e-300)
         theta = Jet.variable(crank_angle, ORDER)
         turned = (theta - theta.c[0]) * -self.sense

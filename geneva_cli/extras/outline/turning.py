@@ -119,10 +119,7 @@ def _one_sense(
 
 
 def turning(result: Turned) -> tuple[float, float] | None:
-    """The places of rest around the middle from which the wheel turns; None without any.
-
-    It may stand in a range of places.
-    """
+    """The places of rest around the middle from which the wheel turns; None without any."""
     machine, turner = result.machine, result.turner
     _, low, high = result.rest
 

@@ -8,7 +8,6 @@ centres of arcs with the material outside, are compared with pieces.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
 
@@ -24,19 +23,10 @@ LEAST_MM = 4.0 * JOINED_MM  # a thinner wall comes from rounded joints
 BLOCK = 1 << 18  # pairs of points and pieces that are compared together
 
 
-class Wall(NamedTuple):
-    """A wall: its thickness, mm, and both of its ends as complex numbers."""
-
-    thickness: float
-    start: complex
-    end: complex
-
-
-def smallest_wall(contours: Sequence[Contour], some: Whole | None = None) -> Wall | None:
-    """The smallest wall of a part with the material on the left, or None if it has none.
-
-    Only walls that begin at the pieces ``some`` are looked at: one sector of a wheel is enough.
-    """
+def smallest_wall(
+    contours: Sequence[Contour], some: Whole | None = None
+) -> tuple[float, complex, complex] | None:
+    """The smallest wall of a part with the material on the left: mm, and its ends; None without."""
     outline = Polyarc(contours)
     some = np.arange(len(outline)) if some is None else some
     lengths = [len(contour.segments) for contour in contours]
@@ -108,5 +98,5 @@ def smallest_wall(contours: Sequence[Contour], some: Whole | None = None) -> Wal
     for i in np.argsort(thickness, kind="stable"):  # the shortest that lies in the material
         places = [start[i] + share * (end[i] - start[i]) for share in SHARES]
         if outline.signed(np.array([(z.real, z.imag) for z in places])).max() < 0.0:
-            return Wall(float(thickness[i]), complex(start[i]), complex(end[i]))
+            return float(thickness[i]), complex(start[i]), complex(end[i])
     return None

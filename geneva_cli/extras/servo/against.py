@@ -54,11 +54,7 @@ NAMES = tuple(LAWS)
 
 
 def against(path: str, settings: Sequence[str], names: Sequence[str]) -> Table:
-    """A column for the design and each alternative, a row for each quantity.
-
-    ``names`` are among NAMES. Values that need a load, a motor's inertia or a shaft's stiffness are
-    None without it. Raises GenevaError for another name, and for unequal steps or motions.
-    """
+    """A column for the design and each alternative, a row for each quantity."""
     for name in names:
         if name not in NAMES:
             raise GenevaError(f"--against {cut(name)}: it must be one of {', '.join(NAMES)}")

@@ -51,7 +51,7 @@ def standing(names: Collection[str], parts: RackParts) -> Iterator[Check]:
         value = strength(mechanism)["guide.locks_at_friction"]  # the friction from which it locks
         if value:
             yield compared("guide_locks", value, "at least", friction)
-    if mechanism.spec.has_parts and "beside_shafts_mm" in names:  # there is a frame with shafts
+    if not mechanism.spec.no_parts and "beside_shafts_mm" in names:  # there is a frame with shafts
         yield from least_gap("beside_shafts_mm", _shaft_gaps(parts), L)
     if "gear_gap_mm" in names:
         yield from least_gap("gear_gap_mm", _gear_gaps(parts), L)

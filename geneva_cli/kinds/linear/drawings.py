@@ -43,10 +43,10 @@ def guide(parts: RackParts) -> Drawing:
 
 def assembly(parts: RackParts) -> Drawing:
     """Return the machine at input angle 0: the roller is at the origin, the axis at (R, 0)."""
-    gears = parts.gear_pair if parts.mechanism.spec.has_parts else ()
+    gears = () if parts.mechanism.spec.no_parts else parts.gear_pair
     moving = parts.wheel, parts.crank, parts.bar, *gears
     title, drawn = projection.titled(parts.mechanism), projection.with_frame(moving, parts.standing)
-    look = Annotations((LevelDistance((0.0, 0.0), parts.axis, "R"),))
+    look = Annotations((LevelDistance((0.0, 0.0), (parts.sizes.arm, 0.0), "R"),))
     return Drawing(title, drawn, look, Group(title, parts.members))
 
 

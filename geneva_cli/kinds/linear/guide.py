@@ -58,9 +58,8 @@ def guide_place(mechanism: Mechanism) -> GuidePlace:
     if size.pin_mm is not None:
         eye = choose(size.pin_mm > 0.0, eye, 0.0 * eye)
     rail = larger(bottom + half_slot, eye + 0.25 * bar)
-    return GuidePlace(
-        half_slot, bottom, bar, slide, R - half_slot, 0.0 - (rail + 2.0 * bar + slide)
-    )
+    back = 0.0 - (rail + 2.0 * bar + slide)
+    return GuidePlace(half_slot, bottom, bar, slide, R - half_slot, back)
 
 
 class RackGuide(NamedTuple):

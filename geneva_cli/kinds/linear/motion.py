@@ -150,10 +150,8 @@ def no_parts(spec: Spec) -> str:
     """The reason why frame and guide are not built; empty if they are."""
     if guided(spec):
         return ""
-    return (
-        f"frame and guide of a rack behind {spec.drive.WORDS} are not built: the crank's shaft has "
-        "no bearing between the rack above it and the input crank below it"
-    )
+    text = f"frame and guide of a rack behind {spec.drive.WORDS} are not built: the crank's shaft "
+    return text + "has no bearing between the rack above it and the input crank below it"
 
 
 class Sliding(PlaneMotion):

@@ -13,7 +13,7 @@ from typing import NamedTuple, Self
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Group, Member, Plate, least_wall
-from geneva_cli.geometry.shapes import Circle, Point
+from geneva_cli.geometry.shapes import Circle
 from geneva_cli.geometry.sheet import rectangle
 from geneva_cli.kept import cached_property
 from geneva_cli.kinds.linear import rack
@@ -26,7 +26,7 @@ from geneva_cli.parts.frame import hole_without_shaft, mounted_plate, shaft_hole
 from geneva_cli.parts.gears.gear_pair import gear_pair, gear_shafts, gear_span
 from geneva_cli.parts.parts import EdgedParts, FrameAndShafts, NamedBuilds
 from geneva_cli.parts.projection import NamedParts
-from geneva_cli.parts.shafts.arm_and_shafts import Shaft, roller_plates, shaft_ends
+from geneva_cli.parts.shafts.arm_and_shafts import Shaft, rollers_about, shaft_ends
 from geneva_cli.parts.shafts.bores import Screws, bolt_radius, bore_of, reach_or_bore, tapped
 from geneva_cli.parts.sized_by_load import ShaftSize, Stressed, key_of, shaft_of
 from geneva_cli.parts.turn.turn_certificate import FlatPairs
@@ -62,7 +62,7 @@ class RackParts(EdgedParts):
     @property
     def all_built(self) -> NamedBuilds:
         """Names and functions of all parts; its frame holds its gears, but not links."""
-        framed = self.mechanism.spec.has_parts
+        framed = not self.mechanism.spec.no_parts
         return [("all parts", lambda: self)] if framed else super().all_built
 
     def past_mouth(self, motion: int, at: Array) -> Array:
@@ -72,11 +72,6 @@ class RackParts(EdgedParts):
     def pairs(self, target: float) -> FlatPairs:
         """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""
         return FlatPairs(self._shape.gaps, self._shape.crank, target, self.sizes.rim)
-
-    @property
-    def axis(self) -> Point:
-        """The crank's axis."""
-        return self.sizes.arm, 0.0
 
     @cached_property
     def _bar_bolts(self) -> tuple[Circle, ...]:
@@ -88,11 +83,8 @@ class RackParts(EdgedParts):
     @cached_property
     def wheel(self) -> Member:
         """The rack, with holes for the bolts of its guide bar."""
-        outline, high = (
-            rack.rack_contour(self.sizes, self.mechanism.spec.wheel.z),
-            self.sizes.thick.wheel,
-        )
-        return Member(Plate("rack", "WHEEL", outline, self._bar_bolts, 0.0, high))
+        outline = rack.rack_contour(self.sizes, self.mechanism.spec.wheel.z)
+        return Member(Plate("rack", "WHEEL", outline, self._bar_bolts, 0.0, self.sizes.thick.wheel))
 
     @cached_property
     def bar(self) -> Member:
@@ -134,15 +126,15 @@ class RackParts(EdgedParts):
         """The crank's parts in the arm's frame; the locking sector stands on the arm."""
         size, sizes, thick = self.mechanism.spec.size, self.sizes, self.sizes.thick
         stands, fit = -size.allowances.pin_gap_mm, size.allowances.shaft_fit_mm
-        turned = roller_plates(sizes.roller, sizes.pin, stands - thick.arm, thick.wheel, fit)
+        ends, centres = (stands - thick.arm, thick.wheel), [(sizes.arm, 0.0)]
         members = [Member(arm)] if arm else []
-        members += [Member(one, (sizes.arm, 0.0)) for one in turned]
+        members += rollers_about(centres, sizes.roller, sizes.pin, *ends, fit)
         sector = rack.locking_sector(sizes)
         if sector is not None:
             holes, high = tuple(rack.lock_bolts(size, sizes)), stands + thick.lock
             members.append(Member(Plate("locking sector", "CRANK", sector, holes, stands, high)))
         # the roller is on the rack's side
-        return Member(Group("crank", tuple(members)), self.axis, math.pi)
+        return Member(Group("crank", tuple(members)), (sizes.arm, 0.0), math.pi)
 
     @cached_property
     def gear_pair(self) -> tuple[Member, ...]:
@@ -177,7 +169,8 @@ class RackParts(EdgedParts):
         self._require_built()
         mechanism, size, sizes = self.mechanism, self.mechanism.spec.size, self.sizes
         plain, top, _, stands = heights(mechanism, sizes)
-        axis, L, own = self.axis, 2.0 * sizes.arm, list[Shaft]()  # as a wheel of 6 slots has it
+        own, axis = list[Shaft](), (sizes.arm, 0.0)
+        L = 2.0 * sizes.arm  # as a wheel of 6 slots has it
         if sizes.bore:  # the crank's shaft, up to the arm's upper face
             ends = shaft_ends(size, "crank", plain, stands)
             # the keyway is on the side of the locking sector, as in the arm
@@ -215,7 +208,7 @@ class RackParts(EdgedParts):
         if bolted := self._bar_bolts:
             nuts = "nuts under the guide bar"
             own.append(Screws("rack", len(bolted), 2.0 * bolted[0].radius, nuts))
-        return (*own, *(self.framed.screws if spec.has_parts else ()))
+        return (*own, *(() if spec.no_parts else self.framed.screws))
 
     @property
     def standing(self) -> tuple[Member, ...]:
@@ -226,7 +219,7 @@ class RackParts(EdgedParts):
     def members(self) -> tuple[Member, ...]:
         """All parts; behind links those that move."""
         moving = self.wheel, self.bar, self.crank
-        framed = self.mechanism.spec.has_parts
+        framed = not self.mechanism.spec.no_parts
         return (*moving, *self.gear_pair, *self.shafts, *self.standing) if framed else moving
 
     def by_name(self) -> Iterator[NamedParts]:
@@ -234,7 +227,10 @@ class RackParts(EdgedParts):
         yield "rack", lambda: [self.wheel.part]
         yield "guide bar", lambda: [self.bar.part]
         yield "crank", lambda: [self.crank.part]
-        yield "gears", lambda: [one.part for one in self.gear_pair if self.mechanism.spec.has_parts]
+        yield (
+            "gears",
+            lambda: [one.part for one in self.gear_pair if not self.mechanism.spec.no_parts],
+        )
         yield "shafts", lambda: [one.part for one in self.shafts]
         yield "guide", lambda: [one.part for one in self.guide]
         yield "frame", lambda: [self.frame.part]

@@ -15,16 +15,8 @@ from typing import Any
 import numpy as np
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.kinds.linkages import four_bar_search as search
 from geneva_cli.kinds.linkages.four_bar import FourBar
-from geneva_cli.kinds.linkages.four_bar_search import (
-    OTHERS,
-    Costs,
-    Goal,
-    WheelGoal,
-    four_bars_at,
-    is_known,
-    search_four_bars,
-)
 from geneva_cli.kinds.linkages.path_wheels import driven
 from geneva_cli.kinds.linkages.tangent_pairs import Pairs, sampled
 from geneva_cli.motion.machine_spec import Spec
@@ -43,13 +35,13 @@ def four_bars(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
         return
     tasks = [task for wheel in wheels if (task := _task(target, wheel))]
     names = [target.sort.name if target.sort else target.peak, *(b.name for b in target.bounds)]
-    count = 1 if all(map(is_known, names)) else 1 + OTHERS
+    count = 1 if all(map(search.is_known, names)) else 1 + search.OTHERS
     for goal, places in _searched(target, tasks):
         made = (_spec(target, goal, places, i) for i in range(len(places.of)))
         yield from (Family(spec) for spec in islice(filter(None, made), count))
 
 
-def _task(target: Target, wheel: Gearing) -> WheelGoal | None:
+def _task(target: Target, wheel: Gearing) -> search.WheelGoal | None:
     """The goal of the search for a wheel; None for a wheel that no four-bar drives."""
     free = target.free_motions(1, natural_deg(wheel))
     if free is None:
@@ -60,16 +52,16 @@ def _task(target: Target, wheel: Gearing) -> WheelGoal | None:
     radius_mm = frame.size.roller_radius_mm
     # half the usual roller, and at most a third of sin b, which is the crank of a plain wheel
     roller = min(0.025, (1.0 / 3.0) * math.sin(wheel.step.b))
-    return WheelGoal(
+    return search.WheelGoal(
         wheel, free, roller if radius_mm is None else radius_mm / frame.given_distance_mm
     )
 
 
-def _searched(target: Target, tasks: Sequence[WheelGoal]) -> list[tuple[Goal, Places]]:
+def _searched(target: Target, tasks: list[search.WheelGoal]) -> list[tuple[search.Goal, Places]]:
     """The search of each wheel that found four-bars, and its places, in the order of the wheels."""
-    bounds = tuple(b for b in target.bounds if is_known(b.name))
-    goal = Goal(target, (), bounds, target.peak)
-    if target.sort and is_known(target.sort.name):
+    bounds = tuple(b for b in target.bounds if search.is_known(b.name))
+    goal = search.Goal(target, (), bounds, target.peak)
+    if target.sort and search.is_known(target.sort.name):
         goal = goal._replace(least=target.sort.name, sign=target.sort.sign)
     rounds = [dict(enumerate(tasks))]
     if target.any_motion and not target.sort:
@@ -78,24 +70,24 @@ def _searched(target: Target, tasks: Sequence[WheelGoal]) -> list[tuple[Goal, Pl
         for i, task in enumerate(tasks):
             natural = natural_deg(task.wheel)
             step, motion = np.array([360.0 / task.wheel.z]), np.array([natural])
-            if not Costs(target, step, [], motion).broken(of_time).any():
+            if not search.Costs(target, step, [], motion).broken(of_time).any():
                 same[i] = task._replace(motion=AllowedSpan(natural, natural))
         rounds.insert(0, same)
-    by_wheel: dict[int, tuple[Goal, Places]] = {}
+    by_wheel: dict[int, tuple[search.Goal, Places]] = {}
     for tried in rounds:
         left = {i: task for i, task in tried.items() if i not in by_wheel}
         own = goal._replace(wheels=tuple(left.values()))
-        for i, found in zip(left, search_four_bars(own) if left else [], strict=True):
+        for i, found in zip(left, search.search_four_bars(own) if left else [], strict=True):
             if len(found.of):
                 by_wheel[i] = own, found
     return [by_wheel[i] for i in sorted(by_wheel)]
 
 
-def _spec(target: Target, goal: Goal, places: Places, number: int) -> Spec | None:
+def _spec(target: Target, goal: search.Goal, places: Places, number: int) -> Spec | None:
     """The machine of a number in a search, scaled to the frame's size."""
     one = places.take(slice(number, number + 1))
     with np.errstate(all="ignore"):
-        machine = four_bars_at(goal, one.of, one.at)
+        machine = search.four_bars_at(goal, one.of, one.at)
     links, (entry, motion, sense, w) = machine.links, machine.drive
     wheel = goal.wheels[one.of[0]].wheel
     own = _machine(target, wheel, FourBar(**_EXAMPLE), math.degrees(float(motion[0, 0])))

@@ -69,9 +69,8 @@ class Linkage(PinPath, kw_only=True):
         """The drive on the same path, which it enters where it left it; a kind adds its mirror."""
         at = cast(LinkReactions, plan.engagements[0].reactions)
         entry_deg = 0.0 - (at.middle / DEGREE + plan.engagements[0].exit_deg)
-        return self.replace(
-            entry_deg=entry_deg - 360.0 * library(entry_deg).floor(entry_deg / 360.0)
-        )
+        entry_deg = entry_deg - 360.0 * library(entry_deg).floor(entry_deg / 360.0)
+        return self.replace(entry_deg=entry_deg)
 
     def linked(self, plan: Plan, **fixed: tuple[float, float]) -> Layout:
         """Fixed points of the linkage's own frame, crank pin and roller at input 0, and lengths."""

@@ -105,10 +105,8 @@ class Cone(NamedTuple):
         y = beyond * s + wide * azimuth * np.sinc(turn / math.pi)
         along, across = self.radius_mm / np.cos(off) ** 2 * d_polar, wide + ratio * beyond
         across = across * d_azimuth
-        return (
-            np.column_stack((x, y)),
-            np.column_stack((along * c - across * s, along * s + across * c)),
-        )
+        rates = along * c - across * s, along * s + across * c
+        return np.column_stack((x, y)), np.column_stack(rates)
 
 
 def wheel_cone(parts: SphereParts) -> Cone:
@@ -186,10 +184,8 @@ def wheel_flat(parts: SphereParts) -> list[shapes.Shape]:
     inner = [cone.point(ball.inner, (2 * k - 1) * b) for k in range(ball.z + 1)][::-1]
     back = [cone.level(p, q, -2.0 * b) for p, q in zip(inner, inner[1:], strict=False)]
     first, last = outer[0].start, outer[-1].end
-    rim = shapes.closed(
-        "WHEEL", [*outer, shapes.Line(last, inner[0]), *back, shapes.Line(inner[-1], first)]
-    )
-    return [rim, *pitch]
+    outer += [shapes.Line(last, inner[0]), *back, shapes.Line(inner[-1], first)]
+    return [shapes.closed("WHEEL", outer), *pitch]
 
 
 def crank_flat(parts: SphereParts) -> list[shapes.Shape]:

@@ -42,12 +42,10 @@ class BallGaps:
         self.stops = SphereStops(self.around, self.sectors, self._out_each, ball)
         self.crank_frame = np.array(at_mid_motion(ball))  # rows: the crank's axes, in the wheel's
         self._rollers = np.array([place(ball.arm, azimuth) for azimuth in ball.rollers])
-        corners = [
-            one.at(np.arange(len(one)), fraction * one.sweep)
-            for one in self.sectors
-            for fraction in ARC_SAMPLES
-        ]
-        self._corners = np.concatenate(corners) if corners else np.zeros((0, 3))
+        corners = [np.zeros((0, 3))]
+        for one in self.sectors:
+            corners += [one.at(np.arange(len(one)), share * one.sweep) for share in ARC_SAMPLES]
+        self._corners = np.concatenate(corners)
         # The axes of the sectors' edges, opposite ones counted once: the crank's axis, and the
         # poles of their sides.
         axes = {max(a.axis, opposite(a.axis)) for region in sectors for a in region.boundary}

@@ -18,18 +18,17 @@ from geneva_cli.geometry.plates import (
     MassProperties,
     Member,
     Plate,
+    Shell,
     added,
     mass_properties,
 )
 from geneva_cli.geometry.shapes import ORIGIN, Circle
 from geneva_cli.geometry.sphere import POLE, Cap, Region, axis_frame, place
 from geneva_cli.geometry.sphere_arcs import RoundHole
-from geneva_cli.geometry.sphere_shell import Shell
 from geneva_cli.kept import cached_property
-from geneva_cli.kinds.spherical.arm import CapArm, crank_arm
+from geneva_cli.kinds.spherical import regions
 from geneva_cli.kinds.spherical.ball import Ball, refuse_wide
 from geneva_cli.kinds.spherical.gaps import BallGaps, SpherePairs
-from geneva_cli.kinds.spherical.regions import at_mid_motion, sectors, wheel_regions
 from geneva_cli.kinds.spherical.sizes import ball
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
@@ -71,7 +70,7 @@ class SphereParts(Parts):
     @cached_property
     def _shape(self) -> Shells:
         own, where = ball(self.mechanism), assembly(self.mechanism, flat=False)
-        L, locks = own.radius_mm, sectors(own)
+        L, locks = own.radius_mm, regions.sectors(own)
         rim, arm = L * math.sin(own.rim), L * math.sin(own.arm)
         lengths = BallLengths(L * own.roller, L * own.half_width, rim, arm, L * own.horn)
         return Shells(where, own, lengths, locks, BallGaps(where, own, locks))
@@ -114,11 +113,11 @@ class SphereParts(Parts):
         return Member(Group("wheel", (Member(shell), *([Member(hub)] if hub else []))))
 
     @cached_property
-    def arm(self) -> CapArm | None:
+    def arm(self) -> regions.CapArm | None:
         """The crank arm; None without pins for the rollers."""
         if not self.ball.arm_bore_mm:
             return None
-        return crank_arm(self.ball, self.shells.crank, self.mechanism.spec.size)
+        return regions.crank_arm(self.ball, self.shells.crank, self.mechanism.spec.size)
 
     @cached_property
     def crank(self) -> Member:
@@ -143,7 +142,7 @@ class SphereParts(Parts):
         for azimuth in ball.rollers:
             frame = axis_frame(place(ball.arm, azimuth))
             members += [Member(one, frame=frame) for one in ((roller, pin) if arm else (roller,))]
-        return Member(Group("crank", tuple(members)), frame=at_mid_motion(ball))
+        return Member(Group("crank", tuple(members)), frame=regions.at_mid_motion(ball))
 
     @cached_property
     def shafts(self) -> tuple[Member, ...]:
@@ -156,7 +155,7 @@ class SphereParts(Parts):
         def add(part: str, bore: Bore, ends: tuple[float, float], keyway: float) -> None:
             own = Shaft(f"{part}'s shaft", part, bore, *ends, ORIGIN, keyway).member.part
             assert isinstance(own, Plate)
-            frame = None if part == "wheel" else at_mid_motion(ball)
+            frame = None if part == "wheel" else regions.at_mid_motion(ball)
             # heights become distances inwards
             inwards = own._replace(low=outside - own.high, high=outside - own.low)
             members.append(Member(inwards, frame=frame))
@@ -184,7 +183,7 @@ class SphereParts(Parts):
 def wheel_shell(ball: Ball) -> Shell:
     """Return the wheel's shell, down to the round hole about its axis, if there is one."""
     holes = (RoundHole(POLE, ball.opening_mm),) if ball.opening_mm else ()
-    return Shell("wheel", "WHEEL", tuple(wheel_regions(ball)), *ball.span_mm, holes)
+    return Shell("wheel", "WHEEL", tuple(regions.wheel_regions(ball)), *ball.span_mm, holes)
 
 
 def wheel_hub(size: Size, ball: Ball) -> Plate | None:

@@ -46,7 +46,7 @@ from geneva_cli.study.synth.suiting import LOCK, SIZES, USUAL, with_roller
 def sized_ball(mechanism: Mechanism) -> Ball | None:
     """Return the cached sizes of a spherical machine; None where it has no parts."""
     try:
-        return ball(mechanism) if mechanism.spec.has_parts else None
+        return None if mechanism.spec.no_parts else ball(mechanism)
     except GenevaError:
         return None  # the check of the parts reports the error
 

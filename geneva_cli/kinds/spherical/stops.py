@@ -100,12 +100,8 @@ def _extremes(far: Array, size: Array) -> Array:
     """Return level and angle from the axis' azimuth of the nearest and farthest points of rims."""
     least, most, zero = far - size, far + size, 0.0 * far
     over = most > np.pi
-    return np.array(
-        (
-            (np.abs(least), np.where(least < 0.0, np.pi, zero)),
-            (np.where(over, 2.0 * np.pi - most, most), np.where(over, np.pi, zero)),
-        )
-    )
+    nearest = np.abs(least), np.where(least < 0.0, np.pi, zero)
+    return np.array((nearest, (np.where(over, 2.0 * np.pi - most, most), np.pi * over)))
 
 
 def _point(axis: Array, x: Array, y: Array, size: Array, turn: Array) -> Array:

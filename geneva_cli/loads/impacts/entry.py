@@ -188,22 +188,18 @@ class _Corner(NamedTuple):
 
 
 def mouth_contacts(
-    axis: RestingAxis,
-    crank: Number,
-    center: Number,
-    roller: Number,
-    clearance: Number,
-    rounding: Number = 0.0,
+    axis: RestingAxis, crank: Number, center: Number, sizes: tuple[Number, Number, Number]
 ) -> FirstContacts:
     """First contacts with the mouth's corners; NaN if the roller touches none.
 
-    ``crank`` and ``center`` are relative errors, ``roller`` is the roller's radius, ``clearance``
-    that of the slot per side, ``rounding`` the radius of the corners, all over L. The mouth lies
-    across the slot where the roller should enter. An arm that is too short strikes the corner
-    beside the crank's axis, forwards; one that is too long the other, backwards. On a sharp corner
-    the jump is about tan b sqrt(2 eps) sqrt((R -+ r)/r), eps beyond the clearance. A corner rounded
-    by c acts like a sharp one on a roller of r + c. On a sphere centre and corner are directions.
+    ``crank`` and ``center`` are relative errors. ``sizes`` are the roller's radius, the slot's
+    clearance per side, and the radius of the corners, all over L. The mouth lies across the slot
+    where the roller should enter. An arm that is too short strikes the corner beside the crank's
+    axis, forwards; one that is too long the other, backwards. On a sharp corner the jump is about
+    tan b sqrt(2 eps) sqrt((R -+ r)/r), eps beyond the clearance. A corner rounded by c acts like a
+    sharp one on a roller of r + c. On a sphere centre and corner are directions.
     """
+    roller, clearance, rounding = sizes
     slot, along, wide = axis.through.slot, axis.anchor.along, roller + clearance
     if np.any(rounding):  # its circle touches wall and rim
         x, y = slot(0.0, 0)
@@ -276,12 +272,4 @@ def _on_mouth(mechanism: Mechanism, axis: RestingAxis, fraction: float) -> list[
     lost = 0.5 * fraction * (tolerance.roller_diameter_mm + tolerance.slot_width_mm)
     spare = parameter(np.maximum(size.allowances.slot_clearance_mm - lost, 0.0)) / L
     sizes = mechanism.roller_radius_mm / L, spare, size.mouth_radius_mm / L
-    return [mouth_contacts(axis, *error, *sizes) for error in _errors(mechanism, axis, fraction)]
-
-
-def mouth_jumps_worst(mechanism: Mechanism) -> Array:
-    """Sizes of the worst jumps on a mouth's corner, (m,); 0 if no roller touches a corner."""
-    every = [on for axis in RestingAxis.each(mechanism) for on in _on_mouth(mechanism, axis, 1.0)]
-    sizes = [np.nan_to_num(abs(one.jump)) for one in every]
-    worst: Array = np.max(np.broadcast_arrays(np.zeros(1), *sizes), axis=0)
-    return worst
+    return [mouth_contacts(axis, *error, sizes) for error in _errors(mechanism, axis, fraction)]

@@ -224,7 +224,7 @@ def _over_a_half(mechanism: Mechanism, side: Horn, start: float, width: float) -
         x = x[0] if len(x) == 1 else x  # as (k,) in half the time
         at = contact_values(contact(side.at.whole, x, reactions=False))
         with np.errstate(all="ignore"):
-            loads = Instant(case, at, feeds=1.0)
+            loads = Instant(case, at, None, None, 1.0)
             bears = np.asarray(loads.wheel_torque_Nm) * side.at.end < 0.0  # or else the other horn
             force = np.where(bears & (loads.grip > 0.0), np.abs(loads.force_N), 0.0)
         own = np.flatnonzero(bears.any(axis=0) if bears.ndim > 1 else bears)  # elsewhere it is 0

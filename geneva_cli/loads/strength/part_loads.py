@@ -152,7 +152,8 @@ def part_loads(mechanism: Mechanism) -> PartLoads:
     force, wheel = peaks["pin_force_N"].max, peaks["wheel_bearing_N"].max
     jump = np.nan_to_num(reversal_impacts(mechanism).jump) + np.zeros(np.shape(force))
     wheel_Nm, crank_Nm = np.sqrt(peaks["wheel_Nm"].max), np.sqrt(peaks["crank_Nm"].max)
-    wheel_Nm = np.maximum(wheel_Nm, dwell_torque_Nm(mechanism))
+    if mechanism.spec.load.dwell_torque_Nm is not None:
+        wheel_Nm = np.maximum(wheel_Nm, dwell_torque_Nm(mechanism))
     crank, on_shaft = peaks["crank_bearing_N"].max, wheel + np.ravel(wheel_shaft.orbiting_N)
     rows = force, jump, wheel, on_shaft, wheel_Nm, crank, crank_Nm
     out = PartLoads(*map(parameter, rows))

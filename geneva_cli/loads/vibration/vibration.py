@@ -106,7 +106,8 @@ class Oscillators:
 
     def __init__(self, mechanism: Mechanism, swing: Oscillator) -> None:
         self.mechanism, self.swing = mechanism, swing
-        law, m, n = mechanism.input_law, mechanism.designs, len(swing.ratio)
+        m, n = mechanism.designs, len(swing.ratio)
+        law = None if mechanism.spec.drive_before else mechanism.law
         # a law without numbers that vary has one shape in all designs
         alike = law is not None and taken(law, slice(0)) is law
         self.motion = np.arange(n) if m > 1 and not alike else np.zeros(n, dtype=np.intp)

@@ -63,11 +63,6 @@ class Law(SpecTable):
         """Remainder 1 - s on 0 <= w = 1 - u <= 1/2, with its derivatives by w."""
         return self.first(w, order)
 
-    @property
-    def backwards(self) -> Law:
-        """The law run backwards, 1 - s by 1 - u; a symmetric law is its own."""
-        return self if all_true(self.symmetric) else Backwards(self)
-
     @cached_property
     def varies(self) -> bool:
         """True if its numbers are arrays of a batch."""
@@ -89,46 +84,6 @@ class Law(SpecTable):
             (0.5,),
             (lambda x: self.first(x, order), lambda x: remaining(self.second(1.0 - x, order))),
         )
-
-
-class Backwards(Law):
-    """A law run backwards: the halves of ``of`` change places. It is no kind of its own."""
-
-    of: Law
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        # a law's class declares these, and finds in its keys if it varies; this one has none
-        own = {"NAME": f"{self.of.NAME}, backwards", "TURNS_BACK": self.of.TURNS_BACK}
-        vars(self).update(own, ANALYTIC=self.of.ANALYTIC, varies=self.of.varies)
-
-    @property
-    def backwards(self) -> Law:
-        return self.of
-
-    @property
-    def breaks(self) -> tuple[float, ...]:
-        return tuple(1.0 - u for u in reversed(self.of.breaks))
-
-    @property
-    def knots(self) -> tuple[float, ...]:
-        return tuple(1.0 - u for u in reversed(self.of.knots))
-
-    @property
-    def symmetric(self) -> Truth:
-        return self.of.symmetric
-
-    def may_vary(self, table: str, key: str) -> bool:
-        return self.of.may_vary(table, key)
-
-    def doubt(self) -> tuple[int, float] | None:
-        return self.of.doubt()
-
-    def first(self, u: Number, order: int) -> Jet:
-        return self.of.second(u, order)
-
-    def second(self, w: Number, order: int) -> Jet:
-        return self.of.first(w, order)
 
 
 def remaining(rest: Jet, end: float = 1.0) -> Jet:
@@ -194,15 +149,6 @@ class Motion(SpecTable):
     def __post_init__(self) -> None:
         super().__post_init__()
         refuse_kind(self.law, "law", Law, "Cycloidal()")
-
-    @property
-    def backwards(self) -> Self:
-        """The motion that the same law gives a machine that turns the other way.
-
-        >>> Motion(Cycloidal()).backwards  # a symmetric law is its own
-        Motion(law=Cycloidal(), alpha0_deg=0.0, ratio=None)
-        """
-        return self.replace(law=self.law.backwards)
 
     def _own_keys(self) -> dict[str, Field]:
         return self.law._own_keys() | super()._own_keys()

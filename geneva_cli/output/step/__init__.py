@@ -9,10 +9,9 @@ import math
 from collections.abc import Iterator
 
 from geneva_cli.errors import clean
-from geneva_cli.geometry.plates import Group, Part, solids
+from geneva_cli.geometry.plates import Group, Part, Shell, solids
 from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.geometry.sphere import POLE
-from geneva_cli.geometry.sphere_shell import Shell
 from geneva_cli.output.inks import inks
 from geneva_cli.output.solid_part import solid_part
 from geneva_cli.output.step.brep import plate_solid, shell_solid

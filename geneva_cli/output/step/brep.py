@@ -12,10 +12,9 @@ from __future__ import annotations
 import math
 from itertools import pairwise
 
-from geneva_cli.geometry.plates import Plate, with_material_left
+from geneva_cli.geometry.plates import Plate, Shell, with_material_left
 from geneva_cli.geometry.shapes import Arc, Circle, Line, Point
 from geneva_cli.geometry.sphere import POLE, SphereArc, Vector, cross, opposite, square_to, unit
-from geneva_cli.geometry.sphere_shell import Shell
 from geneva_cli.output.solid_part import plate_contours, require_thick
 from geneva_cli.output.splines import Piece, Spline, pieces
 from geneva_cli.output.step.entities import AHEAD, DIRECTION, ORIGIN, Entities, listed, real

@@ -23,7 +23,7 @@ from geneva_cli.geometry.shapes import (
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Link, Teeth
 from geneva_cli.parts.links.links import Gear, LinkSizes
-from geneva_cli.parts.shafts.bores import Bore, bolt_circle
+from geneva_cli.parts.shafts.bores import BoltCircle, Bore, bolt_circle
 
 
 def link_gear(link: Link, at: Point, on: Bore, sizes: LinkSizes, mechanism: Mechanism) -> Gear:
@@ -40,7 +40,7 @@ def link_gear(link: Link, at: Point, on: Bore, sizes: LinkSizes, mechanism: Mech
         outline, holes = Circle("LINK", ORIGIN, outer), [Circle("PITCH", ORIGIN, inner)]
     elif not teeth.all_round and hub < radius:
         outline = _sectors(radius, hub, teeth)
-    screws = None
+    screws = BoltCircle(0.0, 0.0, ())
     if teeth.fixed:
         # the first at 45 degrees, off the line on which the shafts lie
         screws = bolt_circle(mechanism.spec.size, "gear", L, (inner, outer), 0.25 * math.pi)
@@ -50,7 +50,7 @@ def link_gear(link: Link, at: Point, on: Bore, sizes: LinkSizes, mechanism: Mech
     if wall <= 0.0:
         # the key that sets its bore, unless its bolts are in the way
         key = {0.0: "wheel_bore_mm", L: "crank_bore_mm"}.get(math.hypot(*at), "link_bore_mm")
-        key = "gear_bolt_circle_mm" if screws and hub < radius else key
+        key = "gear_bolt_circle_mm" if screws.holes and hub < radius else key
         raise GenevaError(
             f"no blank of the {link.name} is left: its holes reach {-wall:.4g} mm too far; change "
             f"{key}",

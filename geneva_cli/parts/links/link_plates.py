@@ -19,7 +19,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Joint, Link
 from geneva_cli.numerics.tolerances import SAME_LENGTH, bore_radius
 from geneva_cli.parts.assembly import links_at, same, turn_deg
-from geneva_cli.parts.links.link_sizes import joined, link_sizes, places, point_at_zero
+from geneva_cli.parts.links.link_sizes import joined, joints, link_sizes, places, point_at_zero
 from geneva_cli.parts.links.links import LinkAxis, Links, LinkSizes
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.shafts.arm_and_shafts import bore_at
@@ -86,12 +86,7 @@ def drawn_links(mechanism: Mechanism, parts: Outlines | None = None) -> Links:
 
 def _axes(links: Iterable[Link], near: float) -> Iterator[LinkAxis]:
     """Yield each axis once; ``near`` is the distance, mm, below which two axes are one."""
-    left = [
-        (link.name, kind, at)
-        for link in links
-        for at, kind in zip(places(link), link.kinds, strict=True)
-        if kind in (SHAFT, Joint.PIN)
-    ]
+    left = [(link.name, kind, at) for link in links for at, kind in joints(link, SHAFT, Joint.PIN)]
     while left:
         path = left[0][2]
         met = [bool(np.abs(at - path).max() < near) for _, _, at in left]

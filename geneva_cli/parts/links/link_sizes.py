@@ -84,6 +84,12 @@ def places(link: Link) -> list[Array]:
     return [np.asarray(x + still + 1j * (y + still)) for x, y in link.joints]
 
 
+def joints(link: Link, *kinds: Joint) -> list[tuple[Array, Joint]]:
+    """Return path, as ``places``, and kind of the joints of a link that are of some kinds."""
+    both = zip(places(link), link.kinds, strict=True)
+    return [(path, kind) for path, kind in both if kind in kinds]
+
+
 def point_at_zero(path: Array) -> Point:
     """Return the point of a path at input angle 0, in the middle of its angles."""
     z = complex(path[len(path) // 2])
@@ -92,12 +98,7 @@ def point_at_zero(path: Array) -> Point:
 
 def joined(links: Iterable[Link], near: float) -> Iterator[tuple[Array, list[Link]]]:
     """Yield each pin of several links: its path, and the links from the upper plane down."""
-    pins = [
-        (link, at)
-        for link in links
-        for at, kind in zip(places(link), link.kinds, strict=True)
-        if kind in (Joint.PIN, Joint.SLIDE)
-    ]
+    pins = [(link, at) for link in links for at, _ in joints(link, Joint.PIN, Joint.SLIDE)]
     for i, (link, at) in enumerate(pins):
         others = [other for other, there in pins[i + 1 :] if np.abs(at - there).max() < near]
         if others:
@@ -107,20 +108,14 @@ def joined(links: Iterable[Link], near: float) -> Iterator[tuple[Array, list[Lin
 def roller_pins(mechanism: Mechanism) -> Iterator[tuple[Link, Point]]:
     """Yield the links that carry rollers, with the centre of each roller at input angle 0."""
     for link in links_at(mechanism, np.zeros(1)):
-        for joint, kind in zip(places(link), link.kinds, strict=True):
-            if kind in (Joint.ROLLER, Joint.CARRIED):
-                yield link, point_at_zero(joint)
+        for path, _ in joints(link, Joint.ROLLER, Joint.CARRIED):
+            yield link, point_at_zero(path)
 
 
 def _eye_limit(mechanism: Mechanism, links: Iterable[Link]) -> float:
     """Return a link's largest radius about the roller's pin that clears the wheel's hub."""
     size = mechanism.spec.size
-    near = [
-        float(np.abs(at).min())
-        for link in links
-        for at, kind in zip(places(link), link.kinds, strict=True)
-        if kind is Joint.ROLLER
-    ]
+    near = [float(np.abs(at).min()) for link in links for at, _ in joints(link, Joint.ROLLER)]
     if not near:
         return math.inf
     w = mechanism.roller_radius_mm * 1.05 + size.allowances.slot_clearance_mm

@@ -86,7 +86,7 @@ class Gear(NamedTuple):
     bore: Bore
     teeth: Teeth
     plate: Plate
-    screws: BoltCircle | None = None  # between a gear that stands still and the frame
+    screws: BoltCircle  # between a gear that stands still and the frame
 
     @property
     def name(self) -> str:

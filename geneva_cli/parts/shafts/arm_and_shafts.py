@@ -9,7 +9,7 @@ internal wheel's shaft ends in the arm, whose hub carries the locking sectors.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -268,15 +268,14 @@ def walls(arm: CrankArm, parts: Outlines) -> float:
     )
 
 
-def roller_plates(
-    radius: float, pin_radius: float, low: float, high: float, fit: float
-) -> list[Plate]:
-    """Return a roller from 0 up to ``high``, and its pin from ``low``, looser by ``fit``."""
-    outline = Circle("ROLLER", ORIGIN, radius)
-    if not pin_radius:
-        return [Plate("roller", "ROLLER", outline, (), 0.0, high)]
-    bore = Circle("ROLLER", ORIGIN, pin_radius + 0.5 * fit)
-    return [
-        Plate("roller", "ROLLER", outline, (bore,), 0.0, high),
-        Plate("pin", "ROLLER", Circle("ROLLER", ORIGIN, pin_radius), (), low, high),
-    ]
+def rollers_about(
+    centres: Iterable[Point], radius: float, pin: float, low: float, high: float, fit: float
+) -> tuple[Member, ...]:
+    """Return rollers from 0 up to ``high``, and their pins from ``low``, looser by ``fit``."""
+    bored = (Circle("ROLLER", ORIGIN, pin + 0.5 * fit),) if pin else ()
+    roller = Plate("roller", "ROLLER", Circle("ROLLER", ORIGIN, radius), bored, 0.0, high)
+    within, out = Plate("pin", "ROLLER", Circle("ROLLER", ORIGIN, pin), (), low, high), []
+    for centre in centres:
+        out.append(Member(roller, centre))
+        out += [Member(within, centre)] if pin else []
+    return tuple(out)

@@ -121,7 +121,8 @@ def groove_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None)
 def _groove_of(mechanism: Mechanism) -> Groove:
     groove = mechanism.engagements[0].groove
     if groove is None:
-        raise GenevaError(f'kind = "{mechanism.spec.drive.NAME}" has no groove; "cam" has one')
+        kind = mechanism.spec.drive.NAME
+        raise GenevaError(f'--part groove: kind = "{kind}" has no groove; "cam" has one')
     return groove
 
 

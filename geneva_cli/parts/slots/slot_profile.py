@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import NamedTuple
 
 import numpy as np
 
@@ -17,36 +16,21 @@ from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
 from geneva_cli.table import Table, computed_table
 
 
-class SlotProfile(NamedTuple):
-    """The slot at ascending input angles, in millimetres, in the wheel's frame.
+def slot_columns(mechanism: Mechanism, input_deg: Array) -> list[Array]:
+    """Return the columns of the slot's table at ascending input angles, in the wheel's frame, mm.
 
-    ``left`` and ``right`` are the flanks in the pin's direction of travel at entry. ``radius`` is
-    the pitch curve's, above 0 if its centre lies to the left, infinite on a straight line.
+    Left and right are the flanks in the pin's direction of travel at entry. The radius is the pitch
+    curve's, above 0 if its centre lies to the left, infinite on a straight line.
     """
-
-    input_deg: Array
-    output: Array  # the wheel's angle, or a rack's travel, in its unit
-    centre: Array  # (n, 2)
-    left: Array
-    right: Array
-    pressure_deg: Array
-    radius: Array
-
-
-def slot(mechanism: Mechanism, input_deg: Array) -> SlotProfile:
-    """Return the slot of a mechanism at ascending input angles of its first engagement."""
     engagement, L = mechanism.engagements[0].through, mechanism.center_distance_mm
     input_deg, at, side, lines = _lines(mechanism, input_deg)
+    output = array(engagement.motion(input_deg, 0).c[0]) * mechanism.output.per_radian
     with np.errstate(divide="ignore", invalid="ignore"):
         radius = L * side * np.divide(at.speed, at.turning)
     straight = engagement.slot.axis(engagement.entry_deg) is not None
-    return SlotProfile(
-        input_deg,
-        array(engagement.motion(input_deg, 0).c[0]) * mechanism.output.per_radian,
-        *lines,
-        np.degrees(at.pressure),
-        np.where(straight | (at.turning == 0.0), np.inf, radius),
-    )
+    radius = np.where(straight | (at.turning == 0.0), np.inf, radius)
+    points = [axis for line in lines for axis in line.T]
+    return [input_deg, output, *points, np.degrees(at.pressure), radius]
 
 
 def flanks(mechanism: Mechanism, input_deg: Array) -> tuple[Array, Array, Array]:
@@ -137,18 +121,13 @@ def profile_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None
     names = ("input_deg", mechanism.output.column, *WALLED)
     entry, exit_ = engagement.entry_deg, engagement.exit_deg
 
-    def columns(input_deg: Array) -> list[Array]:
-        at = slot(mechanism, input_deg)
-        points = [axis for line in (at.centre, at.left, at.right) for axis in line.T]
-        return [at.input_deg, at.output, *points, at.pressure_deg, at.radius]
-
     if samples is None:
-        return Table(names, columns(nodes(mechanism, tolerance_mm)))
+        return Table(names, slot_columns(mechanism, nodes(mechanism, tolerance_mm)))
 
     def rows(begin: int, end: int) -> list[Array]:
         step = (exit_ - entry) / (samples - 1)
         at: Array = entry + np.arange(begin, end, dtype=np.float64) * step
         at[samples - 1 - begin :] = exit_  # the last of all, without rounding
-        return columns(at)
+        return slot_columns(mechanism, at)
 
     return computed_table(names, samples, rows)

@@ -52,8 +52,7 @@ class FreeRanges:
         which = one_sector(wheel, pitch, slack)
         self.period = math.tau if which is None else pitch
         sector = wheel if which is None else wheel.subset(which)
-        # copies of one sector, so that rounded numbers of a drawing make no difference
-        self.whole = sector.around(round(math.tau / self.period))
+        # one sector stands for all, so that rounded numbers of a drawing make no difference
         self.stops = Stops(sector, self.period, [self.crank], L, 0.0)
         self.own = self.stops.branches(sector, None, 0.0)
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from functools import partial
+from functools import lru_cache, partial
 from typing import NamedTuple
 
 import numpy as np
@@ -120,7 +120,6 @@ class FlatPairs:
     def __init__(self, gaps: Gaps, crank: Sequence[Contour], target: float, rim: float) -> None:
         self.gaps, self.target, self.rim = gaps, target, rim
         self.apart = max(target, 0.0)  # the distance up to which parts matter
-        self._travels: dict[tuple[str, Engagement], Travel] = {}
         # the crank in arcs of a degree and pieces of lines, each of which is tested for being in
         # the wheel, and the greatest distance of the crank from its axis, mm
         pieces: list[Segment] = []
@@ -183,7 +182,8 @@ class FlatPairs:
         assembly, (engagement, mid) = gaps.assembly, gaps.assembly.rollers[number]
         centre, gap = moves.into(pose.pins[:, number], pose.wheel), gaps.rollers(pose)[:, number]
         begin = assembly.from_mid(on.start, mid)
-        most, aside = self._path(number).on(begin, begin + (on.end - on.start))
+        path = path_travel(engagement, assembly.L, assembly.turn_deg)
+        most, aside = path.on(begin, begin + (on.end - on.start))
         travel = most + moves.lever(moves.level(centre)) * on.wheel
         some, least = np.arange(len(gap)), np.full(len(gap), -math.inf)
         if span is None:
@@ -204,7 +204,7 @@ class FlatPairs:
             end = moves.into(on.at_end.pins[some, number], on.at_end.wheel[some])
             if span:  # a curved slot's, as the roller travels in the wheel's frame
                 moving, mid = assembly.motions[number]
-                _, aside = self._slot(moving).on(on.start - mid, on.end - mid)
+                _, aside = slot_travel(moving, assembly.L).on(on.start - mid, on.end - mid)
         # A segment that is shorter than its middle's distance from the outline does not cross it.
         radius, off = gaps.sizes.roller, np.hypot(*(0.5 * (start + end) - centre[some]).T)
         short = 0.5 * np.hypot(*(end - start).T) < radius + gap[some] - off
@@ -213,48 +213,6 @@ class FlatPairs:
             some = some[short]
             least[some] = np.maximum(least[some], free - aside[some] - radius)
         return gap, least
-
-    def _slot(self, moving: Engagement) -> Travel:
-        """Return the travel of a roller in its curved slot, in the wheel's frame."""
-        if ("slot", moving) not in self._travels:
-            from geneva_cli.numerics.intervals import curve_rates
-
-            edges = cells(moving, moving.entry_deg, moving.exit_deg)
-            rates = curve_rates(moving.slot, edges[:-1], edges[1:])
-            self._travels["slot", moving] = Travel(edges, rates, self.gaps.assembly.L)
-        return self._travels["slot", moving]
-
-    def _path(self, roller: int) -> Travel:
-        """Return the travel of a roller through a whole turn in the fixed frame."""
-        engagement, _ = self.gaps.assembly.rollers[roller]
-        if ("path", engagement) in self._travels:  # which several rollers share
-            return self._travels["path", engagement]
-        turn_deg, L = self.gaps.assembly.turn_deg, self.gaps.assembly.L
-        body, groove = engagement.body, engagement.groove
-        if engagement.on_arm and groove is None and isinstance(body, float):
-            # a circle about the crank's axis, at a constant speed
-            x, y = engagement.path(0.0, 0)
-            speed = abs(body) * math.hypot(x.c[0] - engagement.hub, y.c[0])
-            edges = np.array((-0.5, 0.5)) * turn_deg
-            rates = np.array(((speed,), (speed * abs(body),)))
-        else:
-            from geneva_cli.numerics.intervals import curve_rates
-
-            edges = cells(engagement, -0.5 * turn_deg, 0.5 * turn_deg)
-            start, end = edges[:-1], edges[1:]
-            moving, dwell = np.full(len(start), True), None
-            if groove is not None:
-                from geneva_cli.motion.groove_path import dwell_rates
-
-                dwell = dwell_rates(groove)
-                if dwell:
-                    moving = (engagement.entry_deg <= start) & (end <= engagement.exit_deg)
-            rates = np.empty((2, len(start)))
-            rates[:, moving] = curve_rates(engagement.path, start[moving], end[moving])
-            if dwell:
-                rates[:, ~moving] = np.array(dwell)[:, None]
-        travel = self._travels["path", engagement] = Travel(edges, rates, L, turn_deg)
-        return travel
 
 
 class Travel:
@@ -285,6 +243,39 @@ class Travel:
         unknown = np.where(touch, self.unknown, 0.0).max(axis=1)
         bend = np.where(touch, self.bend, 0.0).max(axis=1)
         return np.maximum(most, unknown), bend * np.radians(end - start) ** 2 / 8.0
+
+
+@lru_cache(maxsize=16)  # which several rollers share
+def slot_travel(moving: Engagement, L: float) -> Travel:
+    """Return the travel of a roller in its curved slot, in the wheel's frame."""
+    from geneva_cli.numerics.intervals import curve_rates
+
+    edges = cells(moving, moving.entry_deg, moving.exit_deg)
+    return Travel(edges, curve_rates(moving.slot, edges[:-1], edges[1:]), L)
+
+
+@lru_cache(maxsize=16)
+def path_travel(engagement: Engagement, L: float, turn_deg: float) -> Travel:
+    """Return the travel of a roller through a whole turn in the fixed frame."""
+    body, groove = engagement.body, engagement.groove
+    if engagement.on_arm and groove is None and isinstance(body, float):
+        # a circle about the crank's axis, at a constant speed
+        x, y = engagement.path(0.0, 0)
+        speed = abs(body) * math.hypot(x.c[0] - engagement.hub, y.c[0])
+        rates = np.array(((speed,), (speed * abs(body),)))
+        return Travel(np.array((-0.5, 0.5)) * turn_deg, rates, L, turn_deg)
+    from geneva_cli.numerics.intervals import curve_rates
+
+    edges = cells(engagement, -0.5 * turn_deg, 0.5 * turn_deg)
+    start, end = edges[:-1], edges[1:]
+    if groove is None:
+        return Travel(edges, curve_rates(engagement.path, start, end), L, turn_deg)
+    from geneva_cli.motion.groove_path import dwell_rates
+
+    moving = (engagement.entry_deg <= start) & (end <= engagement.exit_deg)
+    rates = np.tile(np.array(dwell_rates(groove))[:, None], len(start))
+    rates[:, moving] = curve_rates(engagement.path, start[moving], end[moving])
+    return Travel(edges, rates, L, turn_deg)
 
 
 def cells(engagement: Engagement, start: float, end: float) -> Array:

@@ -189,17 +189,12 @@ def record_answer(
 
 def summary_of(design: Design, lines: Iterable[SummaryLine], warnings: Sequence[str]) -> Summary:
     """Some lines and warnings about a design, whose headline counts the warnings."""
-    head = f"{title_of(design)}{counted(warnings)}"
-    state = WARNS if open_warnings(warnings) else ""
-    return Summary(head, (*lines, *map(warning, warnings)), state)
+    many = len(open_warnings(warnings))
+    counted = f": {many} warning{'s' * (many != 1)}" if many else ""
+    state = WARNS if many else ""
+    return Summary(title_of(design) + counted, (*lines, *map(warning, warnings)), state)
 
 
 def title_of(design: Design) -> str:
     """The title of a design, or else its description."""
     return design.spec.title or design.spec.wheel.title
-
-
-def counted(warnings: Sequence[str]) -> str:
-    """The number of warnings behind a headline; empty without any."""
-    many = len(open_warnings(warnings))
-    return f": {many} warning{'s' * (many != 1)}" if many else ""

@@ -77,9 +77,6 @@ def request(
     names += ["checks.passes", "checks.failed"] if check else []
     of_best, picks = (pick_of(names), needed) if best else (Pick(), [*needed, *names])
     swept = sweep(text, plan(axes, random, seed or 0), picks)
-    if len(by) < len({*goals}):
-        twice = next(name for name in by if [o.name for o in {*goals}].count(name) > 1)
-        raise GenevaError(f"--pareto {twice}: it cannot be both min and max; keep one of them")
     refuse_unsound(bounds, dict.fromkeys(needed, "--subject-to") | by, "--vary or --set picks it")
     return swept._replace(
         bounds=tuple(bounds),

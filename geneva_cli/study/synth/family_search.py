@@ -19,7 +19,6 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.many import changed
 from geneva_cli.numerics.arrays import Array, Mask, Whole, joined
 from geneva_cli.numerics.tolerances import ROUNDED
 from geneva_cli.study.batches import built, columns, split
@@ -184,7 +183,7 @@ def best(
         if keeps[i] is not None and not is_known:
             values = f.keys(np.array([x])) if f.keys and math.isnan(f.best) else {}
             with suppress(GenevaError):  # no machine at a number
-                spec = changed(f.spec, {key: float(v[0]) for key, v in values.items()})
+                spec = f.spec.with_keys({key: float(v[0]) for key, v in values.items()})
                 out[keeps[i]].append(spec)
     return out[True], out[False]
 

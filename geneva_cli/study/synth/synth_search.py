@@ -72,11 +72,8 @@ class MachineRow(NamedTuple):
         return (self.cells["parts"] or "").partition(": ")[2]
 
 
-def rows(target: Target, specs: Sequence[Spec], errors: list[str]) -> list[MachineRow]:
-    """The rows of machines that can be built and have the required motion.
-
-    The reasons against others are added to ``errors``.
-    """
+def rows(target: Target, specs: Sequence[Spec]) -> list[MachineRow]:
+    """The rows of machines that can be built and have the required motion."""
     limits = target.soft_bounds
     # at the usual speed with one of its equal rollers a machine has the same peaks
     alone = [s.replace(drive=s.drive.replace(n_rpm=USUAL_RPM, rollers=1)) for s in specs]
@@ -86,19 +83,18 @@ def rows(target: Target, specs: Sequence[Spec], errors: list[str]) -> list[Machi
     each = zip(specs, alone, sized, limited.T.tolist(), strict=True)
     for spec, one, (radius, why), held in each:
         cost, drive = costs.get(one), spec.drive
-        *_, motion_deg, period, entry, end = cost or [math.nan] * 4
-        dwell_deg = period / drive.rollers + entry - end
-        if not dwell_deg > 1e-9:  # there is no machine, or rollers without a dwell may jam
-            try:
-                build(spec)
-            except GenevaError as error:
-                errors.append(str(error))
-                continue
         if cost is None:
             continue
+        *_, motion_deg, period, entry, end = cost
+        dwell_deg = period / drive.rollers + entry - end
         if not target.motions(drive.rollers / drive.turns, motion_deg).allows(motion_deg):
             continue
-        dwell_deg = dwell_deg if dwell_deg > 1e-9 else 0.0
+        if not dwell_deg > 1e-9:  # rollers without a dwell may jam
+            dwell_deg = 0.0
+            try:
+                build(spec)
+            except GenevaError:
+                continue
         index_deg = spec.wheel.index_deg(0)
         times = timing(motion_deg, dwell_deg, index_deg, drive.n_rpm, None, drive.stop_s)
         bounds = zip(limits.items(), held, strict=True)
@@ -211,14 +207,12 @@ class Ranking(NamedTuple):
 
 def search(target: Target) -> Ranking:
     """The machines that meet the requirement, in order; no part has been turned yet."""
-    narrowed, errors = target.with_times(), list[str]()
+    narrowed = target.with_times()
     narrowed.refuse_contradictions()
-    every = _all_groups(narrowed, target.names, False, errors)
-    if not every:  # the error message says how near they come
-        errors.clear()
-        every = _all_groups(target, target.names, True, errors)
+    # if there are none, the error message says how near they come
+    every = _all_groups(narrowed, target.names, False) or _all_groups(target, target.names, True)
     if not every:
-        raise GenevaError(_out_of_reach(target, errors))
+        raise GenevaError(_out_of_reach(target))
     ranking = Ranking([], narrowed, target)
     kept = sorted(_bounded(target, every), key=ranking.rank)
     # without a search for the goal or a bound a family has several rows: the first of each kind,
@@ -234,14 +228,11 @@ def search(target: Target) -> Ranking:
     return ranking
 
 
-def _all_groups(
-    target: Target, names: Sequence[str], how_near: bool, errors: list[str]
-) -> list[MachineRow]:
+def _all_groups(target: Target, names: Sequence[str], how_near: bool) -> list[MachineRow]:
     """The rows of all independent groups of machines, in order, from all cores.
 
     They are straight slots, and laws, of each gearing; those of kinds. Each has some of the numbers
-    of slots. With ``how_near`` those that break the bounds are among them. The reasons against
-    machines are added to ``errors``.
+    of slots. With ``how_near`` those that break the bounds are among them.
     """
     count = max(len(target.z) // GROUP, 1)
     ends = [-(-len(target.z) * i // count) for i in range(count + 1)]
@@ -256,17 +247,11 @@ def _all_groups(
     is_small = len(target.gearings) * len(target.z) * len(target.laws) <= 6
     workers = 1 if is_small else min(len(tasks), cores())
     done = mapped(partial(_group, names=names, how_near=how_near), tasks, workers, "machines")
-    out = list[MachineRow]()
-    for found, reasons in tracked(done, "groups of machines", len(tasks)):
-        out += found
-        errors += reasons
-    return out
+    return [row for found in tracked(done, "groups of machines", len(tasks)) for row in found]
 
 
-def _group(
-    task: tuple[Kind, Target], names: Sequence[str], how_near: bool
-) -> tuple[list[MachineRow], list[str]]:
-    """The rows of a group, and the reasons against the other machines."""
+def _group(task: tuple[Kind, Target], names: Sequence[str], how_near: bool) -> list[MachineRow]:
+    """The rows of a group."""
     kind, target = task
     wheels = [gearing(name)(z) for name in target.gearings for z in target.z]
     families: Sequence[Family] = [*kind(target, wheels)]
@@ -283,16 +268,15 @@ def _group(
     shown = [specs[i] for i in np.flatnonzero(keeps).tolist()]
     if how_near:
         shown += [*(specs[i] for i in np.flatnonzero(~keeps).tolist()), *near]
-    errors: list[str] = []
-    found = rows(target, [*dict.fromkeys(shown)], errors)
+    found = rows(target, [*dict.fromkeys(shown)])
     if not (names and in_batch(names)):
-        return found, errors
+        return found
     out, values = [], numbers(batch_machines([row.spec for row in found]), names, len(found))
     for row, own in zip(found, values.T.tolist(), strict=True):
         cells = tuple(None if math.isinf(x) else x for x in own)
         # a row without one of them needs its own machine
         out.append(row if any(map(math.isnan, own)) else row._replace(extra=cells))
-    return out, errors
+    return out
 
 
 def _bounded(target: Target, found: list[MachineRow]) -> list[MachineRow]:
@@ -324,14 +308,13 @@ def _values(of: Pick, spec: Spec) -> tuple[Cell, ...] | None:
         return None
 
 
-def _out_of_reach(target: Target, errors: list[str]) -> str:
+def _out_of_reach(target: Target) -> str:
     """The error message if no machine was found."""
     m = target.rollers or next((int(m) for m in target.counts if m >= 1.0), 1)
     wheels = [gearing(name)(z) for name in target.gearings for z in target.z]
     most = max(rollers_max(natural_deg(wheel)) for wheel in wheels)
-    first = f"; the first says: {errors[0]}" if errors else ""
     rollers = "one roller" if m == 1 else f"{m} rollers"
     return (
         f"{target.words}: out of reach with {rollers}; straight slots carry at most {most} here: "
-        f"use more slots or a longer motion{first}"
+        "use more slots or a longer motion"
     )

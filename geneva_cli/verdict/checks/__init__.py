@@ -109,18 +109,15 @@ class Check(NamedTuple):
     @property
     def remark(self) -> str:
         """The reason, and the sizes that ``nearest`` changes."""
-        if not self.anew:
-            return self.why
-        anew = f"sizes chosen anew with {self.nearest}: {self.anew}"
-        return f"{self.why}; {anew}" if self.why else anew
+        anew = f"sizes chosen anew with {self.nearest}: {self.anew}" if self.anew else ""
+        return "; ".join(filter(None, (self.why, anew)))
 
     @property
     def spare(self) -> float:
         """The margin to the limit, negative if the check fails; infinite without a value."""
         if self.value is None or self.limit is None:
             return -math.inf if self.passes is False else math.inf
-        left = self.limit - self.value
-        left = left if self.must_be == "at most" else -left
+        left = (self.limit - self.value) * (1.0 if self.must_be == "at most" else -1.0)
         return min(left, -5e-324) if self.passes is False else max(left, 0.0)
 
 
@@ -228,7 +225,7 @@ def every_check(
     yield from applicable(motion, mechanism, reasons=not quick)
     if quick:
         yield from limits
-    unbuilt = [] if spec.has_parts else [unknown("parts", spec.no_parts)]
+    unbuilt = [unknown("parts", spec.no_parts)] if spec.no_parts else []
     if parts and not spec.is_turned:
         yield from unbuilt
         for name in PLAYS:
@@ -265,10 +262,7 @@ def checks(
 
 
 def single_check(mechanism: Mechanism, name: str, machine: Parts | None = None) -> Check | None:
-    """The check with this name, without the others; None if there is no such check.
-
-    Raises GenevaError if its parts cannot be built, or turned if it is of the turn.
-    """
+    """The check with this name, without the others; None if there is no such check."""
     among = MOTION if name in MOTION else LIMITS
     of: tuple[object, ...] = (mechanism,)
     if name not in among:
@@ -285,7 +279,7 @@ def single_check(mechanism: Mechanism, name: str, machine: Parts | None = None) 
         else:
             if name == "parts":
                 _ = machine.turned
-            if not mechanism.spec.has_parts:
+            if mechanism.spec.no_parts:
                 return None
             among, of = own_checks(mechanism)[1], (machine.built,)
     found = load_named(among[name])([name], *of) if name in among else ()
@@ -293,10 +287,7 @@ def single_check(mechanism: Mechanism, name: str, machine: Parts | None = None) 
 
 
 def pushed_round(mechanism: Mechanism) -> list[Check]:
-    """Whether parts turn that do not follow the formulas, and how hard they are struck.
-
-    Without that extra, or where it cannot turn them, there is no verdict.
-    """
+    """Whether parts turn that do not follow the formulas, and how hard they are struck."""
     try:
         rows: list[Check] = load_extra("outline", "as_built")(mechanism)
     except GenevaError:
@@ -305,10 +296,7 @@ def pushed_round(mechanism: Mechanism) -> list[Check]:
 
 
 def proofs(parts: Parts, to_mm: float | None = None) -> list[Check]:
-    """The proof that no parts collide in a whole turn; none if they cannot be made or turned.
-
-    ``to_mm`` is the tolerance of the proof, by default that of ``motion_checks.proof``.
-    """
+    """The proof that no parts collide in a whole turn; none if they cannot be made or turned."""
     if not parts.mechanism.spec.is_turned or parts.mechanism.no_turn:
         return []
     try:

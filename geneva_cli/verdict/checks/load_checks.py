@@ -51,10 +51,7 @@ SIZES = {
 
 
 def shocks(names: Collection[str], mechanism: Mechanism) -> Iterator[Check]:
-    """Impacts, where tolerances or limits ask for them: the pin's stress has them in any case.
-
-    Of two rollers, the torque with which the first one's motion still reaches the second.
-    """
+    """Impacts, where tolerances or limits ask for them: the pin's stress has them in any case."""
     spec, limits = mechanism.spec, mechanism.spec.limits
     misplaced = spec.tolerance.crank_radius_mm or spec.tolerance.center_distance_mm
     if misplaced and "entry_shock_N" in names:
@@ -109,11 +106,7 @@ def _entry_shock(mechanism: Mechanism) -> Iterator[Check]:
 
 
 def _drag(mechanism: Mechanism) -> str:
-    """The remedy for the change of sides, in words.
-
-    If one roller starts the wheel and another stops it, a drag would take the wheel off the second
-    one, so less clearance is advised.
-    """
+    """The remedy for the change of sides, in words."""
     if any(engagement.paired for engagement in mechanism.engagements):
         return "a smaller slot_clearance_mm reduces it"
     from geneva_cli.loads.impacts.reversal import lasting_drag_Nm
@@ -168,11 +161,7 @@ def product(names: Collection[str], mechanism: Mechanism) -> Iterator[Check]:
 
 
 def strength_limits(names: Collection[str], mechanism: Mechanism) -> Iterator[Check]:
-    """Limited values of strength and life; none without a limit, or without the part.
-
-    Loaded parts are limited by the spec, or else by their default steel. It is not proved if a key
-    is missing.
-    """
+    """Limited values of strength and life; none without a limit, or without the part."""
     for name in names:
         whole, quantity, part = BOUNDS[name]
         table, _, key = whole.rpartition(".")
@@ -213,10 +202,7 @@ def _needed(part: str, value: float, limit: float, of: Strength) -> str:
 
 
 def first_stresses(names: Collection[str], parts: FlatParts) -> Iterator[Check]:
-    """Stresses of the first of two loaded wheels in series, and of its crank.
-
-    They are those of a machine of one wheel, made of that first pair.
-    """
+    """Stresses of the first of two loaded wheels in series, and of its crank."""
     if not (parts.mechanism.spec.is_loaded and parts.in_front):
         return
     for name in names:

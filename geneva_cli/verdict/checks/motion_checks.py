@@ -122,10 +122,7 @@ def entry_velocity_limit(mechanism: Mechanism) -> float:
 
 
 def _entry_velocity(name: str, mechanism: Mechanism) -> Check:
-    """The greatest jump of the wheel's velocity at entry and exit, over the input's speed.
-
-    It fails where the roller never crosses the axis of the slot at rest.
-    """
+    """The greatest jump of the wheel's velocity at entry and exit, over the input's speed."""
     from geneva_cli.motion.peaks import greatest_jumps
 
     own = mechanism.engagements

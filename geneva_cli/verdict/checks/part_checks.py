@@ -106,16 +106,16 @@ def clearances(names: Collection[str], parts: FlatParts) -> Iterator[Check]:
     if wheel and assembly.sign > 0.0:  # to a roller at the bottom of its slot
         yield compared("wheel_shaft_mm", sizes.slot_end - wheel, "at least", 0.0)
     # default sizes of hubs and shafts always pass, except for a first wheel's
-    keys = product(("wheel", "crank"), ("hub", "hub_length", "shaft_low", "shaft_high"))
-    sized = [size[f"{part}_{key}_mm"] for part, key in keys] != [None] * 8
-    passing = {"beside_shafts_mm": sized or bool(parts.mechanism.first_wheel)}
-    passing["gear_gap_mm"] = parts.mechanism.spec.gears is not None
-    for name, is_there in passing.items():
+    sized = bool(parts.mechanism.first_wheel)
+    keys = "hub", "hub_length", "shaft_low", "shaft_high"
+    for part, key in product(("wheel", "crank"), keys):
+        sized = sized or size[f"{part}_{key}_mm"] is not None
+    geared = parts.mechanism.spec.gears is not None
+    for name, is_there in (("beside_shafts_mm", sized), ("gear_gap_mm", geared)):
         if is_there and name in names:
-            from geneva_cli.verdict.shaft_gap import gear_gaps, shaft_gaps  # for few machines
+            from geneva_cli.verdict.shaft_gap import shaft_gaps  # for few machines
 
-            gaps = shaft_gaps if name == "beside_shafts_mm" else gear_gaps
-            yield from least_gap(name, gaps(parts), assembly.L)
+            yield from least_gap(name, shaft_gaps(parts, name == "gear_gap_mm"), assembly.L)
     arm = "arm_bore_mm", "arm_hub_mm", "arm_eye_mm", "press_fit_mm", "lock_bolts"
     shaped = has_shape(parts.mechanism.spec.size, "crank")
     if shaped or any(map(size.get, arm)):

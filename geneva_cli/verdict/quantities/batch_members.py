@@ -37,11 +37,7 @@ class BatchMember(Designs):
 
 
 def share(batch: Mechanism, machines: Sequence[Mechanism]) -> None:
-    """Let the machines of a batch's designs take from it what their checks need.
-
-    The batch is searched when the first of them needs a value. A value that the batch lacks is
-    computed for the design alone. There are at most ``kept.KEPT`` machines.
-    """
+    """Let the machines of a batch's designs take from it what their checks need."""
     designs = Designs(batch, None, machines)
 
     @cache

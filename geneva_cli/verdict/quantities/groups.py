@@ -183,8 +183,8 @@ report_sections:slot slot positively_driven
 quantities.load_quantities:slot slot not_driven_share branch_gap_mm branch_gap_at_deg
 report_sections:vibration,quantities.load_quantities:vibration vibration none! period_ratio
   damping_ratio natural_Hz residual_share residual_deg dynamic_factor windup_deg
-quantities.motion_quantities:product product travel_mm chord_mm friction_needed
-  speed_m_s,acceleration_m_s2,tangential_m_s2,centripetal_m_s2,jerk_m_s3.{max at_deg}
+quantities.motion_quantities:product product travel_mm friction_needed
+  speed_m_s,acceleration_m_s2,jerk_m_s3.{max at_deg}
 report_sections:wheels -
 report_sections:cranks -
 report_sections:sizes sizes axes_deg sphere_radius_mm crank_arm_mm slot_mouth_polar_deg
@@ -197,7 +197,7 @@ report_sections:turned parts smallest_gap_mm smallest_gap_at_deg dwell_play_deg 
 report_sections:parts_list_tables parts_list
 report_sections:tolerances,quantities.load_quantities:tolerances tolerance
   dwell_position.{worst_deg! rss_deg! p997_deg!} motion_play.{worst_deg rss_deg p997_deg!}
-  entry_jump.{mean! worst mouth_worst!} clearances.{slot_needed_mm! lock_needed_mm! turns!}
+  entry_jump.{mean! worst} clearances.{slot_needed_mm! lock_needed_mm! turns!}
 quantities.part_strength:pin strength.pin
   diameter_mm bending_MPa shear_MPa stress_MPa allowed_MPa margin least_diameter_mm
 quantities.part_strength:horn strength.horn

@@ -133,11 +133,7 @@ def _impact(of: Designs, impacts: Impacts, **more: Array) -> Columns:
 
 
 def tolerances(of: Designs) -> Columns:
-    """The worst effects of tolerances on the motion, and on the velocity at entry.
-
-    None for racks, whose deviations are not studied. The jump at entry is computed as a batch if
-    all designs have tolerances, none of which is too wide.
-    """
+    """The worst effects of tolerances on the motion, and on the velocity at entry."""
     from geneva_cli.loads.tolerance.motion_error import entry_jumps_worst, motion_plays, used
 
     plays = motion_plays(of.machine) if of.machine.output.turns else None

@@ -125,9 +125,10 @@ def shafts(of: Designs) -> dict[str, Columns]:
     overhangs, each = dict[str, float | None](), dict[str, Columns]()
     for part in ("wheel", "crank"):
         overhangs[part], each[part] = _drawn(of, part)
-    torque_Nm, held = dwell_torque_Nm(of.machine), dict[str, tuple[Array, Array]]()
-    if torque_Nm.any():  # without a disc something else holds it, by a couple
-        sizes = under_load(of).lock_sizes
+    held = dict[str, tuple[Array, Array]]()
+    if of.spec.load.dwell_torque_Nm is not None:
+        # without a disc something else holds it, by a couple
+        torque_Nm, sizes = dwell_torque_Nm(of.machine), under_load(of).lock_sizes
         force = held_force_N(of.machine, sizes and sizes[1])
         carried = np.ravel(centrifugal_N(of.machine)) if of.machine.frame else 0.0
         # the force passes through the crank's axis

@@ -1,7 +1,4 @@
-"""Names of a design's quantities, and the resolution of a typed name.
-
-Every command that takes a quantity resolves its name here, without making a machine.
-"""
+"""Names of a design's quantities, and the resolution of a typed name."""
 
 from __future__ import annotations
 

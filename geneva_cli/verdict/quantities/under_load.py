@@ -78,6 +78,8 @@ class UnderLoad:
     @cached_property
     def _unloaded(self) -> list[Unloaded | None]:
         """The parts of the designs without their loads; None for one without flat parts."""
+        if self.designs.single:
+            return [unloaded(self.machine) if sized(self.machine) else None]
         if not self.designs.are_built:
             of = self.machine.spec
             with marking():  # the values of the designs are checked
@@ -92,9 +94,8 @@ class UnderLoad:
     def lock_sizes(self) -> tuple[float, Lock] | None:
         """Half the slot's width, and the lock in its narrowest sector, mm (m, 1)."""
         each = list[tuple[float, Lock] | None]()
-        drawn = self.layouts if self.designs.are_built else self._unloaded
-        for of, is_drawn in zip(self._unloaded, drawn, strict=True):
-            each.append((of.sizes.half_width, of.lock) if of and of.lock and is_drawn else None)
+        for of in self._unloaded:
+            each.append((of.sizes.half_width, of.cut_lock()) if of and of.sizes.lock else None)
         return batched(each, as_numbers)
 
     @cached_property
@@ -129,6 +130,8 @@ class UnderLoad:
     @cached_property
     def layouts(self) -> Sequence[Layout | None]:
         """Assembly and sizes of each design; None for one without flat parts."""
+        if self.designs.single:
+            return [sized(self.machine)]
         machines, size = self.designs.each, self.machine.spec.size
         if self.designs.are_built or not self.machine.spec.is_loaded:
             return [*map(sized, machines)]
@@ -161,7 +164,7 @@ class UnderLoad:
         own = thing(self.machine.spec.wheel.NAME, "stressed")
         if own:
             machines = self.designs.each
-            return batched([_or_none(own, one) if one.spec.has_parts else None for one in machines])
+            return batched([None if one.spec.no_parts else _or_none(own, one) for one in machines])
         each = list[Stressed | None]()
         for one in self.layouts:
             each.append(stressed(*one) if one else None)

@@ -9,8 +9,8 @@ import pytest
 from geneva_cli.extras.certify.balls import Ball, precision
 from geneva_cli.extras.certify.enclosures import greatest
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import Undecided, library, narrowed
-from geneva_cli.numerics.jet import Jet, atan2, piecewise, sin_cos, sqrt
+from geneva_cli.numerics.arrays import Undecided, library
+from geneva_cli.numerics.jet import Jet, atan2, sin_cos, sqrt
 
 
 @pytest.mark.parametrize(
@@ -30,20 +30,6 @@ def test_an_open_comparison_is_refused(ask):
         ask(Ball.between(0.5, 1.0))
 
 
-def test_a_rising_function_is_as_narrow_as_its_ends():
-    """x - x²/4 rises on [0, 1], to 3/4; its formula alone reaches from -1/4 to 1."""
-
-    def f(x):
-        return x - x * x * 0.25
-
-    x = Ball.between(0.0, 1.0)
-    low, high = narrowed(f(x), f, x).bounds()
-    assert (low, high) == (pytest.approx(0.0, abs=1e-8), pytest.approx(0.75, abs=1e-8))
-    assert low <= 0.0 and high >= 0.75
-    assert f(x).bounds()[1] >= 1.0
-    assert narrowed(0.25, f, 0.5) == 0.25  # a float's value is kept
-
-
 def test_formulas_of_balls_hold_those_at_fifty_digits():
     """Each coefficient of a composed jet, at both ends and in the middle of the ball."""
 
@@ -61,12 +47,6 @@ def test_formulas_of_balls_hold_those_at_fifty_digits():
             for ball, c in zip(jet.c, mpmath.taylor(exact, mpmath.mpf(at), 4), strict=True):
                 low, high = ball.bounds()
                 assert low <= c <= high
-
-
-def test_a_ball_takes_the_piece_that_it_lies_in():
-    pieces = [lambda x: Jet((x,)), lambda x: Jet((x * 10.0,))]
-    assert piecewise(Ball.exact(0.5), (1.0,), pieces).c[0] == 0.5
-    assert piecewise(Ball.exact(2.0), (1.0,), pieces).c[0] == 20.0
 
 
 def wave(x, order):

@@ -79,17 +79,6 @@ def test_a_whole_revolution():
         assert function(5 * 360.0 + 67.5) == pytest.approx(225.0 + 22.5, abs=TOLERANCE)
 
 
-def test_rows_at_each_jump():
-    """A row stands at each entry and exit, whatever the even rows."""
-    design = load("designs/unequal-steps.toml")
-    table = design.motion(7, turns=design.mechanism.period_deg // 360).to_dict()
-    start = table["input_deg"][0]
-    for i, engagement in enumerate(design.mechanism.engagements):
-        for end in (engagement.entry_deg, engagement.exit_deg):
-            at = engagement.mid_deg + end
-            assert abs(table["input_deg"] - at).min() < 1e-9, (i, end, start)
-
-
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [

@@ -7,7 +7,7 @@ from words import Drive, Keys, Spec, Wheel
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.batch import taken
-from geneva_cli.motion.many import changed, many
+from geneva_cli.motion.many import many
 from geneva_cli.motion.mechanism import build
 
 # Batch and single run the same search. The functions of math and numpy differ by units in the last
@@ -36,7 +36,7 @@ def slider_crank(z=8):
 
 def alone(spec, varied, i):
     try:
-        return build(changed(spec, {key: values[i].item() for key, values in varied.items()}))
+        return build(spec.with_keys({key: values[i].item() for key, values in varied.items()}))
     except GenevaError:
         return None
 

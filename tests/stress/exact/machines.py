@@ -14,7 +14,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.motion.drive import Drive
 from geneva_cli.motion.peaks import peaks
 from geneva_cli.numerics.tolerances import TIE
-from geneva_cli.parts.slots.slot_profile import slot
+from geneva_cli.parts.slots.slot_profile import flanks
 from geneva_cli.spec.schema import fields
 
 NAMES = ("position", "velocity", "acceleration", "jerk")
@@ -153,8 +153,8 @@ def compare_slot(table, name, mechanism, witnesses, x, step, where):
     w, *moved = witnesses
     points = [at(w, to_radians(v)) for v in x]
     far = unit(max(map(abs, points)))
-    got = strictly(slot, mechanism, x)
-    if not (np.isfinite(got.left).all() and np.isfinite(got.right).all()):
+    centre, *walls = strictly(flanks, mechanism, x)
+    if not np.isfinite(walls).all():
         table.fault(f"{name} {where}: NaN or infinity in a flank")
     turned = math.ulp(float(w.b)) * float(max(map(abs, points)))  # by a unit of the wheel's angle
     for i, part in enumerate(("real", "imag")):
@@ -164,7 +164,7 @@ def compare_slot(table, name, mechanism, witnesses, x, step, where):
             near += [at(m, to_radians(v)) for m in moved]
             by = [abs(float(getattr(p - n, part))) for n in near]
             condition.append(max([turned, *by]) / far)
-        error = ulps(got.centre[:, i], [getattr(p, part) for p in points], far)
+        error = ulps(centre[:, i], [getattr(p, part) for p in points], far)
         table.add((name, f"slot {'xy'[i]}"), error, np.array(condition), where)
 
 
