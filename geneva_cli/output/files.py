@@ -84,27 +84,35 @@ def replacing(path: str, inputs: Iterable[str] = ()) -> Iterator[BinaryIO]:
     with write_errors(path), answering():
         real, old = place(path, inputs)
         if old is not None and not stat.S_ISREG(old.st_mode):
-            with open(real, "wb") as file:
-                yield file
+            with open(real, "wb") as device:
+                yield device
             return
         folder, name = os.path.split(real)
         # The temporary name holds 200 bytes of it: a file system allows 255 in all.
         name = name.encode(errors="surrogateescape")[:200].decode(errors="replace")
         own = os.path.join(folder, f".{name}.geneva.tmp")
-        with open_locked(own, path) as file:
-            try:
-                file.truncate()
-                if old is not None:
-                    take_after(file, old)
-                yield file
-                file.flush()
-                os.fsync(file.fileno())
-                if not POSIX:
-                    file.close()
-                os.replace(own, real)
-            except BaseException:
+        file, late = None, list[Any]()
+        try:
+            with answering(lambda *got: late.append(got)):  # the file is ours, or not there
+                file = open_locked(own, path)
+            if late:
+                _stop(*late[0])
+            file.truncate()
+            if old is not None:
+                take_after(file, old)
+            yield file
+            file.flush()
+            os.fsync(file.fileno())
+            if not POSIX:
+                file.close()
+            os.replace(own, real)
+        except BaseException:
+            if file:
                 remove(file, own)
-                raise
+            raise
+        finally:
+            if file:
+                file.close()
 
 
 def open_locked(path: str, shown: str) -> BinaryIO:
