@@ -65,9 +65,16 @@ def extent(drawing: Drawing) -> Box:
 
 
 def prepared(drawing: Drawing) -> Drawing:
-    """Drawing without duplicate shapes and pieces shorter than ``SHORTEST_MM``."""
+    """Drawing without duplicate shapes and pieces shorter than ``SHORTEST_MM``.
+
+    Raises GenevaError for a coordinate that is not finite.
+    """
     seen: dict[Shape, None] = {}
     for shape in drawing.shapes:
+        pieces = shape.segments if isinstance(shape, Contour) else (shape,)
+        values = (v for piece in pieces for v in piece if not isinstance(v, str))
+        if not math.isfinite(sum(sum(v) if isinstance(v, tuple) else v for v in values)):
+            raise GenevaError(f"layer {shape.layer}: the coordinates of a shape must be finite")
         if isinstance(shape, Circle):
             if shape.radius > SHORTEST_MM:
                 seen[shape] = None

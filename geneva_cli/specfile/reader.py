@@ -195,9 +195,13 @@ def read(path: str, set_keys: Iterable[str] = ()) -> Text:
                 data = file.read(bytes_max + 1)
     except OSError as error:
         what = "this is a folder, not a file" if os.path.isdir(path) else str(error.strerror)
-        is_missing = isinstance(error, FileNotFoundError)
-        advice = "; `geneva new external -o spec.toml` writes an example" if is_missing else ""
-        raise GenevaError(f"{name}: cannot read: {what}{advice}") from None
+        if isinstance(error, FileNotFoundError):
+            from geneva_cli.specfile.template import titles  # only for this message
+
+            own = os.path.basename(path).removesuffix(".toml")
+            words = f"--from-design {own} -o {own}" if own in titles() else "external -o spec"
+            what += f"; `geneva new {words}.toml` writes one"
+        raise GenevaError(f"{name}: cannot read: {what}") from None
     except ValueError as error:  # a NUL in the name
         raise GenevaError(f"{name!r}: cannot read: {error}") from None
     if len(data) > bytes_max:

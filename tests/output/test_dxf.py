@@ -185,3 +185,15 @@ def test_refusals():
         text(of(smooth()), "R12")
     with pytest.raises(GenevaError, match="--dxf-version R9: it must be one of R12, R2000, R2004"):
         text(ROUND, "R9")
+
+
+@pytest.mark.parametrize(
+    "shape",
+    [
+        Circle("BORE", (0.0, math.nan), 3.0),
+        closed("WHEEL", [Line((0.0, 0.0), (math.inf, 0.0)), Line((math.inf, 0.0), (0.0, 0.0))]),
+    ],
+)
+def test_a_coordinate_that_is_not_finite_is_not_written(shape):
+    with pytest.raises(GenevaError, match=f"layer {shape.layer}: .* must be finite"):
+        text(of(bow(), shape))

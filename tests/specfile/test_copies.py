@@ -1,8 +1,12 @@
 """The designs that come with the program, copied."""
 
+import re
+
+import pytest
 import repo
 from typer.testing import CliRunner
 
+from geneva_cli import GenevaError, load
 from geneva_cli.cli.app import app
 
 
@@ -45,3 +49,15 @@ def test_a_design_in_place_of_a_kind_is_answered_with_its_option():
     refused = new("projector")
     assert refused.exit_code == 2
     assert "is a design, not a KIND; use `geneva new --from-design projector`" in refused.stderr
+
+
+@pytest.mark.parametrize(
+    ("path", "said"),
+    [
+        ("designs/turret.toml", "--from-design turret -o turret.toml` writes one"),
+        ("mine.toml", "`geneva new external -o spec.toml` writes one"),
+    ],
+)
+def test_a_spec_that_is_not_there_is_answered_with_a_way_to_one(path, said, tmp_path):
+    with pytest.raises(GenevaError, match=re.escape(said)):
+        load(str(tmp_path / path))

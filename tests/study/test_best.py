@@ -36,7 +36,7 @@ def test_the_bound_that_binds_is_met_exactly(tmp_path):
     assert pytest.approx(A, abs=1e-7) == design.spec.drive.A
     # checks forgive 1e-9, and the least of what is forgiven is not the best
     assert 0.55 <= design.timing.dwell_s <= 0.55 * (1.0 + 1e-11)
-    assert any("timing.dwell_s >= 0.55" in line for line in lines)
+    assert any("timing.dwell_s >= 0.55" in line and "(binds)" in line for line in lines)
 
 
 @pytest.mark.long

@@ -52,7 +52,10 @@ def best_spec(outcome: Outcome, goal: Objective, row_blocks: Iterable[Rows]) -> 
         f"# The {goal} of {outcome.all:,} designs, {feasible:,} of them within the bounds: "
         f"{values[goal.name]:.9g}."
     ]
-    notes += [f"# {c}: {values[c.name]:.9g}" for c in sweep.bounds]
+    for bound in sweep.bounds:
+        # the optimiser leaves a bound that binds less than this
+        binds = " (binds)" if bound.margin(values[bound.name]) <= 1e-6 else ""
+        notes.append(f"# {bound}: {values[bound.name]:.9g}{binds}")
     for name, value in zip(sweep.of_best.names, sweep.of_best.of(machine), strict=True):
         if value is None or isinstance(value, bool):
             text = "none" if value is None else "yes" if value else "no"
