@@ -9,26 +9,17 @@ import cmath
 import math
 from collections.abc import Iterable, Iterator
 
+from geneva_cli.geometry import sheet
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Line, Point, about, polar, two_arcs
-from geneva_cli.geometry.sheet import (
-    ARROW,
-    BELOW,
-    LARGE,
-    SMALL,
-    Arrow,
-    Label,
-    Measure,
-    width,
-)
 
 PAST = 1.5  # length of an extension line beyond the dimension line
 CLEAR = 0.8  # gap from the outline to an extension line, and from a line to its text
-LENGTH = ARROW[0]
+LENGTH = sheet.ARROW[0]
 
 
 def linear(
     ends: tuple[Point, Point], turn: float, levels: Iterable[float], text: str, value: float
-) -> Iterator[Measure]:
+) -> Iterator[sheet.Measure]:
     """Yield candidates of a distance in the direction ``turn``, with its line at some levels."""
     u = cmath.rect(1.0, turn)
 
@@ -38,14 +29,14 @@ def linear(
 
     seen = (complex(*p) * u.conjugate() for p in ends)
     a, b = sorted((p.real, p.imag) for p in seen)
-    long, length = width(text) * SMALL, b[0] - a[0]
+    long, length = sheet.width(text) * sheet.SMALL, b[0] - a[0]
     spare = length - long - 2.0 * (LENGTH + CLEAR)
     inside = length > 3.0 * LENGTH
     beyond = 0.0 if inside else 2.5 * LENGTH  # of the dimension line
     aside = (beyond or 0.5 * LENGTH) + CLEAR  # of a text
     turns = (turn + math.pi, turn) if inside else (turn, turn + math.pi)
     for level in levels:
-        arrows = Arrow(at(a[0], level), turns[0]), Arrow(at(b[0], level), turns[1])
+        arrows = sheet.Arrow(at(a[0], level), turns[0]), sheet.Arrow(at(b[0], level), turns[1])
         extensions = []
         for along, across in (a, b):
             side = math.copysign(1.0, level - across)
@@ -66,18 +57,18 @@ def linear(
                 start = a[0] - aside - long
                 low = start - CLEAR
             # the text is above its line, readable from below or from the right
-            off, readable, first = CLEAR + BELOW * SMALL, turn, start
+            off, readable, first = CLEAR + sheet.BELOW * sheet.SMALL, turn, start
             if u.real < -1e-9 or (u.real <= 1e-9 and u.imag <= 0.0):
                 off, first = -off, start + long
                 readable = math.remainder(turn + math.pi, math.tau)
-            label = Label(text, at(first, level + off), SMALL, readable)
+            label = sheet.Label(text, at(first, level + off), sheet.SMALL, readable)
             lines = (Line(at(low, level), at(high, level)), *extensions)
-            yield Measure("length", points, value, label, lines, arrows, turn)
+            yield sheet.Measure("length", points, value, label, lines, arrows, turn)
 
 
 def angular(
     legs: tuple[float, float], begin: float, radii: Iterable[float], text: str, value: float
-) -> Iterator[Measure]:
+) -> Iterator[sheet.Measure]:
     """Yield candidates of an angle about the axis, counterclockwise from leg to leg, on arcs.
 
     The extension lines begin at the distance ``begin``. An arc goes on to a text beyond its legs.
@@ -94,7 +85,7 @@ def angular(
         # an arrow's back lies on the arc
         lean = (0.5 * math.pi - 0.5 * LENGTH / radius) * (1.0 if inside else -1.0)
         turned = (first, first - lean), (last, last + lean)
-        arrows = tuple(Arrow(polar(ORIGIN, radius, leg), turn) for leg, turn in turned)
+        arrows = tuple(sheet.Arrow(polar(ORIGIN, radius, leg), turn) for leg, turn in turned)
         middle = 0.5 * (first + last)
         points = ORIGIN, *starts, polar(ORIGIN, radius, middle)
         for fraction in (0.5, 0.3, 0.7, -0.3, 1.3):
@@ -102,34 +93,36 @@ def angular(
             start, end = min(first - spare, at), max(last + spare, at)
             arc = about(ORIGIN, radius, start, end - start)
             # an upright text whose box keeps clear of the arc
-            half = 0.5 * width(text) * SMALL, 0.7 * SMALL
+            half = 0.5 * sheet.width(text) * sheet.SMALL, 0.7 * sheet.SMALL
             away = half[0] * abs(math.cos(at)) + half[1] * abs(math.sin(at)) + 2.0 * CLEAR
             x, y = polar(polar(ORIGIN, radius, at), away, at)
-            label = Label(text, (x - half[0], y - 0.4 * SMALL), SMALL)
-            yield Measure("angular", points, value, label, (arc, *sides), arrows)
+            label = sheet.Label(text, (x - half[0], y - 0.4 * sheet.SMALL), sheet.SMALL)
+            yield sheet.Measure("angular", points, value, label, (arc, *sides), arrows)
 
 
-def balloon(tip: Point, text: str) -> Iterator[Measure]:
+def balloon(tip: Point, text: str) -> Iterator[sheet.Measure]:
     """Yield candidates of a number in a circle, with a leader to a point, short ones first."""
     radius = 4.0  # mm: two digits fit in
     for length in (8.0, 12.0, 18.0, 27.0, 40.0, 60.0, 90.0):
         for angle in around():
             centre, end = polar(tip, length + radius, angle), polar(tip, length, angle)
-            start = centre[0] - 0.5 * width(text) * SMALL, centre[1] - 0.5 * SMALL
+            start = centre[0] - 0.5 * sheet.width(text) * sheet.SMALL, centre[1] - 0.5 * sheet.SMALL
             circle = two_arcs(Circle("", centre, radius))
-            arrow = Arrow(tip, angle + math.pi)
-            label = Label(text, start, SMALL)
-            yield Measure("note", (tip,), 0.0, label, (Line(end, tip), *circle), (arrow,))
+            arrow = sheet.Arrow(tip, angle + math.pi)
+            label = sheet.Label(text, start, sheet.SMALL)
+            yield sheet.Measure("note", (tip,), 0.0, label, (Line(end, tip), *circle), (arrow,))
 
 
-def section(end: Point, outwards: float, letter: str) -> Iterator[Measure]:
+def section(end: Point, outwards: float, letter: str) -> Iterator[sheet.Measure]:
     """Yield candidates of a section's mark beyond an end of its line, right (1) or left (-1)."""
     for far in range(4, 80, 4):  # mm
         x, y = end[0] + outwards * far, end[1]
         lines = Line((x, y - 10.0), (x, y)), Line((x - 3.0 * outwards, y), (x + outwards, y))
-        start = x - 0.5 * width(letter) * LARGE, y - 12.0 - LARGE
-        arrow = Arrow((x, y), 0.5 * math.pi)
-        yield Measure("note", (end,), 0.0, Label(letter, start, LARGE), lines, (arrow,))
+        start = x - 0.5 * sheet.width(letter) * sheet.LARGE, y - 12.0 - sheet.LARGE
+        arrow = sheet.Arrow((x, y), 0.5 * math.pi)
+        yield sheet.Measure(
+            "note", (end,), 0.0, sheet.Label(letter, start, sheet.LARGE), lines, (arrow,)
+        )
 
 
 def around() -> list[float]:
@@ -147,12 +140,12 @@ def within(start: float, end: float) -> list[float]:
 
 def led(
     kind: str, centre: Point, reach: float, angles: Iterable[float], text: str, value: float = 0.0
-) -> Iterator[Measure]:
+) -> Iterator[sheet.Measure]:
     """Yield candidates with a leader to a circle, and a line under the text, short ones first.
 
     They are a "diameter", a "radius", or a "note" on a point, with ``reach`` 0.
     """
-    directions, long = list(angles), width(text) * SMALL
+    directions, long = list(angles), sheet.width(text) * sheet.SMALL
     for length in (6.0, 9.0, 13.0, 18.0, 24.0, 32.0, 42.0, 55.0, 72.0, 95.0, 125.0, 160.0):
         for angle in directions:
             tip = polar(centre, reach, angle)
@@ -161,9 +154,11 @@ def led(
                 end = polar(tip, out * length, angle)
                 right = out * math.cos(angle) >= 0.0
                 start = end[0] + CLEAR if right else end[0] - CLEAR - long
-                label = Label(text, (start, end[1] + CLEAR + BELOW * SMALL), SMALL)
+                label = sheet.Label(
+                    text, (start, end[1] + CLEAR + sheet.BELOW * sheet.SMALL), sheet.SMALL
+                )
                 far = start + long + CLEAR if right else start - CLEAR
                 lines = (Line(end, tip), Line(end, (far, end[1])))
                 turn = math.atan2(tip[1] - end[1], tip[0] - end[0])
-                arrows = (Arrow(tip, turn),)
-                yield Measure(kind, points.get(kind, (tip,)), value, label, lines, arrows)
+                arrows = (sheet.Arrow(tip, turn),)
+                yield sheet.Measure(kind, points.get(kind, (tip,)), value, label, lines, arrows)

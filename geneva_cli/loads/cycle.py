@@ -16,16 +16,11 @@ import numpy as np
 
 from geneva_cli.errors import Notice
 from geneva_cli.kept import cached_property
+from geneva_cli.loads import load_functions
 from geneva_cli.loads.contact import LoadCase, contact, contact_values, plain_values
 from geneva_cli.loads.impacts.reversal import arrival
 from geneva_cli.loads.instant import Instant, bounded
 from geneva_cli.loads.load_case import load_case, sources, weight_kg
-from geneva_cli.loads.load_functions import (
-    LoadFunctions,
-    at_mid_motion,
-    on_breaks,
-    refuse_noise,
-)
 from geneva_cli.loads.load_peaks import LoadSummary, only, single_extremes, single_summaries
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
@@ -100,7 +95,7 @@ class Cycle:
             middle = np.flatnonzero(x == 0.0)
             crosses = engagement.slot.curved and not retraces(engagement)
             if stretch is None and len(middle) and crosses:
-                for i, _, limit in at_mid_motion(engagement, case, sought, 1):
+                for i, _, limit in load_functions.at_mid_motion(engagement, case, sought, 1):
                     if np.isfinite(limit[0]) and not np.isfinite(rows[i][middle[0]]):
                         rows[i][middle] = limit
         both = zip(rows, each, strict=True)
@@ -111,7 +106,7 @@ class Cycle:
     def extremes(self) -> Mapping[str, LoadSummary[float]]:
         """The summaries of all quantities that have a value."""
         every = single_summaries(self.machine)
-        refuse_noise([one.rms for one in every.values()])
+        load_functions.refuse_noise([one.rms for one in every.values()])
         return {name: only(one) for name, one in every.items()}
 
     @cached_property
@@ -127,14 +122,14 @@ class Cycle:
         """The motions, divided at breaks and where torque, sliding or input torque change sign."""
         out = []
         for engagement in self.mechanism.engagements:
-            load = LoadFunctions(engagement, self.case, (), more=("slides", "feeds"))
+            load = load_functions.LoadFunctions(engagement, self.case, (), more=("slides", "feeds"))
             found = load.stretches()
             signs = dict(zip(load.kinds, np.where(found.positive, 1.0, -1.0), strict=True))
             of = (signs.get(k, np.ones(found.x.shape[1])) for k in ("drives", "slides", "feeds"))
             # where only signs that do not matter here differ, a stretch goes on
             rows = np.array([found.span, *of])
             first = np.append(True, (rows[:, 1:] != rows[:, :-1]).any(axis=0))
-            ends = on_breaks(found.x[1, np.append(first[1:], True)], engagement)
+            ends = load_functions.on_breaks(found.x[1, np.append(first[1:], True)], engagement)
             cuts = [engagement.entry_deg, *ends[:-1].tolist(), engagement.exit_deg]
             for (start, end), own in zip(pairwise(cuts), rows[1:, first].T.tolist(), strict=True):
                 if start < end:

@@ -8,15 +8,7 @@ from typing import Generic, NamedTuple, TypeAlias, TypeVar, cast
 
 import numpy as np
 
-from geneva_cli.loads.contact import (
-    NEAR_CUSP,
-    NEVER_NEGATIVE,
-    PRESSED,
-    SQUARED,
-    LoadCase,
-    QuantityValue,
-    plain_values,
-)
+from geneva_cli.loads import contact
 from geneva_cli.loads.instant import Instant, LoadQuantity, Own
 from geneva_cli.loads.load_case import load_case, sources
 from geneva_cli.loads.load_functions import LoadFunctions, on_breaks
@@ -64,7 +56,10 @@ Found: TypeAlias = tuple[dict[str, LoadSummary[Array]], list[Search]]
 
 
 def load_peaks(
-    mechanism: Mechanism, names: Sequence[str], own: Own = None, case: LoadCase | None = None
+    mechanism: Mechanism,
+    names: Sequence[str],
+    own: Own = None,
+    case: contact.LoadCase | None = None,
 ) -> dict[str, PeakArray]:
     """The greatest sizes of quantities, and the first input angles that have them: (m,)."""
     mechanism = mechanism.under_load
@@ -88,14 +83,14 @@ def load_peaks(
     out = {}
     for name in names:
         one = best[name]
-        out[name] = one._replace(max=np.sqrt(one.max)) if name in SQUARED else one
+        out[name] = one._replace(max=np.sqrt(one.max)) if name in contact.SQUARED else one
     return out
 
 
-def _slope_squared(i: Instant[Jet]) -> QuantityValue[Jet]:
+def _slope_squared(i: Instant[Jet]) -> contact.QuantityValue[Jet]:
     """The square of the pressure angle's tangent."""
     slope = i.at.offset / i.at.lever
-    return QuantityValue(slope * slope)
+    return contact.QuantityValue(slope * slope)
 
 
 def greatest_pressure(mechanism: Mechanism) -> PeakArray:
@@ -185,14 +180,16 @@ def _extremes(mechanism: Mechanism, names: Sequence[str] | None = None) -> Found
         first = np.argmax(value >= bar(most, size), axis=0)
         at_deg = np.take_along_axis(place, first[None], axis=0)[0]
         ends = most * [[1.0], [-1.0]]
-        if name in NEVER_NEGATIVE:
+        if name in contact.NEVER_NEGATIVE:
             ends = np.maximum(ends, 0.0)
-        if name in SQUARED and name not in PRESSED:
+        if name in contact.SQUARED and name not in contact.PRESSED:
             ends = np.sqrt(ends)
         # where the torque changes sign, rounding may leave a size of 1e-14 of the other
         level = 1e-14 * np.where(np.isfinite(ends), np.abs(ends), 0.0).max(axis=0)
         ends = np.where(np.abs(ends) > level, ends, 0.0)
-        if name in PRESSED:  # the square of a stress goes with the force, and has its rounding
+        if (
+            name in contact.PRESSED
+        ):  # the square of a stress goes with the force, and has its rounding
             ends = np.sqrt(ends)
         best[name] = LoadSummary(ends[0], at_deg[0], ends[1], at_deg[1])
     out = {}
@@ -265,7 +262,7 @@ def _sums_of(load: LoadFunctions, result: SearchResult) -> Array:
         x = np.clip(x, a[which, None], b[which, None])
         return _powers(load, x, design[which], signs[:, which, None]) * rate
 
-    rooted = any(name in SQUARED for name in load.names)
+    rooted = any(name in contact.SQUARED for name in load.names)
     needed = np.tile(bounded, (2, 1))
     with np.errstate(all="ignore"):
         total = span_integrals(rows, (spread(a, w), spread(b, w)), design, needed, rooted)
@@ -274,7 +271,7 @@ def _sums_of(load: LoadFunctions, result: SearchResult) -> Array:
             # values at 1, 2 and 3 (Adams and Bashforth).
             places, weights = np.array([1.0, 2.0, 3.0]), np.array([23.0, -16.0, 5.0]) / 12.0
             for end in (load.engagement.entry_deg, load.engagement.exit_deg):
-                near = np.broadcast_to(np.reshape(NEAR_CUSP * end, (-1, 1)), (n, 1))
+                near = np.broadcast_to(np.reshape(contact.NEAR_CUSP * end, (-1, 1)), (n, 1))
                 values = _powers(load, near * places, slice(0, n), None)
                 total = total + matrix_product(values, weights) * np.abs(near[:, 0])
     total[~needed] = np.inf
@@ -288,6 +285,6 @@ def _powers(load: LoadFunctions, x: Array, which: Which, signs: Array | None) ->
     out = np.empty((2 * count, *x.shape[::-1])).swapaxes(1, 2)
     for i, name in enumerate(load.names):
         value = array(here.quantity(wanted[i]).value.c[0])
-        out[i] = value if name in SQUARED else value * value
-        out[count + i] = plain_values(value, name)
+        out[i] = value if name in contact.SQUARED else value * value
+        out[count + i] = contact.plain_values(value, name)
     return out

@@ -16,16 +16,8 @@ from geneva_cli.errors import refuse_text
 from geneva_cli.kept import cached_property
 from geneva_cli.motion.engagement import Anchor, Peak, Slot, SlotAxis, WheelMotion
 from geneva_cli.motion.laws.law import Law, greatest, remaining
+from geneva_cli.numerics import arrays
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import (
-    Batchable,
-    Enclosed,
-    Truth,
-    all_true,
-    ascending,
-    enclosed,
-    library,
-)
 from geneva_cli.numerics.jet import Jet, Number, piecewise, sin, sin_cos
 
 # Where psi and phi nearly vanish together, a series of psi / phi serves. Within this fraction of
@@ -35,7 +27,7 @@ NEAR, TERMS = 1.0 / 30.0, 15
 NEAR_SPLINE_DEG, SPLINE_TERMS = 0.06, 5
 
 
-class SolvedPath(Batchable):
+class SolvedPath(arrays.Batchable):
     """A fixed groove about the crank's axis, which guides the roller along the crank.
 
     Called with input angles it returns the roller's path. ``sign`` is +1 outside, -1 inside.
@@ -76,8 +68,8 @@ class SolvedPath(Batchable):
         """Both distances near mid-motion, where both sines vanish: each is first divided by phi."""
         t = Jet.variable(radians(x), order)
         # an enclosure knows nothing of the rounding of the cached series
-        exact = isinstance(x, Enclosed)
-        c = (self.motion(*enclosed(x, (0.0,)), self._terms).c if exact else self._series)[1:]
+        exact = isinstance(x, arrays.Enclosed)
+        c = (self.motion(*arrays.enclosed(x, (0.0,)), self._terms).c if exact else self._series)[1:]
         # psi / phi, each coefficient of its jet a polynomial of the angle
         slope = Jet(
             [
@@ -154,14 +146,14 @@ def _sinc(x: Jet) -> Jet:
         first = (k + 1) // 2  # the lowest power of the square that is left after k derivatives
         # k-th derivative of (-1)^j x^2j / (2j + 1)!, over k!
         powers = range(first, first + 9)
-        signed = enclosed(at, tuple((-1.0) ** j * math.comb(2 * j, k) for j in powers))
+        signed = arrays.enclosed(at, tuple((-1.0) ** j * math.comb(2 * j, k) for j in powers))
         each = [c / math.factorial(2 * j + 1) for j, c in zip(powers, signed, strict=True)]
         term = _polynomial(each, square)
         total = total * step + (term * at if k % 2 else term)
     return total
 
 
-class MiddlePath(Batchable):
+class MiddlePath(arrays.Batchable):
     """The pin's path, written about mid-motion."""
 
     def __init__(self, middle: Anchor) -> None:
@@ -199,7 +191,7 @@ class LawMotion(WheelMotion):
 
     @property
     def symmetric(self) -> bool:
-        return all_true(self.law.symmetric) and super().symmetric
+        return arrays.all_true(self.law.symmetric) and super().symmetric
 
     @property
     def breaks_deg(self) -> tuple[float, ...]:
@@ -208,7 +200,7 @@ class LawMotion(WheelMotion):
         inner = [0.0, *[self.entry_deg + u * whole for u in places]]
         if self.symmetric:
             inner = [0.0, *[(u - 0.5) * whole for u in self.law.breaks]]
-        return (self.entry_deg, *ascending(inner), self.exit_deg)
+        return (self.entry_deg, *arrays.ascending(inner), self.exit_deg)
 
     @property
     def seams_deg(self) -> tuple[float, ...]:
@@ -240,7 +232,7 @@ class LawMotion(WheelMotion):
             return remaining(rest * step, self.half_step)
 
         s = piecewise(input_deg, (middle,), (first, second))
-        rate = 1.0 / (whole * (library(input_deg).pi / 180.0))
+        rate = 1.0 / (whole * (arrays.library(input_deg).pi / 180.0))
         return Jet([c * rate**k if k else c for k, c in enumerate(s.c)])
 
 
@@ -274,7 +266,7 @@ class Backwards(Law):
         return tuple(1.0 - u for u in reversed(self.of.knots))
 
     @property
-    def symmetric(self) -> Truth:
+    def symmetric(self) -> arrays.Truth:
         return self.of.symmetric
 
     def may_vary(self, table: str, key: str) -> bool:
@@ -294,4 +286,4 @@ def run_backwards(law: Law) -> Law:
     """The law 1 - s by 1 - u; a symmetric law is its own."""
     if isinstance(law, Backwards):
         return law.of
-    return law if all_true(law.symmetric) else Backwards(law)
+    return law if arrays.all_true(law.symmetric) else Backwards(law)

@@ -13,17 +13,7 @@ import math
 from collections.abc import Callable, Iterator
 
 from geneva_cli.errors import GenevaError, clean, cut
-from geneva_cli.geometry.shapes import (
-    Arc,
-    Circle,
-    Contour,
-    Cubic,
-    Layer,
-    Line,
-    Segment,
-    Shape,
-    halved,
-)
+from geneva_cli.geometry import shapes
 from geneva_cli.geometry.sheet import (
     DASHED,
     DIMENSION,
@@ -92,13 +82,15 @@ def sheet_chunks(sheet: Sheet, version: str = USUAL) -> Iterator[str]:
     yield from _text_of(sheet.title, version, fill)
 
 
-def _draw(space: BaseLayout, shape: Shape) -> None:
-    if isinstance(shape, Circle):
+def _draw(space: BaseLayout, shape: shapes.Shape) -> None:
+    if isinstance(shape, shapes.Circle):
         space.add_circle(shape.centre, shape.radius, dxfattribs={"layer": shape.layer})
         return
     # The bulge of 300 degrees: beyond it the chord determines the radius badly.
-    segments = [part for one in shape.segments for part in halved(one, lambda bulge: bulge > 3.7)]
-    if not any(isinstance(segment, Cubic) for segment in segments):
+    segments = [
+        part for one in shape.segments for part in shapes.halved(one, lambda bulge: bulge > 3.7)
+    ]
+    if not any(isinstance(segment, shapes.Cubic) for segment in segments):
         _polyline(space, shape.layer, segments, shape.closed)
         return
     if _is_r12(space):
@@ -109,8 +101,8 @@ def _draw(space: BaseLayout, shape: Shape) -> None:
         _entity(space, shape.layer, piece)
 
 
-def _polyline(space: BaseLayout, layer: str, segments: list[Segment], close: bool) -> None:
-    points = [(*s.start, s.bulge if isinstance(s, Arc) else 0.0) for s in segments]
+def _polyline(space: BaseLayout, layer: str, segments: list[shapes.Segment], close: bool) -> None:
+    points = [(*s.start, s.bulge if isinstance(s, shapes.Arc) else 0.0) for s in segments]
     if not close:
         points.append((*segments[-1].end, 0.0))
     # R12 has no LWPOLYLINE
@@ -125,9 +117,9 @@ def _is_r12(space: BaseLayout) -> bool:
 
 def _entity(space: BaseLayout, layer: str, piece: Piece) -> None:
     attributes = {"layer": layer}
-    if isinstance(piece, Line):
+    if isinstance(piece, shapes.Line):
         space.add_line(piece.start, piece.end, dxfattribs=attributes)
-    elif isinstance(piece, Arc):
+    elif isinstance(piece, shapes.Arc):
         # Centre and angles of a larger arc are not precise enough for its ends.
         if piece.radius > 1e5:
             _polyline(space, layer, [piece], False)
@@ -188,14 +180,14 @@ def _measure(document: Document, space: Modelspace, measure: Measure) -> None:
 
 def _draw_measure(space: BaseLayout, measure: Measure) -> None:
     for piece in measure.lines:
-        _draw(space, Contour(DIMENSION, (piece,), closed=False))
+        _draw(space, shapes.Contour(DIMENSION, (piece,), closed=False))
     for arrow in measure.arrows:
         tip, left, right = arrow.corners
         space.add_solid([tip, left, right, right], dxfattribs={"layer": DIMENSION})
     _text(space, measure.label, DIMENSION)
 
 
-def _text(space: BaseLayout, label: Label, layer: Layer) -> None:
+def _text(space: BaseLayout, label: Label, layer: shapes.Layer) -> None:
     space.add_text(
         _signed(label.text),
         height=label.height,

@@ -20,18 +20,8 @@ from geneva_cli.motion.machine_spec import (
     drives_before,
     kind_tables,
 )
+from geneva_cli.spec import schema
 from geneva_cli.spec.rules import Csv
-from geneva_cli.spec.schema import (
-    REQUIRED,
-    Field,
-    Points,
-    SpecTable,
-    fields,
-    free_text,
-    require,
-    shown,
-    unknown,
-)
 from geneva_cli.spec.tables import LISTS, PLAIN
 
 TABLES = ["wheel", "drive", "motion"]
@@ -51,7 +41,7 @@ def spec_of(tree: dict[str, Any], name: str) -> Spec:
     tree = dict(tree)
     title = tree.pop("title", "")
     if not isinstance(title, str):
-        raise GenevaError(f"title must be text, not {shown(title)}", ("title",))
+        raise GenevaError(f"title must be text, not {schema.shown(title)}", ("title",))
     for table, value in tree.items():
         if table not in TABLES:
             raise _no_table(table, value)
@@ -79,7 +69,7 @@ def spec_of(tree: dict[str, Any], name: str) -> Spec:
         drive_before=None if before is None else _before(before, files),
         motion=_motion(tree["motion"], files) if "motion" in tree else None,
         **plain,
-        title=clean(free_text("title", title, ("title",))),
+        title=clean(schema.free_text("title", title, ("title",))),
         path=name,
         files=tuple(files),
     )
@@ -106,13 +96,15 @@ def _part(table: str, part: str, values: dict[str, Any]) -> Any:
     for own in values:
         if f"{table}.{own}" not in PLAIN:
             known = [name.partition(".")[2] for name in PLAIN if name.startswith(f"{table}.")]
-            raise unknown(own, table, known)
+            raise schema.unknown(own, table, known)
     if not isinstance(values.get(part, {}), dict):
         raise _not_a_table(f"{table}.{part}")
     return values.get(part)
 
 
-def _several(name: str, cls: type[SpecTable], values: Any, files: list[str]) -> list[SpecTable]:
+def _several(
+    name: str, cls: type[schema.SpecTable], values: Any, files: list[str]
+) -> list[schema.SpecTable]:
     """The tables of a list; an error says which one it is."""
     if not (isinstance(values, list) and all(isinstance(one, dict) for one in values)):
         text = f"{name} must be a list of tables: write [[{name}]] above the keys of each"
@@ -167,13 +159,13 @@ def _motion(values: dict[str, Any], files: list[str]) -> Motion | None:
             raise GenevaError(text, ("motion", key))
         return None
     cls = LAWS.find(name)
-    own = {field.key: values.pop(field.key) for field in fields(cls) if field.key in values}
+    own = {field.key: values.pop(field.key) for field in schema.fields(cls) if field.key in values}
     law: Any = cls(**_arguments(cls, own, files, LAWS, name))
     return Motion(law, **_arguments(Motion, values, files, LAWS, name))
 
 
 def _unknown(
-    key: str, table: str, own: Iterable[Field], kinds: KindTable | None = None, of: str = ""
+    key: str, table: str, own: Iterable[schema.Field], kinds: KindTable | None = None, of: str = ""
 ) -> GenevaError:
     """Error for a key that a table does not have; it names what has it.
 
@@ -201,7 +193,7 @@ def _unknown(
             keys.insert(0, one.word.key)
             if key in one.names:
                 hint = f' (did you mean {one.word.key} = "{key}"?)'
-    return unknown(key, table, keys, hint)
+    return schema.unknown(key, table, keys, hint)
 
 
 def _having(key: str) -> tuple[str, str]:
@@ -217,7 +209,7 @@ def _having(key: str) -> tuple[str, str]:
 
 
 def _arguments(
-    cls: type[SpecTable],
+    cls: type[schema.SpecTable],
     values: dict[str, Any],
     files: list[str],
     kinds: KindTable | None = None,
@@ -229,9 +221,9 @@ def _arguments(
     """
     out: dict[str, Any] = {}
     is_whole = True
-    for field in fields(cls):
+    for field in schema.fields(cls):
         if field.key not in values:
-            is_whole = is_whole and field.default is not REQUIRED
+            is_whole = is_whole and field.default is not schema.REQUIRED
             continue
         value = values[field.key]
         if isinstance(field.rule, Csv):  # the name of a file, relative to the spec
@@ -239,18 +231,18 @@ def _arguments(
 
             place = (cls.TABLE, field.key)
             if not isinstance(value, str):
-                raise GenevaError(f"file must be text, not {shown(value)}", place)
+                raise GenevaError(f"file must be text, not {schema.shown(value)}", place)
             files.append(below(os.path.dirname(files[0]), value))
-            value = Points(tuple(read_pairs(files[-1], field.rule, place)), value)
+            value = schema.Points(tuple(read_pairs(files[-1], field.rule, place)), value)
         out[field.attribute] = value
     if len(out) < len(values):
-        own = fields(cls)
+        own = schema.fields(cls)
         if kinds:  # keys of the kind come first
-            shared = (*kinds.shared, *fields(Drive))
-            own = (*(f for f in fields(kinds.find(of)) if f not in shared), *own)
+            shared = (*kinds.shared, *schema.fields(Drive))
+            own = (*(f for f in schema.fields(kinds.find(of)) if f not in shared), *own)
         known = {field.key: field for field in own}
         key = next(key for key in values if key not in known)
         raise _unknown(key, kinds.table if kinds else cls.TABLE, known.values(), kinds, of)
     if not is_whole:
-        require(cls, tuple(values), f' for {kinds.word.key} = "{of}"' if kinds else "")
+        schema.require(cls, tuple(values), f' for {kinds.word.key} = "{of}"' if kinds else "")
     return out

@@ -17,14 +17,7 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError, Notice, cut
 from geneva_cli.loads.impacts.entry import arm_mm
-from geneva_cli.loads.tolerance.locking import (
-    CutLock,
-    Deviations,
-    Lock,
-    corners,
-    tolerances,
-    without_effect,
-)
+from geneva_cli.loads.tolerance import locking
 from geneva_cli.loads.tolerance.motion_error import (
     entry_jumps,
     entry_jumps_worst,
@@ -47,7 +40,7 @@ from geneva_cli.table import Table, record_table, rows_table
 
 SAME = 1e-6  # fraction of the centre distance, or radians: nearer radii and angles are equal
 # The locks of a machine as it is cut, one for each shape, and the clearance that they need.
-Locks: TypeAlias = tuple[Sequence[CutLock], float | None]
+Locks: TypeAlias = tuple[Sequence[locking.CutLock], float | None]
 ANGLES = ("worst", "rss", "mean", "std", "p997")
 
 
@@ -71,7 +64,7 @@ def flat_locks(parts: Parts, sizes: Mapping[str, float]) -> Locks:
         for arc in cut_arcs(outlines.crank, size.lock, 0.0, near)
     }
     locks = [
-        Lock(assembly.L, assembly.sign, size.lock, size.recess, radius, half)
+        locking.Lock(assembly.L, assembly.sign, size.lock, size.recess, radius, half)
         for radius in radii.values()
         for half in halves.values()
         if half > SAME
@@ -92,7 +85,7 @@ def needed_mm(
 ) -> tuple[float, float | None]:
     """The clearances per side that slot and lock need; without ``parts`` only the slot's."""
     locks, lock_mm = cut_locks(parts, sizes) if parts else ([], None)
-    ends = corners(list(sizes.values()))
+    ends = locking.corners(list(sizes.values()))
     play = min((float(np.min(lock(ends).angle.c[0])) for lock in locks), default=0.0)
     L, most = mechanism.center_distance_mm, 0.0
     for one in mechanism.engagements:
@@ -123,13 +116,13 @@ def worst_dwell_deg(mechanism: Mechanism, parts: Parts) -> float | None:
 
 def _loosest_lock(
     mechanism: Mechanism, parts: Parts, use: dict[str, float]
-) -> tuple[CutLock, float] | None:
+) -> tuple[locking.CutLock, float] | None:
     """The lock that lets the wheel turn farthest, and its greatest error with the slot's, radians.
 
     None if no drawn lock holds the wheel.
     """
     locks = cut_locks(parts.turned, use)[0] if mechanism.spec.is_turned else []
-    ends = corners(list(use.values()))
+    ends = locking.corners(list(use.values()))
     each = [(lock, float(np.max(lock(ends).angle.arrays()[0]))) for lock in locks]
     lock, most = max(each, key=lambda one: one[1], default=(None, 0.0))
     return (lock, most + use["slot_angle_deg"]) if lock else None
@@ -148,7 +141,7 @@ def _refuse(mechanism: Mechanism, samples: int, seed: int) -> None:
     if not mechanism.spec.tolerance.is_given:
         raise GenevaError(
             "the spec gives no tolerances: set one or more of "
-            + ", ".join(Deviations._fields)
+            + ", ".join(locking.Deviations._fields)
             + " in [tolerance], each a plus or minus",
             ("tolerance",),
         )
@@ -174,10 +167,10 @@ def tolerance_table(
     if radius_mm is not None:
         require_mm("--radius", radius_mm, POSITIVE)
     _refuse(mechanism, samples, seed)
-    spec, use, given = mechanism.spec, used(mechanism), tolerances(mechanism.spec)
+    spec, use, given = mechanism.spec, used(mechanism), locking.tolerances(mechanism.spec)
     warnings = [
         Notice("tolerance-left-out", f"{name} is left out: {reason}")
-        for name, reason in without_effect(spec).items()
+        for name, reason in locking.without_effect(spec).items()
         if given[name]
     ]
     _refuse_large(mechanism, use)
@@ -186,7 +179,7 @@ def tolerance_table(
         loosest = _loosest_lock(mechanism, parts, use)
     except GenevaError as error:
         unknown.append(f"no parts: {error}")
-    ends, motions = corners(sizes), motion_errors(mechanism)
+    ends, motions = locking.corners(sizes), motion_errors(mechanism)
     jumps = max(entry_jumps(mechanism), key=lambda one: float(np.max(one(ends)[0])), default=None)
     machines = Draws(tuple(sizes), spec.tolerance.distribution == "normal", seed)
     likely = likely_place(machines, samples, motions) if motions else None
@@ -251,7 +244,7 @@ def _contributions(angles: Mapping[str, Spread | None], given: Mapping[str, floa
     """A row for each dimension that deviates: its fraction of the squares, its plus or minus."""
     names = ("dimension", "share", "dwell_position_deg", "motion_share", "motion_play_deg")
     rows = []
-    for i, name in enumerate(Deviations._fields):
+    for i, name in enumerate(locking.Deviations._fields):
         each = [(of.fractions[i], of.parts[i]) if of else (None, None) for of in angles.values()]
         if given[name]:
             rows.append((name, *each[0], *each[1]))

@@ -3,16 +3,7 @@
 import os
 from typing import Annotated
 
-from geneva_cli.cli.command import (
-    Settings,
-    SpecPath,
-    flag,
-    option,
-    output_option,
-    require_written,
-    say,
-    tell,
-)
+from geneva_cli.cli import command
 from geneva_cli.errors import GenevaError, below
 
 EXAMPLES = (
@@ -23,16 +14,20 @@ EXAMPLES = (
 
 
 def run(
-    spec: SpecPath,
-    output: Annotated[str, output_option("FOLDER", "Write into this folder (required).")] = "",
+    spec: command.SpecPath,
+    output: Annotated[
+        str, command.output_option("FOLDER", "Write into this folder (required).")
+    ] = "",
     trade: Annotated[
         str | None,
-        option("TRADE", "What laser, mill or print needs.  [default: all files]", name="--for"),
+        command.option(
+            "TRADE", "What laser, mill or print needs.  [default: all files]", name="--for"
+        ),
     ] = None,
     force: Annotated[
-        bool, flag("--force", "Write a machine that jams; replace changed files.")
+        bool, command.flag("--force", "Write a machine that jams; replace changed files.")
     ] = False,
-    settings: Settings = None,
+    settings: command.Settings = None,
 ) -> None:
     """Write every file that a shop needs into a folder, and list them.
 
@@ -54,7 +49,7 @@ def run(
     if not output:
         raise GenevaError("the files need a folder: give -o FOLDER")
     if design.spec.is_turned:
-        require_written(design, design.judge(), force)
+        command.require_written(design, design.judge(), force)
     files, missing = export_files(design, needed)
     entries = [Row(file.name, file.content) for file in files]
     with filling_folder(output, entries, design.spec.files, force) as (folder, kept):
@@ -63,14 +58,14 @@ def run(
     rows = [(below(output, one.file), one.content) for one in entries]
     show(rows_table(("file", "content"), rows, design.spec.title))
     for one in missing:
-        tell(f"{spec}: warning: {one.name}: not written: {one.why}")
+        command.tell(f"{spec}: warning: {one.name}: not written: {one.why}")
     for name in kept:
         text = "no file of this design now, but somebody changed it: it stays"
-        tell(f"{below(output, name)}: warning: {text}")
+        command.tell(f"{below(output, name)}: warning: {text}")
     process = design.spec.size.process
     if trade and process != trade:
-        tell(
+        command.tell(
             f"{spec}: warning: size.process is {process or 'not set'}, so clearances are not "
             f"those of {trade}; --set size.process={trade} sets them"
         )
-    say(design.spec.path, shop_warnings(design))
+    command.say(design.spec.path, shop_warnings(design))

@@ -9,39 +9,22 @@ from typing import Any, NamedTuple
 
 from geneva_cli.drawings.part_drawings import machine
 from geneva_cli.drawings.parts_list import part_rows
-from geneva_cli.drawings.sheet import sized
-from geneva_cli.drawings.sheet.crank_views import (
-    draw_arm,
-    draw_disc,
-    draw_link,
-    draw_roller,
-    round_parts,
-)
+from geneva_cli.drawings.sheet import crank_views, sized
 from geneva_cli.drawings.sheet.packing import Block
 from geneva_cli.drawings.sheet.paper import on_paper, scale_name, smaller
 from geneva_cli.drawings.sheet.sized import Fits
 from geneva_cli.drawings.sheet.view import View
 from geneva_cli.drawings.sheet.wheel_views import draw_frame, draw_shaft, draw_wheel
+from geneva_cli.geometry import shapes
 from geneva_cli.geometry.board import chords
 from geneva_cli.geometry.plates import Member, Plate, in_place, plates
-from geneva_cli.geometry.shapes import (
-    ORIGIN,
-    Circle,
-    Layer,
-    Point,
-    at,
-    bounds,
-    bounds_of,
-    placed,
-    two_arcs,
-)
 from geneva_cli.geometry.sheet import CENTRE, HATCH, HIDDEN, OUTLINE, Sheet, line, rectangle
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.projection import alike
 from geneva_cli.spec.written import length
 
 # Layers on the sheet of shapes of the assembled machine that are no outlines.
-LAYERS: dict[str, Layer] = {"PITCH": CENTRE, "ARM": HIDDEN, "FRAME": HIDDEN, "HUB": HIDDEN}
+LAYERS: dict[str, shapes.Layer] = {"PITCH": CENTRE, "ARM": HIDDEN, "FRAME": HIDDEN, "HUB": HIDDEN}
 
 
 class Face(NamedTuple):
@@ -61,7 +44,7 @@ def sheet(parts: FlatParts) -> Sheet:
     largest = max(row[f"size_{axis}_mm"] for row in rows for axis in "xy")
     # each plate of these layers has a view, and so has the frame: the sheet has their area at least
     apart = [one for part in every for one in plates(part) if one.layer in ("WHEEL", "ARM")]
-    boxes = [bounds(plate.outline) for plate in (*apart, *plates(every[-1]))]
+    boxes = [shapes.bounds(plate.outline) for plate in (*apart, *plates(every[-1]))]
     area = sum((box.x1 - box.x0) * (box.y1 - box.y0) for box in boxes)
     items: dict[Plate, int] = {}  # the number of each kind of plate in the list
     for i, kind in enumerate(alike(every), 1):
@@ -69,26 +52,30 @@ def sheet(parts: FlatParts) -> Sheet:
     # chords of 1.5 mm on a part of 500 mm: spans are within 0.1 mm on any paper
     faces = cut_faces(parts.members, 500.0 / largest)
     marked = {items[face.plate] for face in faces}
-    tables = round_parts((*parts.links.joined, *parts.framed.spacers), mechanism)
+    tables = crank_views.round_parts((*parts.links.joined, *parts.framed.spacers), mechanism)
 
     @cache
     def whole(scale: float) -> Block:
         view = View(f"assembly ({scale_name(scale)})", scale)
         for shape in drawn:
             view.draw(shape, LAYERS.get(shape.layer, OUTLINE))
-        view.cross(ORIGIN, sizes.outer or sizes.rim)
+        view.cross(shapes.ORIGIN, sizes.outer or sizes.rim)
         for place in mechanism.crank_places:
             view.cross(place.at, max(sizes.lock, 0.1 * L))
-        off, box = mechanism.spec.tolerance.center_distance_mm, bounds_of(drawn)
-        view.linear(ORIGIN, (L, 0.0), 0.0, sized.plain(L, "L = ", off))
+        off, box = mechanism.spec.tolerance.center_distance_mm, shapes.bounds_of(drawn)
+        view.linear(shapes.ORIGIN, (L, 0.0), 0.0, sized.plain(L, "L = ", off))
         view.section((box.x0, 0.0), (box.x1, 0.0), "A")
-        tips: dict[int, list[Point]] = {}
+        tips: dict[int, list[shapes.Point]] = {}
         for own, plate in in_place(parts.members):
             if items[own] not in marked:
                 shape = plate.outline
-                pieces = two_arcs(shape) if isinstance(shape, Circle) else shape.segments
+                pieces = (
+                    shapes.two_arcs(shape) if isinstance(shape, shapes.Circle) else shape.segments
+                )
                 longest = sorted(pieces, key=lambda piece: -math.dist(piece.start, piece.end))
-                tips.setdefault(items[own], []).extend(at(piece, 0.5) for piece in longest[:8])
+                tips.setdefault(items[own], []).extend(
+                    shapes.at(piece, 0.5) for piece in longest[:8]
+                )
         view.balloons(tips)
         return view.block()
 
@@ -96,7 +83,7 @@ def sheet(parts: FlatParts) -> Sheet:
     def section(scale: float) -> Block:
         view = View(f"A-A ({scale_name(scale)})", scale)
         _draw_section(view, faces, (0.0, L))
-        tips: dict[int, list[Point]] = {}  # the middles of the faces' sides
+        tips: dict[int, list[shapes.Point]] = {}  # the middles of the faces' sides
         for face in sorted(faces, key=lambda f: f.left - f.right):
             low, high = face.plate.low, face.plate.high
             x, z = 0.5 * (face.left + face.right), 0.5 * (low + high)
@@ -138,16 +125,16 @@ def _views(rows: list[dict[str, Any]], parts: FlatParts, scale: float) -> Iterat
         yield draw_wheel(begin(f"{front}wheel", f"{front}wheel's hub"), of)
         if of.outlines.crank:
             names = ("locking disc", "locking sector", "crank's hub")
-            yield draw_disc(begin(*(f"{front}{name}" for name in names)), of)
+            yield crank_views.draw_disc(begin(*(f"{front}{name}" for name in names)), of)
     if parts.arm:
-        yield draw_arm(begin("arm"), mechanism, parts.arm)
-    yield draw_roller(begin("roller", "pin"), mechanism)
+        yield crank_views.draw_arm(begin("arm"), mechanism, parts.arm)
+    yield crank_views.draw_roller(begin("roller", "pin"), mechanism)
     for member in {one.part: one for one in bars.cut}.values():
-        yield draw_link(begin(member.part.name), member, bars, mechanism)
+        yield crank_views.draw_link(begin(member.part.name), member, bars, mechanism)
     for shaft in dict.fromkeys(plate for one in parts.shafts for plate in plates(one.part)):
         yield draw_shaft(begin(shaft.name, thick=False), shaft)
     for plate in (plate for one in parts.framed.bridge for plate in plates(one.part)):
-        _, *through = (hole for hole in plate.holes if isinstance(hole, Circle))
+        _, *through = (hole for hole in plate.holes if isinstance(hole, shapes.Circle))
         screws = {hole: sized.screw_hole(hole.radius) for hole in through}
         yield draw_frame(begin(plate.name), plate, screws, "the crank's axis")
     threads = {h: sized.screw_hole(h.radius, tapped=True) for h in parts.framed.threads}
@@ -161,7 +148,7 @@ def cut_faces(members: Iterable[Member], scale: float) -> list[Face]:
     for own, plate in in_place(members):
         crossings: list[float] = []
         for shape in (plate.outline, *plate.holes):
-            scaled = placed(shape, scale=scale)
+            scaled = shapes.placed(shape, scale=scale)
             for p, q in chords(scaled).tolist():
                 # chords that follow each other share their ends within rounding, 1e-9 mm
                 if (round(p.imag, 9) <= 0.0) != (round(q.imag, 9) <= 0.0):

@@ -8,19 +8,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from geneva_cli.drawings.part_drawings import pitch_lines
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.view import View, grouped, times
+from geneva_cli.geometry import shapes
 from geneva_cli.geometry.plates import Plate, plates
-from geneva_cli.geometry.shapes import (
-    ORIGIN,
-    Arc,
-    Circle,
-    Contour,
-    Point,
-    Shape,
-    at,
-    bounds,
-    polygon,
-    turned,
-)
 from geneva_cli.geometry.sheet import CENTRE, HIDDEN, OUTLINE
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
@@ -41,13 +30,13 @@ def draw_wheel(view: View, parts: FlatParts) -> View:
     wheel, *hubs = plates(parts.wheel.part)
     for shape in outlines_of(parts.wheel.part):
         view.draw(shape, HIDDEN if shape.layer == "HUB" else OUTLINE)
-    edges = [s for s in (wheel.outline, *wheel.holes) if isinstance(s, Contour)]
+    edges = [s for s in (wheel.outline, *wheel.holes) if isinstance(s, shapes.Contour)]
     contour = next(s for s in edges if s.layer == wheel.layer)
     reach = sizes.outer or max(math.hypot(*s.start) for s in contour.segments)
-    view.cross(ORIGIN, reach)
+    view.cross(shapes.ORIGIN, reach)
     for i, (engagement, direction) in enumerate(assembly.slots):
         if not engagement.slot.curved:
-            walls = turned(outlines.slots[engagement], direction)
+            walls = shapes.turned(outlines.slots[engagement], direction)
             for end, mouth in _ends(cut_walls(walls, outlines.wheel)):
                 view.centre_line(*((end, mouth) if assembly.sign > 0.0 else (mouth, end)))
         elif i == 0:
@@ -56,10 +45,10 @@ def draw_wheel(view: View, parts: FlatParts) -> View:
     L = assembly.L
     # a recess's centre, the leftmost one
     centres = ((L * math.cos(a), L * math.sin(a)) for a in assembly.rests)
-    at_rest = min(centres, key=lambda p: p[0], default=ORIGIN)
+    at_rest = min(centres, key=lambda p: p[0], default=shapes.ORIGIN)
     if sizes.recess:
         view.cross(at_rest, 0.0)
-    arcs = [s for s in contour.segments if isinstance(s, Arc)]
+    arcs = [s for s in contour.segments if isinstance(s, shapes.Arc)]
     bores, screwed = holes_of([wheel])
     circle_of(view, screwed)
     if sizes.recess:
@@ -100,16 +89,18 @@ def draw_wheel(view: View, parts: FlatParts) -> View:
     return view
 
 
-def _ends(walls: Contour) -> list[tuple[Point, Point]]:
+def _ends(walls: shapes.Contour) -> list[tuple[shapes.Point, shapes.Point]]:
     """Return inner end and mouth of the axis of a straight slot, or of each slot of a pair."""
     first, *_, last = walls.segments
-    arcs = [piece for piece in walls.segments[1:-1] if isinstance(piece, Arc)]
+    arcs = [piece for piece in walls.segments[1:-1] if isinstance(piece, shapes.Arc)]
     if len(arcs) == 1:
         return [_axis(first.start, first.end, arcs[0], last.end)]
     return [_axis(first.start, first.end, arcs[0]), _axis(last.end, last.start, arcs[-1])]
 
 
-def _axis(corner: Point, inner: Point, arc: Arc, *corners: Point) -> tuple[Point, Point]:
+def _axis(
+    corner: shapes.Point, inner: shapes.Point, arc: shapes.Arc, *corners: shapes.Point
+) -> tuple[shapes.Point, shapes.Point]:
     """Return the axis of a slot: a wall from a corner inwards, a round end, other corners."""
     x, y = arc.centre
     turn = math.atan2(inner[1] - corner[1], inner[0] - corner[0])
@@ -120,7 +111,7 @@ def _axis(corner: Point, inner: Point, arc: Arc, *corners: Point) -> tuple[Point
 
 def _slot(view: View, parts: Outlines, engagement: Engagement, count: int) -> None:
     directions = [d for one, d in parts.assembly.slots if one is engagement]
-    walls = cut_walls(turned(parts.slots[engagement], directions[0]), parts.wheel)
+    walls = cut_walls(shapes.turned(parts.slots[engagement], directions[0]), parts.wheel)
     ends = _ends(walls)
     end, mouth = ends[0]
     turn = math.atan2(mouth[1] - end[1], mouth[0] - end[0])
@@ -141,9 +132,9 @@ def _slot(view: View, parts: Outlines, engagement: Engagement, count: int) -> No
     view.linear(end, mouth, turn, times(count, deep), "from a slot's end to its mouth", near=True)
     if math.hypot(*foot) > SAME_ON_SHEET:
         normal, off = math.atan2(foot[1], foot[0]), sized.plain(math.hypot(*foot))
-        view.linear(ORIGIN, foot, normal, off, "from the wheel's axis to a slot's axis")
-    pieces = [s for d in directions for s in turned(parts.slots[engagement], d).segments]
-    arcs = [s for s in pieces if isinstance(s, Arc)]
+        view.linear(shapes.ORIGIN, foot, normal, off, "from the wheel's axis to a slot's axis")
+    pieces = [s for d in directions for s in shapes.turned(parts.slots[engagement], d).segments]
+    arcs = [s for s in pieces if isinstance(s, shapes.Arc)]
     rounds = [s for s in arcs if math.hypot(*s.centre) > SAME_ON_SHEET]
     view.of_arcs(rounds, times(count, sized.plain(rounds[0].radius, "R ")))
 
@@ -156,7 +147,7 @@ def _steps(view: View, parts: Outlines, reach: float) -> None:
         if engagement.slot.curved:
             angles.append(direction)
             continue
-        for (x, y), (u, v) in _ends(turned(parts.slots[engagement], direction)):
+        for (x, y), (u, v) in _ends(shapes.turned(parts.slots[engagement], direction)):
             angle = math.atan2(v - y, u - x)
             angle += 0.0 if assembly.sign > 0.0 else math.pi
             angles.append(direction + math.remainder(angle - direction, math.tau))
@@ -170,24 +161,29 @@ def _steps(view: View, parts: Outlines, reach: float) -> None:
 
 
 def draw_frame(
-    view: View, plate: Plate, screws: Mapping[Circle, str], axis_name: str = "the wheel's axis"
+    view: View,
+    plate: Plate,
+    screws: Mapping[shapes.Circle, str],
+    axis_name: str = "the wheel's axis",
 ) -> View:
     """Draw the frame: its size, and diameter and position of each hole from the axis."""
     view.draw_all((plate.outline, *plate.holes))
-    holes = [hole for hole in plate.holes if isinstance(hole, Circle)]
+    holes = [hole for hole in plate.holes if isinstance(hole, shapes.Circle)]
     # the axis may have no hole
-    first = [(ORIGIN, holes[0].radius)] if holes else []
+    first = [(shapes.ORIGIN, holes[0].radius)] if holes else []
     for centre, radius in dict([*first, *((h.centre, h.radius) for h in holes)]).items():
         view.cross(centre, radius)
-    box = bounds(plate.outline)
+    box = shapes.bounds(plate.outline)
     up = 0.5 * math.pi
     where = f"from {axis_name} to a hole"
-    view.places((hole.centre for hole in holes), ORIGIN, (f"across, {where}", f"up, {where}"))
+    view.places(
+        (hole.centre for hole in holes), shapes.ORIGIN, (f"across, {where}", f"up, {where}")
+    )
     corner = (box.x0, box.y0)
     if holes:
         to_left, to_low = length(-box.x0), length(-box.y0)
-        view.linear(corner, ORIGIN, 0.0, to_left, f"from the left edge to {axis_name}")
-        view.linear(corner, ORIGIN, up, to_low, f"from the lower edge to {axis_name}")
+        view.linear(corner, shapes.ORIGIN, 0.0, to_left, f"from the left edge to {axis_name}")
+        view.linear(corner, shapes.ORIGIN, up, to_low, f"from the lower edge to {axis_name}")
     view.linear(corner, (box.x1, box.y0), 0.0, length(box.x1 - box.x0), "wide")
     view.linear(corner, (box.x0, box.y1), up, length(box.y1 - box.y0), "high")
     texts_of = {hole: sized.bore(view.fits, hole.radius) for hole in holes}
@@ -196,8 +192,8 @@ def draw_frame(
     for text, some in grouped((texts_of[hole], hole) for hole in holes):
         places = ", ".join(f"({length(x)}, {length(y)})" for _, (x, y), _ in some)
         view.diameter(some, text, f"at {places} from {axis_name}")
-    assert isinstance(plate.outline, Contour)
-    arcs = [piece for piece in plate.outline.segments if isinstance(piece, Arc)]
+    assert isinstance(plate.outline, shapes.Contour)
+    arcs = [piece for piece in plate.outline.segments if isinstance(piece, shapes.Arc)]
     if arcs:  # of one radius but for rounding, which may show in the last decimal
         view.of_arcs(arcs, times(len(arcs), sized.plain(arcs[0].radius, "R ")))
     return view
@@ -206,7 +202,7 @@ def draw_frame(
 def draw_hub(view: View, hub: Plate) -> None:
     """Draw the diameter of a hub that is already drawn."""
     radius = around(hub.outline)
-    whole = Circle(hub.layer, ORIGIN, radius)
+    whole = shapes.Circle(hub.layer, shapes.ORIGIN, radius)
     view.diameter([whole], f"{hub.name} {sized.plain(2.0 * radius, 'Ø ')}")
 
 
@@ -214,7 +210,7 @@ def draw_shaft(view: View, shaft: Plate) -> View:
     """Draw a shaft from the side; a hexagon has no fit, as its corners are free."""
     long, radius = shaft.thickness, around(shaft.outline)
     corners = [(0.0, -radius), (long, -radius), (long, radius), (0.0, radius)]
-    view.draw(polygon("", corners), OUTLINE)
+    view.draw(shapes.polygon("", corners), OUTLINE)
     view.centre_line((0.0, 0.0), (long, 0.0))
     view.linear((0.0, -radius), (long, -radius), 0.0, length(long))
     has_corners = radius > radius_of(shaft.outline) + SAME_ON_SHEET
@@ -226,44 +222,44 @@ def draw_shaft(view: View, shaft: Plate) -> View:
     return view
 
 
-def holes_of(plates: Iterable[Plate]) -> tuple[list[Shape], list[Circle]]:
+def holes_of(plates: Iterable[Plate]) -> tuple[list[shapes.Shape], list[shapes.Circle]]:
     """Return the bores of plates on one axis, and their other round holes, such as bolts."""
-    bores, bolts = dict[Shape, None](), dict[Circle, None]()
+    bores, bolts = dict[shapes.Shape, None](), dict[shapes.Circle, None]()
     for hole in (hole for plate in plates for hole in plate.holes if hole.layer == "BORE"):
-        if isinstance(hole, Circle) and math.hypot(*hole.centre) != 0.0:
+        if isinstance(hole, shapes.Circle) and math.hypot(*hole.centre) != 0.0:
             bolts[hole] = None
         else:
             bores[hole] = None
     return list(bores), list(bolts)
 
 
-def bored(view: View, bores: Sequence[Shape], size: Size, part: str) -> None:
+def bored(view: View, bores: Sequence[shapes.Shape], size: Size, part: str) -> None:
     """Draw the diameter of a part's bore, and what else its shape needs; a note has its angle."""
     if not bores:
         return
     shape = bores[0]
     form = Bore(radius_of(shape))
-    if isinstance(shape, Contour):
+    if isinstance(shape, shapes.Contour):
         # without the rounding errors of the sum, which would choose another key
         form = bore_of(size, part, round(form.radius - 0.5 * size.allowances.shaft_fit_mm, 9))
     if form.form != "hex":
         cut = form.radius + form.loose
-        view.diameter([Circle("", ORIGIN, cut)], sized.bore(view.fits, cut))
-    if isinstance(shape, Contour):
-        x, y = at(shape.segments[0], 0.5)
+        view.diameter([shapes.Circle("", shapes.ORIGIN, cut)], sized.bore(view.fits, cut))
+    if isinstance(shape, shapes.Contour):
+        x, y = shapes.at(shape.segments[0], 0.5)
         note = form.note if view.fits.is_iso else form.note.replace(" JS9", "")
         view.note((x, y), note)
         turn, what = math.degrees(math.atan2(y, x)), note.split()[0].rstrip(",")
         view.notes.append(f"{what} at {number(turn, 2)}°, counterclockwise from the right")
 
 
-def circle_of(view: View, screwed: Sequence[Circle]) -> None:
+def circle_of(view: View, screwed: Sequence[shapes.Circle]) -> None:
     """Draw the circles that bolts lie on, as centre lines."""
     for far in {round(math.hypot(*c.centre), 6) for c in screwed}:
-        view.draw(Circle("", (0.0, 0.0), far), CENTRE)
+        view.draw(shapes.Circle("", (0.0, 0.0), far), CENTRE)
 
 
-def bolted(view: View, screwed: Sequence[Circle], tapped: bool = False) -> None:
+def bolted(view: View, screwed: Sequence[shapes.Circle], tapped: bool = False) -> None:
     """Draw the diameters of the bolts' holes and of their circle."""
     if not screwed:
         return

@@ -10,19 +10,10 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.errors import GenevaError, Notice, below, cut
+from geneva_cli.geometry import shapes
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.loops import Loop, greatest_gap, loops, shown
 from geneva_cli.geometry.plates import moments, total
-from geneva_cli.geometry.shapes import (
-    Arc,
-    Circle,
-    Contour,
-    Cubic,
-    Point,
-    closed,
-    placed,
-    two_arcs,
-)
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
@@ -48,8 +39,8 @@ class DrawnMachine(NamedTuple):
     """The outlines of wheel and crank in their own frames, and how the crank turns the wheel."""
 
     assembly: Assembly
-    wheel: tuple[Contour, ...]
-    crank: tuple[Contour, ...]  # all that lies in the wheel's plane, rollers too
+    wheel: tuple[shapes.Contour, ...]
+    crank: tuple[shapes.Contour, ...]  # all that lies in the wheel's plane, rollers too
     roller: Roller
     free: FreeRanges
     start: float  # crank angle in the middle of a dwell, radians from mid-motion
@@ -61,7 +52,7 @@ class DrawnMachine(NamedTuple):
         """How far the wheel should turn in a turn of the crank, radians."""
         return sum(2.0 * motion.engagement.half_step for motion in self.assembly.motions)
 
-    def deepest(self, points: Sequence[Point]) -> tuple[float, Point]:
+    def deepest(self, points: Sequence[shapes.Point]) -> tuple[float, shapes.Point]:
         """How deep points of the crank lie in the wheel in mid-dwell, mm, and where."""
         turn = float(self.free.crank_direction(np.array([self.start]))[0])
         z = np.array([complex(*point) for point in points]) * np.exp(1j * turn)
@@ -159,21 +150,21 @@ def _drawn(spec: Spec, part: str, notes: list[Notice]) -> tuple[tuple[Loop, ...]
     drawn = read_drawing(path)
     notes += [Notice("outline-units", f"{cut(file, 100)}: {text}") for text in drawn.notes]
     turn, over = math.radians(outline[f"{part}_turn_deg"]), outline["mirror"] in (part, "both")
-    shape = placed(Contour("", tuple(drawn.pieces)), turn=turn, mirror=over)
-    pieces = [p for p in shape.segments if not isinstance(p, Cubic)]
+    shape = shapes.placed(shapes.Contour("", tuple(drawn.pieces)), turn=turn, mirror=over)
+    pieces = [p for p in shape.segments if not isinstance(p, shapes.Cubic)]
     try:
         own = tuple(loops(pieces))
     except GenevaError as error:
         raise GenevaError(f"{cut(path, 300)}: {error}") from None
-    if not (drawn.is_exact and any(isinstance(piece, Arc) for piece in pieces)):
+    if not (drawn.is_exact and any(isinstance(piece, shapes.Arc) for piece in pieces)):
         return own, MOST_MM  # facets
     gap = 2.0 * greatest_gap(pieces)  # of numbers that were rounded
     return own, gap if gap > EXACT_MM else 0.0
 
 
 def _with_rollers(
-    drawn: Sequence[Loop | Contour], mechanism: Mechanism, place: Assembly
-) -> tuple[tuple[Contour, ...], Roller]:
+    drawn: Sequence[Loop | shapes.Contour], mechanism: Mechanism, place: Assembly
+) -> tuple[tuple[shapes.Contour, ...], Roller]:
     """The crank with its rollers: those that its drawing has, or our own."""
     radius, axis = mechanism.roller_radius_mm, np.array((place.L, 0.0))
     # of all rollers, in the crank's frame
@@ -183,7 +174,7 @@ def _with_rollers(
     R = ideal = abs(turned[0])
     if mechanism.engagements[0].built:  # radial slots on a crank that was built for others
         ideal = place.L * math.sin(math.pi / mechanism.spec.wheel.z)
-    crank, found = list[Contour](), list[Circle]()
+    crank, found = list[shapes.Contour](), list[shapes.Circle]()
     for one in drawn:
         if not isinstance(one, Loop):  # of our own crank
             crank.append(one)
@@ -197,28 +188,28 @@ def _with_rollers(
     pin = np.array([(turned[0].real, turned[0].imag)])
     is_drawn = any(isinstance(one, Loop) for one in drawn)
     if not (is_drawn and Polyarc(crank).signed(pin)[0] < 0.0):
-        crank += [_round(Circle("ROLLER", (pin.real, pin.imag), radius)) for pin in turned]
+        crank += [_round(shapes.Circle("ROLLER", (pin.real, pin.imag), radius)) for pin in turned]
     return tuple(crank), Roller(R, radius, ideal)
 
 
-def _round(roller: Circle) -> Contour:
+def _round(roller: shapes.Circle) -> shapes.Contour:
     """A roller as two arcs, whose ends are not where it touches straight slots.
 
     At an entry both walls touch it across the crank's arm, where ends would count as corners.
     """
     across = math.atan2(roller.centre[1], roller.centre[0])
-    return closed("ROLLER", two_arcs(roller, across + 1.0))
+    return shapes.closed("ROLLER", shapes.two_arcs(roller, across + 1.0))
 
 
-def _roller(loop: Loop) -> Circle | None:
+def _roller(loop: Loop) -> shapes.Circle | None:
     """An outline that is a full circle beside the crank's axis, as one."""
     first, *others = loop.contour.segments
-    if loop.depth % 2 or not isinstance(first, Arc):
+    if loop.depth % 2 or not isinstance(first, shapes.Arc):
         return None
     centre, radius = first.centre, first.radius
     for p in others:
-        if not isinstance(p, Arc):
+        if not isinstance(p, shapes.Arc):
             return None
         if max(abs(p.radius - radius), math.dist(p.centre, centre)) >= 1e-6 * radius:
             return None
-    return Circle("ROLLER", centre, radius) if math.hypot(*centre) > radius else None
+    return shapes.Circle("ROLLER", centre, radius) if math.hypot(*centre) > radius else None

@@ -21,18 +21,8 @@ from geneva_cli.motion.batch import selection, taken
 from geneva_cli.motion.engagement import Engagement, WheelMotion
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import braking, spans
+from geneva_cli.numerics import arrays
 from geneva_cli.numerics.angles import DEGREE, omega
-from geneva_cli.numerics.arrays import (
-    Mask,
-    Which,
-    Whole,
-    all_true,
-    blocks,
-    choose,
-    joined,
-    larger,
-    parameter,
-)
 from geneva_cli.numerics.extremes import Smooth, cuts
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.quadrature import rule
@@ -41,7 +31,7 @@ from geneva_cli.numerics.tolerances import ROUNDED
 from geneva_cli.spec.workshops import WORKSHOPS
 
 
-def changes(engagement: Engagement, drag: Array) -> tuple[Whole, Array]:
+def changes(engagement: Engagement, drag: Array) -> tuple[arrays.Whole, Array]:
     """Designs and input angles (k,) at which the wheel's torque changes sign: psi2 = -drag."""
     motion, m = engagement.motion, len(drag)
     if engagement.paired:  # gears hold the wheel until another roller stops it
@@ -49,9 +39,11 @@ def changes(engagement: Engagement, drag: Array) -> tuple[Whole, Array]:
         return np.arange(m), begins.astype(float)
     some = selection(motion)
 
-    def torque(x: Array, which: Which, order: int, _: Sequence[int]) -> list[tuple[Array, ...]]:
+    def torque(
+        x: Array, which: arrays.Which, order: int, _: Sequence[int]
+    ) -> list[tuple[Array, ...]]:
         rate = some(which).rate(x, order + 1)
-        return [(rate.derivative() + parameter(drag[which])).arrays()]
+        return [(rate.derivative() + arrays.parameter(drag[which])).arrays()]
 
     f = Smooth(torque, 0, signs=1, unit=DEGREE)
     which, _, (a, b), positive = cuts(f, spans(motion, m))
@@ -68,7 +60,7 @@ def changes(engagement: Engagement, drag: Array) -> tuple[Whole, Array]:
 
 
 def impacts_of(
-    engagement: Engagement, at: tuple[Whole, Array], play: Array, drag: Array
+    engagement: Engagement, at: tuple[arrays.Whole, Array], play: Array, drag: Array
 ) -> tuple[Array, Array]:
     """Angles at which wheels are struck after changes of sides ``at``, and the speeds.
 
@@ -82,11 +74,11 @@ def impacts_of(
     follows = np.append(which[1:] == which[:-1], False)
     until = np.where(follows, np.append(start[1:], 0.0), np.nan)
     parts = []
-    for part in blocks(len(start), 256):  # the integrals of so many fit in the cache
+    for part in arrays.blocks(len(start), 256):  # the integrals of so many fit in the cache
         of = which[part]
         motions = taken(engagement.motion, of)
         parts.append(_coasts(motions, start[part, None], until[part], play[part], drag[of]))
-    x, speed, crosses = joined(parts)
+    x, speed, crosses = arrays.joined(parts)
     # a wheel that has not crossed its play leaves no other wall at the next change
     speed[1:][follows[:-1] & ~crosses[:-1]] = np.nan
     return start + x / DEGREE, speed
@@ -94,12 +86,12 @@ def impacts_of(
 
 def _coasts(
     motions: WheelMotion, start: Array, until: Array, play: Array, drags: Array
-) -> tuple[Array, Array, Mask]:
+) -> tuple[Array, Array, arrays.Mask]:
     """Impacts after changes of sides, up to the next changes ``until`` or, if NaN, to the exits."""
     out: Array = np.full((2, len(start)), np.nan)
     nodes, weights = rule(24)  # exact to a double over half a motion
 
-    def gained(x: Array, live: Whole) -> tuple[Array, Array]:
+    def gained(x: Array, live: arrays.Whole) -> tuple[Array, Array]:
         """Lead of wheels over their slots, and difference in speed, x radians after they coast.
 
         d = -int (x - t) (psi2 + drag) dt, which loses no digits even for a small play.
@@ -124,7 +116,7 @@ def _coasts(
         ahead_at_exit, speed_at_exit = gained(span, every)
         slows = np.flatnonzero(sense * speed_at_exit < 0.0)
 
-        def faster(x: Array, live: Whole) -> tuple[Array, Array]:
+        def faster(x: Array, live: arrays.Whole) -> tuple[Array, Array]:
             of = slows[live]
             place = start[of] + x[:, None] / DEGREE
             torque = (taken(motions, of)(place, 2).arrays()[2] + drags[of])[:, 0]
@@ -136,7 +128,7 @@ def _coasts(
         returns = (play > 0.0) & ~crosses & (sense * ahead_at_exit < 0.0)
         there, gap = np.flatnonzero(crosses | returns), np.where(crosses, play, 0.0)
 
-        def over(x: Array, live: Whole) -> tuple[Array, Array]:
+        def over(x: Array, live: arrays.Whole) -> tuple[Array, Array]:
             of = there[live]
             ahead, speed = gained(x, of)
             return sense[of] * ahead - gap[of], sense[of] * speed
@@ -152,16 +144,16 @@ def drag_over(mechanism: Mechanism) -> float:
     """M_r / (I w²) of the spec's load; infinite without an inertia, as then nothing coasts."""
     inertia, w = inertia_kgm2(mechanism.spec), omega(mechanism.spec.drive.n_rpm)
     heavy = inertia > 0.0
-    drag = sum(resisting_torques_Nm(mechanism.spec)) / (choose(heavy, inertia, 1.0) * w * w)
-    out: float = choose(heavy, drag, math.inf)
+    drag = sum(resisting_torques_Nm(mechanism.spec)) / (arrays.choose(heavy, inertia, 1.0) * w * w)
+    out: float = arrays.choose(heavy, drag, math.inf)
     return out
 
 
 def lasting_drag_Nm(mechanism: Mechanism) -> float:
     """Torque to add for the roller to stay on one wall: I w² max(-psi2) - M_r."""
     inertia, w = inertia_kgm2(mechanism.spec), omega(mechanism.spec.drive.n_rpm)
-    most = reduce(larger, map(braking, mechanism.engagements))
-    return larger(inertia * w * w * most - sum(resisting_torques_Nm(mechanism.spec)), 0.0)
+    most = reduce(arrays.larger, map(braking, mechanism.engagements))
+    return arrays.larger(inertia * w * w * most - sum(resisting_torques_Nm(mechanism.spec)), 0.0)
 
 
 def reversal_impacts(mechanism: Mechanism, pin: PinSize | None = None) -> Impacts:
@@ -174,10 +166,12 @@ def reversal_impacts(mechanism: Mechanism, pin: PinSize | None = None) -> Impact
     spec, case = mechanism.spec, load_case(mechanism)
     given = spec.size.allowances.slot_clearance_mm
     both = spec.tolerance.roller_diameter_mm + spec.tolerance.slot_width_mm
-    play_mm = choose(given == 0.0, WORKSHOPS[spec.size.process].slot_play_mm, given) + 0.5 * both
+    play_mm = (
+        arrays.choose(given == 0.0, WORKSHOPS[spec.size.process].slot_play_mm, given) + 0.5 * both
+    )
     drag = drag_over(mechanism)
     none = (drag == np.inf) | (play_mm == 0.0)
-    if all_true(none):
+    if arrays.all_true(none):
         return Impacts(*np.full((5, mechanism.designs), np.nan))
     best, numbers = np.full((3, 1), np.nan), (mechanism.center_distance_mm, drag, play_mm)
     rows = [np.broadcast_to(x, (mechanism.designs, 1)) for x in (*numbers, case.radius)]

@@ -21,18 +21,8 @@ from typing import NamedTuple, Protocol, cast
 import numpy as np
 
 from geneva_cli.motion.machine_spec import Spec
+from geneva_cli.numerics import arrays
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import (
-    Mask,
-    Truth,
-    all_true,
-    array,
-    choose,
-    larger,
-    library,
-    parameter,
-    smaller,
-)
 from geneva_cli.numerics.jet import Jet, Number, atan2, sqrt
 
 ROUNDING = 1e-13  # of an angle, or of the centre distance
@@ -84,7 +74,7 @@ def slope_of(number: int) -> Deviations:
 
 def corners(sizes: Sequence[float]) -> Deviations:
     """Every combination of the ends of the nonzero tolerances: (2**n,), or (2**n, m, 1) of m."""
-    ends = [(0.0,) if all_true(size == 0.0) else (-size, size) for size in sizes]
+    ends = [(0.0,) if arrays.all_true(size == 0.0) else (-size, size) for size in sizes]
     return deviations([np.array(column) for column in zip(*product(*ends), strict=True)])
 
 
@@ -92,7 +82,7 @@ class LockPlay(NamedTuple):
     """The wheel's play to one side, radians; 0 if disc and recess do not fit together."""
 
     angle: Jet
-    jams: Mask  # True if they do not fit together
+    jams: arrays.Mask  # True if they do not fit together
 
 
 class CutLock(Protocol):
@@ -126,7 +116,7 @@ class Lock(NamedTuple):
     def reach(self) -> float:
         """Half of the recess, as an angle about the crank's axis."""
         a = (self.L**2 + self.recess**2 - self.corner**2) / (2.0 * self.L * self.recess)
-        return library(a).acos(larger(-1.0, smaller(1.0, self.sign * a)))
+        return arrays.library(a).acos(arrays.larger(-1.0, arrays.smaller(1.0, self.sign * a)))
 
     def __call__(self, by: Deviations) -> LockPlay:
         """Play of the wheel to one side."""
@@ -146,10 +136,10 @@ class Lock(NamedTuple):
             on_recess = _chosen(square.c[0] > 0.0, between, between * 0.0)
         angle = _chosen(self.reach <= self.half, on_corner, on_end)
         # distance to the recess's bottom
-        nearer = array(off.c[0]) * -self.sign
-        left = array(spare.c[0]) - np.maximum(nearer, 0.0)
-        jams = (left < -ROUNDING * L) | (array(angle.c[0]) < -ROUNDING)
-        least = np.cos(smaller(self.reach, self.half))
+        nearer = arrays.array(off.c[0]) * -self.sign
+        left = arrays.array(spare.c[0]) - np.maximum(nearer, 0.0)
+        jams = (left < -ROUNDING * L) | (arrays.array(angle.c[0]) < -ROUNDING)
+        least = np.cos(arrays.smaller(self.reach, self.half))
         angle = _chosen((nearer > np.maximum(spare.c[0], 0.0) * least) & ~jams, on_recess, angle)
         return LockPlay(_chosen(jams, angle * 0.0, angle), jams)
 
@@ -164,7 +154,7 @@ class Lock(NamedTuple):
         reach = np.where(corner, self.lock + self.edge, self.recess)
         cosine = self.sign * (L * L + reach * reach - far * far) / (2.0 * L * reach)
         # if the arcs touch there is no such triangle: the angle is 90 degrees
-        arcs = smaller(half_reach, self.half) > 0.5 * math.pi
+        arcs = arrays.smaller(half_reach, self.half) > 0.5 * math.pi
         with np.errstate(invalid="ignore"):
             # NaN where the recess's corner is beyond the recess, so that nothing meets it
             phi = np.arccos(np.where(arcs, 0.0, cosine))
@@ -175,7 +165,7 @@ class Lock(NamedTuple):
         on = np.where(arcs, "recess", np.where(corner, "corner", "disc's end"))[()]
         # without clearance rounding may make it negative
         play = np.maximum(self(AS_DRAWN).angle.c[0], 0.0)
-        return LockContact(cast("str", on), *map(parameter, (phi, play, radius)))
+        return LockContact(cast("str", on), *map(arrays.parameter, (phi, play, radius)))
 
 
 def _at(one: Jet, other: float, opposite: Jet) -> Jet:
@@ -189,9 +179,9 @@ def positive_root(square: Jet) -> Jet:
     return sqrt(_chosen(square.c[0] > 0.0, square, square * 0.0 + 1e-300))
 
 
-def _chosen(condition: Truth, yes: Jet, no: Jet) -> Jet:
+def _chosen(condition: arrays.Truth, yes: Jet, no: Jet) -> Jet:
     one = bool(condition) if np.ndim(condition) == 0 else condition
-    return Jet([*map(partial(choose, one), yes.c, no.c)])
+    return Jet([*map(partial(arrays.choose, one), yes.c, no.c)])
 
 
 def loosest(locks: Sequence[Lock]) -> Lock:

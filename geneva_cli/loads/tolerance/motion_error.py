@@ -29,18 +29,8 @@ from geneva_cli.motion.engagement import AsBuilt, Engagement
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.wheels.as_built import RestingSlot
+from geneva_cli.numerics import arrays
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import (
-    Array,
-    Complex,
-    Mask,
-    array,
-    blocks,
-    choose,
-    joined,
-    parameter,
-    size,
-)
 from geneva_cli.numerics.jet import Jet, Number, atan2, sqrt
 
 MOTION_SAMPLES = 361  # input angles at which a motion is sampled
@@ -62,7 +52,7 @@ class MotionError(NamedTuple):
         moved = scale * (x - self.L * self.engagement.hub) + by.center_distance_mm
         px, py = moved + x, scale * y + y
         free = self.play_mm(by)
-        free = free * choose(free.c[0] > 0.0, 1.0, 0.0)
+        free = free * arrays.choose(free.c[0] > 0.0, 1.0, 0.0)
         turned = atan2(scale * y * x - moved * y, px * x + py * y)
         height = free * side + offset
         tilt = atan2(height, sqrt(px * px + py * py - height * height))
@@ -85,11 +75,11 @@ class MotionError(NamedTuple):
         entry, exit_ = np.ravel(self.engagement.entry_deg), np.ravel(self.engagement.exit_deg)
         x, y = self.engagement.path(np.linspace(entry, exit_, MOTION_SAMPLES, axis=-1), 0)
         near = np.atleast_2d(np.hypot(x.c[0], y.c[0])).min(axis=-1, keepdims=True)
-        nearest = self.L * (near - size(self.engagement.slot.offset))
+        nearest = self.L * (near - arrays.size(self.engagement.slot.offset))
         margin = np.minimum((nearest - self.clearance) / times - play, self.arm / times)
-        return parameter(margin if margin.size > 1 else float(margin[0, 0]))
+        return arrays.parameter(margin if margin.size > 1 else float(margin[0, 0]))
 
-    def greatest(self, by: Deviations) -> Array:
+    def greatest(self, by: Deviations) -> arrays.Array:
         """Greatest error of any of the machines, the first axis of ``by``, of n designs: (3, n).
 
         The rows are the error in radians, the input angle, and the side.
@@ -97,29 +87,31 @@ class MotionError(NamedTuple):
         values = [np.atleast_1d(jet.c[0]) for jet in by]
         each = deviations([np.reshape(z, (len(z), -1, 1)) for z in values])
         return self._greatest(
-            lambda at, side: np.asarray((array(self(each, at, side).c[0]) * side).max(axis=0))
+            lambda at, side: np.asarray(
+                (arrays.array(self(each, at, side).c[0]) * side).max(axis=0)
+            )
         )
 
-    def greatest_rss(self, sizes: Sequence[float]) -> Array:
+    def greatest_rss(self, sizes: Sequence[float]) -> arrays.Array:
         """The nominal error and the root of the squared effects of dimensions of these sizes.
 
         It is at its greatest, with the rows of ``greatest``.
         """
         none, which = deviations([0.0] * len(sizes)), [i for i, x in enumerate(sizes) if np.any(x)]
 
-        def root(at: Array, side: float) -> Array:
+        def root(at: arrays.Array, side: float) -> arrays.Array:
             squares = 0.0 * at
             for i in which:
-                slope = array(self(slope_of(i), at, side).c[1]) * sizes[i]
+                slope = arrays.array(self(slope_of(i), at, side).c[1]) * sizes[i]
                 squares = squares + slope * slope
-            return np.asarray(abs(array(self(none, at, side).c[0])) + np.sqrt(squares))
+            return np.asarray(abs(arrays.array(self(none, at, side).c[0])) + np.sqrt(squares))
 
         return self._greatest(root)
 
-    def _greatest(self, of: Callable[[Array, float], Array]) -> Array:
+    def _greatest(self, of: Callable[[arrays.Array, float], arrays.Array]) -> arrays.Array:
         """Greatest of a function of input angles (n, k) and a side, in each design."""
         entry, exit_ = np.ravel(self.engagement.entry_deg), np.ravel(self.engagement.exit_deg)
-        best: Array | None = None
+        best: arrays.Array | None = None
         for side in (1.0, -1.0):
             low, high = entry, exit_
             # eleven more samplings, each about the greatest of the last and a tenth as wide
@@ -150,9 +142,9 @@ class MotionPlays(NamedTuple):
     NaN if tolerances are all 0, or too wide for a machine.
     """
 
-    worst_deg: Array
-    rss_deg: Array
-    at_deg: Array
+    worst_deg: arrays.Array
+    rss_deg: arrays.Array
+    at_deg: arrays.Array
 
 
 def used(mechanism: Mechanism) -> dict[str, float]:
@@ -167,7 +159,9 @@ def motion_plays(mechanism: Mechanism) -> MotionPlays | None:
     m, machines = mechanism.designs, 2 ** sum(bool(np.any(x)) for x in used(mechanism).values())
     # a million places of machines with deviations are computed together
     group = max(1, (1 << 20) // (machines * MOTION_SAMPLES))
-    return joined([_plays(taken(mechanism, b), b.stop - b.start) for b in blocks(m, group)])
+    return arrays.joined(
+        [_plays(taken(mechanism, b), b.stop - b.start) for b in arrays.blocks(m, group)]
+    )
 
 
 def _plays(mechanism: Mechanism, n: int) -> MotionPlays:
@@ -178,7 +172,7 @@ def _plays(mechanism: Mechanism, n: int) -> MotionPlays:
     both = use["center_distance_mm"] + use["crank_radius_mm"]
     for engagement, error in zip(mechanism.engagements, motion_errors(mechanism), strict=True):
         worst, place, _ = (np.resize(row, n) for row in error.greatest(corners(sizes)))
-        at_deg = mechanism.shown_deg(parameter(engagement.mid_deg + place[:, None]))
+        at_deg = mechanism.shown_deg(arrays.parameter(engagement.mid_deg + place[:, None]))
         shown = np.where(worst > best, np.ravel(at_deg), shown)
         best, rss = np.maximum(best, worst), np.maximum(rss, error.greatest_rss(sizes)[0])
         known = known & (both < error.margin_mm(mechanism.spec, use))
@@ -195,12 +189,12 @@ class TrueJump(NamedTuple):
     # The true path on each side of its entry: the side, the root of its distance from the axis
     # (over L), and over that root its speed towards the axis, nearly constant, with the wheel's
     # lever to the roller as imaginary part: one search interpolates both.
-    branches: tuple[tuple[float, Array, Complex], ...]
+    branches: tuple[tuple[float, arrays.Array, arrays.Complex], ...]
 
-    def __call__(self, by: Deviations) -> tuple[Array, Mask]:
+    def __call__(self, by: Deviations) -> tuple[arrays.Array, arrays.Mask]:
         """Sizes of the jumps, over the input's speed, and a mask of machines that miss the axis."""
         crank, center = by.crank_radius_mm.c[0] / self.arm, by.center_distance_mm.c[0] / self.L
-        offset = np.atleast_1d(self.axis.offset(array(crank), array(center)))
+        offset = np.atleast_1d(self.axis.offset(arrays.array(crank), arrays.array(center)))
         moved = np.broadcast_to((center - crank) / (1.0 + crank) * self.axis.along, offset.shape)
         jump, missed = np.zeros(len(offset)), offset != 0.0
         for side, root, speed_and_lever in self.branches:
@@ -224,16 +218,18 @@ class BuiltJump(NamedTuple):
     drive: Drive
     at_deg: float
 
-    def __call__(self, by: Deviations) -> tuple[Array, Mask]:
+    def __call__(self, by: Deviations) -> tuple[arrays.Array, arrays.Mask]:
         """Sizes of the jumps, over the input's speed, and a mask of machines that miss the axis."""
-        L = np.atleast_1d(array(by.center_distance_mm.c[0] + self.L))
+        L = np.atleast_1d(arrays.array(by.center_distance_mm.c[0] + self.L))
         l = (by.crank_radius_mm.c[0] + self.R) / L
         across = np.sin(self.built.angle) - self.offset / L
-        missed: Mask = abs(across) > l
+        missed: arrays.Mask = abs(across) > l
         with np.errstate(all="ignore"):  # of machines that miss it
             own = self.built
-            here = RestingSlot(self.sign, parameter(l), own.angle, parameter(across), own.outer)
-            rate = self.drive.crank_rate(array(here.crank_deg) + self.at_deg)
+            here = RestingSlot(
+                self.sign, arrays.parameter(l), own.angle, arrays.parameter(across), own.outer
+            )
+            rate = self.drive.crank_rate(arrays.array(here.crank_deg) + self.at_deg)
             jump = abs(here.velocity) * rate
         return np.where(missed, 0.0, jump), missed
 
@@ -265,7 +261,7 @@ def entry_jumps(mechanism: Mechanism) -> list[EntryJump]:
     return out
 
 
-def _branch(axis: RestingAxis, sense: float) -> tuple[float, Array, Complex]:
+def _branch(axis: RestingAxis, sense: float) -> tuple[float, arrays.Array, arrays.Complex]:
     # In geometric progression from next to the true entry to half-way through the motion: between
     # two places, interpolation has a relative error of 1e-6 at most.
     span = 0.5 * axis.through.motion_deg * DEGREE
@@ -279,13 +275,13 @@ def _branch(axis: RestingAxis, sense: float) -> tuple[float, Array, Complex]:
     return float(np.sign(off[first])), root, abs(slope)[part] / root + 1j * lever
 
 
-def entry_jumps_worst(mechanism: Mechanism, use: Mapping[str, float]) -> Array | None:
+def entry_jumps_worst(mechanism: Mechanism, use: Mapping[str, float]) -> arrays.Array | None:
     """Greatest jump at entry for any of the deviations, over the input's speed: (m,)."""
     if built := _built_jumps(mechanism):
         sizes = [use["center_distance_mm"], use["crank_radius_mm"], *[0.0] * 5]
         jumps = [one(corners(sizes))[0].reshape(-1, mechanism.designs) for one in built]
         return np.asarray(np.concatenate(jumps).max(axis=0))
-    worst: list[Array] = []
+    worst: list[arrays.Array] = []
     for axis in RestingAxis.each(mechanism):
         crank = use["crank_radius_mm"] / arm_mm(mechanism, axis.engagement)
         center = use["center_distance_mm"] / mechanism.center_distance_mm

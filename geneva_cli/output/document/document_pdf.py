@@ -11,23 +11,11 @@ from geneva_cli.answer import FAILS, NO_BREAK, PASSES, WARNS
 from geneva_cli.errors import clean
 from geneva_cli.geometry.shapes import ORIGIN, Point, Shape, placed
 from geneva_cli.geometry.sheet import Annotations, Drawing, extent, prepared
+from geneva_cli.output import pdf
 from geneva_cli.output.document import blocks
 from geneva_cli.output.inks import CENTRE_LINES, inks
 from geneva_cli.output.letters import western
 from geneva_cli.output.notes import LETTERS, notes
-from geneva_cli.output.pdf import (
-    BEGIN,
-    INK,
-    Page,
-    box,
-    number,
-    outline,
-    pdf_text,
-    tint,
-    triangle,
-    wide,
-    words,
-)
 from geneva_cli.output.plot import plot_layout, plot_pdf
 from geneva_cli.output.svg import opacity, rings
 
@@ -60,10 +48,10 @@ class Item(NamedTuple):
 def chunks(document: blocks.Document) -> Iterator[str]:
     """Yield the file's text; the same document gives the same bytes."""
     title = clean(document.title)
-    yield from pdf_text(title, _pages(_items(document), western(title)))
+    yield from pdf.pdf_text(title, _pages(_items(document), western(title)))
 
 
-def _pages(items: Iterable[Item], foot: str) -> list[Page]:
+def _pages(items: Iterable[Item], foot: str) -> list[pdf.Page]:
     """Return items on as many A4 pages as they need, numbered."""
     contents: list[str] = []
     content, y = "", TOP
@@ -86,13 +74,13 @@ def _pages(items: Iterable[Item], foot: str) -> list[Page]:
         group = []
     contents.append(content)
     out, low = [], 11.0
-    if wide(foot, SMALL) > WIDE - 30.0:
+    if pdf.wide(foot, SMALL) > WIDE - 30.0:
         foot = foot[: _fits(foot, SMALL, WIDE - 30.0, False) - 1] + "…"
     for i, text in enumerate(contents, 1):
         which = f"{i} / {len(contents)}"
-        end = words(foot, (LEFT, low), SMALL, ink=SOFT)
-        end += words(which, (LEFT + WIDE - wide(which, SMALL), low), SMALL, ink=SOFT)
-        out.append(Page(WIDTH, HEIGHT, BEGIN + text + end, fonts=2))
+        end = pdf.words(foot, (LEFT, low), SMALL, ink=SOFT)
+        end += pdf.words(which, (LEFT + WIDE - pdf.wide(which, SMALL), low), SMALL, ink=SOFT)
+        out.append(pdf.Page(WIDTH, HEIGHT, pdf.BEGIN + text + end, fonts=2))
     return out
 
 
@@ -148,7 +136,7 @@ def _line(
     bold: bool = False,
     indent: float = 0.0,
     mark: str = "",
-    ink: str = INK,
+    ink: str = pdf.INK,
     bar: str = "",
 ) -> Item:
     """A line of text behind a mark, and a ``bar`` of a colour at the left edge."""
@@ -156,15 +144,15 @@ def _line(
 
     def draw(top: float) -> str:
         y = top - size
-        before = box(LEFT, top - high, 1.6, high, bar) if bar else ""
-        before += words(mark, (LEFT + indent - MARK + 1.0, y), size) if mark else ""
-        return before + words(text, (LEFT + indent, y), size, bold, ink)
+        before = pdf.box(LEFT, top - high, 1.6, high, bar) if bar else ""
+        before += pdf.words(mark, (LEFT + indent - MARK + 1.0, y), size) if mark else ""
+        return before + pdf.words(text, (LEFT + indent, y), size, bold, ink)
 
     return Item(high, draw)
 
 
 def _heading(text: str, y: float) -> str:
-    return words(text, (LEFT, y), HEAD, bold=True) + _rule(LEFT, y - 1.7, WIDE, 0.3)
+    return pdf.words(text, (LEFT, y), HEAD, bold=True) + _rule(LEFT, y - 1.7, WIDE, 0.3)
 
 
 def _grid(table: blocks.Grid) -> Iterator[Item]:
@@ -204,9 +192,13 @@ def _widths(heads: Sequence[str], rows: list[list[str]]) -> list[float]:
     whole_word = 42.0  # the longest word that stays whole
     head_max = 30.0  # width of a head before it breaks
     for head, *cells in zip(heads, *rows, strict=True):
-        longest = [max((wide(w, SMALL, True) for w in head.split()), default=0.0)]
-        least = longest + [wide(w, SMALL) for cell in cells for w in cell.split(" ")]
-        most = [min(wide(head, SMALL, True), head_max), *longest, *(wide(c, SMALL) for c in cells)]
+        longest = [max((pdf.wide(w, SMALL, True) for w in head.split()), default=0.0)]
+        least = longest + [pdf.wide(w, SMALL) for cell in cells for w in cell.split(" ")]
+        most = [
+            min(pdf.wide(head, SMALL, True), head_max),
+            *longest,
+            *(pdf.wide(c, SMALL) for c in cells),
+        ]
         needs.append(min(max(least), whole_word) + 2.0 * PAD)
         wants.append(max(max(most) + 2.0 * PAD, needs[-1]))
     more, left = sum(wants) - sum(needs), WIDE - sum(needs)
@@ -226,14 +218,14 @@ def _row(
     high = max(map(len, cells)) * STEP + 2.0 * SPACE
 
     def draw(top: float) -> str:
-        out = box(LEFT, top - high, sum(widths), high, BAND) if bold else ""
+        out = pdf.box(LEFT, top - high, sum(widths), high, BAND) if bold else ""
         x = LEFT
         for cell, is_right, long in zip(cells, right, widths, strict=True):
-            ink, heavy = (RED, True) if cell == [blocks.BAD] else (INK, bold)
+            ink, heavy = (RED, True) if cell == [blocks.BAD] else (pdf.INK, bold)
             for i, text in enumerate(cell):
-                at = x + (long - PAD - wide(text, SMALL, heavy) if is_right else PAD)
+                at = x + (long - PAD - pdf.wide(text, SMALL, heavy) if is_right else PAD)
                 y = top - SPACE - 0.95 * SMALL - i * STEP
-                out += words(text, (at, y), SMALL, heavy, ink)
+                out += pdf.words(text, (at, y), SMALL, heavy, ink)
             x += long
         return out + _rule(LEFT, top - high, sum(widths))
 
@@ -257,30 +249,30 @@ def _drawing(drawn: Drawing) -> Item:
             return left + scale * (p[0] - around.x0), top - margin + scale * (p[1] - around.y1)
 
         def traced(shape: Shape) -> str:
-            return outline(placed(shape, at(ORIGIN), scale=scale))
+            return pdf.outline(placed(shape, at(ORIGIN), scale=scale))
 
         out, every = "", rings(shown.solid) if shown.solid else []
         inked = inks(tuple(dict.fromkeys(layer for layer, _ in every)))
         for layer, contours in every:
-            out += f"{tint(inked[layer].rgb, opacity(layer))} rg\n"
+            out += f"{pdf.tint(inked[layer].rgb, opacity(layer))} rg\n"
             out += "".join(map(traced, contours)) + "f*\n"
         for name, ink in inks(shown.layers).items():
             is_thin = name in CENTRE_LINES
-            out += f"{tint(ink.rgb)} RG {0.16 if is_thin else 0.3} w"
+            out += f"{pdf.tint(ink.rgb)} RG {0.16 if is_thin else 0.3} w"
             out += f" [{'4 0.8 0.8 0.8' if is_thin else ''}] 0 d\n"
             out += "".join(f"{traced(shape)}S\n" for shape in shown.shapes if shape.layer == name)
         out += f"{SOFT} RG {SOFT} rg 0.16 w [] 0 d\n"
         out += "".join(f"{traced(one)}S\n" for one in (*noted.lines, *noted.scale_bar))
-        out += "".join(triangle([at(corner) for corner in head]) for head in noted.heads)
-        return out + "".join(words(text, at(place), SMALL) for place, text in noted.texts)
+        out += "".join(pdf.triangle([at(corner) for corner in head]) for head in noted.heads)
+        return out + "".join(pdf.words(text, at(place), SMALL) for place, text in noted.texts)
 
     return Item(scale * (noted.box.y1 - noted.box.y0) + 2.0 * margin, draw)
 
 
 def _rule(x: float, y: float, long: float, width: float = 0.15) -> str:
     """A horizontal line."""
-    ends = f"{number(x)} {number(y)} m {number(x + long)} {number(y)} l"
-    return f"{LINE} RG {number(width)} w [] 0 d {ends} S\n"
+    ends = f"{pdf.number(x)} {pdf.number(y)} m {pdf.number(x + long)} {pdf.number(y)} l"
+    return f"{LINE} RG {pdf.number(width)} w [] 0 d {ends} S\n"
 
 
 def _lines(text: str, size: float, width_mm: float, bold: bool = False) -> list[str]:
@@ -289,12 +281,12 @@ def _lines(text: str, size: float, width_mm: float, bold: bool = False) -> list[
     line = ""
     for word in filter(None, clean(text).split(" ")):
         whole = f"{line} {word}" if line else word
-        if wide(whole, size, bold) <= width_mm:
+        if pdf.wide(whole, size, bold) <= width_mm:
             line = whole
             continue
         if line:
             out.append(line)
-        while wide(word, size, bold) > width_mm and len(word) > 1:
+        while pdf.wide(word, size, bold) > width_mm and len(word) > 1:
             fits = _fits(word, size, width_mm, bold)
             out.append(word[:fits])
             word = word[fits:]
@@ -305,7 +297,7 @@ def _lines(text: str, size: float, width_mm: float, bold: bool = False) -> list[
 def _fits(word: str, size: float, width_mm: float, bold: bool) -> int:
     """The number of letters that fit, up to a sign such as an underscore if one is near the end."""
     many = 1
-    while many < len(word) and wide(word[: many + 1], size, bold) <= width_mm:
+    while many < len(word) and pdf.wide(word[: many + 1], size, bold) <= width_mm:
         many += 1
     place = max(word.rfind(sign, 1, many) for sign in "_./-") + 1
     return place if place > 0.4 * many else many

@@ -8,36 +8,31 @@ from __future__ import annotations
 import math
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.geometry import shapes
 from geneva_cli.geometry.plates import Plate, plate_wall
-from geneva_cli.geometry.shapes import (
-    ORIGIN,
-    Arc,
-    Circle,
-    Contour,
-    Line,
-    Point,
-    Shape,
-    about,
-    closed,
-)
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Link, Teeth
 from geneva_cli.parts.links.links import Gear, LinkSizes
 from geneva_cli.parts.shafts.bores import BoltCircle, Bore, bolt_circle
 
 
-def link_gear(link: Link, at: Point, on: Bore, sizes: LinkSizes, mechanism: Mechanism) -> Gear:
+def link_gear(
+    link: Link, at: shapes.Point, on: Bore, sizes: LinkSizes, mechanism: Mechanism
+) -> Gear:
     """Return the gear of a link that is a pitch circle, on a shaft; bored round if it is fixed."""
     teeth, L, radius = link.teeth, mechanism.center_distance_mm, link.radius_mm
     if teeth.fixed:
         on = Bore(on.around, on.loose)
     hub = on.reach if teeth.all_round else sizes.hub(on)
-    outline: Circle | Contour = Circle("PITCH", ORIGIN, radius)
-    holes: list[Shape] = [on.hole()] if on.reach else []
+    outline: shapes.Circle | shapes.Contour = shapes.Circle("PITCH", shapes.ORIGIN, radius)
+    holes: list[shapes.Shape] = [on.hole()] if on.reach else []
     inner, outer = on.reach, radius
     if teeth.inside:
         inner, outer, hub = radius, radius + 2.0 * sizes.eye, 0.0
-        outline, holes = Circle("LINK", ORIGIN, outer), [Circle("PITCH", ORIGIN, inner)]
+        outline, holes = (
+            shapes.Circle("LINK", shapes.ORIGIN, outer),
+            [shapes.Circle("PITCH", shapes.ORIGIN, inner)],
+        )
     elif not teeth.all_round and hub < radius:
         outline = _sectors(radius, hub, teeth)
     screws = BoltCircle(0.0, 0.0, ())
@@ -59,16 +54,16 @@ def link_gear(link: Link, at: Point, on: Bore, sizes: LinkSizes, mechanism: Mech
     return Gear(at, radius, Bore(0.0) if teeth.inside else on, teeth, plate, screws)
 
 
-def _sectors(radius: float, hub: float, teeth: Teeth) -> Contour:
+def _sectors(radius: float, hub: float, teeth: Teeth) -> shapes.Contour:
     """Return evenly spaced sectors of a pitch circle, joined by the hub between them."""
     wide, pitch = math.radians(teeth.each_deg), math.tau / teeth.sectors
     first = math.radians(teeth.middle_deg) - 0.5 * wide
-    end = about(ORIGIN, hub, first, 1.0).start
-    pieces: list[Line | Arc] = []
+    end = shapes.about(shapes.ORIGIN, hub, first, 1.0).start
+    pieces: list[shapes.Line | shapes.Arc] = []
     for k in range(teeth.sectors):
         start = first + k * pitch
-        rim = about(ORIGIN, radius, start, wide)
-        back = about(ORIGIN, hub, start + wide, pitch - wide)
-        pieces += [Line(end, rim.start), rim, Line(rim.end, back.start), back]
+        rim = shapes.about(shapes.ORIGIN, radius, start, wide)
+        back = shapes.about(shapes.ORIGIN, hub, start + wide, pitch - wide)
+        pieces += [shapes.Line(end, rim.start), rim, shapes.Line(rim.end, back.start), back]
         end = back.end
-    return closed("PITCH", pieces)
+    return shapes.closed("PITCH", pieces)

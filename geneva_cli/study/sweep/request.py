@@ -13,14 +13,7 @@ from geneva_cli.parts.chosen import OF_SIZES, ByLoad, by_load
 from geneva_cli.specfile.reader import read
 from geneva_cli.study.fields import Cell, Pick, Rows, cells_of
 from geneva_cli.study.fields import pick as pick_of
-from geneva_cli.study.sweep.constraints import (
-    Nearness,
-    Objective,
-    constraint,
-    is_number,
-    objective,
-    refuse_unsound,
-)
+from geneva_cli.study.sweep import constraints
 from geneva_cli.study.sweep.run import DEFAULT, Sweep, plan, sweep, with_values
 from geneva_cli.study.sweep.values import axis, refuse_twice
 from geneva_cli.table import Table, rows_table
@@ -64,11 +57,13 @@ def request(
         random = 4096  # designs that --best scans
     if seed is not None and random is None:
         raise GenevaError(f"--seed {cut(seed)}: it needs --random N; a grid has no random draw")
-    bounds = [constraint(text) for text in subject_to]
+    bounds = [constraints.constraint(text) for text in subject_to]
     if pareto and best:
         raise GenevaError("--pareto with --best: a front, or one design; choose one of them")
     option = "--best" if best else "--pareto"
-    goals = [objective(one, option) for one in (best or pareto).split(",") if best or pareto]
+    goals = [
+        constraints.objective(one, option) for one in (best or pareto).split(",") if best or pareto
+    ]
     names = [name.strip() for name in pick.split(",")] if pick else []
     if not names and not goals:
         names = list(DEFAULT)
@@ -77,7 +72,9 @@ def request(
     names += ["checks.passes", "checks.failed"] if check else []
     of_best, picks = (pick_of(names), needed) if best else (Pick(), [*needed, *names])
     swept = sweep(text, plan(axes, random, seed or 0), picks)
-    refuse_unsound(bounds, dict.fromkeys(needed, "--subject-to") | by, "--vary or --set picks it")
+    constraints.refuse_unsound(
+        bounds, dict.fromkeys(needed, "--subject-to") | by, "--vary or --set picks it"
+    )
     return swept._replace(
         bounds=tuple(bounds),
         objectives=() if best else tuple(goals),
@@ -95,7 +92,7 @@ class Outcome:
         self.sweep = sweep
         self.all = self.failed = self.left = 0
         self._first = ""  # why the first of them cannot be built
-        self.nearness = Nearness([(sweep.names.index(c.name), c) for c in sweep.bounds])
+        self.nearness = constraints.Nearness([(sweep.names.index(c.name), c) for c in sweep.bounds])
         self._unknown = {sweep.names.index(o.name): o.name for o in sweep.objectives}
 
     def rows(self, row_blocks: Iterable[Rows]) -> Iterator[Rows]:
@@ -169,8 +166,8 @@ class Digest:
         self.first += map(numbered, range(min(len(rows), 2 * ROWS - len(self.first))))
         for name in () if self.goal else self.sweep.pick.names:  # the first with a number
             cells = cells_of(rows.columns[names.index(name)])
-            if any(is_number(cell) and not isinstance(cell, bool) for cell in cells):
-                self.goal = self.goal or Objective(1.0, name)
+            if any(constraints.is_number(cell) and not isinstance(cell, bool) for cell in cells):
+                self.goal = self.goal or constraints.Objective(1.0, name)
         if self.goal:
             costs = self.goal.sign * rows.numbers(names.index(self.goal.name))
             best = np.argsort(costs, kind="stable")[:ROWS].tolist()  # NaN comes last

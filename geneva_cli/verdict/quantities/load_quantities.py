@@ -4,17 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from geneva_cli.loads import load_peaks
 from geneva_cli.loads.impacts.entry import entry_impacts
 from geneva_cli.loads.impacts.reversal import lasting_drag_Nm, reversal_impacts
 from geneva_cli.loads.impacts.shock_force import Impacts
 from geneva_cli.loads.load_case import inertia_kgm2, sources
-from geneva_cli.loads.load_peaks import (
-    REPORTED_PEAKS,
-    LoadSummary,
-    greatest_pressure,
-    load_summaries,
-    reported_peaks,
-)
 from geneva_cli.loads.positive_drive import positive_drives
 from geneva_cli.motion.many import worst_peaks
 from geneva_cli.numerics.arrays import Array, Number, parameter
@@ -27,8 +21,10 @@ OF_MOTION = ("omega_rad_s", "alpha_rad_s2", "sliding_m_s")  # known without a lo
 def greatest(of: Designs) -> Columns:
     """The greatest sizes of loads and their input angles; infinite if no design has the load."""
     requested = of.requested("loads")
-    names = [name for name in REPORTED_PEAKS if {f"{name}.max", f"{name}.at_deg"} & requested]
-    peaks = reported_peaks(of.machine, names)
+    names = [
+        name for name in load_peaks.REPORTED_PEAKS if {f"{name}.max", f"{name}.at_deg"} & requested
+    ]
+    peaks = load_peaks.reported_peaks(of.machine, names)
     out: dict[str, Number | None] = {}
     for name in names:
         most, at_deg = peaks.get(name, (np.inf, np.inf))
@@ -45,7 +41,7 @@ def greatest(of: Designs) -> Columns:
 
 def pressure(of: Designs) -> Columns:
     """The greatest pressure angle and its input angle."""
-    peak = greatest_pressure(of.machine)
+    peak = load_peaks.greatest_pressure(of.machine)
     return {"max_deg": peak.max, "at_deg": peak.at_deg}
 
 
@@ -56,7 +52,7 @@ def summaries(of: Designs) -> Columns:
     for name in of.requested("loads"):
         load, _, end = name.rpartition(".")
         # the ``max`` of loads that are sizes is a quantity of the report
-        if end in LoadSummary._fields[2 * (load in REPORTED_PEAKS) :]:
+        if end in load_peaks.LoadSummary._fields[2 * (load in load_peaks.REPORTED_PEAKS) :]:
             ends.setdefault(load, []).append(end)
     out: dict[str, Number | None] = {
         f"{load}.{end}": None for load, own in ends.items() if load not in known for end in own
@@ -65,7 +61,7 @@ def summaries(of: Designs) -> Columns:
     if not requested:
         return out
     means = any({"mean", "rms"} & set(own) for own in requested.values())
-    for load, one in load_summaries(of.machine, list(requested), means).items():
+    for load, one in load_peaks.load_summaries(of.machine, list(requested), means).items():
         values, moves = one._asdict(), known[load][0] in OF_MOTION
         for end in requested[load]:
             out[f"{load}.{end}"] = _where_loaded(of, values[end], moves)
