@@ -17,24 +17,11 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.registry import thing
 from geneva_cli.numerics.arrays import value_or
 from geneva_cli.numerics.tolerances import SAME_LENGTH, bore_radius, rounded_below
+from geneva_cli.parts import sizes as rules
 from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.outlines.crank_outline import arc_floor
 from geneva_cli.parts.outlines.cut_outlines import cut_lock
-from geneva_cli.parts.sizes import (
-    Fault,
-    KeySizes,
-    Sizes,
-    Unloaded,
-    arm_bore,
-    hole_radius,
-    hub_faults,
-    pin_and_edge_faults,
-    pin_radius,
-    reach_and_hub,
-    refuse,
-    wheel_bore,
-    within_hub,
-)
+from geneva_cli.parts.sizes import Fault, KeySizes, Sizes, Unloaded
 from geneva_cli.parts.slots.roller_paths import mouth, roller_paths
 from geneva_cli.spec.defaults import wall_min
 from geneva_cli.spec.tables import Size
@@ -62,7 +49,7 @@ def machine_sizes(mechanism: Mechanism, loads: PartLoads | None = None) -> Layou
     """Return a machine's assembly and sizes, for its own loads or known ones."""
     of = unloaded(mechanism)
     if not mechanism.spec.is_loaded:
-        refuse(_faults(of.assembly, of.sizes))
+        rules.refuse(_faults(of.assembly, of.sizes))
         return of.assembly, of.sizes
     from geneva_cli.loads.strength.part_loads import single_loads
 
@@ -91,7 +78,7 @@ def loaded(
     link, pin, shaft = first or (0.0, 0.0, 0.0)
     out = load_sizes(of, mechanism, loads, horn_MPa, link)
     out = out._replace(first_pin=pin, first_shaft=shaft)
-    refuse(_faults(of.assembly, out))
+    rules.refuse(_faults(of.assembly, out))
     return out
 
 
@@ -161,9 +148,9 @@ def keys_by_load(mechanism: Mechanism, locked: bool) -> tuple[str, ...]:
 
 def drawn_pin_radius(mechanism: Mechanism) -> float:
     """Return the radius of a roller's pin as its machine has it, 0 for none."""
-    flat = sized(mechanism)
-    parts = flat[1] if flat else None
-    return parts.pin if parts else pin_radius(mechanism.spec.size, mechanism.roller_radius_mm)
+    if flat := sized(mechanism):
+        return flat[1].pin
+    return rules.pin_radius(mechanism.spec.size, mechanism.roller_radius_mm)
 
 
 def _usual_sizes(assembly: Assembly) -> tuple[Sizes, float]:
@@ -195,13 +182,13 @@ def _usual_sizes(assembly: Assembly) -> tuple[Sizes, float]:
     within = min(space, depth - relief)
     bore = _crank_bore(full, within, L) if spec.drive.LOCKS else 0.0
     wall = wall_min(size, L)
-    axle = wheel_bore(full, end, wall, L) if outside or size.wheel_bore_mm else 0.0
-    wheel_reach, wheel_hub = reach_and_hub(size, "wheel", axle, wall, end)
-    crank_reach, crank_hub = reach_and_hub(size, "crank", bore, wall)
+    axle = rules.wheel_bore(full, end, wall, L) if outside or size.wheel_bore_mm else 0.0
+    wheel_reach, wheel_hub = rules.reach_and_hub(size, "wheel", axle, wall, end)
+    crank_reach, crank_hub = rules.reach_and_hub(size, "crank", bore, wall)
     thick, pin = size.thicknesses(L, rounded_below), 0.5 * value_or(size.pin_mm, rounded_below(r))
     armed = 0.0
     if full.drive.ONE_ARM and pin:  # without pins there is no arm
-        armed = arm_bore(full, bore, L, min(reaches) - hole_radius(size, pin))
+        armed = rules.arm_bore(full, bore, L, min(reaches) - rules.hole_radius(size, pin))
     usual = Sizes(
         roller=r,
         half_width=w,
@@ -243,7 +230,7 @@ def _crank_bore(spec: Spec, space: float, L: float) -> float:
     if shaft is not None:
         # a larger bore leaves no space for its default hub, of 1.5 bores
         return 0.5 * shaft if 0.5 * shaft <= 0.6 * space else 0.0
-    within = within_hub(size, "crank")
+    within = rules.within_hub(size, "crank")
     return bore_radius(min(0.45 * space, within)) if 0.45 * space >= L / 40.0 else 0.0
 
 
@@ -257,9 +244,8 @@ def _lock(assembly: Assembly, arm: float, w: float, rim: float) -> float:
     if limit <= least:
         raise GenevaError(
             f"the locking disc does not fit: it must be above {least:.4g} mm to reach the rim, but "
-            f"roller and clearances limit it to {limit:.4g}; use "
-            + (f"a roller below {r + limit - least:.4g} mm, or " if r + limit > least else "")
-            + ("lock_radius_mm = 0" if size.wheel_radius_mm is None else "no wheel_radius_mm"),
+            f"roller and clearances limit it to {limit:.4g}; use lock_radius_mm = 0, a smaller "
+            "roller, or no wheel_radius_mm",
             ("size", "lock_radius_mm"),
         )
     # a horn that is cut back may have no thickness where its tip would be
@@ -322,7 +308,7 @@ def _faults(assembly: Assembly, sizes: Sizes) -> Iterator[Fault]:
             f"{2.0 * sizes.lock:.6g}",
         )
     thin = min(sizes.wheel_thickness, sizes.lock_thickness, sizes.arm_thickness)
-    yield from pin_and_edge_faults(size, sizes.pin, sizes.roller, thin)
+    yield from rules.pin_and_edge_faults(size, sizes.pin, sizes.roller, thin)
     key = "mouth_radius_mm" if sizes.mouth_radius else "horn_tip_mm"
     shaped = sizes.mouth_radius or sizes.horn_tip
     if shaped and any(kind.slot.curved or kind.apart for kind in assembly.kinds):
@@ -350,5 +336,5 @@ def _faults(assembly: Assembly, sizes: Sizes) -> Iterator[Fault]:
     for key in OF_AXLE if sizes.outer else ():
         if vars(size)[key]:
             yield key, f"{key}: an internal wheel is open in the middle; remove it"
-    yield from hub_faults("wheel", sizes.wheel_hub, sizes.wheel_reach, sizes.wheel_bore)
-    yield from hub_faults("crank", sizes.crank_hub, sizes.crank_reach, sizes.crank_bore)
+    yield from rules.hub_faults("wheel", sizes.wheel_hub, sizes.wheel_reach, sizes.wheel_bore)
+    yield from rules.hub_faults("crank", sizes.crank_hub, sizes.crank_reach, sizes.crank_bore)

@@ -18,38 +18,18 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.impacts.shock_force import forces_N
 from geneva_cli.loads.load_case import centrifugal_N
-from geneva_cli.loads.strength import lock
+from geneva_cli.loads.strength import lock, pin_arm_key
 from geneva_cli.loads.strength.part_loads import PartLoads, shear_MPa
-from geneva_cli.loads.strength.pin_arm_key import (
-    NO_ARM,
-    NO_KEY,
-    ArmDimensions,
-    KeyDimensions,
-    PinSize,
-    arm_stress_MPa,
-    key_stress,
-    pin_stress_MPa,
-    shear_allowed_MPa,
-)
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import half_or, value_or
 from geneva_cli.numerics.tolerances import keeps, sizes_from
+from geneva_cli.parts import sizes as rules
 from geneva_cli.parts.assembly import Assembly, gear_plane, is_bridged, links_at
 from geneva_cli.parts.outlines.crank_outline import is_whole
 from geneva_cli.parts.outlines.outlines import wheel_hub_length
 from geneva_cli.parts.shafts.bores import reach_or_bore
-from geneva_cli.parts.sizes import (
-    LARGEST_HUB,
-    Sizes,
-    Unloaded,
-    arm_hub,
-    bridge_low,
-    hole_radius,
-    plane_span,
-    reach_and_hub,
-    within_hub,
-)
+from geneva_cli.parts.sizes import Sizes, Unloaded
 from geneva_cli.spec.defaults import eye_about, key, roller_material, wheel_material
 
 
@@ -67,9 +47,9 @@ class Stressed(NamedTuple):
     pin: float  # diameter; 0 for a roller that is its own pin
     wheel_shaft: ShaftSize
     crank_shaft: ShaftSize
-    arm: ArmDimensions
-    wheel_key: KeyDimensions
-    crank_key: KeyDimensions
+    arm: pin_arm_key.ArmDimensions
+    wheel_key: pin_arm_key.KeyDimensions
+    crank_key: pin_arm_key.KeyDimensions
 
 
 @lru_cache(maxsize=64)  # the designs of a sweep of loads have few different sizes
@@ -90,30 +70,31 @@ def stressed(assembly: Assembly, sizes: Sizes) -> Stressed:
         planes.append((3, 0.0) if spec.drive_before else (2, thick))
     first = thick if spec.drive.ONE_ARM else sizes.link_thickness
     for plane, base in planes:
-        low, _ = plane_span(plane, gap, first, sizes.link_thickness, size.washer_mm)
+        low, _ = rules.plane_span(plane, gap, first, sizes.link_thickness, size.washer_mm)
         lowest = min(lowest, low - base)
     # from the middle of the wheel's thickness to the frame's upper face
     on_wheel = on_crank = 0.5 * wide - lowest + size.washer_mm, thick
     if sizes.crank_bore and is_bridged(machine):
-        on_crank = bridge_low(size, sizes) - 0.5 * wide, thick
-    arm = NO_ARM
+        on_crank = rules.bridge_low(size, sizes) - 0.5 * wide, thick
+    arm = pin_arm_key.NO_ARM
     if sizes.arm_bore and sizes.pin:
         _, long = sizes.reaches
-        hole = hole_radius(size, sizes.pin)
+        hole = rules.hole_radius(size, sizes.pin)
         bored = reach_or_bore(size, "crank", sizes.arm_bore)
         standing = 0.0 if is_whole(assembly, sizes) else sizes.lock
-        hub = arm_hub(size, bored, sizes.arm_bore, sizes.wall_min, standing)
+        hub = rules.arm_hub(size, bored, sizes.arm_bore, sizes.wall_min, standing)
         passing = sizes.passing_eye(assembly.L - long)
         eye = half_or(size.arm_eye_mm, eye_about(hole, sizes.wall_min, passing))
-        arm = ArmDimensions(long, hub, eye, bored, hole, thick, 0.5 * (contact + thick) + gap)
+        offset = 0.5 * (contact + thick) + gap
+        arm = pin_arm_key.ArmDimensions(long, hub, eye, bored, hole, thick, offset)
     return Stressed(
         contact,
         2.0 * sizes.pin,
         shaft_of(spec, "wheel", sizes.wheel_bore, *on_wheel),
         shaft_of(spec, "crank", sizes.arm_bore or sizes.crank_bore, *on_crank),
         arm,
-        key_of(size.wheel_keyway, sizes.wheel_bore, wide + hub_mm) if size.wheel_keyway else NO_KEY,
-        key_of(size.crank_keyway, sizes.arm_bore, thick) if size.crank_keyway else NO_KEY,
+        key_of(size.wheel_keyway, sizes.wheel_bore, wide + hub_mm),
+        key_of(size.crank_keyway, sizes.arm_bore, thick),
     )
 
 
@@ -128,15 +109,16 @@ def shaft_of(spec: Spec, part: str, bore: float, to_frame: float, thick: float) 
     return ShaftSize(value_or(own[0], diameter), value_or(own[1], overhang))
 
 
-def key_of(standard: str | None, bore: float, length: float) -> KeyDimensions:
+def key_of(standard: str | None, bore: float, length: float) -> pin_arm_key.KeyDimensions:
     """Return the dimensions of a key in a bore; NaN without one."""
     try:
         fitted = key(standard, bore) if bore else None
     except GenevaError:  # reported where the part is cut
         fitted = None
     if fitted is None:
-        return NO_KEY
-    return KeyDimensions(2.0 * bore, fitted.width, fitted.height - fitted.in_shaft, length)
+        return pin_arm_key.NO_KEY
+    stands = fitted.height - fitted.in_shaft
+    return pin_arm_key.KeyDimensions(2.0 * bore, fitted.width, stands, length)
 
 
 def load_sizes(
@@ -175,7 +157,7 @@ def load_sizes(
         )
     wide, eye = sizes.wheel_thickness, math.inf
     if of.assembly.sign > 0.0 and sizes.arm_bore:  # about the pin, where it passes the largest hub
-        hub = max(sizes.wheel_hub, LARGEST_HUB * sizes.slot_end)
+        hub = max(sizes.wheel_hub, rules.LARGEST_HUB * sizes.slot_end)
         eye = of.assembly.L - sizes.reaches[1] - hub - sizes.wall_min
     sizes = sizes._replace(pin=pin_that_holds(machine, sizes.pin, wide, sizes.roller, eye, loads))
     if not (sizes.arm_bore and sizes.pin) or size.arm_thickness_mm is not None:
@@ -187,7 +169,7 @@ def load_sizes(
             trial = sizes._replace(arm_thickness=thick, link_thickness=bar)
             trial = _crank_bored(of, spec, loads, _wheel_bored(of, spec, loads, trial), keyed)
             parts = stressed(of.assembly, trial)
-            arm_MPa = float(arm_stress_MPa(parts.arm, loads.wheel_N))
+            arm_MPa = float(pin_arm_key.arm_stress_MPa(parts.arm, loads.wheel_N))
             key_lasts = key_holds(spec, parts.crank_key, loads.crank_Nm)
             if key_lasts and keeps(arm_MPa, "at most", allowed):
                 return trial
@@ -201,9 +183,9 @@ def _wheel_bored(of: Unloaded, spec: Spec, loads: PartLoads, sizes: Sizes) -> Si
     if fixed or not sizes.wheel_bore:
         return sizes
     # a third of the wheel up to its slots is left as a wall
-    most = min(end * 2.0 / 3.0, end - wall, within_hub(spec.size, "wheel"))
+    most = min(end * 2.0 / 3.0, end - wall, rules.within_hub(spec.size, "wheel"))
     for d in sizes_from(2.0 * sizes.wheel_bore, 2.0 * most, bores=True):
-        reach, hub = reach_and_hub(spec.size, "wheel", 0.5 * d, wall, end)
+        reach, hub = rules.reach_and_hub(spec.size, "wheel", 0.5 * d, wall, end)
         sizes = sizes._replace(wheel_bore=0.5 * d, wheel_reach=reach, wheel_hub=hub)
         parts = stressed(of.assembly, sizes)
         if _shaft_holds(spec, "wheel", parts, loads.wheel_shaft_N, loads.wheel_Nm):
@@ -222,17 +204,17 @@ def _crank_bored(of: Unloaded, spec: Spec, loads: PartLoads, usual: Sizes, keyed
     trials = list[tuple[float, bool]]()  # diameters, and whether they are bored through the disc
     if sizes.crank_bore:
         # a larger bore leaves no space for its default hub, of 1.5 bores
-        most = min(0.6 * of.space, within_hub(size, "crank"))
+        most = min(0.6 * of.space, rules.within_hub(size, "crank"))
         for d in sizes_from(2.0 * sizes.crank_bore, 2.0 * most, bores=True):
             trials.append((d, True))
     # past links and gears the shaft may have no other way out
     if sizes.arm_bore and not (links_at(of.assembly.full, np.zeros(1)) or spec.gears):
-        left = sizes.reaches[0] - hole_radius(size, sizes.pin)
+        left = sizes.reaches[0] - rules.hole_radius(size, sizes.pin)
         for d in sizes_from(2.0 * sizes.arm_bore, left, bores=True):  # half of it is left as a wall
             trials.append((d, False))
     for d, through in trials:
         bore = 0.5 * d if through else 0.0
-        reach, hub = reach_and_hub(size, "crank", bore, sizes.wall_min)
+        reach, hub = rules.reach_and_hub(size, "crank", bore, sizes.wall_min)
         arm = 0.5 * d if usual.arm_bore else 0.0
         sizes = usual._replace(crank_bore=bore, crank_reach=reach, crank_hub=hub, arm_bore=arm)
         parts = stressed(of.assembly, sizes)
@@ -259,9 +241,9 @@ def pin_that_holds(
     rubbed, jump = math.hypot(1.0, spec.load.friction), np.array([[loads.pin_jump]])
     trials, struck_N = np.array(sizes_from(2.0 * usual, 2.0 * most))[:, None], np.zeros(1)
     if jump:
-        struck_N = forces_N(mechanism, jump, PinSize(trials, contact))[:, None]
+        struck_N = forces_N(mechanism, jump, pin_arm_key.PinSize(trials, contact))[:, None]
     whole_N = np.fmax(loads.pin_N, struck_N) * rubbed  # with friction along the wall
-    stresses = pin_stress_MPa(size, contact, trials, whole_N)[2]
+    stresses = pin_arm_key.pin_stress_MPa(size, contact, trials, whole_N)[2]
     for d, stress in zip(trials.flat, np.ravel(stresses), strict=True):
         radius = 0.5 * float(d)
         if keeps(float(stress), "at most", allowed):
@@ -285,16 +267,17 @@ def shaft_and_key_hold(
     """Return True if a shaft holds an equivalent torque, and if ``keyed`` its key a torque."""
     shaft: ShaftSize = getattr(parts, f"{part}_shaft")
     keyway = vars(spec.size)[f"{part}_keyway"] is not None
-    allowed = float(shear_allowed_MPa(spec.shaft, keyway))
+    allowed = float(pin_arm_key.shear_allowed_MPa(spec.shaft, keyway))
     if not keeps(shear_MPa(moment_Nm, shaft.diameter), "at most", allowed):
         return False
     return not keyed or key_holds(spec, getattr(parts, f"{part}_key"), torque_Nm)
 
 
-def key_holds(spec: Spec, key: KeyDimensions, torque_Nm: float) -> bool:
+def key_holds(spec: Spec, key: pin_arm_key.KeyDimensions, torque_Nm: float) -> bool:
     """Return True if a key holds a torque, or for no key."""
-    if key is NO_KEY:
+    if key is pin_arm_key.NO_KEY:
         return True
-    sides, shear = wheel_material(spec).allowed_MPa, shear_allowed_MPa(spec.shaft)
+    sides, shear = wheel_material(spec).allowed_MPa, pin_arm_key.shear_allowed_MPa(spec.shaft)
     torque = spec.shaft.torsion_factor * torque_Nm
-    return keeps(float(key.length), "at least", float(key_stress(key, torque, sides, shear)[2]))
+    least = float(pin_arm_key.key_stress(key, torque, sides, shear)[2])
+    return keeps(float(key.length), "at least", least)

@@ -20,6 +20,7 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import half_or, value_or
 from geneva_cli.numerics.tolerances import keeps, sizes_from
+from geneva_cli.parts import sizes as rules
 from geneva_cli.parts.machine_sizes import keys_by_load
 from geneva_cli.parts.shafts.bores import reach_or_bore
 from geneva_cli.parts.sized_by_load import (
@@ -30,14 +31,7 @@ from geneva_cli.parts.sized_by_load import (
     shaft_and_key_hold,
     shaft_of,
 )
-from geneva_cli.parts.sizes import (
-    LARGEST_HUB,
-    KeySizes,
-    arm_hub,
-    hole_radius,
-    hub_and_eye,
-    within_hub,
-)
+from geneva_cli.parts.sizes import KeySizes
 from geneva_cli.spec.defaults import eye_about, wall_min, wheel_material
 from geneva_cli.study.synth.suiting import LOCK, SIZES, USUAL, with_roller
 
@@ -77,9 +71,9 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
     if sizes.arm_bore_mm:
         known["arm_bore_mm"] = 2.0 * sizes.arm_bore_mm
         with suppress(GenevaError):  # reported by the check of the parts
-            pin, passing = hole_radius(size, sizes.pin_mm), sizes.passing_mm(sizes.opening_mm)
+            pin, passing = rules.hole_radius(size, sizes.pin_mm), sizes.passing_mm(sizes.opening_mm)
             wall = wall_min(size, sizes.radius_mm)
-            hub, eye = hub_and_eye(size, wall, pin, sizes.arm_bore_mm, passing)
+            hub, eye = rules.hub_and_eye(size, wall, pin, sizes.arm_bore_mm, passing)
             known |= {"arm_hub_mm": 2.0 * hub, "arm_eye_mm": 2.0 * eye}
     spans = {"wheel": sizes.span_mm, "lock": sizes.lock_span_mm, "arm": sizes.arm_span_mm}
     for part, (inside, outside) in spans.items():
@@ -102,7 +96,7 @@ def ball(mechanism: Mechanism) -> Ball:
         usual = usual_ball(mechanism, _horn_thickness_mm(mechanism, usual))
     loads, L, (inside, outside) = single_loads(mechanism), usual.radius_mm, usual.span_mm
     # the arm's eye about the pin passes the largest hub, and covers less than half of the sphere
-    hub = max(usual.opening_mm, LARGEST_HUB * usual.slot_end_mm)
+    hub = max(usual.opening_mm, rules.LARGEST_HUB * usual.slot_end_mm)
     eye = min(usual.passing_mm(hub), 0.99 * L * (0.5 * math.pi - usual.arm))
     roller, clear = inside * math.sin(usual.roller), eye - wall_min(size, L)
     pin = pin_that_holds(mechanism, usual.pin_mm, outside - inside, roller, clear, loads)
@@ -146,7 +140,7 @@ def _wheel_bored(mechanism: Mechanism, ball: Ball) -> Ball:
 
     # a hub with flat faces stays in its shell, a hundredth short of the outer sphere
     widest = min(end - wall_min(size, L), 0.99 * flat_radius(*ball.span_mm))
-    most = min(end * 2.0 / 3.0, within_hub(size, "wheel"))
+    most = min(end * 2.0 / 3.0, rules.within_hub(size, "wheel"))
     for d in sizes_from(2.0 * ball.bore_mm, 2.0 * most, bores=True):
         trial = ball._replace(bore_mm=0.5 * d, hub_mm=hub_about(size, L, 0.5 * d, end))
         if trial.hub_mm > widest:
@@ -176,8 +170,8 @@ def _crank_bored(mechanism: Mechanism, ball: Ball, keyed: bool) -> Ball:
             return False
         # the arm's hub fits: about its bore, in the arm, and past pins and wheel
         bored = reach_or_bore(size, "crank", trial.arm_bore_mm)
-        hub = arm_hub(size, bored, trial.arm_bore_mm, wall)
-        hole = math.asin(min(1.0, hole_radius(size, trial.pin_mm) / under))
+        hub = rules.arm_hub(size, bored, trial.arm_bore_mm, wall)
+        hole = math.asin(min(1.0, rules.hole_radius(size, trial.pin_mm) / under))
         to_pins = under * math.sin(max(0.0, trial.arm - hole - wall / under))
         passing = trial.arm + trial.passing_mm(trial.opening_mm) / trial.radius_mm
         within = bored + wall <= hub <= min(to_pins, 0.99 * flat_radius(under, over))
@@ -209,9 +203,10 @@ def sphere_stressed(spec: Spec, ball: Ball) -> Stressed:
     thick, arm, bore = over - under, NO_ARM, ball.arm_bore_mm
     end = ball.shafts_end_mm(size) - L, thick
     if bore:
-        middle, wall, hole = 0.5 * (under + over), wall_min(size, L), hole_radius(size, ball.pin_mm)
+        middle, wall = 0.5 * (under + over), wall_min(size, L)
+        hole = rules.hole_radius(size, ball.pin_mm)
         bored = reach_or_bore(size, "crank", bore)
-        cap = ball.cap(arm_hub(size, bored, bore, wall), bored, wall)
+        cap = ball.cap(rules.arm_hub(size, bored, bore, wall), bored, wall)
         eye = half_or(size.arm_eye_mm, eye_about(hole, wall, ball.passing_mm(ball.opening_mm)))
         off = middle - L * math.cos(ball.arm)
         radii = L * ball.arm, middle * cap, middle * eye / L, bored, hole

@@ -12,20 +12,8 @@ from itertools import starmap
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.shapes import (
-    ORIGIN,
-    Arc,
-    Circle,
-    Layer,
-    Line,
-    Point,
-    Shape,
-    about,
-    at,
-    closed,
-    polar,
-    polygon,
-)
+from geneva_cli.geometry import shapes
+from geneva_cli.geometry.shapes import ORIGIN, Circle, Line, Shape
 from geneva_cli.numerics.arrays import half_or
 from geneva_cli.numerics.tolerances import ROUNDED
 from geneva_cli.spec.defaults import ParallelKey, key
@@ -74,7 +62,7 @@ class Bore(NamedTuple):
             return f"hexagon {length(2.0 * cut)} across flats"
         return f"flat, {length(2.0 * cut - self.flat)} to the far side" if self.flat else ""
 
-    def shape(self, layer: Layer, direction: float, shaft: bool = False) -> Shape:
+    def shape(self, layer: shapes.Layer, direction: float, shaft: bool = False) -> Shape:
         """Return the bore about the origin, with its feature in a direction, radians.
 
         Its first piece is the keyway's top, the flat, or the side in the direction. With ``shaft``
@@ -89,17 +77,17 @@ class Bore(NamedTuple):
             high = _turned(far, 0.5 * self.key.width, direction)
             top, sides = Line(low, high), (Line(high, first.start), Line(second.end, low))
             if shaft:
-                return closed(layer, [first, second, sides[1], top, sides[0]])
-            return closed(layer, [top, sides[0], first, second, sides[1]])
+                return shapes.closed(layer, [first, second, sides[1], top, sides[0]])
+            return shapes.closed(layer, [top, sides[0], first, second, sides[1]])
         if self.form == "hex":
             reach = radius / math.cos(math.pi / 6.0)
             corners = []
             for k in range(6):
                 corners.append(_turned(reach, 0.0, direction + (2 * k - 1) * math.pi / 6.0))
-            return polygon(layer, corners)
+            return shapes.polygon(layer, corners)
         if self.form == "D":
             first, second = _arcs(radius, direction, math.acos(1.0 - self.flat / radius))
-            return closed(layer, [Line(second.end, first.start), first, second])
+            return shapes.closed(layer, [Line(second.end, first.start), first, second])
         return Circle(layer, ORIGIN, radius)
 
     def hole(self, turn: float = 0.0) -> Shape:
@@ -195,7 +183,7 @@ def section_note(section: Shape) -> str:
     if len(lines) == len(section.segments):
         return Bore(radius, form="hex").note
     # the flat, or the keyway's bottom, is nearer to the axis than the keyway's sides
-    far, bottom = min((math.hypot(*at(line, 0.5)), line) for line in lines)
+    far, bottom = min((math.hypot(*shapes.at(line, 0.5)), line) for line in lines)
     if len(lines) == 1:
         return Bore(radius, 0.0, "D", radius - far).note
     wide = length(math.dist(bottom.start, bottom.end))
@@ -209,16 +197,16 @@ def around(section: Shape) -> float:
     return max(math.hypot(*piece.start) for piece in section.segments)
 
 
-def _turned(x: float, y: float, direction: float) -> Point:
+def _turned(x: float, y: float, direction: float) -> shapes.Point:
     c, s = math.cos(direction), math.sin(direction)
     return x * c - y * s, x * s + y * c
 
 
-def _arcs(radius: float, direction: float, half: float) -> tuple[Arc, Arc]:
+def _arcs(radius: float, direction: float, half: float) -> tuple[shapes.Arc, shapes.Arc]:
     """Return two arcs round the axis, from ``half`` after a direction to ``half`` before it."""
     sweep = math.pi - half
-    first = about(ORIGIN, radius, direction + half, sweep)
-    return first, about(ORIGIN, radius, direction + half + sweep, sweep)
+    first = shapes.about(ORIGIN, radius, direction + half, sweep)
+    return first, shapes.about(ORIGIN, radius, direction + half + sweep, sweep)
 
 
 class Screw(NamedTuple):
@@ -335,6 +323,6 @@ def bolt_circle(
     hole = bolt_radius(values[f"{part}_bolt_mm"], L, 0.5 * (high - low), "dial_bolt", asked)
     holes = []
     for k in range(count if hole else 0):
-        at = polar(ORIGIN, radius, start + math.tau * k / count)
+        at = shapes.polar(ORIGIN, radius, start + math.tau * k / count)
         holes.append(Circle("BORE", at, hole))
     return BoltCircle(radius, hole, tuple(holes))
