@@ -168,12 +168,9 @@ class FlatParts(EdgedParts):
         if low is None:
             arm = drawn.sizes.arm_thickness if drawn.has_arm else 0.0
             low = -self.mechanism.spec.size.allowances.pin_gap_mm - arm
-        sizes, r = drawn.sizes, self.mechanism.roller_radius_mm
-        heights, fit = (
-            (low, sizes.wheel_thickness),
-            self.mechanism.spec.size.allowances.shaft_fit_mm,
-        )
-        return rollers_about(roller_centres(drawn.assembly), r, sizes.pin, *heights, fit)
+        r, fit = self.mechanism.roller_radius_mm, self.mechanism.spec.size.allowances.shaft_fit_mm
+        centres, sizes = roller_centres(drawn.assembly), drawn.sizes
+        return rollers_about(centres, r, sizes.pin, low, sizes.wheel_thickness, fit)
 
     @property
     def horn_mm(self) -> float | None:

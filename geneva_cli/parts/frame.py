@@ -56,8 +56,19 @@ def framed(
     for at, diameter_mm in standing.items():
         here = [axle._replace(at=at) for axle in axles if same(axle.at, at, L)]
         holes += shaft_holes(size, here, top) if here else [hole_without_shaft(diameter_mm, at, L)]
+    fixed: list[tuple[Circle, Plate]] = []  # holes of screws into the frame, and what they fix
+    for member in bars.cut:
+        if isinstance(member.part, Plate) and member.part.name in bars.standing:
+            fixed += [(hole, member.part) for hole in placed_holes(member)]
+    for gear in bars.gears:
+        for hole in gear.screws.holes:
+            (x, y), (u, v) = gear.at, hole.centre
+            fixed.append((Circle("BORE", (x + u, y + v), hole.radius), gear.plate))
+    for plate in filter(None, (base, bridge)):
+        bored = placed_holes(Member(plate, (L, 0.0)))
+        fixed += [(hole, plate) for hole in bored if not same(hole.centre, (L, 0.0), L)]
     screwed, spacers = list[tuple[Circle, str]](), list[Member]()
-    for hole, part in _screwed(bars, (base, bridge), L):
+    for hole, part in fixed:
         holes.append(tapped(hole))
         screwed.append((hole, part.name))
         if part.low - top > SAME_LENGTH * L:
@@ -108,23 +119,6 @@ def _standing(mechanism: Mechanism, bars: Links) -> dict[Point, float | None]:
         if axis.stands and not any(same(axis.at, one, L) for one in standing):
             standing[axis.at] = shaft.wheel_diameter_mm
     return standing
-
-
-def _screwed(bars: Links, plates: Iterable[Plate | None], L: float) -> list[tuple[Circle, Plate]]:
-    """Return the holes of screws into the frame, each with the part that they fix."""
-    fixed: list[tuple[Circle, Plate]] = []
-    for member in bars.cut:
-        if isinstance(member.part, Plate) and member.part.name in bars.standing:
-            fixed += [(hole, member.part) for hole in placed_holes(member)]
-    for gear in bars.gears:
-        for hole in gear.screws.holes:
-            (x, y), (u, v) = gear.at, hole.centre
-            fixed.append((Circle("BORE", (x + u, y + v), hole.radius), gear.plate))
-    for plate in plates:
-        if plate:
-            bored = placed_holes(Member(plate, (L, 0.0)))
-            fixed += [(hole, plate) for hole in bored if not same(hole.centre, (L, 0.0), L)]
-    return fixed
 
 
 def _bridge(parts: Outlines, bars: Links, shaft: Shaft) -> Plate | None:

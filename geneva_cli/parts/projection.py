@@ -46,12 +46,9 @@ class Missing(NamedTuple):
 
 def or_missing(name: str, listed: Callable[[], Iterable[T]]) -> Iterator[T | Missing]:
     """Yield the listed rows; if they cannot be built, the name and the reason instead."""
-    try:
-        rows = list(listed())
-    except GenevaError as error:
-        yield Missing(name, str(error))
-        return
-    yield from rows
+    missing = list[Missing]()
+    yield from built_of([(name, listed)], missing)
+    yield from missing
 
 
 def built_of(

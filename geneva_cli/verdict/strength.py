@@ -89,8 +89,7 @@ class Strength:
     @property
     def contact_mm(self) -> float | None:
         """Length of the contact line; None if it is not known."""
-        width = self.load.contact_mm
-        return None if width is None else float(np.ravel(width)[0])
+        return only(self.load.contact_mm)
 
     def warnings(self) -> list[Notice]:
         """A note on the limits of a known stress."""

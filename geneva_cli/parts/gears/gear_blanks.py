@@ -29,10 +29,8 @@ def link_gear(
     inner, outer = on.reach, radius
     if teeth.inside:
         inner, outer, hub = radius, radius + 2.0 * sizes.eye, 0.0
-        outline, holes = (
-            shapes.Circle("LINK", shapes.ORIGIN, outer),
-            [shapes.Circle("PITCH", shapes.ORIGIN, inner)],
-        )
+        outline = shapes.Circle("LINK", shapes.ORIGIN, outer)
+        holes = [shapes.Circle("PITCH", shapes.ORIGIN, inner)]
     elif not teeth.all_round and hub < radius:
         outline = _sectors(radius, hub, teeth)
     screws = BoltCircle(0.0, 0.0, ())

@@ -95,10 +95,8 @@ def planes(
     low = mechanism.spec.size.crank_shaft_low_mm
     ends = math.inf if low is None else low + SAME_LENGTH * L
     reached = {link.plane for link in links if bars.sizes.span(link.plane)[1] > ends}
-    rounds = [
-        *_on_wheel(parts, links, bars.sizes, 0.0 * turn),
-        *_standing(parts, bars, spacers, turn),
-    ]
+    rounds = [*_on_wheel(parts, links, bars.sizes, 0.0 * turn)]
+    rounds += _standing(parts, bars, spacers, turn)
     for path, both in joined(links, SAME_LENGTH * L):  # spacers on pins
         name = f"the pin of {' and '.join(link.name for link in both)}"
         own = [link.plane for link in both]

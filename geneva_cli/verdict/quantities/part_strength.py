@@ -124,7 +124,18 @@ def shafts(of: Designs) -> dict[str, Columns]:
     """The columns of the shafts of wheel and crank, which are searched together."""
     overhangs, each = dict[str, float | None](), dict[str, Columns]()
     for part in ("wheel", "crank"):
-        overhangs[part], each[part] = _drawn(of, part)
+        # of the spec, or else as the parts have them
+        table = vars(of.spec.shaft)
+        overhang, diameter = table[f"{part}_overhang_mm"], table[f"{part}_diameter_mm"]
+        parts = under_load(of).parts if diameter is None or overhang is None else None
+        if parts is not None:
+            own = getattr(parts, f"{part}_shaft")
+            if diameter is None and not np.isnan(own.diameter).all():
+                diameter = as_numbers(np.asarray(own.diameter))
+            if overhang is None and not np.isnan(own.overhang).all():
+                # a design without parts has no diameter either, and so no stress
+                overhang = as_numbers(np.nan_to_num(own.overhang))
+        overhangs[part], each[part] = overhang, {"diameter_mm": diameter}
     held = dict[str, tuple[Array, Array]]()
     if of.spec.load.dwell_torque_Nm is not None:
         # without a disc something else holds it, by a couple
@@ -151,21 +162,6 @@ def shafts(of: Designs) -> dict[str, Columns]:
             rows[name] = None if row is None else np.where(np.isfinite(most), row, most)
         each[part] = {**each[part], **rows}
     return each
-
-
-def _drawn(of: Designs, part: str) -> tuple[float | None, Columns]:
-    """Overhang and diameter of a shaft: of the spec, or else as its parts have them, mm."""
-    table = vars(of.spec.shaft)
-    overhang, diameter = table[f"{part}_overhang_mm"], table[f"{part}_diameter_mm"]
-    parts = under_load(of).parts if diameter is None or overhang is None else None
-    if parts is not None:
-        own = getattr(parts, f"{part}_shaft")
-        if diameter is None and not np.isnan(own.diameter).all():
-            diameter = as_numbers(np.asarray(own.diameter))
-        if overhang is None and not np.isnan(own.overhang).all():
-            # a design without parts has no diameter either, and so no stress
-            overhang = as_numbers(np.nan_to_num(own.overhang))
-    return overhang, {"diameter_mm": diameter}
 
 
 def arm(of: Designs) -> Columns:
