@@ -39,7 +39,7 @@ def carried(bars: Links, axis: LinkAxis, others: Iterable[Member], L: float) -> 
             found.append(member.part)
             names.discard(member.part.name)
     for gear in bars.gears:
-        if gear.name in names and not gear.teeth.inside:
+        if gear.plate.name in names and not gear.teeth.inside:
             found.append(gear.plate)
     return [(plate.low, plate.high) for plate in found]
 
@@ -167,7 +167,7 @@ def _gears(parts: Outlines, bars: Links, gears: list[Link], turn: Array) -> Iter
                 continue
             gaps = away + (wide - one.radius) if on_shaft else away - gear.outer - one.radius
             least = int(np.argmin(gaps))
-            yield Meeting(float(gaps[least]), float(turn[least]), gear.name, one.name)
+            yield Meeting(float(gaps[least]), float(turn[least]), gear.plate.name, one.name)
 
 
 def _standing(
@@ -178,7 +178,7 @@ def _standing(
     lowest, links = gear_plane(mechanism), links_at(mechanism, np.zeros(1))
     planes = {link.name: link.plane for link in links}
     rounds = [
-        (f"the pivot of {axis.names[0]}", axis.at, axis.radius)
+        (f"the pivot of {axis.names[0]}", axis.at, axis.bore.radius)
         for axis in bars.axes
         if axis.stands
         and not any(same(axis.at, shaft, L) for shaft in ((0.0, 0.0), (L, 0.0)))

@@ -72,11 +72,6 @@ class LinkAxis(NamedTuple):
     bore: Bore = Bore(0.0)  # for its shaft or pivot
     one_piece: frozenset[str] = frozenset()  # names of the links that have no bore for it
 
-    @property
-    def radius(self) -> float:
-        """Radius of its bore."""
-        return self.bore.radius
-
 
 class Gear(NamedTuple):
     """A gear about its axis: pitch circle, bore (of radius 0 for none or a ring), and plate."""
@@ -87,11 +82,6 @@ class Gear(NamedTuple):
     teeth: Teeth
     plate: Plate
     screws: BoltCircle  # between a gear that stands still and the frame
-
-    @property
-    def name(self) -> str:
-        """The gear's name."""
-        return self.plate.name
 
     @property
     def member(self) -> Member:
@@ -128,7 +118,7 @@ class Links(NamedTuple):
 
     def shaft(self, at: Point, L: float) -> float:
         """Return the radius of the shaft that carries links at a point; 0 where there is none."""
-        return next((axis.radius for axis in self.axes if same(axis.at, at, L)), 0.0)
+        return next((axis.bore.radius for axis in self.axes if same(axis.at, at, L)), 0.0)
 
     def one_piece(self, at: Point, L: float) -> list[Plate]:
         """Return the links that are one piece with the shaft at a point."""
