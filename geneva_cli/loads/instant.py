@@ -11,8 +11,8 @@ roller, fixed to its body, rubs along the wall.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any, Generic, Protocol, TypeAlias
+from collections.abc import Callable, Mapping
+from typing import Any, Generic, TypeAlias
 
 import numpy as np
 
@@ -163,8 +163,7 @@ class Instant(Generic[V]):
         """A quantity of the cycle, squared if it is one of ``SQUARED``, or a function's."""
         at, w = self.at, self.case.speed_rad_s
         if not isinstance(of, str):
-            known: QuantityValue[Any] = of(self)
-            return known
+            return of(self)
         if of == "omega_rad_s":
             return QuantityValue(at.velocity * w)
         if of == "alpha_rad_s2":
@@ -198,13 +197,8 @@ ATTRIBUTES: dict[str, tuple[str, str | None]] = {
 }
 
 
-class LoadQuantity(Protocol):
-    """A quantity: a function without numbers, or a tuple whose numbers may be arrays (m, 1)."""
-
-    def __call__(self, i: Instant[Any], /) -> QuantityValue[Any]:
-        """The quantity, and the margin that bounds it."""
-
-
+# A quantity with its margin: a function without numbers, or a tuple of arrays (m, 1) and the like.
+LoadQuantity: TypeAlias = Callable[[Instant[Any]], QuantityValue[Any]]
 Own: TypeAlias = "Mapping[str, LoadQuantity] | None"  # functions for names of a search
 
 

@@ -61,8 +61,7 @@ class Undecided(ArithmeticError):
     Of several enclosures ``answers`` has each one's own, NaN where it is open.
     """
 
-    def __init__(self, what: str = "", answers: Array | float = math.nan) -> None:
-        super().__init__(what)
+    def __init__(self, answers: Array | float = math.nan) -> None:
         self.answers = answers
 
 

@@ -70,7 +70,7 @@ class Interval(Enclosed):
     def pieces(self, cuts: Sequence[float]) -> Whole:
         numbers = self._piece_or_nan(cuts)
         if np.isnan(numbers).any():
-            raise Undecided("intervals over an end of a piece", 0.0 * numbers)
+            raise Undecided(0.0 * numbers)
         return numbers.astype(int)
 
     def _piece_or_nan(self, cuts: Sequence[float]) -> Array:
@@ -148,7 +148,7 @@ def _answer(answers: Array) -> float:
     """The one answer of all intervals; raises Undecided, with each one's own, if there is none."""
     first = float(np.ravel(answers)[0])
     if np.any(answers != first):  # also where it is open, NaN
-        raise Undecided("intervals with several answers", answers)
+        raise Undecided(answers)
     return first
 
 

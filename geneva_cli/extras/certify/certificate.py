@@ -163,12 +163,14 @@ def certificate(mechanism: Mechanism, quantity: str, limit: int = LIMIT) -> Cert
         raise GenevaError(f"{quantity}.max is not proved: {reason}")
     if find_spec("flint") is None:
         raise GenevaError('certificates need python-flint: pip install "geneva-cli[certify]"')
-    from geneva_cli.extras.certify.balls import precision
+    from flint import ctx
+
     from geneva_cli.extras.certify.enclosures import greatest
 
     of = _load if quantity in LOADS else _invariant
     peaks: list[Greatest] = []
-    with precision():
+    # middles of 128 bits, 75 more than a double has, against cancellation in high derivatives
+    with ctx.workprec(128):
         for e in mechanism.engagements:
             seams = {*e.motion.seams_deg, *e.slot.seams_deg}
             peaks.append(greatest(of(mechanism, e, quantity), seams, limit))
@@ -214,7 +216,7 @@ def _load(mechanism: Mechanism, engagement: Engagement, quantity: str) -> Formul
                 for fed in (1.0,) if own.efficiency == 1.0 else signs_of(here.feeding):
                     one = Instant(own, at, drives, slides, fed).quantity(quantity)
                     if one.margin is not None and not one.margin.c[0] > 0.0:
-                        raise Undecided("friction alone may hold the wheel: no bound of the force")
+                        raise Undecided  # friction alone may hold the wheel: no bound of the force
                     found.append(one.value)
         first, *others = found
         if not others:

@@ -13,10 +13,10 @@ machines, of order 1 the slope by one dimension.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 from itertools import product
-from typing import NamedTuple, Protocol, cast
+from typing import NamedTuple, TypeAlias, cast
 
 import numpy as np
 
@@ -85,11 +85,7 @@ class LockPlay(NamedTuple):
     jams: arrays.Mask  # True if they do not fit together
 
 
-class CutLock(Protocol):
-    """A lock of parts as they are cut."""
-
-    def __call__(self, by: Deviations, /) -> LockPlay:
-        """Play of the wheel to one side."""
+CutLock: TypeAlias = Callable[[Deviations], LockPlay]  # of parts as they are cut: to one side
 
 
 class LockContact(NamedTuple):
