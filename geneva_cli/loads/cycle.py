@@ -112,10 +112,7 @@ class Cycle:
     @cached_property
     def ends(self) -> Mapping[str, LoadSummary[float]]:
         """The same without mean and rms, which take longest."""
-        out = dict[str, LoadSummary[float]]()
-        for name, one in single_extremes(self.machine)[0].items():
-            out[name] = only(one)
-        return out
+        return {name: only(one) for name, one in single_extremes(self.machine)[0].items()}
 
     @cached_property
     def stretches(self) -> list[tuple[Engagement, Stretch]]:
@@ -196,10 +193,8 @@ def _driven(cycle: Cycle) -> Iterator[Notice]:
         if not mechanism.output.turns:
             brake = f"a resisting force of {braked_Nm / cycle.case.L:.4g} N"
         helps = f"or add a drag to the {noun} (with {brake} in all, the input always drives)"
-        if stop:
-            helps = "but no drag on the wheel, which would take it off the roller that stops it"
-        if cycle.case.frame:
-            helps = "as no drag on the wheel stops it from pushing the carrier"
+        if stop or cycle.case.frame:
+            helps = "as a drag on the wheel does not help here"
         yield Notice(
             "drives-the-motor",
             f"the {noun} drives the motor from {where}, with up to {-least:.4g} N m on "

@@ -6,7 +6,6 @@ Also the names of the loads that a machine has.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 
 import numpy as np
 
@@ -71,9 +70,7 @@ def load_case(mechanism: Mechanism) -> LoadCase:
         frame=mechanism.frame,
         design=mechanism.design,
     )
-    complete: Callable[[Mechanism, LoadCase], LoadCase] | None
-    complete = thing(spec.wheel.NAME, "load_case")
-    if complete:
+    if complete := thing(spec.wheel.NAME, "load_case"):
         case = complete(mechanism, case)
     return case.with_friction(friction)
 
@@ -125,9 +122,8 @@ def multiples(mechanism: Mechanism) -> dict[str, tuple[str, float | None, str]]:
 
 def sources(mechanism: Mechanism) -> dict[str, tuple[str, float]]:
     """Each known quantity by name: the one that is searched for it, and its ratio to that."""
-    known, out = known_quantities(mechanism), dict[str, tuple[str, float]]()
-    for name in known:
-        out[name] = name, 1.0
+    known = known_quantities(mechanism)
+    out = {name: (name, 1.0) for name in known}
     for name, (source, factor, _) in multiples(mechanism).items():
         if factor is not None and source in known:
             out[name] = source, factor

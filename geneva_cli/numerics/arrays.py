@@ -179,9 +179,7 @@ def choose(condition: Truth, yes: Real, no: Real) -> Real:
         return yes
     import numpy
 
-    both: object = (yes, no)
-    chosen_value: object = numpy.where(condition, *cast("tuple[Array, Array]", both))
-    return cast("Real", chosen_value)
+    return cast("Real", numpy.where(condition, cast("Array", yes), cast("Array", no)))
 
 
 def value_or(value: float | None, default: float) -> float:

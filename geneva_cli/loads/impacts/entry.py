@@ -234,10 +234,17 @@ def entry_impacts(
     Without the ``pin`` as it is drawn, forces are not known. The roller meets the slot's axis, or a
     corner of the mouth where the slot is too narrow. A jump below 0 strikes the wheel backwards.
     """
+    tolerance, size, L = mechanism.spec.tolerance, mechanism.spec.size, mechanism.center_distance_mm
+    # the largest roller in the narrowest slot
+    lost = 0.5 * fraction * (tolerance.roller_diameter_mm + tolerance.slot_width_mm)
+    spare = parameter(np.maximum(size.allowances.slot_clearance_mm - lost, 0.0)) / L
+    sizes = mechanism.roller_radius_mm / L, spare, size.mouth_radius_mm / L
     best = np.full((2, 1), np.nan)
     for axis in RestingAxis.each(mechanism):
-        every = [first_contacts(axis, *error) for error in _errors(mechanism, axis, fraction)]
-        for contacts in (*every, *_on_mouth(mechanism, axis, fraction)):
+        errors = [*_errors(mechanism, axis, fraction)]
+        every = [first_contacts(axis, *error) for error in errors]
+        every += [mouth_contacts(axis, *error, sizes) for error in errors]
+        for contacts in every:
             best = harder(best, shown(mechanism, axis.engagement, *contacts))
     return with_force(mechanism, best, pin)
 
@@ -264,12 +271,3 @@ def arm_mm(mechanism: Mechanism, engagement: Engagement) -> float:
         return mechanism.ratio * L
     x, y = (z.c[0] for z in engagement.path(0.0, 0))
     return parameter(L * library(x, y).hypot(x - engagement.hub, y))
-
-
-def _on_mouth(mechanism: Mechanism, axis: RestingAxis, fraction: float) -> list[FirstContacts]:
-    """First contacts with the mouth's corners, for the largest roller in the narrowest slot."""
-    tolerance, size, L = mechanism.spec.tolerance, mechanism.spec.size, mechanism.center_distance_mm
-    lost = 0.5 * fraction * (tolerance.roller_diameter_mm + tolerance.slot_width_mm)
-    spare = parameter(np.maximum(size.allowances.slot_clearance_mm - lost, 0.0)) / L
-    sizes = mechanism.roller_radius_mm / L, spare, size.mouth_radius_mm / L
-    return [mouth_contacts(axis, *error, sizes) for error in _errors(mechanism, axis, fraction)]
