@@ -11,8 +11,8 @@ roller, fixed to its body, rubs along the wall.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from typing import Any, Generic, TypeAlias
+from collections.abc import Mapping
+from typing import Any, Generic, Protocol, TypeAlias
 
 import numpy as np
 
@@ -129,11 +129,6 @@ class Instant(Generic[V]):
             lossless = lossless + self.frame_torque_Nm
         return lossless * self.losses
 
-    @property
-    def crank_torque_Nm(self) -> V:
-        """Torque of the shaft that carries the crank, N m: that of the power through the slot."""
-        return self.slot_torque_Nm * self.losses / self.at.crank
-
     @cached_property
     def wheel_bearing_N(self) -> V:
         """Size of the force on the wheel, and so of its shaft's reaction, N."""
@@ -197,8 +192,13 @@ ATTRIBUTES: dict[str, tuple[str, str | None]] = {
 }
 
 
-# A quantity with its margin: a function without numbers, or a tuple of arrays (m, 1) and the like.
-LoadQuantity: TypeAlias = Callable[[Instant[Any]], QuantityValue[Any]]
+class LoadQuantity(Protocol):
+    """A quantity: a function without numbers, or a tuple whose numbers may be arrays (m, 1)."""
+
+    def __call__(self, i: Instant[Any], /) -> QuantityValue[Any]:
+        """The quantity, and the margin that bounds it."""
+
+
 Own: TypeAlias = "Mapping[str, LoadQuantity] | None"  # functions for names of a search
 
 

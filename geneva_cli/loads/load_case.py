@@ -81,21 +81,6 @@ def centrifugal_N(mechanism: Mechanism) -> Array:
     return np.atleast_2d(carried_kg(spec) * omega(spec.drive.n_rpm) ** 2 * L)
 
 
-def known_quantities(mechanism: Mechanism) -> list[str]:
-    """The names of the quantities that have a value for this machine and load."""
-    if not mechanism.spec.is_loaded:
-        return ["omega_rad_s", "alpha_rad_s2", "sliding_m_s"]
-    pressed = load_case(mechanism).hertz is not None
-    guided = mechanism.engagements[0].reactions is not None  # as the joints of all of them
-    return [
-        *("omega_rad_s", "alpha_rad_s2", "wheel_torque_Nm", "pin_force_N"),
-        *["contact_stress_MPa"] * pressed,
-        *("sliding_m_s", "input_torque_Nm", "wheel_bearing_N", "crank_bearing_N"),
-        *["pv_W_m2"] * pressed,
-        *["guide_force_N"] * guided,
-    ]
-
-
 def multiples(mechanism: Mechanism) -> dict[str, tuple[str, float | None, str]]:
     """Quantities that are multiples of others: the other's name, the factor, and the keys it needs.
 
@@ -122,8 +107,20 @@ def multiples(mechanism: Mechanism) -> dict[str, tuple[str, float | None, str]]:
 
 def sources(mechanism: Mechanism) -> dict[str, tuple[str, float]]:
     """Each known quantity by name: the one that is searched for it, and its ratio to that."""
-    known = known_quantities(mechanism)
-    out = {name: (name, 1.0) for name in known}
+    known = ["omega_rad_s", "alpha_rad_s2", "sliding_m_s"]
+    if mechanism.spec.is_loaded:
+        pressed = load_case(mechanism).hertz is not None
+        guided = mechanism.engagements[0].reactions is not None  # as the joints of all of them
+        known = [
+            *("omega_rad_s", "alpha_rad_s2", "wheel_torque_Nm", "pin_force_N"),
+            *["contact_stress_MPa"] * pressed,
+            *("sliding_m_s", "input_torque_Nm", "wheel_bearing_N", "crank_bearing_N"),
+            *["pv_W_m2"] * pressed,
+            *["guide_force_N"] * guided,
+        ]
+    out = dict[str, tuple[str, float]]()
+    for name in known:
+        out[name] = name, 1.0
     for name, (source, factor, _) in multiples(mechanism).items():
         if factor is not None and source in known:
             out[name] = source, factor

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_left
 from collections.abc import Callable, Iterable, Sequence
-from typing import TYPE_CHECKING, ClassVar, NoReturn, Protocol, Self, TypeAlias, TypeVar, cast
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Protocol, Self, TypeAlias, TypeVar, cast
 
 if TYPE_CHECKING:
     from decimal import Decimal
@@ -179,7 +179,8 @@ def choose(condition: Truth, yes: Real, no: Real) -> Real:
         return yes
     import numpy
 
-    return cast("Real", numpy.where(condition, cast("Array", yes), cast("Array", no)))
+    both: tuple[Any, Any] = yes, no
+    return cast("Real", numpy.where(condition, *both))
 
 
 def value_or(value: float | None, default: float) -> float:

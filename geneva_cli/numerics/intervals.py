@@ -82,9 +82,6 @@ class Interval(Enclosed):
         low, high = (_ends(cast("float", f(_number(x, x)))) for x in (self.low, self.high))
         return _number(low[0], high[1])
 
-    def __repr__(self) -> str:
-        return f"Interval({self.low!r}, {self.high!r})"
-
     def __neg__(self) -> Interval:
         return Interval(-self.high, -self.low)
 

@@ -24,7 +24,7 @@ from geneva_cli.numerics.arrays import Undecided
 from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.numerics.tolerances import TIE
 
-# the jet of an order at a ball of degrees, by the angle in radians
+# the jet of an order at a ball of degrees from mid-motion, by the angle in radians
 Formula: TypeAlias = Callable[[Number, int], Jet]
 
 ORDER = 5

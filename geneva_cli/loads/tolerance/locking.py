@@ -13,10 +13,10 @@ machines, of order 1 the slope by one dimension.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import partial
 from itertools import product
-from typing import NamedTuple, TypeAlias, cast
+from typing import NamedTuple, Protocol, cast
 
 import numpy as np
 
@@ -85,7 +85,11 @@ class LockPlay(NamedTuple):
     jams: arrays.Mask  # True if they do not fit together
 
 
-CutLock: TypeAlias = Callable[[Deviations], LockPlay]  # of parts as they are cut: to one side
+class CutLock(Protocol):
+    """A lock of parts as they are cut."""
+
+    def __call__(self, by: Deviations, /) -> LockPlay:
+        """Play of the wheel to one side."""
 
 
 class LockContact(NamedTuple):

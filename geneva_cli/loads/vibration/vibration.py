@@ -116,8 +116,7 @@ class Oscillators:
         self.ratio = np.array([swing.ratio * scale for scale in self.scale])
         # wind-up of the shaft at an acceleration of 1 step over the motion's time squared
         self.bent_deg = np.degrees(self.steps) / (2.0 * np.pi * self.ratio) ** 2
-        self.residual = self.residuals(swing, self.motion)
-        self.share = np.abs(self.residual)
+        self.share = np.abs(self.residuals(swing, self.motion))
         self.residual_deg = np.degrees(self.share * self.steps)
 
     def residuals(self, swing: Oscillator, motion: Whole) -> Complex:
