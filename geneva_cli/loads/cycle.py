@@ -107,15 +107,13 @@ class Cycle:
         """The summaries of all quantities that have a value."""
         every = single_summaries(self.machine)
         load_functions.refuse_noise([one.rms for one in every.values()])
-        return {name: only(one) for name, one in every.items()}
+        return dict(zip(every, map(only, every.values()), strict=True))
 
     @cached_property
     def ends(self) -> Mapping[str, LoadSummary[float]]:
         """The same without mean and rms, which take longest."""
-        out = dict[str, LoadSummary[float]]()
-        for name, one in single_extremes(self.machine)[0].items():
-            out[name] = only(one)
-        return out
+        every = single_extremes(self.machine)[0]
+        return dict(zip(every, map(only, every.values()), strict=True))
 
     @cached_property
     def stretches(self) -> list[tuple[Engagement, Stretch]]:
@@ -151,10 +149,8 @@ def cycle_warnings(mechanism: Mechanism) -> list[Notice]:
 def _unbounded(cycle: Cycle) -> Iterator[Notice]:
     """Warnings about loads that nothing bounds."""
     case, force = cycle.case, cycle.ends["pin_force_N"]
-    endless_deg = math.inf
-    for value, at_deg in ((force.max, force.max_at_deg), (force.min, force.min_at_deg)):
-        if math.isinf(value):
-            endless_deg = min(endless_deg, at_deg)
+    value, at_deg = np.reshape(force[:4], (2, 2)).T
+    endless_deg = at_deg[np.isinf(value)].min(initial=math.inf)
     if case.all_friction and endless_deg < math.inf:
         held, of, more, less = "wheel", f"{case.friction:g}", "torque as the wall", "friction"
         if case.guide and case.guided:  # the slot's friction holds nothing: it is across the travel
@@ -196,10 +192,8 @@ def _driven(cycle: Cycle) -> Iterator[Notice]:
         if not mechanism.output.turns:
             brake = f"a resisting force of {braked_Nm / cycle.case.L:.4g} N"
         helps = f"or add a drag to the {noun} (with {brake} in all, the input always drives)"
-        if stop:
-            helps = "but no drag on the wheel, which would take it off the roller that stops it"
-        if cycle.case.frame:
-            helps = "as no drag on the wheel stops it from pushing the carrier"
+        if stop or cycle.case.frame:
+            helps = "as a drag on the wheel does not help here"
         yield Notice(
             "drives-the-motor",
             f"the {noun} drives the motor from {where}, with up to {-least:.4g} N m on "

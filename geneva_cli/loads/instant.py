@@ -129,11 +129,6 @@ class Instant(Generic[V]):
             lossless = lossless + self.frame_torque_Nm
         return lossless * self.losses
 
-    @property
-    def crank_torque_Nm(self) -> V:
-        """Torque of the shaft that carries the crank, N m: that of the power through the slot."""
-        return self.slot_torque_Nm * self.losses / self.at.crank
-
     @cached_property
     def wheel_bearing_N(self) -> V:
         """Size of the force on the wheel, and so of its shaft's reaction, N."""
@@ -163,8 +158,7 @@ class Instant(Generic[V]):
         """A quantity of the cycle, squared if it is one of ``SQUARED``, or a function's."""
         at, w = self.at, self.case.speed_rad_s
         if not isinstance(of, str):
-            known: QuantityValue[Any] = of(self)
-            return known
+            return of(self)
         if of == "omega_rad_s":
             return QuantityValue(at.velocity * w)
         if of == "alpha_rad_s2":

@@ -6,7 +6,6 @@ Also the names of the loads that a machine has.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 
 import numpy as np
 
@@ -71,9 +70,7 @@ def load_case(mechanism: Mechanism) -> LoadCase:
         frame=mechanism.frame,
         design=mechanism.design,
     )
-    complete: Callable[[Mechanism, LoadCase], LoadCase] | None
-    complete = thing(spec.wheel.NAME, "load_case")
-    if complete:
+    if complete := thing(spec.wheel.NAME, "load_case"):
         case = complete(mechanism, case)
     return case.with_friction(friction)
 
@@ -82,21 +79,6 @@ def centrifugal_N(mechanism: Mechanism) -> Array:
     """The centrifugal force of all bodies on a wheel on a carrier, N, (m, 1)."""
     spec, L = mechanism.spec, mechanism.center_distance_mm / 1000.0
     return np.atleast_2d(carried_kg(spec) * omega(spec.drive.n_rpm) ** 2 * L)
-
-
-def known_quantities(mechanism: Mechanism) -> list[str]:
-    """The names of the quantities that have a value for this machine and load."""
-    if not mechanism.spec.is_loaded:
-        return ["omega_rad_s", "alpha_rad_s2", "sliding_m_s"]
-    pressed = load_case(mechanism).hertz is not None
-    guided = mechanism.engagements[0].reactions is not None  # as the joints of all of them
-    return [
-        *("omega_rad_s", "alpha_rad_s2", "wheel_torque_Nm", "pin_force_N"),
-        *["contact_stress_MPa"] * pressed,
-        *("sliding_m_s", "input_torque_Nm", "wheel_bearing_N", "crank_bearing_N"),
-        *["pv_W_m2"] * pressed,
-        *["guide_force_N"] * guided,
-    ]
 
 
 def multiples(mechanism: Mechanism) -> dict[str, tuple[str, float | None, str]]:
@@ -125,7 +107,18 @@ def multiples(mechanism: Mechanism) -> dict[str, tuple[str, float | None, str]]:
 
 def sources(mechanism: Mechanism) -> dict[str, tuple[str, float]]:
     """Each known quantity by name: the one that is searched for it, and its ratio to that."""
-    known, out = known_quantities(mechanism), dict[str, tuple[str, float]]()
+    known = ["omega_rad_s", "alpha_rad_s2", "sliding_m_s"]
+    if mechanism.spec.is_loaded:
+        pressed = load_case(mechanism).hertz is not None
+        guided = mechanism.engagements[0].reactions is not None  # as the joints of all of them
+        known = [
+            *("omega_rad_s", "alpha_rad_s2", "wheel_torque_Nm", "pin_force_N"),
+            *["contact_stress_MPa"] * pressed,
+            *("sliding_m_s", "input_torque_Nm", "wheel_bearing_N", "crank_bearing_N"),
+            *["pv_W_m2"] * pressed,
+            *["guide_force_N"] * guided,
+        ]
+    out = dict[str, tuple[str, float]]()
     for name in known:
         out[name] = name, 1.0
     for name, (source, factor, _) in multiples(mechanism).items():

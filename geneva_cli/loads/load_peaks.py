@@ -187,9 +187,7 @@ def _extremes(mechanism: Mechanism, names: Sequence[str] | None = None) -> Found
         # where the torque changes sign, rounding may leave a size of 1e-14 of the other
         level = 1e-14 * np.where(np.isfinite(ends), np.abs(ends), 0.0).max(axis=0)
         ends = np.where(np.abs(ends) > level, ends, 0.0)
-        if (
-            name in contact.PRESSED
-        ):  # the square of a stress goes with the force, and has its rounding
+        if name in contact.PRESSED:  # its square goes with the force, and has its rounding
             ends = np.sqrt(ends)
         best[name] = LoadSummary(ends[0], at_deg[0], ends[1], at_deg[1])
     out = {}

@@ -54,7 +54,7 @@ def sizing(
     cycle: Cycle, wheel_inertia_kgm2: float | None = None
 ) -> tuple[Mapping[str, float | None], tuple[str, ...]]:
     """The values of one design in the order shown, and the keys that missing values need."""
-    spec, lacks = cycle.mechanism.spec, cycle.mechanism.output.lacks
+    lacks = cycle.mechanism.output.lacks
     torque = cycle.extremes["input_torque_Nm"] if cycle.is_loaded else None
     rows = sizings(cycle.machine, SIZING_NAMES if torque else KNOWN_UNLOADED)
     values = {name: float(row[0]) for name, row in rows.items() if name not in lacks}
@@ -71,11 +71,7 @@ def sizing(
         if out[name] is None and name not in lacks:
             needs.append(f"{name}: needs {why}")
     if wheel_inertia_kgm2 is None:
-        why = "needs a wheel that can be cut; `geneva profile` shows why it cannot"
-        if not spec.is_flat:
-            why = "computed for flat wheels only"
-        elif spec.size.face_width_mm is None and spec.size.wheel_thickness_mm is None:
-            why = "needs face_width_mm in [size]"
+        why = "needs a flat wheel that can be cut, and face_width_mm in [size]"
         needs.append(f"{WHEEL_INERTIA}: {why}")
     return out, tuple(needs)
 

@@ -25,7 +25,7 @@ def sin_cos_pi(p: int, q: int) -> tuple[float, float]:
     if isinstance(p, int) and isinstance(q, int):
         s, c = scaled_sin_cos(p, q)
         return s / _ONE, c / _ONE
-    if not _whole(p):
+    if not (isinstance(p, int) or p.dtype.kind == "i"):
         return _sin_cos_degrees(180.0 / q * p)
     sine, cosine = of_each(sin_cos_pi, p, q)
     return sine, cosine
@@ -35,13 +35,9 @@ def one_minus_sin_pi(p: int, q: int) -> float:
     """1 - sin(pi p/q), correctly rounded even near 0."""
     if isinstance(p, int) and isinstance(q, int):
         return (_ONE - scaled_sin_cos(p, q)[0]) / _ONE
-    if not _whole(p):
+    if not (isinstance(p, int) or p.dtype.kind == "i"):
         return 2.0 * _sin_cos_degrees(45.0 - 90.0 / q * p)[0] ** 2
     return of_each(lambda p, q: (one_minus_sin_pi(p, q),), p, q)[0]
-
-
-def _whole(p: int) -> bool:
-    return isinstance(p, int) or p.dtype.kind == "i"
 
 
 def of_each(f: Callable[..., tuple[float, ...]], *numbers: float) -> list[float]:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_left
 from collections.abc import Callable, Iterable, Sequence
-from typing import TYPE_CHECKING, ClassVar, NoReturn, Protocol, Self, TypeAlias, TypeVar, cast
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Protocol, Self, TypeAlias, TypeVar, cast
 
 if TYPE_CHECKING:
     from decimal import Decimal
@@ -61,8 +61,7 @@ class Undecided(ArithmeticError):
     Of several enclosures ``answers`` has each one's own, NaN where it is open.
     """
 
-    def __init__(self, what: str = "", answers: Array | float = math.nan) -> None:
-        super().__init__(what)
+    def __init__(self, answers: Array | float = math.nan) -> None:
         self.answers = answers
 
 
@@ -180,9 +179,8 @@ def choose(condition: Truth, yes: Real, no: Real) -> Real:
         return yes
     import numpy
 
-    both: object = (yes, no)
-    chosen_value: object = numpy.where(condition, *cast("tuple[Array, Array]", both))
-    return cast("Real", chosen_value)
+    both: tuple[Any, Any] = yes, no
+    return cast("Real", numpy.where(condition, *both))
 
 
 def value_or(value: float | None, default: float) -> float:

@@ -9,6 +9,7 @@ Series are from samples (..., points, m) at the Chebyshev points of [-1, 1] (L. 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
@@ -178,10 +179,7 @@ class Cutter:
         count = np.bincount(rows.design, minlength=len(self.noisy))
         # more rows of a design than these are rounding
         self.noisy |= (count > 100 + 2 * self.first) | (self.depth == 59)
-        out = []
-        for some in blocks(len(rows.design), BLOCK):
-            out.append(record_taken(rows, some))
-        return out
+        return [*map(partial(record_taken, rows), blocks(len(rows.design), BLOCK))]
 
     def again(self, rows: Rows, part: Array, which: Mask) -> Mask:
         """Sample some rows again: both halves of a whole row, or a part as a row of its own.

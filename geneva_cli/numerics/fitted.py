@@ -48,7 +48,9 @@ def fitted(function: Function, x: Array, seams: Sequence[float]) -> list[Array]:
     """
     own = [slice(0, 1), slice(len(x) - 1, len(x))]  # places that are evaluated themselves
     out = [np.empty(len(x)) for _ in function(x[:1])]
-    pending = [*_cover(x)]
+    width = float(2.0 ** np.ceil(np.log2(max(x[-1] - x[0], NARROW))))
+    low = float(np.floor(x[0] / width)) * width
+    pending = [_interval(start, width, x) for start in (low, low + width)]  # over all places
     while pending:
         halved: list[_Interval] = []
         fit: list[_Interval] = []
@@ -67,15 +69,6 @@ def fitted(function: Function, x: Array, seams: Sequence[float]) -> list[Array]:
         for whole, values in zip(out, function(x[places[block]]), strict=True):
             whole[places[block]] = values
     return out
-
-
-def _cover(x: Array) -> Iterator[_Interval]:
-    """Intervals of one width, over all places."""
-    width = 2.0 ** np.ceil(np.log2(max(x[-1] - x[0], NARROW)))
-    low = np.floor(x[0] / width) * width
-    while low <= x[-1]:
-        yield _interval(float(low), float(width), x)
-        low += width
 
 
 def _interval(low: float, width: float, x: Array) -> _Interval:

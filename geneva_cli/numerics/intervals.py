@@ -70,7 +70,7 @@ class Interval(Enclosed):
     def pieces(self, cuts: Sequence[float]) -> Whole:
         numbers = self._piece_or_nan(cuts)
         if np.isnan(numbers).any():
-            raise Undecided("intervals over an end of a piece", 0.0 * numbers)
+            raise Undecided(0.0 * numbers)
         return numbers.astype(int)
 
     def _piece_or_nan(self, cuts: Sequence[float]) -> Array:
@@ -81,9 +81,6 @@ class Interval(Enclosed):
     def rising(self, f: Callable[[Number], Number]) -> Number:
         low, high = (_ends(cast("float", f(_number(x, x)))) for x in (self.low, self.high))
         return _number(low[0], high[1])
-
-    def __repr__(self) -> str:
-        return f"Interval({self.low!r}, {self.high!r})"
 
     def __neg__(self) -> Interval:
         return Interval(-self.high, -self.low)
@@ -148,7 +145,7 @@ def _answer(answers: Array) -> float:
     """The one answer of all intervals; raises Undecided, with each one's own, if there is none."""
     first = float(np.ravel(answers)[0])
     if np.any(answers != first):  # also where it is open, NaN
-        raise Undecided("intervals with several answers", answers)
+        raise Undecided(answers)
     return first
 
 

@@ -24,8 +24,7 @@ _TABLE = """
 31 1 1 7 13 1 19 1 / 32 1 3 7 5 13 19 59 / 37 1 1 3 9 25 29 41 / 41 1 3 5 13 23 1 55 /
 42 1 3 7 3 13 59 17
 """
-_ROWS = [[*map(int, row.split())] for row in _TABLE.split("/")]
-DIRECTIONS = [(0, ()), *((first, tuple(numbers)) for first, *numbers in _ROWS)]
+DIRECTIONS = [[0], *([*map(int, row.split())] for row in _TABLE.split("/"))]
 
 
 class Sobol(NamedTuple):
@@ -42,8 +41,8 @@ class Sobol(NamedTuple):
         # a column of each matrix: the digit itself, and random digits below it
         columns = rng.integers(1 << DIGITS, size=(dimensions, DIGITS)) % weights | weights
         directions = np.zeros((dimensions, DIGITS), dtype=np.int64)
-        for row, matrix, (polynomial, first) in zip(directions, columns, DIRECTIONS, strict=False):
-            plain = weights * _numbers(polynomial, first)
+        for row, matrix, numbers in zip(directions, columns, DIRECTIONS, strict=False):
+            plain = weights * _numbers(*numbers)
             for column, weight in zip(matrix, weights, strict=True):
                 row ^= np.where(plain & weight, column, 0)
         return Sobol(directions, rng.integers(1 << DIGITS, size=(dimensions, 1)))
@@ -62,7 +61,7 @@ class Sobol(NamedTuple):
         return digits.astype(float) * 0.5**DIGITS
 
 
-def _numbers(polynomial: int, first: tuple[int, ...]) -> Whole:
+def _numbers(polynomial: int, *first: int) -> Whole:
     """Direction numbers of one dimension, by the recurrence of its polynomial."""
     degree, numbers = len(first), list(first or [1] * DIGITS)
     while len(numbers) < DIGITS:

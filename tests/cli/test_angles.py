@@ -8,7 +8,7 @@ import repo
 from load_states import greatest
 
 from geneva_cli import Design, design
-from geneva_cli.loads.load_case import known_quantities
+from geneva_cli.loads.load_case import sources
 from geneva_cli.table import Table
 
 pytestmark = pytest.mark.usefixtures("made_once", "read_once")
@@ -36,7 +36,7 @@ def one_zero(found: Design) -> None:
     page, summary, rows = found.report.table, found.peaks_table, found.checks
     places = [*angles("report", page), *angles("peaks", summary)]
     places += [(c.name, c.at_deg) for c in rows if c.at_deg is not None]
-    most = {q: greatest(mechanism, q) for q in LIMITED if q in known_quantities(mechanism)}
+    most = {q: greatest(mechanism, q) for q in LIMITED if q in sources(mechanism)}
     places += [(q, each.at_deg) for q, each in most.items()]
     assert len(places) > 8
     for name, at_deg in places:

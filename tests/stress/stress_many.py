@@ -33,7 +33,7 @@ from loaded_arrays import loaded
 from machine_witness import motions
 from witness import QUANTITIES as EXACT
 
-from geneva_cli.loads.load_case import known_quantities
+from geneva_cli.loads.load_case import sources
 from geneva_cli.loads.load_peaks import load_peaks, load_summaries
 from geneva_cli.motion.batch import taken
 from geneva_cli.motion.many import many
@@ -156,7 +156,8 @@ def stressed_loads(name, count, seed=12, places=LOADS_PLACES, seconds=math.inf):
         seed += 1
         if batch.machine is None:
             continue
-        names = known_quantities(batch.machine)
+        known = sources(batch.machine)
+        names = [name for name, (source, _) in known.items() if name == source]
         over = beyond_loads(batch, places, seed, names=names)
         for one in [name for name in ALONE if name in names]:
             together = load_summaries(batch.machine, (one,), means=False)

@@ -9,11 +9,10 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_left
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Self, cast
 
-from flint import arb, ctx
+from flint import arb
 
 from geneva_cli.numerics.arrays import Enclosed, EnclosedLibrary, Number, Undecided
 
@@ -110,17 +109,13 @@ class Ball(Enclosed):
         middle, radius = self.middle, self.radius * (1.0 - 2.0**-24)
         for cut in cuts:
             if radius - abs(cut - middle) > self.REACH:
-                raise Undecided(f"the cut {cut!r} is inside {self!r}")
+                raise Undecided
         return bisect_left(cuts, middle)
 
     def rising(self, f: Callable[[Number], Number]) -> Number:
         """Hull of the values of a function at both ends: all values of one that rises."""
         low, high = (f(cast("float", Ball(x))) for x in (self.arb.lower(), self.arb.upper()))
         return cast("float", ball_of(low).join(ball_of(high)))
-
-    def __repr__(self) -> str:
-        low, high = self.bounds()
-        return f"Ball.between({low!r}, {high!r})"
 
     def __neg__(self) -> Ball:
         return Ball(-self.arb)
@@ -138,29 +133,22 @@ class Ball(Enclosed):
 
     __radd__, __rmul__ = __add__, __mul__
 
-    def _decided(self, yes: bool, no: bool, other: object) -> bool:
-        """Return the answer to a comparison with ``other``; raises Undecided where it is open."""
-        if yes == no:
-            raise Undecided(f"{self!r} against {other!r}")
-        return yes
-
     def __lt__(self, other: Ball | float) -> bool:
-        return self._decided(self.arb < _arb(other), self.arb >= _arb(other), other)
+        return _decided(self.arb < _arb(other), self.arb >= _arb(other))
 
     def __le__(self, other: Ball | float) -> bool:
-        return self._decided(self.arb <= _arb(other), self.arb > _arb(other), other)
+        return _decided(self.arb <= _arb(other), self.arb > _arb(other))
 
     def __eq__(self, other: object) -> bool:
         limit = _arb(cast("float", other))
-        return self._decided(self.arb == limit, self.arb != limit, other)
+        return _decided(self.arb == limit, self.arb != limit)
 
 
-@contextmanager
-def precision() -> Iterator[None]:
-    """Compute with middles of 128 bits meanwhile."""
-    # 75 more than a double has, against cancellation in high derivatives
-    with ctx.workprec(128):
-        yield
+def _decided(yes: bool, no: bool) -> bool:
+    """Return the answer to a comparison; raises Undecided where it is open."""
+    if yes == no:
+        raise Undecided
+    return yes
 
 
 def _arb(x: Ball | float) -> arb:
@@ -195,7 +183,7 @@ class _Balls(EnclosedLibrary):
     def floor(self, x: Ball) -> float:
         low, high = (math.floor(bound) for bound in x.bounds())
         if low != high:
-            raise Undecided(f"a whole number is inside {x!r}")
+            raise Undecided
         return float(low)
 
 

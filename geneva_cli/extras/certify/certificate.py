@@ -8,10 +8,10 @@ the input's torque. Where an interval does not decide a sign, the load is enclos
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from importlib.util import find_spec
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias, cast
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.loads.contact import contact
@@ -26,10 +26,8 @@ from geneva_cli.numerics.tolerances import TIE
 from geneva_cli.table import Table, rows_table
 
 if TYPE_CHECKING:
-    from geneva_cli.extras.certify.enclosures import BoundedSpan, Greatest
+    from geneva_cli.extras.certify.enclosures import BoundedSpan, Formula, Greatest
 
-# a jet of an order by the input angle, at an angle in degrees from mid-motion
-Formula: TypeAlias = Callable[[Number, int], Jet]
 LIMIT = 2000  # intervals a motion: 12 times what any design here takes, some seconds
 DIGITS = 15  # that are printed: as many as every double keeps
 NARROW_DEG = 1e-6  # a narrower place is one angle for people
@@ -43,11 +41,6 @@ class Place(NamedTuple):
 
     from_deg: float
     to_deg: float
-
-    @property
-    def is_narrow(self) -> bool:
-        """True if it is one angle for people."""
-        return self.to_deg - self.from_deg < NARROW_DEG
 
 
 class Open(NamedTuple):
@@ -98,9 +91,8 @@ class Certificate(NamedTuple):
             return "not proved"
         if len(self.places) > 1:
             return "at two mirrored places" if self.mirrored else f"at {len(self.places)} places"
-        (place,) = self.places
-        between = f"between {place.from_deg:.9g} and {place.to_deg:.9g}°"
-        return "unique" if place.is_narrow else between
+        ((a, b),) = self.places
+        return "unique" if b - a < NARROW_DEG else f"between {a:.9g} and {b:.9g}°"
 
     @property
     def text(self) -> str:
@@ -163,12 +155,14 @@ def certificate(mechanism: Mechanism, quantity: str, limit: int = LIMIT) -> Cert
         raise GenevaError(f"{quantity}.max is not proved: {reason}")
     if find_spec("flint") is None:
         raise GenevaError('certificates need python-flint: pip install "geneva-cli[certify]"')
-    from geneva_cli.extras.certify.balls import precision
+    from flint import ctx
+
     from geneva_cli.extras.certify.enclosures import greatest
 
     of = _load if quantity in LOADS else _invariant
     peaks: list[Greatest] = []
-    with precision():
+    # middles of 128 bits, 75 more than a double has, against cancellation in high derivatives
+    with ctx.workprec(128):
         for e in mechanism.engagements:
             seams = {*e.motion.seams_deg, *e.slot.seams_deg}
             peaks.append(greatest(of(mechanism, e, quantity), seams, limit))
@@ -214,7 +208,7 @@ def _load(mechanism: Mechanism, engagement: Engagement, quantity: str) -> Formul
                 for fed in (1.0,) if own.efficiency == 1.0 else signs_of(here.feeding):
                     one = Instant(own, at, drives, slides, fed).quantity(quantity)
                     if one.margin is not None and not one.margin.c[0] > 0.0:
-                        raise Undecided("friction alone may hold the wheel: no bound of the force")
+                        raise Undecided  # friction alone may hold the wheel: no bound of the force
                     found.append(one.value)
         first, *others = found
         if not others:

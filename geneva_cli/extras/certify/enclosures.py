@@ -24,7 +24,7 @@ from geneva_cli.numerics.arrays import Undecided
 from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.numerics.tolerances import TIE
 
-# the jet of an order at a ball of degrees, by the angle in radians
+# the jet of an order at a ball of degrees from mid-motion, by the angle in radians
 Formula: TypeAlias = Callable[[Number, int], Jet]
 
 ORDER = 5
@@ -65,25 +65,23 @@ class _Enclosure(NamedTuple):
 
 
 class _Piece(NamedTuple):
-    """Part of the motion with one formula; an end where another takes over is not sharp."""
+    """Part of the motion with one formula, and what an end may be off where another takes over."""
 
     start: float
     end: float
-    sharp_start: bool
-    sharp_end: bool
+    before: float
+    after: float
 
     def reach(self, a: float, b: float) -> tuple[float, float]:
         """The interval, longer at an end of the piece by what that end may be off."""
-        begins = a == self.start and not self.sharp_start
-        ends = b == self.end and not self.sharp_end
-        return a - EDGE_DEG * begins, b + EDGE_DEG * ends
+        return a - self.before * (a == self.start), b + self.after * (b == self.end)
 
 
 def greatest(formula: Formula, seams: Iterable[float], limit: int) -> Greatest:
     """The greatest size of a formula from first to last seam, with at most so many intervals."""
     ends = sorted(seams)
     pieces = [
-        _Piece(a, b, a == ends[0], b == ends[-1])
+        _Piece(a, b, EDGE_DEG * (a != ends[0]), EDGE_DEG * (b != ends[-1]))
         for a, b in pairwise(distinct(ends, 4.0 * EDGE_DEG))  # as near as their errors: one
     ]
     return _Search(formula, limit).run(pieces)

@@ -70,11 +70,6 @@ class RestingAxis(NamedTuple):
         offset, along = parameter(hub * m.sin(ahead)), parameter(hub * m.cos(ahead))
         return RestingAxis(engagement, anchor, offset, along)
 
-    @property
-    def through(self) -> Engagement:
-        """The engagement whose roller runs through the whole slot."""
-        return self.engagement.through
-
     @staticmethod
     def each(mechanism: Mechanism) -> list[RestingAxis]:
         """The axes of all engagements; none for slots that are solved for, and as built."""
@@ -83,7 +78,7 @@ class RestingAxis(NamedTuple):
 
     def offset(self, crank: N, center: N) -> N:
         """Distance over L of the true path from the axis where the path with errors crosses it."""
-        arm = self.hub_offset + self.through.slot.offset  # from the slot's axis
+        arm = self.hub_offset + self.engagement.through.slot.offset  # from the slot's axis
         return (crank * arm - center * self.hub_offset) / (1.0 + crank)
 
     def distance(self, tau: Array) -> tuple[Array, Array]:
@@ -100,7 +95,7 @@ def first_contacts(axis: RestingAxis, crank: Number, center: Number = 0.0) -> Fi
     """
     # The roller comes from one side, ``before``. At a true entry it stays on that side (a circle)
     # or crosses to the other (a path with an inflection).
-    span = 0.5 * axis.through.motion_deg * DEGREE
+    span = 0.5 * axis.engagement.through.motion_deg * DEGREE
     before = axis.distance(np.atleast_2d(-1e-3 * span))[0]
     offset = np.atleast_2d(axis.offset(crank, center)) + 0.0 * before
     with np.errstate(all="ignore"):
@@ -147,7 +142,7 @@ class _Corner(NamedTuple):
     def roller(self, tau: Array) -> tuple[Jet, Jet, Jet]:
         """Roller centre ``tau`` radians of the input after the true entry."""
         axis, longer = self.axis, 1.0 + self.crank
-        slot, anchor = axis.through.slot, axis.anchor
+        slot, anchor = axis.engagement.through.slot, axis.anchor
         x, y = anchor.displacement(tau, 1)
         x = (x + anchor.along) * longer - (self.crank - self.center) * axis.along
         y = (y - axis.offset(self.crank, self.center)) * longer - slot.offset
@@ -170,7 +165,7 @@ class _Corner(NamedTuple):
         is at ``along`` and ``top``. Centre P and corner C keep their distance at the speed
         (P - C) . P' / (P - C) . (z x C).
         """
-        engagement = self.axis.through
+        engagement = self.axis.engagement.through
         span = 0.5 * engagement.motion_deg * DEGREE
         x, _, z = self.roller(np.atleast_2d(0.0 * span))
         # its distance outside, and its speed outwards
@@ -200,7 +195,7 @@ def mouth_contacts(
     sharp one on a roller of r + c. On a sphere centre and corner are directions.
     """
     roller, clearance, rounding = sizes
-    slot, along, wide = axis.through.slot, axis.anchor.along, roller + clearance
+    slot, along, wide = axis.engagement.through.slot, axis.anchor.along, roller + clearance
     if np.any(rounding):  # its circle touches wall and rim
         x, y = slot(0.0, 0)
         sign = np.where(np.hypot(x.c[0], y.c[0]) < along, 1.0, -1.0)
@@ -234,10 +229,17 @@ def entry_impacts(
     Without the ``pin`` as it is drawn, forces are not known. The roller meets the slot's axis, or a
     corner of the mouth where the slot is too narrow. A jump below 0 strikes the wheel backwards.
     """
+    tolerance, size, L = mechanism.spec.tolerance, mechanism.spec.size, mechanism.center_distance_mm
+    # the largest roller in the narrowest slot
+    lost = 0.5 * fraction * (tolerance.roller_diameter_mm + tolerance.slot_width_mm)
+    spare = parameter(np.maximum(size.allowances.slot_clearance_mm - lost, 0.0)) / L
+    sizes = mechanism.roller_radius_mm / L, spare, size.mouth_radius_mm / L
     best = np.full((2, 1), np.nan)
     for axis in RestingAxis.each(mechanism):
-        every = [first_contacts(axis, *error) for error in _errors(mechanism, axis, fraction)]
-        for contacts in (*every, *_on_mouth(mechanism, axis, fraction)):
+        errors = [*_errors(mechanism, axis, fraction)]
+        every = [first_contacts(axis, *error) for error in errors]
+        every += [mouth_contacts(axis, *error, sizes) for error in errors]
+        for contacts in every:
             best = harder(best, shown(mechanism, axis.engagement, *contacts))
     return with_force(mechanism, best, pin)
 
@@ -250,7 +252,7 @@ def _errors(
     arm = arm_mm(mechanism, axis.engagement)
     crank = fraction * spec.tolerance.crank_radius_mm / arm if spec.drive.ONE_ARM else 0.0
     center = fraction * spec.tolerance.center_distance_mm / L if spec.wheel.FLAT else 0.0
-    between = axis.hub_offset * (axis.hub_offset + axis.through.slot.offset) < 0.0
+    between = axis.hub_offset * (axis.hub_offset + axis.engagement.through.slot.offset) < 0.0
     center = choose(between, -center, center)
     if not all_true((crank == 0.0) & (center == 0.0)):
         yield crank, -center
@@ -264,12 +266,3 @@ def arm_mm(mechanism: Mechanism, engagement: Engagement) -> float:
         return mechanism.ratio * L
     x, y = (z.c[0] for z in engagement.path(0.0, 0))
     return parameter(L * library(x, y).hypot(x - engagement.hub, y))
-
-
-def _on_mouth(mechanism: Mechanism, axis: RestingAxis, fraction: float) -> list[FirstContacts]:
-    """First contacts with the mouth's corners, for the largest roller in the narrowest slot."""
-    tolerance, size, L = mechanism.spec.tolerance, mechanism.spec.size, mechanism.center_distance_mm
-    lost = 0.5 * fraction * (tolerance.roller_diameter_mm + tolerance.slot_width_mm)
-    spare = parameter(np.maximum(size.allowances.slot_clearance_mm - lost, 0.0)) / L
-    sizes = mechanism.roller_radius_mm / L, spare, size.mouth_radius_mm / L
-    return [mouth_contacts(axis, *error, sizes) for error in _errors(mechanism, axis, fraction)]

@@ -54,7 +54,8 @@ class ShaftLoad(NamedTuple):
         if self.on_sphere:
             square, torque = sphere_moments(i, on_wheel, 0.0 if lever is None else lever)
         else:
-            torque = i.wheel_torque_Nm if on_wheel else i.crank_torque_Nm
+            # of the crank's shaft that of the power through the slot
+            torque = i.wheel_torque_Nm if on_wheel else i.slot_torque_Nm * i.losses / i.at.crank
         if lever is None:
             return QuantityValue(torque * torque, i.grip)
         turned = torque * self.torsion

@@ -86,11 +86,11 @@ class MotionError(NamedTuple):
         """
         values = [np.atleast_1d(jet.c[0]) for jet in by]
         each = deviations([np.reshape(z, (len(z), -1, 1)) for z in values])
-        return self._greatest(
-            lambda at, side: np.asarray(
-                (arrays.array(self(each, at, side).c[0]) * side).max(axis=0)
-            )
-        )
+
+        def worst(at: arrays.Array, side: float) -> arrays.Array:
+            return np.asarray((arrays.array(self(each, at, side).c[0]) * side).max(axis=0))
+
+        return self._greatest(worst)
 
     def greatest_rss(self, sizes: Sequence[float]) -> arrays.Array:
         """The nominal error and the root of the squared effects of dimensions of these sizes.
@@ -264,7 +264,7 @@ def entry_jumps(mechanism: Mechanism) -> list[EntryJump]:
 def _branch(axis: RestingAxis, sense: float) -> tuple[float, arrays.Array, arrays.Complex]:
     # In geometric progression from next to the true entry to half-way through the motion: between
     # two places, interpolation has a relative error of 1e-6 at most.
-    span = 0.5 * axis.through.motion_deg * DEGREE
+    span = 0.5 * axis.engagement.through.motion_deg * DEGREE
     along, across = axis.anchor.displacement(sense * span * np.geomspace(1e-7, 1.0, 8193), 1)
     off, slope = across.arrays()
     root = np.sqrt(abs(off))

@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from functools import lru_cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -35,10 +35,9 @@ from geneva_cli.numerics.arrays import (
 )
 from geneva_cli.numerics.quadrature import rule
 
-if TYPE_CHECKING:
-    # Places u (p, k) of the motions (p,) -> Taylor coefficients 0 to 2 of s by a variable, and du
-    # over that variable.
-    Taylor = Callable[[Array, Whole], tuple[Sequence[Number], Number]]
+# Places u (p, k) of the motions (p,) -> Taylor coefficients 0 to 2 of s by a variable, and du over
+# that variable.
+Taylor: TypeAlias = Callable[[Array, Whole], tuple[Sequence[Number], Number]]
 
 legendre, chebyshev = np.polynomial.legendre, np.polynomial.chebyshev
 NODES = 32  # of Gauss's rule on a panel

@@ -14,7 +14,6 @@ from typing import Any
 import numpy as np
 
 from geneva_cli.errors import GenevaError, Notice
-from geneva_cli.kept import cached_property
 from geneva_cli.loads.load_case import inertia_kgm2
 from geneva_cli.loads.vibration.swing import (
     Oscillator,
@@ -59,8 +58,6 @@ def oscillator(
     shaft, spec = mechanism.spec.shaft, mechanism.spec
     if damping is not None and damping not in DAMPING:
         raise GenevaError(f"--damping {damping:g}: must be {DAMPING}: at 1 nothing oscillates")
-    ratios = f"{PERIOD_RATIO.low:g} to {PERIOD_RATIO.high:g}"
-    given = f"--period-ratio {period_ratio}"
     key = STIFFNESS if period_ratio is None else ()
     if period_ratio is None:
         inertia = inertia_kgm2(spec)
@@ -68,25 +65,19 @@ def oscillator(
         if not mechanism.output.turns:
             noun = mechanism.output.noun
             raise GenevaError(f"a {noun} has no shaft: use {needed}", ("wheel", "gearing"))
-        if shaft.stiffness_Nm_rad is None:
+        if shaft.stiffness_Nm_rad is None or not inertia:
             raise GenevaError(
-                "no stiffness_Nm_rad in [shaft]: set the stiffness between wheel and load, or use "
-                f"{needed}",
-                key,
-            )
-        if not inertia:
-            raise GenevaError(
-                "a load without inertia has no natural period; set inertia_kgm2 in [load] or a "
-                f"[[mass]], or use {needed}",
+                "no natural period: set stiffness_Nm_rad in [shaft], between wheel and load, and "
+                f"inertia_kgm2 in [load] or a [[mass]], or use {needed}",
                 key,
             )
         period_ratio = _period_ratio(mechanism, shaft.stiffness_Nm_rad, inertia)
-        given = (
-            f"stiffness_Nm_rad = {shaft.stiffness_Nm_rad:g} with {inertia:g} kg m² gives a period "
-            f"ratio (motion time / natural period) of {period_ratio:.4g}"
-        )
     if period_ratio not in PERIOD_RATIO:
-        raise GenevaError(f"{given}: must be {ratios}", key)
+        raise GenevaError(
+            f"a period ratio (motion time / natural period) of {period_ratio:.4g}: must be "
+            f"{PERIOD_RATIO.low:g} to {PERIOD_RATIO.high:g}",
+            key,
+        )
     zeta = shaft.damping_ratio if damping is None else damping
     return Oscillator(np.array([period_ratio]), np.array([zeta]))
 
@@ -125,8 +116,7 @@ class Oscillators:
         self.ratio = np.array([swing.ratio * scale for scale in self.scale])
         # wind-up of the shaft at an acceleration of 1 step over the motion's time squared
         self.bent_deg = np.degrees(self.steps) / (2.0 * np.pi * self.ratio) ** 2
-        self.residual = self.residuals(swing, self.motion)
-        self.share = np.abs(self.residual)
+        self.share = np.abs(self.residuals(swing, self.motion))
         self.residual_deg = np.degrees(self.share * self.steps)
 
     def residuals(self, swing: Oscillator, motion: Whole) -> Complex:
@@ -137,25 +127,6 @@ class Oscillators:
         ]
         return np.array(rows)
 
-    @cached_property
-    def windup_deg(self) -> Array:
-        """I alpha / k at the wheel's greatest acceleration, degrees."""
-        rows = []
-        for engagement, bent in zip(self.mechanism.engagements, self.bent_deg, strict=True):
-            most = motion_peaks(engagement.motion, ["acceleration"])["acceleration"].max
-            whole = np.ravel(engagement.motion_deg * DEGREE)
-            rows.append(most * whole * whole / np.ravel(2.0 * engagement.half_step) * bent)
-        return np.array(rows)
-
-    @cached_property
-    def swung_deg(self) -> Array:
-        """I alpha / k at the load's greatest acceleration during the motion, degrees."""
-        rows = [
-            greatest_accelerations(panels, self.motion, Oscillator(ratio, self.swing.damping))
-            for panels, ratio in zip(self.panels, self.ratio, strict=True)
-        ]
-        return np.array(rows) * self.bent_deg
-
 
 def vibrations(
     own: Oscillators, requested: Collection[str] = ("dynamic_factor",)
@@ -164,15 +135,24 @@ def vibrations(
 
     The dynamic factor takes time: it is NaN unless ``requested``.
     """
-    windup = own.windup_deg.max(axis=0)
-    is_asked = "dynamic_factor" in requested
+    windup = swung = 0.0 * own.swing.ratio
+    # I alpha / k at the greatest acceleration of the wheel, and of the load during the motion
+    for i, engagement in enumerate(own.mechanism.engagements):
+        most = motion_peaks(engagement.motion, ["acceleration"])["acceleration"].max
+        whole = np.ravel(engagement.motion_deg * DEGREE)
+        unit = np.ravel(2.0 * engagement.half_step)
+        windup = np.maximum(windup, most * whole * whole / unit * own.bent_deg[i])
+        if "dynamic_factor" in requested:
+            swing = Oscillator(own.ratio[i], own.swing.damping)
+            most = greatest_accelerations(own.panels[i], own.motion, swing)
+            swung = np.maximum(swung, most * own.bent_deg[i])
     rows = (
         own.swing.ratio,
         own.swing.damping,
         own.swing.ratio / np.ravel(timings(own.mechanism)[0].motion_s),
         own.share.max(axis=0),
         own.residual_deg.max(axis=0),
-        own.swung_deg.max(axis=0) / windup if is_asked else np.full(len(windup), np.nan),
+        swung / windup if "dynamic_factor" in requested else np.full(len(windup), np.nan),
         windup,
     )
     return dict(zip(NAMES, rows, strict=True))

@@ -5,8 +5,9 @@ import math
 import mpmath
 import numpy as np
 import pytest
+from flint import ctx
 
-from geneva_cli.extras.certify.balls import Ball, precision
+from geneva_cli.extras.certify.balls import Ball
 from geneva_cli.extras.certify.enclosures import greatest
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Undecided, library
@@ -41,7 +42,7 @@ def test_formulas_of_balls_hold_those_at_fifty_digits():
         s, c = mpmath.sin(x), mpmath.cos(x)
         return mpmath.sqrt(x * x + 0.5) / (c + 2) - 3 * mpmath.atan2(s / 2, 1 - c / 2)
 
-    with precision(), mpmath.workdps(50):
+    with ctx.workprec(128), mpmath.workdps(50):
         jet = formula(Jet.variable(Ball.between(0.7, 0.7001), 4))
         for at in (0.7, 0.70003, 0.7001):
             for ball, c in zip(jet.c, mpmath.taylor(exact, mpmath.mpf(at), 4), strict=True):
@@ -55,7 +56,7 @@ def wave(x, order):
 
 
 def test_the_greatest_size_and_all_its_places():
-    with precision():
+    with ctx.workprec(128):
         found = greatest(wave, (0.0, 180.0), 200)
     assert found.open is None
     assert found.low <= 1.0 <= found.high
@@ -70,7 +71,7 @@ def test_a_curve_without_bounds_is_left_open():
     def pole(x, order):
         return 1.0 / (Jet.variable(x, order) - 1.0)
 
-    with precision():
+    with ctx.workprec(128):
         found = greatest(pole, (0.0, 3.0), 500)
     assert found.open is not None
     assert found.open.start <= 1.0 <= found.open.end

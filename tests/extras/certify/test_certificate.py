@@ -60,7 +60,7 @@ def test_false_claims_are_refused(name):
         for share in (1e-12, 1e-9, 1e-3):
             assert not proof.confirms(size * (1.0 + share), at_deg)
             assert not proof.confirms(size * (1.0 - share), at_deg)
-        if all(place.is_narrow for place in proof.places):
+        if all(b - a < module.NARROW_DEG for a, b in proof.places):
             assert not proof.confirms(size, at_deg + 1e-3)
 
 
