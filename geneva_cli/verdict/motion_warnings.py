@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from functools import lru_cache
 
 from geneva_cli.errors import Notice
-from geneva_cli.motion.engagement import WheelMotion
 from geneva_cli.motion.laws.law import Law
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
@@ -195,28 +194,15 @@ def _of_slots(mechanism: Mechanism) -> Iterator[Notice]:
         )
 
 
+@lru_cache(maxsize=16)
 def turns_back(mechanism: Mechanism) -> tuple[float, float] | None:
     """The least velocity and its input angle if the wheel turns back; else None."""
-    if mechanism.law and not _law_turns_back(mechanism.law):
-        return None
-    engagement = mechanism.engagements[0]
-    back = _least_velocity(engagement.motion)
-    return back and (back[0], mechanism.shown_deg(engagement.mid_deg + back[1]))
-
-
-@lru_cache(maxsize=128)
-def _law_turns_back(law: Law) -> bool:
-    """True if a wheel turns back with a law, whatever its step and its motion angle."""
-    from geneva_cli.motion.given_motion import LawMotion
-
-    return _least_velocity(LawMotion(-0.5, 0.5, 0.5, law)) is not None
-
-
-def _least_velocity(motion: WheelMotion) -> tuple[float, float] | None:
-    """The least velocity of a motion and its place if it is below 0; else None."""
     from geneva_cli.motion.peak_search import curves, search_motion
 
-    result = search_motion(motion, curves(motion, ["velocity"]), sized=False)
+    engagement = mechanism.engagements[0]
+    result = search_motion(engagement.motion, curves(engagement.motion, ["velocity"]), sized=False)
     most, back = result.most[:, 0].tolist()
     # Where a law stands still, rounding leaves a few units in the last place on either side of 0.
-    return (-back, result.x[1].item()) if back > 1e-12 * most else None
+    if back <= 1e-12 * most:
+        return None
+    return -back, mechanism.shown_deg(engagement.mid_deg + result.x[1].item())
