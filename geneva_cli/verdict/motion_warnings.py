@@ -58,19 +58,12 @@ def _of_sizes(mechanism: Mechanism) -> Iterator[Notice]:
                 f"{least / (3.0 * drive.n_rpm):.4g} s together",
             )
     if engagement.built is not None:
-        from geneva_cli.motion.peaks import greatest_jumps
-
         needed = spec.wheel.place(spec.wheel.step, L).ratio
-        sizes = [abs(jump) for jump in greatest_jumps(mechanism.engagements) if jump is not None]
-        impact = "the roller's centre never crosses the axis of the slot at rest inside the rim"
-        if sizes:
-            impact = f"the wheel's velocity jumps by up to {max(sizes):.4g} of the input's, an "
-            impact += "impact that the loads leave out"
         yield Notice(
             "taken-as-built",
             f"crank_radius_mm = {size.crank_radius_mm:.9g} and center_distance_mm = {L:.9g} have "
-            f"R/L = {mechanism.ratio:.6g}, but the slots need {needed:.6g}: taken as built. There "
-            f"{impact}",
+            f"R/L = {mechanism.ratio:.6g}, but the slots need {needed:.6g}: taken as built, "
+            "with an impact that the loads leave out (the check entry_velocity_max)",
         )
 
 

@@ -226,30 +226,26 @@ def mouth_contacts(
     return FirstContacts(np.ravel(axis.engagement.entry_deg + tau / DEGREE), np.ravel(jump))
 
 
-def entry_impacts(
-    mechanism: Mechanism, fraction: float = 1.0, pin: PinSize | None = None
-) -> Impacts:
-    """Impacts at entry of m designs with a ``fraction`` of the greatest errors of R and L.
+def entry_impacts(mechanism: Mechanism, pin: PinSize | None = None) -> Impacts:
+    """Impacts at entry of m designs with the greatest errors of R and L.
 
     Without the ``pin`` as it is drawn, forces are not known. The roller meets the slot's axis, or a
     corner of the mouth where the slot is too narrow. A jump below 0 strikes the wheel backwards.
     """
     best = np.full((2, 1), np.nan)
     for axis in RestingAxis.each(mechanism):
-        every = [first_contacts(axis, *error) for error in _errors(mechanism, axis, fraction)]
-        for contacts in (*every, *_on_mouth(mechanism, axis, fraction)):
+        every = [first_contacts(axis, *error) for error in _errors(mechanism, axis)]
+        for contacts in (*every, *_on_mouth(mechanism, axis)):
             best = harder(best, shown(mechanism, axis.engagement, *contacts))
     return with_force(mechanism, best, pin)
 
 
-def _errors(
-    mechanism: Mechanism, axis: RestingAxis, fraction: float
-) -> Iterator[tuple[float, float]]:
+def _errors(mechanism: Mechanism, axis: RestingAxis) -> Iterator[tuple[float, float]]:
     """Greatest relative errors of R and L that act across the slot, in both directions."""
     spec, L = mechanism.spec, mechanism.center_distance_mm
     arm = arm_mm(mechanism, axis.engagement)
-    crank = fraction * spec.tolerance.crank_radius_mm / arm if spec.drive.ONE_ARM else 0.0
-    center = fraction * spec.tolerance.center_distance_mm / L if spec.wheel.FLAT else 0.0
+    crank = spec.tolerance.crank_radius_mm / arm if spec.drive.ONE_ARM else 0.0
+    center = spec.tolerance.center_distance_mm / L if spec.wheel.FLAT else 0.0
     between = axis.hub_offset * (axis.hub_offset + axis.through.slot.offset) < 0.0
     center = choose(between, -center, center)
     if not all_true((crank == 0.0) & (center == 0.0)):
@@ -266,10 +262,10 @@ def arm_mm(mechanism: Mechanism, engagement: Engagement) -> float:
     return parameter(L * library(x, y).hypot(x - engagement.hub, y))
 
 
-def _on_mouth(mechanism: Mechanism, axis: RestingAxis, fraction: float) -> list[FirstContacts]:
+def _on_mouth(mechanism: Mechanism, axis: RestingAxis) -> list[FirstContacts]:
     """First contacts with the mouth's corners, for the largest roller in the narrowest slot."""
     tolerance, size, L = mechanism.spec.tolerance, mechanism.spec.size, mechanism.center_distance_mm
-    lost = 0.5 * fraction * (tolerance.roller_diameter_mm + tolerance.slot_width_mm)
+    lost = 0.5 * (tolerance.roller_diameter_mm + tolerance.slot_width_mm)
     spare = parameter(np.maximum(size.allowances.slot_clearance_mm - lost, 0.0)) / L
     sizes = mechanism.roller_radius_mm / L, spare, size.mouth_radius_mm / L
-    return [mouth_contacts(axis, *error, sizes) for error in _errors(mechanism, axis, fraction)]
+    return [mouth_contacts(axis, *error, sizes) for error in _errors(mechanism, axis)]
