@@ -42,10 +42,6 @@ def _of_sizes(mechanism: Mechanism) -> Iterator[Notice]:
     if size.wheel_radius_mm is not None and not given and spec.given_distance_mm == L:
         text = f"wheel_radius_mm = {size.wheel_radius_mm:g} is given without a centre distance, so "
         text += f"L = {L:g} mm is taken: set center_distance_mm in [size]"
-        if not spec.wheel.skewed and spec.wheel.FLAT and spec.output.turns:
-            x, y = engagement.path(engagement.entry_deg, 0)
-            own = size.wheel_radius_mm / math.hypot(x.c[0], y.c[0])
-            text += f"; with {own:.6g} the roller would enter at this radius"
         yield Notice("no-centre-distance", text)
     if drive.stop_s:
         brake, start = drive.brake_and_start_deg
