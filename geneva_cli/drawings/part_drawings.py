@@ -81,14 +81,8 @@ def links(parts: FlatParts) -> Drawing:
     """Return every link and sliding block once, one above the other, each in its own frame."""
     mechanism, bars = parts.mechanism, parts.links
     if not bars.cut:
-        raise GenevaError(
-            f'--part links: kind = "{mechanism.spec.drive.NAME}" has no links: '
-            + (
-                "its crank is --part arm"
-                if mechanism.spec.drive.ONE_ARM
-                else "--part parts lists what it has"
-            )
-        )
+        kind = f'kind = "{mechanism.spec.drive.NAME}"'
+        raise GenevaError(f"--part links: {kind} has no links: --part parts lists what it has")
     members, top = [], 0.0
     for plate in dict.fromkeys(bars.plates):
         box = bounds(plate.outline)

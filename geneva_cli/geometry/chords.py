@@ -43,12 +43,12 @@ def nodes(curves: Curves, ends: Sequence[float], tolerance_mm: float, fewest: bo
 def _smooth(curves: Curves, a: float, b: float, tolerance_mm: float, fewest: bool) -> Array:
     """Nodes of a smooth stretch, spread evenly in the integral of the error's square root."""
     grid = np.linspace(a, b, 1025 if fewest else 257)
-    error, hides = _measured(curves, grid, MIDDLE)
+    error, hides = chord_errors(curves, grid, MIDDLE)
     for _ in range(8):  # each time to a thousandth: to the last digits of the parameter
         if not hides.any():  # only where the curve runs away within a small part of an interval
             break
         _, grid = _respread(grid, np.sqrt(error))
-        error, hides = _measured(curves, grid, MIDDLE)
+        error, hides = chord_errors(curves, grid, MIDDLE)
     area, _ = _respread(grid, np.sqrt(error))
     total = float(area[-1])
     fraction = area / total if total else np.linspace(0.0, 1.0, len(grid))
@@ -63,8 +63,8 @@ def _smooth(curves: Curves, a: float, b: float, tolerance_mm: float, fewest: boo
         places = np.interp(np.linspace(0.0, 1.0, count + 1), fraction, grid)
         for _ in range(6):  # rounds that move this number of nodes to where they are needed
             places[0], places[-1] = a, b
-            inner = None if fewest else MIDDLE
-            root = np.sqrt(chord_errors(curves, places, inner) / tolerance_mm)
+            inner = PLACES if fewest and len(places) < MANY_NODES else MIDDLE
+            root = np.sqrt(chord_errors(curves, places, inner)[0] / tolerance_mm)
             if root.max() <= 1.0:
                 break
             _, places = _respread(places, root)
@@ -95,18 +95,12 @@ def _respread(places: Array, root: Array) -> tuple[Array, Array]:
     return area, np.interp(np.linspace(0.0, area[-1], len(places)), area, places)
 
 
-def chord_errors(curves: Curves, at: Array, places: Array | None = None) -> Array:
-    """Greatest distance of the curves from each chord between adjacent places, mm.
+def chord_errors(curves: Curves, at: Array, places: Array) -> tuple[Array, Mask]:
+    """Greatest distance of the curves from each chord between adjacent places, mm, and a mask.
 
-    A chord that hides most of its curve between two measurements has its length as error.
+    The mask has the chords that hide most of a curve between two measurements, at fractions
+    ``places`` of the chord. Such a chord has its length as error.
     """
-    if places is None:
-        places = PLACES if len(at) < MANY_NODES else MIDDLE
-    return _measured(curves, at, places)[0]
-
-
-def _measured(curves: Curves, at: Array, places: Array) -> tuple[Array, Mask]:
-    """Errors of chords, and a mask of those that hide most of a curve between two measurements."""
     worst, hides = np.zeros(len(at) - 1), np.zeros(len(at) - 1, dtype=bool)
     block = 4096  # chords, so that memory stays flat
     for start in range(0, len(at) - 1, block):

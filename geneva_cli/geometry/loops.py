@@ -124,16 +124,14 @@ def _refuse_crossings(contours: list[Contour]) -> None:
     """Raise GenevaError for the first place at which outlines cross."""
     outline = Polyarc(contours)
     count = len(outline)
-    lengths = [len(contour.segments) for contour in contours]
-    begins = np.repeat(np.cumsum([0, *lengths[:-1]]), lengths)
-    following = begins + np.concatenate([np.roll(np.arange(n), -1) for n in lengths])
+    start, end = outline.x0 + 1j * outline.y0, outline.x1 + 1j * outline.y1
     for first in range(0, count, 512):
         some = np.arange(first, min(first + 512, count))
         apart = np.hypot(outline.ox[some, None] - outline.ox, outline.oy[some, None] - outline.oy)
         i, j = np.nonzero(apart <= outline.size[some, None] + outline.size)
         i = some[i]
         i, j = i[j > i], j[j > i]
-        place = _crossing(outline, i, j, (following[i] == j) | (following[j] == i))
+        place = _crossing(outline, i, j, (end[i] == start[j]) | (end[j] == start[i]))
         if place is not None:
             text = "an outline must not cross itself or another"
             raise GenevaError(f"outlines cross at {shown(place)}: {text}")

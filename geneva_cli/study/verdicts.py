@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from functools import partial
+from operator import attrgetter
 from typing import NamedTuple
 
 from geneva_cli.answer import FAILS, PASSES, WARNS, Answer, Summary, SummaryLine, value_text
@@ -183,10 +184,10 @@ def headline(checks: Sequence[Check], warnings: Sequence[Notice]) -> tuple[str, 
     if not_proved:
         text += f", {not_proved} not proved"
     text += driven
-    left = [one for one in warnings if not one.accepted]
-    if left:
-        text += f", {len(left)} warning{'s' * (len(left) != 1)}"
-    if accepted := len(warnings) - len(left):
+    accepted = len([*filter(attrgetter("accepted"), warnings)])
+    if left := len(warnings) - accepted:
+        text += f", {left} warning{'s' * (left != 1)}"
+    if accepted:
         text += f", {accepted} warning{'s' * (accepted != 1)} accepted"
     state = FAILS if failed else WARNS if not_proved or left else PASSES
     return state, text

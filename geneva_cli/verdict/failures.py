@@ -39,14 +39,6 @@ MEANINGS = {
     "motion_play_deg": _MOTION_PLAY,
     "motion_play_mm": _MOTION_PLAY,
 }
-NO_WALL = {  # of a negative wall
-    "wall_between_slots_mm": "neighbouring slots cut each other",
-    "horn_mm": "the recess breaks into the slot",
-    "wheel_bore_wall_mm": "the wheel's bore breaks into the slots",
-    "crank_bore_wall_mm": "the crank's bore breaks through the relief",
-    "rollers_apart_mm": "the rollers overlap each other",
-    "outer_wall_mm": "the slots break through the wheel's outside",
-}
 
 
 def below_summary(record: Table, *, without: Sequence[str] = ()) -> Table:
@@ -111,8 +103,6 @@ def _where(c: Check) -> str:
 def meaning(c: Check, parts: str = "") -> str:
     """The meaning of a failing check; empty if its value is enough."""
     value, limit = c.value or 0.0, c.limit or 0.0
-    if c.name in NO_WALL and value < 0.0:
-        return f"{NO_WALL[c.name]} by {-value:.4g} mm"
     moves, unit = ("rack can move", " mm") if c.name.endswith("_mm") else ("wheel can turn", "°")
     named = {"value": value, "limit": limit, "short": -value, "idle": 100.0 * (1.0 - value)}
     words = {"where": _where(c), "moves": moves, "unit": unit, "parts": parts or "parts"}

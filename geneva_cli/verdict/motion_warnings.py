@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from functools import lru_cache
 
 from geneva_cli.errors import Notice
-from geneva_cli.motion.engagement import WheelMotion
 from geneva_cli.motion.laws.law import Law
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
@@ -43,10 +42,6 @@ def _of_sizes(mechanism: Mechanism) -> Iterator[Notice]:
     if size.wheel_radius_mm is not None and not given and spec.given_distance_mm == L:
         text = f"wheel_radius_mm = {size.wheel_radius_mm:g} is given without a centre distance, so "
         text += f"L = {L:g} mm is taken: set center_distance_mm in [size]"
-        if not spec.wheel.skewed and spec.wheel.FLAT and spec.output.turns:
-            x, y = engagement.path(engagement.entry_deg, 0)
-            own = size.wheel_radius_mm / math.hypot(x.c[0], y.c[0])
-            text += f"; with {own:.6g} the roller would enter at this radius"
         yield Notice("no-centre-distance", text)
     if drive.stop_s:
         brake, start = drive.brake_and_start_deg
@@ -59,19 +54,12 @@ def _of_sizes(mechanism: Mechanism) -> Iterator[Notice]:
                 f"{least / (3.0 * drive.n_rpm):.4g} s together",
             )
     if engagement.built is not None:
-        from geneva_cli.motion.peaks import greatest_jumps
-
         needed = spec.wheel.place(spec.wheel.step, L).ratio
-        sizes = [abs(jump) for jump in greatest_jumps(mechanism.engagements) if jump is not None]
-        impact = "the roller's centre never crosses the axis of the slot at rest inside the rim"
-        if sizes:
-            impact = f"the wheel's velocity jumps by up to {max(sizes):.4g} of the input's, an "
-            impact += "impact that the loads leave out"
         yield Notice(
             "taken-as-built",
             f"crank_radius_mm = {size.crank_radius_mm:.9g} and center_distance_mm = {L:.9g} have "
-            f"R/L = {mechanism.ratio:.6g}, but the slots need {needed:.6g}: taken as built. There "
-            f"{impact}",
+            f"R/L = {mechanism.ratio:.6g}, but the slots need {needed:.6g}: taken as built, "
+            "with an impact that the loads leave out (the check entry_velocity_max)",
         )
 
 
@@ -195,28 +183,15 @@ def _of_slots(mechanism: Mechanism) -> Iterator[Notice]:
         )
 
 
+@lru_cache(maxsize=16)
 def turns_back(mechanism: Mechanism) -> tuple[float, float] | None:
     """The least velocity and its input angle if the wheel turns back; else None."""
-    if mechanism.law and not _law_turns_back(mechanism.law):
-        return None
-    engagement = mechanism.engagements[0]
-    back = _least_velocity(engagement.motion)
-    return back and (back[0], mechanism.shown_deg(engagement.mid_deg + back[1]))
-
-
-@lru_cache(maxsize=128)
-def _law_turns_back(law: Law) -> bool:
-    """True if a wheel turns back with a law, whatever its step and its motion angle."""
-    from geneva_cli.motion.given_motion import LawMotion
-
-    return _least_velocity(LawMotion(-0.5, 0.5, 0.5, law)) is not None
-
-
-def _least_velocity(motion: WheelMotion) -> tuple[float, float] | None:
-    """The least velocity of a motion and its place if it is below 0; else None."""
     from geneva_cli.motion.peak_search import curves, search_motion
 
-    result = search_motion(motion, curves(motion, ["velocity"]), sized=False)
+    engagement = mechanism.engagements[0]
+    result = search_motion(engagement.motion, curves(engagement.motion, ["velocity"]), sized=False)
     most, back = result.most[:, 0].tolist()
     # Where a law stands still, rounding leaves a few units in the last place on either side of 0.
-    return (-back, result.x[1].item()) if back > 1e-12 * most else None
+    if back <= 1e-12 * most:
+        return None
+    return -back, mechanism.shown_deg(engagement.mid_deg + result.x[1].item())

@@ -14,9 +14,9 @@ from typing import NamedTuple, TypeVar
 
 import numpy as np
 
-from geneva_cli.geometry.distance import Polyarc
+from geneva_cli.geometry.distance import Polyarc, farthest
 from geneva_cli.geometry.plates import Member, in_place, oriented
-from geneva_cli.geometry.shapes import Arc, Layer, Point, Segment, at
+from geneva_cli.geometry.shapes import Layer, Point
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
@@ -93,23 +93,5 @@ def _rings(member: Member) -> Iterator[Ring]:
     for _, plate in in_place([Member(member.part)]):
         contours = oriented(plate.outline, plate.holes)
         inner = max(0.0, float(Polyarc(contours).signed(np.zeros((1, 2)))[0]))
-        outer = max(math.hypot(*p) for piece in contours[0].segments for p in _far(piece))
+        outer = float(farthest(Polyarc(contours[:1]), 0.0, 0.0).max())
         yield Ring(plate.layer, member.at, inner, outer, plate.low, plate.high)
-
-
-def _far(piece: Segment) -> Iterator[Point]:
-    """Yield points of a piece, of which one is the farthest from the origin."""
-    yield piece.start
-    yield piece.end
-    if isinstance(piece, Arc):
-        (x, y), radius = piece.centre, piece.radius
-        away = math.hypot(x, y)
-        far = (x * (1.0 + radius / away), y * (1.0 + radius / away)) if away else piece.start
-        off = math.remainder(_turn(far, piece) - _turn(at(piece, 0.5), piece), math.tau)
-        if abs(off) < 0.5 * abs(piece.sweep):
-            yield far
-
-
-def _turn(p: Point, arc: Arc) -> float:
-    (x, y), (u, v) = arc.centre, p
-    return math.atan2(v - y, u - x)

@@ -71,11 +71,7 @@ def test_values_are_those_of_the_worst_machine():
 @pytest.mark.long
 def test_what_would_pass_passes():
     of = design(100.0)
-    check = row(of, "entry_shock_N")
-    assert check.passes is False
-    for key, value in re.findall(r"(\w+_mm) = ([\d.e-]+)", check.why):
-        of = of.with_(f"tolerance.{key}", float(value))
-    assert row(of, "entry_shock_N").passes
+    assert row(of, "entry_shock_N").passes is False
     check = row(of, "reversal_shock_N")
     assert check.passes is False
     drag = float(re.match(r"a drag of ([\d.]+) N m on", check.why)[1])

@@ -178,15 +178,13 @@ def _draw_section(view: View, cut: list[Face], axes: Iterable[float]) -> None:
 
 def _hatch(view: View, face: Face, k: int) -> None:
     """Draw lines at 45 degrees, 2 mm apart on paper or 3, rising or falling by the plate."""
-    rising, step = k % 2 == 0, (2.0 if k % 4 < 2 else 3.0) * math.sqrt(2.0) / view.scale
-    (a, b), (c, d) = (face.left, face.right), (face.plate.low, face.plate.high)
-    # a line x - z = level, or x + z = level, between its crossings with the sides
-    least, most = (a - d, b - c) if rising else (a + c, b + d)
-    for i in range(math.ceil(least / step), math.floor(most / step) + 1):
+    rising, step = 1.0 - 2.0 * (k % 2), (2.0 if k % 4 < 2 else 3.0) * math.sqrt(2.0) / view.scale
+    a, b = sorted((rising * face.left, rising * face.right))
+    # a line x - z = level, with x to the left if it falls, between its crossings with the sides
+    low, high = face.plate.low, face.plate.high
+    for i in range(math.ceil((a - high) / step), math.floor((b - low) / step) + 1):
         level = i * step
-        start, end = max(a, level + c), min(b, level + d)
-        if not rising:
-            start, end = max(a, level - d), min(b, level - c)
+        start, end = max(a, level + low), min(b, level + high)
         if end - start > 1e-9 * step:
-            heights = (start - level, end - level) if rising else (level - start, level - end)
-            view.draw(line("", (start, heights[0]), (end, heights[1])), HATCH)
+            ends = (rising * start, start - level), (rising * end, end - level)
+            view.draw(line("", *ends), HATCH)

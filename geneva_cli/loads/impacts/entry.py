@@ -221,22 +221,20 @@ def mouth_contacts(
     return FirstContacts(np.ravel(axis.engagement.entry_deg + tau / DEGREE), np.ravel(jump))
 
 
-def entry_impacts(
-    mechanism: Mechanism, fraction: float = 1.0, pin: PinSize | None = None
-) -> Impacts:
-    """Impacts at entry of m designs with a ``fraction`` of the greatest errors of R and L.
+def entry_impacts(mechanism: Mechanism, pin: PinSize | None = None) -> Impacts:
+    """Impacts at entry of m designs with the greatest errors of R and L.
 
     Without the ``pin`` as it is drawn, forces are not known. The roller meets the slot's axis, or a
     corner of the mouth where the slot is too narrow. A jump below 0 strikes the wheel backwards.
     """
     tolerance, size, L = mechanism.spec.tolerance, mechanism.spec.size, mechanism.center_distance_mm
     # the largest roller in the narrowest slot
-    lost = 0.5 * fraction * (tolerance.roller_diameter_mm + tolerance.slot_width_mm)
+    lost = 0.5 * (tolerance.roller_diameter_mm + tolerance.slot_width_mm)
     spare = parameter(np.maximum(size.allowances.slot_clearance_mm - lost, 0.0)) / L
     sizes = mechanism.roller_radius_mm / L, spare, size.mouth_radius_mm / L
     best = np.full((2, 1), np.nan)
     for axis in RestingAxis.each(mechanism):
-        errors = [*_errors(mechanism, axis, fraction)]
+        errors = [*_errors(mechanism, axis)]
         every = [first_contacts(axis, *error) for error in errors]
         every += [mouth_contacts(axis, *error, sizes) for error in errors]
         for contacts in every:
@@ -244,14 +242,12 @@ def entry_impacts(
     return with_force(mechanism, best, pin)
 
 
-def _errors(
-    mechanism: Mechanism, axis: RestingAxis, fraction: float
-) -> Iterator[tuple[float, float]]:
+def _errors(mechanism: Mechanism, axis: RestingAxis) -> Iterator[tuple[float, float]]:
     """Greatest relative errors of R and L that act across the slot, in both directions."""
     spec, L = mechanism.spec, mechanism.center_distance_mm
     arm = arm_mm(mechanism, axis.engagement)
-    crank = fraction * spec.tolerance.crank_radius_mm / arm if spec.drive.ONE_ARM else 0.0
-    center = fraction * spec.tolerance.center_distance_mm / L if spec.wheel.FLAT else 0.0
+    crank = spec.tolerance.crank_radius_mm / arm if spec.drive.ONE_ARM else 0.0
+    center = spec.tolerance.center_distance_mm / L if spec.wheel.FLAT else 0.0
     between = axis.hub_offset * (axis.hub_offset + axis.engagement.through.slot.offset) < 0.0
     center = choose(between, -center, center)
     if not all_true((crank == 0.0) & (center == 0.0)):

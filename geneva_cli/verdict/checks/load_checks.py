@@ -8,7 +8,6 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.roots import boundary
 from geneva_cli.numerics.tolerances import to_digits
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.spec.tables import LIMITED
@@ -55,7 +54,11 @@ def shocks(names: Collection[str], mechanism: Mechanism) -> Iterator[Check]:
     spec, limits = mechanism.spec, mechanism.spec.limits
     misplaced = spec.tolerance.crank_radius_mm or spec.tolerance.center_distance_mm
     if misplaced and "entry_shock_N" in names:
-        yield from _entry_shock(mechanism)
+        from geneva_cli.loads.impacts.entry import entry_impacts
+
+        # R/L is wrong, and the roller does not enter along its slot
+        if entry := entry_impacts(mechanism, _pin(mechanism)).only:
+            yield _force_check("entry_shock_N", mechanism, entry)
     most_MPa = limits.contact_stress_max_MPa
     struck = limits.pin_force_max_N is not None or spec.tolerance.is_given
     if struck or most_MPa is not None:
@@ -81,30 +84,6 @@ def shocks(names: Collection[str], mechanism: Mechanism) -> Iterator[Check]:
             yield check
 
 
-def _entry_shock(mechanism: Mechanism) -> Iterator[Check]:
-    """The impact at entry if R/L is wrong and the roller does not enter along its slot."""
-    from geneva_cli.loads.impacts.entry import entry_impacts
-
-    pin, limit = _pin(mechanism), mechanism.spec.limits.pin_force_max_N or 0.0
-
-    def holds(fraction: float) -> bool:
-        reduced = entry_impacts(mechanism, fraction, pin).only
-        return reduced is None or (reduced.force_N or 0.0) <= limit
-
-    def tolerable() -> str:
-        """The tolerances, reduced by one fraction, with which the force is at its limit."""
-        low, given = boundary(holds, 0.0, 1.0, 40), mechanism.spec.tolerance.as_dict()
-        names = [  # two digits are shown
-            f"{key} = {to_digits(low * given[key] * (1.0 + 1e-9), 2, math.floor):g}"
-            for key in ("crank_radius_mm", "center_distance_mm")
-            if given[key]
-        ]
-        return " and ".join(names) + " in [tolerance]"
-
-    if impact := entry_impacts(mechanism, pin=pin).only:
-        yield _force_check("entry_shock_N", mechanism, impact, tolerable)
-
-
 def _drag(mechanism: Mechanism) -> str:
     """The remedy for the change of sides, in words."""
     if any(engagement.paired for engagement in mechanism.engagements):
@@ -124,7 +103,7 @@ def _pin(mechanism: Mechanism) -> PinSize | None:
 
 
 def _force_check(
-    name: str, mechanism: Mechanism, impact: Impact, reason: Callable[[], str]
+    name: str, mechanism: Mechanism, impact: Impact, reason: Callable[[], str] | None = None
 ) -> Check:
     """The impact's force, compared with the limit of the pin force if there is one."""
     spec, limit = mechanism.spec, mechanism.spec.limits.pin_force_max_N

@@ -107,9 +107,8 @@ def clearances(names: Collection[str], parts: FlatParts) -> Iterator[Check]:
         yield compared("wheel_shaft_mm", sizes.slot_end - wheel, "at least", 0.0)
     # default sizes of hubs and shafts always pass, except for a first wheel's
     sized = bool(parts.mechanism.first_wheel)
-    keys = "hub", "hub_length", "shaft_low", "shaft_high"
-    for part, key in product(("wheel", "crank"), keys):
-        sized = sized or size[f"{part}_{key}_mm"] is not None
+    for key in product(("wheel", "crank"), ("hub", "hub_length", "shaft_low", "shaft_high")):
+        sized = sized or size[f"{'_'.join(key)}_mm"] is not None
     geared = parts.mechanism.spec.gears is not None
     for name, is_there in (("beside_shafts_mm", sized), ("gear_gap_mm", geared)):
         if is_there and name in names:
