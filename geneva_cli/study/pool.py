@@ -21,9 +21,7 @@ T = TypeVar("T")
 R = TypeVar("R")
 
 
-def mapped(
-    work: Callable[[T], R], items: Iterable[T], workers: int, what: str = "designs"
-) -> Iterator[R]:
+def mapped(work: Callable[[T], R], items: Iterable[T], workers: int) -> Iterator[R]:
     """Yield ``work`` of each item, in order, from several processes or, for 1 worker, this one."""
     if workers < 2:
         yield from map(work, items)
@@ -46,10 +44,8 @@ def mapped(
             while waiting:
                 yield waiting.popleft().result()
         except BrokenProcessPool:
-            raise GenevaError(
-                f"a process that computed some of the {what} was stopped from outside, or ran out "
-                f"of memory; try fewer {what} at a time"
-            ) from None
+            text = "a process that computed some designs was stopped from outside, or ran out of "
+            raise GenevaError(f"{text}memory; try fewer designs at a time") from None
 
 
 def cores() -> int:

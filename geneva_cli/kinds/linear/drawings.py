@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from geneva_cli.geometry.plates import Group
 from geneva_cli.geometry.shapes import Circle, Contour, Line, Shape, bounds, closed
@@ -13,11 +12,9 @@ from geneva_cli.kinds.linear.rack import rack_sizes, slot_walls
 from geneva_cli.motion.pivots import Dimension
 from geneva_cli.output.scene import Body, Box, Track
 from geneva_cli.parts import projection
+from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.study.animation.animated_turn import MachineTurn, still
 from geneva_cli.study.animation.turning_scene import WheelScene
-
-if TYPE_CHECKING:
-    from geneva_cli.parts.outlines.outlines import Outlines
 
 
 def arm(parts: RackParts) -> Drawing:

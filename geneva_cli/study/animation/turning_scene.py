@@ -191,24 +191,19 @@ def _states(design: Design, turn: MachineTurn) -> Iterator[Phase]:
             yield Phase(a, b, True, f"the finger turns wheel {place.number} on the carrier")
             yield Phase(b, a + turn.turn_deg / len(places), False, "all wheels rest on the carrier")
         return
-    last, cranks = turn.passages[-1], len(design.mechanism.crank_places)
+    cranks = len(design.mechanism.crank_places)
     following = (*turn.passages[1:], None)
     for i, (one, after) in enumerate(zip(turn.passages, following, strict=True)):
         which = f"roller {i + 1}" if len(turn.passages) > 1 else "the roller"
         if cranks > 1:
             which = f"crank {turn.on_crank(i).number}"
+        if one.engagement.paired:
+            which = "a roller, then gears, then a roller"
         a, b = one.entry - turn.start, one.exit - turn.start
-        if not one.engagement.paired:
-            yield Phase(a, b, True, f"{which} moves the {design.mechanism.output.noun}")
-        else:
-            c, d = (one.mid + x - turn.start for x in one.engagement.motion.breaks_deg[1:-1:2])
-            yield Phase(a, c, True, "the first roller starts the wheel")
-            yield Phase(c, d, True, "the gears turn the wheel")
-            yield Phase(d, b, True, "the second roller stops the wheel")
+        yield Phase(a, b, True, f"{which} moves the {design.mechanism.output.noun}")
         end = after.entry - turn.start if after else turn.turn_deg
         if end > b + 1e-9:
             yield Phase(b, end, False, rest)
-    assert last.exit <= turn.end + 1e-9
 
 
 def _box(
