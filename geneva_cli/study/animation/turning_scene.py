@@ -72,7 +72,7 @@ def scene(design: Design) -> Scene:
         pauses = [0.5 * (one.exit + after) - turn.start for one, after in dwells]
     return Scene(
         title=title,
-        caption=words(mechanism) + _remark(design, bars),
+        caption=words(mechanism) + _remark(design),
         spec="\n".join((f"title = {quoted(title)}", *spec_lines(spec))),
         start_deg=mechanism.shown_deg(turn.start),
         turn_deg=turn.turn_deg,
@@ -161,14 +161,12 @@ def _shapes(design: Design, part: str) -> tuple[Shape, ...]:
     return ()
 
 
-def _remark(design: Design, bars: tuple[Bar, ...]) -> str:
+def _remark(design: Design) -> str:
     stop_s, out = design.spec.drive.stop_s, ""
     if stop_s:
         out = f" The input stands still for {stop_s:g} s in the middle of each dwell."
     if not design.mechanism.axes:
         return f"{out} Seen along the wheel's shaft."
-    if any(bar.radius for bar in bars):
-        out += " Gears are shown by their pitch circles."
     if design.cycle.mechanism.period_deg > 360.0 * design.spec.turns:
         out += (
             " The forces are those of the first turn. A body off the wheel's axis makes them "

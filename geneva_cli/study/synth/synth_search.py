@@ -313,8 +313,5 @@ def _out_of_reach(target: Target) -> str:
     m = target.rollers or next((int(m) for m in target.counts if m >= 1.0), 1)
     wheels = [gearing(name)(z) for name in target.gearings for z in target.z]
     most = max(rollers_max(natural_deg(wheel)) for wheel in wheels)
-    rollers = "one roller" if m == 1 else f"{m} rollers"
-    return (
-        f"{target.words}: out of reach with {rollers}; straight slots carry at most {most} here: "
-        "use more slots or a longer motion"
-    )
+    text = f"{target.words}: out of reach with {'one roller' if m == 1 else f'{m} rollers'}; "
+    return f"{text}straight slots carry at most {most} here: use more slots or a longer motion"
