@@ -26,7 +26,6 @@ NAMES = (
 )
 SIGNS = {"external": 1.0, "internal": -1.0}  # the gearings with closed forms
 ROWS_MAX = 10_000
-SOLVED_MAX = 1_000  # rows without a closed form, whose peaks take milliseconds each
 # Timing, peaks of velocity to jerk and of power, and the most rollers.
 Moves: TypeAlias = tuple[Timing, tuple[float, ...], int]
 
@@ -45,13 +44,9 @@ def survey(z: str, gearing: str, n_rpm: float, rollers: int, A: float) -> Table:
             'spec with kind = "side-crank" and use `geneva report`'
         )
     rows, wheels = [], parse_z(z)
-    solved = bool(A) or gearing not in SIGNS
-    if solved and len(wheels) > SOLVED_MAX:
-        what = "with --A" if A else "of spherical wheels"
-        raise GenevaError(f"--z {cut(z)}: that is more than {SOLVED_MAX} rows {what}; give fewer")
     for slots in wheels:
         try:
-            if solved:
+            if A or gearing not in SIGNS:
                 own = _general(slots, gearing, n_rpm, rollers, A)
             else:
                 own = _classic(slots, SIGNS[gearing], n_rpm, rollers)

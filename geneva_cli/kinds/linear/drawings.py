@@ -13,7 +13,7 @@ from geneva_cli.motion.pivots import Dimension
 from geneva_cli.output.scene import Body, Box, Track
 from geneva_cli.parts import projection
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.study.animation.animated_turn import MachineTurn, still
+from geneva_cli.study.animation.animated_turn import STILL, MachineTurn
 from geneva_cli.study.animation.turning_scene import WheelScene
 
 
@@ -77,7 +77,7 @@ class RackScene(WheelScene):
         sizes = rack_sizes(mechanism)
         behind = -(sizes.slot_bottom + sizes.half_width + 0.5 * sizes.back)
         mark = Circle("PITCH", (behind, 0.0), 0.15 * sizes.back)
-        yield Body("wheel", (*shapes, mark), (0.0, 0.0), still(), travel)
+        yield Body("wheel", (*shapes, mark), (0.0, 0.0), STILL, travel)
 
     def view(self, wheel: Body, box: Box, turn: MachineTurn) -> Box:
         """Return the box that a page shows: the rack's width, and the slots next to the crank."""

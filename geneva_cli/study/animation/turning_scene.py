@@ -37,7 +37,7 @@ from geneva_cli.parts.gears.gear_pair import gears_table
 from geneva_cli.parts.links.link_plates import drawn_links
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.specfile.writer import quoted, spec_lines
-from geneva_cli.study.animation.animated_turn import MachineTurn, pushes, still
+from geneva_cli.study.animation.animated_turn import STILL, MachineTurn, pushes
 from geneva_cli.study.summary.load_lines import title_of
 from geneva_cli.verdict.report import words
 
@@ -129,9 +129,9 @@ def _bodies(design: Design, turn: MachineTurn) -> Iterator[Body]:
         for place in turn.mechanism.crank_places:
             name = f"crank {place.number}" if place.number > 1 else "crank"
             yield Body(name, carried, place.at, turn.crank(place))
-        yield Body("groove", _shapes(design, "groove"), (L, 0.0), still())
+        yield Body("groove", _shapes(design, "groove"), (L, 0.0), STILL)
         if turn.mechanism.frame > 0.0:
-            yield Body("carrier", _shapes(design, "frame"), (0.0, 0.0), still())
+            yield Body("carrier", _shapes(design, "frame"), (0.0, 0.0), STILL)
     if design.spec.gears:
         yield from _gears(design.spec.gears, turn)
 

@@ -88,8 +88,6 @@ def synthesis_table(target: Target, count: int = TURNED, buildable: bool = False
         title = f"{title}, {first} first"
     if buildable:
         title = f"{title}{',' * several} of {len(ranking.rows)}"
-    if not shown:
-        title = f"none of {len(ranking.rows)} machines passes"
     return rows_table((*CELLS, *target.names), shown, f"{target.words}: {title}.")
 
 
