@@ -6,7 +6,7 @@ For people rows have short names and a description of each machine.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from functools import partial
 from typing import Any
 
@@ -100,8 +100,7 @@ def turned(ranking: Ranking, count: int = TURNED, buildable: bool = False) -> li
     maybe = [row for row in ranking.rows if row.cells["parts"] == MAYBE]
     if not buildable:
         maybe = [row for row in maybe if row.cells["no"] <= count]
-    work = partial(_turned, _fixed(ranking.target))
-    done = mapped(work, maybe, min(len(maybe), cores()))
+    done = mapped(partial(_turned, ranking.target), maybe, min(len(maybe), cores()))
     results, passed = dict[int, MachineRow](), list[MachineRow]()
     for row in tracked(done, "machines turned", len(maybe)):
         results[row.cells["no"]] = row
@@ -111,21 +110,16 @@ def turned(ranking: Ranking, count: int = TURNED, buildable: bool = False) -> li
     return passed if buildable else [results.get(row.cells["no"], row) for row in ranking.rows]
 
 
-def _fixed(target: Target) -> frozenset[str]:
-    """The sizes of the requirement's frame."""
-    sizes = target.frame.size.as_dict() if target.frame else {}
-    return frozenset(key for key, value in sizes.items() if value is not None)
-
-
-def _turned(fixed: frozenset[str], row: MachineRow) -> MachineRow:
-    """A row with sizes that pass a full turn, or with the checks that fail."""
+def _turned(target: Target, row: MachineRow) -> MachineRow:
+    """A row with sizes that pass a full turn, or with the checks that fail; a frame's stay."""
     if row.trouble:
         return row
-    spec, trouble = built(row.spec, fixed)
+    sizes = target.frame.size.as_dict() if target.frame else {}
+    spec, trouble = built(row.spec, {key for key, value in sizes.items() if value is not None})
     return MachineRow(spec, row.cells | {"parts": f"no: {trouble}" if trouble else YES}, row.extra)
 
 
-def built(spec: Spec, fixed: frozenset[str] = frozenset()) -> tuple[Spec, str]:
+def built(spec: Spec, fixed: Collection[str] = ()) -> tuple[Spec, str]:
     """The spec with sizes with which its parts pass every check in a full turn, and what fails.
 
     The largest of the usual rollers that passes is taken: smaller ones fail less. ``fixed`` are
@@ -183,7 +177,7 @@ def chosen(ranking: Ranking, number: int) -> tuple[MachineRow, str]:
     """
     if not 1 <= number <= len(ranking.rows):
         raise GenevaError(f"--write {cut(number)}: the table has rows 1 to {len(ranking.rows)}")
-    row = _turned(_fixed(ranking.target), ranking.rows[number - 1])
+    row = _turned(ranking.target, ranking.rows[number - 1])
     row = row._replace(spec=with_limits(ranking.requested, row.spec))
     return row, commented(ranking.target, number, row)
 
