@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from geneva_cli.drives.transmission import PinPath
 from geneva_cli.errors import GenevaError, refuse_text
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.engagement import Engagement, Held, Loads, Vector, cross
 from geneva_cli.motion.given_motion import LawMotion, SolvedPath, SolvedPathSlot, refuse_alpha0
+from geneva_cli.motion.laws.law import Motion
+from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import larger, parameter
 from geneva_cli.numerics.jet import Number
 from geneva_cli.spec.schema import Example
-
-if TYPE_CHECKING:
-    from geneva_cli.motion.laws.law import Motion
-    from geneva_cli.motion.wheels.gearing import Gearing
 
 
 class Cam(PinPath, kw_only=True):

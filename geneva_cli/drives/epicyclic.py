@@ -7,24 +7,22 @@ line: u = 2z/(z-2), R0 - rp = L sin b. The jump is (R0 - c² rp)/(L cos b).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, cast
+from typing import Annotated, ClassVar, NamedTuple, cast
 
 from geneva_cli.drives.transmission import PinPath
 from geneva_cli.errors import refuse_text
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.engagement import Anchor, Engagement, Held, Loads, Vector, cross
+from geneva_cli.motion.laws.law import Motion
 from geneva_cli.motion.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot, Teeth
 from geneva_cli.motion.wheels.classic import PinPose, PinTravel, gap, middle
+from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Array, choose, library
 from geneva_cli.numerics.jet import Jet, Number, rotation, sin_cos, sine_versine
 from geneva_cli.spec.rules import OneOf, Range
 from geneva_cli.spec.schema import Example
-
-if TYPE_CHECKING:
-    from geneva_cli.motion.laws.law import Motion
-    from geneva_cli.motion.wheels.gearing import Gearing
 
 
 class Epicyclic(PinPath, kw_only=True):

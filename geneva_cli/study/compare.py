@@ -52,11 +52,7 @@ def compare(
     each: list[dict[str, Cell]] = []
     for design in designs.values():
         spec, machine = design.spec, design.mechanism
-        if spec.outline.files:
-            raise GenevaError(
-                f"{spec.path}: [outline]: a comparison is of formulas, and turns no drawings; "
-                "`geneva check` and `geneva peaks` take each"
-            )
+        design.refuse_drawn("a comparison is")
         if picked:
             each.append(dict(zip(picked.names, picked.of(machine), strict=True)))
             continue

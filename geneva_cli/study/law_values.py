@@ -27,11 +27,6 @@ class Characteristic(NamedTuple):
     jerk: float
     power: float
 
-    @property
-    def factors(self) -> CamFactors:
-        """Am, Vm and Qm, as a law's own step and time are 1."""
-        return CamFactors(self.acceleration, self.velocity, self.power / self.acceleration)
-
 
 def characteristic(law: Law) -> Characteristic:
     """The characteristic values of one law, from the search for a machine's peaks."""
@@ -55,6 +50,8 @@ def laws_table(shape: float) -> Table:
             continue
         arguments = {key.attribute: shape for key in keys if key.key == "lambda"}
         values = characteristic(kind(**arguments))
-        rows.append((name, *values, *values.factors, kind.ABOUT))
+        # Am, Vm and Qm, as a law's own step and time are 1
+        factors = values.acceleration, values.velocity, values.power / values.acceleration
+        rows.append((name, *values, *factors, kind.ABOUT))
     # a narrow window keeps these columns first; the others follow in order
     return rows_table(LAW_COLUMNS, rows).replaced(reading=Reading(("law", "about")))

@@ -9,27 +9,22 @@ import sys
 import threading
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
-from typing import TYPE_CHECKING, TypeVar
+from typing import TypeVar
 
 import geneva_cli.progress as progress
 from geneva_cli.errors import GenevaError
-
-if TYPE_CHECKING:
-    from concurrent.futures import Future
 
 T = TypeVar("T")
 R = TypeVar("R")
 
 
-def mapped(
-    work: Callable[[T], R], items: Iterable[T], workers: int, what: str = "designs"
-) -> Iterator[R]:
+def mapped(work: Callable[[T], R], items: Iterable[T], workers: int) -> Iterator[R]:
     """Yield ``work`` of each item, in order, from several processes or, for 1 worker, this one."""
     if workers < 2:
         yield from map(work, items)
         return
     import multiprocessing
-    from concurrent.futures import ProcessPoolExecutor
+    from concurrent.futures import Future, ProcessPoolExecutor
     from concurrent.futures.process import BrokenProcessPool
 
     # A fork does not start the program again; systems without it do.
@@ -46,10 +41,8 @@ def mapped(
             while waiting:
                 yield waiting.popleft().result()
         except BrokenProcessPool:
-            raise GenevaError(
-                f"a process that computed some of the {what} was stopped from outside, or ran out "
-                f"of memory; try fewer {what} at a time"
-            ) from None
+            text = "a process that computed some designs was stopped from outside, or ran out of "
+            raise GenevaError(f"{text}memory; try fewer designs at a time") from None
 
 
 def cores() -> int:

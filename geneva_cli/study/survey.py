@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TypeAlias
+
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.motion.timing import CamFactors, Timing, cam_factors, timing
 from geneva_cli.motion.wheels import classic
@@ -24,7 +26,8 @@ NAMES = (
 )
 SIGNS = {"external": 1.0, "internal": -1.0}  # the gearings with closed forms
 ROWS_MAX = 10_000
-SOLVED_MAX = 1_000  # rows without a closed form, whose peaks take milliseconds each
+# Timing, peaks of velocity to jerk and of power, and the most rollers.
+Moves: TypeAlias = tuple[Timing, tuple[float, ...], int]
 
 
 def survey(z: str, gearing: str, n_rpm: float, rollers: int, A: float) -> Table:
@@ -41,50 +44,30 @@ def survey(z: str, gearing: str, n_rpm: float, rollers: int, A: float) -> Table:
             'spec with kind = "side-crank" and use `geneva report`'
         )
     rows, wheels = [], parse_z(z)
-    solved = bool(A) or gearing not in SIGNS
-    if solved and len(wheels) > SOLVED_MAX:
-        what = "with --A" if A else "of spherical wheels"
-        raise GenevaError(f"--z {cut(z)}: that is more than {SOLVED_MAX} rows {what}; give fewer")
     for slots in wheels:
         try:
-            if solved:
-                rows.append(_general(slots, gearing, n_rpm, rollers, A))
+            if A or gearing not in SIGNS:
+                own = _general(slots, gearing, n_rpm, rollers, A)
             else:
-                rows.append(_classic(slots, gearing, SIGNS[gearing], n_rpm, rollers))
+                own = _classic(slots, SIGNS[gearing], n_rpm, rollers)
         except GenevaError as error:
             raise GenevaError(f"--z {slots}: {error}") from None
+        times, (*peaks, power), most = own
+        factors = cam_factors(peaks[0], peaks[1], power, times.motion_deg, 360.0 / slots)
+        rows.append((slots, gearing, rollers, *times[:-1], *peaks, most, *factors))
     # the columns in order of importance, for a window too narrow for all
-    first = (
-        *("z", "motion_deg", "dwell_deg", "acceleration_max", "velocity_max", "motion_s"),
-        *("dwell_s", "index_deg", "acceleration_max_deg", "rollers_max", "acceleration_entry"),
-        "jerk_entry",
-    )
+    first = "z motion_deg dwell_deg acceleration_max velocity_max motion_s dwell_s index_deg"
     drive = f"side-crank A = {A:g}" if A else "one roller" if rollers == 1 else f"{rollers} rollers"
     indexes = "one index" if rollers == 1 else f"{rollers} indexes"
     cycle = f"cycle {60.0 / n_rpm / rollers:.5g} s"
     title = f"{gearing.capitalize()} wheels, {drive}, {n_rpm:g} rpm: {indexes} a turn, {cycle}."
-    reading = Reading(first, title, ("gearing", "rollers", "cycle_s"))
+    reading = Reading(tuple(first.split()), title, ("gearing", "rollers", "cycle_s"))
     return rows_table(NAMES, rows).replaced(reading=reading)
 
 
-def _row(
-    z: int,
-    gearing: str,
-    rollers: int,
-    times: Timing,
-    index: float,
-    peaks: tuple[float, float, float, float, float, float],
-    rollers_max: int,
-) -> tuple[object, ...]:
-    """A row from the timing, the index, and the peaks of velocity to jerk and of power."""
-    *own, power = peaks
-    factors = cam_factors(own[0], own[1], power, times.motion_deg, index)
-    return (z, gearing, rollers, *times[:-1], *own, rollers_max, *factors)
-
-
-def _classic(z: int, gearing: str, sign: float, n_rpm: float, rollers: int) -> tuple[object, ...]:
-    """A row from closed forms, without building a machine."""
-    motion, index = 2.0 * classic.half_motion_deg(sign, 1, z), 360.0 / z
+def _classic(z: int, sign: float, n_rpm: float, rollers: int) -> Moves:
+    """Those from closed forms, without building a machine."""
+    motion = 2.0 * classic.half_motion_deg(sign, 1, z)
     classic.refuse_jam(rollers, motion, sign < 0.0)
     l, cos_b = sin_cos_pi(1, z)
     gap = classic.gap(sign, 1, z)
@@ -92,12 +75,12 @@ def _classic(z: int, gearing: str, sign: float, n_rpm: float, rollers: int) -> t
     most, at_deg = (entry, 0.5 * motion) if sign < 0.0 else classic.acceleration_peak(l, gap)
     # of two equal places the earlier one
     peaks = l / gap, most, -at_deg, entry, 3.0 * entry * entry, classic.power_peak(l, gap)[0]
-    times = timing(motion, 360.0 / rollers - motion, index, n_rpm)
-    return _row(z, gearing, rollers, times, index, peaks, classic.rollers_max(motion))
+    times = timing(motion, 360.0 / rollers - motion, 360.0 / z, n_rpm)
+    return times, peaks, classic.rollers_max(motion)
 
 
-def _general(z: int, gearing: str, n_rpm: float, rollers: int, A: float) -> tuple[object, ...]:
-    """A row from a built machine, without closed forms."""
+def _general(z: int, gearing: str, n_rpm: float, rollers: int, A: float) -> Moves:
+    """Those from a built machine, without closed forms."""
     from geneva_cli.drives.crank import Crank
     from geneva_cli.drives.side_crank import SideCrank
     from geneva_cli.motion import registry
@@ -110,8 +93,7 @@ def _general(z: int, gearing: str, n_rpm: float, rollers: int, A: float) -> tupl
     mechanism = build(Spec(registry.gearing(gearing)(z), drive))
     velocity, most, _, power, ends = peaks(mechanism.engagements[0])
     own = velocity.max, most.max, most.at_deg, ends.acceleration_entry, ends.jerk_entry, power.max
-    times, index = timings(mechanism)[0], mechanism.index_deg(0)
-    return _row(z, gearing, rollers, times, index, own, mechanism.rollers_max)
+    return timings(mechanism)[0], own, mechanism.rollers_max
 
 
 def parse_z(text: str) -> list[int]:

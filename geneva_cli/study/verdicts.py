@@ -82,7 +82,7 @@ def verdicts(
     if len(paths) == 1:
         return map(judge, paths)
     files = [path for path in paths if path != "-"]
-    others = mapped(judge, files, min(len(files), cores()), "specs")
+    others = mapped(judge, files, min(len(files), cores()))
     each = (judge(path) if path == "-" else next(others) for path in paths)
     return tracked(each, "specs", len(paths))
 

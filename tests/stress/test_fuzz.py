@@ -142,7 +142,7 @@ SPECS = ["spec.toml"] * 3 + ["other.toml", "gone.toml", ".", "-", "law.csv", "a\
 FILE = r"(spec|other|gone)\.toml|law\.csv|x+\.*x*\.csv|\.:|/|<std\w+>|'a\\x00b'"
 TEXT = r'".*" is (no|not a) '
 PLACES = re.compile(
-    r"(none of the \d+ designs can be built: )?"
+    r"(no design can be built, of \d+ tried: )?"
     r"(geneva( [a-z]+)?: |(unknown )?KIND|SUBJECT|--?[\w-]+|SPEC|"
     rf"{FILE}|{TEXT}|[^:]+: cannot (read|write))"
 )

@@ -67,7 +67,7 @@ def test_rounding_is_no_difference(tmp_path):
         ),
         ({"vary": ["drive.A=0,2"]}, "--vary drive.A=2: A = 2 must be above -1, below 1"),
         ({"vary": ["drive.A=0", "drive.A=0.5"]}, "--vary drive.A: given twice"),
-        ({"settings": ["outline.wheel=wheel.dxf"]}, "a comparison is of formulas, and turns no"),
+        ({"settings": ["outline.wheel=wheel.dxf"]}, "a comparison is of our own parts"),
         (
             {"vary": ["drive.A=0..1:0.001"]},
             "1,001 designs; at most 100 can be compared",

@@ -8,21 +8,19 @@ stands at c + psi(c) from the ground. An internal wheel turns against the carrie
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Annotated, ClassVar
+from typing import Annotated, ClassVar
 
 from geneva_cli.drives.transmission import Direct
 from geneva_cli.errors import refuse_text
 from geneva_cli.motion.compatible import Conflict, of_transmission, other_wheels
+from geneva_cli.motion.drive import Plan
+from geneva_cli.motion.laws.law import Motion
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.pivots import Dimension, Layout, Pivot, wheel_places
 from geneva_cli.motion.wheels.classic import rollers_max
+from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.spec.rules import Range
 from geneva_cli.spec.schema import Example
-
-if TYPE_CHECKING:
-    from geneva_cli.motion.drive import Plan
-    from geneva_cli.motion.laws.law import Motion
-    from geneva_cli.motion.wheels.gearing import Gearing
 
 
 class Carousel(Direct, kw_only=True):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
+
 import numpy as np
 
 from geneva_cli.errors import GenevaError
@@ -31,10 +33,7 @@ def motion(of: Designs) -> Columns:
 
 def envelope(parts: Parts) -> Values:
     """Return the radius about the fixed axis that the wheels sweep, on a carrier."""
-    if not parts.mechanism.spec.is_flat:
-        return {}
-    try:
-        outlines = parts.outlines
-    except GenevaError:  # ``parts.none`` gives the reason
-        return {}
-    return {"envelope_mm": parts.mechanism.center_distance_mm + reach_mm(outlines)}
+    with suppress(GenevaError):  # ``parts.none`` gives the reason
+        if parts.mechanism.spec.is_flat:
+            return {"envelope_mm": parts.mechanism.center_distance_mm + reach_mm(parts.outlines)}
+    return {}

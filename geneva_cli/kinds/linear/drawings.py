@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from geneva_cli.geometry.plates import Group
 from geneva_cli.geometry.shapes import Circle, Contour, Line, Shape, bounds, closed
@@ -13,11 +12,9 @@ from geneva_cli.kinds.linear.rack import rack_sizes, slot_walls
 from geneva_cli.motion.pivots import Dimension
 from geneva_cli.output.scene import Body, Box, Track
 from geneva_cli.parts import projection
-from geneva_cli.study.animation.animated_turn import MachineTurn, still
+from geneva_cli.parts.outlines.outlines import Outlines
+from geneva_cli.study.animation.animated_turn import STILL, MachineTurn
 from geneva_cli.study.animation.turning_scene import WheelScene
-
-if TYPE_CHECKING:
-    from geneva_cli.parts.outlines.outlines import Outlines
 
 
 def arm(parts: RackParts) -> Drawing:
@@ -80,7 +77,7 @@ class RackScene(WheelScene):
         sizes = rack_sizes(mechanism)
         behind = -(sizes.slot_bottom + sizes.half_width + 0.5 * sizes.back)
         mark = Circle("PITCH", (behind, 0.0), 0.15 * sizes.back)
-        yield Body("wheel", (*shapes, mark), (0.0, 0.0), still(), travel)
+        yield Body("wheel", (*shapes, mark), (0.0, 0.0), STILL, travel)
 
     def view(self, wheel: Body, box: Box, turn: MachineTurn) -> Box:
         """Return the box that a page shows: the rack's width, and the slots next to the crank."""

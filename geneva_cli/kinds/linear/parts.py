@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import NamedTuple, Self
+from typing import Self
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Group, Member, Plate, least_wall
@@ -31,15 +31,6 @@ from geneva_cli.parts.shafts.bores import Screws, bolt_radius, bore_of, reach_or
 from geneva_cli.parts.sized_by_load import ShaftSize, Stressed, key_of, shaft_of
 from geneva_cli.parts.turn.turn_certificate import FlatPairs
 from geneva_cli.spec.defaults import wall_min
-
-
-class Heights(NamedTuple):
-    """Heights along the crank's axis, mm; 0 is the rack's lower face."""
-
-    plain: float  # lower face of a frame of plain shafts
-    top: float  # upper face of the frame
-    low: float  # lower face of what is on the crank's shaft: the arm, or gears below it
-    stands: float  # upper face of the arm
 
 
 class RackParts(EdgedParts):
@@ -89,10 +80,10 @@ class RackParts(EdgedParts):
     @cached_property
     def bar(self) -> Member:
         """The bar under the rack's back; half the height under it is free."""
-        place, under = self.sizes.guide, 0.5 * heights(self.mechanism, self.sizes).top
+        place, (_, top, *_) = self.sizes.guide, heights(self.mechanism, self.sizes)
         low, high = rack.rack_ends(self.sizes, self.mechanism.spec.wheel.z)
         outline = rectangle("LINK", place.back, low, place.back + place.bar, high)
-        return Member(Plate("guide bar", "LINK", outline, self._bar_bolts, under, 0.0))
+        return Member(Plate("guide bar", "LINK", outline, self._bar_bolts, 0.5 * top, 0.0))
 
     @cached_property
     def arm(self) -> Plate | None:
@@ -145,7 +136,8 @@ class RackParts(EdgedParts):
     def guide(self) -> tuple[Member, ...]:
         """Rail, wall and cover of the guide."""
         self._require_built()
-        sizes, place, top = self.sizes, self.sizes.guide, heights(self.mechanism, self.sizes).top
+        sizes, place = self.sizes, self.sizes.guide
+        _, top, *_ = heights(self.mechanism, sizes)
         x, bar, slide, half = place.back, place.bar, place.slide, place.half
         if half < bar:
             text = f"roller_radius_mm = {sizes.roller:g}: use a smaller one: a guide that the rack "
@@ -227,21 +219,23 @@ class RackParts(EdgedParts):
         yield "rack", lambda: [self.wheel.part]
         yield "guide bar", lambda: [self.bar.part]
         yield "crank", lambda: [self.crank.part]
-        yield (
-            "gears",
-            lambda: [one.part for one in self.gear_pair if not self.mechanism.spec.no_parts],
-        )
+        unbuilt = self.mechanism.spec.no_parts
+        yield "gears", lambda: [] if unbuilt else [one.part for one in self.gear_pair]
         yield "shafts", lambda: [one.part for one in self.shafts]
         yield "guide", lambda: [one.part for one in self.guide]
         yield "frame", lambda: [self.frame.part]
 
 
-def heights(mechanism: Mechanism, sizes: rack.RackSizes) -> Heights:
-    """Return the heights of a machine's parts."""
+def heights(mechanism: Mechanism, sizes: rack.RackSizes) -> tuple[float, float, float, float]:
+    """Return heights along the crank's axis, mm; 0 is the rack's lower face.
+
+    They are the lower face of a frame of plain shafts, its upper face, the lower face of what is on
+    the crank's shaft (the arm, or gears below it), and the upper face of the arm.
+    """
     stands = 0.0 - mechanism.spec.size.allowances.pin_gap_mm  # no -0.0
     low = gear_span(mechanism, None)[0] if mechanism.spec.gears else stands - sizes.thick.arm
     top = low - mechanism.spec.size.washer_mm
-    return Heights(top - sizes.thick.arm, top, low, stands)
+    return top - sizes.thick.arm, top, low, stands
 
 
 def _screws(sizes: rack.RackSizes) -> list[tuple[Circle, ...]]:

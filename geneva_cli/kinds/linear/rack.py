@@ -194,9 +194,8 @@ def crank_arm(size: Size, sizes: RackSizes) -> CrankArm:
 
 def lock_bolts(size: Size, sizes: RackSizes) -> list[Circle]:
     """Return the holes of the bolts that fix the locking sector to the arm, 2 by default."""
-    count = size.lock_bolts
-    if count is None:
-        count = 2 if sizes.lock else 0
+    usual = 2 if sizes.lock else 0
+    count = usual if size.lock_bolts is None else size.lock_bolts
     half_turn = [(0.5 * math.pi, math.pi)] if sizes.lock else []
     away = half_or(size.lock_bolt_circle_mm, 0.5 * (sizes.floor + sizes.lock))
     half_width = min(away - sizes.floor, sizes.lock - away)

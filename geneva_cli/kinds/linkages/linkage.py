@@ -5,22 +5,20 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Mapping
 from functools import reduce
-from typing import TYPE_CHECKING, Annotated, ClassVar, Self, TypeAlias, TypeVar, cast
+from typing import Annotated, ClassVar, Self, TypeAlias, TypeVar, cast
 
 from geneva_cli.drives.transmission import PinPath
 from geneva_cli.errors import refuse_text
 from geneva_cli.kinds.linkages.link_path import LinkPath, LinkReactions
 from geneva_cli.motion.drive import Plan
+from geneva_cli.motion.laws.law import Motion
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot
+from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import DEGREE, radians
 from geneva_cli.numerics.arrays import Array, array, larger, library, parameter, smaller
 from geneva_cli.numerics.jet import Jet, sin_cos
 from geneva_cli.spec.rules import Range
 from geneva_cli.spec.tables import DISTANCE_MM
-
-if TYPE_CHECKING:
-    from geneva_cli.motion.laws.law import Motion
-    from geneva_cli.motion.wheels.gearing import Gearing
 
 Place = TypeVar("Place", float, "Array")
 Moving: TypeAlias = "tuple[Array, Array]"  # x and y at input angles

@@ -109,10 +109,11 @@ class Cone(NamedTuple):
         return np.column_stack((x, y)), np.column_stack(rates)
 
 
-def wheel_cone(parts: SphereParts) -> Cone:
-    """Return the cone that touches the sphere in the middle of the slots' length."""
-    ball, accuracy = parts.ball, (parts.tolerance or 0.0, parts.curves)
-    return Cone(ball.radius_mm, 0.5 * (ball.bottom + _wall_mouth(ball)), *accuracy)
+def cone_of(parts: SphereParts, name: str) -> Cone:
+    """Return the cone that touches the sphere in the middle of the slots, or at the rollers."""
+    ball = parts.ball
+    polar = {"wheel": 0.5 * (ball.bottom + _wall_mouth(ball)), "crank": ball.arm}[name]
+    return Cone(ball.radius_mm, polar, parts.tolerance or 0.0, parts.curves)
 
 
 def _wall_mouth(ball: Ball) -> float:
@@ -120,21 +121,14 @@ def _wall_mouth(ball: Ball) -> float:
     return math.acos(math.cos(ball.rim) / math.cos(ball.half_width))
 
 
-def crank_cone(parts: SphereParts) -> Cone:
-    """Return the cone that touches the sphere at the rollers."""
-    return Cone(parts.ball.radius_mm, parts.ball.arm, parts.tolerance or 0.0, parts.curves)
-
-
 def wheel(parts: SphereParts) -> Drawing:
     """Return the wheel's cone, cut open between two slots; x is along the first slot."""
-    title = _titled(parts, "wheel", wheel_cone(parts))
-    return _drawing(parts, title, wheel_flat(parts), parts.wheel.part)
+    return _drawing(parts, _titled(parts, "wheel"), wheel_flat(parts), parts.wheel.part)
 
 
 def crank(parts: SphereParts) -> Drawing:
     """Return the crank's cone: locking sectors, and the rollers where they pass through it."""
-    title = _titled(parts, "crank", crank_cone(parts))
-    return _drawing(parts, title, crank_flat(parts), parts.crank.part)
+    return _drawing(parts, _titled(parts, "crank"), crank_flat(parts), parts.crank.part)
 
 
 def assembly(parts: SphereParts) -> Drawing:
@@ -148,8 +142,9 @@ def assembly(parts: SphereParts) -> Drawing:
     return _drawing(parts, title, [*left, *moved], whole)._replace(look=Annotations())
 
 
-def _titled(parts: SphereParts, name: str, cone: Cone) -> str:
-    """Return a part's title with the cone's shape and position for the workshop."""
+def _titled(parts: SphereParts, name: str) -> str:
+    """Return a part's title with its cone's shape and position for the workshop."""
+    cone = cone_of(parts, name)
     sphere = f"the {length(cone.radius_mm)} mm sphere"
     at = f"touches {sphere} {math.degrees(cone.polar):.6g} deg from the {name}'s axis"
     text = f"cylinder that {at}"
@@ -172,7 +167,7 @@ def _drawing(parts: SphereParts, title: str, drawn: list[shapes.Shape], shells: 
 
 def wheel_flat(parts: SphereParts) -> list[shapes.Shape]:
     """Return the wheel's outline on its flat cone, and the rollers' paths."""
-    ball, cone = parts.ball, wheel_cone(parts)
+    ball, cone = parts.ball, cone_of(parts, "wheel")
     b, ends = ball.half_step, (_wall_mouth(ball), ball.bottom)
     outer: list[shapes.Segment] = []
     pitch: list[shapes.Shape] = []
@@ -190,7 +185,7 @@ def wheel_flat(parts: SphereParts) -> list[shapes.Shape]:
 
 def crank_flat(parts: SphereParts) -> list[shapes.Shape]:
     """Return locking sectors, rollers and the rollers' circle on the crank's flat cone."""
-    ball, cone = parts.ball, crank_cone(parts)
+    ball, cone = parts.ball, cone_of(parts, "crank")
     locking = zip(parts.shells.crank, locked(ball), strict=True)
     drawn: list[shapes.Shape] = [
         cone.region("CRANK", one, 0.5 * (a + b)) for one, (a, b) in locking
@@ -227,8 +222,8 @@ def _dimensions(parts: SphereParts) -> Iterator[Dimension | Missing]:
         yield _angle(f"locking sector {k}: begins", start)
         yield _angle(f"locking sector {k}: width", rim.sweep)
     yield from or_missing("arm's dimensions", lambda: _arm(parts))
-    for whose, cone in (("wheel", wheel_cone(parts)), ("crank", crank_cone(parts))):
-        flat = f"{whose} laid flat"
+    for whose in ("wheel", "crank"):
+        flat, cone = f"{whose} laid flat", cone_of(parts, whose)
         yield _angle(f"{flat}: cone touches the sphere at", cone.polar)
         yield Dimension(f"{flat}: from there to its apex", abs(cone.apex_mm), "mm")
         yield Dimension(f"{flat}: sector", cone.sector_deg, "deg")

@@ -13,7 +13,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from contextlib import suppress
+from typing import NamedTuple
 
 import numpy as np
 
@@ -22,14 +23,12 @@ from geneva_cli.loads.load_case import contact_modulus_GPa, hertz_MPa
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.turn.gaps import Gaps
 from geneva_cli.spec.defaults import wheel_material
 from geneva_cli.verdict.checks import Check, compared
 from geneva_cli.verdict.quantities.batch_designs import Values
-
-if TYPE_CHECKING:
-    from geneva_cli.parts.outlines.outlines import Outlines
 
 
 class WheelStop(NamedTuple):
@@ -89,15 +88,12 @@ def clearances_before(outlines: Outlines, stop: WheelStop, past_deg: float = 0.0
 
 def stop(parts: Parts) -> Values:
     """Return the quantities of the stops of a crank, where the wheel has a convex face."""
-    if not (parts.mechanism.spec.wheel.stopped and parts.mechanism.spec.is_flat):
+    spec, stops = parts.mechanism.spec, None
+    with suppress(GenevaError):  # ``parts.none`` gives the reason
+        stops = wheel_stop(parts.outlines) if spec.wheel.stopped and spec.is_flat else None
+    if stops is None:
         return {}
-    try:
-        outlines = parts.outlines
-    except GenevaError:  # ``parts.none`` gives the reason
-        return {}
-    stops = wheel_stop(outlines)
-    assert stops is not None  # the wheel has a convex face
-    force, stress = stop_contact(outlines, stops)
+    force, stress = stop_contact(parts.outlines, stops)
     return {
         **{"turns": stops.turns, "first_deg": stops.first_deg, "last_deg": stops.last_deg},
         **{"overlap_mm": stops.overlap_mm, "lever_mm": stops.lever_mm},

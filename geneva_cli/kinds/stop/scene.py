@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from geneva_cli.kinds.stop.parts import wheel_stop
+from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.study.animation.animated_turn import MachineTurn
 from geneva_cli.study.animation.turning_scene import WheelScene
-
-if TYPE_CHECKING:
-    from geneva_cli.parts.outlines.outlines import Outlines
 
 
 class StopScene(WheelScene):

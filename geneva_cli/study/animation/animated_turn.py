@@ -21,6 +21,7 @@ from geneva_cli.parts.assembly import Passage, assembly, links_at
 
 # value and slope by the input in degrees, at input angles in degrees
 Moving: TypeAlias = "Callable[[Array], tuple[Array, Array]]"
+STILL = Track((0.0,), (0.0,), (0.0,))  # of what stands at the angle 0
 ANGLE_ERROR = 1e-7  # rad, of wheel and crank: a tenth of the page's own error
 
 
@@ -215,11 +216,6 @@ def _normals(one: Passage, local: Array, turn: MachineTurn, pin: Array) -> Array
         psi = one.engagement.motion(local, 0).c[0] - np.sign(local) * one.engagement.apart
         direction = turned_points(direction, psi)
     return np.column_stack((-direction[:, 1], direction[:, 0])) / np.hypot(*direction.T)[:, None]
-
-
-def still() -> Track:
-    """The track of what stands at the angle 0."""
-    return Track((0.0,), (0.0,), (0.0,))
 
 
 def _track(

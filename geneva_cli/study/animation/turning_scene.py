@@ -37,7 +37,7 @@ from geneva_cli.parts.gears.gear_pair import gears_table
 from geneva_cli.parts.links.link_plates import drawn_links
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.specfile.writer import quoted, spec_lines
-from geneva_cli.study.animation.animated_turn import MachineTurn, pushes, still
+from geneva_cli.study.animation.animated_turn import STILL, MachineTurn, pushes
 from geneva_cli.study.summary.load_lines import title_of
 from geneva_cli.verdict.report import words
 
@@ -72,7 +72,7 @@ def scene(design: Design) -> Scene:
         pauses = [0.5 * (one.exit + after) - turn.start for one, after in dwells]
     return Scene(
         title=title,
-        caption=words(mechanism) + _remark(design, bars),
+        caption=words(mechanism) + _remark(design),
         spec="\n".join((f"title = {quoted(title)}", *spec_lines(spec))),
         start_deg=mechanism.shown_deg(turn.start),
         turn_deg=turn.turn_deg,
@@ -129,9 +129,9 @@ def _bodies(design: Design, turn: MachineTurn) -> Iterator[Body]:
         for place in turn.mechanism.crank_places:
             name = f"crank {place.number}" if place.number > 1 else "crank"
             yield Body(name, carried, place.at, turn.crank(place))
-        yield Body("groove", _shapes(design, "groove"), (L, 0.0), still())
+        yield Body("groove", _shapes(design, "groove"), (L, 0.0), STILL)
         if turn.mechanism.frame > 0.0:
-            yield Body("carrier", _shapes(design, "frame"), (0.0, 0.0), still())
+            yield Body("carrier", _shapes(design, "frame"), (0.0, 0.0), STILL)
     if design.spec.gears:
         yield from _gears(design.spec.gears, turn)
 
@@ -161,14 +161,12 @@ def _shapes(design: Design, part: str) -> tuple[Shape, ...]:
     return ()
 
 
-def _remark(design: Design, bars: tuple[Bar, ...]) -> str:
+def _remark(design: Design) -> str:
     stop_s, out = design.spec.drive.stop_s, ""
     if stop_s:
         out = f" The input stands still for {stop_s:g} s in the middle of each dwell."
     if not design.mechanism.axes:
         return f"{out} Seen along the wheel's shaft."
-    if any(bar.radius for bar in bars):
-        out += " Gears are shown by their pitch circles."
     if design.cycle.mechanism.period_deg > 360.0 * design.spec.turns:
         out += (
             " The forces are those of the first turn. A body off the wheel's axis makes them "
@@ -191,24 +189,19 @@ def _states(design: Design, turn: MachineTurn) -> Iterator[Phase]:
             yield Phase(a, b, True, f"the finger turns wheel {place.number} on the carrier")
             yield Phase(b, a + turn.turn_deg / len(places), False, "all wheels rest on the carrier")
         return
-    last, cranks = turn.passages[-1], len(design.mechanism.crank_places)
+    cranks = len(design.mechanism.crank_places)
     following = (*turn.passages[1:], None)
     for i, (one, after) in enumerate(zip(turn.passages, following, strict=True)):
         which = f"roller {i + 1}" if len(turn.passages) > 1 else "the roller"
         if cranks > 1:
             which = f"crank {turn.on_crank(i).number}"
+        if one.engagement.paired:
+            which = "a roller, then gears, then a roller"
         a, b = one.entry - turn.start, one.exit - turn.start
-        if not one.engagement.paired:
-            yield Phase(a, b, True, f"{which} moves the {design.mechanism.output.noun}")
-        else:
-            c, d = (one.mid + x - turn.start for x in one.engagement.motion.breaks_deg[1:-1:2])
-            yield Phase(a, c, True, "the first roller starts the wheel")
-            yield Phase(c, d, True, "the gears turn the wheel")
-            yield Phase(d, b, True, "the second roller stops the wheel")
+        yield Phase(a, b, True, f"{which} moves the {design.mechanism.output.noun}")
         end = after.entry - turn.start if after else turn.turn_deg
         if end > b + 1e-9:
             yield Phase(b, end, False, rest)
-    assert last.exit <= turn.end + 1e-9
 
 
 def _box(

@@ -273,8 +273,8 @@ def sweep(text: Text, plan: SweepPlan, picks: Sequence[str] = DEFAULT) -> Sweep:
     """Return the sweep of a spec. Raises GenevaError if no design of a sample can be built."""
     varied = [a.key for a in plan.axes]  # these have their columns already: no name may occur twice
     names = tuple(name for name in pick(picks).names if name not in varied)
-    run, size, most = Sweep(text, plan, Pick(names)), len(plan), 1000  # designs of the sample
-    count, reasons = min(size, most), list[str]()
+    run, size = Sweep(text, plan, Pick(names)), len(plan)
+    count, reasons = min(size, 1000), list[str]()  # designs of the sample
     # the middle design comes first: most ranges have one that can be built
     middle = [*Rows([a.between(np.array([0.5])) for a in plan.axes])]
     starts, some = [i * size // count for i in range(count)], 1
@@ -287,9 +287,8 @@ def sweep(text: Text, plan: SweepPlan, picks: Sequence[str] = DEFAULT) -> Sweep:
             return run
         except GenevaError as error:
             reasons.append(str(error))
-    those = f"{count} designs from all over the range" if size > most else f"the {count} designs"
-    said = f"none of {those}" if size > 1 else "no design"
-    raise GenevaError(f"{said} can be built: {reasons[1]}")  # the first may be one of the others
+    # the first may be one of the others
+    raise GenevaError(f"no design can be built, of {count} tried: {reasons[1]}")
 
 
 def with_values(text: Text, keys: Sequence[str], values: Sequence[Cell]) -> Text:

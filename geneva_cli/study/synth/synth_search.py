@@ -246,7 +246,7 @@ def _all_groups(target: Target, names: Sequence[str], how_near: bool) -> list[Ma
     # a small search ends before a second process has started
     is_small = len(target.gearings) * len(target.z) * len(target.laws) <= 6
     workers = 1 if is_small else min(len(tasks), cores())
-    done = mapped(partial(_group, names=names, how_near=how_near), tasks, workers, "machines")
+    done = mapped(partial(_group, names=names, how_near=how_near), tasks, workers)
     return [row for found in tracked(done, "groups of machines", len(tasks)) for row in found]
 
 
@@ -285,7 +285,7 @@ def _bounded(target: Target, found: list[MachineRow]) -> list[MachineRow]:
     if not names:
         return found
     alone = [row.spec for row in found if not row.extra]
-    rest = mapped(partial(_values, Pick(names)), alone, min(cores(), len(alone)), "machines")
+    rest = mapped(partial(_values, Pick(names)), alone, min(cores(), len(alone)))
     rest = tracked(rest, "machines computed", len(alone))
     values = [row.extra or next(rest) for row in found]
     pairs = zip(found, values, strict=True)
@@ -313,8 +313,5 @@ def _out_of_reach(target: Target) -> str:
     m = target.rollers or next((int(m) for m in target.counts if m >= 1.0), 1)
     wheels = [gearing(name)(z) for name in target.gearings for z in target.z]
     most = max(rollers_max(natural_deg(wheel)) for wheel in wheels)
-    rollers = "one roller" if m == 1 else f"{m} rollers"
-    return (
-        f"{target.words}: out of reach with {rollers}; straight slots carry at most {most} here: "
-        "use more slots or a longer motion"
-    )
+    text = f"{target.words}: out of reach with {'one roller' if m == 1 else f'{m} rollers'}; "
+    return f"{text}straight slots carry at most {most} here: use more slots or a longer motion"

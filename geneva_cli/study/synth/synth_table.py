@@ -6,7 +6,7 @@ For people rows have short names and a description of each machine.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from functools import partial
 from typing import Any
 
@@ -54,11 +54,11 @@ _LIMITED = {
 # keys that conflict with a crank's bore
 SHAFT = {"crank_shaft_mm", "crank_hub_mm", "crank_bore_wall_mm"}
 UNSIZED = {*MOTION, *LIMITS} - {"undercut_mm"}  # checks that no other roller can mend
-# Columns in order, the requested quantities before the parts, and short names of some.
+# Columns in order, with the requested quantities before the last, and short names of some.
 COLUMNS = (
     *("no", "z", "gearing", "rollers", "machine", "ratio", "motion_deg", "dwell_deg", "motion_s"),
     *("dwell_s", "tau", "k", "n_rpm", "velocity_max", "acceleration_max", "acceleration_entry"),
-    *("jerk_max", "power_max", "acceleration_max_rad_s2", "extra", "parts"),
+    *("jerk_max", "power_max", "acceleration_max_rad_s2", "parts"),
 )
 SHORT = {
     "gearing": "wheel",
@@ -67,13 +67,6 @@ SHORT = {
     "acceleration_entry": "accel_entry",
     "acceleration_max_rad_s2": "accel_rad/s2",
 }
-# The most important first. Rows are sorted by the peak acceleration, and --write takes their
-# number: a narrow window keeps both.
-RANKED = (
-    *("no", "machine", "parts", "acceleration_max", "z", "gearing", "n_rpm", "extra", "rollers"),
-    *("motion_deg", "dwell_s", "acceleration_max_rad_s2", "acceleration_entry", "velocity_max"),
-    *("jerk_max", "tau", "power_max", "motion_s", "dwell_deg", "k", "ratio"),
-)
 LINKS = ("crank_mm", "ground_mm", "coupler_mm", "rocker_mm", "point_mm")
 WORDS = {
     "A": "A {}",
@@ -95,8 +88,6 @@ def synthesis_table(target: Target, count: int = TURNED, buildable: bool = False
         title = f"{title}, {first} first"
     if buildable:
         title = f"{title}{',' * several} of {len(ranking.rows)}"
-    if not shown:
-        title = f"none of {len(ranking.rows)} machines passes"
     return rows_table((*CELLS, *target.names), shown, f"{target.words}: {title}.")
 
 
@@ -109,8 +100,7 @@ def turned(ranking: Ranking, count: int = TURNED, buildable: bool = False) -> li
     maybe = [row for row in ranking.rows if row.cells["parts"] == MAYBE]
     if not buildable:
         maybe = [row for row in maybe if row.cells["no"] <= count]
-    work = partial(_turned, _fixed(ranking.target))
-    done = mapped(work, maybe, min(len(maybe), cores()), "machines")
+    done = mapped(partial(_turned, ranking.target), maybe, min(len(maybe), cores()))
     results, passed = dict[int, MachineRow](), list[MachineRow]()
     for row in tracked(done, "machines turned", len(maybe)):
         results[row.cells["no"]] = row
@@ -120,21 +110,16 @@ def turned(ranking: Ranking, count: int = TURNED, buildable: bool = False) -> li
     return passed if buildable else [results.get(row.cells["no"], row) for row in ranking.rows]
 
 
-def _fixed(target: Target) -> frozenset[str]:
-    """The sizes of the requirement's frame."""
-    sizes = target.frame.size.as_dict() if target.frame else {}
-    return frozenset(key for key, value in sizes.items() if value is not None)
-
-
-def _turned(fixed: frozenset[str], row: MachineRow) -> MachineRow:
-    """A row with sizes that pass a full turn, or with the checks that fail."""
+def _turned(target: Target, row: MachineRow) -> MachineRow:
+    """A row with sizes that pass a full turn, or with the checks that fail; a frame's stay."""
     if row.trouble:
         return row
-    spec, trouble = built(row.spec, fixed)
+    sizes = target.frame.size.as_dict() if target.frame else {}
+    spec, trouble = built(row.spec, {key for key, value in sizes.items() if value is not None})
     return MachineRow(spec, row.cells | {"parts": f"no: {trouble}" if trouble else YES}, row.extra)
 
 
-def built(spec: Spec, fixed: frozenset[str] = frozenset()) -> tuple[Spec, str]:
+def built(spec: Spec, fixed: Collection[str] = ()) -> tuple[Spec, str]:
     """The spec with sizes with which its parts pass every check in a full turn, and what fails.
 
     The largest of the usual rollers that passes is taken: smaller ones fail less. ``fixed`` are
@@ -192,7 +177,7 @@ def chosen(ranking: Ranking, number: int) -> tuple[MachineRow, str]:
     """
     if not 1 <= number <= len(ranking.rows):
         raise GenevaError(f"--write {cut(number)}: the table has rows 1 to {len(ranking.rows)}")
-    row = _turned(_fixed(ranking.target), ranking.rows[number - 1])
+    row = _turned(ranking.target, ranking.rows[number - 1])
     row = row._replace(spec=with_limits(ranking.requested, row.spec))
     return row, commented(ranking.target, number, row)
 
@@ -254,17 +239,16 @@ def for_people(table: Table, most: int | None = None) -> Table:
             first, *others = reasons.split(", ")
             name = first.removesuffix("_mm").removesuffix("_deg")
             row["parts"] = f"{no}: {name}{' +' if others else ''}"
-    columns, ranks = dict[str, list[Any]](), dict[str, float]()
-    for source in COLUMNS:
-        for name in table.names[len(CELLS) :] if source == "extra" else (source,):
-            cells = [row[name] for row in rows]
-            if any(v is not None for v in cells):
-                columns[name], ranks[name] = cells, RANKED.index(source)
-    peak, per_s2 = "acceleration_max", "acceleration_max_rad_s2"
-    if per_s2 in columns:  # rows are sorted by it
-        ranks[peak], ranks[per_s2] = ranks[per_s2], ranks[peak]
+    extra, columns = table.names[len(CELLS) :], dict[str, list[Any]]()
+    for name in (*COLUMNS[:-1], *extra, COLUMNS[-1]):
+        cells = [row[name] for row in rows]
+        if any(v is not None for v in cells):
+            columns[name] = cells
     heads = {name: SHORT.get(name, name.replace(".", "_")) for name in columns}
-    first = tuple(heads[name] for name in sorted(ranks, key=ranks.__getitem__))
+    # rows are sorted by the peak, and --write takes their number: a narrow window keeps both
+    peak = next(name for name in ("acceleration_max_rad_s2", "acceleration_max") if name in columns)
+    ranked = ("no", "machine", "parts", peak, "z", "gearing", "n_rpm", *extra, "rollers")
+    first = tuple(heads[name] for name in ranked if name in heads)
     reading = Reading(first, decide=("parts",))
     return Table(tuple(heads.values()), [*columns.values()], title=title, reading=reading)
 

@@ -10,7 +10,7 @@ from drawing_witness import vertices
 from geneva_cli import Crank, Design, Size, Spherical
 from geneva_cli.geometry.shapes import Contour
 from geneva_cli.geometry.sphere import POLE
-from geneva_cli.kinds.spherical.drawings import crank_cone, wheel_cone
+from geneva_cli.kinds.spherical.drawings import cone_of
 from geneva_cli.kinds.spherical.parts import wheel_shell
 from geneva_cli.kinds.spherical.regions import (
     at_mid_motion,
@@ -218,7 +218,7 @@ def test_laid_flat(machine, curves):
     drawing = machine.drawing("wheel", 0.01, curves)
     (outline,) = (s for s in drawing.shapes if s.layer == "WHEEL")
     flat = np.array(vertices(outline, 1e-3))
-    cone = wheel_cone(machine.parts)
+    cone = cone_of(machine.parts, "wheel")
     m, share = cone.polar, math.cos(cone.polar)
     apex = np.array((-L * math.tan(m), 0.0))
     way = flat - apex
@@ -238,7 +238,7 @@ def test_the_crank_laid_flat():
     """Its lock is an arc about the apex; the roller's outline is as wide as its cone."""
     design = MACHINES["90"]
     found = sizes(design)
-    drawing, cone = design.drawing("crank", 0.001), crank_cone(design.parts)
+    drawing, cone = design.drawing("crank", 0.001), cone_of(design.parts, "crank")
     sector, roller = (s for s in drawing.shapes if s.layer in ("CRANK", "ROLLER"))
     assert isinstance(sector, Contour)
     apex = -cone.apex_mm
