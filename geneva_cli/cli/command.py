@@ -146,10 +146,8 @@ def as_command(name: str, run: Any) -> Any:
     one = typer.Typer(add_completion=False, rich_markup_mode=None)
     one.command(name, cls=Command, context_settings=HELP)(run)
     command: Any = get_command(one)
-    command.kinds = {}
-    for parameter, annotation in run.__annotations__.items():
-        if get_args(annotation):
-            command.kinds[parameter] = get_args(annotation)[0]
+    kinds = {name: get_args(annotation) for name, annotation in run.__annotations__.items()}
+    command.kinds = {name: own[0] for name, own in kinds.items() if own}
     return command
 
 
