@@ -146,8 +146,10 @@ def as_command(name: str, run: Any) -> Any:
     one = typer.Typer(add_completion=False, rich_markup_mode=None)
     one.command(name, cls=Command, context_settings=HELP)(run)
     command: Any = get_command(one)
-    kinds = {name: get_args(annotation) for name, annotation in run.__annotations__.items()}
-    command.kinds = {name: own[0] for name, own in kinds.items() if own}
+    command.kinds = {}
+    for parameter, annotation in run.__annotations__.items():
+        if own := get_args(annotation):
+            command.kinds[parameter] = own[0]
     return command
 
 
