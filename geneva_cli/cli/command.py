@@ -148,8 +148,8 @@ def as_command(name: str, run: Any) -> Any:
     command: Any = get_command(one)
     command.kinds = {}
     for parameter, annotation in run.__annotations__.items():
-        if get_args(annotation):
-            command.kinds[parameter] = get_args(annotation)[0]
+        if own := get_args(annotation):
+            command.kinds[parameter] = own[0]
     return command
 
 

@@ -70,14 +70,8 @@ def chosen(output: str, format: str, formats: Iterable[str] = FORMATS) -> str:
     known = list(formats)
     if name in known:
         return name
-    if format:
-        raise GenevaError(f"--format {cut(name)}: it must be one of {', '.join(known)}")
-    if output == "-":
-        raise GenevaError(
-            f"this is no table: give -o FILE.{known[0]}, or a --format: {', '.join(known)}"
-        )
-    known = [".txt" if name == "table" else f".{name}" for name in known]
-    raise GenevaError(f'-o "{cut(output)}": it must end in {", ".join(known)}, or give a --format')
+    given = f"--format {cut(name)}" if format else f'-o "{cut(output)}"'
+    raise GenevaError(f"{given}: give a --format or -o FILE of these: {', '.join(known)}")
 
 
 def require_spec(output: str, format: str = "") -> None:

@@ -28,7 +28,7 @@ from geneva_cli.geometry.sheet import (
 )
 from geneva_cli.output import DXF_VERSIONS
 from geneva_cli.output.ezdxf_alone import BaseLayout, Document, Modelspace, options
-from geneva_cli.output.inks import CENTRE_LINES, DASHES, inks
+from geneva_cli.output.inks import CENTRE_LINES, DASHES, INKS
 from geneva_cli.output.splines import Piece, pieces
 
 USUAL = "R2000"
@@ -48,11 +48,11 @@ def chunks(drawing: Drawing, version: str = USUAL) -> Iterator[str]:
     drawing = prepared(drawing)
 
     def fill(document: Document, space: Modelspace) -> None:
-        for layer, ink in inks(drawing.layers).items():
+        for layer in drawing.layers:
             name = "CENTER" if layer in CENTRE_LINES else "Continuous"
             if layer in CENTRE_LINES:
                 _linetype(document, name, DASHES)
-            document.layers.add(layer, color=ink.number, linetype=name)
+            document.layers.add(layer, color=INKS[layer].number, linetype=name)
         for shape in drawing.shapes:
             _draw(space, shape)
         _extents(document, space, extent(drawing))
@@ -225,11 +225,8 @@ def _text_of(
     title = clean(title)[:200].strip()  # a line may have 255 characters
     if title:
         yield _ascii(f"999\n{title}\n")  # a comment: a text entity would be cut by machines
-    block = 1024  # values at a time
-    for start in range(0, len(lines) - 1, 2 * block):
-        part = lines[start : start + 2 * block]
-        pairs = zip(part[::2], part[1::2], strict=False)
-        yield _ascii("".join(f"{code}\n{_fixed(int(code), value)}\n" for code, value in pairs))
+    for code, value in zip(lines[:-1:2], lines[1::2], strict=True):
+        yield _ascii(f"{code}\n{_fixed(int(code), value)}\n")
 
 
 def _extents(document: Document, space: Modelspace, box: tuple[float, float, float, float]) -> None:

@@ -8,32 +8,21 @@ settings and no widths of texts, so an empty cache lies in the folder of this fi
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
 from configparser import ConfigParser
-from contextlib import contextmanager
 
 __all__ = ["BaseLayout", "Document", "Modelspace", "options", "readfile"]
 
-
-@contextmanager
-def _alone() -> Iterator[None]:
-    cache = "XDG_CACHE_HOME"
-    read, folder = ConfigParser.read, os.environ.get(cache)
-    setattr(ConfigParser, "read", lambda *arguments, **settings: [])  # noqa: B010  # for mypy
-    os.environ[cache] = os.path.join(os.path.dirname(os.path.abspath(__file__)), "no_fonts")
-    try:
-        yield
-    finally:
-        setattr(ConfigParser, "read", read)  # noqa: B010
-        if folder is None:
-            del os.environ[cache]
-        else:
-            os.environ[cache] = folder
-
-
-with _alone():
+CACHE = "XDG_CACHE_HOME"
+read, environment = ConfigParser.read, dict(os.environ)
+setattr(ConfigParser, "read", lambda *arguments, **settings: [])  # noqa: B010  # for mypy
+os.environ[CACHE] = os.path.join(os.path.dirname(os.path.abspath(__file__)), "no_fonts")
+try:
     from ezdxf._options import options
     from ezdxf.document import Drawing as Document
     from ezdxf.filemanagement import readfile
     from ezdxf.layouts.base import BaseLayout
     from ezdxf.layouts.layout import Modelspace
+finally:
+    setattr(ConfigParser, "read", read)  # noqa: B010
+    del os.environ[CACHE]
+    os.environ.update(environment)

@@ -12,10 +12,10 @@ import os
 import signal
 import stat
 import sys
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from types import FrameType
-from typing import Any, BinaryIO, TypeAlias
+from typing import Any, BinaryIO
 
 from geneva_cli.errors import GenevaError, cut
 
@@ -28,7 +28,6 @@ try:
 except ImportError:  # elsewhere than on Windows
     msvcrt = None  # type: ignore[assignment]
 
-Handler: TypeAlias = Callable[[int, FrameType | None], Any] | signal.Handlers
 POSIX = fcntl is not None
 # The byte that is locked on Windows, where nobody else can read a locked one: past any file's end.
 FAR = 1 << 40
@@ -60,7 +59,7 @@ def _stop(number: int, frame: FrameType | None) -> None:
 
 
 @contextmanager
-def answering(handler: Handler = _stop) -> Iterator[None]:
+def answering(handler: Any = _stop) -> Iterator[None]:
     """Answer the signals that end a run by ``handler`` in the block; ignored ones stay so."""
     before = {}
     for number in SIGNALS:

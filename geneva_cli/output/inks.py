@@ -12,8 +12,8 @@ class Ink(NamedTuple):
     rgb: str
 
 
-# All have a contrast above 3.9 to white and to black.
-INKS = {
+# Of every layer that is drawn; all have a contrast above 3.9 to white and to black.
+INKS: dict[str, Ink] = {
     "WHEEL": Ink(142, "#007ca5"),
     "CRANK": Ink(94, "#007f00"),
     "ARM": Ink(23, "#a56752"),
@@ -27,7 +27,6 @@ INKS = {
     "CENTER": Ink(203, "#9152a5"),
     "GROOVE": Ink(54, "#7f7f00"),
 }
-OTHERS = (Ink(240, "#ff003f"), Ink(84, "#1f7f00"))
 CENTRE_LINES = {"PITCH"}  # layers of lines that are not cut
 DASHES = (8.0, 1.5, 1.5, 1.5)  # mm: dash, gap, dash, gap of a centre line
 
@@ -36,14 +35,6 @@ def mixed(rgb: str, fraction: float, page: str) -> str:
     """Return a fraction of a colour on a page's colour, all as hexadecimal RGB."""
     pairs = [(int(rgb[i : i + 2], 16), int(page[i : i + 2], 16)) for i in (1, 3, 5)]
     return "#" + "".join(f"{round(on + fraction * (own - on)):02x}" for own, on in pairs)
-
-
-def inks(layers: tuple[str, ...]) -> dict[str, Ink]:
-    """The ink of each layer; layers without one of their own get the others in turn."""
-    unknown = [layer for layer in layers if layer not in INKS]
-    return {
-        layer: INKS.get(layer) or OTHERS[unknown.index(layer) % len(OTHERS)] for layer in layers
-    }
 
 
 class Paper(NamedTuple):

@@ -16,7 +16,7 @@ import numpy as np
 
 from geneva_cli.errors import clean
 from geneva_cli.geometry.sheet import Drawing
-from geneva_cli.output.inks import inks
+from geneva_cli.output.inks import INKS
 from geneva_cli.output.meshes import DECIMALS, Body, bodies, placed
 from geneva_cli.table import in_decimals
 
@@ -81,10 +81,9 @@ def _model(title: str, kinds: list[Body]) -> Iterator[str]:
     yield f'{XML}<model unit="millimeter" xml:lang="en" xmlns="{core}">\n'
     yield f'<metadata name="Title">{_text(title)}</metadata>\n<resources>\n'
     layers = list(dict.fromkeys(body.layer for body in kinds))
-    colours = inks(tuple(layers))
     yield f'<basematerials id="{MATERIALS}">\n'
     for layer in layers:
-        yield f'<base name="{_text(layer)}" displaycolor="{colours[layer].rgb.upper()}"/>\n'
+        yield f'<base name="{_text(layer)}" displaycolor="{INKS[layer].rgb.upper()}"/>\n'
     yield "</basematerials>\n"
     for number, body in enumerate(kinds, MATERIALS + 1):
         yield (

@@ -90,15 +90,11 @@ class Bar(NamedTuple):
     plates: tuple[CarriedShapes, ...] = ()
 
 
-def place_at(place: Place, t: float) -> tuple[float, float]:
-    """The position of a place at an input angle."""
-    return value_at(place[0], t), value_at(place[1], t)
-
-
 def pose(bar: Bar, plate: CarriedShapes, t: float) -> tuple[float, float, float]:
     """The position of a link's plate or block at an input angle, and its rotation in radians."""
-    (x0, y0), (x1, y1) = (place_at(bar.joints[j], t) for j in (0, plate.joint or 1))
-    return *place_at(bar.joints[plate.joint], t), math.atan2(y1 - y0, x1 - x0)
+    places = [(value_at(x, t), value_at(y, t)) for x, y in bar.joints]
+    (x0, y0), (x1, y1) = places[0], places[plate.joint or 1]
+    return *places[plate.joint], math.atan2(y1 - y0, x1 - x0)
 
 
 class Push(NamedTuple):

@@ -25,7 +25,7 @@ from geneva_cli.geometry.shapes import (
     halved,
 )
 from geneva_cli.geometry.sheet import CAPITALS, DASHED, WIDTHS, Drawing, Sheet, extent, prepared
-from geneva_cli.output.inks import CENTRE_LINES, DARK, DASHES, LIGHT, Paper, inks, mixed
+from geneva_cli.output.inks import CENTRE_LINES, DARK, DASHES, INKS, LIGHT, Paper, mixed
 from geneva_cli.output.notes import LETTERS, Notes, notes
 
 # For drawings to cut, in mm; for drawings to view, as if these were 250 mm wide
@@ -70,14 +70,14 @@ def chunks(drawing: Drawing) -> Iterator[str]:
             yield f'<path class="{layer}" fill="{_tint(layer, LIGHT)}"'
             yield f' d="{" ".join(map(path, contours))}"/>\n'
         yield "</g>\n"
-    for name, ink in inks(drawing.layers).items():
+    for name in drawing.layers:
         dashes, stroke = "", mm * STROKE * (1.6 if look else 1.0)  # wider lines to view
         if name in CENTRE_LINES:
             dashes = f' stroke-dasharray="{" ".join(number(mm * d) for d in DASHES)}"'
         # rollers' paths, and the lowest layer
         if look and name in (*CENTRE_LINES, "FRAME"):
             stroke *= 0.6
-        yield f'<g id="{escape(name)}" stroke="{ink.rgb}"'
+        yield f'<g id="{escape(name)}" stroke="{INKS[name].rgb}"'
         yield f' stroke-width="{number(stroke)}"{dashes}>\n'
         yield from (element(shape) for shape in drawing.shapes if shape.layer == name)
         yield "</g>\n"
@@ -178,7 +178,7 @@ def number(value: float) -> str:
 
 
 def _tint(layer: Layer, paper: Paper) -> str:
-    return mixed(inks((layer,))[layer].rgb, opacity(layer), paper.page)
+    return mixed(INKS[layer].rgb, opacity(layer), paper.page)
 
 
 def opacity(layer: Layer) -> float:
@@ -200,8 +200,8 @@ def rings(solid: Part) -> list[tuple[Layer, tuple[Contour, ...]]]:
 def _style(layers: tuple[str, ...], plates: list[Layer]) -> str:
     """The colours of a dark page; programs without CSS show the light one."""
     dark = "".join(
-        f"g[id='{layer}'] {{ stroke: {mixed(ink.rgb, 0.55, '#ffffff')} }}\n"
-        for layer, ink in inks(layers).items()
+        f"g[id='{layer}'] {{ stroke: {mixed(INKS[layer].rgb, 0.55, '#ffffff')} }}\n"
+        for layer in layers
     )
     for layer in plates:
         dark += f"path[class='{layer}'] {{ fill: {_tint(layer, DARK)} }}\n"

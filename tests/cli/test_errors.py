@@ -255,10 +255,10 @@ def test_wrong_option(line, wants):
         (["new", "externel"], ["KIND", "externel", '"external"']),
         (["new", "external", "-o", "gone/spec.toml"], ["gone"]),
         (["peaks", "spec.toml", "other.toml"], ["other.toml"]),
-        (["peaks", "spec.toml", "-o", "peaks.xyz"], ["peaks.xyz", ".csv", ".json"]),
-        (["peaks", "spec.toml", "-o", "peaks"], ["peaks", ".csv", "--format"]),
+        (["peaks", "spec.toml", "-o", "peaks.xyz"], ["peaks.xyz", "table, csv, json, md"]),
+        (["peaks", "spec.toml", "-o", "peaks"], ["peaks", "csv", "--format"]),
         (["peaks", "spec.toml", "-o", ""], ["-o"]),
-        (["profile", "--part", "wheel", "spec.toml"], ["-o FILE.dxf", "dxf, svg, step, stl, 3mf"]),
+        (["profile", "--part", "wheel", "spec.toml"], ["-o FILE", "dxf, svg, step, stl, 3mf"]),
     ],
     ids=lambda words: " ".join(words),
 )

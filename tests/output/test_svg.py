@@ -16,7 +16,7 @@ from geneva_cli.design import Design
 from geneva_cli.geometry.plates import face, plates
 from geneva_cli.geometry.sheet import extent
 from geneva_cli.output import dxf
-from geneva_cli.output.inks import INKS, OTHERS
+from geneva_cli.output.inks import INKS
 from geneva_cli.output.svg import MARGIN, STROKE, chunks
 from geneva_cli.spec.tables import Size
 
@@ -78,7 +78,7 @@ def test_inks_read_on_white_and_on_black():
     """By the contrast of WCAG 2, which asks for 3 of lines; numbers and RGB are the same ink."""
     from ezdxf.colors import DXF_DEFAULT_COLORS, int2rgb
 
-    inks = [*INKS.values(), *OTHERS]
+    inks = [*INKS.values()]
     for ink in inks:
         light = luminance(ink.rgb) + 0.05
         assert min(1.05 / light, light / 0.05) > 3.9

@@ -45,9 +45,8 @@ def run(
         name = cut(tables[0], 300)
         if len(specs) > 1:
             raise GenevaError(f"{name}: a csv is plotted by itself, without other files")
-        for option_, value in {"--pick": pick, "--set": settings, "--vary": vary}.items():
-            if value:
-                raise GenevaError(f"{option_} is for specs; for {name} give --x and --y")
+        if pick or settings or vary:
+            raise GenevaError(f"--pick, --set, --vary: for specs; for {name} give --x and --y")
         show_figure(of_table(tables[0], x, words_in(y)), output, format, tables)
         return
     if x or y:

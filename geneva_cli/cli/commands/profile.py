@@ -67,8 +67,10 @@ def run(
     sheet, drawn = is_sheet(part), named(output, format) in DRAWN
     design = load(spec, settings or ())
     files = design.spec.files
-    if not sheet and design.is_table(part, drawn):
-        _refuse(kerf, cutter)
+    table = not sheet and design.is_table(part, drawn)
+    if (sheet or table) and (kerf is not None or cutter is not None):
+        raise GenevaError("--kerf and --cutter are for parts to cut; this is a table, or a sheet")
+    if table:
         if dxf_version is not None:
             raise GenevaError("--dxf-version is for drawings; this is a table of points")
         show(design.part_table(part, tolerance, samples), output, format, files)
@@ -81,7 +83,6 @@ def run(
     if design.spec.is_turned:
         require_written(design, design.judge(part), force)
     if sheet:
-        _refuse(kerf, cutter)
         draw_sheet(design.sheet(tolerance, curves), output, format, files, dxf_version or "")
     else:
         if cutter is not None:
@@ -90,10 +91,3 @@ def run(
         shown = drawing if kerf is not None else design.drawing_over(drawing)
         draw(shown, output, format, files, dxf_version or "")
     say(design.spec.path, design.motion_warnings)
-
-
-def _refuse(kerf: float | None, cutter: float | None) -> None:
-    """Raise GenevaError for options of parts to cut, if none is written."""
-    for name, length in (("--kerf", kerf), ("--cutter", cutter)):
-        if length is not None:
-            raise GenevaError(f"{name} is for parts to cut; this one is a table, or a sheet")

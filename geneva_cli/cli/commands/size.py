@@ -42,9 +42,8 @@ def run(
     require_spec(output)
     text, lost = sized_text(design)
     show_text(text, output, design.spec.files)
-    notes = [f"note: {lost}"] if lost else []
+    if lost:
+        tell(f"{output}: note: {lost}")
     beside = [os.path.basename(name) for name in design.spec.files[1:]]
     if beside and os.path.dirname(output) != os.path.dirname(design.spec.path):
-        notes.append(f"warning: it needs {', '.join(beside)} in its folder")
-    for note in notes:
-        tell(f"{output}: {note}")
+        tell(f"{output}: warning: it needs {', '.join(beside)} in its folder")

@@ -13,7 +13,7 @@ from geneva_cli.geometry.shapes import ORIGIN, Point, Shape, placed
 from geneva_cli.geometry.sheet import Annotations, Drawing, extent, prepared
 from geneva_cli.output import pdf
 from geneva_cli.output.document import blocks
-from geneva_cli.output.inks import CENTRE_LINES, inks
+from geneva_cli.output.inks import CENTRE_LINES, INKS
 from geneva_cli.output.letters import western
 from geneva_cli.output.notes import LETTERS, notes
 from geneva_cli.output.plot import plot_layout, plot_pdf
@@ -192,15 +192,11 @@ def _widths(heads: Sequence[str], rows: list[list[str]]) -> list[float]:
     whole_word = 42.0  # the longest word that stays whole
     head_max = 30.0  # width of a head before it breaks
     for head, *cells in zip(heads, *rows, strict=True):
-        longest = [max((pdf.wide(w, SMALL, True) for w in head.split()), default=0.0)]
-        least = longest + [pdf.wide(w, SMALL) for cell in cells for w in cell.split(" ")]
-        most = [
-            min(pdf.wide(head, SMALL, True), head_max),
-            *longest,
-            *(pdf.wide(c, SMALL) for c in cells),
-        ]
-        needs.append(min(max(least), whole_word) + 2.0 * PAD)
-        wants.append(max(max(most) + 2.0 * PAD, needs[-1]))
+        words = [pdf.wide(word, SMALL, True) for word in head.split()]
+        words += [pdf.wide(word, SMALL) for cell in cells for word in cell.split(" ")]
+        lines = [min(pdf.wide(head, SMALL, True), head_max), *(pdf.wide(c, SMALL) for c in cells)]
+        needs.append(min(max(words), whole_word) + 2.0 * PAD)
+        wants.append(max(*words, *lines) + 2.0 * PAD)
     more, left = sum(wants) - sum(needs), WIDE - sum(needs)
     if left < 0.0:
         return [need * WIDE / sum(needs) for need in needs]
@@ -252,13 +248,12 @@ def _drawing(drawn: Drawing) -> Item:
             return pdf.outline(placed(shape, at(ORIGIN), scale=scale))
 
         out, every = "", rings(shown.solid) if shown.solid else []
-        inked = inks(tuple(dict.fromkeys(layer for layer, _ in every)))
         for layer, contours in every:
-            out += f"{pdf.tint(inked[layer].rgb, opacity(layer))} rg\n"
+            out += f"{pdf.tint(INKS[layer].rgb, opacity(layer))} rg\n"
             out += "".join(map(traced, contours)) + "f*\n"
-        for name, ink in inks(shown.layers).items():
+        for name in shown.layers:
             is_thin = name in CENTRE_LINES
-            out += f"{pdf.tint(ink.rgb)} RG {0.16 if is_thin else 0.3} w"
+            out += f"{pdf.tint(INKS[name].rgb)} RG {0.16 if is_thin else 0.3} w"
             out += f" [{'4 0.8 0.8 0.8' if is_thin else ''}] 0 d\n"
             out += "".join(f"{traced(shape)}S\n" for shape in shown.shapes if shape.layer == name)
         out += f"{SOFT} RG {SOFT} rg 0.16 w [] 0 d\n"

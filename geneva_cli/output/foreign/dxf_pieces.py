@@ -81,8 +81,6 @@ def _document(data: bytes) -> Document:
             file.write(data)
         return readfile(path)
     except Exception as error:  # the library raises errors of all kinds for damaged data
-        if "is not a DXF file" in str(error):
-            raise GenevaError("this is no DXF file") from None
         reason = cut(str(error).replace(path, "the file").strip() or type(error).__name__, 200)
         raise GenevaError(f"not a DXF file that can be read: {reason}") from None
     finally:

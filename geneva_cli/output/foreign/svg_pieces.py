@@ -92,9 +92,6 @@ def _transform(name: str, v: list[float]) -> _Affine:
     if name == "rotate":
         turn, centre = cmath.exp(1j * math.radians(v[0])), complex(*v[1:3])
         return _Affine(turn, 0j, centre - turn * centre)
-    if name in ("skewX", "skewY"):
-        slope = math.tan(math.radians(v[0]))
-        return _matrix(1.0, 0.0, slope, 1.0) if name == "skewX" else _matrix(1.0, slope, 0.0, 1.0)
     raise GenevaError(f"transform {cut(name, 20)}() is not known")
 
 
@@ -120,9 +117,9 @@ def _trace(element: ElementTree.Element, out: _Traced) -> None:
         x, y = _lengths(element, "cx cy")
         rx, ry = _lengths(element, "r r" if name == "circle" else "rx ry")
         out.ellipse(complex(x, y), rx + 0j, ry * 1j, 0.0, math.tau)
-    elif name in ("path", "line", "polygon", "polyline", "rect"):
+    elif name in ("path", "line", "polygon", "polyline"):
         _trace_path(_path_of(element, name), out)
-    elif name in ("image", "use"):
+    elif name in ("image", "rect", "use"):
         raise GenevaError(f"<{name}> is no outline: convert it to a path")
 
 
@@ -132,24 +129,9 @@ def _path_of(element: ElementTree.Element, name: str) -> str:
         return element.get("d", "")
     if name == "line":
         return "M {!r} {!r} {!r} {!r}".format(*_lengths(element, "x1 y1 x2 y2"))
-    if name != "rect":
-        v = _numbers(element.get("points", ""))
-        text = " ".join(map(repr, v[: len(v) - len(v) % 2]))
-        return f"M {text}{' Z' * (name == 'polygon')}" if text else ""
-    x, y, w, h = _lengths(element, "x y width height")
-    rx = ry = 0.0
-    # one half axis of the corners that is not given is as the other
-    given = [key for key in ("rx", "ry") if element.get(key, "auto") != "auto"]
-    if given:
-        rx, ry = _lengths(element, f"{given[0]} {given[-1]}")
-        rx, ry = min(rx, 0.5 * w), min(ry, 0.5 * h)
-    if not (rx > 0.0 and ry > 0.0):
-        return f"M {x!r} {y!r} h {w!r} v {h!r} h {-w!r} Z"
-    corner, across, up = f"a {rx!r} {ry!r} 0 0 1", w - 2.0 * rx, h - 2.0 * ry
-    return (
-        f"M {x + rx!r} {y!r} h {across!r} {corner} {rx!r} {ry!r} v {up!r} {corner} {-rx!r} {ry!r}"
-        f" h {-across!r} {corner} {-rx!r} {-ry!r} v {-up!r} {corner} {rx!r} {-ry!r} Z"
-    )
+    v = _numbers(element.get("points", ""))
+    text = " ".join(map(repr, v[: len(v) - len(v) % 2]))
+    return f"M {text}{' Z' * (name == 'polygon')}" if text else ""
 
 
 class _Affine(NamedTuple):

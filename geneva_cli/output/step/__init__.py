@@ -9,10 +9,10 @@ import math
 from collections.abc import Iterator
 
 from geneva_cli.errors import clean
-from geneva_cli.geometry.plates import Group, Part, Shell, solids
+from geneva_cli.geometry.plates import Group, Part, Shell
 from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.geometry.sphere import POLE
-from geneva_cli.output.inks import inks
+from geneva_cli.output.inks import INKS
 from geneva_cli.output.solid_part import solid_part
 from geneva_cli.output.step.brep import plate_solid, shell_solid
 from geneva_cli.output.step.entities import Entities, listed, real, words
@@ -28,9 +28,7 @@ def chunks(drawing: Drawing) -> Iterator[str]:
         f"FILE_NAME('','',(''),(''),'','geneva','');\n"
         "FILE_SCHEMA(('AUTOMOTIVE_DESIGN { 1 0 10303 214 3 1 1 }'));\nENDSEC;\nDATA;\n"
     )
-    block = 1024  # lines at a time
-    for start in range(0, len(file.lines), block):
-        yield "".join(file.lines[start : start + block])
+    yield from file.lines
     yield "ENDSEC;\nEND-ISO-10303-21;\n"
 
 
@@ -39,7 +37,6 @@ class _Products:
 
     def __init__(self, file: Entities, whole: Part) -> None:
         self.file = file
-        self.inks = inks(tuple(dict.fromkeys(one.layer for one in solids(whole))))
         self.known: dict[Part, tuple[str, str]] = {}  # a part's definition and its shape
         self.styled: list[str] = []
         application = file.add("APPLICATION_CONTEXT('automotive design')")
@@ -79,7 +76,7 @@ class _Products:
                     body = shell_solid(self.file, part)
                 else:
                     body = plate_solid(self.file, part)
-                self._style(body, self.inks[part.layer].rgb)
+                self._style(body, INKS[part.layer].rgb)
                 shape = f"ADVANCED_BREP_SHAPE_REPRESENTATION('',({self.file.origin},{body}),"
                 self.known[part] = self._defined(part.name, f"{shape}{self.space})")
         return self.known[part]

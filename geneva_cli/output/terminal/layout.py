@@ -87,7 +87,7 @@ def width_of(text: str) -> int:
 def wrapped(text: str, width: int) -> list[str]:
     """A text in lines of at most ``width`` letters, broken between words.
 
-    A longer word stays whole, but for a path or a list, which is broken behind a sign, and a rule.
+    A longer word stays whole, but for a path or a list, which is broken behind a sign.
 
     >>> wrapped("a long text", 6)
     ['a long', 'text']
@@ -98,10 +98,8 @@ def wrapped(text: str, width: int) -> list[str]:
     line: str | None = None
     for word in text.split(" "):
         parts = [word]
-        if width_of(word) > width and any(map(str.isalnum, word)):
+        if width_of(word) > width:
             parts = re.split(r"(?<=[/,=])|(?<=::)", word)  # behind a sign
-        elif width_of(word) > width:
-            parts = [word[i : i + width] for i in range(0, len(word), width)]
         for i, part in enumerate(parts):
             longer = part if line is None else line + " " * (i == 0) + part
             if line is not None and width_of(longer) > width:

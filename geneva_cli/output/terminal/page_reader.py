@@ -9,16 +9,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from geneva_cli.output.terminal.layout import (
-    BOLD,
-    PLAIN,
-    ShownColumn,
-    Window,
-    heads,
-    row,
-    widths,
-    wrapped,
-)
+from geneva_cli.output.terminal import layout
+from geneva_cli.output.terminal.layout import BOLD, PLAIN, ShownColumn, Window
 from geneva_cli.output.text import WIDTH
 
 FENCE = "```"
@@ -66,12 +58,12 @@ def _shown(block: list[str], window: Window) -> Iterator[str]:
     elif first.startswith("|"):
         yield from (f"{line}\n" for line in _table(block, window))
     elif first.startswith("#") and window.styled:
-        for line in wrapped(_bare(first.lstrip("# ")), window.columns):
+        for line in layout.wrapped(_bare(first.lstrip("# ")), window.columns):
             yield f"{BOLD}{line}{PLAIN}\n"
     else:
         indent = INDENT * first.startswith(("- ", "* "))
         text = LINK.sub(r"\1", " ".join(line.strip() for line in block))
-        text = f"\n{indent}".join(wrapped(text, min(window.columns, WIDTH) - len(indent)))
+        text = f"\n{indent}".join(layout.wrapped(text, min(window.columns, WIDTH) - len(indent)))
         if window.styled:  # code and bold words in bold, also across lines
             text = CODE.sub(
                 lambda m: BOLD + (m[1] or m[2]).replace("\n", f"{PLAIN}\n{BOLD}") + PLAIN, text
@@ -83,9 +75,9 @@ def _broken(line: str, width: int) -> list[str]:
     """A line of code, broken between words in a narrow window; a rule is shortened."""
     if not any(map(str.isalnum, line)):
         return [line[:width].rstrip()]
-    first, *more = wrapped(line, width)
-    rest = " ".join(more)
-    return [first, *(2 * INDENT + part for part in wrapped(rest, width - 2 * len(INDENT)) if rest)]
+    first, *more = layout.wrapped(line, width)
+    rest = layout.wrapped(" ".join(more), width - 2 * len(INDENT)) if more else []
+    return [first, *(2 * INDENT + part for part in rest)]
 
 
 def _table(block: list[str], window: Window) -> Iterator[str]:
@@ -94,15 +86,15 @@ def _table(block: list[str], window: Window) -> Iterator[str]:
     columns = [
         ShownColumn(name, name, "", cells, True) for name, *cells in zip(names, *rows, strict=True)
     ]
-    sizes = widths(columns, window.columns, PROSE)
+    sizes = layout.widths(columns, window.columns, PROSE)
     if sizes is not None:
-        yield from heads(columns, sizes, window.styled)
+        yield from layout.heads(columns, sizes, window.styled)
         for texts in rows:
-            yield from row(texts, sizes, [True] * len(sizes))
+            yield from layout.row(texts, sizes, [True] * len(sizes))
         return
     for texts in rows:
         for name, text in zip(names, texts, strict=True):
-            yield from wrapped(f"{name}: {text}" if name else text, window.columns)
+            yield from layout.wrapped(f"{name}: {text}" if name else text, window.columns)
         yield ""
 
 

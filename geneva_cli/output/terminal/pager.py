@@ -6,7 +6,7 @@ import os
 import re
 import shutil
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from contextlib import suppress
 from itertools import chain
 
@@ -23,12 +23,16 @@ def write(chunks: Iterable[str]) -> None:
     if not command:
         sys.stdout.writelines(chunks)
         return
-    rest = iter(chunks)
-    first, is_long = _one_screen(rest)
-    if is_long:
-        _through(command, chain(first, rest))
-    else:
-        sys.stdout.writelines(first)
+    rest, first = iter(chunks), list[str]()
+    columns, lines = shutil.get_terminal_size()
+    for chunk in rest:
+        first.append(chunk)
+        for line in ESCAPE.sub("", chunk).splitlines():
+            lines -= 1 + max(len(line) - 1, 0) // columns
+        if lines <= 0:  # the shell's prompt takes a line too
+            _through(command, chain(first, rest))
+            return
+    sys.stdout.writelines(first)
 
 
 def _command() -> str:
@@ -41,19 +45,6 @@ def _command() -> str:
     # as for git, cat or an empty text means no pager
     program = next((word for word in chosen.split() if "=" not in word), "cat")
     return chosen if chosen.strip() != "cat" and shutil.which(program) else ""
-
-
-def _one_screen(chunks: Iterator[str]) -> tuple[list[str], bool]:
-    """The chunks of the first screen, and whether it is full."""
-    columns, lines = shutil.get_terminal_size()
-    text = []
-    for chunk in chunks:
-        text.append(chunk)
-        for line in ESCAPE.sub("", chunk).splitlines():
-            lines -= 1 + max(len(line) - 1, 0) // columns
-        if lines <= 0:  # the shell's prompt takes a line too
-            return text, True
-    return text, False
 
 
 def _through(command: str, chunks: Iterable[str]) -> None:

@@ -26,7 +26,9 @@ def chunks(summaries: Iterable[Summary], output: str, is_seen: bool) -> Iterator
 
     Its look is for a terminal if ``is_seen``, a pipe, or a file, which is always UTF-8.
     """
-    columns, unicode, styled = WIDTH, output != "-" or _has_signs(), False
+    columns, styled = WIDTH, False
+    shown = "✓✗°²³⁻⁵".encode(sys.stdout.encoding or "ascii", "replace")
+    unicode = output != "-" or b"?" not in shown
     if is_seen:
         from geneva_cli.output.terminal.layout import window
 
@@ -57,20 +59,10 @@ def chunks(summaries: Iterable[Summary], output: str, is_seen: bool) -> Iterator
             if len(line.label) > wide:
                 yield f"  {label}\n"
                 first = margin
-            texts = _wrapped(line.text, columns - len(margin), unicode)
-            notes = _wrapped(line.note, columns - len(margin), unicode)
-            for text in (*texts, *(inked(note, DIM) for note in notes)):
-                yield f"{first}{text}".rstrip() + "\n"
-                first = margin
-
-
-def _has_signs() -> bool:
-    """Return True if standard output can show the signs and raised digits of a summary."""
-    try:
-        "✓✗°²³⁻⁵".encode(sys.stdout.encoding or "ascii")
-    except (UnicodeEncodeError, LookupError):
-        return False
-    return True
+            for words, ink in ((line.text, ""), (line.note, DIM)):
+                for text in _wrapped(words, columns - len(margin), unicode):
+                    yield f"{first}{inked(text, ink)}".rstrip() + "\n"
+                    first = margin
 
 
 def _wrapped(text: str, width: int, unicode: bool) -> list[str]:

@@ -9,25 +9,8 @@ from typing import Any
 
 from geneva_cli.errors import clean
 from geneva_cli.names import heading, spoken
-from geneva_cli.output.terminal.layout import (
-    BOLD,
-    DIM,
-    GAP,
-    NUMBER,
-    ShownColumn,
-    Window,
-    bare,
-    fitting,
-    heads,
-    paragraphs,
-    row,
-    styled,
-    value,
-    width_of,
-    widths,
-    with_unit,
-    wrapped,
-)
+from geneva_cli.output.terminal import layout
+from geneva_cli.output.terminal.layout import BOLD, DIM, GAP, NUMBER, ShownColumn, Window
 from geneva_cli.output.text import WIDTH, apart, without_noise
 from geneva_cli.table import Table
 
@@ -35,8 +18,8 @@ from geneva_cli.table import Table
 def chunks(table: Table, window: Window) -> Iterator[str]:
     """The table as text, line by line."""
     title, prose = table.reading.title or table.title, table.prose
-    text = [*paragraphs(title, window, BOLD), *[""] * bool(title)]
-    text += [*paragraphs(prose, window), *[""] * bool(prose)]
+    text = [*layout.paragraphs(title, window, BOLD), *[""] * bool(title)]
+    text += [*layout.paragraphs(prose, window), *[""] * bool(prose)]
     for line in chain(text, _record(table, window) if table.record else rows_of(table, window)):
         yield line + "\n"
 
@@ -51,8 +34,8 @@ def _record(table: Table, window: Window) -> Iterator[str]:
         if not is_first:
             yield ""
         if name:
-            yield styled(heading(name), BOLD, window.styled)
-            yield from paragraphs(part.reading.title, window)
+            yield layout.styled(heading(name), BOLD, window.styled)
+            yield from layout.paragraphs(part.reading.title, window)
         yield from lines
         is_first = False
 
@@ -63,26 +46,29 @@ def _values(record: Table, window: Window) -> Iterator[str]:
         if cell is not None and cell != "":
             group, _, last = name.rpartition(".")
             words, unit = spoken(last)
-            texts = [value(one) for one in cell] or ["none"] if isinstance(cell, tuple) else []
-            if isinstance(cell, tuple) and cell and all(isinstance(v, (int, float)) for v in cell):
-                texts = [f"{', '.join(bare(one, '') for one in cell)} {unit}".rstrip()]
-            shown.append((group, "  " * bool(group) + words, texts or [value(cell, unit)]))
-    width = max((width_of(label) for _, label, _ in shown), default=0)
+            if not isinstance(cell, tuple):
+                texts = [layout.value(cell, unit)]
+            elif cell and all(isinstance(v, (int, float)) for v in cell):
+                texts = [f"{', '.join(layout.bare(one, '') for one in cell)} {unit}".rstrip()]
+            else:
+                texts = [*map(layout.value, cell)] or ["none"]
+            shown.append((group, "  " * bool(group) + words, texts))
+    width = max((layout.width_of(label) for _, label, _ in shown), default=0)
     free, current = window.columns - width - len(GAP), ""
     for group, label, texts in shown:
         if group != current:
-            yield styled(heading(group), BOLD, window.styled)
+            yield layout.styled(heading(group), BOLD, window.styled)
             current = group
         # A long value stands below its label if fewer than 30 letters are free behind it.
-        if len(texts) == 1 and (width_of(texts[0]) <= free or free >= 30):
-            first, *more = wrapped(texts[0], free)
-            yield f"{label}{' ' * (width - width_of(label))}{GAP}{first}"
+        if len(texts) == 1 and (layout.width_of(texts[0]) <= free or free >= 30):
+            first, *more = layout.wrapped(texts[0], free)
+            yield f"{label}{' ' * (width - layout.width_of(label))}{GAP}{first}"
             yield from (" " * (width + len(GAP)) + line for line in more)
             continue
         yield label
         indent = " " * (len(label) - len(label.lstrip()) + len(GAP))
         for text in texts:
-            first, *more = wrapped(text, min(window.columns, WIDTH) - len(indent) - len(GAP))
+            first, *more = layout.wrapped(text, min(window.columns, WIDTH) - len(indent) - len(GAP))
             yield f"{indent}- {first}"
             yield from (f"{indent}  {line}" for line in more)
 
@@ -101,38 +87,39 @@ def rows_of(table: Table, window: Window) -> Iterator[str]:
     all_columns = _columns(table, first)
     columns, once = (all_columns, []) if window.whole else _sorted_out(all_columns, table)
     if once:
-        yield from paragraphs(f"In every row: {'; '.join(once)}.", window)
+        yield from layout.paragraphs(f"In every row: {'; '.join(once)}.", window)
         yield ""
     is_long = len(table) > layout_rows
     if is_long:
         columns = [c if c.is_text else c._replace(cells=[*c.cells, "0" * NUMBER]) for c in columns]
     order = [*table.reading.first, *(n for n in table.names if n not in table.reading.first)]
     width = 1_000_000 if window.wide else window.columns  # a million letters: without a limit
-    kept, sizes = fitting(columns, order, width)
+    kept, sizes = layout.fitting(columns, order, width)
     lost = [column for column in columns if column not in kept]
     if lost and len(first) == 1 and not table.reading.designs:
         yield from _values(table, window)
         return
     if not is_long and not table.mixed:
         pointed = [column._replace(cells=_aligned(column.cells)) for column in kept]
-        sizes, kept = (wider, pointed) if (wider := widths(pointed, width)) else (sizes, kept)
-    yield from heads(kept, sizes, window.styled)
+        if wider := layout.widths(pointed, width):
+            sizes, kept = wider, pointed
+    yield from layout.heads(kept, sizes, window.styled)
     is_text, names = [column.is_text for column in kept], {column.name for column in kept}
     for texts in zip(*(column.cells[: len(first)] for column in kept), strict=True):
-        yield from row(texts, sizes, is_text)
+        yield from layout.row(texts, sizes, is_text)
     for block in blocks:
         cells = [column.cells for column in _columns(table, block) if column.name in names]
         for texts in zip(*cells, strict=True):
-            yield from row(texts, sizes, is_text)
+            yield from layout.row(texts, sizes, is_text)
     if lost:
         rest = sorted((column.name for column in lost), key=order.index)
         one = "1 more column" if len(rest) == 1 else f"{len(rest)} more columns"
         start, shown = f"{one}: --wide, or --columns ", ""
-        while rest and width_of(start + shown + rest[0]) + len(",...") <= window.columns:
+        while rest and layout.width_of(start + shown + rest[0]) + len(",...") <= window.columns:
             shown += rest.pop(0) + ","
         line = f"{start}{shown}..." if rest else start + shown[:-1]
         yield ""
-        yield styled(line if shown else f"{one}: --wide", DIM, window.styled)
+        yield layout.styled(line if shown else f"{one}: --wide", DIM, window.styled)
 
 
 def _aligned(texts: Sequence[str]) -> Sequence[str]:
@@ -161,7 +148,7 @@ def _columns(table: Table, block: list[tuple[Any, ...]]) -> list[ShownColumn]:
         literal = table.reading.designs and name not in naming
         words, unit = (name, "") if literal else spoken(name)
         is_text = any(isinstance(v, (str, bool)) for v in values)
-        texts = [bare(v, unit or other) for v, other in zip(values, by_row, strict=True)]
+        texts = [layout.bare(v, unit or other) for v, other in zip(values, by_row, strict=True)]
         if name in naming:
             texts = [clean(heading(text)) for text in texts]
         decides = name in table.reading.decide
@@ -179,5 +166,5 @@ def _sorted_out(columns: list[ShownColumn], table: Table) -> tuple[list[ShownCol
         if len(cells) > 1 or len(column.cells) == 1 or table.reading.designs:
             kept.append(column)
         elif column.name not in table.reading.in_title:
-            once.append(f"{column.words} {with_unit(cells.pop(), column.unit)}")
+            once.append(f"{column.words} {layout.with_unit(cells.pop(), column.unit)}")
     return kept or columns[:1], once
