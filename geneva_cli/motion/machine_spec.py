@@ -133,7 +133,7 @@ class Spec(SpecTable):
         for key in LOADED:
             if limits[key] is not None:
                 text = f"{key} needs a load, and without one there is nothing to limit: set "
-                refuse_text(nothing, ("limits", key), text + self.load_keys)
+                refuse_text(nothing, ("limits", key), text + self.output.load_keys)
 
     def part(self, table: str) -> SpecTable | None:
         """The table of a name, as ``material.wheel`` or ``mass.0`` of a list; None without it."""
@@ -197,11 +197,6 @@ class Spec(SpecTable):
     def dwell_holder(self) -> str | None:
         """What holds the wheel in the dwell; None if nothing does."""
         return self.wheel.held_by or (self.wheel.LOCK if self.has_lock else None)
-
-    @property
-    def load_keys(self) -> str:
-        """Keys that set a load of this kind of wheel, in words."""
-        return self.output.load_keys
 
     @property
     def unbalanced(self) -> bool:

@@ -85,7 +85,7 @@ def _row(
 def _classic(z: int, gearing: str, sign: float, n_rpm: float, rollers: int) -> tuple[object, ...]:
     """A row from closed forms, without building a machine."""
     motion, index = 2.0 * classic.half_motion_deg(sign, 1, z), 360.0 / z
-    classic.refuse_jam(rollers, motion, sign < 0.0)
+    classic.refuse_jam(rollers, motion)
     l, cos_b = sin_cos_pi(1, z)
     gap = classic.gap(sign, 1, z)
     entry = l / cos_b  # the jump at entry is tan b, the jerk after it 3 tan² b
