@@ -10,9 +10,10 @@ import io
 import os
 import sys
 from collections.abc import Callable
+from contextlib import nullcontext
 from typing import Any, NoReturn
 
-from geneva_cli.errors import cut
+from geneva_cli.errors import GenevaError, cut
 
 NARROWEST = 60  # characters of a line that is never broken
 LACKING = "backslashreplace"  # for letters that the encoding lacks, such as those of a title
@@ -66,6 +67,20 @@ def _fill_closed() -> None:
             os.fstat(number)
         except OSError:
             os.open(os.devnull, os.O_RDWR)
+
+
+def read_bytes(source: Any, name: str, most: int, advice: str, key: tuple[str, ...] = ()) -> bytes:
+    """Bytes of a path or an open file up to a size; errors may name a key of the spec."""
+    try:
+        with open(source, "rb") if isinstance(source, str) else nullcontext(source) as file:
+            data: bytes = file.read(most + 1)
+    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
+        what = error.strerror if isinstance(error, OSError) else error
+        what = "this is a folder, not a file" if os.path.isdir(name) else what
+        raise GenevaError(f"{name}: cannot read: {what}", key) from None
+    if len(data) > most:
+        raise GenevaError(f"{name}: larger than {most} bytes: {advice}")
+    return data
 
 
 def leave(status: int) -> NoReturn:

@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.spec.rules import Csv
+from geneva_cli.streams import read_bytes
 
 
 class Columns(NamedTuple):
@@ -128,15 +129,7 @@ def digest(paths: Iterable[str]) -> str:
 def _text(path: str, bytes_max: int, advice: str, key: tuple[str, ...] = ()) -> str:
     """Text of a file. Raises GenevaError, for points with the spec's key that names them."""
     shown = cut(path, 300)
-    try:
-        with open(path, "rb") as file:
-            data = file.read(bytes_max + 1)
-    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
-        reason = error.strerror if isinstance(error, OSError) else error
-        what = f"cannot read the points in {shown}" if key else f"{shown}: cannot read"
-        raise GenevaError(f"{what}: {reason}", key) from None
-    if len(data) > bytes_max:
-        raise GenevaError(f"{shown}: larger than {bytes_max} bytes: {advice}")
+    data = read_bytes(path, shown, bytes_max, advice, key)
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError:
