@@ -50,10 +50,6 @@ class Notice(str):
         """The arguments for a copy in another process."""
         return self.name, self.plain, self.accepted
 
-    def accepted_for(self, reason: str) -> Notice:
-        """The same warning, accepted."""
-        return Notice(self.name, self.plain, reason)
-
 
 def open_warnings(texts: Iterable[str]) -> list[str]:
     """The warnings that are not accepted; notes on unknown values are none."""

@@ -24,7 +24,7 @@ def open_streams() -> None:
     _fill_closed()
     sys.stdin = sys.stdin or open(0, closefd=False, encoding="utf-8")
     sys.stderr = _Messages(
-        io.BufferedWriter(_Standard(_raw(sys.stderr, 2), _ignore)),
+        io.BufferedWriter(_Standard(_raw(sys.stderr, 2), lambda _: None)),
         encoding=sys.stderr.encoding if sys.stderr else "utf-8",
         errors=LACKING,
         newline="\n",
@@ -119,10 +119,6 @@ def _end(error: OSError) -> None:
         os._exit(128 + 13)  # 13 is SIGPIPE's number
     print(f"<stdout>: cannot write: {error.strerror}; try -o FILE", file=sys.stderr)
     os._exit(2)
-
-
-def _ignore(error: OSError) -> None:
-    """Leave the exit status as it is, although nobody sees the messages."""
 
 
 class _Messages(io.TextIOWrapper):

@@ -32,9 +32,8 @@ class Columns(NamedTuple):
         matches = [name for name in self.names if name.endswith(f".{short}")]
         if len(matches) == 1:
             return matches[0]
-        fault = f"no column of {cut(self.path, 300)}{nearest(short, self.names)}"
-        if matches:
-            fault = "ambiguous"
+        fault = "ambiguous" if matches else f"no column of {cut(self.path, 300)}"
+        fault += "" if matches else nearest(short, self.names)
         use = " or ".join(matches or self.names)
         raise GenevaError(f"{option} {cut(short)}: {fault}; use {use}")
 
@@ -52,8 +51,7 @@ class Columns(NamedTuple):
         numbers = list(map(_number, texts))
         if any(value is not None for value in numbers):
             return numbers
-        first = next((f'as "{cut(text)}"' for text in texts if text), "it is empty")
-        fault = f"no numbers in this column of {cut(self.path, 300)} ({first})"
+        fault = f"no numbers in this column of {cut(self.path, 300)}"
         raise GenevaError(f"{option} {cut(name)}: {fault}")
 
 
@@ -102,9 +100,8 @@ def read_pairs(path: str, rule: Csv, key: tuple[str, ...]) -> list[tuple[float, 
             x, y = (float(cell) for cell in row)
         except ValueError:
             shown = cut(",".join(row))
-            other = re.search(r"[;\t]", line)  # spreadsheets of many countries write these
-            hint = "; write a comma between them, and points as in 0.5" if other else ""
-            raise GenevaError(f'{where}: "{shown}" is not two numbers u,s{hint}') from None
+            text = f'{where}: "{shown}" is not two numbers u,s, as in 0.5,0.25'
+            raise GenevaError(text) from None
         points.append((x, y))
         fault = rule.fault(points, len(points) - 1)
         if fault:

@@ -107,11 +107,6 @@ class Text(NamedTuple):
     text: str
     set_keys: tuple[Setting, ...] = ()
 
-    @property
-    def alone(self) -> Text:
-        """The text without the settings."""
-        return self._replace(set_keys=())
-
     @contextmanager
     def located(self) -> Iterator[None]:
         """Context in which errors that name a key get the file and line on which it is set."""
