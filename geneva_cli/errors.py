@@ -53,11 +53,7 @@ class Notice(str):
 
 def open_warnings(texts: Iterable[str]) -> list[str]:
     """The warnings that are not accepted; notes on unknown values are none."""
-    left = []
-    for text in texts:
-        if not (isinstance(text, Notice) and text.accepted):
-            left.append(text)
-    return left
+    return [text for text in texts if not (isinstance(text, Notice) and text.accepted)]
 
 
 def is_warning(text: str) -> bool:

@@ -10,7 +10,6 @@ import io
 import os
 import sys
 from collections.abc import Callable
-from contextlib import nullcontext
 from typing import Any, NoReturn
 
 from geneva_cli.errors import GenevaError, cut
@@ -69,14 +68,14 @@ def _fill_closed() -> None:
             os.open(os.devnull, os.O_RDWR)
 
 
-def read_bytes(source: Any, name: str, most: int, advice: str, key: tuple[str, ...] = ()) -> bytes:
-    """Bytes of a path or an open file up to a size; errors may name a key of the spec."""
+def read_bytes(path: str, most: int, advice: str, key: tuple[str, ...] = ()) -> bytes:
+    """Bytes of a file up to a size; errors may name a key of the spec."""
+    name = cut(path, 300)
     try:
-        with open(source, "rb") if isinstance(source, str) else nullcontext(source) as file:
-            data: bytes = file.read(most + 1)
+        with open(path, "rb") as file:
+            data = file.read(most + 1)
     except (OSError, ValueError) as error:  # ValueError: a NUL in the name
         what = error.strerror if isinstance(error, OSError) else error
-        what = "this is a folder, not a file" if os.path.isdir(name) else what
         raise GenevaError(f"{name}: cannot read: {what}", key) from None
     if len(data) > most:
         raise GenevaError(f"{name}: larger than {most} bytes: {advice}")

@@ -125,9 +125,8 @@ def digest(paths: Iterable[str]) -> str:
 
 def _text(path: str, bytes_max: int, advice: str, key: tuple[str, ...] = ()) -> str:
     """Text of a file. Raises GenevaError, for points with the spec's key that names them."""
-    shown = cut(path, 300)
-    data = read_bytes(path, shown, bytes_max, advice, key)
+    data = read_bytes(path, bytes_max, advice, key)
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError:
-        raise GenevaError(f"{shown}: not UTF-8 text; save the file as UTF-8") from None
+        raise GenevaError(f"{cut(path, 300)}: not UTF-8 text; save the file as UTF-8") from None

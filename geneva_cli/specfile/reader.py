@@ -15,7 +15,6 @@ import tomli
 from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.specfile.tree import spec_of
-from geneva_cli.streams import read_bytes
 
 
 def line_of(text: str, path: tuple[str | int, ...]) -> int:
@@ -181,17 +180,26 @@ def read(path: str, set_keys: Iterable[str] = ()) -> Text:
 
     Raises GenevaError, with the message ready to print, if it cannot be read.
     """
-    standard = path == "-"
-    name = "<stdin>" if standard else path if path.strip() else repr(path)
-    if not (standard or os.path.lexists(path)):
-        from geneva_cli.specfile.template import titles  # only for this message
+    name = "<stdin>" if path == "-" else path if path.strip() else repr(path)
+    bytes_max = 1 << 20  # a spec is a page; a megabyte of it is a mistake
+    try:
+        if path == "-":
+            data = sys.stdin.buffer.read(bytes_max + 1)
+        else:
+            with open(path, "rb") as file:
+                data = file.read(bytes_max + 1)
+    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
+        what = str(error.strerror if isinstance(error, OSError) else error)
+        what = "this is a folder, not a file" if os.path.isdir(path) else what
+        if isinstance(error, FileNotFoundError):
+            from geneva_cli.specfile.template import titles  # only for this message
 
-        own = os.path.basename(path).removesuffix(".toml")
-        words = f"--from-design {own} -o {own}" if own in titles() else "external -o spec"
-        what = f"No such file or directory; `geneva new {words}.toml` writes one"
-        raise GenevaError(f"{name}: cannot read: {what}")
-    source = sys.stdin.buffer if standard else path
-    data = read_bytes(source, name, 1 << 20, "too large for a spec, which is a page")
+            own = os.path.basename(path).removesuffix(".toml")
+            words = f"--from-design {own} -o {own}" if own in titles() else "external -o spec"
+            what += f"; `geneva new {words}.toml` writes one"
+        raise GenevaError(f"{name}: cannot read: {what}") from None
+    if len(data) > bytes_max:
+        raise GenevaError(f"{name}: larger than {bytes_max} bytes, too large for a spec")
     try:
         # Some editors put a byte order mark before the text.
         text = data.decode("utf-8-sig").replace("\r\n", "\n")

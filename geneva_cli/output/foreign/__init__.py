@@ -25,7 +25,7 @@ def read_drawing(path: str) -> Drawn:
     ending = os.path.splitext(path)[1].lower()
     if ending not in (".dxf", ".svg"):
         raise GenevaError(f"{shown}: an outline is read from a .dxf or .svg file")
-    data = read_bytes(path, shown, BYTES_MAX, "too large for an outline")
+    data = read_bytes(path, BYTES_MAX, "too large for an outline")
     if ending == ".dxf":
         from geneva_cli.output.foreign.dxf_pieces import read_dxf as read
     else:
