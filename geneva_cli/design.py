@@ -298,7 +298,7 @@ class Design:
         written: dict[str, Chosen] = {}
         if self.text and self.text.set_keys:
             with suppress(GenevaError):  # the file may be no machine without its options
-                written = by_load(build(self.text.alone.spec()))
+                written = by_load(build(self.text._replace(set_keys=()).spec()))
         return ByLoad(by_load(self.mechanism), written)
 
     @answer

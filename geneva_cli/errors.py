@@ -50,18 +50,10 @@ class Notice(str):
         """The arguments for a copy in another process."""
         return self.name, self.plain, self.accepted
 
-    def accepted_for(self, reason: str) -> Notice:
-        """The same warning, accepted."""
-        return Notice(self.name, self.plain, reason)
-
 
 def open_warnings(texts: Iterable[str]) -> list[str]:
     """The warnings that are not accepted; notes on unknown values are none."""
-    left = []
-    for text in texts:
-        if not (isinstance(text, Notice) and text.accepted):
-            left.append(text)
-    return left
+    return [text for text in texts if not (isinstance(text, Notice) and text.accepted)]
 
 
 def is_warning(text: str) -> bool:

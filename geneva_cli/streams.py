@@ -12,7 +12,7 @@ import sys
 from collections.abc import Callable
 from typing import Any, NoReturn
 
-from geneva_cli.errors import cut
+from geneva_cli.errors import GenevaError, cut
 
 NARROWEST = 60  # characters of a line that is never broken
 LACKING = "backslashreplace"  # for letters that the encoding lacks, such as those of a title
@@ -23,7 +23,7 @@ def open_streams() -> None:
     _fill_closed()
     sys.stdin = sys.stdin or open(0, closefd=False, encoding="utf-8")
     sys.stderr = _Messages(
-        io.BufferedWriter(_Standard(_raw(sys.stderr, 2), _ignore)),
+        io.BufferedWriter(_Standard(_raw(sys.stderr, 2), lambda _: None)),
         encoding=sys.stderr.encoding if sys.stderr else "utf-8",
         errors=LACKING,
         newline="\n",
@@ -68,6 +68,20 @@ def _fill_closed() -> None:
             os.open(os.devnull, os.O_RDWR)
 
 
+def read_bytes(path: str, most: int, advice: str, key: tuple[str, ...] = ()) -> bytes:
+    """Bytes of a file up to a size; errors may name a key of the spec."""
+    name = cut(path, 300)
+    try:
+        with open(path, "rb") as file:
+            data = file.read(most + 1)
+    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
+        what = error.strerror if isinstance(error, OSError) else error
+        raise GenevaError(f"{name}: cannot read: {what}", key) from None
+    if len(data) > most:
+        raise GenevaError(f"{name}: larger than {most} bytes: {advice}")
+    return data
+
+
 def leave(status: int) -> NoReturn:
     """End the process at once; cleaning up the interpreter would take a sixth of the run."""
     sys.stdout.flush()
@@ -104,10 +118,6 @@ def _end(error: OSError) -> None:
         os._exit(128 + 13)  # 13 is SIGPIPE's number
     print(f"<stdout>: cannot write: {error.strerror}; try -o FILE", file=sys.stderr)
     os._exit(2)
-
-
-def _ignore(error: OSError) -> None:
-    """Leave the exit status as it is, although nobody sees the messages."""
 
 
 class _Messages(io.TextIOWrapper):

@@ -60,7 +60,7 @@ class Cam(PinPath, kw_only=True):
         slot = SolvedPathSlot(path)
         engagement = Engagement(0.0, path, slot, turned, body, _slide, groove=path)
         ratio = parameter(path.crossing)
-        return self.planned(engagement, ratio, L, wheel.SIGN < 0.0)
+        return self.planned(engagement, ratio, L)
 
 
 def _slide(input_deg: Number, path: Vector, loads: Loads) -> Held:

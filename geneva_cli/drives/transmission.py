@@ -124,7 +124,7 @@ class Transmission(Drive, kw_only=True):
         natural = 2.0 * self.about(half)[0]
         motion_deg = natural - motion.alpha0_deg
         solved.refuse_alpha0(motion.alpha0_deg, natural)
-        refuse_jam(self.rollers, motion_deg, wheel.SIGN < 0.0)
+        refuse_jam(self.rollers, motion_deg)
         ratio = self._ratio(wheel, motion, motion_deg)
         text = 'ratio = "matched": at mid-motion the wheel turns back, or too fast for any R/L '
         text += "below 1; set a number, or change alpha0_deg or the law"
@@ -132,7 +132,7 @@ class Transmission(Drive, kw_only=True):
         at_deg, advance = self.about(0.0)
         pose = middle(wheel.SIGN, ratio, wheel.rest(ratio))
         travel = PinTravel(pose, advance)
-        path = solved.MiddlePath(Anchor(0.0 * at_deg, pose.wheel, pose.along, travel))
+        path = Anchor(0.0 * at_deg, pose.wheel, pose.along, travel)
         end_deg, b = 0.5 * motion_deg, wheel.step.b
         turned = solved.LawMotion(-end_deg, end_deg, b, motion.law)
         slot = solved.SolvedSlot(path, turned)
@@ -182,9 +182,9 @@ class PinPath(Drive, kw_only=True):
 
     ONE_ARM: ClassVar[bool] = False
 
-    def planned(self, own: Engagement, ratio: float, L: float, inside: bool = False) -> Plan:
+    def planned(self, own: Engagement, ratio: float, L: float) -> Plan:
         """The plan with one engagement for each roller."""
-        refuse_jam(self.rollers, own.motion_deg, inside)
+        refuse_jam(self.rollers, own.motion_deg)
         return Plan((own,), 360.0 / self.rollers, ratio, rollers_max(own.motion_deg), L)
 
 
@@ -212,7 +212,7 @@ def places(
     one = wheel.place(wheel.step, L) if passing is None else passing
     if angles:
         return _at_angles(angles, [one] * len(angles))
-    refuse_jam(m, 2.0 * one.half_motion_deg, wheel.SIGN < 0.0)
+    refuse_jam(m, 2.0 * one.half_motion_deg)
     out = [one]  # behind a transmission the crank's angle decides how each moves the wheel
     for j in range(1, 1 if drive.direct else m):
         out.append(one._replace(crank_deg=360.0 * j / m))

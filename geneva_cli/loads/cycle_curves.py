@@ -187,7 +187,7 @@ def _peak(machine: Mechanism, name: str, pieces: Sequence[Piece], window: Ends) 
 
 def _placed(machine: Mechanism, at_deg: float, window: Ends) -> float:
     """An input angle as displayed, moved by whole turns to its first place in the window."""
-    whole = machine.whole_deg
+    whole = 360.0 * machine.spec.turns
     return at_deg + whole * math.ceil((window[0] - SAME_INPUT_DEG - at_deg) / whole)
 
 

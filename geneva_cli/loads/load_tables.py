@@ -107,7 +107,7 @@ def recommended_motor(sizing: Answers) -> RecommendedMotor | None:
 
 def no_load(cycle: Cycle) -> str:
     """What a cycle without a load needs."""
-    return f"no force is known: set {cycle.mechanism.spec.load_keys}"
+    return f"no force is known: set {cycle.mechanism.spec.output.load_keys}"
 
 
 def missing(cycle: Cycle) -> list[Notice]:

@@ -298,7 +298,7 @@ class Anchor(NamedTuple):
     along: float  # distance from the wheel's axis to the pin there
     displacement: Displacement  # since then, along the ray and across it
 
-    def place(self, input_deg: Number, order: int) -> Vector:
+    def __call__(self, input_deg: Number, order: int = 3) -> Vector:
         """Pin position (along the anchor's ray, across it) at an input angle in degrees."""
         along, across = self.displacement(radians(input_deg - self.input_deg), order)
         return along + self.along, across

@@ -35,6 +35,7 @@ class SolvedPath(arrays.Batchable):
 
     def __init__(self, motion: LawMotion, sign: float) -> None:
         self.motion, self.sign = motion, sign
+        self.terms = TERMS if motion.law.ANALYTIC else SPLINE_TERMS
 
     @cached_property
     def seams_deg(self) -> tuple[float, float]:
@@ -56,20 +57,16 @@ class SolvedPath(arrays.Batchable):
         return Jet((*(sin(phi) / below).c, *(sin(psi) / below).c))
 
     @cached_property
-    def _terms(self) -> int:
-        return TERMS if self.motion.law.ANALYTIC else SPLINE_TERMS
-
-    @cached_property
     def _series(self) -> Sequence[Number]:
         """Coefficients of psi in powers of phi, about mid-motion."""
-        return self.motion(0.0, self._terms).c
+        return self.motion(0.0, self.terms).c
 
     def _by_series(self, x: Number, order: int) -> Jet:
         """Both distances near mid-motion, where both sines vanish: each is first divided by phi."""
         t = Jet.variable(radians(x), order)
         # an enclosure knows nothing of the rounding of the cached series
         exact = isinstance(x, arrays.Enclosed)
-        c = (self.motion(*arrays.enclosed(x, (0.0,)), self._terms).c if exact else self._series)[1:]
+        c = (self.motion(*arrays.enclosed(x, (0.0,)), self.terms).c if exact else self._series)[1:]
         # psi / phi, each coefficient of its jet a polynomial of the angle
         slope = Jet(
             [
@@ -153,23 +150,12 @@ def _sinc(x: Jet) -> Jet:
     return total
 
 
-class MiddlePath(arrays.Batchable):
-    """The pin's path, written about mid-motion."""
-
-    def __init__(self, middle: Anchor) -> None:
-        self.middle = middle
-
-    def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
-        """Pin (x, y) on its circle at input angles in degrees."""
-        return self.middle.place(input_deg, order)
-
-
 class SolvedSlot(Slot):
     """Slot along the pin's path as seen from the turning wheel."""
 
     curved, walls_flat = True, False
 
-    def __init__(self, path: MiddlePath, motion: WheelMotion) -> None:
+    def __init__(self, path: Anchor, motion: WheelMotion) -> None:
         self.path, self.motion = path, motion
 
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:

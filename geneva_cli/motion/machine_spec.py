@@ -71,6 +71,8 @@ class Spec(SpecTable):
     output: ClassVar[Output]  # what the wheel gives out, with its units
     unloaded: ClassVar[Truth]  # there is neither inertia nor torque nor friction
     is_loaded: ClassVar[bool]  # a design, or one of a batch, is not unloaded
+    unbalanced: ClassVar[bool]  # a single body stands off the wheel's axis
+    dwell_holder: ClassVar[str | None]  # what holds the wheel in the dwell; None if nothing does
     wheel: Gearing
     drive: Drive = field(default_factory=lambda: load_named(CRANK)())
     motion: Motion | None = None
@@ -114,13 +116,15 @@ class Spec(SpecTable):
         gears = (before and before.gears) or (None if self.drive.direct else self.drive.gears)
         lock = self.drive.LOCKS and self.size.lock_radius_mm != 0.0
         own = {"turns": turns, "given_distance_mm": L, "gears": gears, "has_lock": lock}
-        vars(self).update(own, output=self.wheel.output(L))
+        holder = self.wheel.held_by or (self.wheel.LOCK if lock else None)
+        vars(self).update(own, output=self.wheel.output(L), dwell_holder=holder)
         load, support = self.load, self.support
         nothing = (load.inertia_kgm2 == 0.0) & (load.torque_Nm == 0.0)
         nothing = nothing & (load.mass_kg == 0.0) & (load.force_N == 0.0)
         support_Nmm = support.friction * support.force_N * support.radius_mm
         nothing = nothing & (support_Nmm == 0.0) & (not self.mass)
         vars(self).update(unloaded=nothing, is_loaded=not all_true(nothing))
+        vars(self)["unbalanced"] = any(map(attrgetter("to_one_side"), self.mass))
         limits = vars(self.limits)
         for limit, (key, of, what) in NEEDED.items():
             if limits[limit] is not None and self.table(of)[key] is None:
@@ -133,7 +137,7 @@ class Spec(SpecTable):
         for key in LOADED:
             if limits[key] is not None:
                 text = f"{key} needs a load, and without one there is nothing to limit: set "
-                refuse_text(nothing, ("limits", key), text + self.load_keys)
+                refuse_text(nothing, ("limits", key), text + self.output.load_keys)
 
     def part(self, table: str) -> SpecTable | None:
         """The table of a name, as ``material.wheel`` or ``mass.0`` of a list; None without it."""
@@ -192,21 +196,6 @@ class Spec(SpecTable):
             return float(crank_deg)
         shaft_deg = self.drive.input_deg(crank_deg)
         return shaft_deg if before is None else before.input_deg(shaft_deg)
-
-    @property
-    def dwell_holder(self) -> str | None:
-        """What holds the wheel in the dwell; None if nothing does."""
-        return self.wheel.held_by or (self.wheel.LOCK if self.has_lock else None)
-
-    @property
-    def load_keys(self) -> str:
-        """Keys that set a load of this kind of wheel, in words."""
-        return self.output.load_keys
-
-    @property
-    def unbalanced(self) -> bool:
-        """True if a single body stands off the wheel's axis."""
-        return any(map(attrgetter("to_one_side"), self.mass))
 
     @property
     def is_flat(self) -> bool:

@@ -106,11 +106,6 @@ class Mechanism(NamedTuple):
         return None if math.isnan(matched) else float(matched)
 
     @property
-    def whole_deg(self) -> float:
-        """Input angle after which all is as before: a turn of the crank."""
-        return 360.0 * self.spec.turns
-
-    @property
     def lasting_deg(self) -> float:
         """The period with its stops, as the angle that the input would turn meanwhile."""
         stop_deg = 6.0 * self.spec.drive.n_rpm * self.spec.drive.stop_s  # of one dwell

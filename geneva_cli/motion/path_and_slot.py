@@ -50,7 +50,7 @@ class AnchoredPath(Batchable):
 
     def __call__(self, input_deg: Number, order: int = 3) -> base.Vector:
         """Pin (x, y) on its path at input angles in degrees from mid-motion."""
-        along, across = self.middle.place(input_deg, order)
+        along, across = self.middle(input_deg, order)
         return turned(along, across, self.ahead)
 
     def nearest(self, input_deg: Number, order: int) -> tuple[Jet, Jet, Number]:
@@ -67,7 +67,7 @@ class AnchoredPath(Batchable):
             anchor = self.anchors[high]  # any anchor will do for no angles
             if low < high:  # anchors differ in numbers only, so that one call serves all of them
                 anchor = picked(index - low, self.anchors[low : high + 1])
-        return (*anchor.place(input_deg, order), anchor.wheel)
+        return (*anchor(input_deg, order), anchor.wheel)
 
 
 @dataclass(eq=False)
@@ -77,7 +77,7 @@ class RadialSlot(base.Slot):
     path: AnchoredPath
 
     def __call__(self, input_deg: Number, order: int = 3) -> base.Vector:
-        x, y = self.path.middle.place(input_deg, order)
+        x, y = self.path.middle(input_deg, order)
         depth = sqrt(x * x + y * y)
         return turned(depth, depth * 0.0, self.path.ahead - self.path.middle.wheel)
 

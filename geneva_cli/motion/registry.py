@@ -8,11 +8,12 @@ from __future__ import annotations
 from functools import cache, partial
 from typing import Any
 
-from geneva_cli.errors import GenevaError, cut, few, nearest
+from geneva_cli.errors import GenevaError, few, nearest
 from geneva_cli.extras import FOLDERS as EXTRAS
 from geneva_cli.kept import load_named
 from geneva_cli.kinds import FOLDERS
 from geneva_cli.motion.kind import Kind
+from geneva_cli.spec.schema import shown
 
 CRANK = "drives.crank:Crank"  # the drive of a spec without one
 _CRANK, _PIN_PATH = "motion.compatible:of_transmission", "motion.compatible:of_pin_path"
@@ -147,11 +148,9 @@ def _class(kinds: dict[str, str], key: tuple[str, str], name: object) -> type[An
         found: type[Any] = load_named(kinds[name])
         return found
     known = few(name, [f'"{kind}"' for kind in kinds])
-    quoted, hint = cut(str(name)), ""
-    if isinstance(name, str):
-        synonyms = {word: kind.name for kind in KINDS for word in kind.synonyms}
-        quoted, hint = f'"{quoted}"', nearest(synonyms.get(name, name), kinds)
-    raise GenevaError(f"{key[1]} must be one of {known}, not {quoted}{hint}", key)
+    synonyms = {word: kind.name for kind in KINDS for word in kind.synonyms}
+    hint = nearest(synonyms.get(str(name), str(name)), kinds)
+    raise GenevaError(f"{key[1]} must be one of {known}, not {shown(name)}{hint}", key)
 
 
 # classes of wheels, drives and motion laws by their names

@@ -185,7 +185,8 @@ def _usual_sizes(assembly: Assembly) -> tuple[Sizes, float]:
     axle = rules.wheel_bore(full, end, wall, L) if outside or size.wheel_bore_mm else 0.0
     wheel_reach, wheel_hub = rules.reach_and_hub(size, "wheel", axle, wall, end)
     crank_reach, crank_hub = rules.reach_and_hub(size, "crank", bore, wall)
-    thick, pin = size.thicknesses(L, rounded_below), 0.5 * value_or(size.pin_mm, rounded_below(r))
+    thick = size.thicknesses(rounded_below(L / 10.0))
+    pin = 0.5 * value_or(size.pin_mm, rounded_below(r))
     armed = 0.0
     if full.drive.ONE_ARM and pin:  # without pins there is no arm
         armed = rules.arm_bore(full, bore, L, min(reaches) - rules.hole_radius(size, pin))

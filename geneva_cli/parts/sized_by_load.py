@@ -150,7 +150,7 @@ def load_sizes(
         for wide in sizes_from(sizes.wheel_thickness, 2.0 * sizes.wheel_thickness):
             if keeps(bent_MPa / wide, "at most", allowed):
                 break
-        _, disc, arm, bar = size.thicknesses(of.assembly.L, lambda _: wide)
+        _, disc, arm, bar = size.thicknesses(wide)
         bar = sizes.link_thickness if linked else bar
         sizes = sizes._replace(
             wheel_thickness=wide, lock_thickness=disc, arm_thickness=arm, link_thickness=bar

@@ -100,7 +100,7 @@ def refuse(faults: Iterable[Fault]) -> None:
 
 def drawn_thicknesses(size: Size, L: float) -> Thicknesses:
     """Return the thicknesses of a spec without a load."""
-    return size.thicknesses(L, rounded_below)
+    return size.thicknesses(rounded_below(L / 10.0))
 
 
 def pin_radius(size: Size, r: float) -> float:

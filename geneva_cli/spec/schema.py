@@ -108,14 +108,7 @@ class SpecTable:
         if not named.keys() <= kind._parameters.keys():
             refuse_keywords(kind.__name__, named, [*kind._parameters])
         if values:
-            names = [one.name for one in kind._parameters.values() if not one.kw_only]
-            if len(values) > len(names):
-                most = f"at most {len(names)} arguments" if names else "no argument"
-                raise TypeError(f"{kind.__name__} takes {most} without a name, not {len(values)}")
-            by_place = dict(zip(names, values, strict=False))
-            for name in by_place.keys() & named:
-                raise TypeError(f"{kind.__name__} has two values of {name}")
-            named |= by_place
+            named = kind.__signature__.bind_partial(*values, **named).arguments
         for name, one in kind._parameters.items():
             value = named.get(name, one.default)
             if value is REQUIRED:

@@ -4,7 +4,7 @@ The attribute of a key that is a Python keyword ends in an underscore. ``None`` 
 other keys. The annotations are objects, since evaluating text on import would take longer.
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import field
 from operator import attrgetter
 from typing import Annotated, ClassVar, NamedTuple
@@ -16,7 +16,6 @@ from geneva_cli.spec.rules import POSITIVE, FromZero, Height, NotNegative, OneOf
 from geneva_cli.spec.schema import SpecTable, fields
 from geneva_cli.spec.workshops import PROCESSES, WORKSHOPS, Allowances
 
-Rounding = Callable[[float], float]
 # types of keys that wheel and crank have alike, with their meaning
 Keyway = Annotated[str | None, OneOf(("DIN 6885-1",)), "keyway in the bores on this shaft"]
 BoreShape = Annotated[str, OneOf(("round", "D", "hex")), "shape of its bores; hex: across flats"]
@@ -33,11 +32,6 @@ class Thicknesses(NamedTuple):
     lock: float
     arm: float
     link: float
-
-
-def unrounded(length: float) -> float:
-    """Return a length as it is: a batch has arrays of sizes, which nobody rounds."""
-    return length
 
 
 class Size(SpecTable):
@@ -148,10 +142,10 @@ class Size(SpecTable):
         """Radius of a roller for a centre distance, mm; by default a twentieth of it."""
         return value_or(self.roller_radius_mm, L / 20.0)
 
-    def thicknesses(self, L: float, rounded: Rounding = unrounded) -> Thicknesses:
-        """Thicknesses of the plates for a centre distance, mm; by default all are the wheel's."""
+    def thicknesses(self, usual: float) -> Thicknesses:
+        """Thicknesses of the plates, mm; by default all are the wheel's, and that is ``usual``."""
         between = None if self.face_width_mm is None else self.face_width_mm + 2.0 * self.edge_mm
-        wheel = value_or(self.wheel_thickness_mm, value_or(between, rounded(L / 10.0)))
+        wheel = value_or(self.wheel_thickness_mm, value_or(between, usual))
         arm = value_or(self.arm_thickness_mm, wheel)
         # a gap of the process does not ask for a plate of another thickness
         lock = value_or(self.lock_thickness_mm, wheel + value_or(self.pin_gap_mm, 0.0))
@@ -175,7 +169,7 @@ class Size(SpecTable):
             # its shaft. Sizes that are not set have their defaults without a load, before they
             # are rounded down.
             L = self.distance_mm
-            roller, thick = self.roller_radius(L), self.thicknesses(L)
+            roller, thick = self.roller_radius(L), self.thicknesses(L / 10.0)
             across = L if self.lock_radius_mm is None else 2.0 * self.lock_radius_mm
             disc = cut_mm(thick.wheel, across) + cut_mm(thick.lock, across)
             values["slot_clearance_mm"] = cut_mm(thick.wheel, 2.0 * roller)
@@ -597,7 +591,7 @@ class Accept(SpecTable):
         reasons, out = self.reasons, list(notices)
         for i, one in enumerate(out):
             if one.name in reasons:
-                out[i] = one.accepted_for(reasons[one.name])
+                out[i] = Notice(one.name, one.plain, reasons[one.name])
         return out
 
     def unused(self, notices: Iterable[Notice]) -> list[str]:

@@ -84,10 +84,7 @@ def in_unit_of(key: str, text: str) -> float:
     except GenevaError as error:
         raise GenevaError(f'{key} = "{cut(text)}": {error}; use {like}') from None
     if unit.powers != wanted.powers or not re.fullmatch(pattern(), text):
-        force = re.sub(r"\b(lb|oz)\b", r"\1f", parts[2])  # a pound of mass where a force is meant
-        meant = force != parts[2] and _unit(force).powers == wanted.powers
-        hint = f"; as a force write {force.strip()}" if meant else ""
-        raise GenevaError(f'{key} = "{cut(text)}" must be in {like}{hint}')
+        raise GenevaError(f'{key} = "{cut(text)}" must be in {like}')
     # a decimal number, a fraction, or a whole number and a fraction
     bare = parts[1].lstrip("+-")
     try:

@@ -7,19 +7,14 @@ import math
 from geneva_cli.table import in_decimals
 
 
-def number(value: float, decimals: int = 3) -> str:
-    """Return a value as text, without trailing zeros."""
+def length(value: float, decimals: int = 3) -> str:
+    """Return a value, such as a length in mm, as text without trailing zeros."""
     return in_decimals(value, decimals)
 
 
 def degrees(angle: float, decimals: int = 3) -> str:
     """Return an angle in radians as degrees."""
-    return f"{number(math.degrees(angle), decimals)}°"
-
-
-def length(mm: float) -> str:
-    """Return a length, to 0.001 mm."""
-    return number(mm)
+    return f"{length(math.degrees(angle), decimals)}°"
 
 
 def signed(mm: float) -> str:

@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.spec.rules import Csv
+from geneva_cli.streams import read_bytes
 
 
 class Columns(NamedTuple):
@@ -31,9 +32,8 @@ class Columns(NamedTuple):
         matches = [name for name in self.names if name.endswith(f".{short}")]
         if len(matches) == 1:
             return matches[0]
-        fault = f"no column of {cut(self.path, 300)}{nearest(short, self.names)}"
-        if matches:
-            fault = "ambiguous"
+        fault = "ambiguous" if matches else f"no column of {cut(self.path, 300)}"
+        fault += "" if matches else nearest(short, self.names)
         use = " or ".join(matches or self.names)
         raise GenevaError(f"{option} {cut(short)}: {fault}; use {use}")
 
@@ -51,8 +51,7 @@ class Columns(NamedTuple):
         numbers = list(map(_number, texts))
         if any(value is not None for value in numbers):
             return numbers
-        first = next((f'as "{cut(text)}"' for text in texts if text), "it is empty")
-        fault = f"no numbers in this column of {cut(self.path, 300)} ({first})"
+        fault = f"no numbers in this column of {cut(self.path, 300)}"
         raise GenevaError(f"{option} {cut(name)}: {fault}")
 
 
@@ -101,9 +100,8 @@ def read_pairs(path: str, rule: Csv, key: tuple[str, ...]) -> list[tuple[float, 
             x, y = (float(cell) for cell in row)
         except ValueError:
             shown = cut(",".join(row))
-            other = re.search(r"[;\t]", line)  # spreadsheets of many countries write these
-            hint = "; write a comma between them, and points as in 0.5" if other else ""
-            raise GenevaError(f'{where}: "{shown}" is not two numbers u,s{hint}') from None
+            text = f'{where}: "{shown}" is not two numbers u,s, as in 0.5,0.25'
+            raise GenevaError(text) from None
         points.append((x, y))
         fault = rule.fault(points, len(points) - 1)
         if fault:
@@ -127,17 +125,8 @@ def digest(paths: Iterable[str]) -> str:
 
 def _text(path: str, bytes_max: int, advice: str, key: tuple[str, ...] = ()) -> str:
     """Text of a file. Raises GenevaError, for points with the spec's key that names them."""
-    shown = cut(path, 300)
-    try:
-        with open(path, "rb") as file:
-            data = file.read(bytes_max + 1)
-    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
-        reason = error.strerror if isinstance(error, OSError) else error
-        what = f"cannot read the points in {shown}" if key else f"{shown}: cannot read"
-        raise GenevaError(f"{what}: {reason}", key) from None
-    if len(data) > bytes_max:
-        raise GenevaError(f"{shown}: larger than {bytes_max} bytes: {advice}")
+    data = read_bytes(path, bytes_max, advice, key)
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError:
-        raise GenevaError(f"{shown}: not UTF-8 text; save the file as UTF-8") from None
+        raise GenevaError(f"{cut(path, 300)}: not UTF-8 text; save the file as UTF-8") from None

@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import math
 import sys
+from collections.abc import Sequence
+from functools import cache
 from typing import Any, NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, nearest
@@ -46,7 +48,8 @@ class Key(NamedTuple):
         return f"{self.whole_table}.{self.key}" if self.table else self.key
 
 
-def all_keys() -> list[Key]:
+@cache
+def all_keys() -> tuple[Key, ...]:
     """All keys, by table, in the order of a file."""
     keys = [Key("", "title", None, "word", None, None, False, None, "free text")]
     for of in kind_tables():
@@ -59,10 +62,11 @@ def all_keys() -> list[Key]:
             some = None if len(names) == len(of.names) else f"{of.word.key} = {', '.join(names)}"
             keys.append(_key(of.table, field, some))
         keys += [_key(of.table, field, f"with a {of.word.key}") for field in of.shared]
-    return keys + [_key(name, field) for name, table in PLAIN.items() for field in fields(table)]
+    keys += [_key(name, field) for name, table in PLAIN.items() for field in fields(table)]
+    return tuple(keys)
 
 
-def about(word: str) -> list[Key]:
+def about(word: str) -> Sequence[Key]:
     """Keys of a table (``drive``), or with a name (``drive.A``, ``A``); all for an empty word.
 
     Raises GenevaError, with the nearest name, for an unknown word.

@@ -80,7 +80,7 @@ def related(word: str) -> list[tuple[str, str, str]]:
     The word may be a group, such as ``checks``. Names and headings come before texts.
     """
     plain = word.casefold()
-    everything = [*listed(), *(("key", key.name, key.meaning) for key in _keys())]
+    everything = [*listed(), *(("key", key.name, key.meaning) for key in all_keys())]
     group = {**GROUPS, "keys": "key"}.get(plain)
     if group:
         return [one for one in everything if one[0] == group]
@@ -122,7 +122,7 @@ def listed() -> list[tuple[str, str, str]]:
 
 def names() -> list[str]:
     """Names of everything that is explained, and of the keys."""
-    return [name for e in entries() for name in e.names] + [key.name for key in _keys()]
+    return [name for e in entries() for name in e.names] + [key.name for key in all_keys()]
 
 
 def as_markdown(known_meanings: list[Meaning]) -> str:
@@ -145,11 +145,6 @@ def _wrapped(text: str) -> list[str]:
     )
 
 
-@cache
-def _keys() -> tuple[Key, ...]:
-    return tuple(all_keys())
-
-
 def _lookup(word: str) -> list[Meaning]:
     some = entries()
     if word.startswith(CHECKS):
@@ -157,7 +152,7 @@ def _lookup(word: str) -> list[Meaning]:
         if own := [e for e in some if e.group == "check" and bare in e.names]:
             return [_of_entry(entry, word) for entry in own]
     key = word.removeprefix(INPUTS)
-    keys = [_of_key(k) for k in _keys() if key in (k.key, k.name)]
+    keys = [_of_key(k) for k in all_keys() if key in (k.key, k.name)]
     if word.startswith(INPUTS):
         return keys
     if exact := [e for e in some if word in e.names or f".{word}" in e.names]:

@@ -106,11 +106,6 @@ class Text(NamedTuple):
     text: str
     set_keys: tuple[Setting, ...] = ()
 
-    @property
-    def alone(self) -> Text:
-        """The text without the settings."""
-        return self._replace(set_keys=())
-
     @contextmanager
     def located(self) -> Iterator[None]:
         """Context in which errors that name a key get the file and line on which it is set."""
@@ -193,8 +188,9 @@ def read(path: str, set_keys: Iterable[str] = ()) -> Text:
         else:
             with open(path, "rb") as file:
                 data = file.read(bytes_max + 1)
-    except OSError as error:
-        what = "this is a folder, not a file" if os.path.isdir(path) else str(error.strerror)
+    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
+        what = str(error.strerror if isinstance(error, OSError) else error)
+        what = "this is a folder, not a file" if os.path.isdir(path) else what
         if isinstance(error, FileNotFoundError):
             from geneva_cli.specfile.template import titles  # only for this message
 
@@ -202,8 +198,6 @@ def read(path: str, set_keys: Iterable[str] = ()) -> Text:
             words = f"--from-design {own} -o {own}" if own in titles() else "external -o spec"
             what += f"; `geneva new {words}.toml` writes one"
         raise GenevaError(f"{name}: cannot read: {what}") from None
-    except ValueError as error:  # a NUL in the name
-        raise GenevaError(f"{name!r}: cannot read: {error}") from None
     if len(data) > bytes_max:
         raise GenevaError(f"{name}: larger than {bytes_max} bytes, too large for a spec")
     try:

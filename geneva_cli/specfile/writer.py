@@ -138,7 +138,7 @@ def inserted(text: str, table: str, keys: Mapping[str, Written]) -> str | None:
         name = lines[i].partition("=")[0].strip()
         if name in left:
             lines[i] = _with_value(lines[i], left.pop(name).value)
-    last = max(i for i in range(start, end) if _is_set(lines[i]))
+    last = max(i for i in range(start, end) if lines[i].strip()[:1] not in ("", "#"))
     more = noted([(f"{key} = {quoted(one.value)}", one.note) for key, one in left.items()])
     lines[last + 1 : last + 1] = more
     tree = node = tomli.loads(text)
@@ -156,7 +156,3 @@ def _with_value(line: str, value: Any) -> str:
     """Return a line ``key = value  # comment`` with another value."""
     parts = re.fullmatch(r"""([^=]*=\s*)("[^"]*"|'[^']*'|[^"'#]*?)(\s*#.*|\s*)""", line)
     return f"{parts[1]}{quoted(value)}{parts[3]}" if parts else line
-
-
-def _is_set(line: str) -> bool:
-    return bool(line.strip()) and not line.lstrip().startswith("#")

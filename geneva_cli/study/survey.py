@@ -68,7 +68,7 @@ def survey(z: str, gearing: str, n_rpm: float, rollers: int, A: float) -> Table:
 def _classic(z: int, sign: float, n_rpm: float, rollers: int) -> Moves:
     """Those from closed forms, without building a machine."""
     motion = 2.0 * classic.half_motion_deg(sign, 1, z)
-    classic.refuse_jam(rollers, motion, sign < 0.0)
+    classic.refuse_jam(rollers, motion)
     l, cos_b = sin_cos_pi(1, z)
     gap = classic.gap(sign, 1, z)
     entry = l / cos_b  # the jump at entry is tan b, the jerk after it 3 tan² b

@@ -117,7 +117,7 @@ class Strength:
         """
         spec, load, locked = self.spec, self.load, name.startswith("lock_")
         if not (spec.is_loaded or locked):
-            return spec.load_keys  # nothing else helps
+            return spec.output.load_keys  # nothing else helps
         if locked or name == "horn_stress_MPa":
             return self._horn_reason(name, locked)
         if name == "friction_work_J":
@@ -176,8 +176,8 @@ class Strength:
         for name in dict.fromkeys(among):
             if keys := self.reason(name):
                 by_key.setdefault(keys, []).append(name)
-        if self.spec.load_keys in by_key:  # nearly all
-            by_key[self.spec.load_keys] = ["forces", "stresses", "life"]
+        if self.spec.output.load_keys in by_key:  # nearly all
+            by_key[self.spec.output.load_keys] = ["forces", "stresses", "life"]
         return [
             f"{', '.join(names)}: need{'s' * (len(names) == 1)} {keys}"
             for keys, names in by_key.items()

@@ -100,7 +100,7 @@ def key_warnings(spec: Spec) -> Iterator[Notice]:
     support, texts = spec.support, list[str]()
     if not spec.is_loaded and spec.motor != Motor():
         texts.append("[motor] has no load to drive, so no motor or flywheel is computed: set ")
-        texts[0] += spec.load_keys
+        texts[0] += spec.output.load_keys
     if bool(support.friction) != bool(support.radius_mm):
         keys = ("friction", "radius_mm")
         present, lacking = keys if support.friction else reversed(keys)

@@ -88,7 +88,6 @@ def test_a_length_is_the_nearest_float(text, mm):
         ("a_mm", "12,5 mm", "with a point"),
         ("a_mm", "8", '; with a unit it is a text such as "10 mm"'),
         ("a_mm", "1/0 in", "too large"),
-        ("torque_Nm", "12 lb ft", "; as a force write lbf ft"),
         ("inertia_kgm2", "3 kg", "must be in kg m², or units of that kind"),
     ],
 )

@@ -27,7 +27,7 @@ from geneva_cli.geometry.sheet import (
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.spec.defaults import material_names
 from geneva_cli.spec.workshops import WORKSHOPS
-from geneva_cli.spec.written import length, number
+from geneva_cli.spec.written import length
 
 LEFT, MARGIN = 20.0, 10.0  # mm: margin of the frame on the filing side, and on the others
 TITLE_WIDTH = 180.0  # mm: width of the title block
@@ -194,7 +194,7 @@ def _items(rows: Sequence[Mapping[str, Any]]) -> Block:
 
 def _rounded(mass: float) -> str:
     """Return a number of four digits, without exponent."""
-    return number(float(f"{mass:.4g}"), 9)
+    return length(float(f"{mass:.4g}"), 9)
 
 
 def cut_to(text: str, height: float, limit: float) -> str:

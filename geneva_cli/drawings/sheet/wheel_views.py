@@ -20,7 +20,7 @@ from geneva_cli.parts.projection import outlines_of
 from geneva_cli.parts.shafts.bores import Bore, around, bore_of, radius_of, section_note
 from geneva_cli.parts.slots.roller_paths import cut_walls
 from geneva_cli.spec.tables import Size
-from geneva_cli.spec.written import degrees, length, number
+from geneva_cli.spec.written import degrees, length
 
 
 def draw_wheel(view: View, parts: FlatParts) -> View:
@@ -250,7 +250,7 @@ def bored(view: View, bores: Sequence[shapes.Shape], size: Size, part: str) -> N
         note = form.note if view.fits.is_iso else form.note.replace(" JS9", "")
         view.note((x, y), note)
         turn, what = math.degrees(math.atan2(y, x)), note.split()[0].rstrip(",")
-        view.notes.append(f"{what} at {number(turn, 2)}°, counterclockwise from the right")
+        view.notes.append(f"{what} at {length(turn, 2)}°, counterclockwise from the right")
 
 
 def circle_of(view: View, screwed: Sequence[shapes.Circle]) -> None:
@@ -267,4 +267,4 @@ def bolted(view: View, screwed: Sequence[shapes.Circle], tapped: bool = False) -
     hole = sized.screw_hole(screwed[0].radius, tapped)
     view.diameter(screwed, times(len(screwed), f"{hole} on Ø {length(2.0 * far)}"))
     angles = [math.degrees(math.atan2(c.centre[1], c.centre[0])) for c in screwed]
-    view.notes.append("holes at " + ", ".join(f"{number(angle, 2)}°" for angle in angles))
+    view.notes.append("holes at " + ", ".join(f"{length(angle, 2)}°" for angle in angles))

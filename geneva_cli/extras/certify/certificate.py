@@ -128,7 +128,7 @@ class Certificate(NamedTuple):
 def not_proved(mechanism: Mechanism, quantity: str) -> str:
     """The reason why a load has no certificate; empty if it has one."""
     if not mechanism.spec.is_loaded:
-        return f"no load: set {mechanism.spec.load_keys}"
+        return f"no load: set {mechanism.spec.output.load_keys}"
     if quantity == "wheel_torque_Nm":
         return ""
     if load_case(mechanism).guided:

@@ -142,7 +142,7 @@ def peaks(mechanism: Mechanism) -> Table:
             entry, exit_ = at_ends[name].tolist()
             values |= {f"{name}.entry": abs(entry), f"{name}.exit": abs(exit_)}
     begin, end = (place.to_input(math.degrees(x)) for x in (pushes[0].begin, pushes[-1].end))
-    values |= {"motion_deg": end - begin, "dwell_deg": mechanism.whole_deg - (end - begin)}
+    values |= {"motion_deg": end - begin, "dwell_deg": 360.0 * mechanism.spec.turns - (end - begin)}
     values["stations"] = None
     struck = struck_by(mechanism, result)
     names = ("jump", "at_deg", "force_N", "moment_Nms")

@@ -111,7 +111,7 @@ class ParallelSlot(Slot):
 
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         """Pin (x, y) in the rack, on the slot's straight axis."""
-        along = self.path.middle.place(input_deg, order)[0]
+        along = self.path.middle(input_deg, order)[0]
         return along, along * 0.0
 
     def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:

@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, NamedTuple, cast
 
-from geneva_cli.errors import GenevaError, cut, refuse
+from geneva_cli.errors import refuse_text
 from geneva_cli.numerics.angles import one_minus_sin_pi, sin_cos_pi
 from geneva_cli.numerics.arrays import choose, larger, library, smaller
 
@@ -109,21 +109,13 @@ def rollers_max(motion_deg: float) -> int:
     return cast(int, library(motion_deg).ceil(360.0 / motion_deg)) - 1
 
 
-def refuse_jam(rollers: int, motion_deg: float, inside: bool) -> None:
+def refuse_jam(rollers: int, motion_deg: float) -> None:
     """Raise GenevaError if the rollers would leave no dwell."""
     most = rollers_max(motion_deg)
-    jam = rollers > most
-    if jam is False:
-        return
-
-    def error() -> GenevaError:
-        why = f"{rollers} motions of {motion_deg:.6g} degrees leave no dwell in a turn of 360"
-        if inside and motion_deg > 180.0:
-            why = "an internal wheel's crank carries one roller only"
-        text = f"rollers = {cut(rollers)} jam: {why}; at most {most}"
-        return GenevaError(text, ("drive", "rollers"))
-
-    refuse(jam, error)
+    text = "rollers = {rollers} jam: {rollers} motions of {motion:.6g} degrees leave no dwell in a "
+    text += "turn of 360; at most {most}"
+    values = {"rollers": rollers, "motion": motion_deg, "most": most}
+    refuse_text(rollers > most, ("drive", "rollers"), text, **values)
 
 
 def acceleration_peak(l: float, gap: float) -> tuple[float, float]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Annotated, ClassVar, Self
 
-from geneva_cli.errors import GenevaError, refuse, refuse_text
+from geneva_cli.errors import GenevaError, refuse_text
 from geneva_cli.motion.pivots import Dimension, Layout
 from geneva_cli.motion.wheels.classic import HalfStep
 from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
@@ -49,13 +49,8 @@ class External(Gearing):
             return
         text, n = "offset_mm and steps_deg cannot be combined: remove one of them", len(steps)
         refuse_text(self.offset_mm != 0.0, ("wheel", "offset_mm"), text)
-
-        def no_multiple() -> GenevaError:
-            near = " or ".join(str(m) for m in (z // n * n, (z // n + 1) * n) if m >= 3)
-            text = f"z = {z} is not a multiple of the {n} steps in the pattern: use {near}"
-            return GenevaError(text, key)
-
-        refuse(z % n != 0, no_multiple)
+        text = "z = {z} is not a multiple of the {n} steps in the pattern: use {more}"
+        refuse_text(z % n != 0, key, text, z=z, n=n, more=-(-z // n) * n)
         turn = math.fsum(steps) * z / n
         text = "{times} times the pattern is {turn:.12g} deg, not 360: its steps must add up to "
         values = {"times": z // n, "turn": turn, "whole": 360.0 * n / z}

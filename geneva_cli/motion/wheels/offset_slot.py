@@ -63,7 +63,7 @@ class OffsetSlotMotion(StraightSlotMotion):
         ``across``. The wheel's angle and speed then vanish too.
         """
         (e,) = enclosed(x, (self.skew.e,))
-        along, across = anchor.place(x, order)
+        along, across = anchor(x, order)
         more = across * (across - 2.0 * e)  # s² - along²
         square = along * along + more
         s = sqrt(square)

@@ -8,6 +8,7 @@ import os
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.geometry.shapes import Arc
 from geneva_cli.output.foreign.drawn import Drawn
+from geneva_cli.streams import read_bytes
 
 BYTES_MAX = 1 << 26  # 64 MB; a machine's outline has some kilobytes
 PIECES_MAX = 20_000  # more take minutes to turn
@@ -24,14 +25,7 @@ def read_drawing(path: str) -> Drawn:
     ending = os.path.splitext(path)[1].lower()
     if ending not in (".dxf", ".svg"):
         raise GenevaError(f"{shown}: an outline is read from a .dxf or .svg file")
-    try:
-        with open(path, "rb") as file:
-            data = file.read(BYTES_MAX + 1)
-    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
-        reason = error.strerror if isinstance(error, OSError) else error
-        raise GenevaError(f"{shown}: cannot read: {reason}") from None
-    if len(data) > BYTES_MAX:
-        raise GenevaError(f"{shown}: larger than {BYTES_MAX >> 20} MB, too large for an outline")
+    data = read_bytes(path, BYTES_MAX, "too large for an outline")
     if ending == ".dxf":
         from geneva_cli.output.foreign.dxf_pieces import read_dxf as read
     else:

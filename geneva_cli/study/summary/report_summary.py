@@ -138,7 +138,7 @@ def key_figures(design: Design) -> Iterator[SummaryLine]:
             size = measured(values[f"{name}.max_{unit}_s{digit}"], f"{unit}/s{power}")
             yield SummaryLine(name, f"{size} at {measured(values[f'{name}.at_deg'], 'deg')}")
         yield from tightest(design.checks)
-        yield SummaryLine("motor", f"not known: set {design.spec.load_keys}")
+        yield SummaryLine("motor", f"not known: set {design.spec.output.load_keys}")
 
 
 def of_vibration(design: Design, record: Table) -> Answer:
