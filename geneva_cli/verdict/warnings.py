@@ -222,9 +222,13 @@ def turn_warnings(parts: Parts) -> Iterator[Notice]:
     ahead, behind = turn.ahead, turn.behind
     free = max(ahead.deg, behind.deg)
     if free > motion_play_max(parts) and turn.motion.deg < free * (1.0 - SAME):
+        to_sides = " and ".join(
+            f"{way} by {play.deg:.4g}° at {play.at_deg:.4g}°"
+            for way, play in (("ahead", ahead), ("behind", behind))
+            if play.deg > SAME * free
+        )
         yield Notice(
             "driven-by-one-wall",
-            f"in its slot the wheel is free ahead by {ahead.deg:.4g}° at {ahead.at_deg:.4g}° and "
-            f"behind by {behind.deg:.4g}° at {behind.at_deg:.4g}°, where one wall alone drives "
-            "it. Friction or a brake keeps it on that wall",
+            f"in its slot the wheel is free {to_sides}, where one wall alone drives it. Friction "
+            "or a brake keeps it on that wall",
         )

@@ -249,8 +249,8 @@ print(len(functions), len({file for file, _ in functions}), deepest, file=sys.st
 # A reader of a number follows these: how many functions of the program a run calls, in how many
 # files, and how deep. Who exceeds one finds a shorter way, or names the reason where he raises it.
 BOUNDS = {
-    "peaks": (200, 35, 14),
-    "check": (768, 89, 24),
+    "peaks": (199, 35, 14),
+    "check": (766, 88, 24),
 }
 
 
