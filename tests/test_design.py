@@ -360,7 +360,7 @@ def test_a_design_is_saved_as_the_command_writes_it(tmp_path, monkeypatch):
         assert run.exit_code == 0
         with open(file, "rb") as ours, open(f"c-{file}", "rb") as theirs:
             assert ours.read() == theirs.read()
-    with pytest.raises(GenevaError, match="of these: "):
+    with pytest.raises(GenevaError, match="one of: "):
         made.save("wheel.xyz")
     jams = Design(External(6), size=Size(100, 5, wheel_radius_mm=88))  # its rim meets a roller
     with pytest.raises(GenevaError, match=r"jam\.dxf: not written: "):

@@ -70,8 +70,8 @@ def chosen(output: str, format: str, formats: Iterable[str] = FORMATS) -> str:
     known = list(formats)
     if name in known:
         return name
-    given = f"--format {cut(name)}" if format else f'-o "{cut(output)}"'
-    raise GenevaError(f"{given}: give a --format or -o FILE of these: {', '.join(known)}")
+    given = f"--format {cut(name)}: it" if format else f'-o "{cut(output)}": -o FILE or --format'
+    raise GenevaError(f"{given} must name one of: {', '.join(known)}")
 
 
 def require_spec(output: str, format: str = "") -> None:

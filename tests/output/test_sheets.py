@@ -135,7 +135,7 @@ def test_a_dxf_has_dimensions_that_measure_themselves(sheet, version):
 
 
 def test_refusals(sheet, tmp_path):
-    with pytest.raises(GenevaError, match="of these: dxf, svg, pdf"):
+    with pytest.raises(GenevaError, match="one of: dxf, svg, pdf"):
         draw_sheet(sheet, "a.step")
     with pytest.raises(GenevaError, match=r"--dxf-version is for .dxf, and this is pdf"):
         draw_sheet(sheet, str(tmp_path / "a.pdf"), version="R12")

@@ -32,7 +32,7 @@ def test_rollers(machine, z, limit, most):
 def test_rollers_of_more_slots_and_inside(machine):
     assert [machine(z).rollers_max for z in range(6, 25)] == [2] * 19
     assert [machine(z, "internal").rollers_max for z in Z] == [1] * 22
-    with pytest.raises(GenevaError, match="one roller"):
+    with pytest.raises(GenevaError, match="at most 1"):
         machine(6, "internal", rollers=2)
 
 

@@ -163,7 +163,7 @@ def test_types_of_a_column_follow_from_all_blocks(tmp_path):
         (["--vary", "drive.A=0.1", "--resume", "--format", "json"], "--resume continues all"),
         (["--vary", "drive.A=0.1", "--seed", "1"], "--seed 1: it needs --random"),
         (["--vary", "drive.A=0.1", "--pareto", "min:wheel.gearing"], "a word has no order"),
-        (["--vary", "drive.A=0.1", "--best", "min:k", "-o", "all.csv"], "of these: toml"),
+        (["--vary", "drive.A=0.1", "--best", "min:k", "-o", "all.csv"], "one of: toml"),
         (["--vary", "drive.A=2,3"], "no design can be built, of 2 tried: drive.A=2"),
     ],
 )
