@@ -11,6 +11,8 @@ import math
 from bisect import bisect_right
 from collections.abc import Callable
 
+from geneva_cli.numerics.arrays import SINGLE, Array, N, Number, choose, larger
+
 # Fraction of the centre distance, or of a sphere's radius: lengths and places nearer to each other
 # are equal. 1e-7 mm of 100 mm is the size of an atom, and a hundred times the rounding of a chain.
 SAME_LENGTH = 1e-9
@@ -44,7 +46,7 @@ def keeps(value: float, must_be: str, limit: float, noise: float = 0.0) -> bool:
     ``noise`` is the rounding error of the value itself, if that is larger than the limit's. For
     example, a gap of 0 has the rounding error of its outlines.
     """
-    slack = max(ROUNDED * abs(limit), noise) if math.isfinite(limit) else 0.0
+    slack = choose(abs(limit) < math.inf, larger(ROUNDED * abs(limit), noise), 0.0)
     if must_be == "at least":
         return value >= limit - slack
     if must_be == "at most":
@@ -72,10 +74,16 @@ _LARGE = (*range(20, 110, 5), *range(110, 200, 10), *range(200, 501, 20))
 _BORES = [*_SMALL, *map(float, _LARGE)]
 
 
-def rounded_below(most: float) -> float:
+def rounded_below(most: N) -> N:
     """Return the greatest rounded number up to ``most``, of the series R''20 of ISO 497; or 0."""
-    i = bisect_right(_ROUNDED, most * (1.0 + ROUNDED))
-    return _ROUNDED[i - 1] if i else 0.0
+    if isinstance(most, SINGLE):
+        i = bisect_right(_ROUNDED, most * (1.0 + ROUNDED))
+        return _ROUNDED[i - 1] if i else 0.0
+    import numpy as np
+
+    numbers = np.array([0.0, *_ROUNDED])
+    rounded: Array = numbers[np.searchsorted(_ROUNDED, most * (1.0 + ROUNDED), "right")]
+    return rounded
 
 
 def sizes_from(least: float, most: float, bores: bool = False) -> list[float]:
@@ -83,14 +91,30 @@ def sizes_from(least: float, most: float, bores: bool = False) -> list[float]:
 
     Of ``bores`` those of standard bearings, where both are in their range, mm.
     """
-    numbers = _BORES if bores and _BORES[0] <= least <= most <= _BORES[-1] else _ROUNDED
-    if not 0.0 < least < most:
-        return [least]
-    first = bisect_right(numbers, least * (1.0 + ROUNDED))
-    return [least, *numbers[first : bisect_right(numbers, most * (1.0 + ROUNDED))]]
+    sizes: list[float] = trials_from(least, most, bores)[0].tolist()
+    return sizes
 
 
-def rounded_radius(most: float) -> float:
+def trials_from(least: Number, most: Number, bores: bool = False) -> Array:
+    """Return the numbers of ``sizes_from`` of m designs, (m, k), from numbers or (m, 1).
+
+    The last one of a design fills its row.
+    """
+    import numpy as np
+
+    least, most = np.atleast_2d(least), np.atleast_2d(most)
+    within = (_BORES[0] <= least) & (least <= most) & (most <= _BORES[-1]) & bores
+    # the numbers up to both ends, of the two series one behind the other
+    ends = np.stack(np.broadcast_arrays(least, most)) * (1.0 + ROUNDED)
+    of_bores = len(_ROUNDED) + np.searchsorted(_BORES, ends, "right")
+    below, upto = np.where(within, of_bores, np.searchsorted(_ROUNDED, ends, "right"))
+    count = np.where((least > 0.0) & (least < most), upto - below, 0)
+    k = np.minimum(np.arange(count.max() + 1), count)
+    numbers = np.array([*_ROUNDED, *_BORES])
+    return np.where(k > 0, numbers[np.maximum(below + k - 1, 0)], least)
+
+
+def rounded_radius(most: N) -> N:
     """Return the radius up to ``most`` whose diameter is a rounded number; or 0."""
     return 0.5 * rounded_below(2.0 * most)
 

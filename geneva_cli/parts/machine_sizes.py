@@ -11,11 +11,13 @@ from collections.abc import Callable, Iterator
 from functools import cache, lru_cache, partial
 from typing import TYPE_CHECKING, TypeAlias
 
+import numpy as np
+
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.registry import thing
-from geneva_cli.numerics.arrays import value_or
+from geneva_cli.numerics.arrays import mapped, value_or
 from geneva_cli.numerics.tolerances import SAME_LENGTH, bore_radius, rounded_below
 from geneva_cli.parts import sizes as rules
 from geneva_cli.parts.assembly import Assembly, assembly
@@ -64,9 +66,7 @@ def unloaded(mechanism: Mechanism) -> Unloaded:
     return Unloaded(where, sizes, space, cache(partial(cut_lock, where, sizes)))
 
 
-def loaded(
-    of: Unloaded, mechanism: Mechanism, loads: PartLoads, horn_MPa: float | None = None
-) -> Sizes:
+def loaded(of: Unloaded, mechanism: Mechanism, loads: PartLoads) -> Sizes:
     """Return the sizes of a machine under its loads, as ``load_sizes``; raises as ``unloaded``."""
     from geneva_cli.parts.sized_by_load import load_sizes
 
@@ -76,10 +76,17 @@ def loaded(
 
         first = first_sizes(mechanism, sized)
     link, pin, shaft = first or (0.0, 0.0, 0.0)
-    out = load_sizes(of, mechanism, loads, horn_MPa, link)
+    by = of.cut_lock() if of.sizes.lock else None
+    out = load_sizes(of, by, mechanism, loads, link=link)
+    out = mapped(np.ndarray.item, mapped(np.asarray, out))
     out = out._replace(first_pin=pin, first_shaft=shaft)
     rules.refuse(_faults(of.assembly, out))
     return out
+
+
+def fits(of: Unloaded, sizes: Sizes) -> bool:
+    """Return False for sizes under a load that leave no wheel or no lock."""
+    return next(_faults(of.assembly, sizes), None) is None
 
 
 def key_sizes(mechanism: Mechanism) -> KeySizes:

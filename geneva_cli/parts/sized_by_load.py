@@ -10,8 +10,8 @@ wheels in series bears the greatest torque in the second's crank shaft.
 from __future__ import annotations
 
 import math
-from functools import lru_cache
-from typing import NamedTuple
+from collections.abc import Callable, Sequence
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -20,13 +20,27 @@ from geneva_cli.loads.impacts.shock_force import forces_N
 from geneva_cli.loads.load_case import centrifugal_N
 from geneva_cli.loads.strength import lock, pin_arm_key
 from geneva_cli.loads.strength.part_loads import PartLoads, shear_MPa
+from geneva_cli.loads.tolerance.locking import Lock
+from geneva_cli.motion.batch import taken
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.arrays import half_or, value_or
-from geneva_cli.numerics.tolerances import keeps, sizes_from
+from geneva_cli.numerics.arrays import (
+    Array,
+    Mask,
+    Number,
+    Whole,
+    choose,
+    half_or,
+    mapped,
+    of_each,
+    parameter,
+    rising,
+    smaller,
+    value_or,
+)
+from geneva_cli.numerics.tolerances import keeps, trials_from
 from geneva_cli.parts import sizes as rules
 from geneva_cli.parts.assembly import Assembly, gear_plane, is_bridged, links_at
-from geneva_cli.parts.outlines.crank_outline import is_whole
 from geneva_cli.parts.outlines.outlines import wheel_hub_length
 from geneva_cli.parts.shafts.bores import reach_or_bore
 from geneva_cli.parts.sizes import Sizes, Unloaded
@@ -52,47 +66,77 @@ class Stressed(NamedTuple):
     crank_key: pin_arm_key.KeyDimensions
 
 
-@lru_cache(maxsize=64)  # the designs of a sweep of loads have few different sizes
-def stressed(assembly: Assembly, sizes: Sizes) -> Stressed:
-    """Return the dimensions of a machine's parts, for parts of these sizes."""
-    spec, machine, size = assembly.full.spec, assembly.full, assembly.full.spec.size
-    thick, wide, gap = sizes.arm_thickness, sizes.wheel_thickness, size.allowances.pin_gap_mm
-    contact, hub_mm = value_or(size.face_width_mm, wide), 0.0
-    if size.has_hub("wheel") and sizes.wheel_hub > sizes.wheel_bore:
-        hub_mm = wheel_hub_length(size, sizes)
-    # the lowest face of what is below the wheel; a groove's plate has its base below the groove
-    lowest, planes = min(-hub_mm, -gap - (thick if sizes.arm_bore else 0.0)), []
+class Sizing(NamedTuple):
+    """Sizes of m designs, and what they must hold; numbers, or (m, 1)."""
+
+    sizes: Sizes
+    spec: Spec
+    L: float
+    sign: float  # +1 external, -1 internal
+    planes: tuple[tuple[int, bool], ...]  # of links, gears and a groove; True below the arm
+    bridged: bool
+    linked: bool  # links or gears are in the way of the crank's shaft
+    space: float = 0.0  # radius about the crank's axis inside the relief
+    loads: PartLoads = PartLoads(*[0.0] * len(PartLoads._fields))
+    bent_MPa: float = 0.0  # stress of horns 1 mm thick
+
+
+def sizing(assembly: Assembly, sizes: Sizes) -> Sizing:
+    """Return the sizes of an assembly with what the dimensions of its parts depend on."""
+    machine, spec, planes = assembly.full, assembly.full.spec, list[tuple[int, bool]]()
     for link in links_at(machine, np.zeros(1)):
-        planes.append((link.plane, 0.0))
+        planes.append((link.plane, False))
     if spec.gears:
-        planes.append((gear_plane(machine), 0.0))
-    if machine.engagements[0].groove is not None:
-        planes.append((3, 0.0) if spec.drive_before else (2, thick))
+        planes.append((gear_plane(machine), False))
+    linked = bool(planes)
+    if machine.engagements[0].groove is not None:  # its plate has its base below the groove
+        planes.append((3, False) if spec.drive_before else (2, True))
+    kind = tuple(planes), is_bridged(machine), linked
+    return Sizing(sizes, spec, assembly.L, assembly.sign, *kind)
+
+
+def stressed(assembly: Assembly, sizes: Sizes) -> Stressed:
+    """Return the dimensions of a machine's stressed parts, for parts of these sizes."""
+    return dimensions(sizing(assembly, sizes))
+
+
+def dimensions(of: Sizing) -> Stressed:
+    """Return the dimensions of stressed parts of m designs; numbers, or (m, 1)."""
+    sizes, spec, size = of.sizes, of.spec, of.spec.size
+    gap = size.allowances.pin_gap_mm
+    thick, wide, hub_mm = sizes.arm_thickness, sizes.wheel_thickness, 0.0
+    contact, armed = value_or(size.face_width_mm, wide), np.asarray(sizes.arm_bore) > 0.0
+    if size.has_hub("wheel"):
+        hub_mm = choose(sizes.wheel_hub > sizes.wheel_bore, wheel_hub_length(size, sizes), 0.0)
+    # the lowest face of what is below the wheel
+    lowest = smaller(-hub_mm, -gap - choose(armed, thick, 0.0))
     first = thick if spec.drive.ONE_ARM else sizes.link_thickness
-    for plane, base in planes:
+    for plane, under_arm in of.planes:
         low, _ = rules.plane_span(plane, gap, first, sizes.link_thickness, size.washer_mm)
-        lowest = min(lowest, low - base)
+        lowest = smaller(lowest, low - thick if under_arm else low)
     # from the middle of the wheel's thickness to the frame's upper face
-    on_wheel = on_crank = 0.5 * wide - lowest + size.washer_mm, thick
-    if sizes.crank_bore and is_bridged(machine):
-        on_crank = rules.bridge_low(size, sizes) - 0.5 * wide, thick
-    arm = pin_arm_key.NO_ARM
-    if sizes.arm_bore and sizes.pin:
-        _, long = sizes.reaches
-        hole = rules.hole_radius(size, sizes.pin)
-        bored = reach_or_bore(size, "crank", sizes.arm_bore)
-        standing = 0.0 if is_whole(assembly, sizes) else sizes.lock
-        hub = rules.arm_hub(size, bored, sizes.arm_bore, sizes.wall_min, standing)
-        passing = sizes.passing_eye(assembly.L - long)
-        eye = half_or(size.arm_eye_mm, eye_about(hole, sizes.wall_min, passing))
-        offset = 0.5 * (contact + thick) + gap
-        arm = pin_arm_key.ArmDimensions(long, hub, eye, bored, hole, thick, offset)
+    on_wheel = on_crank = 0.5 * wide - lowest + size.washer_mm
+    if of.bridged:
+        over = rules.bridge_low(size, sizes) - 0.5 * wide
+        on_crank = choose(sizes.crank_bore > 0.0, over, on_crank)
+    long, hole = sizes.reaches[1], rules.hole_radius(size, sizes.pin)
+    bored = reach_or_bore(size, "crank", sizes.arm_bore)
+    # some of the disc is left at the axis, or else its sectors stand on the hub
+    whole = np.logical_and(of.sign > 0.0, of.L - sizes.rim > sizes.relief)
+    standing = choose(whole, 0.0, sizes.lock)
+    hub = rules.arm_hub(size, bored, sizes.arm_bore, sizes.wall_min, standing)
+    passing = sizes.passing_eye(of.L - long)
+    eye = half_or(size.arm_eye_mm, eye_about(hole, sizes.wall_min, passing))
+    offset = 0.5 * (contact + thick) + gap
+    rows = np.broadcast_arrays(long, hub, eye, bored, hole, thick, offset)
+    arm = np.where(armed & (np.asarray(sizes.pin) > 0.0), rows, np.nan)
+    shaft = choose(armed, sizes.arm_bore, sizes.crank_bore)
     return Stressed(
         contact,
         2.0 * sizes.pin,
-        shaft_of(spec, "wheel", sizes.wheel_bore, *on_wheel),
-        shaft_of(spec, "crank", sizes.arm_bore or sizes.crank_bore, *on_crank),
-        arm,
+        shaft_of(spec, "wheel", sizes.wheel_bore, on_wheel, thick),
+        shaft_of(spec, "crank", shaft, on_crank, thick),
+        pin_arm_key.ArmDimensions(*arm),
         key_of(size.wheel_keyway, sizes.wheel_bore, wide + hub_mm),
         key_of(size.crank_keyway, sizes.arm_bore, thick),
     )
@@ -103,181 +147,272 @@ def shaft_of(spec: Spec, part: str, bore: float, to_frame: float, thick: float) 
 
     That is a frame ``thick`` mm, whose upper face is ``to_frame`` mm from the contact's middle.
     """
-    table = vars(spec.shaft)
-    diameter, overhang = 2.0 * bore or math.nan, to_frame + 0.5 * thick
+    table, diameter = vars(spec.shaft), choose(bore > 0.0, 2.0 * bore, math.nan)
     own = table[f"{part}_diameter_mm"], table[f"{part}_overhang_mm"]
-    return ShaftSize(value_or(own[0], diameter), value_or(own[1], overhang))
+    return ShaftSize(value_or(own[0], diameter), value_or(own[1], to_frame + 0.5 * thick))
 
 
-def key_of(standard: str | None, bore: float, length: float) -> pin_arm_key.KeyDimensions:
-    """Return the dimensions of a key in a bore; NaN without one."""
-    try:
-        fitted = key(standard, bore) if bore else None
-    except GenevaError:  # reported where the part is cut
-        fitted = None
-    if fitted is None:
+def key_of(standard: str | None, bore: Number, length: Number) -> pin_arm_key.KeyDimensions:
+    """Return the dimensions of keys in bores; NaN without one, or where no key is as large."""
+    if standard is None:
         return pin_arm_key.NO_KEY
-    stands = fitted.height - fitted.in_shaft
-    return pin_arm_key.KeyDimensions(2.0 * bore, fitted.width, stands, length)
+
+    def fitted(radius: float) -> tuple[float, float]:
+        try:
+            own = key(standard, radius)
+        except GenevaError:  # reported where the part is cut
+            own = None
+        return (own.width, own.height - own.in_shaft) if own else (math.nan, math.nan)
+
+    width, stands = of_each(fitted, bore)
+    known = np.where(np.isnan(width), np.nan, 1.0)
+    return pin_arm_key.KeyDimensions(2.0 * bore * known, width, stands, length * known)
+
+
+# Tries the sizes of some designs with a number (n, 1) from a column of trials: the sizes, and which
+# of the designs hold.
+Attempt: TypeAlias = Callable[[Sizing, Array, int], "tuple[Sizes, bool]"]
 
 
 def load_sizes(
-    of: Unloaded, machine: Mechanism, loads: PartLoads, bent_MPa: float | None, link: float
+    of: Unloaded,
+    by: Lock | None,
+    machine: Mechanism,
+    loads: PartLoads,
+    bent_MPa: Array | None = None,
+    link: float = 0.0,
 ) -> Sizes:
-    """Return the sizes of a machine under its loads, from those without them.
+    """Return the sizes of m designs under their loads, (m, 1), from those without them.
 
-    ``bent_MPa`` is the stress of ``horn_MPa``, if computed already; ``link`` is the thickness that
-    the loads need of a first wheel, 0 without one. A load without a bound leaves all sizes.
+    ``by`` are their locks, ``bent_MPa`` the stress of ``horn_MPa`` if computed already, and
+    ``link`` the thickness that the loads need of a first wheel. Loads without a bound change none.
     """
-    spec, size, sizes = machine.spec, machine.spec.size, of.sizes
-    by = of.cut_lock() if sizes.lock else None
-    if not all(map(math.isfinite, loads)):
-        return sizes
-    if link:
-        sizes = sizes._replace(link_thickness=link)
-    linked = machine.first_wheel or size.link_thickness_mm is not None  # links have their own
-    # the force between disc and wheel in the dwell loads both shafts
-    held = lock.held_force_N(machine, by).item() if spec.load.dwell_torque_Nm else 0.0
-    carried = float(np.max(centrifugal_N(machine))) if machine.frame else 0.0
-    loads = loads._replace(
-        wheel_shaft_N=max(loads.wheel_shaft_N, held + carried), crank_N=max(loads.crank_N, held)
-    )
-    allowed = wheel_material(spec).allowed_MPa
-    if by and size.wheel_thickness_mm is None and size.face_width_mm is None:
+    zero, spec, sizes = np.zeros((machine.designs, 1)), machine.spec, of.sizes
+    loads = PartLoads(*(zero + np.reshape(loads, (len(loads), -1, 1))))
+    bounded: Mask = np.array(np.isfinite(loads).all(axis=0))
+    held = carried = bent = zero
+    if spec.load.dwell_torque_Nm is not None:
+        # the force between disc and wheel in the dwell loads both shafts
+        held = np.reshape(lock.held_force_N(machine, by), (-1, 1))
+        carried = centrifugal_N(machine) if machine.frame else zero
+        on_wheel = np.maximum(loads.wheel_shaft_N, held + carried)
+        on_crank = np.maximum(loads.crank_N, held)
+        loads = loads._replace(wheel_shaft_N=parameter(on_wheel), crank_N=parameter(on_crank))
+    if by and spec.size.wheel_thickness_mm is spec.size.face_width_mm is None:
         if bent_MPa is None:
-            bent_MPa = float(lock.horn_MPa(machine, sizes.half_width, by)[0])
+            bent_MPa = lock.horn_MPa(machine, sizes.half_width, by)
+        bent = np.reshape(bent_MPa, (-1, 1))
+    thick = link or sizes.link_thickness
+    case = sizing(of.assembly, sizes._replace(link_thickness=thick))
+    case = case._replace(spec=spec, space=of.space, loads=loads, bent_MPa=parameter(bent))
+    # designs that have the same parts are sized together
+    kinds: Whole = 1 * bounded
+    for part in (sizes.lock, sizes.wheel_bore, sizes.crank_bore, sizes.arm_bore, sizes.pin):
+        kinds = 2 * kinds + (np.asarray(part) > 0.0)
+    if (kinds == kinds[0]).all():
+        return _sized(case, machine) if bounded[0] else sizes
+    groups = list[tuple[Whole, Sizes]]()
+    for kind in rising(kinds).tolist():
+        which = np.flatnonzero(kinds == kind)
+        usual, same, few = taken((sizes, case, machine), which)
+        groups.append((which, _sized(same, few) if bounded[which[0]] else usual))
+    return _joined(groups)
+
+
+def _joined(groups: Sequence[tuple[Whole, Sizes]]) -> Sizes:
+    """Return the sizes of groups of designs, by the designs' numbers, as those of all designs."""
+    order = np.argsort(np.concatenate([which for which, _ in groups]))
+
+    def rows(*each: Number) -> Number:
+        if all(one is each[0] for one in each):
+            return each[0]
+        own = [np.broadcast_to(x, (len(w), 1)) for x, (w, _) in zip(each, groups, strict=True)]
+        return np.concatenate(own)[order]
+
+    return mapped(rows, *(sizes for _, sizes in groups))
+
+
+def _first(case: Sizing, trials: Array, attempt: Attempt) -> Sizes:
+    """Return the sizes of each design's first trial that holds, or else of its last one."""
+    m, count = np.size(case.loads.pin_N), trials.shape[1]
+    trials, left = np.broadcast_to(trials, (m, count)), np.arange(m)
+    groups = list[tuple[Whole, Sizes]]()
+    for k in range(count):
+        some = taken(case, left) if len(left) < m else case
+        sizes, holds = attempt(some, trials[left, k, None], k)
+        done = np.ravel(holds) | (k == count - 1)
+        if done.all() and not groups:
+            return sizes
+        if done.any():
+            groups.append((left[done], taken(sizes, done)))
+            left = left[~done]
+        if not len(left):
+            break
+    return _joined(groups)
+
+
+def _sized(case: Sizing, machine: Mechanism) -> Sizes:
+    """Return the sizes of designs with the same parts, whose loads have bounds."""
+    sizes, spec, size = case.sizes, machine.spec, machine.spec.size
+    linked = machine.first_wheel or size.link_thickness_mm is not None  # links have their own
+    allowed = wheel_material(spec).allowed_MPa
+    if _has(sizes.lock) and size.wheel_thickness_mm is size.face_width_mm is None:
         # a thicker wheel bends its pins more than its horns
-        for wide in sizes_from(sizes.wheel_thickness, 2.0 * sizes.wheel_thickness):
-            if keeps(bent_MPa / wide, "at most", allowed):
-                break
+        trials = trials_from(sizes.wheel_thickness, 2.0 * sizes.wheel_thickness)
+        wide = parameter(_holding(trials, case.bent_MPa / trials, allowed))
         _, disc, arm, bar = size.thicknesses(wide)
         bar = sizes.link_thickness if linked else bar
         sizes = sizes._replace(
             wheel_thickness=wide, lock_thickness=disc, arm_thickness=arm, link_thickness=bar
         )
     wide, eye = sizes.wheel_thickness, math.inf
-    if of.assembly.sign > 0.0 and sizes.arm_bore:  # about the pin, where it passes the largest hub
-        hub = max(sizes.wheel_hub, rules.LARGEST_HUB * sizes.slot_end)
-        eye = of.assembly.L - sizes.reaches[1] - hub - sizes.wall_min
-    sizes = sizes._replace(pin=pin_that_holds(machine, sizes.pin, wide, sizes.roller, eye, loads))
-    if not (sizes.arm_bore and sizes.pin) or size.arm_thickness_mm is not None:
-        return _crank_bored(of, spec, loads, _wheel_bored(of, spec, loads, sizes), keyed=True)
+    if case.sign > 0.0 and _has(sizes.arm_bore):
+        # about the pin, where it passes the largest hub
+        hub = np.maximum(sizes.wheel_hub, rules.LARGEST_HUB * sizes.slot_end)
+        eye = case.L - sizes.reaches[1] - hub - sizes.wall_min
+    pin = pin_that_holds(machine, sizes.pin, wide, sizes.roller, eye, case.loads)
+    case = case._replace(sizes=sizes._replace(pin=pin))
+    if not (_has(sizes.arm_bore) and _has(sizes.pin)) or size.arm_thickness_mm is not None:
+        return _crank_bored(case._replace(sizes=_wheel_bored(case)), keyed=True)
     # a thicker arm, up to twice the wheel, is better for a key than a thicker shaft
-    for keyed in (False, True) if size.crank_keyway else (True,):
-        for thick in sizes_from(wide, 2.0 * wide):
-            bar = sizes.link_thickness if linked else thick
-            trial = sizes._replace(arm_thickness=thick, link_thickness=bar)
-            trial = _crank_bored(of, spec, loads, _wheel_bored(of, spec, loads, trial), keyed)
-            parts = stressed(of.assembly, trial)
-            arm_MPa = float(pin_arm_key.arm_stress_MPa(parts.arm, loads.wheel_N))
-            key_lasts = key_holds(spec, parts.crank_key, loads.crank_Nm)
-            if key_lasts and keeps(arm_MPa, "at most", allowed):
-                return trial
-    return trial
+    trials = trials_from(wide, 2.0 * wide)
+    count = trials.shape[1] if size.crank_keyway else 0
+
+    def attempt(some: Sizing, thick: Array, k: int) -> tuple[Sizes, bool]:
+        bar = some.sizes.link_thickness if linked else thick
+        trial = some.sizes._replace(arm_thickness=parameter(thick), link_thickness=parameter(bar))
+        some = some._replace(sizes=trial)
+        trial = _crank_bored(some._replace(sizes=_wheel_bored(some)), k >= count)
+        parts, loads, spec = dimensions(some._replace(sizes=trial)), some.loads, some.spec
+        arm_MPa = parameter(pin_arm_key.arm_stress_MPa(parts.arm, loads.wheel_N))
+        holds = keeps(arm_MPa, "at most", wheel_material(spec).allowed_MPa)
+        return trial, holds & key_holds(spec, parts.crank_key, loads.crank_Nm)
+
+    return _first(case, np.hstack((trials, trials)) if count else trials, attempt)
 
 
-def _wheel_bored(of: Unloaded, spec: Spec, loads: PartLoads, sizes: Sizes) -> Sizes:
+def _has(part: Number) -> bool:
+    """Return True if designs, all of them or none, have a part with a size."""
+    return bool(np.ravel(part)[0] > 0.0)
+
+
+def _holding(trials: Array, stress: Number, allowed: float) -> Array:
+    """Return the first of each design's trials (m, k) that holds, or else the last: (m, 1)."""
+    holds = np.array(keeps(parameter(stress), "at most", allowed))
+    holds[:, -1] = True
+    return np.take_along_axis(
+        np.broadcast_to(trials, holds.shape), holds.argmax(axis=1)[:, None], 1
+    )
+
+
+def _wheel_bored(case: Sizing) -> Sizes:
     """Return the sizes with a bore of the wheel whose shaft and key hold."""
+    sizes, spec = case.sizes, case.spec
     end, wall = sizes.slot_end, sizes.wall_min
     fixed = spec.size.wheel_bore_mm is not None or spec.shaft.wheel_diameter_mm is not None
-    if fixed or not sizes.wheel_bore:
+    if fixed or not _has(sizes.wheel_bore):
         return sizes
     # a third of the wheel up to its slots is left as a wall
-    most = min(end * 2.0 / 3.0, end - wall, rules.within_hub(spec.size, "wheel"))
-    for d in sizes_from(2.0 * sizes.wheel_bore, 2.0 * most, bores=True):
-        reach, hub = rules.reach_and_hub(spec.size, "wheel", 0.5 * d, wall, end)
-        sizes = sizes._replace(wheel_bore=0.5 * d, wheel_reach=reach, wheel_hub=hub)
-        parts = stressed(of.assembly, sizes)
-        if _shaft_holds(spec, "wheel", parts, loads.wheel_shaft_N, loads.wheel_Nm):
-            break
-    return sizes
+    most = smaller(smaller(end * 2.0 / 3.0, end - wall), rules.within_hub(spec.size, "wheel"))
+    trials = trials_from(2.0 * sizes.wheel_bore, 2.0 * most, bores=True)
+    return _bored(case, "wheel", trials, trials.shape[1], True)
 
 
-def _crank_bored(of: Unloaded, spec: Spec, loads: PartLoads, usual: Sizes, keyed: bool) -> Sizes:
+def _crank_bored(case: Sizing, keyed: bool) -> Sizes:
     """Return the sizes with the crank's bore, through the disc if a shaft that holds fits there.
 
     Otherwise the shaft ends in the arm, whose bore may be larger, unless links are in its way.
     """
-    size, sizes = spec.size, usual
+    sizes, spec, size = case.sizes, case.spec, case.spec.size
     if size.crank_bore_mm or not (size.arm_bore_mm is spec.shaft.crank_diameter_mm is None):
         return sizes
-    trials = list[tuple[float, bool]]()  # diameters, and whether they are bored through the disc
-    if sizes.crank_bore:
+    trials = np.empty((1, 0))
+    if _has(sizes.crank_bore):
         # a larger bore leaves no space for its default hub, of 1.5 bores
-        most = min(0.6 * of.space, rules.within_hub(size, "crank"))
-        for d in sizes_from(2.0 * sizes.crank_bore, 2.0 * most, bores=True):
-            trials.append((d, True))
+        most = smaller(0.6 * case.space, rules.within_hub(size, "crank"))
+        trials = trials_from(2.0 * sizes.crank_bore, 2.0 * most, bores=True)
+    through = trials.shape[1]
     # past links and gears the shaft may have no other way out
-    if sizes.arm_bore and not (links_at(of.assembly.full, np.zeros(1)) or spec.gears):
-        left = sizes.reaches[0] - rules.hole_radius(size, sizes.pin)
-        for d in sizes_from(2.0 * sizes.arm_bore, left, bores=True):  # half of it is left as a wall
-            trials.append((d, False))
-    for d, through in trials:
-        bore = 0.5 * d if through else 0.0
-        reach, hub = rules.reach_and_hub(size, "crank", bore, sizes.wall_min)
-        arm = 0.5 * d if usual.arm_bore else 0.0
-        sizes = usual._replace(crank_bore=bore, crank_reach=reach, crank_hub=hub, arm_bore=arm)
-        parts = stressed(of.assembly, sizes)
-        if _shaft_holds(spec, "crank", parts, loads.crank_N, loads.crank_Nm, keyed):
-            break
-    return sizes
+    if _has(sizes.arm_bore) and not case.linked:
+        left = sizes.reaches[0] - rules.hole_radius(size, sizes.pin)  # half of it stays as a wall
+        ended = trials_from(2.0 * sizes.arm_bore, left, bores=True)
+        rows = np.zeros((max(len(trials), len(ended)), 1))
+        trials = np.hstack((trials + rows, ended + rows))
+    return _bored(case, "crank", trials, through, keyed) if trials.size else sizes
+
+
+def _bored(case: Sizing, part: str, trials: Array, through: int, keyed: bool) -> Sizes:
+    """Return the sizes with the first bore of a part whose shaft holds, and if ``keyed`` its key.
+
+    The first ``through`` diameters are bored through the part, the others through the arm alone.
+    """
+    armed = part == "crank" and _has(case.sizes.arm_bore)
+
+    def attempt(some: Sizing, d: Array, k: int) -> tuple[Sizes, bool]:
+        own, loads, spec = some.sizes, some.loads, some.spec
+        bore = parameter(0.5 * d if k < through else 0.0 * d)
+        reach, hub = rules.reach_and_hub(spec.size, part, bore, own.wall_min, own.slot_end)
+        arm = parameter(0.5 * d) if armed else own.arm_bore
+        if part == "wheel":
+            trial = own._replace(wheel_bore=bore, wheel_reach=reach, wheel_hub=hub)
+            force, torque = loads.wheel_shaft_N, loads.wheel_Nm
+        else:
+            trial = own._replace(crank_bore=bore, crank_reach=reach, crank_hub=hub, arm_bore=arm)
+            force, torque = loads.crank_N, loads.crank_Nm
+        parts = dimensions(some._replace(sizes=trial))
+        lever = getattr(parts, f"{part}_shaft").overhang / 1000.0
+        bent, turned = spec.shaft.bending_factor * force * lever, spec.shaft.torsion_factor * torque
+        moment = parameter(np.hypot(bent, turned))  # both are greatest at once
+        return trial, shaft_and_key_hold(spec, part, parts, moment, torque, keyed)
+
+    return _first(case, trials, attempt)
 
 
 def pin_that_holds(
     mechanism: Mechanism, usual: float, wide: float, roller: float, eye: float, loads: PartLoads
 ) -> float:
-    """Return the radius of the first pin from the usual one on that holds, or the largest.
+    """Return the radius of the first pin from the usual one on that holds, or the largest: (m, 1).
 
     It holds the cycle and the impact at a change of sides, within roller and ``eye``.
     """
-    spec, size = mechanism.spec, mechanism.spec.size
-    on_pin = spec.load.friction and spec.load.friction_at == "pin"
-    if size.pin_mm is not None or on_pin or not usual:
+    spec, size, load = mechanism.spec, mechanism.spec.size, mechanism.spec.load
+    if size.pin_mm is not None or not _has(usual):
         return usual
     contact = value_or(size.face_width_mm, wide)
     # the roller keeps three tenths of its radius as a wall about the hole for its pin
-    most = min(0.7 * roller - 0.5 * size.allowances.shaft_fit_mm, eye)
-    allowed = roller_material(spec).allowed_MPa
-    rubbed, jump = math.hypot(1.0, spec.load.friction), np.array([[loads.pin_jump]])
-    trials, struck_N = np.array(sizes_from(2.0 * usual, 2.0 * most))[:, None], np.zeros(1)
-    if jump:
-        struck_N = forces_N(mechanism, jump, pin_arm_key.PinSize(trials, contact))[:, None]
-    whole_N = np.fmax(loads.pin_N, struck_N) * rubbed  # with friction along the wall
-    stresses = pin_arm_key.pin_stress_MPa(size, contact, trials, whole_N)[2]
-    for d, stress in zip(trials.flat, np.ravel(stresses), strict=True):
-        radius = 0.5 * float(d)
-        if keeps(float(stress), "at most", allowed):
-            break
-    return radius
-
-
-def _shaft_holds(
-    spec: Spec, part: str, parts: Stressed, force_N: float, torque_Nm: float, keyed: bool = True
-) -> bool:
-    """Return True if a shaft and its key hold a force and a torque, both greatest at once."""
-    shaft: ShaftSize = getattr(parts, f"{part}_shaft")
-    bent = spec.shaft.bending_factor * force_N * shaft.overhang / 1000.0
-    moment = math.hypot(bent, spec.shaft.torsion_factor * torque_Nm)
-    return shaft_and_key_hold(spec, part, parts, moment, torque_Nm, keyed)
+    most = np.minimum(0.7 * roller - 0.5 * size.allowances.shaft_fit_mm, eye)
+    trials, jump = trials_from(2.0 * usual, 2.0 * most), np.reshape(loads.pin_jump, (-1, 1))
+    struck_N = 0.0 * jump
+    if jump.any():
+        pins = [pin_arm_key.PinSize(parameter(d[:, None]), contact) for d in trials.T]
+        struck_N = np.column_stack([forces_N(mechanism, jump, pin) for pin in pins])
+    # with friction along the wall
+    whole_N = np.fmax(np.reshape(loads.pin_N, (-1, 1)), struck_N) * np.hypot(1.0, load.friction)
+    stress = pin_arm_key.pin_stress_MPa(size, contact, trials, whole_N)[2]
+    held = 0.5 * _holding(trials, stress, roller_material(spec).allowed_MPa)
+    if load.friction_at == "pin":  # loads with friction there depend on the usual one
+        held = np.where(np.asarray(load.friction) > 0.0, usual, held)
+    return parameter(held)
 
 
 def shaft_and_key_hold(
     spec: Spec, part: str, parts: Stressed, moment_Nm: float, torque_Nm: float, keyed: bool = True
 ) -> bool:
-    """Return True if a shaft holds an equivalent torque, and if ``keyed`` its key a torque."""
+    """Return which shafts hold an equivalent torque, and if ``keyed`` whose keys hold a torque."""
     shaft: ShaftSize = getattr(parts, f"{part}_shaft")
     keyway = vars(spec.size)[f"{part}_keyway"] is not None
-    allowed = float(pin_arm_key.shear_allowed_MPa(spec.shaft, keyway))
-    if not keeps(shear_MPa(moment_Nm, shaft.diameter), "at most", allowed):
-        return False
-    return not keyed or key_holds(spec, getattr(parts, f"{part}_key"), torque_Nm)
+    allowed = parameter(pin_arm_key.shear_allowed_MPa(spec.shaft, keyway))
+    holds = keeps(shear_MPa(moment_Nm, shaft.diameter), "at most", allowed)
+    return holds & key_holds(spec, getattr(parts, f"{part}_key"), torque_Nm) if keyed else holds
 
 
 def key_holds(spec: Spec, key: pin_arm_key.KeyDimensions, torque_Nm: float) -> bool:
-    """Return True if a key holds a torque, or for no key."""
+    """Return which keys hold a torque, True for no key."""
     if key is pin_arm_key.NO_KEY:
         return True
     sides, shear = wheel_material(spec).allowed_MPa, pin_arm_key.shear_allowed_MPa(spec.shaft)
     torque = spec.shaft.torsion_factor * torque_Nm
-    least = float(pin_arm_key.key_stress(key, torque, sides, shear)[2])
-    return keeps(float(key.length), "at least", least)
+    least = parameter(pin_arm_key.key_stress(key, torque, sides, shear)[2])
+    # to the type checker masks of machines are single, as their numbers are
+    none: bool = key.shaft != key.shaft
+    return none | keeps(parameter(key.length), "at least", least)

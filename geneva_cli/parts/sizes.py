@@ -10,7 +10,7 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.numerics.arrays import half_or, value_or
+from geneva_cli.numerics.arrays import choose, half_or, larger, smaller, value_or
 from geneva_cli.numerics.tolerances import bore_radius, rounded_below, rounded_radius
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.shafts.bores import bore_of, has_shape, reach_or_bore
@@ -67,7 +67,8 @@ class Sizes(NamedTuple):
 
     def passing_eye(self, away: float) -> float:
         """Return the radius of the largest eye, ``away`` from the axis, that passes the hub."""
-        return math.inf if self.outer else away - max(self.wheel_bore, self.wheel_hub)
+        hub = larger(self.wheel_bore, self.wheel_hub)
+        return choose(self.outer > 0.0, math.inf, away - hub)
 
     @property
     def outline(self) -> Sizes:
@@ -121,8 +122,8 @@ def plane_span(
 def bridge_low(size: Size, sizes: Sizes) -> float:
     """Return the lower face of a bridge over the crank, above wheel, locking disc and hub, mm."""
     gap = size.allowances.pin_gap_mm
-    on_arm = max(sizes.lock_thickness, value_or(size.crank_hub_length_mm, 0.0)) - gap
-    return max(sizes.wheel_thickness, on_arm) + gap + size.washer_mm
+    on_arm = larger(sizes.lock_thickness, value_or(size.crank_hub_length_mm, 0.0)) - gap
+    return larger(sizes.wheel_thickness, on_arm) + gap + size.washer_mm
 
 
 def hub_and_eye(
@@ -149,7 +150,8 @@ def hub_and_eye(
 
 def arm_hub(size: Size, bored: float, bore: float, wall: float, standing: float = 0.0) -> float:
     """Return the arm's radius about a bore that reaches to ``bored`` with its keyway."""
-    return half_or(size.arm_hub_mm, max(rounded_radius(HUB * bore), bored + wall, standing))
+    least = larger(rounded_radius(HUB * bore), bored + wall)
+    return half_or(size.arm_hub_mm, larger(least, standing))
 
 
 def hole_radius(size: Size, pin: float) -> float:
@@ -232,9 +234,9 @@ def reach_and_hub(
     size: Size, part: str, bore: float, wall: float, end: float = 0.0
 ) -> tuple[float, float]:
     """Return how far a part's bore reaches with its shape, and the radius of its hub."""
-    usual = min(HUB * bore, LARGEST_HUB * end) if part == "wheel" else 1.5 * bore
+    usual = smaller(HUB * bore, LARGEST_HUB * end) if part == "wheel" else 1.5 * bore
     reach, usual = reach_or_bore(size, part, bore), rounded_radius(usual)
-    default = max(usual, reach + wall) if reach > bore else usual
+    default = choose(reach > bore, larger(usual, reach + wall), usual)
     return reach, half_or(vars(size)[f"{part}_hub_mm"], default)
 
 

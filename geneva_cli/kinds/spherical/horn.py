@@ -54,8 +54,11 @@ class SphereHorn(NamedTuple):
         thick = self.thickness(t)
         inwards = L * np.cos(w) * (self.polar(self.at.mouth_deg) - t)
         with np.errstate(invalid="ignore"):
-            axes = np.concatenate((*_axes(t, w), *_axes(t, w + 0.5 * thick / L)))
-        return np.stack(np.broadcast_arrays(inwards, thick, L, self.width_mm, *axes))
+            edge, middle = _axes(t, w), _axes(t, w + 0.5 * thick / L)
+        rows = [inwards, thick, L, self.width_mm]
+        for axes in (*edge, *middle):
+            rows += [*axes]
+        return np.stack(np.broadcast_arrays(*rows))
 
     @staticmethod
     def unit_stress(roller: Points, sections: Points) -> Array:
@@ -75,7 +78,8 @@ class SphereHorn(NamedTuple):
             normal = 6.0 * in_shell / (b * h * h) + 6.0 * off_shell / (h * b * b) + pull / (b * h)
             shear = torsion_MPa(twist, b + 0.0 * h, h)
             stress = np.sqrt(np.maximum(normal, 0.0) ** 2 + 3.0 * shear**2)
-            return np.where(np.isfinite(stress), stress, 0.0)
+            inner = sections[0][:, None] > roller[0][..., None]
+            return np.where(inner & np.isfinite(stress), stress, 0.0)
 
     def thickness(self, t: Array) -> Array:
         """Thickness of the sections at polar angles, mm; infinite where another horn begins."""

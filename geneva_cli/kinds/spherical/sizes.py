@@ -18,7 +18,7 @@ from geneva_cli.loads.strength.part_loads import shaft_squares, single_loads
 from geneva_cli.loads.strength.pin_arm_key import NO_ARM, ArmDimensions, arm_stress_MPa
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.arrays import half_or, value_or
+from geneva_cli.numerics.arrays import array, half_or, value_or
 from geneva_cli.numerics.tolerances import keeps, sizes_from
 from geneva_cli.parts import sizes as rules
 from geneva_cli.parts.machine_sizes import keys_by_load
@@ -100,7 +100,7 @@ def ball(mechanism: Mechanism) -> Ball:
     eye = min(usual.passing_mm(hub), 0.99 * L * (0.5 * math.pi - usual.arm))
     roller, clear = inside * math.sin(usual.roller), eye - wall_min(size, L)
     pin = pin_that_holds(mechanism, usual.pin_mm, outside - inside, roller, clear, loads)
-    sizes, under = usual._replace(pin_mm=pin), usual.arm_span_mm[0]
+    sizes, under = usual._replace(pin_mm=array(pin).item()), usual.arm_span_mm[0]
 
     if not sizes.arm_bore_mm or size.arm_thickness_mm is not None:
         return _crank_bored(mechanism, _wheel_bored(mechanism, sizes), True)

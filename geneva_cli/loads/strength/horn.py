@@ -17,7 +17,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, NamedTuple, TypeAlias
 
@@ -104,12 +103,13 @@ class Horn(NamedTuple):
     half: Array  # half the angle between this horn's mouth and the next one's, at that centre
     tip_mm: Number = 0.0  # width of the flat to which a thinner tip is cut back
 
-    def sections(self, input_deg: Number) -> tuple[Array, Array, Array, Array]:
-        """Sections where the roller is at input angles (m, k), in the axes of the horn.
+    def points(self, input_deg: Number) -> Points:
+        """Places of the roller, or sections, at input angles (m, k), in the axes of the horn.
 
-        They are points of the slot's wall and its normals towards the recess, (2, m, k) from the
-        recess's centre; thicknesses up to the recess, mm; and the angles about that centre, in
-        radians, from the sections' feet to the next horn's. These are (m, k).
+        The rows are the slot's wall from the recess's centre, inwards; the thickness up to the
+        recess; the wall across, and its normal towards the recess; 1 for a place that a tip which
+        is cut back has left, or 0; and the angle about that centre, radians, from the section's
+        foot to the next horn's.
         """
         at_deg = np.atleast_2d(input_deg)
         # one row as (k,) takes half the time
@@ -124,24 +124,22 @@ class Horn(NamedTuple):
         with np.errstate(invalid="ignore"):
             square = along * along - (wall * wall).sum(axis=0) + self.recess_mm**2
             thick = along - np.sqrt(square)
-            return wall, normal, thick, self.half - np.arctan2(*(wall + thick * normal))
-
-    def points(self, input_deg: Number) -> Points:
-        """Places of the roller, or sections, at input angles (m, k); infinitely thick elsewhere."""
-        wall, normal, thick, left = self.sections(input_deg)
-        # places of the wall that a tip which is cut back has left
+            left = self.half - np.arctan2(*(wall + thick * normal))
         depth = wall[1] - self.tip_mm
         inner = np.sqrt(np.maximum(np.square(self.recess_mm) - depth * depth, 0.0))
         begun = (depth >= self.recess_mm) | (wall[0] >= inner) | np.equal(self.tip_mm, 0.0)
-        # where another horn begins there are no sections
-        rows = wall[0], np.where(left > 0.0, thick, np.inf), *wall, *normal, begun
-        return np.stack(np.broadcast_arrays(*rows))
+        return np.stack(np.broadcast_arrays(wall[0], thick, wall[1], *normal, begun, left))
 
     @staticmethod
     def unit_stress(roller: Points, sections: Points) -> Array:
-        """Stresses of sections under 1 N on 1 mm of contact, MPa: (m, places, sections)."""
-        contact, push, (begun, rub) = roller[2:4], roller[4:6], roller[6:]
-        thick, wall, normal = sections[1], sections[2:4], sections[4:6]
+        """Stresses under 1 N on 1 mm of contact, MPa: (m, places, sections).
+
+        They are 0 of sections that are not farther inwards than the roller.
+        """
+        contact, push, begun, rub = roller[:3:2], roller[3:5], roller[5], roller[7]
+        wall, normal = sections[:3:2], sections[3:5]
+        # where another horn begins there are no sections
+        thick = np.where(sections[6] > 0.0, sections[1], np.inf)
         # friction along the wall towards the mouth, where the first axis is negative
         x, y = (push + rub * np.stack((push[1], -push[0]))) * begun
         # With the moment M about the section's middle and the pull P along the beam, the stress
@@ -155,12 +153,12 @@ class Horn(NamedTuple):
         stress -= y[..., None] * along[:, None]
         turn = contact[0] * y - contact[1] * x
         stress += turn[..., None] * np.where(known, bends, 0.0)[:, None]
-        return stress
+        return np.where(sections[0][:, None] > roller[0][..., None], stress, 0.0)
 
     @property
     def stoutness(self) -> Array:
         """Thickness at the mouth over the recess's radius, (m,)."""
-        return np.ravel(self.sections(self.at.mouth_deg)[2] / self.recess_mm)
+        return np.ravel(self.points(self.at.mouth_deg)[1] / self.recess_mm)
 
 
 # Horns of a mechanism and its sizes; those of a sphere have the members that are used of a Horn.
@@ -200,44 +198,32 @@ def greatest_stress(sides: Sides, mechanism: Mechanism, sizes: Sizes) -> HornStr
     return joined([_greatest(sides, *some) for some in every])
 
 
-@dataclass
-class _Search:
-    """A search for the greatest stress in one horn."""
-
-    horn: int
-    places: Array  # input angles of the roller (n, k), of the n designs where the search goes on
-    sections: Array  # (n, k)
-    designs: Whole  # (n,)
-
-
 def _greatest(sides: Sides, mechanism: Mechanism, sizes: Sizes) -> HornStress:
-    m, horns, searches = mechanism.designs, sides(mechanism, *sizes), list[_Search]()
-    grid = np.linspace(1.0, NEAR_CUSP, 61)
+    m, horns, searches = mechanism.designs, sides(mechanism, *sizes), list[tuple[int, float]]()
     for k, side in enumerate(horns):
         # the roller runs along this horn's wall from its own end; in a straight slot from both
-        slot, mouth = side.at.engagement, side.at.mouth_deg
-        flat = side.at.whole.slot.walls_flat
-        for start in (slot.entry_deg, slot.exit_deg) if flat else (mouth,):
-            places, sections = np.atleast_2d(start) * grid, np.atleast_2d(mouth) * grid
-            searches.append(_Search(k, places, sections, np.arange(m)))
-    each = np.full((len(searches), 4, m), np.nan)
+        for start in (-1.0, 1.0):
+            if side.at.whole.slot.walls_flat or start == side.at.end:
+                searches.append((k, start))
+    # fractions of a half motion, of places and of sections: (2, n, k) of the n designs left
+    samples = [np.linspace(1.0, NEAR_CUSP, 61) + np.zeros((2, 1, 1))] * len(searches)
+    each, left = np.full((len(searches), 4, m), np.nan), np.ones((len(searches), m), dtype=bool)
     for below in BELOW:
-        for one, best in zip(searches, each, strict=True):
-            which, some, side = one.designs, mechanism, horns[one.horn]
+        for i, (k, start) in enumerate(searches):
+            which, some, side = np.flatnonzero(left[i]), mechanism, horns[k]
             if 0 < len(which) < m:
                 some, own = taken((mechanism, sizes), which)
-                side = sides(some, *own)[one.horn]
+                side = sides(some, *own)[k]
             if len(which):
-                rows, one.places, one.sections = _sampled(some, side, one)
-                best[:, which] = np.where(rows[0] > 0.0, rows, best[:, which])
-        most = np.fmax.reduce(each[:, 0])
-        for one, stress in zip(searches, each[:, 0], strict=True):
-            left = ~(np.nan_to_num(stress) < below * most)[one.designs]
-            one.designs, one.places = one.designs[left], one.places[left]
-            one.sections = one.sections[left]
+                rows, samples[i] = _sampled(some, side, start, samples[i])
+                each[i][:, which] = np.where(rows[0] > 0.0, rows, each[i][:, which])
+        lower = np.nan_to_num(each[:, 0]) < below * np.fmax.reduce(each[:, 0])
+        for i, rows in enumerate(samples):
+            samples[i] = rows[:, ~lower[i, left[i]]]
+        left &= ~lower
     greatest = np.full((4, m), np.nan)
-    for one, best in zip(searches, each, strict=True):
-        at = horns[one.horn].at
+    for (k, _), best in zip(searches, each, strict=True):
+        at = horns[k].at
         best[1] += np.ravel(at.whole.mid_deg - at.ahead_deg)
         better = ~(best[0] <= greatest[0] * (1.0 + TIE)) & ~np.isnan(best[0])
         greatest = np.where(better, best, greatest)
@@ -248,12 +234,15 @@ def _greatest(sides: Sides, mechanism: Mechanism, sizes: Sizes) -> HornStress:
 _single_stress = lru_cache(maxsize=64)(_greatest)
 
 
-def _sampled(mechanism: Mechanism, side: Horn, search: _Search) -> tuple[Array, Array, Array]:
+def _sampled(mechanism: Mechanism, side: Horn, start: float, samples: Array) -> tuple[Array, Array]:
     """The greatest stress of n designs at samples, as rows of ``HornStress`` (4, n).
 
-    Then places of the roller and sections (n, 33), between the samples beside that one.
+    The roller comes from the entry, ``start`` being -1, or from the exit, being 1. Then the samples
+    (2, n, 33) between those beside that one.
     """
-    case, x = load_case(mechanism), search.places - side.at.ahead_deg
+    m, slot = mechanism.designs, side.at.engagement
+    all_places = (slot.entry_deg if start < 0.0 else slot.exit_deg) * samples[0]
+    case, x = load_case(mechanism), all_places - side.at.ahead_deg
     x = x[0] if len(x) == 1 else x  # as (k,) in half the time
     at = contact_values(contact(side.at.whole, x, reactions=False))
     with np.errstate(all="ignore"):
@@ -265,15 +254,18 @@ def _sampled(mechanism: Mechanism, side: Horn, search: _Search) -> tuple[Array, 
     own = own if len(own) else np.arange(1)
     # a mouth is away from the axis, but for internal wheels
     rub = case.friction * mechanism.spec.wheel.SIGN * loads.slides * at.touches
-    force, places, rub = force[:, own], search.places[:, own], np.atleast_2d(rub + 0.0 * x)[:, own]
-    points = side.points(np.hstack((places, search.sections)))
+    force, places, rub = force[:, own], all_places[:, own], np.atleast_2d(rub + 0.0 * x)[:, own]
+    points = side.points(np.hstack((places, side.at.mouth_deg * samples[1])))
     roller = np.stack(np.broadcast_arrays(*points[..., : len(own)], rub))
     sections = points[..., len(own) :]
-    most, i = _first(force * _most_stressed(side, roller, sections), mechanism.designs)
-    unit = _inner_stress(side, _picked(roller, i)[..., None], sections)[:, 0]
-    _, j = _first(_picked(force, i)[:, None] * unit, mechanism.designs)
+    most, i = _first(force * _most_stressed(side, roller, sections), m)
+    unit = side.unit_stress(_picked(roller, i)[..., None], sections)[:, 0]
+    _, j = _first(_picked(force, i)[:, None] * unit, m)
     rows = np.stack((most, _picked(places, i), *_picked(sections[:2], j)))
-    return rows, _finer(search.places, own[i]), _finer(search.sections, j)
+    beside = np.stack((own[i], j))[..., None] + np.array([-1, 1])
+    every = np.broadcast_to(samples, (2, m, samples.shape[2]))
+    ends = np.take_along_axis(every, np.clip(beside, 0, samples.shape[2] - 1), axis=2)
+    return rows, ends[..., :1] + np.diff(ends) * np.linspace(0.0, 1.0, 33)
 
 
 def _most_stressed(side: Horn, roller: Points, sections: Points) -> Array:
@@ -290,14 +282,8 @@ def _most_stressed(side: Horn, roller: Points, sections: Points) -> Array:
         for some in blocks(len(most), count):  # whose stresses stay in the cache
             at = places if m == 1 else places[:, some]
             ends = edges if edges.shape[1] == 1 else edges[:, some]
-            most[some, own] = np.maximum(_inner_stress(side, at, ends).max(axis=2), 0.0)
+            most[some, own] = np.maximum(side.unit_stress(at, ends).max(axis=2), 0.0)
     return most
-
-
-def _inner_stress(side: Horn, roller: Points, sections: Points) -> Array:
-    """The stress under 1 N of the sections farther inwards than the roller, 0 of the others."""
-    inner = sections[0][:, None] > roller[0][..., None]
-    return np.where(inner, side.unit_stress(roller, sections), 0.0)
 
 
 def _first(stress: Array, m: int) -> tuple[Array, Whole]:
@@ -312,10 +298,3 @@ def _picked(rows: Array, k: Whole) -> Array:
     every = 0 if rows.shape[-2] == 1 else np.arange(len(k))
     picked: Array = rows[..., every, k]
     return picked
-
-
-def _finer(samples: Array, k: Whole) -> Array:
-    """Samples (n, 33) between the neighbours of the k-th ones (n,)."""
-    before = _picked(samples, np.maximum(k - 1, 0))[:, None]
-    after = _picked(samples, np.minimum(k + 1, samples.shape[1] - 1))[:, None]
-    return before + (after - before) * np.linspace(0.0, 1.0, 33)

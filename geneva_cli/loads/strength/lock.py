@@ -140,7 +140,8 @@ def bending(mechanism: Mechanism, half_width: float, recess: float, phi: float) 
     for side in horns(mechanism, half_width, recess):
         # sums by trapezoids over 2001 sections have an error of a ten-thousandth at worst
         places = side.at.mouth_deg * np.linspace(1.0, NEAR_CUSP, 2001)
-        wall, normal, thick, own = side.sections(places)
+        points = side.points(places)
+        wall, thick, normal, own = points[:3:2], points[1], points[3:5], points[6]
         middle = wall + 0.5 * thick * normal
         towards = abs((side.centre * side.axes[1]).sum(axis=0)) / np.hypot(*side.centre)
         ahead = np.arccos(np.minimum(1.0, towards))  # direction of the wheel's axis

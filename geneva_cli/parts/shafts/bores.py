@@ -14,7 +14,7 @@ from typing import NamedTuple
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry import shapes
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Line, Shape
-from geneva_cli.numerics.arrays import half_or
+from geneva_cli.numerics.arrays import half_or, of_each
 from geneva_cli.numerics.tolerances import ROUNDED
 from geneva_cli.spec.defaults import ParallelKey, key
 from geneva_cli.spec.tables import Size
@@ -147,11 +147,18 @@ def has_shape(size: Size, part: str) -> bool:
 
 
 def reach_or_bore(size: Size, part: str, bore: float) -> float:
-    """Return how far a bore reaches with its shape; its radius where it cannot be made."""
-    try:
-        return bore_of(size, part, bore).reach
-    except GenevaError:  # reported where the part is cut
-        return bore
+    """Return how far bores reach with their shape; the radius where one cannot be made."""
+    own = vars(size)
+    if own[f"{part}_bore"] == "round" and own[f"{part}_keyway"] is None:
+        return bore + 0.5 * size.allowances.shaft_fit_mm
+
+    def reach(radius: float) -> float:
+        try:
+            return bore_of(size, part, radius).reach
+        except GenevaError:  # reported where the part is cut
+            return radius
+
+    return of_each(reach, bore)
 
 
 def radius_of(shape: Shape) -> float:

@@ -8,6 +8,7 @@ from functools import partial
 
 import numpy as np
 
+from geneva_cli.loads.impacts.reversal import reversal_impacts
 from geneva_cli.loads.impacts.shock_force import least_pin_mm
 from geneva_cli.loads.load_case import centrifugal_N
 from geneva_cli.loads.strength import pin_arm_key
@@ -57,9 +58,10 @@ def pin(of: Designs) -> Columns:
         "margin": margin(stress, allowed),
     }
     if allowed is not None:
-        bending, shear, _ = pin_arm_key.pin_stress_MPa(size, width, d, load.roller_N)
+        roller_N = load.force_N[:, None] * load.rubbed
+        bending, shear, _ = pin_arm_key.pin_stress_MPa(size, width, d, roller_N)
         least = np.ravel(pin_arm_key.least_diameter_mm(bending, shear, d, allowed))
-        jump = load.reversals.jump
+        jump = reversal_impacts(of.machine).jump
         if not np.isnan(jump).all():
             rubbed = pin_arm_key.pin_stress_MPa(size, width, d, load.rubbed)[:2]
             struck = least_pin_mm(of.machine, jump[:, None], own, rubbed, allowed)

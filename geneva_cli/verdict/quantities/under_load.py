@@ -11,7 +11,7 @@ from geneva_cli.errors import GenevaError, marking
 from geneva_cli.kept import cached_property
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.impacts.reversal import reversal_impacts
-from geneva_cli.loads.impacts.shock_force import Impacts, forces_N
+from geneva_cli.loads.impacts.shock_force import forces_N
 from geneva_cli.loads.load_peaks import load_peaks
 from geneva_cli.loads.strength import lock, pin_arm_key
 from geneva_cli.loads.strength.horn import greatest_stress, horns
@@ -22,9 +22,20 @@ from geneva_cli.motion.batch import designs_in, taken
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.registry import thing
-from geneva_cli.numerics.arrays import Array, Number, Record, library, parameter, record_of
-from geneva_cli.parts.machine_sizes import Layout, loaded, sized, unloaded
-from geneva_cli.parts.sized_by_load import Stressed, stressed
+from geneva_cli.numerics.arrays import (
+    Array,
+    Mask,
+    Number,
+    Record,
+    library,
+    mapped,
+    parameter,
+    record_of,
+)
+from geneva_cli.parts.machine_sizes import fits, sized, unloaded
+from geneva_cli.parts.shafts.bores import has_shape
+from geneva_cli.parts.sized_by_load import Stressed, dimensions, load_sizes, sizing, stressed
+from geneva_cli.parts.sizes import Sizes as PartSizes
 from geneva_cli.parts.sizes import Unloaded
 from geneva_cli.spec.defaults import roller_material
 from geneva_cli.verdict.quantities.batch_designs import Designs
@@ -53,14 +64,9 @@ class UnderLoad:
     @cached_property
     def force_N(self) -> Array:
         """The greatest force on a roller, along the wall's normal."""
-        if self.designs.single and not np.isnan(self.loaded[0]):
-            return np.array([self.part_loads.pin_N])  # its cached loads have it
-        return self._peak("pin_force_N")
-
-    @cached_property
-    def roller_N(self) -> Array:
-        """The greatest force on a roller, with its friction along the wall; (m, 1)."""
-        return self.force_N[:, None] * self.rubbed
+        if self.machine.spec.size.pin_mm is not None or np.isnan(self.loaded).all():
+            return self._peak("pin_force_N")
+        return self.part_loads.pin_N * self.loaded  # a search that sizes need, too
 
     @cached_property
     def pv_W_m2(self) -> Array:
@@ -77,7 +83,7 @@ class UnderLoad:
 
     @cached_property
     def _unloaded(self) -> list[Unloaded | None]:
-        """The parts of the designs without their loads; None for one without flat parts."""
+        """The parts of each design, or of all, without loads; None for one without flat parts."""
         if self.designs.single:
             return [unloaded(self.machine) if sized(self.machine) else None]
         if not self.designs.are_built:
@@ -87,7 +93,7 @@ class UnderLoad:
                 before = of.drive_before
                 bare = Spec(of.wheel, drive, *keys, shaft=of.shaft, drive_before=before)
             if designs_in(bare) == 1:  # designs that differ in speed and loads have the same
-                return [_bare(build(taken(bare, 0)))] * self.machine.designs
+                return [_bare(build(taken(bare, 0)))]
         return [*map(_bare, self.designs.each)]
 
     @cached_property
@@ -128,26 +134,6 @@ class UnderLoad:
         return greatest_stress(horns, self.machine, self.horn_sizes)
 
     @cached_property
-    def layouts(self) -> Sequence[Layout | None]:
-        """Assembly and sizes of each design; None for one without flat parts."""
-        if self.designs.single:
-            return [sized(self.machine)]
-        machines, size = self.designs.each, self.machine.spec.size
-        if self.designs.are_built or not self.machine.spec.is_loaded:
-            return [*map(sized, machines)]
-        bent: Sequence[float | None] = [None] * len(machines)
-        if self.lock_sizes and size.wheel_thickness_mm is None and size.face_width_mm is None:
-            bent = lock.horn_MPa(self.machine, *self.lock_sizes, self._flat_horns).tolist()
-
-        def layout(i: int) -> Layout | None:
-            parts = self._unloaded[i]
-            if parts is None:
-                return None
-            return parts.assembly, loaded(parts, machines[i], self.part_loads.of(i), bent[i])
-
-        return [_or_none(layout, i) for i in range(len(machines))]
-
-    @cached_property
     def lock(self) -> LockUnderTorque | None:
         """The lock under the torque that it holds in the dwell; None if no design has one."""
         sizes, width = self.lock_sizes, self.contact_mm
@@ -165,10 +151,45 @@ class UnderLoad:
         if own:
             machines = self.designs.each
             return batched([None if one.spec.no_parts else _or_none(own, one) for one in machines])
-        each = list[Stressed | None]()
-        for one in self.layouts:
-            each.append(stressed(*one) if one else None)
-        return batched(each)
+        if self.designs.single:
+            one = sized(self.machine)
+            return batched([one and stressed(*one)])
+        some, size, machine = [*filter(None, self._unloaded)], self.machine.spec.size, self.machine
+        if not some:
+            return None
+        # links, gears and a groove, which may be in the way of shafts
+        planes, shaped = sizing(some[0].assembly, some[0].sizes).planes, False
+        kinds = {sizing(of.assembly, of.sizes)[4:7] for of in some[: None if planes else 1]}
+        for part in ("wheel", "crank"):
+            shaped = shaped or (has_shape(size, part) and designs_in(size) > 1)
+        if self.designs.are_built or machine.first_wheel or len(kinds) > 1 or shaped:
+            layouts = [*map(sized, self.designs.each)]
+            return batched([stressed(*one) if one else None for one in layouts])
+        of = some[0]
+        if any(one is not of for one in some):
+            rows = [one and (one.assembly.L, one.sizes, one.space) for one in self._unloaded]
+            L, sizes, space = cast("tuple[float, PartSizes, float]", batched(rows, as_numbers))
+            of = of._replace(assembly=of.assembly._replace(L=L), sizes=sizes, space=space)
+        locks, bent = self.lock_sizes, None
+        if locks and size.wheel_thickness_mm is None and size.face_width_mm is None:
+            bent = lock.horn_MPa(machine, *locks, self._flat_horns)
+        sizes = load_sizes(of, locks and locks[1], machine, self.part_loads, bent)
+        parts = dimensions(sizing(of.assembly, sizes)._replace(spec=machine.spec))
+        fit = np.where(self._fit(sizes), 1.0, np.nan)
+        return mapped(lambda row: np.ravel(row) * fit, parts)
+
+    def _fit(self, sizes: PartSizes) -> Mask:
+        """Which designs the sizes under their loads fit, (m,)."""
+        rows = np.hstack(np.broadcast_arrays(*sizes[:7], *sizes[8:], self.loaded[:, None]))
+        each, known = self._unloaded, dict[object, bool]()
+        each = each if len(each) > 1 else each * len(rows)
+        fit = np.zeros(len(rows), dtype=bool)
+        for i, (of, row) in enumerate(zip(each, rows, strict=True)):
+            key = id(of), row.tobytes()
+            if of and key not in known:
+                known[key] = fits(of, taken(sizes, i))
+            fit[i] = known.get(key, False)
+        return fit
 
     @property
     def contact_mm(self) -> float | None:
@@ -178,18 +199,14 @@ class UnderLoad:
             return width
         return parameter(np.reshape(self.parts.contact, (-1, 1)))
 
-    @cached_property
-    def reversals(self) -> Impacts:
-        """The impacts at a change of sides, without their forces."""
-        return reversal_impacts(self.machine)
-
     def pin_N(self, pin: PinSize) -> Array:
         """The greatest force on a roller with its friction, in the cycle or by impact, (m, 1)."""
-        jump = self.reversals.jump[:, None]
+        jump = reversal_impacts(self.machine).jump[:, None]
+        force = self.force_N[:, None] * self.rubbed
         if np.isnan(jump).all():
-            return self.roller_N
+            return force
         struck = forces_N(self.machine, jump, pin)[:, None]
-        return np.maximum(self.roller_N, np.nan_to_num(struck * self.rubbed))
+        return np.maximum(force, np.nan_to_num(struck * self.rubbed))
 
     @cached_property
     def pin_mm(self) -> Number:
