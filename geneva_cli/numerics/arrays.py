@@ -30,7 +30,6 @@ Truth: TypeAlias = "bool | Mask"
 N = TypeVar("N", float, "Array", "Number")
 Either = TypeVar("Either", "Array", "Whole")
 Real = TypeVar("Real", float, "Array", "Number", "Decimal")
-T = TypeVar("T")
 Record = TypeVar("Record", bound=tuple[object, ...])
 _PLAIN = (float, int)
 
@@ -222,30 +221,22 @@ def picked(index: Whole, records: Sequence[Record]) -> Record:
     """
     import numpy
 
-    out: list[object] = []
-    for members in zip(*records, strict=True):
-        first, kinds = members[0], {*map(type, members)}
-        if isinstance(first, tuple):
-            out.append(picked(index, members))
-        elif numpy.ndarray in kinds:
+    def of(*members: Number) -> object:
+        if numpy.ndarray in {*map(type, members)}:
             columns = numpy.broadcast_arrays(*members)
             designs = numpy.arange(columns[0].size)[:, None] if columns[0].size > 1 else 0
-            out.append(numpy.concatenate(columns, axis=1)[designs, index])
-        else:
-            same = members.count(first) == len(members)
-            out.append(first if same else numpy.array(members)[index])
-    return record_of(records[0], out)
+            return numpy.concatenate(columns, axis=1)[designs, index]
+        same = members.count(members[0]) == len(members)
+        return members[0] if same else numpy.array(members)[index]
+
+    return mapped(of, *records)
 
 
 def joined(records: Sequence[Record], axis: int = -1) -> Record:
     """Several records of arrays, or of such records, as one: each array joined along an axis."""
     import numpy
 
-    out: list[object] = []
-    for parts in zip(*records, strict=True):
-        is_record = isinstance(parts[0], tuple)
-        out.append(joined(parts, axis) if is_record else numpy.concatenate(parts, axis))
-    return record_of(records[0], out)
+    return mapped(lambda *parts: numpy.concatenate(parts, axis), *records)
 
 
 def numbers_of(which: Mask | Whole) -> Whole:
@@ -257,16 +248,10 @@ def record_taken(record: Record, which: Which) -> Record:
     """A record of arrays (..., m), or of such records, with some of their columns."""
     # NumPy's own indexing puts each column's values side by side in memory; reductions over them
     # then take fifty times as long.
-    which = which if isinstance(which, slice) else numbers_of(which)
-    out: list[object] = []
-    for column in record:
-        if isinstance(column, tuple):
-            out.append(record_taken(column, which))
-        elif isinstance(which, slice):
-            out.append(cast("Array", column)[..., which])
-        else:
-            out.append(cast("Array", column).take(which, axis=-1))
-    return record_of(record, out)
+    if isinstance(which, slice):
+        return mapped(lambda column: column[..., which], record)
+    numbers = numbers_of(which)
+    return mapped(lambda column: column.take(numbers, axis=-1), record)
 
 
 def blocks(count: int, size: int) -> list[slice]:
@@ -326,17 +311,15 @@ def array(x: Number) -> Array:
     return numpy.asarray(x)
 
 
-def read_only(x: T) -> T:
-    """A cached value whose arrays, in records too, are views that cannot be written through."""
-    if isinstance(x, tuple):
-        return cast("T", record_of(x, [*map(read_only, x)]))
-    import numpy
+def read_only(record: Record) -> Record:
+    """A cached record of arrays, or of such records, as views that cannot be written through."""
 
-    if not isinstance(x, numpy.ndarray):
-        return x
-    view = x.view()
-    view.flags.writeable = False
-    return cast("T", view)
+    def view(column: Array) -> Array:
+        out = column.view()
+        out.flags.writeable = False
+        return out
+
+    return mapped(view, record)
 
 
 def only_of(rows: Iterable[Number | None]) -> list[float | None]:
