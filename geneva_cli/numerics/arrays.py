@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_left
 from collections.abc import Callable, Iterable, Sequence
+from operator import itemgetter, methodcaller
 from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Protocol, Self, TypeAlias, TypeVar, cast
 
 if TYPE_CHECKING:
@@ -52,16 +53,6 @@ if TYPE_CHECKING:
         def ceil(self, x: N, /) -> N: ...
         def degrees(self, x: N, /) -> N: ...
         def copysign(self, x: N, y: N, /) -> N: ...
-
-
-class Undecided(ArithmeticError):
-    """A comparison that holds for some of the numbers between two bounds and not for others.
-
-    Of several enclosures ``answers`` has each one's own, NaN where it is open.
-    """
-
-    def __init__(self, answers: Array | float = math.nan) -> None:
-        self.answers = answers
 
 
 class Enclosed:
@@ -114,19 +105,6 @@ class Enclosed:
         return not self < other  # type: ignore[operator]
 
     __hash__ = None  # type: ignore[assignment]
-
-
-class EnclosedLibrary:
-    """What the functions of ``math`` of enclosures share."""
-
-    def hypot(self, x: float, y: float) -> float:
-        return cast("Library", self).sqrt(x**2 + y**2)
-
-    def degrees(self, x: float) -> float:
-        return x * (180.0 / cast("Library", self).pi)
-
-    def copysign(self, x: float, y: float) -> float:
-        return abs(x) if y > 0.0 else -abs(x)
 
 
 SINGLE = (float, int, Enclosed)  # the kinds of a single number; any other is an array
@@ -221,15 +199,19 @@ def picked(index: Whole, records: Sequence[Record]) -> Record:
     """
     import numpy
 
-    def of(*members: Number) -> object:
-        if numpy.ndarray in {*map(type, members)}:
+    out: list[object] = []
+    for members in zip(*records, strict=True):
+        first, kinds = members[0], {*map(type, members)}
+        if isinstance(first, tuple):
+            out.append(picked(index, members))
+        elif numpy.ndarray in kinds:
             columns = numpy.broadcast_arrays(*members)
             designs = numpy.arange(columns[0].size)[:, None] if columns[0].size > 1 else 0
-            return numpy.concatenate(columns, axis=1)[designs, index]
-        same = members.count(members[0]) == len(members)
-        return members[0] if same else numpy.array(members)[index]
-
-    return mapped(of, *records)
+            out.append(numpy.concatenate(columns, axis=1)[designs, index])
+        else:
+            same = members.count(first) == len(members)
+            out.append(first if same else numpy.array(members)[index])
+    return record_of(records[0], out)
 
 
 def joined(records: Sequence[Record], axis: int = -1) -> Record:
@@ -249,9 +231,8 @@ def record_taken(record: Record, which: Which) -> Record:
     # NumPy's own indexing puts each column's values side by side in memory; reductions over them
     # then take fifty times as long.
     if isinstance(which, slice):
-        return mapped(lambda column: column[..., which], record)
-    numbers = numbers_of(which)
-    return mapped(lambda column: column.take(numbers, axis=-1), record)
+        return mapped(itemgetter((..., which)), record)
+    return mapped(methodcaller("take", numbers_of(which), axis=-1), record)
 
 
 def blocks(count: int, size: int) -> list[slice]:
