@@ -20,7 +20,7 @@ from typing import NamedTuple, TypeAlias, cast
 
 from geneva_cli.extras.certify.balls import NOWHERE, Ball, ball_of
 from geneva_cli.numerics.angles import distinct
-from geneva_cli.numerics.arrays import Undecided
+from geneva_cli.numerics.intervals import Undecided
 from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.numerics.tolerances import TIE
 
