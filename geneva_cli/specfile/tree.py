@@ -10,24 +10,13 @@ from typing import Any
 from geneva_cli.errors import GenevaError, below, clean, cut, few, nearest
 from geneva_cli.motion.drive import Drive
 from geneva_cli.motion.laws.law import Motion
-from geneva_cli.motion.machine_spec import (
-    BEFORE,
-    DRIVES,
-    LAWS,
-    WHEELS,
-    KindTable,
-    Spec,
-    drives_before,
-    kind_tables,
-)
+from geneva_cli.motion import machine_spec
+from geneva_cli.motion.machine_spec import BEFORE, DRIVES, LAWS, WHEELS, KindTable, Spec
 from geneva_cli.spec import schema
 from geneva_cli.spec.rules import Csv
 from geneva_cli.spec.tables import LISTS, PLAIN
 
-TABLES = ["wheel", "drive", "motion"]
-for _name in PLAIN:
-    if _name.partition(".")[0] not in TABLES:
-        TABLES.append(_name.partition(".")[0])
+TABLES = [*dict.fromkeys(name.partition(".")[0] for name in ("wheel", "drive", "motion", *PLAIN))]
 
 # Other names of a size: here the pin's radius is that of the roller on it.
 ALSO_CALLED = {"pin_radius_mm": "roller_radius_mm", "crank_pin_radius_mm": "roller_radius_mm"}
@@ -93,9 +82,9 @@ def _not_a_table(table: str) -> GenevaError:
 
 def _part(table: str, part: str, values: dict[str, Any]) -> Any:
     """A table of a table, such as [material.wheel]; None without it."""
+    known = [name.partition(".")[2] for name in PLAIN if name.startswith(f"{table}.")]
     for own in values:
-        if f"{table}.{own}" not in PLAIN:
-            known = [name.partition(".")[2] for name in PLAIN if name.startswith(f"{table}.")]
+        if own not in known:
             raise schema.unknown(own, table, known)
     if not isinstance(values.get(part, {}), dict):
         raise _not_a_table(f"{table}.{part}")
@@ -143,7 +132,7 @@ def _before(values: Any, files: list[str]) -> Any:
     if "kind" not in values:
         raise GenevaError(f"[{BEFORE}] needs kind: the drive that turns the shaft", place)
     with _within(f"[{BEFORE}]", place):
-        return _kind(values, drives_before(), files)
+        return _kind(values, machine_spec.drives_before(), files)
 
 
 def _motion(values: dict[str, Any], files: list[str]) -> Motion | None:
@@ -176,8 +165,8 @@ def _unknown(
     if kinds:
         for name, others in kinds.keys.items():
             if key in [field.key for field in others]:
-                text = '{key} belongs to {word} = "{name}", but this is {word} = "{of}"'
-                text = text.format(key=key, word=kinds.word.key, name=name, of=of)
+                word = kinds.word.key
+                text = f'{key} belongs to {word} = "{name}", but this is {word} = "{of}"'
                 return GenevaError(text, place)
     half = key.replace("_diameter_", "_radius_")
     twin = f"; {half} in [{table}] is half a diameter" if half != key and half in keys else ""
@@ -188,7 +177,7 @@ def _unknown(
     hint = twin
     if ALSO_CALLED.get(key) in keys:
         hint = f' (did you mean "{ALSO_CALLED[key]}"?)'
-    for one in kind_tables():
+    for one in machine_spec.kind_tables():
         if one.table == table:
             keys.insert(0, one.word.key)
             if key in one.names:
@@ -220,10 +209,8 @@ def _arguments(
     ``files`` are the spec's and those read so far; ``of`` is the kind of a table of ``kinds``.
     """
     out: dict[str, Any] = {}
-    is_whole = True
     for field in schema.fields(cls):
         if field.key not in values:
-            is_whole = is_whole and field.default is not schema.REQUIRED
             continue
         value = values[field.key]
         if isinstance(field.rule, Csv):  # the name of a file, relative to the spec
@@ -243,6 +230,5 @@ def _arguments(
         known = {field.key: field for field in own}
         key = next(key for key in values if key not in known)
         raise _unknown(key, kinds.table if kinds else cls.TABLE, known.values(), kinds, of)
-    if not is_whole:
-        schema.require(cls, tuple(values), f' for {kinds.word.key} = "{of}"' if kinds else "")
+    schema.require(cls, tuple(values), f' for {kinds.word.key} = "{of}"' if kinds else "")
     return out
