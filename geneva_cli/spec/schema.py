@@ -13,19 +13,10 @@ from __future__ import annotations
 import dataclasses
 import inspect
 import math
+import typing
 from collections.abc import Iterable, Mapping, Sequence
 from types import NoneType, UnionType
-from typing import (
-    Annotated,
-    Any,
-    ClassVar,
-    NamedTuple,
-    Self,
-    TypeAlias,
-    dataclass_transform,
-    get_args,
-    get_origin,
-)
+from typing import Annotated, Any, ClassVar, NamedTuple, Self, TypeAlias
 
 from geneva_cli.errors import GenevaError, cut, few, nearest, refuse
 from geneva_cli.spec.rules import TINY, Csv, OneOf, Range, is_array, plain
@@ -84,7 +75,7 @@ class _Signature:
         return inspect.Signature(parameters)
 
 
-@dataclass_transform(frozen_default=True, field_specifiers=(dataclasses.field,))
+@typing.dataclass_transform(frozen_default=True, field_specifiers=(dataclasses.field,))
 class SpecTable:
     """A table of the spec. Raises GenevaError, naming table and key, for an invalid value.
 
@@ -249,10 +240,10 @@ def fields(table: type[SpecTable]) -> tuple[Field, ...]:
     for name, one in table._parameters.items():
         annotation = own.get(name)
         # others are no keys: objects with their own keys, such as a motion's law
-        if get_origin(annotation) is Annotated:
-            annotated, rule, meaning = get_args(annotation)
+        if typing.get_origin(annotation) is Annotated:
+            annotated, rule, meaning = typing.get_args(annotation)
             # an alternative (a | b) by its parts, anything else as it is; tuple[...] stays whole
-            types = get_args(annotated) if isinstance(annotated, UnionType) else (annotated,)
+            types = typing.get_args(annotated) if isinstance(annotated, UnionType) else (annotated,)
             key = name.rstrip("_").replace("_", table.WORDS_APART)
             key = "file" if isinstance(rule, Csv) else key
             keys.append(Field(key, name, types, rule, one.default, meaning))

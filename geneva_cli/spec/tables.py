@@ -160,8 +160,8 @@ class Size(SpecTable):
         >>> Size(process="laser", wheel_thickness_mm=3.0, lock_clearance_mm=0.1).allowances[:3]
         (0.2, 0.1, 0.15)
         """
-        own, cut_mm = vars(self), WORKSHOPS[self.process].cut_mm
-        values = (Allowances() if self.process is None else PROCESSES[self.process])._asdict()
+        own, shop = vars(self), WORKSHOPS[self.process]
+        values, cut_mm = shop.allowances._asdict(), shop.cut_mm
         if cut_mm:
             # Parts are all off by the deviation of their cut. The roller is wide and its slot
             # narrow, each by half a side; and so disc and recess, whose diameter is about the
@@ -603,20 +603,10 @@ class Accept(SpecTable):
 
 
 # The tables of every kind of machine, in the order of a file; those in LISTS may be repeated.
-PLAIN: dict[str, type[SpecTable]] = {
-    "size": Size,
-    "load": Load,
-    "mass": Mass,
-    "support": Support,
-    "motor": Motor,
-    "shaft": Shaft,
-    "material.wheel": WheelMaterial,
-    "material.roller": RollerMaterial,
-    "tolerance": Tolerance,
-    "product": Product,
-    "drawing": TitleBlock,
-    "outline": Outline,
-    "limits": Limits,
-    "accept": Accept,
-}
+PLAIN: dict[str, type[SpecTable]] = {}
+for _table in (
+    *(Size, Load, Mass, Support, Motor, Shaft, WheelMaterial, RollerMaterial, Tolerance),
+    *(Product, TitleBlock, Outline, Limits, Accept),
+):
+    PLAIN[_table.TABLE] = _table
 LISTS = ("mass",)

@@ -70,15 +70,14 @@ def whole_key(key: str, typed: str) -> str:
     """
     if key == "title" or "." in key:
         return key
-    from geneva_cli.specfile.keys import full_names, tables_with  # loads every kind
+    from geneva_cli.specfile.keys import all_keys, tables_with  # loads every kind
 
     names = [f"{table}.{key}" for table in tables_with(key)]
     if len(names) == 1:
         return names[0]
     if names:
         raise GenevaError(f"{typed}: several tables have this key; write {' or '.join(names)}")
-    known = {name.rpartition(".")[2] for name in full_names()}
-    hint = nearest(key, sorted(known))
+    hint = nearest(key, sorted({k.key for k in all_keys() if k.table}))
     raise GenevaError(f"{typed}: no table has this key{hint}; `geneva keys` lists all")
 
 
@@ -115,16 +114,11 @@ class Text(NamedTuple):
             if not error.key:
                 raise
             # the option that set the key of an error, or a key in its table
-            options = (
-                one.option
-                for one in reversed(self.set_keys)
-                if one.path[: len(error.key)] == error.key
-            )
-            where = next(options, "")
-            if not where:
-                line = line_of(self.text, error.key)
-                where = f"{self.name}:{line}" if line else self.name
-            raise GenevaError(f"{where}: {error}") from None
+            n = len(error.key)
+            options = [one.option for one in self.set_keys if one.path[:n] == error.key]
+            line = line_of(self.text, error.key)
+            where = f"{self.name}:{line}" if line else self.name
+            raise GenevaError(f"{options[-1] if options else where}: {error}") from None
 
     def spec(self) -> Spec:
         """The spec. Raises GenevaError, ready to print, for anything wrong with it."""

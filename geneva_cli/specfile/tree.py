@@ -8,15 +8,18 @@ from contextlib import contextmanager
 from typing import Any
 
 from geneva_cli.errors import GenevaError, below, clean, cut, few, nearest
+from geneva_cli.motion import machine_spec
 from geneva_cli.motion.drive import Drive
 from geneva_cli.motion.laws.law import Motion
-from geneva_cli.motion import machine_spec
 from geneva_cli.motion.machine_spec import BEFORE, DRIVES, LAWS, WHEELS, KindTable, Spec
 from geneva_cli.spec import schema
 from geneva_cli.spec.rules import Csv
 from geneva_cli.spec.tables import LISTS, PLAIN
 
-TABLES = [*dict.fromkeys(name.partition(".")[0] for name in ("wheel", "drive", "motion", *PLAIN))]
+TABLES = ["wheel", "drive", "motion"]
+for _name in PLAIN:
+    if _name.partition(".")[0] not in TABLES:
+        TABLES.append(_name.partition(".")[0])
 
 # Other names of a size: here the pin's radius is that of the roller on it.
 ALSO_CALLED = {"pin_radius_mm": "roller_radius_mm", "crank_pin_radius_mm": "roller_radius_mm"}
@@ -209,8 +212,10 @@ def _arguments(
     ``files`` are the spec's and those read so far; ``of`` is the kind of a table of ``kinds``.
     """
     out: dict[str, Any] = {}
+    is_whole = True
     for field in schema.fields(cls):
         if field.key not in values:
+            is_whole = is_whole and field.default is not schema.REQUIRED
             continue
         value = values[field.key]
         if isinstance(field.rule, Csv):  # the name of a file, relative to the spec
@@ -230,5 +235,6 @@ def _arguments(
         known = {field.key: field for field in own}
         key = next(key for key in values if key not in known)
         raise _unknown(key, kinds.table if kinds else cls.TABLE, known.values(), kinds, of)
-    schema.require(cls, tuple(values), f' for {kinds.word.key} = "{of}"' if kinds else "")
+    if not is_whole:
+        schema.require(cls, tuple(values), f' for {kinds.word.key} = "{of}"' if kinds else "")
     return out

@@ -24,9 +24,8 @@ def _operator(f: Callable[[arb, arb], arb]) -> Callable[[Ball, Ball | float], Ba
     """An operator of a ball and a number; a jet, for one, brings its own."""
 
     def operator(x: Ball, y: Ball | float) -> Ball:
-        if isinstance(y, Ball):
-            return Ball(f(x.arb, y.arb))
-        return Ball(f(x.arb, arb(y))) if isinstance(y, (float, int)) else NotImplemented
+        plain = isinstance(y, (Ball, float, int))
+        return Ball(f(x.arb, arb_of(y))) if plain else NotImplemented
 
     return operator
 

@@ -59,15 +59,6 @@ class Greatest(NamedTuple):
     open: BoundedSpan | None
 
 
-class _Enclosure(NamedTuple):
-    """Balls that hold the function in the middle of an interval, and on all of it."""
-
-    middle: arb
-    value: arb
-    slope: arb
-    bend: arb
-
-
 class _Piece(NamedTuple):
     """Part of a motion with one formula, and what an end may be off where another takes over."""
 
@@ -141,18 +132,18 @@ class _Search:
         return self.low * (1.0 - TIE)
 
     def _examine(self, piece: _Piece, a: float, b: float, high: float) -> None:
-        enclosure = self._on(piece, *piece.reach(a, b))
-        if enclosure:
-            self.low = max(self.low, _sizes(enclosure.middle)[0])
-            high = min(high, _sizes(enclosure.value)[1])
+        inside, value, slope, bend = self._on(piece, *piece.reach(a, b))
+        if value.is_finite():
+            self.low = max(self.low, _sizes(inside)[0])
+            high = min(high, _sizes(value)[1])
             if high < self._least:
                 return
-            sign = _sign(enclosure.value)
-            bends = sign * _sign(enclosure.bend)  # above 0: the size is convex
-            if _sign(enclosure.slope) or bends > 0:
+            sign = _sign(value)
+            bends = sign * _sign(bend)  # above 0: the size is convex
+            if _sign(slope) or bends > 0:
                 self._take_ends(piece, a, b)
                 return
-            if bends < 0 and self._take_top(piece, a, b, sign, enclosure.bend):
+            if bends < 0 and self._take_top(piece, a, b, sign, bend):
                 return
             # an interval that rises by less than 1e-15 of the greatest size is a plateau
             if high <= self.low * (1.0 + 1e-15):
@@ -183,12 +174,8 @@ class _Search:
 
     def _sized(self, piece: _Piece, a: float, b: float) -> BoundedSpan:
         """A short interval, or one angle, with its bound; raises ``low`` to what is reached."""
-        if a == b:
-            value = self._values(piece, Ball.exact(a), 0)[0]
-        else:
-            on = self._on(piece, a, b)
-            value = on.value if on else arb.nan()
-        low, high = _sizes(value)
+        one = self._values(piece, Ball.exact(a), 0)[0] if a == b else self._on(piece, a, b)[1]
+        low, high = _sizes(one)
         self.low = max(self.low, low)
         return BoundedSpan(piece.motion, a, b, high)
 
@@ -226,8 +213,11 @@ class _Search:
             return [arb.nan()] * (order + 1)
         return [arb_of(c) for c in jet.c]
 
-    def _on(self, piece: _Piece, a: float, b: float) -> _Enclosure | None:
-        """Enclosures on an interval by Taylor's theorem; None if the function has no bound."""
+    def _on(self, piece: _Piece, a: float, b: float) -> tuple[arb, arb, arb, arb]:
+        """The value in the middle of an interval, and value, slope and bend on all of it.
+
+        By Taylor's theorem; a value without bounds is not finite.
+        """
         # Both at the exact middle: a double beside it may belong to the formula beyond a seam.
         on = Ball.between(a, b)
         centre = on.arb.mid()
@@ -235,13 +225,9 @@ class _Search:
         thick = self._values(piece, on, ORDER)
         # the sum and its first two derivatives, and how far they lie from the middle
         total, t = arb_poly([*thin, thick[ORDER]]), (on.arb - centre) * arb.pi() / 180
-        slope = total.derivative()
-        sums = (
-            _meet(total(t), thick[0]),
-            _meet(slope(t), thick[1]),
-            _meet(slope.derivative()(t), 2 * thick[2]),
-        )
-        return _Enclosure(thin[0], *sums) if sums[0].is_finite() else None
+        rate = total.derivative()
+        value, slope = _meet(total(t), thick[0]), _meet(rate(t), thick[1])
+        return thin[0], value, slope, _meet(rate.derivative()(t), 2 * thick[2])
 
 
 def _sign(x: arb) -> int:
