@@ -88,7 +88,12 @@ class SpecTable:
     __signature__ = _Signature()
     _parameters: ClassVar[dict[str, dataclasses.Field[object]]]  # by name
 
-    def __init_subclass__(cls, kw_only: bool = False) -> None:
+    def __init_subclass__(
+        cls, kw_only: bool = False, names: Iterable[str] = (), of: object = None
+    ) -> None:
+        for name in names:  # keys that have one annotation, and are None by default
+            cls.__annotations__[name] = of
+            setattr(cls, name, None)
         dataclasses.dataclass(init=False, eq=False, repr=False, kw_only=kw_only)(cls)
         cls._parameters = {}
         for one in dataclasses.fields(cls):  # type: ignore[arg-type]

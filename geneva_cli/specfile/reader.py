@@ -54,27 +54,28 @@ class Setting(NamedTuple):
 
 def setting(text: str, option: str = "--set") -> Setting:
     """One ``table.key=value`` setting; a word's quotation marks are optional."""
-    key, sign, value = text.partition("=")
-    typed = f"{option} {cut(text.strip())}"
-    if not sign or not value.strip() or not all(key.strip().split(".")):
-        raise GenevaError(f"{typed}: it must be KEY=VALUE, as in {option} drive.n_rpm=90")
-    parts = whole_key(key.strip(), typed).split(".")
-    path = tuple(int(p) if i and p.isdecimal() else p for i, p in enumerate(parts))
+    typed, key, value = parted(text, option, f"KEY=VALUE, as in {option} drive.n_rpm=90")
+    path = tuple(int(p) if i and p.isdecimal() else p for i, p in enumerate(key.split(".")))
     return Setting(typed, path, read_value(value, typed))
 
 
-def whole_key(key: str, typed: str) -> str:
-    """Return a key with its table; without one if it is the only table that has the key.
+def parted(text: str, option: str, form: str) -> tuple[str, str, str]:
+    """Return an option as typed, the key in its text with its table, and the text of the value.
 
-    Raises GenevaError, which begins with ``typed``, for a key that no table or several tables have.
+    A key needs no table if only one has it. Raises GenevaError for a text that has not this
+    ``form``, and for a key that no table or several tables have.
     """
+    key, sign, value = map(str.strip, text.partition("="))
+    typed = f"{option} {cut(text.strip())}"
+    if not sign or not value or not all(key.split(".")):
+        raise GenevaError(f"{typed}: it must be {form}")
     if key == "title" or "." in key:
-        return key
+        return typed, key, value
     from geneva_cli.specfile.keys import all_keys, tables_with  # loads every kind
 
     names = [f"{table}.{key}" for table in tables_with(key)]
     if len(names) == 1:
-        return names[0]
+        return typed, names[0], value
     if names:
         raise GenevaError(f"{typed}: several tables have this key; write {' or '.join(names)}")
     hint = nearest(key, sorted({k.key for k in all_keys() if k.table}))

@@ -55,12 +55,8 @@ def motion(mechanism: Mechanism, samples: int, at_deg: Sequence[float] | None = 
     theta, whole = crank_jet(mechanism, input_deg)
     laps = np.floor((theta.c[0] - turn.crank[0]) / math.tau)
     wheel, rates = at_crank(result, turn, theta.c[0] - math.tau * laps)
-    velocity, acceleration, jerk = _by_input(wheel, rates, theta)
     shown = np.degrees(wheel + (whole + laps) * turn.gained)
-    time_s = motion_table.times_s(mechanism, input_deg)
-    columns = [time_s, input_deg, shown, velocity, acceleration, jerk]
-    of_velocity, of_acceleration = motion_table.rates_at_speed(mechanism).values()
-    columns += [velocity * of_velocity, acceleration * of_acceleration]
+    columns = motion_table.columns_of(mechanism, input_deg, shown, _by_input(wheel, rates, theta))
     return Table(motion_table.motion_columns(mechanism), columns)
 
 

@@ -270,6 +270,15 @@ def test_frames_are_turned_and_mirrored(tmp_path):
         assert again.senses[0].first.gained == pytest.approx(index, abs=1e-9)
 
 
+def test_the_motion_of_a_drawn_wheel_on_a_carrier_has_that_from_the_ground(exported):
+    """The columns of our own outlines are those of the formulas."""
+    drawn = exported("wandering-hours", 0).motion(samples=9).to_dict()
+    ideal = load(str(repo.DESIGNS / "wandering-hours.toml")).motion(samples=9).to_dict()
+    assert [*drawn] == [*ideal]
+    for name in ("absolute_deg", "absolute_velocity"):
+        assert drawn[name] == pytest.approx(ideal[name], abs=1e-3)
+
+
 def test_a_missing_part_and_a_far_one_are_refused(tmp_path):
     with pytest.raises(GenevaError, match=r"none\.dxf: cannot read: No such file"):
         _ = spec(tmp_path, "none.dxf").checks
