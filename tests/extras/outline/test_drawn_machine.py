@@ -342,8 +342,11 @@ def cos_sin(deg, way):
     return math.cos(math.radians(deg)), way * math.sin(math.radians(deg))
 
 
-def test_a_drawing_lies_over_our_own(struck):
+def test_a_drawing_lies_over_our_own(struck, tmp_path):
     both = struck.drawing_over(struck.drawing("wheel"))
+    for ending in ("dxf", "svg"):
+        draw(both, str(tmp_path / f"both.{ending}"))
+        assert (tmp_path / f"both.{ending}").stat().st_size > 1000
     assert [shape.layer for shape in both.shapes].count("OUTLINE") == 1
     assert struck.drawing("wheel").shapes == both.shapes[:-1]
 
