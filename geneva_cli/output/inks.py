@@ -26,6 +26,7 @@ INKS: dict[str, Ink] = {
     "PITCH": Ink(8, "#808080"),
     "CENTER": Ink(203, "#9152a5"),
     "GROOVE": Ink(54, "#7f7f00"),
+    "OUTLINE": Ink(240, "#ff003f"),  # drawn by somebody else, over ours
 }
 CENTRE_LINES = {"PITCH"}  # layers of lines that are not cut
 DASHES = (8.0, 1.5, 1.5, 1.5)  # mm: dash, gap, dash, gap of a centre line
