@@ -115,7 +115,7 @@ def _write(target: "Target", number: int, output: str, format: str) -> None:
     from geneva_cli.study.synth.synth_table import chosen
 
     require_spec(output, format)
-    row, text = chosen(search(target), number)
+    row, text = chosen(target, search(target), number)
     show_text(text, output, _inputs(target))
     path = "<stdout>" if output == "-" else output
     if row.trouble:

@@ -30,7 +30,6 @@ from geneva_cli.study.synth.synth_search import (
     TURNED,
     YES,
     MachineRow,
-    Ranking,
     search,
 )
 from geneva_cli.study.target import Target
@@ -80,34 +79,36 @@ WORDS = {
 
 def synthesis_table(target: Target, count: int = TURNED, buildable: bool = False) -> Table:
     """One row for each machine, numbered from 1, as ``turned`` returns them."""
-    ranking = search(target)
-    shown = [(*row.cells.values(), *row.extra) for row in turned(ranking, count, buildable)]
+    rows = search(target)
+    shown = [tuple(row.cells.values()) for row in turned(target, rows, count, buildable)]
     title = "1 machine" if len(shown) == 1 else f"{len(shown)} machines"
     if several := len(shown) > 1:
         first = str(target.sort or "") or f"lowest peak acceleration{' in rad/s2' * target.timed}"
         title = f"{title}, {first} first"
     if buildable:
-        title = f"{title}{',' * several} of {len(ranking.rows)}"
+        title = f"{title}{',' * several} of {len(rows)}"
     return rows_table((*CELLS, *target.names), shown, f"{target.words}: {title}.")
 
 
-def turned(ranking: Ranking, count: int = TURNED, buildable: bool = False) -> list[MachineRow]:
+def turned(
+    target: Target, rows: list[MachineRow], count: int = TURNED, buildable: bool = False
+) -> list[MachineRow]:
     """The rows, the first ``count`` of them turned; with ``buildable`` the first that pass.
 
     A turned row says yes, with sizes that pass, or no. Others say maybe, or no if that is known
     without turning.
     """
-    maybe = [row for row in ranking.rows if row.cells["parts"] == MAYBE]
+    maybe = [row for row in rows if row.cells["parts"] == MAYBE]
     if not buildable:
         maybe = [row for row in maybe if row.cells["no"] <= count]
-    done = mapped(partial(_turned, ranking.target), maybe, min(len(maybe), cores()))
+    done = mapped(partial(_turned, target), maybe, min(len(maybe), cores()))
     results, passed = dict[int, MachineRow](), list[MachineRow]()
     for row in tracked(done, "machines turned", len(maybe)):
         results[row.cells["no"]] = row
         passed += [row] if row.cells["parts"] == YES else []
         if buildable and len(passed) >= count:
             break
-    return passed if buildable else [results.get(row.cells["no"], row) for row in ranking.rows]
+    return passed if buildable else [results.get(row.cells["no"], row) for row in rows]
 
 
 def _turned(target: Target, row: MachineRow) -> MachineRow:
@@ -116,7 +117,7 @@ def _turned(target: Target, row: MachineRow) -> MachineRow:
         return row
     sizes = target.frame.size.as_dict() if target.frame else {}
     spec, trouble = built(row.spec, {key for key, value in sizes.items() if value is not None})
-    return MachineRow(spec, row.cells | {"parts": f"no: {trouble}" if trouble else YES}, row.extra)
+    return MachineRow(spec, row.cells | {"parts": f"no: {trouble}" if trouble else YES})
 
 
 def built(spec: Spec, fixed: Collection[str] = ()) -> tuple[Spec, str]:
@@ -170,16 +171,16 @@ def _passes(spec: Spec, failing: Sequence[str]) -> bool:
     return all_pass(every_check(machine, parts, quick=True))
 
 
-def chosen(ranking: Ranking, number: int) -> tuple[MachineRow, str]:
+def chosen(target: Target, rows: list[MachineRow], number: int) -> tuple[MachineRow, str]:
     """Row ``number``, and the text of its spec with comments, as ``turned`` shows it.
 
     The parts are turned through a whole turn, unless they are known to be impossible.
     """
-    if not 1 <= number <= len(ranking.rows):
-        raise GenevaError(f"--write {cut(number)}: the table has rows 1 to {len(ranking.rows)}")
-    row = _turned(ranking.target, ranking.rows[number - 1])
-    row = row._replace(spec=with_limits(ranking.requested, row.spec))
-    return row, commented(ranking.target, number, row)
+    if not 1 <= number <= len(rows):
+        raise GenevaError(f"--write {cut(number)}: the table has rows 1 to {len(rows)}")
+    row = _turned(target, rows[number - 1])
+    row = row._replace(spec=with_limits(target, row.spec))
+    return row, commented(target, number, row)
 
 
 def with_limits(target: Target, spec: Spec) -> Spec:

@@ -124,8 +124,7 @@ def _buildable(lines: Sequence[_LawLine], motions: Array) -> Mask:
     varied = {"wheel.z": z.astype(int), "motion.alpha0_deg": natural - motions}
     first = lines[0]._replace(m=1).spec(motions[0])
     for members, batch in built(first, varied, np.arange(len(lines))):
-        every = np.arange(len(members))
-        _, obstacles = suiting(batch, every, rollers[members], largest=False)
+        _, obstacles = suiting(batch, rollers[members], largest=False)
         able[members] = [not why for why in obstacles]
     return able
 
