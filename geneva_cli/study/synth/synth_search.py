@@ -67,14 +67,13 @@ class MachineRow(NamedTuple):
 def rows(target: Target, specs: Sequence[Spec]) -> list[MachineRow]:
     """The rows of machines that can be built and have the required motion."""
     limits, out = target.soft_bounds, dict[int, MachineRow]()
+    names = [bound.name for bound in limits.values()]
     for members, machine in batch_machines(specs):
         own, n, m = [specs[i] for i in members.tolist()], len(members), machine.spec.drive.rollers
         costs = columns(machine, QUANTITIES, n)
         if costs is None:
             continue
-        held = columns(machine, [b.name for b in limits.values()], n) or [
-            np.full(n, math.nan) for _ in limits
-        ]
+        held = columns(machine, names, n) or np.full((len(names), n), np.nan)
         radii, why = np.full(n, math.nan), [""] * n
         if any(spec.is_flat for spec in own):
             radii, why = suiting(machine, np.full(n, m))
