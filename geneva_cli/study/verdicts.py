@@ -168,27 +168,22 @@ def headline(checks: Sequence[Check], warnings: Sequence[Notice]) -> tuple[str, 
     >>> headline([Check("jerk_max", 31.4, "at most", 30.0, False)], [])
     ('fails', '1 of 1 checks fails')
     """
-    many, failed, not_proved, driven = len(checks), 0, 0, ""
-    for check in checks:
-        failed += check.passes is False
-        not_proved += check.passes is None
-        if check.name == "driven_fraction" and check.passes and check.value and check.value < 1.0:
-            driven = f", {meaning(check)}"
+    states = [*map(attrgetter("passes"), checks)]
+    many, failed, not_proved = len(states), states.count(False), states.count(None)
+    text = f"all {many} checks pass"
     if failed:
         text = f"{failed} of {many} checks fail{'s' * (failed == 1)}"
     elif not_proved:
         passed = many - not_proved
         text = f"{passed} of {many} checks pass{'es' * (passed == 1)}"
-    else:
-        text = f"all {many} checks pass"
-    if not_proved:
-        text += f", {not_proved} not proved"
-    text += driven
+    text += f", {not_proved} not proved" if not_proved else ""
+    for check in checks:
+        if check.name == "driven_fraction" and check.passes and check.value and check.value < 1.0:
+            text += f", {meaning(check)}"
     accepted = len([*filter(attrgetter("accepted"), warnings)])
-    if left := len(warnings) - accepted:
-        text += f", {left} warning{'s' * (left != 1)}"
-    if accepted:
-        text += f", {accepted} warning{'s' * (accepted != 1)} accepted"
+    left = len(warnings) - accepted
+    for count, end in ((left, ""), (accepted, " accepted")):
+        text += f", {count} warning{'s' * (count != 1)}{end}" if count else ""
     state = FAILS if failed else WARNS if not_proved or left else PASSES
     return state, text
 
@@ -253,17 +248,15 @@ def warning(text: str) -> SummaryLine:
 
 def tightest(checks: Iterable[Check]) -> list[SummaryLine]:
     """The line of the passing check with the least relative margin, or none."""
-    most, tight = 0.0, None
+    used: dict[Check, float] = {}
     for check in checks:
         value, limit = check.value, check.limit
         # where it passes, a reason says what is proved
-        if not (check.passes and value and limit) or check.why or check.name in WITHOUT_MARGIN:
-            continue
-        used = value / limit if check.must_be == "at most" else limit / value
-        if tight is None or used > most:
-            most, tight = used, check
-    if tight is None:
+        if check.passes and value and limit and not check.why and check.name not in WITHOUT_MARGIN:
+            used[check] = value / limit if check.must_be == "at most" else limit / value
+    if not used:
         return []
+    tight = max(used, key=used.__getitem__)
     label, unit = spoken(tight.name)
     return [SummaryLine("tightest", f"{label} {compared_text(tight, unit)}")]
 
@@ -272,15 +265,6 @@ def compared_text(check: Check, unit: str) -> str:
     """The value of a check, its place, and its limit."""
     assert check.value is not None
     assert check.limit is not None
-    where = "" if check.at_deg is None else f" at {measured(check.at_deg, 'deg')}"
-    limit = measured(check.limit, unit) if unit == "deg" else value_text(check.limit)
-    return f"{measured(check.value, unit)}{where}, {check.must_be} {limit}"
-
-
-def measured(value: float, unit: str = "", digits: int = 4) -> str:
-    """A value with its unit, and with the significant digits of a sentence.
-
-    >>> measured(8.25622, "mm"), measured(-58.2111, "deg")
-    ('8.256 mm', '-58.21°')
-    """
-    return value_text(value, "°" if unit == "deg" else unit, digits)
+    where = "" if check.at_deg is None else f" at {value_text(check.at_deg, 'deg')}"
+    limit = value_text(check.limit, unit if unit == "deg" else "")
+    return f"{value_text(check.value, unit)}{where}, {check.must_be} {limit}"

@@ -2,16 +2,8 @@
 
 from typing import Annotated
 
-from geneva_cli.cli.command import (
-    Output,
-    Settings,
-    SpecPath,
-    flag,
-    one_of,
-    option,
-    require_written,
-    say,
-)
+from geneva_cli.cli import command
+from geneva_cli.cli.command import Output, Settings, SpecPath, flag, one_of, option, say
 from geneva_cli.drawings.catalogue import is_sheet, require_tolerance
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.output import DRAWN, FORMATS, SHEETS, chosen, draw, draw_sheet, named, show, usual
@@ -81,12 +73,12 @@ def run(
     chosen(output, format, SHEETS if sheet else DRAWN)  # refused before the machine is turned
     require_tolerance(design.mechanism, tolerance)
     if design.spec.is_turned:
-        require_written(design, design.judge(part), force)
+        command.require_written(design, design.judge(part), force)
     if sheet:
         draw_sheet(design.sheet(tolerance, curves), output, format, files, dxf_version or "")
     else:
         if cutter is not None:
-            require_written(design, design.cutter(part, cutter), force)
+            command.require_written(design, design.cutter(part, cutter), force)
         drawing = design.drawing(part, tolerance, curves, kerf)
         shown = drawing if kerf is not None else design.drawing_over(drawing)
         draw(shown, output, format, files, dxf_version or "")

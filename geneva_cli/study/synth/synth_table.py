@@ -34,15 +34,7 @@ from geneva_cli.study.synth.synth_search import (
 )
 from geneva_cli.study.target import Target
 from geneva_cli.table import Reading, Table, rows_table
-from geneva_cli.verdict.checks import (
-    LIMITS,
-    MOTION,
-    STANDING,
-    all_pass,
-    checks,
-    every_check,
-    single_check,
-)
+from geneva_cli.verdict import checks as judged
 
 # keys of [limits] and what they bound
 _LIMITED = {
@@ -52,7 +44,8 @@ _LIMITED = {
 }
 # keys that conflict with a crank's bore
 SHAFT = {"crank_shaft_mm", "crank_hub_mm", "crank_bore_wall_mm"}
-UNSIZED = {*MOTION, *LIMITS} - {"undercut_mm"}  # checks that no other roller can mend
+# checks that no other roller can mend
+UNSIZED = {*judged.MOTION, *judged.LIMITS} - {"undercut_mm"}
 # Columns in order, with the requested quantities before the last, and short names of some.
 COLUMNS = (
     *("no", "z", "gearing", "rollers", "machine", "ratio", "motion_deg", "dwell_deg", "motion_s"),
@@ -127,16 +120,16 @@ def built(spec: Spec, fixed: Collection[str] = ()) -> tuple[Spec, str]:
     keys of its [size] that must not change. If no sizes pass, the spec is unchanged.
     """
     machine = build(spec)
-    failing = [check.name for check in checks(machine, parts=False) if check.passes is False]
+    failing = [check.name for check in judged.checks(machine, parts=False) if check.passes is False]
     if not {*failing} & UNSIZED:
-        failing = [check.name for check in checks(machine) if check.passes is False]
+        failing = [check.name for check in judged.checks(machine) if check.passes is False]
     trouble = {*failing}
     if not trouble or trouble & UNSIZED:
         return spec, ", ".join(failing)
     own = spec
     if "crank_bore_mm" not in fixed and trouble & SHAFT:
         own = spec.with_("size.crank_bore_mm", 0.0)  # the shaft ends in the arm
-        if all_pass(every_check(build(own), quick=True)):
+        if judged.all_pass(judged.every_check(build(own), quick=True)):
             return own, ""
     if trouble <= SHAFT or "roller_radius_mm" in fixed:
         return spec, ", ".join(failing)
@@ -162,13 +155,14 @@ def _passes(spec: Spec, failing: Sequence[str]) -> bool:
     """Whether a machine passes every check, of which ``failing`` are those most likely to fail."""
     machine = build(spec)
     parts = parts_of(machine)
+    standing = [name for name in failing if name in judged.STANDING]
     try:  # before a whole turn
-        first = [single_check(machine, name, parts) for name in failing if name in STANDING]
+        first = [judged.single_check(machine, name, parts) for name in standing]
     except GenevaError:
         return False
-    if not all_pass(filter(None, first)):
+    if not judged.all_pass(filter(None, first)):
         return False
-    return all_pass(every_check(machine, parts, quick=True))
+    return judged.all_pass(judged.every_check(machine, parts, quick=True))
 
 
 def chosen(target: Target, rows: list[MachineRow], number: int) -> tuple[MachineRow, str]:
