@@ -64,28 +64,17 @@ def run(
     whole range between.
     Long runs and the best of many: `geneva help search`.
     """
+    options = locals()
     from geneva_cli.output import chosen, require_spec, show, show_text
     from geneva_cli.study.fields import joined, without_infinity
-    from geneva_cli.study.sweep.request import Outcome, request
+    from geneva_cli.study.sweep.request import OPTIONS, Outcome, request
     from geneva_cli.table import Table
 
     if best:
         require_spec(output, format)
     else:
         chosen("-", format)
-    plan = request(
-        spec,
-        vary or (),
-        settings or (),
-        pick=pick,
-        random=random,
-        seed=seed,
-        check=check,
-        subject_to=subject_to or (),
-        pareto=pareto,
-        best=best,
-        jobs=jobs,
-    )
+    plan = request(spec, vary or (), settings or (), **{name: options[name] for name in OPTIONS})
     if resume and (best or plan.chooses or format not in ("", "csv")):
         raise GenevaError("--resume continues all rows of a sweep, as csv or parquet")
     outcome = Outcome(plan)

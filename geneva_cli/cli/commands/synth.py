@@ -58,7 +58,8 @@ def run(
     """Find the machines that meet all requirements; the lowest peak comes first.
     The machines tried, and the columns: `geneva help search`.
     """
-    from geneva_cli.study.synth.reading import read_frame, read_target
+    options = locals()
+    from geneva_cli.study.synth.reading import OPTIONS, read_frame, read_target
 
     if settings and not from_:
         raise GenevaError("--set goes with --from: it changes a key of that spec")
@@ -66,24 +67,9 @@ def run(
         raise GenevaError(f"--check {cut(check)}: it must be at least {int(buildable)}")
     if write is not None and write < 1:
         raise GenevaError(f"--write {cut(write)}: rows are numbered from 1")
-    target = read_target(
-        tau=tau,
-        motion_deg=motion_deg,
-        dwell_deg=dwell_deg,
-        motion_s=motion_s,
-        dwell_s=dwell_s,
-        cycle=cycle,
-        z=z,
-        internal=internal,
-        external=external,
-        spherical=spherical,
-        rollers=rollers,
-        law=law,
-        frame=read_frame(from_, settings or ()) if from_ else None,
-        sort=sort,
-        subject_to=subject_to or (),
-        space=space,
-    )
+    frame = read_frame(from_, settings or ()) if from_ else None
+    wanted = {name: text for name, text in options.items() if name in OPTIONS}
+    target = read_target(frame=frame, subject_to=subject_to or (), **wanted)
     if write is None:
         _show(target, check, buildable, output, format)
     else:

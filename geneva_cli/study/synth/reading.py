@@ -22,6 +22,8 @@ SPANS = {
     "dwell_s": (POSITIVE, "a dwell of", " s"),
     "cycle": (Range(1e-6, 1e6), "a cycle of", " s"),
 }
+# options of ``geneva synth`` that ``read_target`` takes by their names, as they are typed
+OPTIONS = (*SPANS, *("z", "internal", "external", "spherical", "rollers", "law", "sort", "space"))
 
 
 def read_target(
