@@ -85,11 +85,9 @@ def _plates(
     mechanism: Mechanism, outlines: Outlines | None
 ) -> dict[str, tuple[page.CarriedShapes, ...]]:
     """The plates of each link by its name; empty if the links' sizes allow none."""
-    out: dict[str, tuple[page.CarriedShapes, ...]] = {}
-    try:
+    out, plates = dict[str, tuple[page.CarriedShapes, ...]](), list[Plate]()
+    with suppress(GenevaError):
         plates = [m.part for m in drawn_links(mechanism, outlines).cut if isinstance(m.part, Plate)]
-    except GenevaError:
-        return out
     for link in links_at(mechanism, np.zeros(1)):
         slid = [j for j, kind in enumerate(link.kinds) if kind in (Joint.SLIDE, Joint.CARRIED)]
         blocks = [plate for plate in plates if plate.name == f"{link.name}'s block"]
@@ -203,25 +201,19 @@ def _box(
     turn_deg: float,
 ) -> page.Box:
     """The bounding box of bodies at any angle, and of joints, rollers and links in the turn."""
-    boxes = []
-    for body in parts:
-        reach = max(map(_reach, body.shapes))
-        (x, y) = body.centre
-        boxes.append((x - reach, y - reach, x + reach, y + reach))
+    circles = [(*body.centre, max(map(_reach, body.shapes))) for body in parts]
     places = [(place, bar.radius) for bar in bars for place in bar.joints]
-    places += [(place, radius) for place in rollers]
-    for (across, up), r in places:
-        x0, x1, y0, y1 = min(across.value), max(across.value), min(up.value), max(up.value)
-        boxes.append((x0 - r, y0 - r, x1 + r, y1 + r))
+    for (across, up), r in (*places, *((place, radius) for place in rollers)):
+        circles += [(end(across.value), end(up.value), r) for end in (min, max)]
     for bar, k in itertools.product(bars, range(24)):
         for plate in bar.plates:
             x, y, angle = page.pose(bar, plate, turn_deg * k / 24)
             own, turned = bounds(plate.shapes[0]), cmath.rect(1.0, angle)
             corners = itertools.product((own.x0, own.x1), (own.y0, own.y1))
             ends = [complex(x, y) + complex(*corner) * turned for corner in corners]
-            boxes += [(z.real, z.imag, z.real, z.imag) for z in ends]
-    columns = list(zip(*boxes, strict=True))
-    return min(columns[0]), min(columns[1]), max(columns[2]), max(columns[3])
+            circles += [(z.real, z.imag, 0.0) for z in ends]
+    x, y, r = np.array(circles).T
+    return min(x - r), min(y - r), max(x + r), max(y + r)
 
 
 def _reach(shape: Shape) -> float:
