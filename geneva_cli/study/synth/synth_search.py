@@ -19,7 +19,6 @@ from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.registry import families_of_kinds, gearing, thing
 from geneva_cli.motion.wheels.classic import rollers_max
 from geneva_cli.motion.wheels.gearing import Gearing
-from geneva_cli.numerics.angles import omega
 from geneva_cli.progress import tracked
 from geneva_cli.study.batches import batch_machines, columns, numbers
 from geneva_cli.study.fields import Cell, Pick, rows_of
@@ -30,7 +29,7 @@ from geneva_cli.study.synth.families.family import Family, natural_deg, pieces
 from geneva_cli.study.synth.families.straight_slots import straight
 from geneva_cli.study.synth.family_search import best
 from geneva_cli.study.synth.suiting import suiting, with_roller
-from geneva_cli.study.target import PEAK, Target
+from geneva_cli.study.target import Target
 from geneva_cli.verdict.quantities.quantity_names import in_batch
 
 # Entries of the table for parts that pass a full turn, and for parts that were not turned.
@@ -38,7 +37,10 @@ YES = "yes"
 MAYBE = "maybe"
 COSTS = ("velocity.max", "acceleration.max", "acceleration.entry", "jerk.max", "power.max")
 TIMES = ("motion_deg", "dwell_deg", "tau", "k", "motion_s", "dwell_s")
-QUANTITIES = (*COSTS, *(f"timing.{name}" for name in TIMES))
+# Cells that are quantities, and those of them that need a required speed.
+QUANTITIES = {name.replace(".", "_"): name for name in (*COSTS, "acceleration.max_rad_s2")}
+QUANTITIES |= {name: f"timing.{name}" for name in TIMES}
+TIMED = ("motion_s", "dwell_s", "acceleration_max_rad_s2")
 # The cells of a row: its number from 1, the machine's keys as far as it has them, its costs
 # (invariants), its times in seconds if they are required, and whether its parts can be built; None
 # if they are not drawn.
@@ -70,7 +72,7 @@ def rows(target: Target, specs: Sequence[Spec]) -> list[MachineRow]:
     names = [bound.name for bound in limits.values()]
     for members, machine in batch_machines(specs):
         own, n, m = [specs[i] for i in members.tolist()], len(members), machine.spec.drive.rollers
-        costs = columns(machine, QUANTITIES, n)
+        costs = columns(machine, [*QUANTITIES.values()], n)
         if costs is None:
             continue
         held = columns(machine, names, n) or np.full((len(names), n), np.nan)
@@ -81,9 +83,9 @@ def rows(target: Target, specs: Sequence[Spec]) -> list[MachineRow]:
         suited = zip(radii.tolist(), why, strict=True)
         for i, spec, roller, row in zip(members, own, suited, each.tolist(), strict=True):
             values = dict(zip((*QUANTITIES, "ratio", *limits), row, strict=True))
-            motion_deg = values["timing.motion_deg"]
+            motion_deg = values["motion_deg"]
             allowed = target.motions(m / spec.drive.turns, motion_deg)
-            if not (math.isfinite(values["acceleration.max"]) and allowed.allows(motion_deg)):
+            if not (math.isfinite(values["acceleration_max"]) and allowed.allows(motion_deg)):
                 continue
             radius, obstacle = roller if spec.is_flat else _roller(spec)
             over = [k for k, b in limits.items() if not (math.isnan(x := values[k]) or b.kept(x))]
@@ -107,27 +109,23 @@ def _roller(spec: Spec) -> tuple[float, str]:
 def _cells(
     target: Target, spec: Spec, values: Mapping[str, float], parts: str | None
 ) -> dict[str, Any]:
-    keys, motion, n = spec.wheel.as_dict() | spec.drive.as_dict(), spec.motion, spec.drive.n_rpm
+    keys, motion = spec.wheel.as_dict() | spec.drive.as_dict(), spec.motion
     cells: dict[str, Any] = {name: keys.get(name) for name in CELLS}
-    cells |= {name.replace(".", "_"): values[name] for name in COSTS}
-    times = [name for name in TIMES if target.timed or name[-2:] != "_s"]
-    cells |= {name: values[f"timing.{name}"] for name in times}
+    known = [name for name in (*QUANTITIES, "ratio") if target.timed or name not in TIMED]
+    cells |= {name: values[name] for name in known}
     return cells | {
         "gearing": spec.wheel.NAME,
         "rollers": spec.drive.rollers,
         "drive": spec.drive.NAME,
         "alpha0_deg": motion.alpha0_deg if motion else None,
         "law": motion.law.NAME if motion else None,
-        "ratio": values["ratio"],
-        "n_rpm": n if target.timed else None,
-        "acceleration_max_rad_s2": values[PEAK] * omega(n) ** 2 if target.timed else None,
+        "n_rpm": spec.drive.n_rpm if target.timed else None,
         "parts": parts,
         "offset_mm": cells["offset_mm"] or None,
     }
 
 
 KIND = ("gearing", "z", "drive", "law", "fixed", "rollers")
-TURNED = 20  # rows whose parts are turned by default
 # Least numbers of slots in a group: a search of so many four-bars has its fewest samples for each
 # (four_bar_search), so that groups find what one search of all does.
 GROUP = 24

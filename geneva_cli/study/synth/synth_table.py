@@ -6,6 +6,7 @@ For people rows have short names and a description of each machine.
 from __future__ import annotations
 
 import math
+from bisect import bisect_left
 from collections.abc import Collection, Sequence
 from functools import partial
 from typing import Any
@@ -23,19 +24,12 @@ from geneva_cli.specfile.writer import quoted, spec_lines
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.sweep.constraints import Constraint
 from geneva_cli.study.synth.suiting import SPARE, USUAL, slot_paths, with_roller
-from geneva_cli.study.synth.synth_search import (
-    CELLS,
-    COSTS,
-    MAYBE,
-    TURNED,
-    YES,
-    MachineRow,
-    search,
-)
+from geneva_cli.study.synth.synth_search import CELLS, COSTS, MAYBE, YES, MachineRow, search
 from geneva_cli.study.target import Target
 from geneva_cli.table import Reading, Table, rows_table
 from geneva_cli.verdict import checks as judged
 
+TURNED = 20  # rows whose parts are turned by default
 # keys of [limits] and what they bound
 _LIMITED = {
     **LIMITED,
@@ -139,16 +133,9 @@ def built(spec: Spec, fixed: Collection[str] = ()) -> tuple[Spec, str]:
         least = max(least, wall_min(spec.size, L))  # a horn is no thicker than its roller's radius
     most = machine.roller_radius_mm * (1.0 - 1e-9)
     radii = [r for r in 0.01 * L * np.array(USUAL) if least <= r < most]
-    best = None
-    low, high = 0, len(radii)  # those from ``high`` on pass
-    while low < high:
-        middle = (low + high) // 2
-        other = with_roller(own, radii[middle])
-        if _passes(other, failing):
-            best, high = other, middle
-        else:
-            low = middle + 1
-    return (best, "") if best else (spec, ", ".join(failing))
+    each = [with_roller(own, radius) for radius in radii]
+    first = bisect_left(each, True, key=lambda other: _passes(other, failing))
+    return (each[first], "") if first < len(each) else (spec, ", ".join(failing))
 
 
 def _passes(spec: Spec, failing: Sequence[str]) -> bool:
