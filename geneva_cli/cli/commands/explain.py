@@ -1,10 +1,8 @@
 """``geneva explain``."""
 
-from typing import Annotated
-
 import typer
 
-from geneva_cli.cli.command import Format, Output
+from geneva_cli.cli.command import FORMAT, OUTPUT
 
 EXAMPLES = (
     "geneva explain",
@@ -15,15 +13,13 @@ EXAMPLES = (
 
 
 def run(
-    words: Annotated[
-        list[str] | None,
-        typer.Argument(
-            metavar="[CHECK|QUANTITY|KIND]",
-            help="horn_mm, acceleration.max, side-crank, a warning, a part, ...; without one: all.",
-        ),
-    ] = None,
-    output: Output = "-",
-    format: Format = "",
+    words: list[str] = typer.Argument(
+        (),
+        metavar="[CHECK|QUANTITY|KIND]",
+        help="horn_mm, acceleration.max, side-crank, a warning, a part, ...; without one: all.",
+    ),
+    output: str = OUTPUT,
+    format: str = FORMAT,
 ) -> None:
     """Explain a word of the output: meaning, formula, unit, source, what to do, manual page."""
     from geneva_cli.cli.pages import search
@@ -31,7 +27,7 @@ def run(
     from geneva_cli.specfile import meanings
     from geneva_cli.table import Reading, rows_table
 
-    word, names = " ".join(words or ()), ("group", "name", "about")
+    word, names = " ".join(words), ("group", "name", "about")
     people = is_for_people(output, format)
     if not word and people:
         title = "`geneva explain WORD` says what a word of any output means; these are explained:"
