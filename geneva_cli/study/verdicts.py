@@ -130,16 +130,16 @@ def of_checks(verdicts: Sequence[Verdict], page: bool, as_json: bool) -> Answer:
             continue
         sized += bool(v.chosen.sizes)
         state, text = headline(v.checks, v.warnings)
-        lines = failure_lines(v.checks) + warning_lines(v.checks, v.warnings, v.unused)
+        lines = [*failure_lines(v.checks), *warning_lines(v.checks, v.warnings, v.unused)]
         if is_single:
             # what is proved: that no parts collide, and that a stop blocks the crank
             for check in v.checks:
                 if check.passes and check.why:
                     label = "stop" if check.name == "stop_turns" else "turn"
                     lines.append(SummaryLine(label, check.why))
-            lines += tightest(v.checks) + chosen_lines(v.chosen, v.path)
-        elif own := lines + chosen_lines(v.chosen):
-            details.append(Summary(v.path, tuple(own)))
+            lines += (*tightest(v.checks), *chosen_lines(v.chosen, v.path))
+        elif own := (*lines, *chosen_lines(v.chosen)):
+            details.append(Summary(v.path, own))
         heads.append(Summary(f"{v.path}: {text}", tuple(lines) if is_single else (), state=state))
     if not is_single:
         many, judged = len(verdicts), len(heads)
@@ -188,28 +188,25 @@ def headline(checks: Sequence[Check], warnings: Sequence[Notice]) -> tuple[str, 
     return state, text
 
 
-def chosen_lines(by_load: ByLoad, path: str | None = None) -> list[SummaryLine]:
+def chosen_lines(by_load: ByLoad, path: str | None = None) -> Iterator[SummaryLine]:
     """The lines of the sizes that the load chose, for a spec's path, and an option chose anew."""
-    lines = []
     if path is not None and (words := by_load.words):
         name = {"": "SPEC", "<stdin>": "-"}.get(path, path)
         text = f"chosen by load: {words} (geneva size {name} writes them)"
-        lines.append(SummaryLine("sizes", text))
+        yield SummaryLine("sizes", text)
     if changes := by_load.changes:
-        lines.append(SummaryLine("note", f"sizes chosen anew: {changes}"))
-    return lines
+        yield SummaryLine("note", f"sizes chosen anew: {changes}")
 
 
-def failure_lines(checks: Iterable[Check]) -> list[SummaryLine]:
+def failure_lines(checks: Iterable[Check]) -> Iterator[SummaryLine]:
     """A line for each check that fails: its value, its limit, and the change."""
-    lines = []
     for check in checks:
         if check.passes is not False:
             continue
         label, unit = spoken(check.name)
         explained = f"geneva explain {check.name}"
         if check.value is None or check.limit is None:
-            lines.append(SummaryLine(label, check.why, explained, FAILS))
+            yield SummaryLine(label, check.why, explained, FAILS)
             continue
         how = "with" if "=" in check.nearest else "by"  # a value, or leaving out a key
         advice = f"passes {how} {check.nearest}" if check.nearest else ""
@@ -218,24 +215,22 @@ def failure_lines(checks: Iterable[Check]) -> list[SummaryLine]:
         change = "; ".join(words for words in ("" if refused else check.why, advice) if words)
         note = f"{change} ({explained})" if change else explained
         text = check.why if refused else meaning(check) or compared_text(check, unit)
-        lines.append(SummaryLine(label, text, note, FAILS))
-    return lines
+        yield SummaryLine(label, text, note, FAILS)
 
 
 def warning_lines(
     checks: Iterable[Check], warnings: Iterable[str], unused: Iterable[str] = ()
-) -> list[SummaryLine]:
+) -> Iterator[SummaryLine]:
     """A line for each check without a proof, each warning, and each acceptance of none."""
-    lines = []
     for check in checks:
         if check.passes is None:
             text = f"{spoken(check.name)[0]}: {check.why}"
-            lines.append(SummaryLine("not proved", text, "", WARNS))
-    lines += map(warning, warnings)
+            yield SummaryLine("not proved", text, "", WARNS)
+    yield from map(warning, warnings)
     for name in unused:
-        text = f"{name}: no such warning occurs: it can be removed from [accept]"
-        lines.append(SummaryLine("note", text))
-    return lines
+        yield SummaryLine(
+            "note", f"{name}: no such warning occurs: it can be removed from [accept]"
+        )
 
 
 def warning(text: str) -> SummaryLine:
@@ -246,7 +241,7 @@ def warning(text: str) -> SummaryLine:
     return SummaryLine("warning", text, explained, WARNS)
 
 
-def tightest(checks: Iterable[Check]) -> list[SummaryLine]:
+def tightest(checks: Iterable[Check]) -> Iterator[SummaryLine]:
     """The line of the passing check with the least relative margin, or none."""
     used: dict[Check, float] = {}
     for check in checks:
@@ -254,11 +249,10 @@ def tightest(checks: Iterable[Check]) -> list[SummaryLine]:
         # where it passes, a reason says what is proved
         if check.passes and value and limit and not check.why and check.name not in WITHOUT_MARGIN:
             used[check] = value / limit if check.must_be == "at most" else limit / value
-    if not used:
-        return []
-    tight = max(used, key=used.__getitem__)
-    label, unit = spoken(tight.name)
-    return [SummaryLine("tightest", f"{label} {compared_text(tight, unit)}")]
+    if used:
+        tight = max(used, key=used.__getitem__)
+        label, unit = spoken(tight.name)
+        yield SummaryLine("tightest", f"{label} {compared_text(tight, unit)}")
 
 
 def compared_text(check: Check, unit: str) -> str:
