@@ -62,22 +62,19 @@ class ByLoad(NamedTuple):
     @property
     def words(self) -> str:
         """The sizes in words, as "crank shaft 12, pin 7"; empty without any."""
-        texts = dict[str, None]()  # once, in this order
-        for key, name in NAMES.items():
-            if key in self.sizes and self.sizes[key].value:
-                texts[name.format(self.sizes[key].value)] = None
-        return ", ".join(texts)
+        named = [(name, self.sizes[key].value) for key, name in NAMES.items() if key in self.sizes]
+        # each once, in this order
+        return ", ".join(dict.fromkeys(name.format(value) for name, value in named if value))
 
     @property
     def changes(self) -> str:
         """The sizes that were chosen anew, as "crank shaft 12 → 17 mm"; empty if none was."""
         texts = dict[str, None]()
-        for key, name in NAMES.items():
-            if key in self.sizes and key in self.before:
-                now, was = self.sizes[key].value, self.before[key].value
-                # a bore of 0 ends the shaft in the arm, whose bore is a key of its own
-                if now and was and now != was:
-                    texts[name.format(was).replace(f"{was:g}", f"{was:g} → {now:g} mm")] = None
+        for key in filter(self.before.__contains__, filter(self.sizes.__contains__, NAMES)):
+            now, was = self.sizes[key].value, self.before[key].value
+            # a bore of 0 ends the shaft in the arm, whose bore is a key of its own
+            if now and was and now != was:
+                texts[NAMES[key].format(was).replace(f"{was:g}", f"{was:g} → {now:g} mm")] = None
         return ", ".join(texts)
 
     @property

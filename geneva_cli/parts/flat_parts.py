@@ -172,11 +172,6 @@ class FlatParts(EdgedParts):
         centres, sizes = roller_centres(drawn.assembly), drawn.sizes
         return rollers_about(centres, r, sizes.pin, low, sizes.wheel_thickness, fit)
 
-    @property
-    def horn_mm(self) -> float | None:
-        """Thickness of the horns between slots and recesses; None without a lock."""
-        return self.outlines.sizes.horn if self.outlines.crank else None
-
     def axle_radius(self, part: str) -> float:
         """Return the radius of a part's shaft, or of its hub if the spec has one, mm; 0 if none."""
         sizes = self.outlines.sizes
@@ -386,7 +381,7 @@ class FrontParts(FlatParts):
     @property
     def linked(self) -> tuple[Member, ...]:
         """The links, with the pins and rollers between and on them."""
-        from geneva_cli.parts.links.link_sizes import roller_pins
+        from geneva_cli.parts.links.links import roller_pins
 
         mechanism, links = self.mechanism, self.links
         size, r = mechanism.spec.size, mechanism.roller_radius_mm

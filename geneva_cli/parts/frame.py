@@ -9,12 +9,22 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
+from functools import partial
+from itertools import product
 
 import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc, farthest
 from geneva_cli.geometry.plates import Member, Plate
-from geneva_cli.geometry.shapes import ORIGIN, Circle, Point, as_contour, bounds_of, convex_hull
+from geneva_cli.geometry.shapes import (
+    ORIGIN,
+    Circle,
+    Point,
+    as_contour,
+    bounds_of,
+    convex_hull,
+    placed,
+)
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Joint
 from geneva_cli.numerics.arrays import half_or
@@ -24,7 +34,7 @@ from geneva_cli.parts.links.links import Links, placed_holes
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.parts import FRAME, FrameAndShafts
 from geneva_cli.parts.shafts.arm_and_shafts import Shaft, crank_arm, shaft_ends, shafts
-from geneva_cli.parts.shafts.bores import SCREWS, around, bolt_radius, screw_through, tapped
+from geneva_cli.parts.shafts.bores import SCREWS, around, bolt_radius, screw_radius, tapped
 from geneva_cli.parts.sizes import HUB, bridge_low
 from geneva_cli.spec.defaults import wall_min
 from geneva_cli.spec.tables import Size
@@ -61,9 +71,7 @@ def framed(
         if isinstance(member.part, Plate) and member.part.name in bars.standing:
             fixed += [(hole, member.part) for hole in placed_holes(member)]
     for gear in bars.gears:
-        for hole in gear.screws.holes:
-            (x, y), (u, v) = gear.at, hole.centre
-            fixed.append((Circle("BORE", (x + u, y + v), hole.radius), gear.plate))
+        fixed += [(placed(hole, gear.at), gear.plate) for hole in gear.screws.holes]
     for plate in filter(None, (base, bridge)):
         bored = placed_holes(Member(plate, (L, 0.0)))
         fixed += [(hole, plate) for hole in bored if not same(hole.centre, (L, 0.0), L)]
@@ -83,22 +91,15 @@ def framed(
         plate = Plate("carrier", "FRAME", outline, tuple(holes), top - thick, top)
     else:
         # a frame contains every axis, drilled or not
-        within = [*holes, Circle("BORE", ORIGIN, 0.0)]
-        for at in standing:
-            within.append(Circle("BORE", at, 0.0))
+        within = [*holes, *map(partial(Circle, "BORE", radius=0.0), (ORIGIN, *standing))]
         plate = mounted_plate(holes, within, eye, (top - thick, top))
     if bars.sizes:
         from geneva_cli.parts.links.link_shafts import outside_links
 
         axles = [*outside_links(axles, bars, L)]
-    return FrameAndShafts(
-        plate,
-        tuple(axles),
-        tuple(spacers),
-        tuple(screwed),
-        (Member(bridge, (L, 0.0)),) if bridge else (),
-        tuple(unborne),
-    )
+    bridges = (Member(bridge, (L, 0.0)),) if bridge else ()
+    on_it = tuple(spacers), tuple(screwed), bridges
+    return FrameAndShafts(plate, tuple(axles), *on_it, tuple(unborne))
 
 
 def _standing(mechanism: Mechanism, bars: Links) -> dict[Point, float | None]:
@@ -127,7 +128,7 @@ def _bridge(parts: Outlines, bars: Links, shaft: Shaft) -> Plate | None:
     size, thick = mechanism.spec.size, sizes.arm_thickness
     if not (sizes.crank_bore and is_bridged(mechanism)):
         return None
-    from geneva_cli.parts.links.link_sizes import places
+    from geneva_cli.parts.links.links import places
 
     # no part of crank and drive turns beyond the farthest of these
     far = [sizes.lock, sizes.crank_hub]
@@ -233,13 +234,11 @@ def mounted_plate(
 ) -> Plate:
     """Return a frame around circles, its corners of the radius ``eye``, from and up to ``span``."""
     box, away = bounds_of(within), 3.0 * eye
-    mount, corners, mounts = screw_through(0.8 * eye), list[Circle](), list[Circle]()
-    for x in (box.x0 - away, box.x1 + away):
-        for y in (box.y0 - away, box.y1 + away):
-            corners.append(Circle("FRAME", (x, y), eye))
-            if mount:
-                mounts.append(Circle("BORE", (x, y), 0.5 * mount.through))
-    return Plate(FRAME, "FRAME", convex_hull("FRAME", corners), (*holes, *mounts), *span)
+    places = [*product((box.x0 - away, box.x1 + away), (box.y0 - away, box.y1 + away))]
+    outline = convex_hull("FRAME", [Circle("FRAME", at, eye) for at in places])
+    screw = screw_radius(0.8 * eye)
+    mounts = map(partial(Circle, "BORE", radius=screw), places if screw else ())
+    return Plate(FRAME, "FRAME", outline, (*holes, *mounts), *span)
 
 
 def shaft_holes(size: Size, axles: Iterable[Member], top: float) -> list[Circle]:

@@ -64,15 +64,9 @@ def wheel_stop(outlines: Outlines) -> WheelStop | None:
     from_middle = math.pi / z - delta - float(assembly.wheel(at)[0])
     half_face = math.pi / z - math.asin(sizes.half_width / ra)
     last = assembly.to_input(math.degrees(crank))
-    return WheelStop(
-        assembly.to_input(-math.degrees(crank)),
-        360.0 * (z - 1) + last,
-        360.0 * (z // 2),
-        L * math.sin(delta),
-        ra * (half_face - abs(from_middle)),
-        rk + ra - L,
-        math.degrees(crank),
-    )
+    stops = assembly.to_input(-math.degrees(crank)), 360.0 * (z - 1) + last, 360.0 * (z // 2)
+    lengths = L * math.sin(delta), ra * (half_face - abs(from_middle)), rk + ra - L
+    return WheelStop(*stops, *lengths, math.degrees(crank))
 
 
 def clearances_before(outlines: Outlines, stop: WheelStop, past_deg: float = 0.0) -> Array:

@@ -20,8 +20,7 @@ from geneva_cli.motion.pivots import Joint, Link
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import gear_plane, links_at, same, turn_deg
-from geneva_cli.parts.links.link_sizes import joined, places
-from geneva_cli.parts.links.links import LinkAxis, Links, LinkSizes, placed_holes
+from geneva_cli.parts.links.links import LinkAxis, Links, LinkSizes, joined, placed_holes, places
 from geneva_cli.parts.outlines.outlines import Outlines, wheel_hub_length
 from geneva_cli.parts.shafts.arm_and_shafts import bore_at, wheel_shaft_ends
 from geneva_cli.parts.shafts.bores import bore_of

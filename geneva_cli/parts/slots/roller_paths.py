@@ -12,7 +12,7 @@ from functools import lru_cache, partial
 
 import numpy as np
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import refuse_size
 from geneva_cli.geometry import shapes
 from geneva_cli.geometry.shapes import Arc, Contour, Line, Point, Segment
 from geneva_cli.motion.engagement import Engagement
@@ -175,9 +175,8 @@ def tip(wall: Line, centre: Point, recess: float, width: float) -> Line | None:
     at = foot - math.sqrt(max(recess**2 - depth * depth, 0.0))
     if at >= long:
         return None
-    if depth <= 0.0 or at <= 0.5 * long:
-        text = "the horns would lose more than half of the slots: reduce it, or lock_radius_mm"
-        raise GenevaError(f"horn_tip_mm = {width:g}: {text}", ("size", "horn_tip_mm"))
+    text = "the horns would lose more than half of the slots: reduce it, or lock_radius_mm"
+    refuse_size(depth <= 0.0 or at <= 0.5 * long, "horn_tip_mm", text, width)
     across = math.copysign(width, side)
     on_wall = x + at * u, y + at * v
     return Line(on_wall, (on_wall[0] - across * v, on_wall[1] + across * u))
@@ -194,9 +193,9 @@ def rounded(before: Segment, after: Segment, radius: float, sign: float) -> list
         distance, (x, y) = offsets.away(piece, centre)
         ends.append((centre[0] - distance * x, centre[1] - distance * y))
         parts.append(shapes.fraction_at(piece, ends[-1]))
-    if not (0.0 < parts[0] <= 1.0 and 0.0 <= parts[1] < 1.0):
-        text = f"mouth_radius_mm = {radius:g}: a mouth's corner has no space for this rounding"
-        raise GenevaError(f"{text}; use a smaller one", ("size", "mouth_radius_mm"))
+    text = "a mouth's corner has no space for this rounding; use a smaller one"
+    fits = 0.0 < parts[0] <= 1.0 and 0.0 <= parts[1] < 1.0
+    refuse_size(not fits, "mouth_radius_mm", text, radius)
     first, last = ends
     return [
         offsets.between(before, before.start, first),

@@ -106,9 +106,13 @@ def full_turn(parts: TurnedParts) -> FullTurn:
         leads, _ = wheel_stops(parts, np.array(resting), fits)
         dwell = _most(np.degrees(leads.max(axis=0)), np.array(resting), first)
     play, push_deg = play_of(parts, fits)
-    inside, outside = play.guided, ~play.guided
-    guided_deg = play.input_deg[inside]
     either, both = np.maximum(play.back, play.on), np.minimum(play.back, play.on)
+    inside = play.guided
+    plays = (either, ~inside), (both, inside), (play.on, inside), (play.back, inside)
+    hand_over, motion, ahead, behind = (
+        _most(values[where], play.input_deg[where], first) for values, where in plays
+    )
+    push = _most(push_deg, play.input_deg[:-1], first)
     # of each kind of motion, the first contact that is farthest off its slot's middle
     contact, begin, known = (-math.inf, 0.0), 0, set()
     for i, (engagement, _) in enumerate(assembly.motions):
@@ -117,18 +121,8 @@ def full_turn(parts: TurnedParts) -> FullTurn:
         if engagement not in known:
             known.add(engagement)
             contact = max(contact, _contact(parts, i, own), key=itemgetter(0))
-    return FullTurn(
-        gaps,
-        dwell,
-        _most(either[outside], play.input_deg[outside], first),
-        _most(both[inside], guided_deg, first),
-        _most(play.on[inside], guided_deg, first),
-        _most(play.back[inside], guided_deg, first),
-        _most(push_deg, play.input_deg[:-1], first),
-        (contact[0], assembly.shown_deg(contact[1])),
-        math.degrees(assembly.half_step),
-        play,
-    )
+    met, free_deg = (contact[0], assembly.shown_deg(contact[1])), math.degrees(assembly.half_step)
+    return FullTurn(gaps, dwell, hand_over, motion, ahead, behind, push, met, free_deg, play)
 
 
 def _most(values: Array, at: Array, first: First) -> Most:
