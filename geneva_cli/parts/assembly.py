@@ -144,15 +144,12 @@ def assembly(mechanism: Mechanism, flat: bool = True, by_input: bool = False) ->
     """
     spec = plain = mechanism.spec
     if flat and not spec.wheel.FLAT:
-        raise GenevaError(
-            f'gearing = "{spec.wheel.NAME}": its parts are not flat outlines about two axes; write '
-            "`--part wheel`, `crank` or `assembly` as .dxf, .svg or .step",
-            ("wheel", "gearing"),
-        )
+        text = f'gearing = "{spec.wheel.NAME}": its parts are not flat outlines about two axes; '
+        text += "write `--part wheel`, `crank` or `assembly` as .dxf, .svg or .step"
+        raise GenevaError(text, ("wheel", "gearing"))
     if flat and spec.wheel.z > Z_DRAWN:
-        raise GenevaError(
-            f"z = {spec.wheel.z}: parts are drawn for up to {Z_DRAWN} slots", ("wheel", "z")
-        )
+        text = f"z = {spec.wheel.z}: parts are drawn for up to {Z_DRAWN} slots"
+        raise GenevaError(text, ("wheel", "z"))
     if mechanism.law is None and (crank := spec.drive.crank):
         plain = spec.replace(drive=crank, drive_before=None)
     elif spec.drive_before:  # slots and path are by the angle of the drive's own input shaft
@@ -215,12 +212,9 @@ def links_at(mechanism: Mechanism, input_deg: Array, before: bool = True) -> tup
     shaft, names, links = mechanism.own_shaft, {link.name for link in own}, [*own]
     mirror, shift, below = -sign * shaft.sense, shaft.x_mm - L, _deepest(mechanism, own)
     for link in spec.drive_before.links(mechanism.plan, sign, input_deg):
-        moved = link._replace(
-            name=f"first {link.name}" if link.name in names else link.name,
-            joints=tuple((x + shift, y * mirror) for x, y in link.joints),
-            plane=link.plane - 1 + below,
-        )
-        links.append(moved)
+        name = f"first {link.name}" if link.name in names else link.name
+        moved = tuple((x + shift, y * mirror) for x, y in link.joints)
+        links.append(link._replace(name=name, joints=moved, plane=link.plane - 1 + below))
     return tuple(links)
 
 

@@ -62,9 +62,11 @@ class ByLoad(NamedTuple):
     @property
     def words(self) -> str:
         """The sizes in words, as "crank shaft 12, pin 7"; empty without any."""
-        named = [(name, self.sizes[key].value) for key, name in NAMES.items() if key in self.sizes]
-        # each once, in this order
-        return ", ".join(dict.fromkeys(name.format(value) for name, value in named if value))
+        texts = dict[str, None]()  # once, in this order
+        for key in filter(self.sizes.__contains__, NAMES):
+            if value := self.sizes[key].value:
+                texts[NAMES[key].format(value)] = None
+        return ", ".join(texts)
 
     @property
     def changes(self) -> str:
@@ -82,9 +84,9 @@ class ByLoad(NamedTuple):
         """The sizes as json has them: ``value``, ``was`` (null if unchanged) and ``why``."""
         out: dict[str, dict[str, float | str | None]] = {}
         for key, one in self.sizes.items():
-            was = self.before[key].value if key in self.before else one.value
-            out[key] = {"value": one.value, "was": None if was == one.value else was}
-            out[key]["why"] = one.why
+            was = self.before.get(key, one).value
+            changed = None if was == one.value else was
+            out[key] = {"value": one.value, "was": changed, "why": one.why}
         return out
 
 

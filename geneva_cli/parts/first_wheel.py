@@ -67,19 +67,17 @@ def first_pair(mechanism: Mechanism, outlines: Outlines | None) -> Mechanism:
     second, own = (L, 0.0), (L + first[1], 0.0)
     bore = 0.0 if bars.one_piece(own, L) else bars.shaft(own, L)
     alone = first_spec(mechanism)
+    link, shaft = bars.sizes, bars.shaft(own, L)
+    assert link is not None  # the first crank is one
     size = alone.size.replace(
         wall_min_mm=wall_min(spec.size, L),
         crank_bore_mm=2.0 * bore,
         wheel_bore_mm=2.0 * bars.shaft(second, L),
+        wheel_thickness_mm=link.thickness,
+        arm_thickness_mm=link.thickness,
+        pin_mm=2.0 * link.roller_stands,
+        arm_bore_mm=2.0 * shaft,
+        arm_hub_mm=2.0 * link.hub(round_bore(spec.size, shaft)),
+        arm_eye_mm=2.0 * link.roller_eye,
     )
-    if bars.sizes:
-        link, shaft = bars.sizes, bars.shaft(own, L)
-        size = size.replace(
-            wheel_thickness_mm=link.thickness,
-            arm_thickness_mm=link.thickness,
-            pin_mm=2.0 * link.roller_stands,
-            arm_bore_mm=2.0 * shaft,
-            arm_hub_mm=2.0 * link.hub(round_bore(spec.size, shaft)),
-            arm_eye_mm=2.0 * link.roller_eye,
-        )
     return build(alone.replace(size=size, title=f"{titled(mechanism)}, first pair"))

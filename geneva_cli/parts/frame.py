@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from functools import partial
 from itertools import product
 
 import numpy as np
@@ -34,7 +33,7 @@ from geneva_cli.parts.links.links import Links, placed_holes
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.parts import FRAME, FrameAndShafts
 from geneva_cli.parts.shafts.arm_and_shafts import Shaft, crank_arm, shaft_ends, shafts
-from geneva_cli.parts.shafts.bores import SCREWS, around, bolt_radius, screw_radius, tapped
+from geneva_cli.parts.shafts.bores import SCREWS, around, bolt_radius, circles, screw_radius, tapped
 from geneva_cli.parts.sizes import HUB, bridge_low
 from geneva_cli.spec.defaults import wall_min
 from geneva_cli.spec.tables import Size
@@ -87,11 +86,11 @@ def framed(
     eye = max(L / 20.0, 3.0 * wall_min(size, L))  # it leaves walls around mounting holes
     if mechanism.frame > 0.0:
         reach = max((c.radius for c in holes), default=0.0) + eye
-        outline = convex_hull("FRAME", [Circle("FRAME", at, reach) for at in standing])
+        outline = convex_hull("FRAME", circles("FRAME", standing, reach))
         plate = Plate("carrier", "FRAME", outline, tuple(holes), top - thick, top)
     else:
         # a frame contains every axis, drilled or not
-        within = [*holes, *map(partial(Circle, "BORE", radius=0.0), (ORIGIN, *standing))]
+        within = [*holes, *circles("BORE", (ORIGIN, *standing), 0.0)]
         plate = mounted_plate(holes, within, eye, (top - thick, top))
     if bars.sizes:
         from geneva_cli.parts.links.link_shafts import outside_links
@@ -149,8 +148,8 @@ def _bridge(parts: Outlines, bars: Links, shaft: Shaft) -> Plate | None:
     away = max(far) + wall + max(half, 2.0 * screw)
     away = 0.5 * math.ceil(2.0 * away)  # mm: to half a millimetre, for the drill
     ends = (0.0, -away), (0.0, away)
-    outline = convex_hull("FRAME", [Circle("FRAME", at, half) for at in ends])
-    holes = Circle("BORE", ORIGIN, bore), *(Circle("BORE", at, screw) for at in ends)
+    outline = convex_hull("FRAME", circles("FRAME", ends, half))
+    holes = Circle("BORE", ORIGIN, bore), *circles("BORE", ends, screw)
     low = bridge_low(size, sizes)
     return Plate("bearing bridge", "FRAME", outline, holes, low, low + thick)
 
@@ -235,9 +234,8 @@ def mounted_plate(
     """Return a frame around circles, its corners of the radius ``eye``, from and up to ``span``."""
     box, away = bounds_of(within), 3.0 * eye
     places = [*product((box.x0 - away, box.x1 + away), (box.y0 - away, box.y1 + away))]
-    outline = convex_hull("FRAME", [Circle("FRAME", at, eye) for at in places])
-    screw = screw_radius(0.8 * eye)
-    mounts = map(partial(Circle, "BORE", radius=screw), places if screw else ())
+    outline, screw = convex_hull("FRAME", circles("FRAME", places, eye)), screw_radius(0.8 * eye)
+    mounts = circles("BORE", places if screw else (), screw)
     return Plate(FRAME, "FRAME", outline, (*holes, *mounts), *span)
 
 

@@ -7,7 +7,6 @@ the rim. The locking disc reaches past the rim and leaves a horn next to the slo
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from functools import cache, lru_cache, partial
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -16,7 +15,7 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.registry import thing
 from geneva_cli.numerics.arrays import value_or
-from geneva_cli.numerics.tolerances import SAME_LENGTH, bore_radius
+from geneva_cli.numerics.tolerances import SAME_LENGTH, bore_radius, rounded_below
 from geneva_cli.parts import sizes as rules
 from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.outlines.crank_outline import arc_floor
@@ -95,7 +94,6 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
         **mechanism.spec.size.allowances._asdict(),
     }
     del known["source"]
-    of_kind: Callable[[Mechanism], KeySizes] | None
     of_kind = None if mechanism.spec.no_parts else thing(mechanism.spec.wheel.NAME, "sizes")
     if of_kind:
         values, by_load = of_kind(mechanism)
@@ -188,7 +186,7 @@ def _usual_sizes(assembly: Assembly) -> tuple[Sizes, float]:
     bore = _crank_bore(full, within, L) if spec.drive.LOCKS else 0.0
     wall = wall_min(size, L)
     axle = rules.wheel_bore(full, end, wall, L) if outside or size.wheel_bore_mm else 0.0
-    pin = rules.pin_radius(size, r)
+    pin = 0.5 * value_or(size.pin_mm, rounded_below(r))
     armed = 0.0
     if full.drive.ONE_ARM and pin:  # without pins there is no arm
         armed = rules.arm_bore(full, bore, L, min(reaches) - rules.hole_radius(size, pin))
@@ -199,7 +197,8 @@ def _usual_sizes(assembly: Assembly) -> tuple[Sizes, float]:
     locks = lock, recess, relief, wall, size.mouth_radius_mm, size.horn_tip_mm
     on_axle = axle, *rules.reach_and_hub(size, "wheel", axle, wall, end)
     on_crank = bore, *rules.reach_and_hub(size, "crank", bore, wall), pin, armed
-    return Sizes(*slots, *locks, *on_axle, *on_crank, *rules.drawn_thicknesses(size, L)), within
+    thick = size.thicknesses(rounded_below(L / 10.0))
+    return Sizes(*slots, *locks, *on_axle, *on_crank, *thick), within
 
 
 def _crank_bore(spec: Spec, space: float, L: float) -> float:
@@ -271,8 +270,9 @@ def _refuse(assembly: Assembly, sizes: Sizes) -> None:
     rules.refuse_pin_and_edges(size, sizes.pin, sizes.roller, thin)
     key = "mouth_radius_mm" if sizes.mouth_radius else "horn_tip_mm"
     text = f"{key} is for straight slots, each of which a roller enters and leaves: remove it"
-    unfit = any(kind.slot.curved or kind.apart for kind in assembly.kinds)
-    refuse_size((sizes.mouth_radius or sizes.horn_tip) and unfit, key, text)
+    shaped = sizes.mouth_radius or sizes.horn_tip
+    wrong = shaped and any(kind.slot.curved or kind.apart for kind in assembly.kinds)
+    refuse_size(wrong, key, text)
     text = "horn_tip_mm blunts the horns between slots and recesses, and without a locking disc "
     refuse_size(sizes.horn_tip and not lock, "horn_tip_mm", f"{text}there are none: remove it")
     text = f"it must be larger: the slots reach {end:.6g} mm"

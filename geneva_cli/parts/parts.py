@@ -77,34 +77,9 @@ class Parts(TurnedParts):
 
         return full_turn(self)
 
-    def of(self, mechanism: Mechanism) -> Self:
-        """Return the parts of a machine whose wheel, crank and positions are equal."""
-        other = type(self)(mechanism)
-        assembly = self.assembly._replace(full=mechanism)
-        vars(other)["_shape"] = self._shape._replace(assembly=assembly)
-        return other
-
     def following(self, mechanism: Mechanism) -> Parts:
-        """Return the parts of the next design, with these outlines and this turn if they are equal.
-
-        They are equal if wheel, drive, motion and ``[size]`` are, but for the speed, and all sizes
-        that follow from the load.
-        """
-        own, other = (
-            (spec.wheel, spec.drive.replace(n_rpm=1.0), spec.motion, spec.size)
-            for spec in (self.mechanism.spec, mechanism.spec)
-        )
-        computed = vars(self)
-        if not ("_shape" in computed and own == other and self._has_sizes_of(mechanism)):
-            return parts_of(mechanism)
-        parts = self.of(mechanism)
-        if "turn" in computed:
-            vars(parts)["turn"] = computed["turn"]
-        return parts
-
-    def _has_sizes_of(self, mechanism: Mechanism) -> bool:
-        """Return True if the sizes of a machine with an equal spec, but for its load, are equal."""
-        return False
+        """Return the parts of the next design, with this turn if it is the same."""
+        return parts_of(mechanism)
 
     @property
     def turned(self) -> Self:

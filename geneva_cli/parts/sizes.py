@@ -72,9 +72,7 @@ class Sizes(NamedTuple):
     @property
     def outline(self) -> Sizes:
         """The sizes of the outlines of wheel and crank: 0 for those that a load may change."""
-        keys = Sizes._fields[Sizes._fields.index("wheel_bore") :]
-        none: dict[str, float] = dict.fromkeys(keys, 0.0)
-        return self._replace(**none)  # type: ignore[arg-type]
+        return Sizes(*self[: Sizes._fields.index("wheel_bore")])  # type: ignore[arg-type]
 
 
 class Unloaded(NamedTuple):

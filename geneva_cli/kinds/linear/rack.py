@@ -113,10 +113,9 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
         "lock_radius_mm": sizes.lock,
         "relief_clearance_mm": sizes.relief,
         "pin_mm": 2.0 * sizes.pin,
-        "wheel_thickness_mm": sizes.thick.wheel,
-        "lock_thickness_mm": sizes.thick.lock,
-        "arm_thickness_mm": sizes.thick.arm,
     }
+    thick = sizes.thick._asdict()
+    known |= {f"{part}_thickness_mm": thick[part] for part in ("wheel", "lock", "arm")}
     if arm:
         wide = {"bore": sizes.bore, "hub": arm.hub, "eye": arm.eye}
         known |= {f"arm_{name}_mm": 2.0 * radius for name, radius in wide.items()}
@@ -142,10 +141,10 @@ def rack_contour(sizes: RackSizes, count: int) -> Contour:
     for cut in cuts:
         edge += [Line(at, cut[0].start), *cut]
         at = cut[-1].end
-    corners = (sizes.rim, high), (back, high), (back, low), (sizes.rim, low)
-    sides = [Line(at, corners[0])]
-    sides += [Line(a, b) for a, b in zip(corners, corners[1:], strict=False)]
-    return closed("WHEEL", [*edge, *sides])
+    for corner in ((sizes.rim, high), (back, high), (back, low), (sizes.rim, low)):
+        edge.append(Line(at, corner))
+        at = corner
+    return closed("WHEEL", edge)
 
 
 def slot_places(sizes: RackSizes, count: int) -> list[float]:

@@ -87,12 +87,10 @@ def stop(parts: Parts) -> Values:
         stops = wheel_stop(parts.outlines) if spec.wheel.stopped and spec.is_flat else None
     if stops is None:
         return {}
+    names = "turns", "first_deg", "last_deg", "overlap_mm", "lever_mm"
     force, stress = stop_contact(parts.outlines, stops)
-    return {
-        **{"turns": stops.turns, "first_deg": stops.first_deg, "last_deg": stops.last_deg},
-        **{"overlap_mm": stops.overlap_mm, "lever_mm": stops.lever_mm},
-        **{"force_N": force, "contact_stress_MPa": stress},
-    }
+    own: Values = {name: getattr(stops, name) for name in names}
+    return {**own, "force_N": force, "contact_stress_MPa": stress}
 
 
 def stop_contact(outlines: Outlines, stop: WheelStop) -> tuple[float | None, float | None]:

@@ -57,9 +57,8 @@ def drawn_links(mechanism: Mechanism, parts: Outlines | None = None) -> Links:
     for axis in _axes(links, SAME_LENGTH * L):
         # the shaft of wheel or crank is as wide as their own bores
         on_crank, on_wheel = (same(axis.at, at, L) for at in ((L, 0.0), ORIGIN))
-        known = (sizes.crank_shaft or 0.0) if on_crank else 0.0
-        if on_wheel and parts and not on_crank:
-            known = parts.sizes.wheel_bore
+        of_wheel = parts.sizes.wheel_bore if on_wheel and parts else 0.0
+        known = (sizes.crank_shaft or 0.0) if on_crank else of_wheel
         axes.append(_with_shaft(axis, bars, links, sizes, known, mechanism))
     gears = []
     for link in (one for one in links if one.radius_mm):
@@ -89,9 +88,8 @@ def _axes(links: Iterable[Link], near: float) -> Iterator[LinkAxis]:
     ]
     while left:
         path = left[0][2]
-        met = [bool(np.abs(at - path).max() < near) for _, _, at in left]
-        here = [one for one, is_here in zip(left, met, strict=True) if is_here]
-        left = [one for one, is_here in zip(left, met, strict=True) if not is_here]
+        here = [one for one in left if np.abs(one[2] - path).max() < near]
+        left = [one for one in left if np.abs(one[2] - path).max() >= near]
         at = linkage.point_at_zero(path)
         names, kinds, _ = zip(*here, strict=True)
         yield LinkAxis(names, kinds, at, bool(np.abs(path - complex(*at)).max() < near))

@@ -15,7 +15,7 @@ import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.plates import Member, Plate
-from geneva_cli.geometry.shapes import Circle, Contour
+from geneva_cli.geometry.shapes import Circle, Contour, Point
 from geneva_cli.motion.pivots import Joint, Link
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
@@ -176,13 +176,11 @@ def _standing(
     mechanism, L = parts.assembly.full, parts.assembly.L
     lowest, links = gear_plane(mechanism), links_at(mechanism, np.zeros(1))
     planes = {link.name: link.plane for link in links}
-    rounds = [
-        (f"the pivot of {axis.names[0]}", axis.at, axis.bore.radius)
-        for axis in bars.axes
-        if axis.stands
-        and not any(same(axis.at, shaft, L) for shaft in ((0.0, 0.0), (L, 0.0)))
-        and max(planes[name] for name in axis.names) < lowest
-    ]
+    rounds = list[tuple[str, Point, float]]()
+    for axis in bars.axes:
+        own = same(axis.at, (0.0, 0.0), L) or same(axis.at, (L, 0.0), L)  # of wheel or crank
+        if axis.stands and not own and max(planes[name] for name in axis.names) < lowest:
+            rounds.append((f"the pivot of {axis.names[0]}", axis.at, axis.bore.radius))
     for one in spacers:
         assert isinstance(one.part, Plate) and isinstance(one.part.outline, Circle)
         rounds.append((f"the {one.part.name}", one.at, one.part.outline.radius))

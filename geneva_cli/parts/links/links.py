@@ -163,15 +163,12 @@ def link_sizes(
     own = None if size.link_bore_mm is None else 0.5 * size.link_bore_mm
     roller, loose = pin_hole(size, stands) if stands else 0.0, 0.5 * size.allowances.shaft_fit_mm
     # a fifth of the distance to the next joint leaves eyes and a gap between
-    nearest = min(
-        (
-            float(np.abs(p - q).min())
-            for link in bars
-            for (p, a), (q, b) in combinations(zip(places(link), link.kinds, strict=True), 2)
-            if {a, b} & {Joint.PIN, Joint.SLIDE} and Joint.NONE not in (a, b)
-        ),
-        default=L,
-    )
+    near = list[float]()
+    for link in bars:
+        for (p, a), (q, b) in combinations(zip(places(link), link.kinds, strict=True), 2):
+            if {a, b} & {Joint.PIN, Joint.SLIDE} and Joint.NONE not in (a, b):
+                near.append(float(np.abs(p - q).min()))
+    nearest = min(near, default=L)
     pin = half_or(size.link_pin_mm, rounded_radius(min(L / 40.0, 0.2 * nearest)))
     eye = half_or(size.link_width_mm, eye_about(pin + loose, wall))
     text = f"it must be above {2.0 * (pin + loose):.6g}, the diameter of the pins' holes"

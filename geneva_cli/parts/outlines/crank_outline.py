@@ -146,8 +146,7 @@ def crank_contours(
         return _rings(assembly, sizes, swept, spare)
     around = reliefs(assembly)
     if relief == "sector":
-        lengths = sizes.roller, sizes.half_width, sizes.recess, sizes.rim, sizes.horn_tip
-        around = widened(assembly, sizes, horn_corners(assembly, *lengths))
+        around = widened(assembly, sizes, horn_corners(assembly, sizes))
     segments, locking = list[Segment](), dict(sectors(around))
     text = f"reliefs leave no locking disc: use fewer rollers, or below {sizes.roller:g} mm"
     refuse_size(not locking, "roller_radius_mm", text)

@@ -96,7 +96,7 @@ def cut_lock(assembly: Assembly, sizes: Sizes) -> Lock:
     Beyond the crank's axis the wheel leaves less than a sector between two reliefs.
     """
     L, lock, recess, flat = assembly.L, sizes.lock, sizes.recess, sizes.horn_tip
-    mouths = paths.horn_corners(assembly, sizes.roller, sizes.half_width, recess, sizes.rim, flat)
+    mouths = paths.horn_corners(assembly, sizes)
     whole, halves = crank_outline.is_whole(assembly, sizes), list[float]()
     around = crank_outline.reliefs(assembly)
     # arcs end where the motions do
@@ -245,7 +245,7 @@ def _rim(
     refuse_size(math.remainder(last - first, math.tau) <= 0.0, "roller_radius_mm", text)
     least = max(math.hypot(*start), math.hypot(*end))
     if sizes.lock:
-        least = paths.least_mouth(assembly.L, sizes.recess, sizes.rim)
+        least = paths.least_mouth(assembly, sizes)
     mirror = [*shapes.mirrored(after[:1])]
     rising = _beside(assembly, sizes, before, at, least)
     falling = shapes.mirrored(_beside(assembly, sizes, mirror, -at, least))

@@ -29,7 +29,15 @@ from geneva_cli.parts.outlines.crank_outline import (
     sectors,
 )
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.shafts.bores import Bore, bolt_radius, bore_of, has_shape, round_bore, tapped
+from geneva_cli.parts.shafts.bores import (
+    Bore,
+    bolt_radius,
+    bore_of,
+    circles,
+    has_shape,
+    round_bore,
+    tapped,
+)
 from geneva_cli.parts.sizes import hub_and_eye, lock_bolt_directions, pin_hole
 from geneva_cli.parts.slots.roller_paths import roller_centres
 from geneva_cli.spec.defaults import eye_about
@@ -171,15 +179,12 @@ def crank_arm(parts: Outlines) -> CrankArm:
     wrong, text = form.reach + hole >= near, f"{text}{2.0 * (near - hole):.6g}"
     refuse_size(wrong, "arm_bore_mm", text, 2.0 * radius)
     bolted = wall + 2.0 * size.edge_mm
-    around, pins, threads = [Circle("ARM", ORIGIN, hub)], list[Circle](), list[Circle]()
-    for centre in centres:
-        around.append(Circle("ARM", centre, eye))
-        pins.append(Circle("BORE", centre, hole))
-    for screw in bolts(parts):
+    around = [Circle("ARM", ORIGIN, hub), *circles("ARM", centres, eye)]
+    pins, screws = circles("BORE", centres, hole), bolts(parts)
+    for screw in screws:
         around.append(Circle("ARM", screw.centre, eye_about(screw.radius, bolted)))
-        threads.append(tapped(screw))
     outline, bore = convex_hull("ARM", around), form.shape("BORE", keyway_direction(assembly))
-    return CrankArm(outline, bore, pins, threads, hub, eye, passing + free - eye)
+    return CrankArm(outline, bore, pins, [*map(tapped, screws)], hub, eye, passing + free - eye)
 
 
 def bolts(parts: Outlines) -> list[Circle]:
@@ -196,8 +201,7 @@ def bolts(parts: Outlines) -> list[Circle]:
         return []
     wall = sizes.wall_min + 2.0 * size.edge_mm
     holes = [Circle("BORE", ORIGIN, bore_of(size, "crank", sizes.arm_bore).reach)]
-    for centre in roller_centres(assembly):
-        holes.append(Circle("BORE", centre, pin_hole(size, sizes.pin)))
+    holes += circles("BORE", roller_centres(assembly), pin_hole(size, sizes.pin))
     space = math.inf
     if assembly.sign > 0.0:
         space = assembly.L - max(sizes.wheel_bore, sizes.wheel_hub)
@@ -225,7 +229,7 @@ def _bolts(parts: Outlines, count: int) -> list[Circle]:
     if circle is not None:
         radii = np.array([0.5 * circle])
     inner = sizes.arm_bore if parts.has_arm else sizes.crank_bore
-    edge, half, places, holes = Polyarc(parts.crank), math.inf, list[Point](), list[Circle]()
+    edge, half, places = Polyarc(parts.crank), math.inf, list[Point]()
     for turns in directions:
         x, y = np.outer(radii, np.cos(turns)).ravel(), np.outer(radii, np.sin(turns)).ravel()
         walls = -edge.signed(np.column_stack((x, y))).reshape(len(radii), len(turns))
@@ -235,9 +239,7 @@ def _bolts(parts: Outlines, count: int) -> list[Circle]:
         for turn in turns:
             places.append(polar(ORIGIN, float(radii[best]), turn))
     r = bolt_radius(size.lock_bolt_mm, parts.assembly.L, half, "lock_bolt", size.lock_bolts)
-    for place in places if r else ():
-        holes.append(Circle("BORE", place, r))
-    return holes
+    return circles("BORE", places, r) if r else []
 
 
 def walls(arm: CrankArm, parts: Outlines) -> float:

@@ -8,7 +8,11 @@ the part that it fixes, and its thread is in the part below.
 from __future__ import annotations
 
 import math
+from bisect import bisect_right
+from collections.abc import Iterable
+from functools import partial
 from itertools import starmap
+from operator import attrgetter
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse_size
@@ -215,6 +219,11 @@ SCREWS = [*starmap(Screw, (
 # fmt: on
 
 
+def circles(layer: shapes.Layer, places: Iterable[shapes.Point], radius: float) -> list[Circle]:
+    """Return equal circles about some places."""
+    return [*map(partial(Circle, layer, radius=radius), places)]
+
+
 class BoltCircle(NamedTuple):
     """Holes evenly on a circle about an axis: both radii, mm, and the holes in a plate."""
 
@@ -254,8 +263,8 @@ def screw_through(hole_mm: float) -> Screw | None:
     >>> screw_through(6.25).thread, screw_through(1.7)
     (5, None)
     """
-    fits = (one for one in reversed(SCREWS) if one.through <= hole_mm * (1.0 + ROUNDED))
-    return next(fits, None)
+    fits = bisect_right(SCREWS, hole_mm * (1.0 + ROUNDED), key=attrgetter("through"))
+    return SCREWS[fits - 1] if fits else None
 
 
 def screw_radius(hole_mm: float) -> float:
@@ -307,6 +316,8 @@ def bolt_circle(
     radius = half_or(values[f"{part}_bolt_circle_mm"], 0.5 * (low + high))
     asked = count if part == "dial" else 0
     hole = bolt_radius(values[f"{part}_bolt_mm"], L, 0.5 * (high - low), "dial_bolt", asked)
-    turns = [start + math.tau * k / count for k in range(count if hole else 0)]
-    holes = (Circle("BORE", shapes.polar(ORIGIN, radius, turn), hole) for turn in turns)
+    holes = list[Circle]()
+    for k in range(count if hole else 0):
+        at = shapes.polar(ORIGIN, radius, start + math.tau * k / count)
+        holes.append(Circle("BORE", at, hole))
     return BoltCircle(radius, hole, tuple(holes))

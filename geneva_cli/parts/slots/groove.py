@@ -72,16 +72,14 @@ def greatest_pressure(groove: Groove) -> tuple[float, float]:
     tops = (steep >= np.roll(steep, 1)) & (steep >= np.roll(steep, -1))
     # the grid is fine enough that lower local maxima need no refinement
     tops &= steep > 0.99 * steep.max()
-    middle = 0.5 * (entry + exit_)
-    candidates = []
+    middle, candidates = 0.5 * (entry + exit_), []
+
+    def rise(x: Array) -> Array:
+        r, dr, ddr = distances(groove, x)
+        return np.sign(dr) * (r * ddr - dr * dr)
+
     # a groove is as steep before the motion as after it: start in the middle of the dwell
     for about in sorted(math.remainder(x - middle, 360.0) + middle for x in grid[tops]):
-        sense = math.copysign(1.0, distances(groove, np.array([about]))[1][0])
-
-        def rise(x: Array, sense: float = sense) -> Array:
-            r, dr, ddr = distances(groove, x)
-            return sense * (r * ddr - dr * dr)
-
         # a corner of the groove, or a smooth maximum
         at_deg = boundary_by_sections(rise, about - step, about + step)
         r, dr, _ = distances(groove, np.array([at_deg]))

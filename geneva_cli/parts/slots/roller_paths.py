@@ -17,6 +17,7 @@ from geneva_cli.geometry import shapes
 from geneva_cli.geometry.shapes import Arc, Contour, Line, Point, Segment
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.parts.assembly import Assembly
+from geneva_cli.parts.sizes import Sizes
 
 TURN_SAMPLES = 720  # input angles at which a path is sampled
 
@@ -90,22 +91,21 @@ def _mouth(assembly: Assembly, engagement: Engagement, end: float) -> Point:
     return px + further * ux, py + further * uy
 
 
-def least_mouth(L: float, recess: float, rim: float) -> float:
+def least_mouth(assembly: Assembly, sizes: Sizes) -> float:
     """Return the radius to which lower mouths are extended, mm."""
-    reach = L - recess
-    return reach + 0.2 * (rim - reach)
+    reach = assembly.L - sizes.recess
+    return reach + 0.2 * (sizes.rim - reach)
 
 
-def horn_corners(
-    assembly: Assembly, r: float, half_width: float, recess: float, rim: float, flat: float = 0.0
-) -> dict[Engagement, tuple[float, float]]:
+def horn_corners(assembly: Assembly, sizes: Sizes) -> dict[Engagement, tuple[float, float]]:
     """Return the distances from the axis of each slot's horns, mm, before and after a motion.
 
     They are those of its mouth's corners where the roller comes and goes, or of tips cut to flats.
     """
+    r, flat, recess = sizes.roller, sizes.horn_tip, sizes.recess
     widest = [*map(partial(mouth, assembly, r=r), assembly.kinds)]
-    shift = rim - max(widest)
-    least = least_mouth(assembly.L, recess, rim) if assembly.sign > 0.0 else 0.0
+    shift = sizes.rim - max(widest)
+    least = least_mouth(assembly, sizes) if assembly.sign > 0.0 else 0.0
     out = {}
     for kind, wide in zip(assembly.kinds, widest, strict=True):
         ends = []
@@ -113,7 +113,7 @@ def horn_corners(
             at = math.hypot(*corner(assembly, kind, end, r)) if kind.slot.offset else wide
             at = max(at + shift, least)
             if flat and recess:
-                wall = _wall_of_horn(assembly, kind, end, half_width, at)
+                wall = _wall_of_horn(assembly, kind, end, sizes.half_width, at)
                 cut = tip(wall, rest(assembly, kind, end), recess, flat)
                 at = math.hypot(*cut.end) if cut else at
             ends.append(at)

@@ -108,10 +108,11 @@ def full_turn(parts: TurnedParts) -> FullTurn:
     play, push_deg = play_of(parts, fits)
     either, both = np.maximum(play.back, play.on), np.minimum(play.back, play.on)
     inside = play.guided
-    plays = (either, ~inside), (both, inside), (play.on, inside), (play.back, inside)
-    hand_over, motion, ahead, behind = (
-        _most(values[where], play.input_deg[where], first) for values, where in plays
-    )
+    hand_over = _most(either[~inside], play.input_deg[~inside], first)
+    guided_deg = play.input_deg[inside]
+    motion = _most(both[inside], guided_deg, first)
+    ahead = _most(play.on[inside], guided_deg, first)
+    behind = _most(play.back[inside], guided_deg, first)
     push = _most(push_deg, play.input_deg[:-1], first)
     # of each kind of motion, the first contact that is farthest off its slot's middle
     contact, begin, known = (-math.inf, 0.0), 0, set()
@@ -173,8 +174,7 @@ def _gap(parts: TurnedParts, pair: str, at: Array) -> Array:
         since, until = away - engagement.entry_deg, engagement.exit_deg - away
         driving[:, i] = np.minimum(since, until) >= -SAME_INPUT_DEG
     meanwhile = driving.any(axis=1, keepdims=True) & ~driving
-    out: Array = np.where(meanwhile == (pair == IDLE), gaps.rollers(pose), np.inf).min(axis=1)
-    return out
+    return np.where(meanwhile == (pair == IDLE), gaps.rollers(pose), np.inf).min(axis=1)
 
 
 def _least(parts: TurnedParts, pair: str, at: Array, first: First) -> Gap:
@@ -218,8 +218,7 @@ def _contact(parts: TurnedParts, motion: int, own: slice) -> tuple[float, float]
     def margin(at: Array) -> Array:
         """Return the gaps of the rollers to the wheel at rest, mm, more than ``close``."""
         pose = gaps.pose(at)
-        gap: Array = gaps.rollers(pose, rest - pose.wheel)[:, own].min(axis=1)
-        return gap - close
+        return gaps.rollers(pose, rest - pose.wheel)[:, own].min(axis=1) - close
 
     if margin(np.array([start]))[0] <= 0.0:  # the roller is in the slot's middle there
         return 0.0, start
