@@ -248,6 +248,7 @@ def for_people(table: Table, most: int | None = None) -> Table:
     # rows are sorted by the peak, and --write takes their number: a narrow window keeps both
     peak = next(name for name in ("acceleration_max_rad_s2", "acceleration_max") if name in columns)
     ranked = ("no", "machine", "parts", peak, "z", "gearing", "n_rpm", *extra, "rollers")
+    ranked += ("motion_deg", "dwell_s")  # what most requirements are of
     first = tuple(heads[name] for name in ranked if name in heads)
     reading = Reading(first, decide=("parts",))
     return Table(tuple(heads.values()), [*columns.values()], title=title, reading=reading)
