@@ -18,7 +18,7 @@ from geneva_cli.motion.pivots import Joint
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import links_at
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.links.link_sizes import places
+from geneva_cli.parts.links.links import places
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.parts import EdgedParts
 from geneva_cli.parts.projection import drawing_of, once, outlines_of, shapes, titled, uncovered
