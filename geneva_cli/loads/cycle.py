@@ -139,15 +139,9 @@ class Cycle:
 cycle_of = lru_cache(maxsize=16)(Cycle)
 
 
-def cycle_warnings(mechanism: Mechanism) -> list[Notice]:
+def cycle_warnings(mechanism: Mechanism) -> Iterator[Notice]:
     """Warnings about a loaded machine: loads without a bound, a wheel that drives or lags."""
     cycle = cycle_of(mechanism)
-    off_axis = _unbalanced(cycle) if mechanism.spec.unbalanced else ()
-    return [*_unbounded(cycle), *_driven(cycle), *off_axis]
-
-
-def _unbounded(cycle: Cycle) -> Iterator[Notice]:
-    """Warnings about loads that nothing bounds."""
     case, force = cycle.case, cycle.ends["pin_force_N"]
     value, at_deg = np.reshape(force[:4], (2, 2)).T
     endless_deg = at_deg[np.isinf(value)].min(initial=math.inf)
@@ -169,6 +163,9 @@ def _unbounded(cycle: Cycle) -> Iterator[Notice]:
             "edge there, where the undercut of the wall begins. A smaller roller bears on less of "
             'it; straight slots have none (kind = "cam" drives any law)',
         )
+    yield from _driven(cycle)
+    if mechanism.spec.unbalanced:
+        yield from _unbalanced(cycle)
 
 
 def _driven(cycle: Cycle) -> Iterator[Notice]:

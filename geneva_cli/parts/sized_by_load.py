@@ -26,7 +26,6 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import (
     Array,
-    Mask,
     Number,
     Whole,
     choose,
@@ -78,7 +77,6 @@ class Sizing(NamedTuple):
     linked: bool  # links or gears are in the way of the crank's shaft
     space: float = 0.0  # radius about the crank's axis inside the relief
     loads: PartLoads = PartLoads(*[0.0] * len(PartLoads._fields))
-    bent_MPa: float = 0.0  # stress of horns 1 mm thick
 
 
 def sizing(assembly: Assembly, sizes: Sizes) -> Sizing:
@@ -174,48 +172,25 @@ def key_of(standard: str | None, bore: Number, length: Number) -> pin_arm_key.Ke
 Attempt: TypeAlias = Callable[[Sizing, Array, int], "tuple[Sizes, bool]"]
 
 
-def load_sizes(
-    of: Unloaded,
-    by: Lock | None,
-    machine: Mechanism,
-    loads: PartLoads,
-    bent_MPa: Array | None = None,
-    link: float = 0.0,
+def batch_sizes(
+    of: Unloaded, by: Lock | None, machine: Mechanism, loads: PartLoads, bent_MPa: Array | None
 ) -> Sizes:
-    """Return the sizes of m designs under their loads, (m, 1), from those without them.
-
-    ``by`` are their locks, ``bent_MPa`` the stress of ``horn_MPa`` if computed already, and
-    ``link`` the thickness that the loads need of a first wheel. Loads without a bound change none.
-    """
-    zero, spec, sizes = np.zeros((machine.designs, 1)), machine.spec, of.sizes
-    loads = PartLoads(*(zero + np.reshape(loads, (len(loads), -1, 1))))
-    bounded: Mask = np.array(np.isfinite(loads).all(axis=0))
-    held = carried = bent = zero
-    if spec.load.dwell_torque_Nm is not None:
-        # the force between disc and wheel in the dwell loads both shafts
-        held = np.reshape(lock.held_force_N(machine, by), (-1, 1))
-        carried = centrifugal_N(machine) if machine.frame else zero
-        on_wheel = np.maximum(loads.wheel_shaft_N, held + carried)
-        on_crank = np.maximum(loads.crank_N, held)
-        loads = loads._replace(wheel_shaft_N=parameter(on_wheel), crank_N=parameter(on_crank))
-    if by and spec.size.wheel_thickness_mm is spec.size.face_width_mm is None:
-        if bent_MPa is None:
-            bent_MPa = lock.horn_MPa(machine, sizes.half_width, by)
-        bent = np.reshape(bent_MPa, (-1, 1))
-    thick = link or sizes.link_thickness
-    case = sizing(of.assembly, sizes._replace(link_thickness=thick))
-    case = case._replace(spec=spec, space=of.space, loads=loads, bent_MPa=parameter(bent))
-    # designs that have the same parts are sized together
-    kinds: Whole = 1 * bounded
-    for part in (sizes.lock, sizes.wheel_bore, sizes.crank_bore, sizes.arm_bore, sizes.pin):
-        kinds = 2 * kinds + (np.asarray(part) > 0.0)
+    """Return ``load_sizes`` of any m designs: those that have the same parts are sized together."""
+    kinds: Whole = np.array(np.isfinite(loads).all(axis=0), dtype=int)
+    for part in ("lock", "wheel_bore", "crank_bore", "arm_bore", "pin"):
+        kinds = 2 * kinds + np.ravel(np.greater(getattr(of.sizes, part), 0.0))
     if (kinds == kinds[0]).all():
-        return _sized(case, machine) if bounded[0] else sizes
+        return load_sizes(of, by if np.max(of.sizes.lock) > 0.0 else None, machine, loads, bent_MPa)
     groups = list[tuple[Whole, Sizes]]()
     for kind in rising(kinds).tolist():
         which = np.flatnonzero(kinds == kind)
-        usual, same, few = taken((sizes, case, machine), which)
-        groups.append((which, _sized(same, few) if bounded[which[0]] else usual))
+        every = of.assembly.L, of.sizes, of.space, by, machine
+        L, sizes, space, lock_of, some = taken(every, which)
+        own = of._replace(assembly=of.assembly._replace(L=L), sizes=sizes, space=space)
+        lock_of = lock_of if np.max(sizes.lock) > 0.0 else None
+        few = PartLoads(*np.asarray(loads)[:, which])
+        bent = None if bent_MPa is None else bent_MPa[which]
+        groups.append((which, load_sizes(own, lock_of, some, few, bent)))
     return _joined(groups)
 
 
@@ -251,29 +226,55 @@ def _first(case: Sizing, trials: Array, attempt: Attempt) -> Sizes:
     return _joined(groups)
 
 
-def _sized(case: Sizing, machine: Mechanism) -> Sizes:
-    """Return the sizes of designs with the same parts, whose loads have bounds."""
-    sizes, spec, size = case.sizes, machine.spec, machine.spec.size
+def load_sizes(
+    of: Unloaded,
+    by: Lock | None,
+    machine: Mechanism,
+    loads: PartLoads,
+    bent_MPa: Array | None = None,
+    link: float = 0.0,
+) -> Sizes:
+    """Return the sizes of m designs with the same parts under their loads, numbers or (m, 1).
+
+    ``of`` are those without loads, ``by`` their locks, ``bent_MPa`` the stress of ``horn_MPa`` if
+    computed already, ``link`` the thickness that a first wheel needs. Either all loads have bounds,
+    or no design's have, and then none changes.
+    """
+    spec, size, sizes = machine.spec, machine.spec.size, of.sizes
+    zero = np.zeros((machine.designs, 1))
+    loads = PartLoads(*(zero + np.reshape(loads, (len(loads), -1, 1))))
+    if not np.isfinite(loads).all():
+        return sizes
+    if spec.load.dwell_torque_Nm is not None:
+        # the force between disc and wheel in the dwell loads both shafts
+        held = np.reshape(lock.held_force_N(machine, by), (-1, 1))
+        carried = centrifugal_N(machine) if machine.frame else zero
+        on_wheel = np.maximum(loads.wheel_shaft_N, held + carried)
+        on_crank = np.maximum(loads.crank_N, held)
+        loads = loads._replace(wheel_shaft_N=parameter(on_wheel), crank_N=parameter(on_crank))
+    sizes = sizes._replace(link_thickness=link or sizes.link_thickness)
     linked = machine.first_wheel or size.link_thickness_mm is not None  # links have their own
     allowed = wheel_material(spec).allowed_MPa
-    if _has(sizes.lock) and size.wheel_thickness_mm is size.face_width_mm is None:
+    if by and size.wheel_thickness_mm is size.face_width_mm is None:
         # a thicker wheel bends its pins more than its horns
         trials = trials_from(sizes.wheel_thickness, 2.0 * sizes.wheel_thickness)
-        wide = parameter(_holding(trials, case.bent_MPa / trials, allowed))
+        bent = lock.horn_MPa(machine, sizes.half_width, by) if bent_MPa is None else bent_MPa
+        wide = parameter(_holding(trials, np.reshape(bent, (-1, 1)) / trials, allowed))
         _, disc, arm, bar = size.thicknesses(wide)
         bar = sizes.link_thickness if linked else bar
         sizes = sizes._replace(
             wheel_thickness=wide, lock_thickness=disc, arm_thickness=arm, link_thickness=bar
         )
     wide, eye = sizes.wheel_thickness, math.inf
-    if case.sign > 0.0 and _has(sizes.arm_bore):
+    if of.assembly.sign > 0.0 and np.max(sizes.arm_bore) > 0.0:
         # about the pin, where it passes the largest hub
         hub = np.maximum(sizes.wheel_hub, rules.LARGEST_HUB * sizes.slot_end)
-        eye = case.L - sizes.reaches[1] - hub - sizes.wall_min
-    pin = pin_that_holds(machine, sizes.pin, wide, sizes.roller, eye, case.loads)
-    case = case._replace(sizes=sizes._replace(pin=pin))
-    if not (_has(sizes.arm_bore) and _has(sizes.pin)) or size.arm_thickness_mm is not None:
-        return _crank_bored(case._replace(sizes=_wheel_bored(case)), keyed=True)
+        eye = of.assembly.L - sizes.reaches[1] - hub - sizes.wall_min
+    sizes = sizes._replace(pin=pin_that_holds(machine, sizes.pin, wide, sizes.roller, eye, loads))
+    case = sizing(of.assembly, sizes)._replace(spec=spec, space=of.space, loads=loads)
+    armed = np.max(sizes.arm_bore) > 0.0 and np.max(sizes.pin) > 0.0
+    if not armed or size.arm_thickness_mm is not None:
+        return _bored(case._replace(sizes=_bored(case, "wheel")), "crank")
     # a thicker arm, up to twice the wheel, is better for a key than a thicker shaft
     trials = trials_from(wide, 2.0 * wide)
     count = trials.shape[1] if size.crank_keyway else 0
@@ -282,18 +283,13 @@ def _sized(case: Sizing, machine: Mechanism) -> Sizes:
         bar = some.sizes.link_thickness if linked else thick
         trial = some.sizes._replace(arm_thickness=parameter(thick), link_thickness=parameter(bar))
         some = some._replace(sizes=trial)
-        trial = _crank_bored(some._replace(sizes=_wheel_bored(some)), k >= count)
+        trial = _bored(some._replace(sizes=_bored(some, "wheel")), "crank", k >= count)
         parts, loads, spec = dimensions(some._replace(sizes=trial)), some.loads, some.spec
         arm_MPa = parameter(pin_arm_key.arm_stress_MPa(parts.arm, loads.wheel_N))
         holds = keeps(arm_MPa, "at most", wheel_material(spec).allowed_MPa)
         return trial, holds & key_holds(spec, parts.crank_key, loads.crank_Nm)
 
     return _first(case, np.hstack((trials, trials)) if count else trials, attempt)
-
-
-def _has(part: Number) -> bool:
-    """Return True if designs, all of them or none, have a part with a size."""
-    return bool(np.ravel(part)[0] > 0.0)
 
 
 def _holding(trials: Array, stress: Number, allowed: float) -> Array:
@@ -305,52 +301,37 @@ def _holding(trials: Array, stress: Number, allowed: float) -> Array:
     )
 
 
-def _wheel_bored(case: Sizing) -> Sizes:
-    """Return the sizes with a bore of the wheel whose shaft and key hold."""
-    sizes, spec = case.sizes, case.spec
-    end, wall = sizes.slot_end, sizes.wall_min
-    fixed = spec.size.wheel_bore_mm is not None or spec.shaft.wheel_diameter_mm is not None
-    if fixed or not _has(sizes.wheel_bore):
-        return sizes
-    # a third of the wheel up to its slots is left as a wall
-    most = smaller(smaller(end * 2.0 / 3.0, end - wall), rules.within_hub(spec.size, "wheel"))
-    trials = trials_from(2.0 * sizes.wheel_bore, 2.0 * most, bores=True)
-    return _bored(case, "wheel", trials, trials.shape[1], True)
-
-
-def _crank_bored(case: Sizing, keyed: bool) -> Sizes:
-    """Return the sizes with the crank's bore, through the disc if a shaft that holds fits there.
-
-    Otherwise the shaft ends in the arm, whose bore may be larger, unless links are in its way.
-    """
-    sizes, spec, size = case.sizes, case.spec, case.spec.size
-    if size.crank_bore_mm or not (size.arm_bore_mm is spec.shaft.crank_diameter_mm is None):
-        return sizes
-    trials = np.empty((1, 0))
-    if _has(sizes.crank_bore):
-        # a larger bore leaves no space for its default hub, of 1.5 bores
-        most = smaller(0.6 * case.space, rules.within_hub(size, "crank"))
-        trials = trials_from(2.0 * sizes.crank_bore, 2.0 * most, bores=True)
-    through = trials.shape[1]
-    # past links and gears the shaft may have no other way out
-    if _has(sizes.arm_bore) and not case.linked:
-        left = sizes.reaches[0] - rules.hole_radius(size, sizes.pin)  # half of it stays as a wall
-        ended = trials_from(2.0 * sizes.arm_bore, left, bores=True)
-        rows = np.zeros((max(len(trials), len(ended)), 1))
-        trials = np.hstack((trials + rows, ended + rows))
-    return _bored(case, "crank", trials, through, keyed) if trials.size else sizes
-
-
-def _bored(case: Sizing, part: str, trials: Array, through: int, keyed: bool) -> Sizes:
+def _bored(case: Sizing, part: str, keyed: bool = True) -> Sizes:
     """Return the sizes with the first bore of a part whose shaft holds, and if ``keyed`` its key.
 
-    The first ``through`` diameters are bored through the part, the others through the arm alone.
+    The crank's goes through the disc if a shaft that holds fits there. Otherwise the shaft ends in
+    the arm, whose bore may be larger, unless links are in its way.
     """
-    armed = part == "crank" and _has(case.sizes.arm_bore)
+    sizes, spec, size = case.sizes, case.spec, case.spec.size
+    own, through = vars(size)[f"{part}_bore_mm"], getattr(sizes, f"{part}_bore")
+    armed, trials = part == "crank" and np.max(sizes.arm_bore) > 0.0, list[Array]()
+    rows = np.zeros((np.size(case.loads.pin_N), 1))
+    if part == "wheel":
+        fixed = own is not None or spec.shaft.wheel_diameter_mm is not None
+        # a third of the wheel up to its slots is left as a wall
+        space = smaller(sizes.slot_end * 2.0 / 3.0, sizes.slot_end - sizes.wall_min)
+    else:
+        fixed = own or not (size.arm_bore_mm is spec.shaft.crank_diameter_mm is None)
+        space = 0.6 * case.space  # a larger bore leaves no space for its default hub, of 1.5 bores
+    if np.max(through) > 0.0:
+        most = smaller(space, rules.within_hub(size, part))
+        trials.append(rows + trials_from(2.0 * through, 2.0 * most, bores=True))
+    count = len(trials) and trials[0].shape[1]
+    # past links and gears the shaft may have no other way out
+    if armed and not case.linked:
+        left = sizes.reaches[0] - rules.hole_radius(size, sizes.pin)  # half of it stays as a wall
+        trials.append(rows + trials_from(2.0 * sizes.arm_bore, left, bores=True))
+    if fixed or not trials:
+        return sizes
 
     def attempt(some: Sizing, d: Array, k: int) -> tuple[Sizes, bool]:
         own, loads, spec = some.sizes, some.loads, some.spec
-        bore = parameter(0.5 * d if k < through else 0.0 * d)
+        bore = parameter(0.5 * d if k < count else 0.0 * d)
         reach, hub = rules.reach_and_hub(spec.size, part, bore, own.wall_min, own.slot_end)
         arm = parameter(0.5 * d) if armed else own.arm_bore
         if part == "wheel":
@@ -365,7 +346,7 @@ def _bored(case: Sizing, part: str, trials: Array, through: int, keyed: bool) ->
         moment = parameter(np.hypot(bent, turned))  # both are greatest at once
         return trial, shaft_and_key_hold(spec, part, parts, moment, torque, keyed)
 
-    return _first(case, trials, attempt)
+    return _first(case, np.hstack(trials), attempt)
 
 
 def pin_that_holds(
@@ -376,7 +357,7 @@ def pin_that_holds(
     It holds the cycle and the impact at a change of sides, within roller and ``eye``.
     """
     spec, size, load = mechanism.spec, mechanism.spec.size, mechanism.spec.load
-    if size.pin_mm is not None or not _has(usual):
+    if size.pin_mm is not None or not np.max(usual) > 0.0:
         return usual
     contact = value_or(size.face_width_mm, wide)
     # the roller keeps three tenths of its radius as a wall about the hole for its pin

@@ -17,7 +17,7 @@ from geneva_cli.numerics.arrays import value_or
 from geneva_cli.parts.machine_sizes import sized
 from geneva_cli.verdict.quantities import part_strength
 from geneva_cli.verdict.quantities.batch_designs import Columns, Designs, only, single
-from geneva_cli.verdict.quantities.under_load import under_load
+from geneva_cli.verdict.quantities.under_load import UnderLoad
 
 if TYPE_CHECKING:
     from geneva_cli.verdict.quantities.groups import QuantityGroup
@@ -64,7 +64,7 @@ class Strength:
         self.mechanism = mechanism
         self.spec = mechanism.spec
         self.design = single(mechanism)
-        self.load = under_load(self.design)
+        self.load = self.design.once(UnderLoad)
 
     def __getitem__(self, name: str) -> float | None:
         """A value by its whole name, such as ``strength.pin.stress_MPa``; None if unknown."""

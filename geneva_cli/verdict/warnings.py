@@ -38,7 +38,7 @@ def warnings(parts: Parts) -> list[Notice]:
         from geneva_cli.loads.cycle import cycle_warnings
         from geneva_cli.verdict.strength import strength
 
-        of_loads, of_strength = cycle_warnings(mechanism), strength(mechanism).warnings()
+        of_loads, of_strength = [*cycle_warnings(mechanism)], strength(mechanism).warnings()
     return [
         *motion_warnings(mechanism),
         *of_loads,

@@ -89,8 +89,7 @@ class SphereHorn(NamedTuple):
             foot = np.arctan2(y, along) - np.arccos(np.cos(self.recess) / np.hypot(along, y))
         azimuth = np.arctan2(np.sin(foot), np.cos(foot) * np.sin(t))
         own = azimuth < self.half_step  # False without a foot, too
-        thick: Array = np.where(own, self.radius_mm * (foot - self.half_width), np.inf)
-        return thick
+        return np.where(own, self.radius_mm * (foot - self.half_width), np.inf)
 
     def polar(self, input_deg: Number) -> Array:
         """The polar angles of the roller at input angles, (m, k) both."""

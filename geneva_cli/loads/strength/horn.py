@@ -258,10 +258,12 @@ def _sampled(mechanism: Mechanism, side: Horn, start: float, samples: Array) -> 
     points = side.points(np.hstack((places, side.at.mouth_deg * samples[1])))
     roller = np.stack(np.broadcast_arrays(*points[..., : len(own)], rub))
     sections = points[..., len(own) :]
-    most, i = _first(force * _most_stressed(side, roller, sections), m)
+    stress = np.broadcast_to(force * _most_stressed(side, roller, sections), (m, len(own)))
+    most = stress.max(axis=1, keepdims=True)
+    i = np.argmax(stress >= most * (1.0 - TIE), axis=1)
     unit = side.unit_stress(_picked(roller, i)[..., None], sections)[:, 0]
-    _, j = _first(_picked(force, i)[:, None] * unit, m)
-    rows = np.stack((most, _picked(places, i), *_picked(sections[:2], j)))
+    j = np.argmax(_picked(force, i)[:, None] * unit >= most * (1.0 - TIE), axis=1)
+    rows = np.stack((most[:, 0], _picked(places, i), *_picked(sections[:2], j)))
     beside = np.stack((own[i], j))[..., None] + np.array([-1, 1])
     every = np.broadcast_to(samples, (2, m, samples.shape[2]))
     ends = np.take_along_axis(every, np.clip(beside, 0, samples.shape[2] - 1), axis=2)
@@ -284,13 +286,6 @@ def _most_stressed(side: Horn, roller: Points, sections: Points) -> Array:
             ends = edges if edges.shape[1] == 1 else edges[:, some]
             most[some, own] = np.maximum(side.unit_stress(at, ends).max(axis=2), 0.0)
     return most
-
-
-def _first(stress: Array, m: int) -> tuple[Array, Whole]:
-    """The greatest stress of each of m designs, and the first sample (m or 1, k) that has it."""
-    most = stress.max(axis=1)
-    first = np.argmax(stress >= most[:, None] * (1.0 - TIE), axis=1)
-    return np.broadcast_to(most, m), np.broadcast_to(first, m)
 
 
 def _picked(rows: Array, k: Whole) -> Array:

@@ -15,7 +15,6 @@ from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.spec.tables import LIMITED
 
 if TYPE_CHECKING:
-    from geneva_cli.loads.contact import LoadCase
     from geneva_cli.numerics.arrays import Array, Number
     from geneva_cli.table import Table
 
@@ -88,16 +87,11 @@ class Designs:
         return self._each or [*map(build, each_of(self.spec, self.machine.designs))]
 
     @cached_property
-    def load_case(self) -> LoadCase:
-        """The loads' parameters besides the motion."""
-        from geneva_cli.loads.load_case import load_case  # quantities without loads need none
-
-        return load_case(self.machine)
-
-    @cached_property
     def loaded(self) -> Array:
         """1 if something resists the wheel, else NaN."""
-        case = self.load_case
+        from geneva_cli.loads.load_case import load_case  # quantities without loads need none
+
+        case = load_case(self.machine)
         return np.where(np.ravel(case.inertia_Nm + case.resists_Nm > 0.0), 1.0, np.nan)
 
 

@@ -12,7 +12,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.verdict.quantities.batch_designs import Columns, Designs, number_of, single
-from geneva_cli.verdict.quantities.under_load import under_load
+from geneva_cli.verdict.quantities.under_load import UnderLoad
 
 
 class BatchMember(Designs):
@@ -43,7 +43,7 @@ def share(batch: Mechanism, machines: Sequence[Mechanism]) -> None:
     @cache
     def sizing() -> PartLoads | None:
         try:
-            return under_load(designs).part_loads
+            return designs.once(UnderLoad).part_loads
         except GenevaError:  # which one of the designs raises it again
             return None
 

@@ -8,7 +8,7 @@ from geneva_cli.loads import load_peaks
 from geneva_cli.loads.impacts.entry import entry_impacts
 from geneva_cli.loads.impacts.reversal import lasting_drag_Nm, reversal_impacts
 from geneva_cli.loads.impacts.shock_force import Impacts
-from geneva_cli.loads.load_case import inertia_kgm2, sources
+from geneva_cli.loads.load_case import inertia_kgm2, load_case, sources
 from geneva_cli.loads.positive_drive import positive_drives
 from geneva_cli.motion.many import worst_peaks
 from geneva_cli.numerics.arrays import Array, Number, parameter
@@ -34,7 +34,7 @@ def greatest(of: Designs) -> Columns:
 
         power = worst_peaks(of.machine, ["power"])["power"].max
         kinetic = np.ravel(kinetic_power_W(of.machine, parameter(power[:, None])))
-        moved = np.ravel(of.load_case.inertia_Nm) > 0.0
+        moved = np.ravel(load_case(of.machine).inertia_Nm) > 0.0
         out["kinetic_power_W"] = np.where(moved, kinetic, np.nan) * of.loaded
     return out
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from geneva_cli.loads.impacts.reversal import reversal_impacts
 from geneva_cli.loads.impacts.shock_force import least_pin_mm
-from geneva_cli.loads.load_case import centrifugal_N
+from geneva_cli.loads.load_case import centrifugal_N, load_case
 from geneva_cli.loads.strength import pin_arm_key
 from geneva_cli.loads.strength.lock import dwell_torque_Nm, held_force_N
 from geneva_cli.loads.strength.part_loads import shaft_squares, shear_MPa
@@ -21,7 +21,7 @@ from geneva_cli.spec.defaults import roller_material, wheel_material
 from geneva_cli.spec.tables import Material
 from geneva_cli.spec.workshops import Stock
 from geneva_cli.verdict.quantities.batch_designs import Columns, Designs
-from geneva_cli.verdict.quantities.under_load import as_numbers, under_load
+from geneva_cli.verdict.quantities.under_load import UnderLoad, as_numbers
 
 
 def margin(stress: Number, allowed: Number | None) -> Array | None:
@@ -42,7 +42,7 @@ def margin(stress: Number, allowed: Number | None) -> Array | None:
 
 def pin(of: Designs) -> Columns:
     """The roller's pin under the greatest force or impact; it needs a width of the contact."""
-    load, allowed = under_load(of), _allowed(of, of.spec.material_roller, roller_material)
+    load, allowed = of.once(UnderLoad), _allowed(of, of.spec.material_roller, roller_material)
     width, out = load.contact_mm, {"allowed_MPa": allowed}
     if width is None:
         return out
@@ -77,7 +77,7 @@ def _allowed(of: Designs, own: Material, material: Callable[[Spec], Stock]) -> N
 
 def horn(of: Designs) -> Columns:
     """The horn at the place where the roller bends it most; it needs a width of the contact."""
-    allowed, load = _allowed(of, of.spec.material_wheel, wheel_material), under_load(of)
+    allowed, load = _allowed(of, of.spec.material_wheel, wheel_material), of.once(UnderLoad)
     out: dict[str, Number | None] = {"allowed_MPa": allowed}
     width = load.contact_mm
     if width is None or not load.has_horns:
@@ -95,7 +95,7 @@ def horn(of: Designs) -> Columns:
 
 def lock(of: Designs) -> Columns:
     """The lock under the torque in the dwell; ``greatest_MPa``: between disc and recess."""
-    state, allowed = under_load(of).lock, of.spec.limits.lock_stress_max_MPa
+    state, allowed = of.once(UnderLoad).lock, of.spec.limits.lock_stress_max_MPa
     out: dict[str, Number | None] = {"allowed_MPa": allowed}
     if state is None:
         return out
@@ -129,7 +129,7 @@ def shafts(of: Designs) -> dict[str, Columns]:
         # of the spec, or else as the parts have them
         table = vars(of.spec.shaft)
         overhang, diameter = table[f"{part}_overhang_mm"], table[f"{part}_diameter_mm"]
-        parts = under_load(of).parts if diameter is None or overhang is None else None
+        parts = of.once(UnderLoad).parts if diameter is None or overhang is None else None
         if parts is not None:
             own = getattr(parts, f"{part}_shaft")
             if diameter is None and not np.isnan(own.diameter).all():
@@ -141,7 +141,7 @@ def shafts(of: Designs) -> dict[str, Columns]:
     held = dict[str, tuple[Array, Array]]()
     if of.spec.load.dwell_torque_Nm is not None:
         # without a disc something else holds it, by a couple
-        torque_Nm, sizes = dwell_torque_Nm(of.machine), under_load(of).lock_sizes
+        torque_Nm, sizes = dwell_torque_Nm(of.machine), of.once(UnderLoad).lock_sizes
         force = held_force_N(of.machine, sizes and sizes[1])
         carried = np.ravel(centrifugal_N(of.machine)) if of.machine.frame else 0.0
         # the force passes through the crank's axis
@@ -168,11 +168,11 @@ def shafts(of: Designs) -> dict[str, Columns]:
 
 def arm(of: Designs) -> Columns:
     """The crank arm under the greatest force of the wheel on the roller."""
-    parts, allowed = under_load(of).parts, _allowed(of, of.spec.material_wheel, wheel_material)
+    parts, allowed = of.once(UnderLoad).parts, _allowed(of, of.spec.material_wheel, wheel_material)
     out: dict[str, Number | None] = {"allowed_MPa": allowed}
     if parts is None or np.isnan(parts.arm.length).all():
         return out
-    force = under_load(of).part_loads.wheel_N * of.loaded
+    force = of.once(UnderLoad).part_loads.wheel_N * of.loaded
     stress = _known(pin_arm_key.arm_stress_MPa(parts.arm, force))
     return out | {
         "thickness_mm": _known(parts.arm.thickness),
@@ -183,23 +183,23 @@ def arm(of: Designs) -> Columns:
 
 def arm_thickness(of: Designs) -> Columns:
     """The thickness at which the crank arm just holds."""
-    parts, steel = under_load(of).parts, array(wheel_material(of.spec).allowed_MPa)
+    parts, steel = of.once(UnderLoad).parts, array(wheel_material(of.spec).allowed_MPa)
     if parts is None or np.isnan(parts.arm.length).all():
         return {}
-    force = under_load(of).part_loads.wheel_N * of.loaded
+    force = of.once(UnderLoad).part_loads.wheel_N * of.loaded
     least = pin_arm_key.least_thickness_mm(parts.arm, force, steel.ravel())
     return {"least_thickness_mm": _known(np.where(np.isfinite(force), least, force))}
 
 
 def _key(of: Designs, part: str) -> Columns:
     """The key of wheel or arm under a shaft's torque; the pressure allowed keeps the shear, too."""
-    parts = under_load(of).parts
+    parts = of.once(UnderLoad).parts
     if parts is None:
         return {}
     key = getattr(parts, f"{part}_key")
     if np.isnan(key.shaft).all():
         return {}
-    most = getattr(under_load(of).part_loads, f"{part}_Nm") * of.loaded
+    most = getattr(of.once(UnderLoad).part_loads, f"{part}_Nm") * of.loaded
     most = most * np.ravel(of.spec.shaft.torsion_factor)
     sides = np.ravel(wheel_material(of.spec).allowed_MPa)
     shear = np.ravel(shear_allowed_MPa(of.spec.shaft))
@@ -221,7 +221,7 @@ wheel_key, crank_key = partial(_key, part="wheel"), partial(_key, part="crank")
 
 def pressure_speed(of: Designs) -> Columns:
     """The greatest contact pressure times sliding speed; it needs a face width."""
-    return {} if of.spec.size.face_width_mm is None else {"pv_max_W_m2": under_load(of).pv_W_m2}
+    return {} if of.spec.size.face_width_mm is None else {"pv_max_W_m2": of.once(UnderLoad).pv_W_m2}
 
 
 def bending(of: Designs) -> Columns:
@@ -234,7 +234,7 @@ def wear(of: Designs) -> Columns:
     """The roller as a bearing, and the work of friction."""
     from geneva_cli.loads.strength import roller
 
-    friction = np.ravel(of.load_case.friction)
+    friction = np.ravel(load_case(of.machine).friction)
     passages = roller.passages(of.machine)
     paired = any(one.paired for one in of.machine.engagements)
     # an engagement has two of its own if one roller starts and one stops it

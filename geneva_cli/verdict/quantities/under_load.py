@@ -12,6 +12,7 @@ from geneva_cli.kept import cached_property
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.impacts.reversal import reversal_impacts
 from geneva_cli.loads.impacts.shock_force import forces_N
+from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_peaks import load_peaks
 from geneva_cli.loads.strength import lock, pin_arm_key
 from geneva_cli.loads.strength.horn import greatest_stress, horns
@@ -34,7 +35,7 @@ from geneva_cli.numerics.arrays import (
 )
 from geneva_cli.parts.machine_sizes import fits, sized, unloaded
 from geneva_cli.parts.shafts.bores import has_shape
-from geneva_cli.parts.sized_by_load import Stressed, dimensions, load_sizes, sizing, stressed
+from geneva_cli.parts.sized_by_load import Stressed, batch_sizes, dimensions, sizing
 from geneva_cli.parts.sizes import Sizes as PartSizes
 from geneva_cli.parts.sizes import Unloaded
 from geneva_cli.spec.defaults import roller_material
@@ -58,7 +59,7 @@ class UnderLoad:
         # the function that returns the horns: those of a flat wheel for most kinds
         self.sides: Sides = thing(of.spec.wheel.NAME, "horns") or horns
         # the force on a roller over that along the wall's normal, (m, 1)
-        friction = of.load_case.friction
+        friction = load_case(of.machine).friction
         self.rubbed = parameter(library(friction).hypot(1.0, friction))
 
     @cached_property
@@ -102,7 +103,7 @@ class UnderLoad:
         each = list[tuple[float, Lock] | None]()
         for of in self._unloaded:
             each.append((of.sizes.half_width, of.cut_lock()) if of and of.sizes.lock else None)
-        return batched(each, as_numbers)
+        return batched(each, as_numbers) if len(each) > 1 else each[0]
 
     @cached_property
     def horn_sizes(self) -> Sizes | None:
@@ -153,7 +154,7 @@ class UnderLoad:
             return batched([None if one.spec.no_parts else _or_none(own, one) for one in machines])
         if self.designs.single:
             one = sized(self.machine)
-            return batched([one and stressed(*one)])
+            return one and mapped(np.ravel, dimensions(sizing(*one)))
         some, size, machine = [*filter(None, self._unloaded)], self.machine.spec.size, self.machine
         if not some:
             return None
@@ -164,7 +165,7 @@ class UnderLoad:
             shaped = shaped or (has_shape(size, part) and designs_in(size) > 1)
         if self.designs.are_built or machine.first_wheel or len(kinds) > 1 or shaped:
             layouts = [*map(sized, self.designs.each)]
-            return batched([stressed(*one) if one else None for one in layouts])
+            return batched([one and dimensions(sizing(*one)) for one in layouts])
         of = some[0]
         if any(one is not of for one in some):
             rows = [one and (one.assembly.L, one.sizes, one.space) for one in self._unloaded]
@@ -173,7 +174,7 @@ class UnderLoad:
         locks, bent = self.lock_sizes, None
         if locks and size.wheel_thickness_mm is None and size.face_width_mm is None:
             bent = lock.horn_MPa(machine, *locks, self._flat_horns)
-        sizes = load_sizes(of, locks and locks[1], machine, self.part_loads, bent)
+        sizes = batch_sizes(of, locks and locks[1], machine, self.part_loads, bent)
         parts = dimensions(sizing(of.assembly, sizes)._replace(spec=machine.spec))
         fit = np.where(self._fit(sizes), 1.0, np.nan)
         return mapped(lambda row: np.ravel(row) * fit, parts)
@@ -267,12 +268,7 @@ def as_numbers(values: Array) -> float:
     return parameter(values[:, None]) if len(values) > 1 else values.item()
 
 
-def under_load(of: Designs) -> UnderLoad:
-    """The designs under their loads."""
-    return of.once(UnderLoad)
-
-
 def drawn_pin(of: Designs) -> PinSize | None:
     """The pin that an impact bends, and its contact; None where nothing has a width."""
-    width = under_load(of).contact_mm
-    return None if width is None else PinSize(under_load(of).pin_mm, width)
+    width = of.once(UnderLoad).contact_mm
+    return None if width is None else PinSize(of.once(UnderLoad).pin_mm, width)
