@@ -229,7 +229,7 @@ def plate(parts: EdgedParts) -> Drawing:
 
     Raises GenevaError for a part that cannot be built.
     """
-    every = (one for _, build in parts.turned.by_name() for part in build() for one in solids(part))
+    every = (one for _, build in parts.by_name() for part in build() for one in solids(part))
     whole = [one for one in every if not isinstance(one, Shell)]
     title = titled(parts.mechanism, "plate")
     solid = Group(title, tuple(_laid(whole)))

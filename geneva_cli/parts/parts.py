@@ -82,15 +82,10 @@ class Parts(TurnedParts):
         return parts_of(mechanism)
 
     @property
-    def turned(self) -> Self:
-        """These parts. Raises GenevaError where there is nothing to turn."""
-        _ = self._shape
-        return self
-
-    @property
     def built(self) -> Self:
         """These parts. Raises GenevaError where the sizes leave no wheel or no crank."""
-        return self.turned
+        _ = self._shape
+        return self
 
     @cached_property
     def flat(self) -> Parts:
