@@ -36,16 +36,6 @@ class Parts(TurnedParts):
     LAID_FLAT: ClassVar[tuple[str, ...]] = ()
 
     @property
-    def gear_pair(self) -> tuple[Member, ...]:
-        """The noncircular gears before the crank; none without."""
-        return ()
-
-    @property
-    def round_gears(self) -> tuple[Member, ...]:
-        """Gears with round pitch circles, as blanks up to these; none without."""
-        return ()
-
-    @property
     def screws(self) -> tuple[Screws, ...]:
         """The screws between the parts; none without."""
         return ()
