@@ -309,7 +309,7 @@ def _bored(case: Sizing, part: str, keyed: bool = True) -> Sizes:
     """
     sizes, spec, size = case.sizes, case.spec, case.spec.size
     own, through = vars(size)[f"{part}_bore_mm"], getattr(sizes, f"{part}_bore")
-    armed, trials = part == "crank" and np.max(sizes.arm_bore) > 0.0, list[Array]()
+    armed, trials = part != "wheel" and np.max(sizes.arm_bore) > 0.0, list[Array]()
     rows = np.zeros((np.size(case.loads.pin_N), 1))
     if part == "wheel":
         fixed = own is not None or spec.shaft.wheel_diameter_mm is not None

@@ -106,9 +106,9 @@ class Horn(NamedTuple):
     def points(self, input_deg: Number) -> Points:
         """Places of the roller, or sections, at input angles (m, k), in the axes of the horn.
 
-        The rows are the slot's wall from the recess's centre, inwards; the thickness up to the
-        recess; the wall across, and its normal towards the recess; 1 for a place that a tip which
-        is cut back has left, or 0; and the angle about that centre, radians, from the section's
+        Rows 0 and 2 are the slot's wall from the recess's centre, inwards and across; row 1 is the
+        thickness up to the recess. Rows 3 and 4 are the wall's normal towards the recess. Row 5 is
+        0 where a tip is cut back. Row 6 is the angle about that centre, radians, from the section's
         foot to the next horn's.
         """
         at_deg = np.atleast_2d(input_deg)
