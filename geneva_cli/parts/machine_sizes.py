@@ -67,7 +67,7 @@ def unloaded(mechanism: Mechanism) -> Unloaded:
 
 def loaded(of: Unloaded, mechanism: Mechanism, loads: PartLoads) -> Sizes:
     """Return the sizes of a machine under its loads, as ``load_sizes``; raises as ``unloaded``."""
-    from geneva_cli.parts.sized_by_load import load_sizes, stressed
+    from geneva_cli.parts.sized_by_load import load_sizes, needs_lock, stressed
 
     link = pin = shaft = 0.0  # of the first of two wheels, as its load needs them
     if mechanism.first_wheel:
@@ -80,7 +80,7 @@ def loaded(of: Unloaded, mechanism: Mechanism, loads: PartLoads) -> Sizes:
         if parts and not math.isnan(parts.arm.length):  # a crank without a pin has no arm
             link = max(parts.contact, float(parts.arm.thickness))
             pin, shaft = 0.5 * parts.pin, 0.5 * parts.crank_shaft.diameter
-    by = of.cut_lock() if of.sizes.lock else None
+    by = of.cut_lock() if of.sizes.lock and needs_lock(mechanism.spec) else None
     out = load_sizes(of, by, mechanism, loads, link=link)
     out = mapped(np.ndarray.item, mapped(np.asarray, out))
     out = out._replace(first_pin=pin, first_shaft=shaft)

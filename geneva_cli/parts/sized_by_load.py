@@ -172,6 +172,13 @@ def key_of(standard: str | None, bore: Number, length: Number) -> pin_arm_key.Ke
 Attempt: TypeAlias = Callable[[Sizing, Array, int], "tuple[Sizes, bool]"]
 
 
+def needs_lock(spec: Spec) -> bool:
+    """Return True if the sizes under a load depend on the lock, of a wheel that has one."""
+    size = spec.size
+    free = size.wheel_thickness_mm is size.face_width_mm is None
+    return free or spec.load.dwell_torque_Nm is not None
+
+
 def batch_sizes(
     of: Unloaded, by: Lock | None, machine: Mechanism, loads: PartLoads, bent_MPa: Array | None
 ) -> Sizes:

@@ -38,7 +38,7 @@ STOUT = 0.5  # thickness at the mouth over the recess's radius, beyond which a h
 
 # The fraction of the greatest stress in any horn below which a horn's search ends: after samples a
 # sixtieth of a half motion apart, after samples 16 and 256 times as close, and at last.
-BELOW = (0.5, 0.9, 0.99, 1.0)
+BELOW = (0.5, 0.95, 0.998, 1.0)
 
 
 class HornStress(NamedTuple):
@@ -153,6 +153,8 @@ class Horn(NamedTuple):
         stress -= y[..., None] * along[:, None]
         turn = contact[0] * y - contact[1] * x
         stress += turn[..., None] * np.where(known, bends, 0.0)[:, None]
+        if (sections[0].min(axis=1) > roller[0].max(axis=1)).all():
+            return stress
         return np.where(sections[0][:, None] > roller[0][..., None], stress, 0.0)
 
     @property

@@ -19,7 +19,7 @@ from geneva_cli.loads.strength.horn import greatest_stress, horns
 from geneva_cli.loads.strength.part_loads import PartLoads, part_loads, single_loads
 from geneva_cli.loads.strength.pin_arm_key import PinSize
 from geneva_cli.loads.tolerance.locking import Lock
-from geneva_cli.motion.batch import designs_in, taken
+from geneva_cli.motion.batch import designs_in, each_of, taken
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.registry import thing
@@ -35,7 +35,7 @@ from geneva_cli.numerics.arrays import (
 )
 from geneva_cli.parts.machine_sizes import fits, sized, unloaded
 from geneva_cli.parts.shafts.bores import has_shape
-from geneva_cli.parts.sized_by_load import Stressed, batch_sizes, dimensions, sizing
+from geneva_cli.parts.sized_by_load import Stressed, batch_sizes, dimensions, needs_lock, sizing
 from geneva_cli.parts.sizes import Sizes as PartSizes
 from geneva_cli.parts.sizes import Unloaded
 from geneva_cli.spec.defaults import roller_material
@@ -95,6 +95,7 @@ class UnderLoad:
                 bare = Spec(of.wheel, drive, *keys, shaft=of.shaft, drive_before=before)
             if designs_in(bare) == 1:  # designs that differ in speed and loads have the same
                 return [_bare(build(taken(bare, 0)))]
+            return [*map(_bare, each_of(self.machine, self.machine.designs))]
         return [*map(_bare, self.designs.each)]
 
     @cached_property
@@ -112,7 +113,10 @@ class UnderLoad:
         of_kind = thing(self.machine.spec.wheel.NAME, "horn_sizes")
         if of_kind:
             return batched([of_kind(one) for one in self.designs.each], as_numbers)
-        return (self.lock_sizes[0], self.lock_sizes[1].recess) if self.lock_sizes else None
+        each: list[Sizes | None] = []
+        for of in self._unloaded:
+            each.append((of.sizes.half_width, of.sizes.recess) if of and of.sizes.lock else None)
+        return batched(each, as_numbers) if len(each) > 1 else each[0]
 
     @property
     def has_horns(self) -> bool:
@@ -171,8 +175,8 @@ class UnderLoad:
             rows = [one and (one.assembly.L, one.sizes, one.space) for one in self._unloaded]
             L, sizes, space = cast("tuple[float, PartSizes, float]", batched(rows, as_numbers))
             of = of._replace(assembly=of.assembly._replace(L=L), sizes=sizes, space=space)
-        locks, bent = self.lock_sizes, None
-        if locks and size.wheel_thickness_mm is None and size.face_width_mm is None:
+        locks, bent = self.lock_sizes if needs_lock(machine.spec) else None, None
+        if locks and size.wheel_thickness_mm is size.face_width_mm is None:
             bent = lock.horn_MPa(machine, *locks, self._flat_horns)
         sizes = batch_sizes(of, locks and locks[1], machine, self.part_loads, bent)
         parts = dimensions(sizing(of.assembly, sizes)._replace(spec=machine.spec))
