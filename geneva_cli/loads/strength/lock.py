@@ -26,7 +26,7 @@ import numpy as np
 from geneva_cli.loads.contact import NEAR_CUSP
 from geneva_cli.loads.load_case import contact_modulus_GPa, hertz_MPa
 from geneva_cli.loads.tolerance.locking import Lock
-from geneva_cli.motion.batch import taken
+from geneva_cli.motion.batch import designs_in, taken
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import all_true, blocks, parameter, value_or
 from geneva_cli.numerics.jet import Array, Number
@@ -131,9 +131,11 @@ def bending(mechanism: Mechanism, half_width: float, recess: float, phi: float) 
     from geneva_cli.loads.strength.horn import horns
 
     every, m = (mechanism, half_width, recess, phi), mechanism.designs
-    if m > 8:  # the sections of 8 designs stay in the cache
+    spec, under = mechanism.spec, mechanism.under_load.engagements
+    shape = spec.wheel, spec.size, spec.material_wheel, mechanism.center_distance_mm, under
+    if m > 8 and designs_in((shape, every[1:])) > 1:  # the sections of 8 designs stay in the cache
         return np.concatenate([bending(*taken(every, some)) for some in blocks(m, 8)], axis=1)
-    material = wheel_material(mechanism.spec)
+    material = wheel_material(spec)
     E = 1e3 * material.youngs_modulus_GPa
     G = E / (2.0 * (1.0 + material.poisson_ratio))
     weakest: Array | None = None
