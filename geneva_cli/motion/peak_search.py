@@ -119,19 +119,14 @@ def search_peaks(motion: WheelMotion, quantities: Sequence[str]) -> dict[str, Pe
     """The peaks from the search only, without closed forms; NaN for designs that are NaN."""
     most, x, _ = search_motion(motion, curves(motion, quantities))
     most = np.where(most < 0.0, np.nan, most)
-    return {
-        name: PeakArray(*row)
-        for name, row in zip(quantities, zip(most, x, strict=True), strict=True)
-    }
+    return dict(zip(quantities, map(PeakArray, most, x), strict=True))
 
 
 def greater(first: PeakArray, other: PeakArray) -> PeakArray:
     """The greater of two sizes; if they are equal, at the place of the first."""
+    most = np.where(other.max > first.max, other.max, first.max)
     more = other.max > first.max * (1.0 + TIE)
-    return PeakArray(
-        np.where(other.max > first.max, other.max, first.max),
-        np.where(more, other.at_deg, first.at_deg),
-    )
+    return PeakArray(most, np.where(more, other.at_deg, first.at_deg))
 
 
 def braking(engagement: Engagement) -> float:

@@ -11,9 +11,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Annotated, ClassVar, cast
 
-from geneva_cli.drives.transmission import PinPath
 from geneva_cli.motion import registry
-from geneva_cli.motion.drive import Plan
+from geneva_cli.motion.drive import Drive, Plan
 from geneva_cli.motion.engagement import Engagement, Slot, SlotAxis, Vector, WheelMotion
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Teeth
 from geneva_cli.motion.wheels import classic
@@ -31,7 +30,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet_functions import Path
 
 
-class GearSector(PinPath, kw_only=True):
+class GearSector(Drive, kw_only=True):
     """Slot, gears at constant ratio, slot; ``sector_deg`` is the crank's angle in gear.
 
     >>> Design(External(3), GearSector(sector_deg=60)).timing.motion_deg
