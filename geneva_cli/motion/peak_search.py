@@ -29,25 +29,18 @@ def curves(motion: WheelMotion, quantities: Sequence[str]) -> Smooth:
     """Quantities of motions over the input angle in degrees."""
     some = selection(motion)
 
-    def derivatives(
-        x: Array, which: Which, order: int, requested: Sequence[int]
-    ) -> list[Sequence[Array]]:
+    def jets(x: Array, which: Which, order: int, requested: Sequence[int]) -> list[Jet]:
         names = [quantities[i] for i in requested]
-        out: list[Sequence[Array]] = []
-        p = some(which).rate(x, max(ORDERS[name] for name in names) - 1 + order).arrays()
+        velocity = some(which).rate(x, max(ORDERS[name] for name in names) - 1 + order)
+        out = []
         for name in names:
-            if name == "power":
-                power = [p[0] * p[1]]
-                if order > 0:
-                    power.append(p[1] ** 2 + p[0] * p[2])
-                if order > 1:
-                    power.append(3.0 * p[1] * p[2] + p[0] * p[3])
-                out.append(power)
-            else:
-                out.append(p[ORDERS[name] - 1 :])
+            jet = velocity
+            for _ in range(1, ORDERS[name]):
+                jet = jet.derivative()
+            out.append(velocity.lower * jet if name == "power" else jet)
         return out
 
-    return Smooth(derivatives, len(quantities), unit=DEGREE)
+    return Smooth(jets, len(quantities), unit=DEGREE)
 
 
 def breaks(motion: WheelMotion, m: int) -> list[Array]:
