@@ -218,7 +218,7 @@ def test_stations_and_their_places(machine, witness, case):
         for value, want in ((s.mid_deg, w.mid), (s.entry_deg, w.entry), (s.exit_deg, w.exit)):
             assert abs(mp.mpf(value) - to_degrees(want)) <= bar
         assert s.half_step == pytest.approx(float(w.b), rel=2e-16)
-        assert m.index_deg(i) == pytest.approx(float(to_degrees(2 * w.b)), rel=2e-16)
+        assert m.spec.wheel.index_deg(i) == pytest.approx(float(to_degrees(2 * w.b)), rel=2e-16)
         # A second roller's motion is symmetric too, but its two ends are rounded apart.
         mirrored = abs(w.entry + w.exit) < mp.mpf(10) ** -30
         assert mirrored if s.motion.symmetric else i or not mirrored or case in ON_PATH
