@@ -117,8 +117,7 @@ class _Slot(_Path, base.Slot):
 
     def __init__(self, own: base.Slot, timing: Timing) -> None:
         super().__init__(own, timing)
-        self.curved, self.relieved, self.offset = own.curved, own.relieved, own.offset
-        self.walls_flat = own.walls_flat
+        self.curved, self.walls_flat, self.offset = own.curved, own.walls_flat, own.offset
         if own.height is not None:
             turn = _Displacement(own.height.turn, timing.advances[1])
             self.height = own.height._replace(turn=turn)

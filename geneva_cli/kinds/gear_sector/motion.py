@@ -157,7 +157,7 @@ class _SectorSlot(_SectorPath, Slot):
     """The slot, and the gears' pitch circle L/(1+u) while they drive, without sliding."""
 
     inner: Slot
-    relieved, walls_flat = True, False
+    walls_flat = False
 
     def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
         axis = self.inner.axis(self.motion.slot_deg(input_deg), order)
