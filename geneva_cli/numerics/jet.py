@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from math import comb, factorial
-from operator import add, neg, sub
+from operator import add, sub
 from typing import TypeVar, cast
 
 from geneva_cli.numerics.arrays import SINGLE, Enclosed, N, enclosed, library, piece_of, size
@@ -179,7 +179,7 @@ def sine_versine(x: Jet) -> tuple[Jet, Jet]:
     if not x.order:
         return sin(x), Jet((versine,))
     s, c = sin_cos(x)
-    return s, Jet((versine, *map(neg, c.c[1:])))
+    return s, Jet((versine, *(c * -1).c[1:]))
 
 
 def rotation(tau: Number, order: int) -> tuple[Jet, Jet]:
@@ -207,7 +207,7 @@ def sine_versine_of(rate: Jet, y: Number, x: Number, order: int) -> tuple[Jet, J
         ahead = 0.5 * (1.0 + library(cosine).copysign(1.0, cosine))
         versine = ahead * sine * sine / (1.0 + size(cosine)) + (1.0 - ahead) * versine
     s, c = _circle((0.0, *rate.c)[: order + 1], sine, cosine)
-    return s, Jet((versine, *map(neg, c.c[1:])))
+    return s, Jet((versine, *(c * -1).c[1:]))
 
 
 def turned_at(rate: Jet, x: Number, y: Number, order: int) -> tuple[Jet, Jet]:
