@@ -31,7 +31,7 @@ class Cam(Drive, kw_only=True):
     WORDS: ClassVar[str] = "a crank whose roller runs in a cam"
     EXAMPLE: ClassVar[Example] = Example(
         "a cam-Geneva: straight slots, and a motion law from a fixed cam",
-        {"wheel": {"z": 6}, "motion": {"law": "cycloidal"}},
+        {"motion": {"law": "cycloidal"}},
     )
 
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
