@@ -256,7 +256,7 @@ def _works(load: LoadFunctions, bounded: Mask) -> tuple[Array, Array]:
 
     needed = np.stack((bounded, bounded))
     with np.errstate(all="ignore"):
-        each = span_integrals(rows, (a, b), design, needed, ends=True, apart=True) * DEGREE
+        each = span_integrals(rows, (a, b), design, needed, ends=True) * DEGREE
     number = np.arange(len(design)) - np.searchsorted(design, design)
     works = np.zeros((n, int(number.max()) + 1))
     works[design, number] = each[0]
