@@ -22,7 +22,7 @@ from geneva_cli.numerics.jet import rotation
 
 if TYPE_CHECKING:
     from geneva_cli.drives.pushed import PushedCrank
-    from geneva_cli.motion.laws.law import Law, Motion
+    from geneva_cli.motion.laws.law import Motion
     from geneva_cli.numerics.jet_functions import Displacement, Path
 
 
@@ -147,13 +147,10 @@ class Transmission(Drive, kw_only=True):
     def _ratio(self, wheel: Gearing, motion: Motion, motion_deg: float) -> float:
         """R/L of a curved slot: the spec's, sin b, or matched to the law at mid-motion, or NaN."""
         if isinstance(motion.ratio, str):
-            return self.matched_ratio(wheel, motion.law, motion_deg)
+            crank = self.about(0.0)[1](0.0, 1)[0].c[1]
+            turned = motion.law(0.5, 1).c[1] * 2.0 * wheel.step.b / radians(motion_deg)
+            return wheel.matched_ratio(parameter(turned / crank))
         return wheel.step.sin_cos[0] if motion.ratio is None else motion.ratio
-
-    def matched_ratio(self, wheel: Gearing, law: Law, motion_deg: float) -> float:
-        crank = self.about(0.0)[1](0.0, 1)[0].c[1]
-        turned = law(0.5, 1).c[1] * 2.0 * wheel.step.b / radians(motion_deg)
-        return wheel.matched_ratio(parameter(turned / crank))
 
     def _behind(self, wheel: Gearing, own: Engagement, advance: Displacement, L: float) -> None:
         """Complete an engagement whose crank is behind the transmission: its rate and reactions."""

@@ -15,7 +15,7 @@ from geneva_cli.spec.rules import SPEED, Z_MAX, FromZero, Range
 from geneva_cli.spec.schema import Example, SpecTable
 
 if TYPE_CHECKING:
-    from geneva_cli.motion.laws.law import Law, Motion
+    from geneva_cli.motion.laws.law import Motion
     from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
     from geneva_cli.numerics.arrays import Array
     from geneva_cli.numerics.jet_functions import Displacement
@@ -126,10 +126,6 @@ class Drive(SpecTable, kw_only=True):
         ``L`` is the second wheel's centre distance.
         """
         return None
-
-    def matched_ratio(self, wheel: Gearing, law: Law, motion_deg: float) -> float:
-        """R/L at which curved slots have a finite pressure angle at mid-motion; NaN if none."""
-        return math.nan
 
     def may_vary(self, table: str, key: str) -> bool:
         """True if a number of a table may be an array along a design axis with this drive."""

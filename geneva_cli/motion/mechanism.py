@@ -99,10 +99,11 @@ class Mechanism(NamedTuple):
     @property
     def matched_ratio(self) -> float | None:
         """R/L of finite pressure at mid-motion of a design's curved slots; None without."""
-        if self.law is None:
+        own = self.engagements[0].own
+        if not own.slot.curved:
             return None
-        motion_deg = self.engagements[0].own.motion_deg
-        matched = self.spec.drive.matched_ratio(self.spec.wheel, self.law, motion_deg)
+        turned = float(own.motion(0.0, 1).c[1]) / abs(float(own.carrier(0.0).c[0]))
+        matched = self.spec.wheel.matched_ratio(turned)
         return None if math.isnan(matched) else float(matched)
 
     @property
