@@ -128,6 +128,15 @@ class Trial(NamedTuple):
         """True if no check fails."""
         return min(self.spares.values()) >= 0.0
 
+    def zero(self, one: Trial, other: Trial) -> float:
+        """The value up to which a check fails that fails here, by lines through two trials."""
+        zeros = [self.value]
+        for name in (name for name, spare in self.spares.items() if spare < 0.0):
+            low, high = (trial.spares.get(name, math.inf) for trial in (one, other))
+            slope = (high - low) / (other.value - one.value)
+            zeros.append(one.value - low / slope if math.isfinite(slope) and slope else math.inf)
+        return max(zeros, key=lambda zero: abs(zero - self.value))
+
 
 def short(value: float, spare: float) -> float:
     """The number with the fewest digits that differs from a value by at most ``spare``."""
@@ -283,29 +292,22 @@ class Adviser:
 
     def _nearest(self, remedy: Remedy, bad: Trial, good: Trial, wanted: Sequence[str]) -> Trial:
         """The trial nearest to one that fails, between it and one that passes, which does."""
-        now, slow, one, other = remedy.now, 0, bad, good
+        now, whole, slow, line = remedy.now, isinstance(remedy.now, int), 0, (bad, good)
         while True:
             gap, change = good.value - bad.value, abs(good.value - now)
-            near = max(NEAR * min(change, 4.0 * abs(good.value) or change), type(now) is int)
-            half = 0.5 * near / abs(gap)
+            near = max(NEAR * min(change, 4.0 * abs(good.value) or change), whole)
+            half, part, spare = 0.5 * near / abs(gap), 0.5, 0.25
             if half >= 0.5:
                 return good
-            # where the margin of the check that fails most is 0, on a line through two trials
-            name, part, spare = min(bad.spares, key=bad.spares.__getitem__), math.nan, 0.25
-            low, high = (trial.spares.get(name, math.inf) for trial in (one, other))
-            if math.isfinite(high - low) and high != low and slow < 2 and type(now) is float:
-                zero = one.value - (other.value - one.value) * low / (high - low)
-                part = (zero - bad.value) / gap
-            if 0.0 <= part <= 1.0:
-                part, spare = min(max(part + 0.5 * half, half), 1.0 - half), 0.5 * half
-            else:
-                part = 0.5
+            zero = (bad.zero(*line) - bad.value) / gap
+            if 0.0 <= zero <= 1.0 and slow < 2 and not whole:
+                part, spare = min(max(zero + 0.5 * half, half), 1.0 - half), 0.5 * half
             value = short(bad.value + part * gap, spare * abs(gap))
             trial = self.trial([(remedy.key, type(now)(value))], wanted)
             last, good, bad = (good, trial, bad) if trial.passes else (bad, good, trial)
             # after a slow step, the line through the last two values on one side
             slow = slow + 1 if abs(good.value - bad.value) > 0.5 * abs(gap) else 0
-            one, other = (last, trial) if slow else (bad, good)
+            line = (last, trial) if slow else (bad, good)
 
     def trial(self, changes: Sequence[Change], names: Iterable[str], every: bool = False) -> Trial:
         """The margins of some checks with changes of the spec; -inf if it makes no machine.
