@@ -215,7 +215,8 @@ def advised(mechanism: Mechanism, rows: list[Check]) -> list[Check]:
             each = together
     anew, text = "", " and ".join(line(*change) for change in each)
     if each and mechanism.spec.is_loaded:
-        anew = ByLoad(by_load(adviser.built(*each)[0]), by_load(mechanism)).changes
+        changed = build(mechanism.spec.with_keys(dict(each)), mechanism)
+        anew = ByLoad(by_load(changed), by_load(mechanism)).changes
     out = []
     for c in rows:
         if c.passes is False and each:
@@ -245,7 +246,7 @@ class Adviser:
     def __init__(self, mechanism: Mechanism, failing: list[Check]) -> None:
         self.mechanism, self.left, self.stop = mechanism, TRIALS, 0
         self.failing = {c.name for c in failing}
-        self._built: dict[tuple[Change, ...], tuple[Mechanism, Parts]] = {}
+        self._parts: dict[tuple[Change, ...], Parts] = {}
 
     def advice(self, wanted: list[Check], trials: int) -> Change | None:
         """The change with which some failing checks pass and no other fails, in so many trials."""
@@ -272,8 +273,8 @@ class Adviser:
             value = start.value + (end - start.value) * part
             if start.value * end > 0.0:
                 value = start.value * (end / start.value) ** part
-            value = short(value, 0.05 * abs(value - start.value)) if part < 1.0 else end
-            known[part] = good = self.trial([(key, type(now)(value))], wanted)
+            spare = 0.05 * abs(value - start.value) if part < 1.0 else 1e-12 * abs(value)
+            known[part] = good = self.trial([(key, type(now)(short(value, spare)))], wanted)
             if good.passes:
                 break
             name, spare = [*good.spares.items()][-1]
@@ -285,14 +286,15 @@ class Adviser:
             return None
         good = self._nearest(remedy, known[max(x for x in known if x < part)], good, wanted)
         every = self.trial([(key, good.value)], wanted, True)
-        if every.passes or good.value == end:
-            return (key, good.value) if every.passes else None
+        if every.passes:
+            return key, good.value
         # where another check fails, it is wanted too from there on
         return self._least(remedy, every, (*wanted, [*every.spares][-1]))
 
     def _nearest(self, remedy: Remedy, bad: Trial, good: Trial, wanted: Sequence[str]) -> Trial:
         """The trial nearest to one that fails, between it and one that passes, which does."""
-        now, whole, slow, line = remedy.now, isinstance(remedy.now, int), 0, (bad, good)
+        now, slow, line = remedy.now, 0, (bad, good)
+        whole = halves = isinstance(now, int)
         while True:
             gap, change = good.value - bad.value, abs(good.value - now)
             near = max(NEAR * min(change, 4.0 * abs(good.value) or change), whole)
@@ -300,7 +302,8 @@ class Adviser:
             if half >= 0.5:
                 return good
             zero = (bad.zero(*line) - bad.value) / gap
-            if 0.0 <= zero <= 1.0 and slow < 2 and not whole:
+            halves = halves or (slow == 1 and math.isinf(zero))  # a margin that changes in steps
+            if 0.0 <= zero <= 1.0 and slow < 2 and not halves:
                 part, spare = min(max(zero + 0.5 * half, half), 1.0 - half), 0.5 * half
             value = short(bad.value + part * gap, spare * abs(gap))
             trial = self.trial([(remedy.key, type(now)(value))], wanted)
@@ -314,17 +317,23 @@ class Adviser:
 
         With ``every`` those of all others follow that pass now.
         """
-        out = Trial(changes[0][1], {})
+        out, key = Trial(changes[0][1], {}), tuple(changes)
         try:
-            machine, parts = self.built(*changes)
+            if key not in self._parts:
+                self.left = max(self.left, self.stop) - 1
+                if self.left < self.stop:
+                    raise GenevaError(STOPPED)
+                spec = self.mechanism.spec.with_keys(dict(changes))
+                self._parts[key] = parts_of(build(spec, self.mechanism))
+            parts = self._parts[key]
             for name in names:
-                check = single_check(machine, name, parts)
+                check = single_check(parts.mechanism, name, parts)
                 out.spares[name] = check.spare if check else math.inf
                 if not out.passes:
                     return out
             # where a check has no value, others say how near it is
             if every or math.inf in out.spares.values():
-                for check in every_check(machine, parts, quick=True):
+                for check in every_check(parts.mechanism, parts, quick=True):
                     if check.name not in self.failing:
                         out.spares[check.name] = check.spare
                         if check.passes is False:
@@ -332,14 +341,3 @@ class Adviser:
         except GenevaError:  # no machine, a turn that takes too long, or no trials left
             return out._replace(spares={"": -math.inf})
         return out
-
-    def built(self, *changes: Change) -> tuple[Mechanism, Parts]:
-        """The machine with some changes of the spec. Raises GenevaError without trials left."""
-        if changes not in self._built:
-            self.left = max(self.left, self.stop) - 1
-            if self.left < self.stop:
-                raise GenevaError(STOPPED)
-            spec = self.mechanism.spec.with_keys(dict(changes))
-            machine = build(spec, self.mechanism)
-            self._built[changes] = machine, parts_of(machine)
-        return self._built[changes]
