@@ -293,8 +293,7 @@ class Adviser:
 
     def _nearest(self, remedy: Remedy, bad: Trial, good: Trial, wanted: Sequence[str]) -> Trial:
         """The trial nearest to one that fails, between it and one that passes, which does."""
-        now, slow, line = remedy.now, 0, (bad, good)
-        whole = halves = isinstance(now, int)
+        now, whole, slow, line = remedy.now, isinstance(remedy.now, int), 0, (bad, good)
         while True:
             gap, change = good.value - bad.value, abs(good.value - now)
             near = max(NEAR * min(change, 4.0 * abs(good.value) or change), whole)
@@ -302,8 +301,7 @@ class Adviser:
             if half >= 0.5:
                 return good
             zero = (bad.zero(*line) - bad.value) / gap
-            halves = halves or (slow == 1 and math.isinf(zero))  # a margin that changes in steps
-            if 0.0 <= zero <= 1.0 and slow < 2 and not halves:
+            if 0.0 <= zero <= 1.0 and slow < 2 and not whole:
                 part, spare = min(max(zero + 0.5 * half, half), 1.0 - half), 0.5 * half
             value = short(bad.value + part * gap, spare * abs(gap))
             trial = self.trial([(remedy.key, type(now)(value))], wanted)
