@@ -161,17 +161,14 @@ def remedies(check: Check, mechanism: Mechanism) -> Iterator[Remedy]:
     spec, size = mechanism.spec, mechanism.spec.size.as_dict()
     usual = {} if check.name in SIZELESS else Size().as_dict()
     own = [key for key in usual if size[key] != usual[key] and key not in REQUIRED]
+    known, how = words_of_checks(), "=" if "remove it" in check.why else "?"
     # first a size that the reason names, such as "wheel_bore_mm = 30: it must be below 20"
-    how, larger = "=" if "remove it" in check.why else "?", words_of_checks()["LARGER"]
-    words = [key + how for key in own if key in check.why]
-    words += [
-        words_of_checks().get(check.name, words_of_checks()["OTHERS"]),
-        *(f"{key}?" for key in own),
-    ]
-    text = " ".join(words)
+    first, last = [key + how for key in own if key in check.why], [f"{key}?" for key in own]
+    text = " ".join((*first, known.get(check.name, known["OTHERS"]), *last))
     if given := [key for key in REQUIRED[:2] if size[key]]:
         limited = len(given) == 1 and spec.limits.as_dict().get(check.name) is not None
-        text = text.replace(larger, larger.replace(REQUIRED[0], given[0]) if limited else "")
+        larger = known["LARGER"].replace(REQUIRED[0], given[0]) if limited else ""
+        text = text.replace(known["LARGER"], larger)
     for table, key, how, end in re.findall(r"(?:([\w.]+)\.)?(\w+)([*:=?])(\S*)", text):
         whole, keys = f"{table or 'size'}.{key}", spec.table(table or "size")
         now = _now(mechanism, whole) if key in keys else None
