@@ -11,19 +11,9 @@ from geneva_cli.numerics.angles import sin_cos_pi
 from geneva_cli.spec.rules import SPEED, Z_MAX, range_text
 from geneva_cli.table import Reading, Table, rows_table
 
-NAMES = (
-    "z",
-    "gearing",
-    "rollers",
-    *Timing._fields[:-1],  # no rack is among them
-    "velocity_max",
-    "acceleration_max",
-    "acceleration_max_deg",
-    "acceleration_entry",
-    "jerk_entry",
-    "rollers_max",
-    *CamFactors._fields,
-)
+TIMES = Timing._fields[:-1]  # no rack is among them
+PEAKS = ("velocity_max", *(f"acceleration_{x}" for x in ("max", "max_deg", "entry")), "jerk_entry")
+NAMES = ("z", "gearing", "rollers", *TIMES, *PEAKS, "rollers_max", *CamFactors._fields)
 SIGNS = {"external": 1.0, "internal": -1.0}  # the gearings with closed forms
 ROWS_MAX = 10_000
 # Timing, peaks of velocity to jerk and of power, and the most rollers.

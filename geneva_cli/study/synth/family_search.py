@@ -166,26 +166,25 @@ def best(
 
     The others break the bounds least, with ``how_near`` to the last digit.
     """
-    numbers = [f.low if math.isnan(f.best) else f.best for f in families]
     searched = [i for i, f in enumerate(families) if f.is_free and math.isnan(f.best)]
-    keeps: dict[int, bool | None] = dict.fromkeys(range(len(families)), True)
-    keeps |= dict.fromkeys(searched)  # None without a machine
+    # numbers by those of their families, and whether they keep the bounds
+    numbers = {i: (f.low if math.isnan(f.best) else f.best, True) for i, f in enumerate(families)}
     if searched:
         free = FamilyCosts([families[i] for i in searched], target)
         found = _best_places(free, how_near)
         own = free.numbers(found.of, found.at[:, 0]).tolist()
-        kept = (found.violation < BROKEN).tolist()
-        for of, x, keep in zip(found.of.tolist(), own, kept, strict=True):
-            numbers[searched[of]], keeps[searched[of]] = x, keep
-    out: dict[bool | None, list[Spec]] = {True: [], False: []}
-    for i, (f, x) in enumerate(zip(families, numbers, strict=True)):
-        is_known = abs(x - f.known) <= 1e-4 * (f.high - f.low)  # of another family
-        if keeps[i] is not None and not is_known:
+        best = zip(own, (found.violation < BROKEN).tolist(), strict=True)
+        numbers = {i: one for i, one in numbers.items() if i not in searched}
+        numbers |= zip((searched[of] for of in found.of.tolist()), best, strict=True)
+    out: tuple[list[Spec], list[Spec]] = ([], [])
+    for i, (x, keeps) in sorted(numbers.items()):
+        f = families[i]
+        if not abs(x - f.known) <= 1e-4 * (f.high - f.low):  # it is not of another family
             values = f.keys(np.array([x])) if f.keys and math.isnan(f.best) else {}
             with suppress(GenevaError):  # no machine at a number
                 spec = f.spec.with_keys({key: float(v[0]) for key, v in values.items()})
-                out[keeps[i]].append(spec)
-    return out[True], out[False]
+                out[not keeps].append(spec)
+    return out
 
 
 def _best_places(free: FamilyCosts, how_near: bool) -> Places:
