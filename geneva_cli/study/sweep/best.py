@@ -39,7 +39,7 @@ def best_spec(outcome: Outcome, goal: Objective, row_blocks: Iterable[Rows]) -> 
     places = search.closer(search.foremost(found[0], PLACES_MAX))
     starts = places.taken(search.merits(places)[0] == 0.0)
     if not len(starts):
-        why = outcome.nearness.phrases() or [f"no design has a value of {goal.name}"]
+        why = [*outcome.nearness.phrases()] or [f"no design has a value of {goal.name}"]
         raise GenevaError(f"--best: none of {outcome.all:,} designs is feasible: {'; '.join(why)}")
     # the best of them suffice; at last onto the bounds that bind
     each = [search.refined(row) for row in [*starts][: 3 if sweep.is_batched else 1]]
