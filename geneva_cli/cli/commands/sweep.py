@@ -1,7 +1,6 @@
 """``geneva sweep``."""
 
 from collections.abc import Iterator
-from contextlib import closing
 from typing import TYPE_CHECKING
 
 from geneva_cli.cli.command import FORMAT, SETTINGS, SPEC, flag, option, output_option, tell
@@ -91,7 +90,7 @@ def _write_rows(plan: "Sweep", outcome: "Outcome", output: str, resume: bool, wh
     ``whole`` shows a person all rows too.
     """
     from geneva_cli.output import is_seen, show
-    from geneva_cli.output.growing import GrowingTable
+    from geneva_cli.output.growing import growing
     from geneva_cli.study.sweep.request import Digest
     from geneva_cli.study.sweep.run import TEXTS
 
@@ -101,8 +100,7 @@ def _write_rows(plan: "Sweep", outcome: "Outcome", output: str, resume: bool, wh
         for block in outcome.rows(_tracked(plan, 0)):
             digest.add(block)
     else:
-        growing = GrowingTable(plan.names, plan.key, output, resume, plan.inputs)
-        with closing(growing) as rows:
+        with growing(plan.names, plan.key, output, resume, plan.inputs, TEXTS) as rows:
             if rows.message:
                 tell(rows.message)
             if is_seen("-") and not (shows_all or rows.done):
@@ -112,7 +110,6 @@ def _write_rows(plan: "Sweep", outcome: "Outcome", output: str, resume: bool, wh
                 rows.append(block.columns)
                 if digest:
                     digest.add(block)
-            rows.finish(TEXTS)
     for table in digest.tables() if digest else ():
         show(table)
 
