@@ -145,7 +145,7 @@ class _SweepSearch:
             return self.merits(self.sweep.rows_of(self.moved(rows.taken(of), at)))
 
         # half a span wide at first; 16 rounds take it to 1e-4
-        near = Zoom(cloud, 0.25, 0.6, 0.6, 16)
+        near = Zoom(cloud, 0.25, 0.6, 16)
         found = zoom(evaluate, sampled(evaluate, every, self.fractions(rows)), near, keep=1)
         found = found.take(np.lexsort((found.cost, found.violation)))
         # clouds come far closer to a minimum than 1 %, so that a place above it is no rival

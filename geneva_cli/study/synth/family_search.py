@@ -62,14 +62,13 @@ class Zoom(NamedTuple):
     """Samplings near the best places.
 
     ``offsets`` returns those of a sampling by its number, (k, d) in steps. The first step is a
-    fraction of the cube's side; after each sampling it is multiplied by ``better`` if the place was
-    improved, and else by ``worse``. ``around`` are the coordinates that wrap round.
+    fraction of the cube's side; after each sampling it is multiplied by ``closer``. ``around`` are
+    the coordinates that wrap round.
     """
 
     offsets: Callable[[int], Array]
     step: float
-    better: float
-    worse: float
+    closer: float
     most: int  # samplings
     around: Sequence[int] = ()
 
@@ -100,21 +99,20 @@ def zoom(
     is given up where no small step can keep the bounds.
     """
     track = best.of if keep else np.arange(len(best.of))
-    step, live = np.full(len(track), how.step), np.full(len(track), True)
+    step, live = how.step, np.full(len(track), True)
     for number in range(how.most):
         if not live.any():
             break
         parents, offsets = best.take(live), how.offsets(number)
         k, d = offsets.shape
-        at = (parents.at[:, None] + step[live][:, None, None] * offsets).reshape(-1, d)
+        at = (parents.at[:, None] + step * offsets).reshape(-1, d)
         inside = np.clip(at, 0.0, 1.0)
         inside[:, how.around] = at[:, how.around] % 1.0
         near = sampled(evaluate, np.repeat(parents.of, k), inside)
         tracks = np.concatenate((track, np.repeat(track[live], k)))
-        steps = np.concatenate((step * how.worse, np.repeat(step[live] * how.better, k)))
-        every = best.joined(near)
+        every, step = best.joined(near), step * how.closer
         kept = _first(every, tracks, keep or 1)
-        best, track, step = every.take(kept), tracks[kept], steps[kept]
+        best, track = every.take(kept), tracks[kept]
         if keep:
             live = np.full(len(track), True)
         else:
@@ -156,7 +154,7 @@ def _done(best: Places, live: Mask, violation: Array, cost: Array, patient: bool
 
 
 # Samples on both sides of the best, each time four times as close.
-LINE = Zoom(lambda number: QUARTERS, 1.0 / GRID, 0.25, 0.25, 20)
+LINE = Zoom(lambda number: QUARTERS, 1.0 / GRID, 0.25, 20)
 
 
 def best(
