@@ -490,7 +490,7 @@ class Design:
         own = self.wheel_plate and self.wheel_plate.inertia_kgm2
         sizing, sized_by = sized(self.cycle, own)
         notes = (*self.warnings, *missing(self.cycle), *needed, *sized_by)
-        impact = self.strength.reversal
+        impact = self.strength.table("shock.reversal")
         answers = {"shock.reversal": impact, "sizing": sizing, "life": self.life}
         table = loads_table(self.cycle, answers, notes, for_people)
         return table.replaced(
@@ -522,7 +522,7 @@ class Design:
         >>> round(held.life["roller_turns_per_motion"], 12)
         2.655148449921
         """
-        return self.strength.life
+        return self.strength.table("life")
 
     @answer
     def strength(self) -> Strength:
