@@ -890,8 +890,8 @@ class Design:
         ['ideal-machine']
         """
         text = (
-            "loads, curves and parts are those of the ideal machine of this spec, not of the "
-            "drawings in [outline]; check, peaks, motion and animate turn the drawings"
+            "loads, curves, parts and certificates are those of the ideal machine of this spec, "
+            "not of the drawings in [outline]; check, peaks, motion and animate turn the drawings"
         )
         return self.spec.accept.applied([Notice("ideal-machine", text)] if self.is_drawn else [])
 
