@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING, Self, cast
 
 from flint import arb
 
-from geneva_cli.numerics.arrays import Enclosed, EnclosedLibrary, Number, Undecided
+from geneva_cli.numerics.arrays import Enclosed, Number
+from geneva_cli.numerics.intervals import EnclosedLibrary, Undecided
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Library

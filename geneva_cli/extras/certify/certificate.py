@@ -20,7 +20,8 @@ from geneva_cli.loads.load_case import load_case
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peaks import QUANTITIES
-from geneva_cli.numerics.arrays import Undecided, enclosed
+from geneva_cli.numerics.arrays import enclosed
+from geneva_cli.numerics.intervals import Undecided
 from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.numerics.tolerances import TIE
 from geneva_cli.table import Table, rows_table

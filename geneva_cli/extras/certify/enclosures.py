@@ -22,7 +22,7 @@ from flint import arb, arb_poly
 
 from geneva_cli.extras.certify.balls import Ball, arb_of, below
 from geneva_cli.numerics.angles import distinct
-from geneva_cli.numerics.arrays import Undecided
+from geneva_cli.numerics.intervals import Undecided
 from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.numerics.tolerances import TIE
 

@@ -10,7 +10,8 @@ from flint import ctx
 from geneva_cli.extras.certify.balls import Ball
 from geneva_cli.extras.certify.enclosures import greatest
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import Undecided, library
+from geneva_cli.numerics.arrays import library
+from geneva_cli.numerics.intervals import Undecided
 from geneva_cli.numerics.jet import Jet, atan2, sin_cos, sqrt
 
 
