@@ -188,6 +188,7 @@ def _ring(corners: Sequence[Point]) -> Array:
     return np.column_stack((ends, np.roll(ends, -1)))
 
 
+@np.errstate(divide="ignore", invalid="ignore")
 def _crosses(label: Label, lines: Array, gap: float) -> bool:
     """Return True if chords come nearer to a text's box than ``gap`` mm."""
     near = np.ones(len(lines), dtype=bool)  # the few that may
@@ -202,12 +203,7 @@ def _crosses(label: Label, lines: Array, gap: float) -> bool:
         (seen.imag, -BELOW * label.height - gap, ABOVE * label.height + gap),
     )
     for place, least, most in limits:
-        start, step = place[:, 0], place[:, 1] - place[:, 0]
-        flat = np.abs(step) < 1e-12
-        safe = np.where(flat, 1.0, step)
-        a, b = (least - start) / safe, (most - start) / safe
-        within = (start >= least) & (start <= most)
-        first = np.where(flat, np.where(within, -np.inf, np.inf), np.minimum(a, b))
-        last = np.where(flat, np.where(within, np.inf, -np.inf), np.maximum(a, b))
-        low, high = np.maximum(low, first), np.minimum(high, last)
+        start, step = place[:, 0], np.diff(place)[:, 0]
+        a, b = (least - start) / step, (most - start) / step  # infinite, of a line along the side
+        low, high = np.fmax(low, np.fmin(a, b)), np.fmin(high, np.fmax(a, b))
     return bool((low <= high).any())
