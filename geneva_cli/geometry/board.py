@@ -12,7 +12,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from geneva_cli.geometry import shapes
-from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line, Point, Segment, Shape
+from geneva_cli.geometry.shapes import Arc, Contour, Line, Point, Segment, Shape
 from geneva_cli.geometry.sheet import ABOVE, BELOW, Label, Measure
 from geneva_cli.numerics.arrays import Array
 
@@ -103,7 +103,7 @@ class Board:
 
 def chords(shape: Shape) -> Array:
     """Return the chords of a shape."""
-    return _chords(shapes.two_arcs(shape) if isinstance(shape, Circle) else shape.segments)
+    return _chords(shapes.as_contour(shape).segments)
 
 
 def _beside(line: Line, lines: Array) -> tuple[float, Array, Array]:
