@@ -88,7 +88,7 @@ def frame(parts: EdgedParts) -> Drawing:
     return drawing_of(parts.mechanism, "frame", parts.frame.part)
 
 
-def gears(parts: EdgedParts) -> Drawing:
+def gears(parts: FlatParts) -> Drawing:
     """Return all gears with bores and bolts, and the line of centres."""
     from geneva_cli.parts.gears.gear_pair import FINE, required_gears
 

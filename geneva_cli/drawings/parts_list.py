@@ -207,7 +207,7 @@ def plate(parts: EdgedParts) -> Drawing:
 
     Raises GenevaError for a part that cannot be built.
     """
-    built = (part for _, build in parts.turned.by_name() for part in build())
+    built = (part for _, build in parts.by_name() for part in build())
     every = (one for part in built for one in plates.solids(part))
     whole = [one for one in every if not isinstance(one, Shell)]
     title = titled(parts.mechanism, "plate")

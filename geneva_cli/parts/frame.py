@@ -102,11 +102,9 @@ def framed(
 
 
 def _standing(mechanism: Mechanism, bars: Links) -> dict[Point, float | None]:
-    """Return the positions of all shafts, each once, with the diameter that the spec gives it.
-
-    An internal wheel is open in the middle, and held from above.
-    """
+    """Return the positions of all shafts, each once, with the diameter that the spec gives it."""
     standing, shaft = dict[Point, float | None](), mechanism.spec.shaft
+    # an internal wheel is open in the middle, and held from above
     for place in mechanism.wheel_places if mechanism.spec.wheel.SIGN > 0.0 else ():
         standing[place.at] = shaft.wheel_diameter_mm
     for place in mechanism.crank_places:

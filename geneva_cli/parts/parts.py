@@ -36,16 +36,6 @@ class Parts(TurnedParts):
     LAID_FLAT: ClassVar[tuple[str, ...]] = ()
 
     @property
-    def gear_pair(self) -> tuple[Member, ...]:
-        """The noncircular gears before the crank; none without."""
-        return ()
-
-    @property
-    def round_gears(self) -> tuple[Member, ...]:
-        """Gears with round pitch circles, as blanks up to these; none without."""
-        return ()
-
-    @property
     def screws(self) -> tuple[Screws, ...]:
         """The screws between the parts; none without."""
         return ()
@@ -82,15 +72,10 @@ class Parts(TurnedParts):
         return parts_of(mechanism)
 
     @property
-    def turned(self) -> Self:
-        """These parts. Raises GenevaError where there is nothing to turn."""
-        _ = self._shape
-        return self
-
-    @property
     def built(self) -> Self:
         """These parts. Raises GenevaError where the sizes leave no wheel or no crank."""
-        return self.turned
+        _ = self._shape
+        return self
 
     @cached_property
     def flat(self) -> Parts:

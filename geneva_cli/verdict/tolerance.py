@@ -115,7 +115,7 @@ def _loosest_lock(
 
     None if no drawn lock holds the wheel.
     """
-    locks = cut_locks(parts.turned, use)[0] if mechanism.spec.is_turned else []
+    locks = cut_locks(parts.built, use)[0] if mechanism.spec.is_turned else []
     ends = locking.corners(list(use.values()))
     each = [(lock, float(np.max(lock(ends).angle.arrays()[0]))) for lock in locks]
     lock, most = max(each, key=lambda one: one[1], default=(None, 0.0))
@@ -247,7 +247,7 @@ def _clearances(
     """The clearances that slot and lock have and need; adds a warning unless they are enough."""
     turned, fault = None, mechanism.no_turn or "there are no drawn parts to turn"
     try:
-        turned = parts.turned if mechanism.spec.is_turned and not mechanism.no_turn else None
+        turned = parts.built if mechanism.spec.is_turned and not mechanism.no_turn else None
     except GenevaError as error:
         fault = str(error)
     slot_mm, lock_mm = needed_mm(mechanism, turned, use)

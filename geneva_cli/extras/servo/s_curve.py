@@ -46,7 +46,8 @@ class SCurve(Law):
         # a list of the laws needs no polynomials
         import numpy as np
 
-        from geneva_cli.numerics.spline import PiecewisePolynomial, taylor
+        from geneva_cli.numerics.jet import taylor
+        from geneva_cli.numerics.spline import PiecewisePolynomial
 
         rise = 0.5 * (1.0 - self.cruise)
         ramp = self.ramp * rise

@@ -194,10 +194,7 @@ def _refuse_undrawn(spec: Spec) -> None:
 
 
 def _lock_mm(spec: Spec, L: float, least: float, limit: float, roller: float) -> float:
-    """Return the distance of the locking sectors' edge from the crank's axis, between two angles.
-
-    Raises GenevaError, naming the key, where there is none.
-    """
+    """Return the distance of the locking sectors' edge from the crank's axis; angles bound it."""
     low, high = (L * math.sin(max(0.0, x)) for x in (least, limit))
     text = f"the locking sector does not fit: lock_radius_mm must be above {low:.4g} to reach "
     text += f"the rim, but the roller limits it to {high:.4g}; 0 omits it"

@@ -17,7 +17,7 @@ from geneva_cli.geometry import shapes
 from geneva_cli.geometry.shapes import Arc, Contour, Line, Point, Segment
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.sizes import Sizes
+from geneva_cli.parts.turn.stops import Lengths
 
 TURN_SAMPLES = 720  # input angles at which a path is sampled
 
@@ -91,13 +91,13 @@ def _mouth(assembly: Assembly, engagement: Engagement, end: float) -> Point:
     return px + further * ux, py + further * uy
 
 
-def least_mouth(assembly: Assembly, sizes: Sizes) -> float:
+def least_mouth(assembly: Assembly, sizes: Lengths) -> float:
     """Return the radius to which lower mouths are extended, mm."""
     reach = assembly.L - sizes.recess
     return reach + 0.2 * (sizes.rim - reach)
 
 
-def horn_corners(assembly: Assembly, sizes: Sizes) -> dict[Engagement, tuple[float, float]]:
+def horn_corners(assembly: Assembly, sizes: Lengths) -> dict[Engagement, tuple[float, float]]:
     """Return the distances from the axis of each slot's horns, mm, before and after a motion.
 
     They are those of its mouth's corners where the roller comes and goes, or of tips cut to flats.

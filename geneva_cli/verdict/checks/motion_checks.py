@@ -237,7 +237,7 @@ def proof(names: Collection[str], parts: Parts, to_mm: float | None) -> Iterator
     ``to_mm`` is how far below the smallest gap the bound may be: by default 1 um, or twice the
     overlap that counts as touching, if that is more.
     """
-    gap, name = parts.turned.turn.smallest.mm, "gap_proved_mm"
+    gap, name = parts.turn.smallest.mm, "gap_proved_mm"
     if gap < -parts.contact:
         return
     to_mm = to_mm or max(1e-3, 2.0 * parts.contact)
