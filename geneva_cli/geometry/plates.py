@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
 from itertools import chain, combinations, repeat, starmap
-from operator import lt
+from operator import lt, mul
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
@@ -221,13 +221,9 @@ def added(one: MassProperties, other: MassProperties) -> MassProperties:
 
 def face(plate: Plate) -> Moments:
     """Area, first moments and polar moment of a plate's face about the origin."""
-    rows, sign = [], 1.0
-    for shape in (plate.outline, *plate.holes):
-        area, x, y, polar = moments(shape)
-        factor = sign * math.copysign(1.0, area)
-        rows.append((factor * area, factor * x, factor * y, factor * polar))
-        sign = -1.0  # the outline is the first
-    return total(rows)
+    rows = [*map(moments, (plate.outline, *plate.holes))]
+    signs = [(1.0 if k == 0 else -1.0) * math.copysign(1.0, row.area) for k, row in enumerate(rows)]
+    return Moments(*(math.fsum(map(mul, signs, column)) for column in zip(*rows, strict=True)))
 
 
 def least_wall(holes: Sequence[Shape], outline: Sequence[Contour] = ()) -> float:
