@@ -184,21 +184,10 @@ class _Traced:
         self, centre: complex, major: complex, minor: complex, start: float, sweep: float
     ) -> None:
         """Add a part of an ellipse from its half axes, as arcs; angles are parameters, radians."""
-        p, q, (c, s) = _axes(self.frame.turned(major), self.frame.turned(minor))
-        if min(abs(p), abs(q)) <= 1e-9 * max(abs(p), abs(q)):
+        p, q = self.frame.turned(major), self.frame.turned(minor)
+        if abs((p.conjugate() * q).imag) <= 1e-9 * max(abs(p), abs(q)) ** 2:
             raise GenevaError("a circle or ellipse has no width: remove it")
-        shift = cmath.phase(complex(c, s))
-        self.pieces += ellipse_pieces(self.frame(centre), (p, q), (start - shift, sweep))
-
-
-def _axes(p: complex, q: complex) -> tuple[complex, complex, tuple[float, float]]:
-    """Return the half axes, at right angles, of the ellipse p cos t + q sin t.
-
-    The last pair has cosine and sine of the t at which the first of them is reached.
-    """
-    t = 0.5 * math.atan2(2.0 * (p.conjugate() * q).real, abs(p) ** 2 - abs(q) ** 2)
-    c, s = math.cos(t), math.sin(t)
-    return p * c + q * s, q * c - p * s, (c, s)
+        self.pieces += ellipse_pieces(self.frame(centre), (p, q), (start, sweep))
 
 
 def _trace_path(data: str, out: _Traced) -> None:
