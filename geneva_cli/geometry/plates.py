@@ -68,16 +68,6 @@ class Shell(NamedTuple):
         bored = math.fsum(hole.volume(self.inner, self.outer) for hole in self.holes)
         return covered * (self.outer**3 - self.inner**3) / 3.0 - bored
 
-    @property
-    def centroid(self) -> Vector:
-        """Centre of mass of a uniform shell, mm."""
-        covered = np.sum([r.moments[0] for r in self.regions], axis=0)
-        first = covered * (self.outer**4 - self.inner**4) / 4.0
-        for hole in self.holes:
-            first = first - hole.first(self.inner, self.outer) * np.array(hole.axis)
-        x, y, z = (first / self.volume).tolist()
-        return x, y, z
-
     def reach(self, direction: Vector) -> float:
         """Greatest coordinate of the shell along a direction, mm from the centre."""
         from geneva_cli.geometry.sphere_arcs import SphereArcs
@@ -89,7 +79,7 @@ class Shell(NamedTuple):
 
     def inertia(self, axis: Vector) -> float:
         """The volume's moment of inertia about an axis through the centre, mm⁵."""
-        covered = math.fsum(r.area - float(r.moments[1] @ axis @ axis) for r in self.regions)
+        covered = math.fsum(r.area - float(r.moments @ axis @ axis) for r in self.regions)
         bored = math.fsum(hole.inertia(self.inner, self.outer, axis) for hole in self.holes)
         return covered * (self.outer**5 - self.inner**5) / 5.0 - bored
 
