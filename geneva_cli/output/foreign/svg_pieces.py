@@ -6,6 +6,7 @@ import cmath
 import math
 import re
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
 from typing import NamedTuple
 from xml.etree import ElementTree
 
@@ -117,21 +118,17 @@ def _trace(element: ElementTree.Element, out: _Traced) -> None:
         x, y = _lengths(element, "cx cy")
         rx, ry = _lengths(element, "r r" if name == "circle" else "rx ry")
         out.ellipse(complex(x, y), rx + 0j, ry * 1j, 0.0, math.tau)
-    elif name in ("path", "line", "polygon", "polyline"):
-        _trace_path(_path_of(element, name), out)
+    elif name == "path":
+        _trace_path(element.get("d", ""), out)
+    elif name in ("line", "polygon", "polyline"):
+        v = _numbers(element.get("points", ""))
+        v = _lengths(element, "x1 y1 x2 y2") if name == "line" else v
+        corners = [complex(*pair) for pair in zip(v[::2], v[1::2], strict=False)]
+        for p, q in pairwise([*corners, *corners[: name == "polygon"]]):
+            if p != q:
+                out.line(p, q)
     elif name in ("image", "rect", "use"):
         raise GenevaError(f"<{name}> is no outline: convert it to a path")
-
-
-def _path_of(element: ElementTree.Element, name: str) -> str:
-    """Return a basic shape as the data of a path."""
-    if name == "path":
-        return element.get("d", "")
-    if name == "line":
-        return "M {!r} {!r} {!r} {!r}".format(*_lengths(element, "x1 y1 x2 y2"))
-    v = _numbers(element.get("points", ""))
-    text = " ".join(map(repr, v[: len(v) - len(v) % 2]))
-    return f"M {text}{' Z' * (name == 'polygon')}" if text else ""
 
 
 class _Affine(NamedTuple):
