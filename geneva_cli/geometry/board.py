@@ -28,12 +28,12 @@ class Board:
         # straight lines of the part, all chords of it, straight dimension lines; dimension lines,
         # leaders and arrows; extension lines; and all
         none: Array = np.empty((0, 2), dtype=complex)
-        self._drawn = self._part = self._ruled = self._main = self._extended = self._all = none
+        self._drawn = self.part = self._ruled = self._main = self._extended = self._all = none
 
     def draw(self, shape: Shape) -> None:
         """Add the lines of a shape."""
         own = chords(shape)
-        self._all, self._part = (np.concatenate((a, own)) for a in (self._all, self._part))
+        self._all, self.part = (np.concatenate((a, own)) for a in (self._all, self.part))
         if isinstance(shape, Contour):
             lines = _chords(piece for piece in shape.segments if isinstance(piece, Line))
             self._drawn = np.concatenate((self._drawn, lines))
@@ -67,7 +67,7 @@ class Board:
             main = _main(measure)
             count = _crossings(main, self._main) + _crossings(main, self._extended)
             count += _crossings(_chords(measure.extension_lines), self._main)
-            count += sum(_grazes(piece, self._part) for piece in measure.main_lines)
+            count += sum(_grazes(piece, self.part) for piece in measure.main_lines)
             if count < least:
                 best, least = measure, count
         if best is not None:

@@ -15,10 +15,9 @@ from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.packing import Block
 from geneva_cli.drawings.sheet.sized import Fits
 from geneva_cli.geometry import marks, shapes
-from geneva_cli.geometry.board import Board, chords
+from geneva_cli.geometry.board import Board
 from geneva_cli.geometry.shapes import Arc, Circle, Point, Segment, Shape
 from geneva_cli.geometry.sheet import CENTRE, LARGE, OUTLINE, SMALL, Label, Measure, line
-from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.spec.written import degrees, length
 
@@ -39,7 +38,6 @@ class View:
         self.title, self.scale = title, scale
         self.fits = fits or Fits()  # how the part's sizes are written
         self.shapes: list[Shape] = []
-        self.corners: list[Array] = []  # start points of the chords of all shapes, complex
         self.measures: list[Measure] = []
         self.notes: list[str] = []  # below the title: remarks, and dimensions that did not fit
         self.board = Board()
@@ -186,12 +184,11 @@ class View:
 
     def _draw(self, shape: Shape) -> None:
         self.shapes.append(shape)
-        self.corners.append(chords(shape)[:, 0])
         self.board.draw(shape)
 
     def _levels(self, turn: float, near: tuple[Point, ...]) -> Iterator[float]:
         """Yield levels for a dimension line, normal to its direction, nearest first."""
-        places = np.array([complex(*p) for p in near]) if near else np.concatenate(self.corners)
+        places = np.array([complex(*p) for p in near]) if near else self.board.part[:, 0]
         across = (places * cmath.rect(1.0, -turn)).imag
         low, high = float(across.min()), float(across.max())
         for k in range(2 * RANKS if near else RANKS):
