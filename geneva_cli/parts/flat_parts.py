@@ -99,12 +99,15 @@ class FlatParts(EdgedParts):
         that follow from the load.
         """
         parts, computed = parts_of(mechanism), vars(self)
-        own, other = (
-            (spec.wheel, spec.drive.replace(n_rpm=1.0), spec.motion, spec.size)
-            for spec in (self.mechanism.spec, mechanism.spec)
+        own, other, keys = (
+            self.mechanism.spec,
+            mechanism.spec,
+            attrgetter("wheel", "motion", "size"),
         )
+        keys = attrgetter("wheel", "motion", "size")
+        alike = own.drive.replace(n_rpm=1.0) == other.drive.replace(n_rpm=1.0)
+        alike &= "_shape" in computed and keys(own) == keys(other)
         with suppress(GenevaError):  # where the sizes of the next leave no parts
-            alike = "_shape" in computed and own == other
             if alike and machine_sizes(mechanism)[1] == self._shape.sizes:
                 assembly = self.assembly._replace(full=mechanism)
                 vars(parts)["_shape"] = self._shape._replace(assembly=assembly)

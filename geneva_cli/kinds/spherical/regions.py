@@ -36,6 +36,7 @@ from geneva_cli.geometry.sphere import (
 )
 from geneva_cli.geometry.sphere_arcs import RoundHole, least_wall
 from geneva_cli.kinds.spherical.ball import Ball, refuse_above, refuse_wide
+from geneva_cli.kinds.spherical.stops import about
 from geneva_cli.numerics.arrays import Array, within_half_turn
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.outlines.crank_outline import widest
@@ -104,11 +105,8 @@ def edge_points(ball: Ball, each: int = 200) -> Array:
     """Return points along the edge of the whole wheel, (n, 3), ``each`` on every arc."""
     fractions = np.arange(each) / each
     one = np.concatenate([arc.at(arc.sweep * fractions)[0] for arc in edge(ball)])
-    angle = 2.0 * ball.half_step * np.arange(ball.z)[:, None]  # of each slot
-    c, s = np.cos(angle), np.sin(angle)
-    x, y, up = one.T
-    slots = np.broadcast_arrays(x * c - y * s, x * s + y * c, up)
-    return np.stack(slots, axis=2).reshape(-1, 3)
+    angle = 2.0 * ball.half_step * np.arange(ball.z)  # of each slot
+    return about(np.tile(one, (ball.z, 1)), np.repeat(angle, len(one)))
 
 
 def sectors(ball: Ball) -> list[Region]:
