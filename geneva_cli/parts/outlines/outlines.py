@@ -10,6 +10,7 @@ from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.plates import Plate
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Contour
 from geneva_cli.motion.engagement import Engagement
+from geneva_cli.numerics.arrays import value_or
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.shafts.bores import BoltCircle, bolt_circle, bore_of, has_shape
 from geneva_cli.parts.sizes import Sizes
@@ -75,9 +76,7 @@ def wheel_hub(assembly: Assembly, sizes: Sizes) -> Plate | None:
 
 def wheel_hub_length(size: Size, sizes: Sizes) -> float:
     """Return the length of the wheel's hub: by default as far down as the crank arm."""
-    if size.wheel_hub_length_mm is not None:
-        return size.wheel_hub_length_mm
-    return size.allowances.pin_gap_mm + sizes.arm_thickness
+    return value_or(size.wheel_hub_length_mm, size.allowances.pin_gap_mm + sizes.arm_thickness)
 
 
 def wheel_plate(assembly: Assembly, sizes: Sizes, contour: Contour) -> Plate:

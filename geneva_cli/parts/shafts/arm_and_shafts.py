@@ -19,6 +19,7 @@ from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.plates import Member, Plate, least_wall
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Contour, Point, Shape, convex_hull, polar
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.numerics.arrays import value_or
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import assembly, links_at, same
 from geneva_cli.parts.outlines.crank_outline import (
@@ -71,8 +72,8 @@ class Shaft(NamedTuple):
 def shaft_ends(size: Size, part: str, low: float, high: float) -> tuple[float, float]:
     """Return the ends of a part's shaft: those of the spec, or else the heights low and high."""
     values = vars(size)
-    ends = values.get(f"{part}_shaft_low_mm"), values.get(f"{part}_shaft_high_mm")
-    return low if ends[0] is None else ends[0], high if ends[1] is None else ends[1]
+    lowest, highest = values.get(f"{part}_shaft_low_mm"), values.get(f"{part}_shaft_high_mm")
+    return value_or(lowest, low), value_or(highest, high)
 
 
 def crank_hub(parts: Outlines) -> Plate | None:
@@ -81,9 +82,8 @@ def crank_hub(parts: Outlines) -> Plate | None:
     if not (size.has_hub("crank") and sizes.crank_hub > sizes.crank_bore):
         return None
     low = 0.0 - size.allowances.pin_gap_mm  # no -0.0
-    high = sizes.wheel_thickness
-    if size.crank_hub_length_mm is not None:
-        high = low + size.crank_hub_length_mm
+    length = size.crank_hub_length_mm
+    high = sizes.wheel_thickness if length is None else low + length
     if parts.crank and is_whole(parts.assembly, sizes):
         low += sizes.lock_thickness
     else:
