@@ -99,11 +99,7 @@ class FlatParts(EdgedParts):
         that follow from the load.
         """
         parts, computed = parts_of(mechanism), vars(self)
-        own, other, keys = (
-            self.mechanism.spec,
-            mechanism.spec,
-            attrgetter("wheel", "motion", "size"),
-        )
+        own, other = self.mechanism.spec, mechanism.spec
         keys = attrgetter("wheel", "motion", "size")
         alike = own.drive.replace(n_rpm=1.0) == other.drive.replace(n_rpm=1.0)
         alike &= "_shape" in computed and keys(own) == keys(other)

@@ -102,13 +102,8 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
     if not flat:
         return known, ()
     own = flat[1]
-    known |= {
-        "wheel_radius_mm": own.rim,
-        "slot_bottom_clearance_mm": own.slot_bottom,
-        "lock_radius_mm": own.lock,
-        "relief_clearance_mm": own.relief,
-        "wall_min_mm": own.wall_min,
-    }
+    known |= {"wheel_radius_mm": own.rim, "lock_radius_mm": own.lock, "wall_min_mm": own.wall_min}
+    known |= {"slot_bottom_clearance_mm": own.slot_bottom, "relief_clearance_mm": own.relief}
     for part in ("wheel", "lock", "arm", "link"):
         known[f"{part}_thickness_mm"] = getattr(own, f"{part}_thickness")
     for radius in ("wheel_bore", "wheel_hub", "crank_bore", "crank_hub", "pin"):

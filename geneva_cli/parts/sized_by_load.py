@@ -133,9 +133,8 @@ def load_sizes(
     # the force between disc and wheel in the dwell loads both shafts
     held = lock.held_force_N(machine, by).item() if spec.load.dwell_torque_Nm else 0.0
     carried = float(np.max(centrifugal_N(machine))) if machine.frame else 0.0
-    loads = loads._replace(
-        wheel_shaft_N=max(loads.wheel_shaft_N, held + carried), crank_N=max(loads.crank_N, held)
-    )
+    wheel_N, crank_N = max(loads.wheel_shaft_N, held + carried), max(loads.crank_N, held)
+    loads = loads._replace(wheel_shaft_N=wheel_N, crank_N=crank_N)
     allowed = wheel_material(spec).allowed_MPa
     if by and size.wheel_thickness_mm is None and size.face_width_mm is None:
         if bent_MPa is None:

@@ -107,13 +107,8 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
         arm = crank_arm(mechanism.spec.size, sizes) if sizes.bore else None
     except GenevaError:  # reported by the check of the parts
         return {}, ()
-    known = {
-        "wheel_radius_mm": sizes.rim,
-        "slot_bottom_clearance_mm": sizes.slot_bottom,
-        "lock_radius_mm": sizes.lock,
-        "relief_clearance_mm": sizes.relief,
-        "pin_mm": 2.0 * sizes.pin,
-    }
+    known = {"wheel_radius_mm": sizes.rim, "lock_radius_mm": sizes.lock, "pin_mm": 2.0 * sizes.pin}
+    known |= {"slot_bottom_clearance_mm": sizes.slot_bottom, "relief_clearance_mm": sizes.relief}
     thick = sizes.thick._asdict()
     known |= {f"{part}_thickness_mm": thick[part] for part in ("wheel", "lock", "arm")}
     if arm:

@@ -72,13 +72,12 @@ class GenevaPair(Transmission, kw_only=True):
         """Pivots and dimensions of the first pair."""
         L = plan.center_distance_mm
         first = self._distance_mm(L)
+        radius = first * classic.HalfStep.of(1, self.first_z).sin_cos[0]
         return (
             Pivot("first crank axis", L + first, 0.0),
             Dimension("first wheel's slots", self.first_z),
             Dimension("first centre distance", first, "mm"),
-            Dimension(
-                "first crank radius", first * classic.HalfStep.of(1, self.first_z).sin_cos[0], "mm"
-            ),
+            Dimension("first crank radius", radius, "mm"),
         )
 
     def links(self, plan: Plan, sign: float, input_deg: Array) -> tuple[Link, ...]:

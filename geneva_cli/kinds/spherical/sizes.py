@@ -62,12 +62,8 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
     sizes, size = sized_ball(mechanism), mechanism.spec.size
     if sizes is None:
         return {}, ()
-    known = {
-        "slot_bottom_clearance_mm": sizes.bottom_mm,
-        "lock_radius_mm": sizes.lock_mm,
-        "wheel_bore_mm": 2.0 * sizes.bore_mm,
-        "pin_mm": 2.0 * sizes.pin_mm,
-    }
+    known = {"slot_bottom_clearance_mm": sizes.bottom_mm, "lock_radius_mm": sizes.lock_mm}
+    known |= {"wheel_bore_mm": 2.0 * sizes.bore_mm, "pin_mm": 2.0 * sizes.pin_mm}
     if sizes.arm_bore_mm:
         known["arm_bore_mm"] = 2.0 * sizes.arm_bore_mm
         with suppress(GenevaError):  # reported by the check of the parts

@@ -130,13 +130,13 @@ def standing(names: Collection[str], parts: FlatParts) -> Iterator[Check]:
         passes = stop.face_mm >= 0.0 and before >= -parts.contact >= beyond
         text = (
             f"the face blocks the crank at {stop.first_deg:.4g} and {stop.last_deg:.6g}° from the "
-            f"middle of its first engagement: {stop.turns:.4f} turns"
         )
+        text += f"middle of its first engagement: {stop.turns:.4f} turns"
         if not passes:
             text = (
                 f"disc and wheel are {before:.4g} mm apart before the stop, and {beyond:.4g} mm a "
-                f"degree beyond; the mouth of a slot is {stop.face_mm:.4g} mm away on the face"
             )
+            text += f"degree beyond; the mouth of a slot is {stop.face_mm:.4g} mm away on the face"
         yield Check("stop_turns", stop.turns, "at most", float(z), passes, text)
     yield compared("stop_overlap_mm", stop.overlap_mm, "at least", outlines.sizes.wall_min)
     limit, name = parts.mechanism.spec.limits.stop_stress_max_MPa, "stop_stress_max_MPa"

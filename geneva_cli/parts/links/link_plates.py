@@ -81,11 +81,8 @@ def drawn_links(mechanism: Mechanism, parts: Outlines | None = None) -> Links:
 
 def _axes(links: Iterable[Link], near: float) -> Iterator[LinkAxis]:
     """Yield each axis once; ``near`` is the distance, mm, below which two axes are one."""
-    left = [
-        (link.name, kind, at)
-        for link in links
-        for at, kind in linkage.joints(link, SHAFT, Joint.PIN)
-    ]
+    turn = SHAFT, Joint.PIN
+    left = [(one.name, kind, at) for one in links for at, kind in linkage.joints(one, *turn)]
     while left:
         path = left[0][2]
         here = [one for one in left if np.abs(one[2] - path).max() < near]

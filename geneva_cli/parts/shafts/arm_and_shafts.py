@@ -160,11 +160,8 @@ def crank_arm(parts: Outlines) -> CrankArm:
     assembly, sizes, drive = parts.assembly, parts.sizes, parts.assembly.full.spec.drive
     size, radius, wall = assembly.full.spec.size, sizes.arm_bore, sizes.wall_min
     if not drive.ONE_ARM:
-        raise GenevaError(
-            f'--part arm: kind = "{drive.NAME}" carries its roller on no crank arm; '
-            "--part parts lists its links",
-            ("drive", "kind"),
-        )
+        text = f'--part arm: kind = "{drive.NAME}" carries its roller on no crank arm; '
+        raise GenevaError(f"{text}--part parts lists its links", ("drive", "kind"))
     centres, hole = roller_centres(assembly), pin_hole(size, sizes.pin)
     near, far = math.inf, 0.0
     for centre in centres:

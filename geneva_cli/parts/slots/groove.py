@@ -182,8 +182,5 @@ def groove_stack(
     low, high = bars.sizes.span(BELOW)
     bore = tuple(one for one in base.holes if isinstance(one, Circle) and one.centre == ORIGIN)
     mounts = base.holes[len(bore) :]
-    return (
-        base,
-        Plate("groove plate's ring", "FRAME", base.outline, (outer, *mounts), low, high),
-        Plate("groove plate's island", "FRAME", inner, bore, low, high),
-    )
+    ring = Plate("groove plate's ring", "FRAME", base.outline, (outer, *mounts), low, high)
+    return base, ring, Plate("groove plate's island", "FRAME", inner, bore, low, high)

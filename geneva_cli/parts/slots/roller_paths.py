@@ -197,11 +197,9 @@ def rounded(before: Segment, after: Segment, radius: float, sign: float) -> list
     fits = 0.0 < parts[0] <= 1.0 and 0.0 <= parts[1] < 1.0
     refuse_size(not fits, "mouth_radius_mm", text, radius)
     first, last = ends
-    return [
-        offsets.between(before, before.start, first),
-        arc_about(centre, first, last, sign),
-        offsets.between(after, last, after.end),
-    ]
+    begin = offsets.between(before, before.start, first)
+    finish = offsets.between(after, last, after.end)
+    return [begin, arc_about(centre, first, last, sign), finish]
 
 
 def arc_about(axis: Point, start: Point, end: Point, sense: float) -> Arc:
