@@ -128,15 +128,12 @@ def standing(names: Collection[str], parts: FlatParts) -> Iterator[Check]:
         before = float(clearances_before(outlines, stop).min())
         beyond = float(clearances_before(outlines, stop, past_deg=1.0)[:, -1].max())
         passes = stop.face_mm >= 0.0 and before >= -parts.contact >= beyond
-        text = (
-            f"the face blocks the crank at {stop.first_deg:.4g} and {stop.last_deg:.6g}° from the "
-        )
-        text += f"middle of its first engagement: {stop.turns:.4f} turns"
+        text = f"the face blocks the crank at {stop.first_deg:.4g} and {stop.last_deg:.6g}° from "
+        text += f"the middle of its first engagement: {stop.turns:.4f} turns"
         if not passes:
-            text = (
-                f"disc and wheel are {before:.4g} mm apart before the stop, and {beyond:.4g} mm a "
-            )
-            text += f"degree beyond; the mouth of a slot is {stop.face_mm:.4g} mm away on the face"
+            text = f"disc and wheel are {before:.4g} mm apart before the stop, and {beyond:.4g} mm "
+            text += f"a degree beyond; the mouth of a slot is {stop.face_mm:.4g} mm away on the "
+            text += "face"
         yield Check("stop_turns", stop.turns, "at most", float(z), passes, text)
     yield compared("stop_overlap_mm", stop.overlap_mm, "at least", outlines.sizes.wall_min)
     limit, name = parts.mechanism.spec.limits.stop_stress_max_MPa, "stop_stress_max_MPa"
