@@ -128,8 +128,7 @@ class FlatParts(EdgedParts):
                 contour = wheel_contour(where, sizes, walls, where.full.spec.wheel.stopped)
         turn, plate = float(where.wheel(np.zeros(1))[0]), wheel_plate(where, sizes, contour)
         hub = wheel_hub(where, sizes)
-        part = Group(plate.name, (Member(plate), Member(hub))) if hub else plate
-        return Member(part, turn=turn)
+        return Member(Group(plate.name, (Member(plate), Member(hub))) if hub else plate, turn=turn)
 
     @cached_property
     def orbiting(self) -> tuple[Member, ...]:
@@ -280,7 +279,7 @@ class FlatParts(EdgedParts):
         return groove_base(self.outlines, self.links)
 
     @cached_property
-    def groove(self) -> tuple[Contour, Contour, Contour]:
+    def groove(self) -> tuple[Contour, ...]:
         """The flanks of a cam's groove and its pitch curve; raises GenevaError without a groove."""
         from geneva_cli.parts.slots.groove import groove_lines
 

@@ -178,8 +178,7 @@ def crank_arm(size: Size, sizes: RackSizes) -> CrankArm:
     outline = convex_hull("ARM", [Circle("ARM", (0.0, 0.0), hub), Circle("ARM", (R, 0.0), eye)])
     bored = bore_of(size, "crank", sizes.bore).shape("BORE", math.pi)
     threads = [tapped(hole) for hole in lock_bolts(size, sizes)]
-    pins = [Circle("BORE", (R, 0.0), hole)]
-    return CrankArm(outline, bored, pins, threads, hub, eye, math.inf)
+    return CrankArm(outline, bored, [Circle("BORE", (R, 0.0), hole)], threads, hub, eye, math.inf)
 
 
 def lock_bolts(size: Size, sizes: RackSizes) -> list[Circle]:

@@ -141,8 +141,7 @@ def _crank_at(first_z: int, wheel_deg: float) -> float:
         l sin a = sin psi cos² b / (cos psi + k),   l cos a = k cos psi + sin² psi
     """
     if not (isinstance(first_z, int) and isinstance(wheel_deg, float)):
-        each: float = of_each(lambda z, deg: (_crank_at(z, deg),), first_z, wheel_deg)[0]
-        return each
+        return of_each(lambda z, deg: (_crank_at(z, deg),), first_z, wheel_deg)[0]
     step = classic.HalfStep.of(1, first_z)
     n, d = wheel_deg.as_integer_ratio()
     whole = 180 * d * step.q

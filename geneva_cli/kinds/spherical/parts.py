@@ -97,8 +97,7 @@ class SphereParts(Parts):
     def past_mouth(self, motion: int, at: Array) -> Array:
         """Return how far a motion's roller is in its slot, beyond the mouth's corners, mm, (n,)."""
         height = self.shells.gaps.pose(at).pins[:, motion, 2]  # the same in the wheel's frame
-        polar = np.arccos(np.clip(height, -1.0, 1.0))
-        return self.ball.radius_mm * (self.ball.mouth - polar)
+        return self.ball.radius_mm * (self.ball.mouth - np.arccos(np.clip(height, -1.0, 1.0)))
 
     @cached_property
     def wheel(self) -> Member:

@@ -203,22 +203,19 @@ def gear_pair(
 
 
 def gear_shafts(
-    mechanism: Mechanism,
-    parts: Outlines | None,
-    lowest: float,
-    crank_has_one: bool,
-    on_crank: float = 0.0,
+    mechanism: Mechanism, parts: Outlines | None, lowest: float, shaft: bool, on_crank: float = 0.0
 ) -> Iterator[Shaft]:
     """Yield the shafts that carry only gears, from the frame's lower face up; none without gears.
 
-    The driver's shaft goes through it, or ends below one that is too small for a bore.
+    The driver's shaft goes through it, or ends below one that is too small for a bore. With
+    ``shaft`` the crank has its own.
     """
     if mechanism.spec.gears is None:
         return
     (first, wide), (at, radius), bored = _shafts(mechanism, parts, on_crank)
     under, over = gear_span(mechanism, parts)
     at_crank = same(first, mechanism.crank_shaft.at, mechanism.center_distance_mm)
-    if at_crank and not (crank_has_one or _on_links(mechanism, parts)):
+    if at_crank and not (shaft or _on_links(mechanism, parts)):
         reach = shaft_ends(mechanism.spec.size, "crank", lowest, over)
         on = bore_at(mechanism, first, wide)
         yield Shaft("crank's shaft", "crank", on, *reach, first)
@@ -241,5 +238,6 @@ def _shafts(
 
 def _on_links(mechanism: Mechanism, parts: Outlines | None) -> float:
     """Return the radius of the driven gear's shaft where links are on it; 0 without links."""
-    L = mechanism.center_distance_mm
-    return drawn_links(mechanism, parts).shaft(mechanism.gear_shaft.at, L)
+    return drawn_links(mechanism, parts).shaft(
+        mechanism.gear_shaft.at, mechanism.center_distance_mm
+    )

@@ -51,8 +51,7 @@ def wheel_holes(assembly: Assembly, sizes: Sizes) -> tuple[Contour | Circle, ...
     size, bolts = assembly.mechanism.spec.size, dial_circle(assembly, sizes).holes
     if not (sizes.wheel_bore or has_shape(size, "wheel")):
         return tuple(bolts)
-    bore = bore_of(size, "wheel", sizes.wheel_bore)
-    return (bore.shape("BORE", assembly.rests[0]), *bolts)
+    return (bore_of(size, "wheel", sizes.wheel_bore).shape("BORE", assembly.rests[0]), *bolts)
 
 
 def dial_circle(assembly: Assembly, sizes: Sizes) -> BoltCircle:

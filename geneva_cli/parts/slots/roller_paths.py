@@ -206,8 +206,7 @@ def arc_about(axis: Point, start: Point, end: Point, sense: float) -> Arc:
     """Return an arc about an axis, counterclockwise (+1) or clockwise (-1)."""
     a = math.atan2(start[1] - axis[1], start[0] - axis[0])
     b = math.atan2(end[1] - axis[1], end[0] - axis[0])
-    sweep = sense * (sense * (b - a) % math.tau)
-    return Arc(start, end, math.tan(0.25 * sweep))
+    return Arc(start, end, math.tan(0.25 * (sense * (sense * (b - a) % math.tau))))
 
 
 def cut_walls(walls: Contour, wheel: Contour) -> Contour:
