@@ -94,8 +94,7 @@ def rack_sizes(mechanism: Mechanism) -> RackSizes:
     text += f"{arm + recess:.6g} mm"
     refuse_size(lock and abs(edge - arm) >= recess, "wheel_radius_mm", text, edge)
     # as if R were L/2, as for 6 slots
-    space = arm - hole_radius(size, pin)
-    bore = arm_bore(mechanism.spec, 0.0, 2.0 * arm, space) if pin else 0.0
+    bore = arm_bore(mechanism.spec, 0.0, 2.0 * arm, arm - hole_radius(size, pin)) if pin else 0.0
     widths = arm, r, w, edge, guide.bottom, lock, floor, recess, relief
     return RackSizes(*widths, guide, pin, bore, drawn_thicknesses(size, arm))
 

@@ -120,8 +120,7 @@ def sectors(ball: Ball) -> list[Region]:
 
     def sector(start: float, end: float) -> Region:
         middle = 0.5 * (start + end)
-        ahead = np.stack([azimuth + turn - middle for turn in ball.rollers])
-        off = np.abs(within_half_turn(ahead))
+        off = np.abs(within_half_turn(np.stack([azimuth + t - middle for t in ball.rollers])))
 
         @cache
         def nearest(half: float) -> float:
@@ -155,8 +154,7 @@ def locked(ball: Ball) -> list[tuple[float, float]]:
     """Return the azimuths about the crank's axis, from and to, between which the crank locks."""
     if not ball.lock:
         return []
-    after = (*ball.rollers[1:], ball.rollers[0] + math.tau)
-    pairs = zip(ball.rollers, after, strict=True)
+    pairs = zip(ball.rollers, (*ball.rollers[1:], ball.rollers[0] + math.tau), strict=True)
     spans = [(a + ball.half_motion, b - ball.half_motion) for a, b in pairs]
     return [(a, b) for a, b in spans if b - a > SAME_ANGLE]
 

@@ -60,8 +60,7 @@ def wheel_stop(outlines: Outlines) -> WheelStop | None:
     on_disc = [p for p in ends if abs(math.hypot(*p) - rk) < SAME_LENGTH * L]
     crank = min(abs(math.atan2(y, x)) for x, y in on_disc) - gamma
     delta = math.asin(rk * math.sin(gamma) / ra)  # of the contact, from the line of centres
-    at = np.array([math.degrees(crank)])
-    from_middle = math.pi / z - delta - float(assembly.wheel(at)[0])
+    from_middle = math.pi / z - delta - float(assembly.wheel(np.array([math.degrees(crank)]))[0])
     half_face = math.pi / z - math.asin(sizes.half_width / ra)
     last = assembly.to_input(math.degrees(crank))
     stops = assembly.to_input(-math.degrees(crank)), 360.0 * (z - 1) + last, 360.0 * (z // 2)

@@ -238,6 +238,5 @@ def _shafts(
 
 def _on_links(mechanism: Mechanism, parts: Outlines | None) -> float:
     """Return the radius of the driven gear's shaft where links are on it; 0 without links."""
-    return drawn_links(mechanism, parts).shaft(
-        mechanism.gear_shaft.at, mechanism.center_distance_mm
-    )
+    L = mechanism.center_distance_mm
+    return drawn_links(mechanism, parts).shaft(mechanism.gear_shaft.at, L)

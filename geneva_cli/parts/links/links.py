@@ -168,8 +168,7 @@ def link_sizes(
         for (p, a), (q, b) in combinations(zip(places(link), link.kinds, strict=True), 2):
             if {a, b} & {Joint.PIN, Joint.SLIDE} and Joint.NONE not in (a, b):
                 near.append(float(np.abs(p - q).min()))
-    nearest = min(near, default=L)
-    pin = half_or(size.link_pin_mm, rounded_radius(min(L / 40.0, 0.2 * nearest)))
+    pin = half_or(size.link_pin_mm, rounded_radius(min(L / 40.0, 0.2 * min(near, default=L))))
     eye = half_or(size.link_width_mm, eye_about(pin + loose, wall))
     text = f"it must be above {2.0 * (pin + loose):.6g}, the diameter of the pins' holes"
     refuse_size(eye <= pin + loose, "link_width_mm", text, 2.0 * eye)

@@ -110,8 +110,7 @@ def cut_lock(assembly: Assembly, sizes: Sizes) -> Lock:
                 halves.append(0.5 * abs(arc.sweep))
     edge, corners = assembly.full.spec.size.lock_edge_mm or 0.0, [*chain(*mouths.values())]
     first = corners[0] if flat else sizes.rim
-    half = min(halves, default=math.nan)
-    out = Lock(L, assembly.sign, lock, recess, first, half, edge)
+    out = Lock(L, assembly.sign, lock, recess, first, min(halves, default=math.nan), edge)
     if max(corners) - min(corners) < SAME_LENGTH * L:
         return out
     near, far = abs(L - recess), L + recess
@@ -187,8 +186,7 @@ def slot_walls(
         inwards, outwards = Arc(first.end, middle, -quarter), Arc(middle, last.start, -quarter)
         begin = shapes.turned(Contour("", (first, inwards)), -apart).segments
         between = shapes.about(ORIGIN, middle[0], -apart, 2.0 * apart)
-        finish = shapes.turned(Contour("", (outwards, last)), apart).segments
-        pieces = (*begin, between, *finish)
+        pieces = (*begin, between, *shapes.turned(Contour("", (outwards, last)), apart).segments)
     return shapes.turned(Contour("WHEEL", shapes.joined(pieces), closed=False), angle)
 
 
