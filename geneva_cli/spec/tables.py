@@ -7,7 +7,7 @@ other keys. The annotations are objects, since evaluating text on import would t
 from collections.abc import Iterable
 from dataclasses import field
 from operator import attrgetter
-from typing import Annotated, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.kept import cached_property
@@ -167,8 +167,8 @@ class Size(SpecTable):
         >>> Size(process="laser", wheel_thickness_mm=3.0, lock_clearance_mm=0.1).allowances[:3]
         (0.2, 0.1, 0.15)
         """
-        own, cut_mm = vars(self), WORKSHOPS[self.process].cut_mm
-        values = (Allowances() if self.process is None else PROCESSES[self.process])._asdict()
+        own, shop = vars(self), WORKSHOPS[self.process]
+        values, cut_mm = shop.allowances._asdict(), shop.cut_mm
         if cut_mm:
             # Parts are all off by the deviation of their cut. The roller is wide and its slot
             # narrow, each by half a side; and so disc and recess, whose diameter is about the
@@ -526,10 +526,21 @@ LIMITED = {
 }
 
 
+# the warnings that a reason may accept
+ACCEPTED = (
+    *("many_slots", "no_centre_distance", "nothing_holds", "stop_in_motion", "loose_fit"),
+    *("rounded_points", "turns_back", "off_mid_condition", "soft_shock_at_ends"),
+    *("soft_shock_at_mid", "not_positively_driven", "steep_hand_over", "undercut"),
+    *("friction_holds_the_wheel", "sharp_wall", "drives_the_motor", "heavy_inertia"),
+    *("tiny_machine", "wheel_left_out", "weight_to_one_side", "unbalanced", "nothing_to_act_on"),
+    *("driven_by_one_wall", "lags_behind", "short_motion", "stout_horns", "tolerance_left_out"),
+    *("not_every_machine_turns", "small_hole", "no_bearing", "gears_without_teeth"),
+    *("taken_as_built", "outline_units", "ideal_machine", "narrow_for_process"),
+)
 Reason = Annotated[str | None, None, "reason for accepting this warning"]
 
 
-class Accept(SpecTable):
+class Accept(SpecTable, names=ACCEPTED, of=Reason):
     """``[accept]``: the reason for each accepted warning, by its name.
 
     >>> Accept(many_slots="a dial of 30 stations").reasons
@@ -539,48 +550,16 @@ class Accept(SpecTable):
     TABLE: ClassVar[str] = "accept"
     WORDS_APART: ClassVar[str] = "-"  # in the names of warnings
 
-    many_slots: Reason = None
-    no_centre_distance: Reason = None
-    nothing_holds: Reason = None
-    stop_in_motion: Reason = None
-    loose_fit: Reason = None
-    rounded_points: Reason = None
-    turns_back: Reason = None
-    off_mid_condition: Reason = None
-    soft_shock_at_ends: Reason = None
-    soft_shock_at_mid: Reason = None
-    not_positively_driven: Reason = None
-    steep_hand_over: Reason = None
-    undercut: Reason = None
-    friction_holds_the_wheel: Reason = None
-    sharp_wall: Reason = None
-    drives_the_motor: Reason = None
-    heavy_inertia: Reason = None
-    tiny_machine: Reason = None
-    wheel_left_out: Reason = None
-    weight_to_one_side: Reason = None
-    unbalanced: Reason = None
-    nothing_to_act_on: Reason = None
-    driven_by_one_wall: Reason = None
-    lags_behind: Reason = None
-    short_motion: Reason = None
-    stout_horns: Reason = None
-    tolerance_left_out: Reason = None
-    not_every_machine_turns: Reason = None
-    small_hole: Reason = None
-    no_bearing: Reason = None
-    gears_without_teeth: Reason = None
-    taken_as_built: Reason = None
-    outline_units: Reason = None
-    ideal_machine: Reason = None
-    narrow_for_process: Reason = None
-
     # warnings of `geneva vibration` and `geneva tolerance` alone
     ELSEWHERE: ClassVar[tuple[str, ...]] = (
         *("short-motion", "tolerance-left-out", "not-every-machine-turns"),
     )
 
     reasons: ClassVar[dict[str, str]]  # of each record, by the names of the accepted warnings
+
+    if TYPE_CHECKING:
+
+        def __init__(self, **reasons: str | None) -> None: ...
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -610,20 +589,10 @@ class Accept(SpecTable):
 
 
 # The tables of every kind of machine, in the order of a file; those in LISTS may be repeated.
-PLAIN: dict[str, type[SpecTable]] = {
-    "size": Size,
-    "load": Load,
-    "mass": Mass,
-    "support": Support,
-    "motor": Motor,
-    "shaft": Shaft,
-    "material.wheel": WheelMaterial,
-    "material.roller": RollerMaterial,
-    "tolerance": Tolerance,
-    "product": Product,
-    "drawing": TitleBlock,
-    "outline": Outline,
-    "limits": Limits,
-    "accept": Accept,
-}
+PLAIN: dict[str, type[SpecTable]] = {}
+for _table in (
+    *(Size, Load, Mass, Support, Motor, Shaft, WheelMaterial, RollerMaterial, Tolerance),
+    *(Product, TitleBlock, Outline, Limits, Accept),
+):
+    PLAIN[_table.TABLE] = _table
 LISTS = ("mass",)

@@ -138,7 +138,7 @@ def test_specs_of_one_kind_keep_their_own_loads_and_sizes():
 
 
 LISTS = {  # of a report's names those of tables and lists, which are no quantities
-    *("stations", "cycle.reversals_deg", "vibration.speeds_to_avoid_rpm", "strength.needs"),
+    *("stations", "loads.reversals_deg", "vibration.speeds_to_avoid_rpm", "strength.needs"),
     *("tolerance.warnings", "wheels", "cranks"),
 }
 

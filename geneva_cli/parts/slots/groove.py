@@ -25,7 +25,7 @@ from geneva_cli.parts.shafts.bores import screw_radius
 from geneva_cli.table import Table
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.jet_functions import Groove
+    from geneva_cli.motion.given_motion import SolvedPath
 
 NAMES = ("input_deg", "radius_mm", *WALLED)
 GRID = 3600  # positions all round, between which the greatest pressure angle is searched
@@ -33,7 +33,9 @@ BELOW = 2  # planes below the wheel: that of the groove, below the crank
 MOUNTS = 4
 
 
-def groove_curve(groove: Groove, L: float, offset: float) -> Callable[[Array], tuple[Array, Array]]:
+def groove_curve(
+    groove: SolvedPath, L: float, offset: float
+) -> Callable[[Array], tuple[Array, Array]]:
     """Return the groove, or a flank ``offset`` mm to its left, as points in mm and unit tangents.
 
     They are functions of the input angle, degrees, over a whole turn.
@@ -50,7 +52,7 @@ def groove_curve(groove: Groove, L: float, offset: float) -> Callable[[Array], t
     return curve
 
 
-def sampled_extremes(groove: Groove, input_deg: Array) -> tuple[Array, Array]:
+def sampled_extremes(groove: SolvedPath, input_deg: Array) -> tuple[Array, Array]:
     """Return least distances from the crank's axis, over L, and pressure angles of m grooves, (m,).
 
     They are the extremes at ``input_deg`` (m, k) and 360 places of the dwell.
@@ -63,7 +65,7 @@ def sampled_extremes(groove: Groove, input_deg: Array) -> tuple[Array, Array]:
     return R.min(axis=1), np.degrees(np.arctan((np.abs(slope) / R).max(axis=1)))
 
 
-def greatest_pressure(groove: Groove) -> tuple[float, float]:
+def greatest_pressure(groove: SolvedPath) -> tuple[float, float]:
     """Return the groove's greatest pressure angle, atan|R'/R|, degrees, and its input angle."""
     entry, exit_, step = groove.motion.entry_deg, groove.motion.exit_deg, 360.0 / GRID
     grid = entry + 360.0 * np.arange(GRID) / GRID
@@ -116,7 +118,7 @@ def groove_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None)
     return Table(NAMES, [shown, L * R, *points, pressure, radius])
 
 
-def _groove_of(mechanism: Mechanism) -> Groove:
+def _groove_of(mechanism: Mechanism) -> SolvedPath:
     groove = mechanism.engagements[0].groove
     if groove is None:
         kind = mechanism.spec.drive.NAME
