@@ -52,7 +52,7 @@ def machine_sizes(mechanism: Mechanism) -> Layout:
         return of.assembly, of.sizes
     from geneva_cli.loads.strength.part_loads import single_loads
 
-    return of.assembly, loaded(of, mechanism, single_loads(mechanism))
+    return of.assembly, loaded(of, mechanism, single_loads(mechanism), None)
 
 
 @lru_cache(maxsize=16)
@@ -63,9 +63,7 @@ def unloaded(mechanism: Mechanism) -> Unloaded:
     return Unloaded(where, sizes, space, cache(partial(cut_lock, where, sizes)))
 
 
-def loaded(
-    of: Unloaded, mechanism: Mechanism, loads: PartLoads, horn_MPa: float | None = None
-) -> Sizes:
+def loaded(of: Unloaded, mechanism: Mechanism, loads: PartLoads, horn_MPa: float | None) -> Sizes:
     """Return the sizes of a machine under its loads, as ``load_sizes``; raises as ``unloaded``."""
     from geneva_cli.parts.sized_by_load import load_sizes, stressed
 

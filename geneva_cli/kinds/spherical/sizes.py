@@ -39,10 +39,9 @@ from geneva_cli.study.synth.suiting import LOCK, SIZES, USUAL, with_roller
 @lru_cache(maxsize=16)
 def sized_ball(mechanism: Mechanism) -> Ball | None:
     """Return the cached sizes of a spherical machine; None where it has no parts."""
-    try:
+    with suppress(GenevaError):  # the check of the parts reports the error
         return None if mechanism.spec.no_parts else ball(mechanism)
-    except GenevaError:
-        return None  # the check of the parts reports the error
+    return None
 
 
 def stressed(mechanism: Mechanism) -> Stressed | None:
