@@ -192,16 +192,6 @@ class FlatParts(EdgedParts):
         hub = sizes.wheel_hub if part == "wheel" else sizes.crank_hub
         return max(bore, hub) if self.mechanism.spec.size.has_hub(part) else bore
 
-    @cached_property
-    def crank(self) -> Member:
-        """The crank: locking disc or sectors, arm, rollers on their pins, hub."""
-        return self._crank(self.arm_plate)
-
-    @cached_property
-    def crank_without_arm(self) -> Member:
-        """The crank as it lies in the wheel's plane."""
-        return self._crank(None)
-
     def _crank(self, arm: Plate | None) -> Member:
         assembly, members = self.outlines.assembly, list[Member]()
         for plate in (*self.locking, arm):

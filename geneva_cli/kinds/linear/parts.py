@@ -86,7 +86,7 @@ class RackParts(EdgedParts):
         return Member(Plate("guide bar", "LINK", outline, self._bar_bolts, 0.5 * top, 0.0))
 
     @cached_property
-    def arm(self) -> Plate | None:
+    def arm_plate(self) -> Plate | None:
         """The crank's arm, x to the roller; None without a pin for the roller."""
         return self.required_arm if self.sizes.bore else None
 
@@ -101,16 +101,6 @@ class RackParts(EdgedParts):
         text += f"{needed:g}; use a larger arm_eye_mm or arm_hub_mm, or a smaller arm_bore_mm, "
         refuse_size(least < needed, "arm_bore_mm", f"{text}pin_mm or lock_bolt_mm")
         return Plate("arm", "ARM", arm.outline, holes, high - sizes.thick.arm, high)
-
-    @cached_property
-    def crank_without_arm(self) -> Member:
-        """Locking sector, roller and pin, as they lie in the rack's plane."""
-        return self._crank(None)
-
-    @cached_property
-    def crank(self) -> Member:
-        """The crank: arm, locking sector, roller on its pin."""
-        return self._crank(self.arm)
 
     def _crank(self, arm: Plate | None) -> Member:
         """The crank's parts in the arm's frame; the locking sector stands on the arm."""
@@ -188,7 +178,7 @@ class RackParts(EdgedParts):
     def screws(self) -> tuple[Screws, ...]:
         """The screws of locking sector, guide bar, and what is fixed to the frame."""
         spec, own = self.mechanism.spec, list[Screws]()
-        if self.arm and (bolts := rack.lock_bolts(spec.size, self.sizes)):
+        if self.arm_plate and (bolts := rack.lock_bolts(spec.size, self.sizes)):
             own.append(Screws("locking sector", len(bolts), 2.0 * bolts[0].radius, "the arm"))
         if bolted := self._bar_bolts:
             nuts = "nuts under the guide bar"
