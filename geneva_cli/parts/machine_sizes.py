@@ -169,7 +169,17 @@ def _usual_sizes(assembly: Assembly) -> tuple[Sizes, float]:
         apart = apart or bool(s.apart)
     rim = value_or(size.wheel_radius_mm, max(mouths))
     end, depth = (min(ends) - w) * sign, abs(L - rim)
-    lock = _lock(assembly, arm, w, rim)
+    lock = 0.0
+    if spec.has_lock:
+        limit, least = arm - w - allowed.lock_clearance_mm, max(L - rim, 0.0)
+        text = f"the locking disc does not fit: it must be above {least:.4g} mm to reach the rim, "
+        text += f"but roller and clearances limit it to {limit:.4g}; use lock_radius_mm = 0, a "
+        refuse_size(
+            limit <= least, "lock_radius_mm", text + "smaller roller, or no wheel_radius_mm"
+        )
+        # a horn that is cut back may have no thickness where its tip would be
+        spare = limit * SAME_LENGTH if size.horn_tip_mm else 0.0
+        lock = lock_between(size.lock_radius_mm, least, limit, r, spare)
     relief = value_or(size.relief_clearance_mm, min(L / 200.0, depth / 4.0))
     space = (lock or rim) / arm * (L - math.sqrt(max(rim * rim - r * r, 0.0))) if outside else 0.0
     if apart:  # gears between rollers widen the relief
@@ -206,21 +216,6 @@ def _crank_bore(spec: Spec, space: float, L: float) -> float:
         return 0.5 * shaft if 0.5 * shaft <= 0.6 * space else 0.0
     within = rules.within_hub(size, "crank")
     return bore_radius(min(0.45 * space, within)) if 0.45 * space >= L / 40.0 else 0.0
-
-
-def _lock(assembly: Assembly, arm: float, w: float, rim: float) -> float:
-    """Return the locking disc's radius: it leaves a horn as thick as the roller's radius."""
-    spec, size = assembly.mechanism.spec, assembly.mechanism.spec.size
-    if not spec.has_lock:
-        return 0.0
-    limit = arm - w - size.allowances.lock_clearance_mm
-    least, r = max(assembly.L - rim, 0.0), assembly.mechanism.roller_radius_mm
-    text = f"the locking disc does not fit: it must be above {least:.4g} mm to reach the rim, but "
-    text += f"roller and clearances limit it to {limit:.4g}; use lock_radius_mm = 0, a smaller "
-    refuse_size(limit <= least, "lock_radius_mm", text + "roller, or no wheel_radius_mm")
-    # a horn that is cut back may have no thickness where its tip would be
-    spare = limit * SAME_LENGTH if size.horn_tip_mm else 0.0
-    return lock_between(size.lock_radius_mm, least, limit, r, spare)
 
 
 def lock_between(

@@ -69,11 +69,6 @@ class Sizes(NamedTuple):
         """Return the radius of the largest eye, ``away`` from the axis, that passes the hub."""
         return math.inf if self.outer else away - max(self.wheel_bore, self.wheel_hub)
 
-    @property
-    def outline(self) -> Sizes:
-        """The sizes of the outlines of wheel and crank: 0 for those that a load may change."""
-        return Sizes(*self[: Sizes._fields.index("wheel_bore")])  # type: ignore[arg-type]
-
 
 class Unloaded(NamedTuple):
     """The parts of a machine as they are without a load."""

@@ -38,7 +38,8 @@ SWEPT_DEG = 0.2  # of the input, between the positions of the wheel that a relie
 
 def drawn(assembly: Assembly, sizes: Sizes) -> Outlines:
     """Return the outlines of an assembly with known sizes, cached without what a load changes."""
-    return _drawn(assembly, sizes.outline)._replace(sizes=sizes)
+    bare = sizes[: Sizes._fields.index("wheel_bore")]
+    return _drawn(assembly, Sizes(*bare))._replace(sizes=sizes)  # type: ignore[arg-type]
 
 
 @lru_cache(maxsize=KEPT)  # a sweep cuts the locks of its designs first, and then turns the parts
