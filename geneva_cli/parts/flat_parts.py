@@ -292,7 +292,7 @@ class FlatParts(EdgedParts):
         arm = parts.sizes.arm_thickness if parts.has_arm else 0.0
         lows.append(-self.mechanism.spec.size.allowances.pin_gap_mm - arm)
         lows += map(attrgetter("plate.low"), self.links.gears)
-        lows += map(attrgetter("part.low"), (*self.linked, *self.first))
+        lows += map(attrgetter("part.low"), (*self.links.cut, *self.links.joined, *self.first))
         if hub := wheel_hub(parts.assembly, parts.sizes):
             lows.append(hub.low)
         if self.mechanism.spec.gears:
