@@ -28,13 +28,7 @@ from geneva_cli.parts.outlines.crank_outline import crank_bore, is_whole
 from geneva_cli.parts.outlines.cut_outlines import drawn, slot_walls, wheel_contour
 from geneva_cli.parts.outlines.outlines import Outlines, dial_circle, wheel_hub, wheel_plate
 from geneva_cli.parts.parts import EdgedParts, FrameAndShafts, NamedBuilds, Parts, parts_of
-from geneva_cli.parts.shafts.arm_and_shafts import (
-    CrankArm,
-    bolts,
-    crank_arm,
-    crank_hub,
-    rollers_about,
-)
+from geneva_cli.parts.shafts.arm_and_shafts import CrankArm, bolts, crank_arm, crank_hub, rollers
 from geneva_cli.parts.shafts.bores import Screws
 from geneva_cli.parts.sizes import drawn_thicknesses, pin_radius
 from geneva_cli.parts.slots.roller_paths import roller_centres, wall_lost
@@ -181,9 +175,8 @@ class FlatParts(EdgedParts):
         if low is None:
             arm = drawn.sizes.arm_thickness if drawn.has_arm else 0.0
             low = -self.mechanism.spec.size.allowances.pin_gap_mm - arm
-        r, fit = self.mechanism.roller_radius_mm, self.mechanism.spec.size.allowances.shaft_fit_mm
         centres, sizes = roller_centres(drawn.assembly), drawn.sizes
-        return rollers_about(centres, r, sizes.pin, low, sizes.wheel_thickness, fit)
+        return rollers(self.mechanism, centres, sizes.pin, low, sizes.wheel_thickness)
 
     def axle_radius(self, part: str) -> float:
         """Return the radius of a part's shaft, or of its hub if the spec has one, mm; 0 if none."""
@@ -384,13 +377,12 @@ class FrontParts(FlatParts):
         from geneva_cli.parts.links.links import roller_pins
 
         mechanism, links = self.mechanism, self.links
-        size, r = mechanism.spec.size, mechanism.roller_radius_mm
+        size, pin = mechanism.spec.size, pin_radius(mechanism.spec.size, mechanism.roller_radius_mm)
         centres = [at for link, at in roller_pins(mechanism) if link.plane == 1]
         high = drawn_thicknesses(size, mechanism.center_distance_mm).wheel
         low = value_or(links.pin_low, -size.allowances.pin_gap_mm)
         own = *links.cut, *links.joined
-        fit = size.allowances.shaft_fit_mm
-        return (*own, *rollers_about(centres, r, pin_radius(size, r), low, high, fit))
+        return (*own, *rollers(mechanism, centres, pin, low, high))
 
     @property
     def members(self) -> tuple[Member, ...]:

@@ -26,7 +26,7 @@ from geneva_cli.parts.frame import hole_without_shaft, mounted_plate, shaft_hole
 from geneva_cli.parts.gears.gear_pair import gear_pair, gear_shafts, gear_span
 from geneva_cli.parts.parts import EdgedParts, FrameAndShafts, NamedBuilds
 from geneva_cli.parts.projection import NamedParts
-from geneva_cli.parts.shafts.arm_and_shafts import Shaft, rollers_about, shaft_ends
+from geneva_cli.parts.shafts.arm_and_shafts import Shaft, rollers, shaft_ends
 from geneva_cli.parts.shafts.bores import Screws, bolt_radius, bore_of, reach_or_bore, tapped
 from geneva_cli.parts.sized_by_load import ShaftSize, Stressed, key_of, shaft_of
 from geneva_cli.parts.turn.turn_certificate import FlatPairs
@@ -105,10 +105,9 @@ class RackParts(EdgedParts):
     def _crank(self, arm: Plate | None) -> Member:
         """The crank's parts in the arm's frame; the locking sector stands on the arm."""
         size, sizes, thick = self.mechanism.spec.size, self.sizes, self.sizes.thick
-        stands, fit = -size.allowances.pin_gap_mm, size.allowances.shaft_fit_mm
+        stands, members = -size.allowances.pin_gap_mm, [Member(arm)] if arm else []
         ends, centres = (stands - thick.arm, thick.wheel), [(sizes.arm, 0.0)]
-        members = [Member(arm)] if arm else []
-        members += rollers_about(centres, sizes.roller, sizes.pin, *ends, fit)
+        members += rollers(self.mechanism, centres, sizes.pin, *ends)
         sector = rack.locking_sector(sizes)
         if sector is not None:
             holes, high = tuple(rack.lock_bolts(size, sizes)), stands + thick.lock

@@ -21,19 +21,8 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.errors import GenevaError, refuse_size
-from geneva_cli.geometry.sphere import (
-    POLE,
-    Cap,
-    Region,
-    Rotation,
-    SphereArc,
-    combined,
-    convex_hull,
-    cross,
-    dot,
-    opposite,
-    place,
-)
+from geneva_cli.geometry import sphere
+from geneva_cli.geometry.sphere import POLE, Cap, Region, Rotation, SphereArc, opposite, place
 from geneva_cli.geometry.sphere_arcs import RoundHole, least_wall
 from geneva_cli.kinds.spherical.ball import Ball, refuse_above, refuse_wide
 from geneva_cli.kinds.spherical.stops import about
@@ -86,7 +75,8 @@ def edge(ball: Ball, at: float = 0.0) -> list[SphereArc]:
         low, high = (place(ball.rim, at + side * (b - ball.opened)) for side in (-1.0, 1.0))
     mouths = [place(ball.rim, at + side * corner) for side in (-1.0, 1.0)]
     middle, across = place(ball.bottom, at), (-math.sin(at), math.cos(at), 0.0)
-    ends = [combined(middle, math.cos(w), across, side * math.sin(w)) for side in (-1.0, 1.0)]
+    c, s = math.cos(w), math.sin(w)
+    ends = [sphere.combined(middle, c, across, side * s) for side in (-1.0, 1.0)]
     arcs = [
         SphereArc(POLE, ball.rim, low, mouths[0]),
         SphereArc(opposite(across), QUARTER - w, mouths[0], ends[0]),
@@ -167,7 +157,7 @@ def rollers(ball: Ball) -> list[Region]:
 def at_mid_motion(ball: Ball) -> Rotation:
     """Return the crank's frame in the wheel's frame, with the first roller at mid-motion."""
     axis, ahead = place(ball.axes, 0.0), place(ball.axes - QUARTER, 0.0)
-    return Rotation(ahead, cross(axis, ahead), axis)
+    return Rotation(ahead, sphere.cross(axis, ahead), axis)
 
 
 def swept(ball: Ball) -> tuple[Array, Array]:
@@ -250,13 +240,13 @@ def _arm(ball: Ball, sectors: Sequence[Region], size: Size, bolts_each: int) -> 
     cap, eye, bolted = ball.cap(hub, form.reach, wall), eye / L, wall + 2.0 * size.edge_mm
     caps = [Cap(POLE, cap), *(Cap(pin.axis, eye) for pin in pins)]
     caps += [Cap(b.axis, eye_about(b.radius, bolted) / under) for b in bolts]
-    boundary, holes = convex_hull(caps), (RoundHole(POLE, hub), *pins, *bolts)
+    boundary, holes = sphere.convex_hull(caps), (RoundHole(POLE, hub), *pins, *bolts)
     walls = [hub - form.reach, least_wall(boundary, holes, under)]
     for k, sector in enumerate(sectors if bolts else []):
         of_sector = bolts[k * bolts_each : (k + 1) * bolts_each]
         walls.append(least_wall(sector, of_sector, ball.lock_span_mm[0]))
     keyway = next((0.5 * (a + b) for a, b in locked(ball)), 0.5 * ball.rollers[-1] + math.pi)
-    reach = max(math.acos(dot(one.middle, POLE)) + one.angle for one in caps)
+    reach = max(math.acos(sphere.dot(one.middle, POLE)) + one.angle for one in caps)
     return CapArm(boundary, form, keyway, hub, pins, bolts, cap, eye, reach, min(walls))
 
 
