@@ -1,16 +1,19 @@
 """The usual sizes of the parts, in millimetres: those of the spec, or defaults without a load.
 
 The rim is where the roller enters: on a smaller wheel it would lose its slot, on a larger one touch
-the rim. The locking disc reaches past the rim and leaves a horn next to the slot.
+the rim. The locking disc reaches past the rim and leaves a horn next to the slot. With the sizes
+goes the mass that they give the wheel.
 """
 
 from __future__ import annotations
 
 import math
+from contextlib import suppress
 from functools import cache, lru_cache, partial
 from typing import TYPE_CHECKING, TypeAlias
 
 from geneva_cli.errors import GenevaError, refuse_size
+from geneva_cli.geometry import plates
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.registry import thing
@@ -19,10 +22,11 @@ from geneva_cli.numerics.tolerances import SAME_LENGTH, bore_radius, rounded_bel
 from geneva_cli.parts import sizes as rules
 from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.outlines.crank_outline import arc_floor
-from geneva_cli.parts.outlines.cut_outlines import cut_lock
+from geneva_cli.parts.outlines.cut_outlines import cut_lock, turned_walls, wheel_contour
+from geneva_cli.parts.outlines.outlines import wheel_hub, wheel_plate
 from geneva_cli.parts.sizes import KeySizes, Sizes, Unloaded
 from geneva_cli.parts.slots.roller_paths import mouth, roller_paths
-from geneva_cli.spec.defaults import wall_min
+from geneva_cli.spec.defaults import wall_min, wheel_material
 from geneva_cli.spec.tables import Size
 
 if TYPE_CHECKING:
@@ -37,10 +41,9 @@ OF_AXLE = (  # keys that an internal wheel lacks, which is open in the middle
 
 def sized(mechanism: Mechanism) -> Layout | None:
     """Return ``machine_sizes``; None where no flat parts can be cut."""
-    try:
+    with suppress(GenevaError):  # the check of the parts reports the error
         return machine_sizes(mechanism) if mechanism.spec.is_flat else None
-    except GenevaError:
-        return None  # the check of the parts reports the error
+    return None
 
 
 @lru_cache(maxsize=16)
@@ -147,6 +150,23 @@ def drawn_pin_radius(mechanism: Mechanism) -> float:
     if flat := sized(mechanism):
         return flat[1].pin
     return rules.pin_radius(mechanism.spec.size, mechanism.roller_radius_mm)
+
+
+@lru_cache(maxsize=16)
+def wheel_body(mechanism: Mechanism) -> plates.MassProperties | None:
+    """Return mass and inertia of wheel and hub; None without a thickness or parts."""
+    spec = mechanism.spec
+    if spec.size.wheel_thickness_mm is None and spec.size.face_width_mm is None:
+        return None
+    with suppress(GenevaError):
+        if own := thing(spec.wheel.NAME, "wheel_body"):
+            return own(mechanism)
+        where, sizes = machine_sizes(mechanism)
+        contour = wheel_contour(where, sizes, turned_walls(where, sizes), spec.wheel.stopped)
+        hub, density = wheel_hub(where, sizes), wheel_material(spec).density_kgm3
+        body = plates.mass_properties(wheel_plate(where, sizes, contour), density)
+        return plates.added(body, plates.mass_properties(hub, density)) if hub else body
+    return None
 
 
 def _usual_sizes(assembly: Assembly) -> tuple[Sizes, float]:

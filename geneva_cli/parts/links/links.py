@@ -147,9 +147,7 @@ def placed_holes(member: Member) -> Iterator[Circle]:
             yield placed(hole, member.at, member.turn)
 
 
-def link_sizes(
-    mechanism: Mechanism, links: Iterable[Link], parts: Outlines | None = None
-) -> LinkSizes:
+def link_sizes(mechanism: Mechanism, links: Iterable[Link], parts: Outlines | None) -> LinkSizes:
     """Return the sizes of links, whose joints are known at many input angles."""
     spec, L = mechanism.spec, mechanism.center_distance_mm
     size, bars = spec.size, [link for link in links if not link.radius_mm]
