@@ -475,7 +475,7 @@ class Design:
         size = self.spec.size
         if size.face_width_mm is None and size.wheel_thickness_mm is None:
             return None  # before the import of what draws parts
-        from geneva_cli.parts.wheel_body import wheel_body
+        from geneva_cli.parts.machine_sizes import wheel_body
 
         return wheel_body(self.mechanism)
 

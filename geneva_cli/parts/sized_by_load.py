@@ -134,9 +134,8 @@ def load_sizes(
     if spec.load.dwell_torque_Nm:
         held = lock.held_force_N(machine, of.cut_lock() if sizes.lock else None).item()
     carried = float(np.max(centrifugal_N(machine))) if machine.frame else 0.0
-    loads = loads._replace(
-        wheel_shaft_N=max(loads.wheel_shaft_N, held + carried), crank_N=max(loads.crank_N, held)
-    )
+    wheel_N, crank_N = max(loads.wheel_shaft_N, held + carried), max(loads.crank_N, held)
+    loads = loads._replace(wheel_shaft_N=wheel_N, crank_N=crank_N)
     allowed = wheel_material(spec).allowed_MPa
     if sizes.lock and size.wheel_thickness_mm is size.face_width_mm is None:
         if bent_MPa is None:

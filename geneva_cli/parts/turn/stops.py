@@ -251,11 +251,7 @@ class Stops:
 
 
 def cut(
-    mask: Mask,
-    span: tuple[Array, Array],
-    known: Array,
-    extremes: Array,
-    curve: tuple[Array, Array, Array],
+    mask: Mask, span: Sequence[Array], known: Array, extremes: Array, curve: Sequence[Array]
 ) -> list[Array]:
     """Return branches of the arcs of a mask (n, k), cut at their nearest and farthest points.
 
