@@ -83,7 +83,7 @@ web-test: .venv/dev web
 	PYTHONPATH=tests:tests/output:tests/stress $(BIN)/python tests/stress/web_in_browser.py build/web
 
 # Every design's STEP files read by a CAD kernel, and the manual's CAD code run with it; it is
-# installed with build123d (1 GB). FreeCAD takes part if it is installed. Four minutes.
+# installed with build123d (1 GB). Four minutes.
 cad: .venv/dev
 	$(PIP) "build123d>=0.13,<0.14"
 	PYTHONPATH=tests $(BIN)/python tests/stress/solids_in_cad.py

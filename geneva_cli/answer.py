@@ -48,8 +48,8 @@ def value_text(
 ) -> str:
     """A value, with its unit unless ``bare``. Raises ArithmeticError for NaN, a fault of ours.
 
-    >>> value_text(182.612895, "°"), value_text(53.17, "W/m²"), value_text(None), value_text(True)
-    ('182.6°', '53.17 W/m²', '–', 'yes')
+    >>> value_text(182.612895, "deg"), value_text(53.17, "W"), value_text(None), value_text(True)
+    ('182.6°', '53.17 W', '–', 'yes')
     """
     if isinstance(value, tuple):
         return ", ".join(value_text(one, unit, digits) for one in value) or "none"
@@ -66,4 +66,4 @@ def value_text(
         text = clean(str(value))
     if bare or not unit or isinstance(value, str) or text == NO_BOUND:
         return text
-    return f"{text}°" if unit == "°" else f"{text} {unit}"
+    return f"{text}°" if unit in ("deg", "°") else f"{text} {unit}"

@@ -16,7 +16,7 @@ import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import nullcontext, suppress
 from functools import wraps
-from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec, Self, TypeVar
+from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec, Self, TypeVar, cast
 
 from geneva_cli.errors import GenevaError, Notice, cut
 from geneva_cli.kept import cached_property, load_extra
@@ -54,10 +54,9 @@ CURVES = {"arcs": "arcs", "spline": "cubics"}  # forms in which curved walls are
 def load(path: str, settings: Iterable[str] = (), reverse: bool = False) -> Design:
     """Return the design in a spec file; ``-`` is standard input.
 
-    ``settings`` complete or replace keys of the file, as ``["drive.A=0.6"]``. With
-    ``reverse`` it is the same machine turning the other way, as ``Design.backwards``. Raises
-    GenevaError, ``FILE:LINE: what is wrong; what would be right``, for a file that cannot be read.
-    Every result of the design raises it if the design cannot be built.
+    ``settings`` replace keys of the file, as ``["drive.A=0.6"]``. With ``reverse`` it is
+    ``Design.backwards``. Raises GenevaError, ``FILE:LINE: what is wrong; what would be right``, as
+    every result does if the design cannot be built.
 
     >>> load("designs/side-crank-z6.toml", ["drive.A=0.3"]).spec.drive.A
     0.3
@@ -95,10 +94,7 @@ class answer(cached_property[T]):
 
 
 def question(ask: Callable[Concatenate[Any, P], T]) -> Callable[Concatenate[Any, P], T]:
-    """A method that takes NumPy's scalars as Python's numbers; its errors are located as well.
-
-    It refuses an unknown keyword.
-    """
+    """A method that takes NumPy's scalars and known keywords only; its errors are located."""
     *known, _ = ask.__annotations__  # the last one is what it returns
 
     @wraps(ask)
@@ -115,10 +111,8 @@ def question(ask: Callable[Concatenate[Any, P], T]) -> Callable[Concatenate[Any,
 class Design:
     """A Geneva mechanism: its inputs, and the results that follow from them.
 
-    Values are checked when they are created: ``SideCrank(A=2.0)`` raises the GenevaError that a
-    file with ``A = 2`` gets, without the line. Angles are in degrees and lengths in millimetres,
-    loads in newtons, newton metres and megapascals. Velocity, acceleration and jerk are derivatives
-    of the wheel's angle by the input's in radians.
+    Values are checked when they are created. Units are degrees, millimetres, newtons, newton metres
+    and megapascals; velocity, acceleration and jerk are derivatives by the input's radians.
 
     >>> Design(External(6), SideCrank(A=0.6)).timing.motion_s  # at 60 rpm
     0.5072580347148502
@@ -200,8 +194,6 @@ class Design:
     def with_(self, key: str, value: Any) -> Design:
         """Return the design with one key changed, ``table.key`` as in the file; None: its default.
 
-        Raises GenevaError for an unknown key, and for a value out of range.
-
         >>> Design(External(6)).with_("wheel.z", 8).timing.motion_deg
         135.0
         """
@@ -211,7 +203,7 @@ class Design:
     def mechanism(self) -> Mechanism:
         """The machine: its engagements over a period. Raises GenevaError if it cannot be built.
 
-        >>> round(Design(External(6)).mechanism.ratio, 12)  # crank over centre distance, sin(pi/z)
+        >>> round(Design(External(6)).mechanism.ratio, 12)  # crank over centre distance
         0.5
         """
         return build(self.spec)
@@ -220,9 +212,8 @@ class Design:
     def backwards(self) -> Design:
         """The same machine turning the other way, as one that turns forwards seen from behind.
 
-        In a mirror about the line of centres psi at theta is -psi at -theta: entry and exit change
-        places, slots are offset to the other side, and a law s(u) becomes 1 - s(1 - u). Sizes that
-        the load chose stay. What resists the motion resists it in both directions.
+        Entry and exit change places, slots are offset to the other side, a law s(u) becomes
+        1 - s(1 - u). Sizes that the load chose stay.
 
         >>> offset = Design(External(6, offset_mm=12.0))
         >>> [round(d.peaks.ends.acceleration_entry, 4) for d in (offset, offset.backwards)]
@@ -250,9 +241,7 @@ class Design:
 
     @answer
     def size(self) -> tables.Size:
-        """The sizes, with the machine's values for those that the spec leaves out; mm.
-
-        None remains for sizes that the machine lacks, and for details that only its parts know.
+        """The sizes, mm; None for those that the machine lacks, or that only its parts know.
 
         >>> Design(External(6)).size.wheel_thickness_mm
         10.0
@@ -264,8 +253,6 @@ class Design:
     @answer
     def chosen(self) -> dict[str, Chosen]:
         """Every size that a rule or the load chose, by its key; ``geneva size`` writes them.
-
-        Raises GenevaError, naming the key, for sizes that leave no wheel or no crank.
 
         >>> Design(External(6)).chosen["size.pin_mm"]
         Chosen(value=5.0, why='default r')
@@ -323,9 +310,7 @@ class Design:
 
     @answer
     def peaks(self) -> Peaks:
-        """Greatest velocity, acceleration, jerk and power of a period, and their places.
-
-        Invariants: derivatives by the input's angle in radians. Angles are input angles in degrees.
+        """Greatest velocity, acceleration, jerk and power of a period, and their input angles.
 
         >>> peak = Design(External(6)).peaks.acceleration
         >>> round(peak.max, 12), round(peak.at_deg, 9)
@@ -345,8 +330,7 @@ class Design:
         from geneva_cli.motion.peaks import peaks_table
 
         if self.is_drawn:
-            own: Table = self._of_drawing("peaks")
-            return own
+            return cast("Table", self._of_drawing("peaks"))
         return peaks_table(self.mechanism)
 
     @question
@@ -354,36 +338,28 @@ class Design:
         """Proved bounds of a peak, with all places where it may be; needs python-flint.
 
         ``quantity`` is velocity, acceleration, jerk or power; or wheel_torque_Nm, input_torque_Nm
-        or pin_force_N. It is not proved if it takes more than so many ``intervals`` a motion
-        (2,000). Raises GenevaError for another quantity, and for the force and the input's torque
-        of a curved slot.
+        or pin_force_N, of straight slots. At most so many ``intervals`` a motion (2,000) are used.
 
         >>> Design(External(6)).certificate("acceleration").text
         'acceleration.max in [1.34963727590190, 1.34963727590191], at two mirrored places, proved'
         """
         limit = {} if intervals is None else {"limit": intervals}
         prove = load_extra("certify", "certificate")
-        proof: Certificate = prove(self.mechanism, quantity, **limit)
-        return proof
+        return cast("Certificate", prove(self.mechanism, quantity, **limit))
 
     @question
     def certified_peaks(self, for_people: bool = False) -> Table:
-        """The peaks with the certificate of each; as ``geneva peaks --certify`` prints json.
-
-        Each is a row of a table; ``for_people`` it is a line of text.
+        """The peaks with the certificate of each, a row; ``for_people`` a line of text.
 
         >>> Design(External(6)).certified_peaks(for_people=True).to_dict()["certificate"][2]
         'jerk.max in [5.99999999999999, 6.00000000000001], unique, proved'
         """
         prove = load_extra("certify", "peaks")
-        table: Table = prove(self.peaks_table, self.mechanism, for_people)
-        return table
+        return cast("Table", prove(self.peaks_table, self.mechanism, for_people))
 
     @question
     def certified_loads(self, for_people: bool = False) -> Table:
-        """Certificates of the greatest loads; as ``geneva loads --certify`` prints json.
-
-        Each is a row of a table; ``for_people`` it is a line of text.
+        """Certificates of the greatest loads, a row each; ``for_people`` a line of text.
 
         >>> table = Design(External(6), load=Load(0.4, 15)).certified_loads()
         >>> [row["proved"] for row in table.to_dict()["certificate"]]
@@ -404,13 +380,9 @@ class Design:
     ) -> Table:
         """``samples`` rows over a period from the first entry, evenly spaced in the input angle.
 
-        With ``turns`` of the input there are rows over all of them, and also one at each entry,
-        exit and jump. With ``at_deg`` they are at those input angles from mid-motion instead.
-        Columns: time_s, input_deg, wheel_deg, velocity, acceleration, jerk, and at the spec's
-        speed omega_rad_s and alpha_rad_s2.
+        With ``turns`` of the input there is also a row at each entry, exit and jump. With
+        ``at_deg`` the rows are at those input angles from mid-motion instead.
 
-        >>> Design(External(6)).motion(4).to_dict()["input_deg"].tolist()
-        [-60.0, 60.0, 180.0, 300.0]
         >>> Design(External(6)).motion(at_deg=[0.0]).to_dict()["velocity"].tolist()
         [1.0]
         """
@@ -419,8 +391,7 @@ class Design:
         if self.is_drawn:
             if turns is not None:
                 raise GenevaError("--turns: a drawing's motion is that of one turn; leave it out")
-            own: Table = self._of_drawing("motion", samples, at_deg)
-            return own
+            return cast("Table", self._of_drawing("motion", samples, at_deg))
         if at_deg is not None:
             return angles_table(self.mechanism, at_deg)
         if turns is not None:
@@ -431,9 +402,8 @@ class Design:
     def figure(self, pick: Sequence[str] = ()) -> Figure:
         """Curves of motion and loads over a cycle, one panel for each quantity.
 
-        ``pick`` are names of quantities, as ``jerk`` or ``pin_force_N``; without, the usual ones
-        that are known. ``geneva_cli.output.show_figure`` writes it. Raises GenevaError for another
-        name.
+        ``pick`` are names of quantities, as ``jerk`` or ``pin_force_N``; without, the usual ones.
+        ``geneva_cli.output.show_figure`` writes it.
 
         >>> panels = Design(External(6)).figure(["velocity", "jerk"]).panels
         >>> [mark.y for mark in panels[1].curves[0].marks]
@@ -457,10 +427,7 @@ class Design:
 
     @answer
     def loads(self) -> Mapping[str, LoadSummary[float | None]]:
-        """Greatest, least, mean and root-mean-square of each load over a period, by its name.
-
-        None for an unbounded value, or if the spec lacks its inputs. Newtons, newton metres,
-        megapascals, watts; input angles in degrees.
+        """Greatest, least, mean and root-mean-square of each load over a period; None if unknown.
 
         >>> loaded = Design(External(6), load=Load(inertia_kgm2=0.4, torque_Nm=15))
         >>> round(loaded.loads["pin_force_N"].max, 3)
@@ -500,9 +467,7 @@ class Design:
 
     @answer
     def wheel_plate(self) -> MassProperties | None:
-        """The wheel's own mass, centroid and inertia, from its outline, or its sphere's shell.
-
-        None without ``face_width_mm`` or ``wheel_thickness_mm``, or if it has no parts.
+        """The wheel's own mass, centroid and inertia; None without a thickness, or without parts.
 
         >>> round(Design(External(6), size=Size(face_width_mm=20)).wheel_plate.mass_kg, 3)
         2.087
@@ -562,9 +527,8 @@ class Design:
     def vibration(self, period_ratio: float | None = None, damping: float | None = None) -> Table:
         """The load on an elastic shaft: a record of the vibration after an index.
 
-        The oscillator is that of [shaft]. ``period_ratio`` (motion time over natural period) and
-        ``damping`` (ratio) replace its values. Shares are fractions of the wheel's step. Raises
-        GenevaError if no stiffness or no inertia is known.
+        ``period_ratio`` (motion time over natural period) and ``damping`` (ratio) replace values of
+        [shaft]. Raises GenevaError if no stiffness or no inertia is known.
 
         >>> round(Design(External(3)).vibration(0.5, damping=0.02)["residual_share"], 12)
         0.871288725706
@@ -593,13 +557,10 @@ class Design:
 
     @question
     def slot(self, tolerance_mm: float = 0.001, samples: int | None = None) -> Table:
-        """The slot's pitch curve and flanks in the wheel's frame, mm, for a chord tolerance.
+        """The slot's pitch curve and flanks in the wheel's frame, mm; see ``part_table``.
 
-        Or ``samples`` rows, evenly spaced in the input angle.
-
-        >>> slot = Design(External(6), motion=Motion(Cycloidal(), ratio="matched")).slot(samples=5)
-        >>> len(slot), slot.names[:4]
-        (5, ('input_deg', 'wheel_deg', 'x_mm', 'y_mm'))
+        >>> Design(External(6)).slot(samples=5).names[:4]
+        ('input_deg', 'wheel_deg', 'x_mm', 'y_mm')
         """
         return self.part_table("slot", tolerance_mm, samples)
 
@@ -607,10 +568,9 @@ class Design:
     def part_table(
         self, part: str, tolerance_mm: float = 0.001, samples: int | None = None
     ) -> Table:
-        """A part as a table of points: ``slot``, ``gears`` or ``groove``.
+        """A part as a table of points, mm: ``slot``, ``gears`` or ``groove``.
 
-        Columns are those of ``profile --part``, lengths in mm. Raises GenevaError for a part
-        that the machine does not have.
+        Points are for a chord tolerance; or ``samples`` rows, evenly spaced in the input angle.
 
         >>> geared = Design(External(6), EllipticalGears(eccentricity=0.3))
         >>> len(geared.part_table("gears", samples=5))
@@ -634,11 +594,10 @@ class Design:
 
     @answer
     def parts(self) -> Parts:
-        """The parts, with their outlines and their full turn, shared by all their results.
+        """The parts, with their outlines and their full turn.
 
-        >>> parts = Design(External(6)).parts
-        >>> parts.outlines.relief, parts.turn.holds  # its lock, in the dwell
-        ('arc', True)
+        >>> Design(External(6)).parts.turn.holds  # its lock, in the dwell
+        True
         """
         from geneva_cli.parts.parts import parts_of
 
@@ -654,19 +613,17 @@ class Design:
     ) -> Drawing:
         """A part as lines and arcs, or (``spline``) cubics, for DXF or SVG.
 
-        Parts are ``slot``, ``wheel``, ``crank``, ``arm``, ``links``, ``assembly``, ``groove``,
-        ``gears`` or ``plate``; lengths in millimetres. ``kerf_mm`` gives the paths of a cut of that
-        width. Raises GenevaError if the kerf does not fit.
+        Parts are those of ``profile --part``. ``kerf_mm`` gives the paths of a cut of that width,
+        or a GenevaError if it does not fit.
 
         >>> Design(External(6)).drawing("wheel").layers
         ('WHEEL', 'BORE')
         """
-        from geneva_cli.drawings.catalogue import part_drawing
+        from geneva_cli.drawings.catalogue import part_drawing, require_cut
 
         picture = part_drawing(self.parts, part, tolerance_mm, _form(curves))
         if kerf_mm is None:
             return picture
-        from geneva_cli.drawings.catalogue import require_cut
         from geneva_cli.geometry.offsets import paths
 
         require_cut(part)
@@ -675,8 +632,6 @@ class Design:
     @question
     def cutter(self, part: str, cutter_mm: float) -> tuple[str, list[str]]:
         """The reason why a milling cutter cannot cut a part, empty if it can; and warnings.
-
-        Warnings are about corners that it leaves round, and narrow holes.
 
         >>> Design(External(6)).cutter("wheel", 12.0)[0].partition(": an ")[2]
         'inner radius of 5 mm is narrower; use a smaller one'
@@ -689,9 +644,7 @@ class Design:
 
     @question
     def sheet(self, tolerance_mm: float = 0.001, curves: str = "arcs") -> Sheet:
-        """A drawing sheet of the parts with dimensions, to a standard scale on A4 to A1.
-
-        ``geneva_cli.output.draw_sheet`` writes it as DXF, SVG or PDF. Millimetres on paper.
+        """A drawing sheet of the parts with dimensions, to a standard scale; mm on paper.
 
         >>> small = Design(External(4), size=Size(center_distance_mm=30)).sheet(0.01)
         >>> small.scale, small.width, small.height
@@ -708,9 +661,7 @@ class Design:
         """Write a part to a file, as ``geneva profile`` does; the extension gives the format.
 
         Without ``part``, the file's name decides (``wheel.dxf``, ``sheet.pdf``, ``slot.csv``), else
-        the assembly is written. ``tolerance_mm`` is the greatest distance from the true curve, by
-        default 0.001, and 0.01 in meshes. Raises GenevaError if the part cannot be drawn, the file
-        cannot be written, or the machine jams, unless ``force``.
+        the assembly is written. Raises GenevaError if the machine jams, unless ``force``.
 
         >>> import tempfile
         >>> with tempfile.TemporaryDirectory() as folder:
@@ -754,9 +705,7 @@ class Design:
 
     @question
     def drawing_over(self, drawing: Drawing) -> Drawing:
-        """Return a drawing of a part with that of ``[outline]`` over it on layer OUTLINE.
-
-        Without ``[outline]``, and for other parts than wheel, crank and assembly, it is the same.
+        """Return a drawing of a part with that of ``[outline]``, if any, over it on layer OUTLINE.
 
         >>> plain = Design(External(6))
         >>> plain.drawing_over(plain.drawing("wheel")).layers
@@ -764,14 +713,11 @@ class Design:
         """
         if not self.is_drawn:
             return drawing
-        both: Drawing = self._of_drawing("over", drawing)
-        return both
+        return cast("Drawing", self._of_drawing("over", drawing))
 
     @question
     def proved_to(self, to_mm: float) -> list[Check]:
-        """Every check, with the gap proved to a tolerance in mm.
-
-        Raises GenevaError for a tolerance that is not above 0, or above the roller's radius.
+        """Every check, with the gap proved to a tolerance in mm, at most the roller's radius.
 
         >>> Design(External(6)).proved_to(0.0002)[-1].why
         'collision-free, proved to 0.2 µm (608 intervals)'
@@ -789,8 +735,7 @@ class Design:
         from geneva_cli.verdict.checks import all_pass, every_check
 
         if self.is_drawn:
-            rows: list[Check] = self._of_drawing("checks")
-            return rows
+            return cast("list[Check]", self._of_drawing("checks"))
         # a machine without parts is judged without NumPy
         rows = [*every_check(self.mechanism, self.parts if self.spec.is_turned else None)]
         if all_pass(rows):
@@ -814,8 +759,6 @@ class Design:
     def judge(self, part: str = "wheel") -> tuple[str, list[str]]:
         """The reason why a part cannot be written, empty if it can; and other problems.
 
-        Raises GenevaError for a flat wheel or crank that the sizes leave no place for.
-
         >>> Design(External(6)).judge()
         ('', [])
         """
@@ -838,7 +781,6 @@ class Design:
     ) -> Table:
         """The effects of the deviations in ``[tolerance]``, the record of ``geneva tolerance``.
 
-        >>> from geneva_cli import Design, External, Tolerance
         >>> indexed = Design(External(6), tolerance=Tolerance(slot_angle_deg=0.02))
         >>> indexed.tolerance().to_dict()["dwell_position.worst_arcsec"]
         72.0
@@ -897,9 +839,7 @@ class Design:
 
     @question
     def refuse_drawn(self, what: str) -> None:
-        """Raise GenevaError for a machine with drawings, whose parts are not ours.
-
-        ``what`` begins the message: "the files for a shop are those".
+        """Raise GenevaError for a machine with drawings; ``what`` begins the message.
 
         >>> Design(External(6)).refuse_drawn("the files for a shop are those")
         """

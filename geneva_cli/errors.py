@@ -87,6 +87,12 @@ def refuse_text(where: Any, key: tuple[str, str], text: str, /, **values: object
         refuse(where, lambda: GenevaError(text.format(**values), key))
 
 
+def refuse_size(wrong: object, key: str, text: str, value: float | None = None) -> None:
+    """Raise GenevaError where ``wrong`` holds: a text, after a key of ``[size]`` and its value."""
+    if wrong:
+        raise GenevaError(text if value is None else f"{key} = {value:g}: {text}", ("size", key))
+
+
 @contextmanager
 def marking() -> Iterator[list[Any]]:
     """Collect the masks of designs that ``refuse`` marks within the block."""

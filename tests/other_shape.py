@@ -3,7 +3,7 @@
 
 def with_shape(parts, shape=None, **changed):
     """The same machine with another shape, or with other outlines, sizes or gaps."""
-    other = parts.of(parts.assembly.full)
+    other = type(parts)(parts.assembly.full)
     shape = (shape or parts._shape)._replace(**changed)
     # a rack has its sizes apart
     vars(other).update(_shape=shape, **({"sizes": shape.sizes} if "sizes" in vars(parts) else {}))

@@ -1,15 +1,10 @@
-"""Measures of the project's English: words a sentence, and how docstrings begin.
-
-``python tests/prose.py [FOLDER or FILE ...]`` prints them with the worst places; without arguments
-it measures the whole package, README and manual.
-"""
+"""Measures of the project's English: words a sentence, and how docstrings begin."""
 
 from __future__ import annotations
 
 import ast
 import re
 import statistics
-import sys
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
@@ -159,36 +154,3 @@ def files(paths: list[Path], ending: str) -> list[Path]:
     for path in paths:
         result |= set(path.rglob(f"*{ending}")) if path.is_dir() else {path}
     return sorted(path for path in result if path.name.endswith(ending))
-
-
-def main(names: list[str]) -> None:
-    """Print the measures of files and folders, and the longest sentences."""
-    paths = [Path(name).resolve() for name in names] or [PACKAGE, ROOT / "README.md"]
-    code, pages = files(paths, ".py"), files(paths, ".md")
-    docs = [doc for path in code for doc in texts(path)[0]]
-    groups = {
-        "docstrings": [s for doc in docs for s in docstring_sentences(doc)],
-        "messages": [s for path in code for s in texts(path)[1]],
-        "pages": [s for path in pages for s in page_sentences(path)],
-    }
-    print(f"{'':40} {'sentences':>9} {'mean':>6} {'90 %':>5} {'longest':>7}")
-    for name, sentences in groups.items():
-        _show(name, Measures.of(sentences))
-    for path in pages:
-        _show(f"  {path.name}", Measures.of(page_sentences(path)))
-    poor = [doc for doc in docs if doc.poor_start]
-    print(f"{len(poor)} of {len(docs)} docstrings begin with {', '.join(POOR_STARTS)}:")
-    for doc in poor:
-        print(f"  {doc.where}: {doc.text.splitlines()[0]}")
-    longest = sorted((s for group in groups.values() for s in group), key=lambda s: -s.words)
-    print("longest sentences (all above 25 words, at most 100):")
-    for s in [s for s in longest if s.words > 25][:100]:
-        print(f"  {s.words:3} {s.where}: {s.text}")
-
-
-def _show(name: str, m: Measures) -> None:
-    print(f"{name:40} {m.total:9} {m.mean:6.1f} {m.nine_tenths:5} {m.longest:7}")
-
-
-if __name__ == "__main__":
-    main(sys.argv[1:])

@@ -9,14 +9,14 @@ import os
 import sys
 import textwrap
 from functools import partial
-from typing import Annotated, Any, NoReturn
+from typing import Any, NoReturn
 
 import typer
 from typer.core import TyperCommand, TyperGroup
 
 import geneva_cli.progress as progress  # ``from geneva_cli`` would load the lists of kinds
 from geneva_cli import __version__
-from geneva_cli.cli.command import HELP, USAGE, PlainValues, as_command, table_options
+from geneva_cli.cli.command import HELP, USAGE, PlainValues, as_command, flag, table_options
 from geneva_cli.errors import GenevaError, clean, cut
 from geneva_cli.streams import leave, open_streams
 
@@ -185,12 +185,10 @@ app = typer.Typer(cls=LazyGroup, rich_markup_mode=None, pretty_exceptions_enable
 
 @app.callback(no_args_is_help=True, context_settings=HELP)
 def geneva(
-    version: Annotated[
-        bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version.")
-    ] = False,
-    no_pager: Annotated[
-        bool, typer.Option(NO_PAGER, help="Print long output on a terminal without a stop.")
-    ] = False,
+    version: bool = typer.Option(
+        False, "--version", callback=_version, is_eager=True, help="Show the version."
+    ),
+    no_pager: bool = flag(NO_PAGER, "Print long output on a terminal without a stop."),
 ) -> None:
     """Design calculator for Geneva (Maltese-cross) mechanisms."""
 

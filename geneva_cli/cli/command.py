@@ -9,7 +9,7 @@ import sys
 from collections.abc import Iterable, Mapping
 from functools import partial
 from textwrap import wrap
-from typing import TYPE_CHECKING, Annotated, Any, TypeAlias, get_args
+from typing import TYPE_CHECKING, Any
 
 import typer
 from typer.core import TyperCommand
@@ -146,10 +146,7 @@ def as_command(name: str, run: Any) -> Any:
     one = typer.Typer(add_completion=False, rich_markup_mode=None)
     one.command(name, cls=Command, context_settings=HELP)(run)
     command: Any = get_command(one)
-    command.kinds = {}
-    for parameter, annotation in run.__annotations__.items():
-        if own := get_args(annotation):
-            command.kinds[parameter] = own[0]
+    command.kinds = run.__annotations__
     return command
 
 
@@ -165,14 +162,20 @@ def one_of(names: Iterable[str]) -> str:
 
 
 def option(
-    metavar: str, help: str, heading: str | None = None, name: str = "", show: str | bool = True
+    default: Any,
+    metavar: str,
+    help: str,
+    heading: str = "",
+    name: str = "",
+    show: str | bool = True,
 ) -> Any:
     """An option with a value, below a heading of the help.
 
     ``name`` has its names if the parameter's is another; the default is shown, or ``show``.
     """
+    panel = heading or None
     return typer.Option(
-        *name.split(), metavar=metavar, help=help, rich_help_panel=heading, show_default=show
+        default, *name.split(), metavar=metavar, help=help, rich_help_panel=panel, show_default=show
     )
 
 
@@ -180,31 +183,27 @@ def option(
 output_option = partial(option, name="-o --output", show=False)
 
 
-def flag(name: str, help: str, heading: str | None = None) -> Any:
-    """An option without a value, below a heading of the help."""
-    return typer.Option(name, help=help, rich_help_panel=heading)
+def flag(name: str, help: str, heading: str = "") -> Any:
+    """An option without a value, of these names, below a heading of the help."""
+    return typer.Option(False, *name.split(), help=help, rich_help_panel=heading or None)
 
 
 def table_options(
-    columns: Annotated[str | None, option("NAME,...", "Only these columns, as in csv.")] = None,
-    wide: Annotated[bool, flag("--wide", "All columns on a terminal, however wide.")] = False,
+    columns: str | None = option(None, "NAME,...", "Only these columns, as in csv."),
+    wide: bool = flag("--wide", "All columns on a terminal, however wide."),
 ) -> None:
     """Options of every command that prints a table."""
 
 
-SpecPath: TypeAlias = Annotated[
-    str, typer.Argument(metavar="SPEC", help="The spec, a TOML file; - reads standard input.")
-]
-Settings: TypeAlias = Annotated[
-    list[str] | None,
-    option("KEY=VALUE", "Set a key over the file's, as drive.n_rpm=90.", name="--set"),
-]
-Reverse: TypeAlias = Annotated[bool, flag("--reverse", "Turn the input the other way.")]
-AlsoReverse: TypeAlias = Annotated[
-    bool, flag("--reverse", "Also each design turning the other way.")
-]
-Output: TypeAlias = Annotated[str, output_option("FILE", "Write to this file; - prints.")]
-Format: TypeAlias = Annotated[str, option("FORMAT", "table, csv, json or md.", name="--format")]
+SPEC: Any = typer.Argument(
+    ..., metavar="SPEC", help="The spec, a TOML file; - reads standard input."
+)
+SPECS: Any = typer.Argument(..., metavar="SPEC...", help="Specs, TOML files.")
+SETTINGS = option((), "KEY=VALUE", "Set a key over the file's, as drive.n_rpm=90.", name="--set")
+REVERSE = flag("--reverse", "Turn the input the other way.")
+ALSO_REVERSE = flag("--reverse", "Also each design turning the other way.")
+OUTPUT = output_option("-", "FILE", "Write to this file; - prints.")
+FORMAT = option("", "FORMAT", "table, csv, json or md.", name="--format")
 
 
 def tell(text: str) -> None:

@@ -9,28 +9,16 @@ from itertools import pairwise
 import numpy as np
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.geometry import shapes as forms
 from geneva_cli.geometry.plates import Group, Member, in_place
-from geneva_cli.geometry.shapes import (
-    Arc,
-    Circle,
-    Contour,
-    Line,
-    Segment,
-    Shape,
-    about,
-    bounds,
-    closed,
-    joined,
-    placed,
-    turned,
-)
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line, Segment, Shape
 from geneva_cli.geometry.sheet import Annotations, Drawing, LevelDistance
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.pivots import Joint
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import links_at
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.links.link_sizes import places
+from geneva_cli.parts.links.links import places
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.parts import EdgedParts
 from geneva_cli.parts.projection import drawing_of, once, outlines_of, shapes, titled, uncovered
@@ -68,7 +56,7 @@ def slot(parts: FlatParts) -> Drawing:
     back = math.atan2(start[1], start[0]) - math.atan2(end[1], end[0])
     level = abs(math.hypot(*start) - math.hypot(*end)) < 1e-9 * assembly.L
     rim: Segment = Arc(end, start, math.tan(0.25 * back)) if level else Line(end, start)
-    outline = closed("WHEEL", [*walls.segments, rim])
+    outline = forms.closed("WHEEL", [*walls.segments, rim])
     return Drawing(titled(parts.mechanism, "slot"), (outline, *pitch_lines(parts, engagement)))
 
 
@@ -85,7 +73,7 @@ def links(parts: FlatParts) -> Drawing:
         raise GenevaError(f"--part links: {kind} has no links: --part parts lists what it has")
     members, top = [], 0.0
     for plate in dict.fromkeys(bars.plates):
-        box = bounds(plate.outline)
+        box = forms.bounds(plate.outline)
         # moved itself, so that the kerf finds its outlines in the drawing
         ((_, moved),) = in_place([Member(plate, (0.0, top - box.y0))])
         members.append(Member(moved))
@@ -100,7 +88,7 @@ def frame(parts: EdgedParts) -> Drawing:
     return drawing_of(parts.mechanism, "frame", parts.frame.part)
 
 
-def gears(parts: EdgedParts) -> Drawing:
+def gears(parts: FlatParts) -> Drawing:
     """Return all gears with bores and bolts, and the line of centres."""
     from geneva_cli.parts.gears.gear_pair import FINE, required_gears
 
@@ -143,8 +131,8 @@ def pitch_lines(parts: FlatParts, engagement: Engagement) -> list[Contour]:
         for a, b in ((through.entry_deg, 0.0), (0.0, through.exit_deg)):
             path = parallel(assembly, through, 0.0, b > 0.0)
             pieces += fit.KINDS[parts.curves](path, a, b, fine)
-        line = Contour("PITCH", joined(pieces), closed=False)
-    return [turned(line, -apart), turned(line, apart)] if apart else [line]
+        line = Contour("PITCH", forms.joined(pieces), closed=False)
+    return [forms.turned(line, -apart), forms.turned(line, apart)] if apart else [line]
 
 
 def machine(parts: FlatParts) -> Drawing:
@@ -154,9 +142,9 @@ def machine(parts: FlatParts) -> Drawing:
     for one in parts.about_wheel(parts.crank_without_arm):
         drawn += _seen(one)
         if parts.arm:
-            drawn.append(placed(parts.arm.outline, one.at, one.turn))
+            drawn.append(forms.placed(parts.arm.outline, one.at, one.turn))
             if parts.arm.bore not in outlines_of(one.part):
-                drawn.append(placed(parts.arm.bore._replace(layer="ARM"), one.at, one.turn))
+                drawn.append(forms.placed(parts.arm.bore._replace(layer="ARM"), one.at, one.turn))
     # the links, and the round gears by their pitch circles, with all holes
     drawn += [shape._replace(layer="LINK") for shape in shapes(parts.links.cut)]
     blanks = list(shapes(parts.round_gears))
@@ -179,14 +167,14 @@ def machine(parts: FlatParts) -> Drawing:
     drawn += [Circle("PITCH", axis, radius) for axis in axes for radius in sorted(radii)]
     pitches = {one: pitch_lines(parts, one) for one in assembly.kinds}
     for engagement, direction in assembly.slots:
-        drawn += [turned(line, direction + parts.wheel.turn) for line in pitches[engagement]]
+        drawn += [forms.turned(line, direction + parts.wheel.turn) for line in pitches[engagement]]
     distance = LevelDistance((0.0, 0.0), (assembly.L, 0.0), "L")
     look = Annotations((distance,), tuple(_turns(parts.outlines)))
     return Drawing(title, tuple(once(drawn)), look, Group(title, parts.members))
 
 
 def _seen(member: Member) -> list[Shape]:
-    return [placed(shape, member.at, member.turn) for shape in outlines_of(member.part)]
+    return [forms.placed(shape, member.at, member.turn) for shape in outlines_of(member.part)]
 
 
 def _turns(parts: Outlines) -> Iterator[Arc]:
@@ -199,10 +187,10 @@ def _turns(parts: Outlines) -> Iterator[Arc]:
     if len(turns) > 1:  # between the cranks that are farthest apart
         before, after = max(pairwise([*turns, math.tau]), key=lambda ends: ends[1] - ends[0])
         free = 0.5 * (before + after)
-    yield about((0.0, 0.0), beyond, free - half, 2.0 * half)
+    yield forms.about((0.0, 0.0), beyond, free - half, 2.0 * half)
     if mechanism.frame:  # the finger stands, and the carrier turns
         sense = mechanism.frame
-        yield about((assembly.L, 0.0), assembly.L + beyond, -sense * 0.5, sense)
+        yield forms.about((assembly.L, 0.0), assembly.L + beyond, -sense * 0.5, sense)
         return
     if not mechanism.spec.drive.ONE_ARM:
         yield from _link_turns(parts)
@@ -213,7 +201,7 @@ def _turns(parts: Outlines) -> Iterator[Arc]:
     far = max(roller_paths(assembly)[2]) + 2.0 * sizes.roller
     radius = far + BEYOND * assembly.L if assembly.sign > 0.0 else 0.5 * sizes.arm
     for place in mechanism.crank_places:
-        yield about(place.at, radius, place.turn - sense * 0.5, sense)
+        yield forms.about(place.at, radius, place.turn - sense * 0.5, sense)
 
 
 def _link_turns(parts: Outlines) -> Iterator[Arc]:
@@ -230,4 +218,4 @@ def _link_turns(parts: Outlines) -> Iterator[Arc]:
         ahead = others[0] - first
         sense = math.copysign(1.0, float(np.angle(ahead[2] / ahead[0])))
         far = max(float(np.abs(ahead).max()), parts.sizes.lock) + 2.0 * BEYOND * L
-        yield about((L, 0.0), far, -sense * 0.5, sense)
+        yield forms.about((L, 0.0), far, -sense * 0.5, sense)

@@ -19,17 +19,8 @@ from typing import NamedTuple, TypeAlias
 from geneva_cli.drawings.sheet.packing import Block, packed_apart
 from geneva_cli.drives.transmission import places
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.plates import (
-    MM,
-    Group,
-    Member,
-    Part,
-    Plate,
-    Shell,
-    Solid,
-    mass_properties,
-    solids,
-)
+from geneva_cli.geometry import plates
+from geneva_cli.geometry.plates import MM, Group, Member, Part, Plate, Shell, Solid
 from geneva_cli.geometry.shapes import bounds_of
 from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.motion.machine_spec import Spec
@@ -107,15 +98,9 @@ def part_rows(spec: Spec, parts: Iterable[Part], outside: float | None = None) -
         is_rod = solid.layer in ("ROLLER", "SHAFT")
         density = (roller_material if is_rod else wheel_material)(spec).density_kgm3
         heights = {one.low for one in kind if not isinstance(one, Shell)}
-        yield {
-            "row": "part",
-            "name": solid.name,
-            "count": len(kind),
-            "material": material_names(spec)[is_rod],
-            "density_kgm3": density,
-            **_properties(solid, density, outside),
-            **({} if len(heights) < 2 else {"z_low_mm": None, "z_high_mm": None}),
-        }
+        row = {"row": "part", "name": solid.name, "count": len(kind), "density_kgm3": density}
+        row |= {"material": material_names(spec)[is_rod], **_properties(solid, density, outside)}
+        yield row if len(heights) < 2 else row | {"z_low_mm": None, "z_high_mm": None}
 
 
 def _properties(solid: Solid, density: float, outside: float | None) -> Row:
@@ -125,7 +110,7 @@ def _properties(solid: Solid, density: float, outside: float | None) -> Row:
         low, high = solid.low, solid.high
         x0, y0, x1, y1 = bounds_of(outlines_of(solid))
         wide, deep = x1 - x0, y1 - y0
-        body = mass_properties(solid, density)
+        body = plates.mass_properties(solid, density)
         mass, inertia = body.mass_kg, body.inertia_kgm2
         if outside is None:
             # a centroid within 1e-13 of a part's size of its axis is on it
@@ -142,15 +127,8 @@ def _properties(solid: Solid, density: float, outside: float | None) -> Row:
     thickness = high - low
     if outside is not None:
         low, high = outside - high, outside - low
-    return row | {
-        "thickness_mm": thickness,
-        "z_low_mm": low,
-        "z_high_mm": high,
-        "mass_kg": mass,
-        "inertia_kgm2": inertia,
-        "size_x_mm": wide,
-        "size_y_mm": deep,
-    }
+    row |= {"thickness_mm": thickness, "z_low_mm": low, "z_high_mm": high, "mass_kg": mass}
+    return row | {"inertia_kgm2": inertia, "size_x_mm": wide, "size_y_mm": deep}
 
 
 def _dimensions(parts: Parts) -> list[Dimension | Missing]:
@@ -229,7 +207,8 @@ def plate(parts: EdgedParts) -> Drawing:
 
     Raises GenevaError for a part that cannot be built.
     """
-    every = (one for _, build in parts.turned.by_name() for part in build() for one in solids(part))
+    built = (part for _, build in parts.by_name() for part in build())
+    every = (one for part in built for one in plates.solids(part))
     whole = [one for one in every if not isinstance(one, Shell)]
     title = titled(parts.mechanism, "plate")
     solid = Group(title, tuple(_laid(whole)))

@@ -27,7 +27,9 @@ class Crank(Direct, kw_only=True):
     NAME: ClassVar[str] = "crank"
     WORDS: ClassVar[str] = "a crank"
     crank_steps: Annotated[
-        tuple[float, ...] | None, Range(0.0, Z_MAX, "[)"), "places of cranks about the wheel, steps"
+        tuple[float, ...] | None,
+        Range(0.0, Z_MAX, "[)"),
+        "places of cranks with one roller each about the wheel, in steps from the first",
     ] = None
 
     def __post_init__(self) -> None:

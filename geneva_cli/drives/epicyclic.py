@@ -48,7 +48,9 @@ class Epicyclic(PinPath, kw_only=True):
     )
     round_gears: ClassVar[tuple[str, ...]] = ("planet", "fixed gear")
     planet_ratio: Annotated[
-        float | str, Range(-0.4, 0.4, words=("shockless",)), "planet crank rp / L, either sign"
+        float | str,
+        Range(-0.4, 0.4, words=("shockless",)),
+        'planet crank rp / L, either sign; "shockless" for no jump at entry',
     ]
     fixed: Annotated[str, OneOf(("sun", "ring")), "fixed gear that the planet rolls on"] = "sun"
 

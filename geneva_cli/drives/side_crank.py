@@ -40,7 +40,9 @@ class SideCrank(Whitworth, kw_only=True):
         "a side-crank drive: a slower, softer index", {"wheel": {"z": 6}, "drive": {"A": 0.6}}
     )
     A: Annotated[float, Range(-1.0, 1.0, "()"), "side-crank: base offset / crank; > 0 is slower"]
-    input_crank_mm: Annotated[float | None, POSITIVE, "input crank length r, for its forces"] = None
+    input_crank_mm: Annotated[
+        float | None, POSITIVE, "input crank length r, for its forces (parts use R by default)"
+    ] = None
 
     def as_built(self, wheel: Gearing, place: RollerPlace, L: float) -> Plan:
         return self.straight(wheel, places(wheel, self, L, place), L)

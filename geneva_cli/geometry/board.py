@@ -24,14 +24,11 @@ class Board:
     """A drawing's chords, and the boxes of its texts."""
 
     def __init__(self) -> None:
-        self._texts: list[Label] = []
-        self._swept: list[Arc] = []  # dimension lines that are arcs
+        self._texts, self._swept = list[Label](), list[Arc]()  # dimension lines that are arcs
+        # straight lines of the part, all chords of it, straight dimension lines; dimension lines,
+        # leaders and arrows; extension lines; and all
         none: Array = np.empty((0, 2), dtype=complex)
-        self._drawn, self._part = none, none  # straight lines of the part; all chords of it
-        self._ruled = none  # straight dimension lines
-        self._main = none  # dimension lines, leaders and arrows
-        self._extended = none  # extension lines
-        self._all = none
+        self._drawn = self._part = self._ruled = self._main = self._extended = self._all = none
 
     def draw(self, shape: Shape) -> None:
         """Add the lines of a shape."""

@@ -34,6 +34,7 @@ WEIGHT = 2.0**-7
 SHORTEST, LONGEST = 1e-4, 1.0  # handles, in lengths of the piece: none is lost, none loops
 
 Pieces = TypeVar("Pieces")
+Fit: TypeAlias = "Callable[[CurvePath, Array], tuple[Pieces, Array]]"
 
 
 class CurvePath:
@@ -92,12 +93,7 @@ class CurvePath:
         return points[:, 0] + 1j * points[:, 1], tangents[:, 0] + 1j * tangents[:, 1]
 
 
-def fewest(
-    path: CurvePath,
-    fit: Callable[[CurvePath, Array], tuple[Pieces, Array]],
-    order: float,
-    unit: int = 1,
-) -> Pieces:
+def fewest(path: CurvePath, fit: Fit[Pieces], order: float, unit: int = 1) -> Pieces:
     """Return the fewest pieces that stay within the path's tolerance, or nearly the fewest.
 
     ``fit`` returns the pieces between places on the path, and the error of each in mm. Their

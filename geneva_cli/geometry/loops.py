@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
+from itertools import product
 from typing import NamedTuple
 
 import numpy as np
@@ -99,16 +100,11 @@ def _partners(ends: list[Point]) -> list[int]:
     out = []
     for i, point in enumerate(ends):
         cx, cy = (math.floor(v / JOINED_MM) for v in point)
-        near = [
-            j
-            for dx in (-1, 0, 1)
-            for dy in (-1, 0, 1)
-            for j in cells.get((cx + dx, cy + dy), ())
-            if j != i and math.dist(point, ends[j]) <= JOINED_MM
-        ]
+        around = product((cx - 1, cx, cx + 1), (cy - 1, cy, cy + 1))
+        others = (j for cell in around for j in cells.get(cell, ()) if j != i)
+        near = [j for j in others if math.dist(point, ends[j]) <= JOINED_MM]
         if not near:
-            others = [(math.dist(point, p), p) for j, p in enumerate(ends) if j != i]
-            gap, nearest = min(others)
+            gap, nearest = min((math.dist(point, p), p) for j, p in enumerate(ends) if j != i)
             raise GenevaError(
                 f"the outline is open at {shown(point)}: the nearest other end is {gap:.4g} mm "
                 f"away, at {shown(nearest)}; ends are joined up to {JOINED_MM:g} mm"

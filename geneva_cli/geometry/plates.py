@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
@@ -166,42 +167,23 @@ def moments(shape: Shape) -> Moments:
         return Moments(area, area * x, area * y, area * (x * x + y * y + 0.5 * square))
     rows: list[tuple[float, float, float, float]] = []
     for piece in chain.from_iterable(map(shapes.halved, shape.segments, repeat(OVER_A_RADIAN))):
-        bulge = piece.bulge if isinstance(piece, Arc) else 0.0
-        if not isinstance(piece, Cubic) and abs(bulge) < shapes.STRAIGHT:
-            (a, b), (c, d) = piece.start, piece.end
-            cross = a * d - b * c
-            squares = (a * a + b * b) + (a * c + b * d) + (c * c + d * d)
-            x, y = (a + c) / 6.0, (b + d) / 6.0
-            rows.append((cross / 2.0, cross * x, cross * y, cross * squares / 12.0))
-            continue
-        if isinstance(piece, Arc):
-            (x0, y0), (x1, y1), sweep = piece.start, piece.end, piece.sweep
-            first = math.atan2(y1 - y0, x1 - x0) - 0.5 * sweep  # direction at the start
-            length = math.dist(piece.start, piece.end) * 0.5 * sweep / math.sin(0.5 * sweep)
-        own = []
+        half = 0.5 * piece.sweep if isinstance(piece, Arc) else 0.0
+        chord = complex(*piece.end) - complex(*piece.start)
+        chord *= half / math.sin(half) if half else 1.0  # as long as the arc
         for node, weight in GAUSS:
-            for t in (0.5 - 0.5 * node, 0.5 + 0.5 * node):
+            for away in (-node, node):  # from the middle
+                t = 0.5 + 0.5 * away
                 x, y = shapes.at(piece, t)
                 if isinstance(piece, Cubic):
-                    dx, dy = _velocity(piece, t)
+                    a, b, c, d = (complex(*pole) for pole in piece)
+                    u = 1.0 - t
+                    rate = 3.0 * (u * u * (b - a) + 2.0 * u * t * (c - b) + t * t * (d - c))
                 else:
-                    turn = first + t * sweep
-                    dx, dy = length * math.cos(turn), length * math.sin(turn)
-                swept = 0.5 * weight * (x * dy - y * dx)
+                    rate = chord * cmath.rect(1.0, away * half)
+                swept = 0.5 * weight * (x * rate.imag - y * rate.real)
                 polar = 0.25 * (x * x + y * y)
-                own.append((swept * 0.5, swept * (x / 3.0), swept * (y / 3.0), swept * polar))
-        rows.append(total(own))
+                rows.append((swept * 0.5, swept * (x / 3.0), swept * (y / 3.0), swept * polar))
     return total(rows)
-
-
-def _velocity(piece: Cubic, t: float) -> Point:
-    """The derivative of a cubic's point by its parameter."""
-    a, b, c = 3.0 * (1.0 - t) ** 2, 6.0 * t * (1.0 - t), 3.0 * t * t
-    (x0, y0), (x1, y1), (x2, y2), (x3, y3) = piece
-    return (
-        a * (x1 - x0) + b * (x2 - x1) + c * (x3 - x2),
-        a * (y1 - y0) + b * (y2 - y1) + c * (y3 - y2),
-    )
 
 
 def total(rows: Iterable[tuple[float, float, float, float]]) -> Moments:

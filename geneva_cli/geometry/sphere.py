@@ -241,12 +241,9 @@ def _tangents(i: int, caps: Sequence[Cap]) -> list[tuple[int, SphereArc]]:
             continue
         ends = [unit(combined(c.middle, 1.0, pole, -math.sin(c.angle))) for c in (one, other)]
         found.append((j, SphereArc(pole, 0.5 * math.pi, *ends)))
-    return [
-        (j, arc)
-        for j, arc in found
-        if not any(
-            dot(other.start, other.end) < dot(arc.start, arc.end)
-            and math.dist(arc.axis, other.axis) < SAME_LENGTH
-            for _, other in found
-        )
-    ]
+    longest = []  # on each circle
+    for j, arc in found:
+        alike = (one for _, one in found if math.dist(arc.axis, one.axis) < SAME_LENGTH)
+        if all(dot(one.start, one.end) >= dot(arc.start, arc.end) for one in alike):
+            longest.append((j, arc))
+    return longest

@@ -17,10 +17,10 @@ from geneva_cli.figure import Mark, Piece
 from geneva_cli.loads.contact import NEAR_CUSP
 from geneva_cli.loads.cycle import Cycle, Stretch
 from geneva_cli.loads.load_peaks import LoadSummary, load_summaries, only
-from geneva_cli.motion import peaks
-from geneva_cli.motion.engagement import Engagement
+from geneva_cli.motion.engagement import Engagement, Peak
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import spans
+from geneva_cli.motion.peaks import worst
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import ROUNDED, SAME_INPUT_DEG
 
@@ -178,7 +178,7 @@ def _pieces(
 
 def _peak(machine: Mechanism, name: str, pieces: Sequence[Piece], window: Ends) -> Mark:
     """The greatest size of a quantity of the motion, with its sign."""
-    peak = peaks.worst_of(machine, name)
+    peak: Peak[float] = getattr(worst(machine), name)
     at = _placed(machine, peak.at_deg, window)
     near = [(abs(x - at), y) for piece in pieces for x, y in zip(*piece, strict=True)]
     _, sign = min((one for one in near if abs(one[1]) >= 0.99 * peak.max), default=(0.0, 1.0))

@@ -66,7 +66,9 @@ class Drive(SpecTable, kw_only=True):
     n_rpm: Annotated[float, SPEED, "speed of the input shaft; the other way: --reverse"] = 60.0
     rollers: Annotated[int, Range(1, Z_MAX), "number of rollers (pins) on the crank, m"] = 1
     roller_angles_deg: Annotated[
-        tuple[float, ...] | None, Range(0.0, 360.0, "[)"), "of rollers that are not evenly spaced"
+        tuple[float, ...] | None,
+        Range(0.0, 360.0, "[)"),
+        "angles of rollers that are not evenly spaced",
     ] = None
     stop_s: Annotated[FromZero, "time by which a stop of the input lengthens each dwell"] = 0.0
     start_s: Annotated[FromZero, "time in which the input starts after a stop"] = 0.0

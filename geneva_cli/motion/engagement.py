@@ -18,7 +18,7 @@ from geneva_cli.numerics.arrays import Batchable, Truth, all_true, array, blocks
 from geneva_cli.numerics.jet import Array, Jet, Number, turning
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.jet_functions import Displacement, Groove, Path, Rate, Reactions
+    from geneva_cli.numerics.jet_functions import Displacement, Path, Rate, Reactions
 
 K = TypeVar("K", float, "Array")
 
@@ -193,7 +193,7 @@ class Engagement(Batchable):
     body: Rate | float | None = None  # its rate; a number if that is constant
     reactions: Reactions | None = None
     crank_sense: float = 0.0  # of a crank that does not carry it: -1 with the wheel, 1 against it
-    groove: Groove | None = None  # the path, if a fixed groove guides the roller along the crank
+    groove: Any = None  # the ``SolvedPath``, if a fixed groove guides the roller along the crank
     hub: float = 1.0  # the arm's centre of rotation on the line of centres; less on a sphere
     built: AsBuilt | None = None  # the wheel's velocity then jumps at entry and exit
     # of a roller that starts the wheel and of another that stops it, each in its own slot: passage,

@@ -18,7 +18,7 @@ from geneva_cli.motion.engagement import Anchor, Peak, Slot, SlotAxis, WheelMoti
 from geneva_cli.motion.laws.law import Law, greatest, remaining
 from geneva_cli.numerics import arrays
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.jet import Jet, Number, piecewise, sin, sin_cos
+from geneva_cli.numerics.jet import Jet, Number, composed, piecewise, sin, sin_cos, taylor
 
 # Where psi and phi nearly vanish together, a series of psi / phi serves. Within this fraction of
 # the motion its first terms are exact to a double, even for a law with five waves. Beyond it the
@@ -67,13 +67,7 @@ class SolvedPath(arrays.Batchable):
         # an enclosure knows nothing of the rounding of the cached series
         exact = isinstance(x, arrays.Enclosed)
         c = (self.motion(*arrays.enclosed(x, (0.0,)), self.terms).c if exact else self._series)[1:]
-        # psi / phi, each coefficient of its jet a polynomial of the angle
-        slope = Jet(
-            [
-                _polynomial([math.comb(j, k) * c[j] for j in range(k, len(c))], t.c[0])
-                for k in range(order + 1)
-            ]
-        )
+        slope = Jet(taylor(t.c[0], c, order))  # psi / phi
         psi = slope * t
         angle = slope * self.sign + 1.0  # (phi +- psi) / phi
         below = angle * _sinc(angle * t)
@@ -126,28 +120,12 @@ class SolvedPathSlot(Slot):
         return rho.lower, rho.derivative()
 
 
-def _polynomial(c: Sequence[Number], x: Number) -> Number:
-    total = x * 0.0
-    for a in reversed(c):
-        total = total * x + a
-    return total
-
-
 def _sinc(x: Jet) -> Jet:
-    """Jet of sin x / x for small x, from its series about the value of x."""
-    at, order = x.c[0], x.order
-    square = at * at
-    step = Jet((at * 0.0, *x.c[1:]))
-    total = step * 0.0
-    for k in range(order, -1, -1):
-        first = (k + 1) // 2  # the lowest power of the square that is left after k derivatives
-        # k-th derivative of (-1)^j x^2j / (2j + 1)!, over k!
-        powers = range(first, first + 9)
-        signed = arrays.enclosed(at, tuple((-1.0) ** j * math.comb(2 * j, k) for j in powers))
-        each = [c / math.factorial(2 * j + 1) for j, c in zip(powers, signed, strict=True)]
-        term = _polynomial(each, square)
-        total = total * step + (term * at if k % 2 else term)
-    return total
+    """Jet of sin x / x for small x, from its series in x²."""
+    square, signs = x * x, tuple((-1.0) ** j for j in range(9))
+    each = enumerate(arrays.enclosed(x.c[0], signs))
+    terms = [sign / math.factorial(2 * j + 1) for j, sign in each]
+    return composed(Jet(taylor(square.c[0], terms, x.order)), square)
 
 
 class SolvedSlot(Slot):

@@ -12,18 +12,18 @@ from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Array, Number, smaller
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.jet_functions import Groove
+    from geneva_cli.motion.given_motion import SolvedPath
 
 EASED_DEG = 30.0  # of the input: range in which the groove joins its arc in the dwell
 
 
-def roller_in_groove(groove: Groove, input_deg: Array) -> Array:
+def roller_in_groove(groove: SolvedPath, input_deg: Array) -> Array:
     """Return the roller's centre over a whole turn, in units of L from the wheel's axis: (n, 2)."""
     R, angle = distances(groove, input_deg, 0)[0], np.radians(input_deg)
     return np.column_stack((1.0 - groove.sign * R * np.cos(angle), R * np.sin(angle)))
 
 
-def dwell_rates(groove: Groove) -> tuple[float, float]:
+def dwell_rates(groove: SolvedPath) -> tuple[float, float]:
     """Return bounds of the sizes of a roller path's two derivatives in the dwell, in units of L.
 
     They are those of the parts that ``back`` adds, each at its greatest: u (1 - u)² reaches 4/27,
@@ -46,7 +46,7 @@ def dwell_rates(groove: Groove) -> tuple[float, float]:
     return math.hypot(slope, far), bend + 2.0 * slope + far
 
 
-def distances(groove: Groove, input_deg: Array, order: int = 2) -> list[Array]:
+def distances(groove: SolvedPath, input_deg: Array, order: int = 2) -> list[Array]:
     """Return the roller's distance from the crank's axis, with derivatives by the input in radians.
 
     There are ``order`` derivatives, at most two. In the dwell the slope fades over some degrees
@@ -67,7 +67,7 @@ def distances(groove: Groove, input_deg: Array, order: int = 2) -> list[Array]:
     return out
 
 
-def back(groove: Groove, input_deg: Array, order: int) -> list[Array]:
+def back(groove: SolvedPath, input_deg: Array, order: int) -> list[Array]:
     """Return distance and derivatives at input angles in the dwell; see ``distances``."""
     span = radians(360.0 - (groove.motion.exit_deg - groove.motion.entry_deg))
     eased = smaller(math.radians(EASED_DEG), span / 3.0)

@@ -160,7 +160,13 @@ def _columns(mechanism: Mechanism, input_deg: Array, periods: int) -> list[Array
     before_deg = periods * mechanism.period_deg
     wheel, *rates = derivatives(mechanism, input_deg - before_deg, (0, 1, 2, 3))
     turned = periods * math.fsum(2.0 * one.half_step for one in mechanism.engagements)
-    shown = (wheel + turned) * mechanism.output.per_radian
+    return columns_of(mechanism, input_deg, (wheel + turned) * mechanism.output.per_radian, rates)
+
+
+def columns_of(
+    mechanism: Mechanism, input_deg: Array, shown: Array, rates: Sequence[Array]
+) -> list[Array]:
+    """The columns of a table of motion, from the wheel's angle as shown and three derivatives."""
     columns = [times_s(mechanism, input_deg), input_deg, shown, *rates]
     of_speed = rates_at_speed(mechanism).values()
     columns += [rate * scale for rate, scale in zip(rates[:2], of_speed, strict=True)]

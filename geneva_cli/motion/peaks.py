@@ -76,15 +76,6 @@ def _greatest(each: Sequence[Peaks]) -> Peaks:
     return Peaks._make((*greatest, ends))
 
 
-def worst_of(mechanism: Mechanism, quantity: str) -> Peak[float]:
-    """Greatest peak of one quantity over all engagements, at the machine's input angle."""
-    each = []
-    for one in mechanism.engagements:
-        most, at_deg = peak(one.motion, quantity)
-        each.append((most, mechanism.shown_deg(one.mid_deg + at_deg)))
-    return Peak(*greatest_at(each))
-
-
 def peaks_table(mechanism: Mechanism) -> Table:
     """The greatest peaks, and a table of each engagement's peaks if there are several."""
     kinds, each, rows = mechanism.engagements, [], []

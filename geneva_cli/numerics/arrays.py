@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_left
 from collections.abc import Callable, Iterable, Sequence
+from operator import itemgetter, methodcaller
 from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Protocol, Self, TypeAlias, TypeVar, cast
 
 if TYPE_CHECKING:
@@ -30,7 +31,6 @@ Truth: TypeAlias = "bool | Mask"
 N = TypeVar("N", float, "Array", "Number")
 Either = TypeVar("Either", "Array", "Whole")
 Real = TypeVar("Real", float, "Array", "Number", "Decimal")
-T = TypeVar("T")
 Record = TypeVar("Record", bound=tuple[object, ...])
 _PLAIN = (float, int)
 
@@ -53,16 +53,6 @@ if TYPE_CHECKING:
         def ceil(self, x: N, /) -> N: ...
         def degrees(self, x: N, /) -> N: ...
         def copysign(self, x: N, y: N, /) -> N: ...
-
-
-class Undecided(ArithmeticError):
-    """A comparison that holds for some of the numbers between two bounds and not for others.
-
-    Of several enclosures ``answers`` has each one's own, NaN where it is open.
-    """
-
-    def __init__(self, answers: Array | float = math.nan) -> None:
-        self.answers = answers
 
 
 class Enclosed:
@@ -115,19 +105,6 @@ class Enclosed:
         return not self < other  # type: ignore[operator]
 
     __hash__ = None  # type: ignore[assignment]
-
-
-class EnclosedLibrary:
-    """What the functions of ``math`` of enclosures share."""
-
-    def hypot(self, x: float, y: float) -> float:
-        return cast("Library", self).sqrt(x**2 + y**2)
-
-    def degrees(self, x: float) -> float:
-        return x * (180.0 / cast("Library", self).pi)
-
-    def copysign(self, x: float, y: float) -> float:
-        return abs(x) if y > 0.0 else -abs(x)
 
 
 SINGLE = (float, int, Enclosed)  # the kinds of a single number; any other is an array
@@ -241,11 +218,7 @@ def joined(records: Sequence[Record], axis: int = -1) -> Record:
     """Several records of arrays, or of such records, as one: each array joined along an axis."""
     import numpy
 
-    out: list[object] = []
-    for parts in zip(*records, strict=True):
-        is_record = isinstance(parts[0], tuple)
-        out.append(joined(parts, axis) if is_record else numpy.concatenate(parts, axis))
-    return record_of(records[0], out)
+    return mapped(lambda *parts: numpy.concatenate(parts, axis), *records)
 
 
 def numbers_of(which: Mask | Whole) -> Whole:
@@ -257,16 +230,9 @@ def record_taken(record: Record, which: Which) -> Record:
     """A record of arrays (..., m), or of such records, with some of their columns."""
     # NumPy's own indexing puts each column's values side by side in memory; reductions over them
     # then take fifty times as long.
-    which = which if isinstance(which, slice) else numbers_of(which)
-    out: list[object] = []
-    for column in record:
-        if isinstance(column, tuple):
-            out.append(record_taken(column, which))
-        elif isinstance(which, slice):
-            out.append(cast("Array", column)[..., which])
-        else:
-            out.append(cast("Array", column).take(which, axis=-1))
-    return record_of(record, out)
+    if isinstance(which, slice):
+        return mapped(itemgetter((..., which)), record)
+    return mapped(methodcaller("take", numbers_of(which), axis=-1), record)
 
 
 def blocks(count: int, size: int) -> list[slice]:
@@ -326,17 +292,15 @@ def array(x: Number) -> Array:
     return numpy.asarray(x)
 
 
-def read_only(x: T) -> T:
-    """A cached value whose arrays, in records too, are views that cannot be written through."""
-    if isinstance(x, tuple):
-        return cast("T", record_of(x, [*map(read_only, x)]))
-    import numpy
+def read_only(record: Record) -> Record:
+    """A cached record of arrays, or of such records, as views that cannot be written through."""
 
-    if not isinstance(x, numpy.ndarray):
-        return x
-    view = x.view()
-    view.flags.writeable = False
-    return cast("T", view)
+    def view(column: Array) -> Array:
+        out = column.view()
+        out.flags.writeable = False
+        return out
+
+    return mapped(view, record)
 
 
 def only_of(rows: Iterable[Number | None]) -> list[float | None]:

@@ -9,13 +9,12 @@ function itself is evaluated.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from functools import cache
-from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.numerics.arrays import Array, blocks, matrix_product
+from geneva_cli.numerics.arrays import Array, Whole, blocks, matrix_product
 
 FEW = 192  # places of an interval that are evaluated themselves: few more than a fit takes
 BLOCK = 8192  # places whose powers stay in the processor's cache
@@ -32,13 +31,6 @@ NARROW = 2.0**-24  # narrower intervals have places that are rounded
 Function = Callable[[Array], Sequence[Array]]
 
 
-class _Interval(NamedTuple):
-    low: float
-    width: float
-    first: int  # the first of its places, and the one after the last
-    last: int
-
-
 def fitted(function: Function, x: Array, seams: Sequence[float]) -> list[Array]:
     """The values of a function at many ascending places (k,), one array (k,) a quantity.
 
@@ -46,56 +38,40 @@ def fitted(function: Function, x: Array, seams: Sequence[float]) -> list[Array]:
     ``seams`` it is analytic. Values are as exact as the function's, to one or two units in the last
     place of the greatest value nearby.
     """
-    own = [slice(0, 1), slice(len(x) - 1, len(x))]  # places that are evaluated themselves
     out = [np.empty(len(x)) for _ in function(x[:1])]
-    width = float(2.0 ** np.ceil(np.log2(max(x[-1] - x[0], NARROW))))
-    low = float(np.floor(x[0] / width)) * width
-    pending = [_interval(start, width, x) for start in (low, low + width)]  # over all places
-    while pending:
-        halved: list[_Interval] = []
-        fit: list[_Interval] = []
-        for interval in pending:
-            low, width, first, last = interval
-            if last - first < FEW or width < NARROW:
-                own.append(slice(first, last))
-            elif any(low - 0.5 * width <= seam <= low + 1.5 * width for seam in seams):
-                halved.append(interval)
-            else:
-                fit.append(interval)
-        halved += _fit(function, x, fit, out) if fit else []
-        pending = [half for interval in halved for half in _halves(interval, x)]
-    places = np.unique(np.concatenate([np.arange(one.start, one.stop) for one in own]))
+    itself = np.full(len(x), False)  # places that are evaluated themselves
+    itself[[0, -1]] = True
+    width = 2.0 * float(2.0 ** np.ceil(np.log2(max(x[-1] - x[0], NARROW))))
+    lows = np.floor(x[:1] / (0.5 * width)) * (0.5 * width)  # of intervals of one width
+    while len(lows):
+        width *= 0.5
+        lows = np.sort(np.append(lows, lows + width))
+        ends = np.searchsorted(x, (lows, lows + width))
+        few = (ends[1] - ends[0] < FEW) | (width < NARROW)
+        for first, last in ends[:, few].T:
+            itself[first:last] = True
+        apart = np.subtract.outer(lows + 0.5 * width, seams)
+        smooth = ~few & (np.abs(apart) > width).all(axis=1)
+        halved = _fit(function, x, lows[smooth], width, ends[:, smooth], out)
+        lows = np.append(lows[~few & ~smooth], halved)
+    places = np.flatnonzero(itself)
     for block in blocks(len(places), BLOCK):
         for whole, values in zip(out, function(x[places[block]]), strict=True):
             whole[places[block]] = values
     return out
 
 
-def _interval(low: float, width: float, x: Array) -> _Interval:
-    first, last = np.searchsorted(x, (low, low + width)).tolist()
-    return _Interval(low, width, first, last)
-
-
-def _halves(interval: _Interval, x: Array) -> Iterator[_Interval]:
-    width = 0.5 * interval.width
-    for low in (interval.low, interval.low + width):
-        half = _interval(low, width, x)
-        if half.last > half.first:
-            yield half
-
-
 def _fit(
-    function: Function, x: Array, intervals: Sequence[_Interval], out: Sequence[Array]
-) -> list[_Interval]:
-    """Fill in the values of intervals where a polynomial serves, and return the others."""
+    function: Function, x: Array, low: Array, width: float, ends: Whole, out: Sequence[Array]
+) -> Array:
+    """Fill in the values of intervals where a polynomial serves, and return the others' begins."""
+    if not len(low):
+        return low
     nodes, basis, terms, powers = _rule()
-    low, width = (np.array([getattr(i, name) for i in intervals]) for name in ("low", "width"))
-    middle, half = low + 0.5 * width, 0.5 * width
-    order = np.argsort(low)
-    places = middle[order, None] + half[order, None] * nodes
-    values = np.empty((len(out), len(intervals), NODES))
-    for whole, own in zip(values, function(places.ravel()), strict=True):
-        whole[order] = own.reshape(places.shape)
+    half = 0.5 * width
+    middle = low + half
+    places = middle[:, None] + half * nodes
+    values = np.stack(function(places.ravel())).reshape(-1, *places.shape)
     centre = values[..., NODES // 2]
     series = matrix_product(values - centre[..., None], terms)
     left = values - centre[..., None] - matrix_product(series, basis)
@@ -103,19 +79,17 @@ def _fit(
     tail, size = abs(series[..., -2:]).sum(axis=-1), abs(values).max(axis=-1)
     scale = size.max(axis=-1, keepdims=True)
     serves = (tail <= TAIL * size) | (tail <= 2.0 * rest) & (rest <= ROUNDING * scale)
+    every = serves.all(axis=0)
     coefficients = matrix_product(series, powers)
     coefficients[..., 0] += centre
-    others = []
-    for k, interval in enumerate(intervals):
-        if not serves[:, k].all():
-            others.append(interval)
-            continue
-        for part in blocks(interval.last - interval.first, BLOCK):
-            here = slice(interval.first + part.start, interval.first + part.stop)
-            t = (x[here] - middle[k]) / half[k]
+    for k in np.flatnonzero(every):
+        begin, end = ends[:, k]
+        for part in blocks(end - begin, BLOCK):
+            here = slice(begin + part.start, begin + part.stop)
+            t = (x[here] - middle[k]) / half
             for whole, own in zip(out, coefficients[:, k].tolist(), strict=True):
                 whole[here] = _polynomial(own, t)
-    return others
+    return low[~every]
 
 
 def _polynomial(coefficients: Sequence[float], t: Array) -> Array:

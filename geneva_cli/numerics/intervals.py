@@ -16,10 +16,8 @@ import numpy as np
 from geneva_cli.numerics.arrays import (
     Array,
     Enclosed,
-    EnclosedLibrary,
     Number,
     Truth,
-    Undecided,
     Whole,
 )
 
@@ -33,6 +31,29 @@ if TYPE_CHECKING:
 NEAR = 1e-9  # radians: a peak of the sine this near to an interval counts as inside
 TINY = 2.0**-1074  # the least double
 LIBRARY_UNITS = 2  # in the last place: greatest error of a function of ``math``
+
+
+class Undecided(ArithmeticError):
+    """A comparison that holds for some of the numbers between two bounds and not for others.
+
+    Of several enclosures ``answers`` has each one's own, NaN where it is open.
+    """
+
+    def __init__(self, answers: Array | float = math.nan) -> None:
+        self.answers = answers
+
+
+class EnclosedLibrary:
+    """What the functions of ``math`` of enclosures share."""
+
+    def hypot(self, x: float, y: float) -> float:
+        return cast("Library", self).sqrt(x**2 + y**2)
+
+    def degrees(self, x: float) -> float:
+        return x * (180.0 / cast("Library", self).pi)
+
+    def copysign(self, x: float, y: float) -> float:
+        return abs(x) if y > 0.0 else -abs(x)
 
 
 def _operator(

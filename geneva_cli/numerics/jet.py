@@ -6,11 +6,11 @@ The recurrences are those of Griewank and Walther, Evaluating Derivatives, 2nd e
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from math import factorial
+from math import comb, factorial
 from operator import add, sub
 from typing import TypeVar, cast
 
-from geneva_cli.numerics.arrays import SINGLE, Enclosed, enclosed, library, piece_of, size
+from geneva_cli.numerics.arrays import SINGLE, Enclosed, N, enclosed, library, piece_of, size
 from geneva_cli.numerics.arrays import Array as Array
 from geneva_cli.numerics.arrays import Number as Number
 
@@ -223,6 +223,18 @@ def composed(outer: Jet, inner: Jet) -> Jet:
     for c in reversed(outer.c[:-1]):
         total = total * step + c
     return total
+
+
+def taylor(t: N, c: Sequence[N], order: int) -> list[N]:
+    """Taylor coefficients 0 to ``order`` at t of the polynomial sum c_k t^k."""
+    c = enclosed(t, tuple(c))
+    out = []
+    for k in range(order + 1):
+        sum_ = 0.0 * t
+        for j in reversed(range(k, len(c))):
+            sum_ = sum_ * t + comb(j, k) * c[j]
+        out.append(sum_)
+    return out
 
 
 def sqrt(x: Jet) -> Jet:

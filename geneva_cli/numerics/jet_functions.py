@@ -40,32 +40,3 @@ class Reactions(Protocol):
     def __call__(
         self, input_deg: Number, path: Vector, loads: Sequence[tuple[Vector, Jet]]
     ) -> list[tuple[Vector, Vector]]: ...
-
-
-class Ends(Protocol):
-    """A motion's entry and exit, degrees from mid-motion."""
-
-    entry_deg: float
-    exit_deg: float
-
-
-class Groove(Protocol):
-    """A fixed groove about the crank's axis, which guides the roller along the crank."""
-
-    sign: float  # 1 for an external wheel, -1 for an internal one
-
-    @property
-    def motion(self) -> Ends:
-        """Motion of the wheel, from which the groove follows."""
-
-    @property
-    def ends(self) -> tuple[Sequence[Number], Sequence[Number]]:
-        """Roller distance from the crank's axis with two derivatives, at entry and exit."""
-
-    def __call__(self, input_deg: Number, order: int = 3) -> Vector: ...
-
-    def distances(self, input_deg: Number, order: int = 3) -> Vector:
-        """Roller distances from the wheel's axis and from the crank's, in units of L."""
-
-    def groove(self, input_deg: Number, order: int = 3) -> Vector:
-        """Pitch curve (x, y) of the groove about the crank's axis."""

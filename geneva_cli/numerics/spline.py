@@ -12,7 +12,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from geneva_cli.numerics.arrays import SINGLE, Array, N, enclosed, pieces_of
+from geneva_cli.numerics.arrays import SINGLE, Array, N, pieces_of
+from geneva_cli.numerics.jet import taylor
 
 SPLINE_DEGREE = 5
 
@@ -35,18 +36,6 @@ class PiecewisePolynomial:
         if isinstance(index, int):
             return taylor(x - origins[index], rows[index], order)
         return taylor(x - self.origins[index], [c[index] for c in self._columns], order)
-
-
-def taylor(t: N, c: Sequence[N], order: int) -> list[N]:
-    """Taylor coefficients 0 to ``order`` at t of the polynomial sum c_k t^k."""
-    c = enclosed(t, tuple(c))
-    out = []
-    for k in range(order + 1):
-        sum_ = 0.0 * t
-        for j in reversed(range(k, len(c))):
-            sum_ = sum_ * t + math.comb(j, k) * c[j]
-        out.append(sum_)
-    return out
 
 
 def at_rest(x: Sequence[float], y: Sequence[float]) -> PiecewisePolynomial:

@@ -13,7 +13,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from functools import partial
 from itertools import chain
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.kept import load_named
@@ -23,8 +23,6 @@ from geneva_cli.table import Table
 if TYPE_CHECKING:
     from geneva_cli.answer import Answer
     from geneva_cli.figure import Figure
-    from geneva_cli.geometry.sheet import Drawing, Sheet
-    from geneva_cli.output.document.blocks import Document
     from geneva_cli.output.scene import Scene
 
 Paths: TypeAlias = Iterable[str]
@@ -152,14 +150,14 @@ def show_answer(answer: Answer, output: str = "-", format: str = "", inputs: Pat
 
 
 def _write(
-    shown: object,
     formats: Mapping[str, str],
-    output: str,
-    format: str,
-    inputs: Paths,
+    shown: Any,
+    output: str = "-",
+    format: str = "",
+    inputs: Paths = (),
     version: str = "",
 ) -> None:
-    """Print or write what is shown, in one of these formats."""
+    """Print or write what is shown, in one of these formats; ``version`` is that of a DXF file."""
     name = chosen(output, format, formats)
     if version and name != "dxf":
         raise GenevaError(f"--dxf-version is for .dxf, and this is {name}; leave it out")
@@ -167,25 +165,15 @@ def _write(
     _put(load_named(f"output.{formats[name]}")(shown, *more), output, inputs, name)
 
 
-def draw(
-    drawing: Drawing | Sheet,
-    output: str = "-",
-    format: str = "",
-    inputs: Paths = (),
-    version: str = "",
-    formats: Mapping[str, str] = DRAWN,
-) -> None:
-    """Print the drawing, or write it; ``version`` is that of a DXF file."""
-    _write(drawing, formats, output, format, inputs, version)
-
-
-draw_sheet = partial(draw, formats=SHEETS)
+draw = partial(_write, DRAWN)  # a drawing
+draw_sheet = partial(_write, SHEETS)
+show_document = partial(_write, DOCUMENTS)
 
 
 def show_figure(figure: Figure, output: str = "-", format: str = "", inputs: Paths = ()) -> None:
     """Print the figure, or write it to the file ``output``; formats of tables get its points."""
     if chosen(output, format, (*PLOTTED, *FORMATS)) in PLOTTED:
-        _write(figure, PLOTTED, output, format, inputs)
+        _write(PLOTTED, figure, output, format, inputs)
     else:
         show(figure.table(), output, format, inputs)
 
@@ -194,14 +182,7 @@ def animate(scene: Scene, output: str, inputs: Paths = ()) -> None:
     """Write the scene as a page of HTML; ``-`` prints it."""
     if is_seen(output):
         raise GenevaError("a page is not for a terminal: give -o FILE.html, or --open to show it")
-    _write(scene, PAGES, output, "html" if output == "-" else "", inputs)
-
-
-def show_document(
-    document: Document, output: str = "-", format: str = "", inputs: Paths = ()
-) -> None:
-    """Print the document, or write it to the file ``output``."""
-    _write(document, DOCUMENTS, output, format, inputs)
+    _write(PAGES, scene, output, "html" if output == "-" else "", inputs)
 
 
 def show_text(text: str, output: str = "-", inputs: Paths = ()) -> None:

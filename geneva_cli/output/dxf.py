@@ -14,18 +14,8 @@ from collections.abc import Callable, Iterator
 
 from geneva_cli.errors import GenevaError, clean, cut
 from geneva_cli.geometry import shapes
-from geneva_cli.geometry.sheet import (
-    DASHED,
-    DIMENSION,
-    TEXT,
-    WIDTHS,
-    Drawing,
-    Label,
-    Measure,
-    Sheet,
-    extent,
-    prepared,
-)
+from geneva_cli.geometry import sheet as papers
+from geneva_cli.geometry.sheet import DIMENSION, TEXT, Label, Measure, Sheet
 from geneva_cli.output import DXF_VERSIONS
 from geneva_cli.output.ezdxf_alone import BaseLayout, Document, Modelspace, options
 from geneva_cli.output.inks import CENTRE_LINES, DASHES, INKS
@@ -43,9 +33,9 @@ KINDS = {
 }
 
 
-def chunks(drawing: Drawing, version: str = USUAL) -> Iterator[str]:
+def chunks(drawing: papers.Drawing, version: str = USUAL) -> Iterator[str]:
     """Yield a drawing's text. Raises GenevaError for an unknown version, or cubics in R12."""
-    drawing = prepared(drawing)
+    drawing = papers.prepared(drawing)
 
     def fill(document: Document, space: Modelspace) -> None:
         for layer in drawing.layers:
@@ -55,7 +45,7 @@ def chunks(drawing: Drawing, version: str = USUAL) -> Iterator[str]:
             document.layers.add(layer, color=INKS[layer].number, linetype=name)
         for shape in drawing.shapes:
             _draw(space, shape)
-        _extents(document, space, extent(drawing))
+        _extents(document, space, papers.extent(drawing))
 
     yield from _text_of(drawing.title, version, fill)
 
@@ -64,11 +54,11 @@ def sheet_chunks(sheet: Sheet, version: str = USUAL) -> Iterator[str]:
     """Yield a sheet's text, in millimetres on paper. Raises GenevaError for an unknown version."""
 
     def fill(document: Document, space: Modelspace) -> None:
-        for name, width in WIDTHS.items():
+        for name, width in papers.WIDTHS.items():
             pattern = "Continuous"
-            if name in DASHED:
-                pattern = {2: "HIDDEN", 4: "CENTER"}[len(DASHED[name])]
-                _linetype(document, pattern, DASHED[name])
+            if name in papers.DASHED:
+                pattern = {2: "HIDDEN", 4: "CENTER"}[len(papers.DASHED[name])]
+                _linetype(document, pattern, papers.DASHED[name])
             document.layers.add(name, color=7, linetype=pattern, lineweight=round(100.0 * width))
         document.styles.add("SHEET", font="arial.ttf")
         for shape in sheet.shapes:
@@ -164,17 +154,10 @@ def _measure(document: Document, space: Modelspace, measure: Measure) -> None:
         document.dimstyles.new(style, dxfattribs={**look, "dimtxsty": "SHEET"})
     number, names = KINDS[measure.kind]
     # 32: no other dimension uses this block; 128: the text stays at its place
-    attributes = {
-        "layer": DIMENSION,
-        "dimstyle": style,
-        "dimtype": number + 32 + 128,
-        "geometry": block.name,
-        "text": _signed(measure.label.text),
-        "text_midpoint": measure.label.middle,
-        "angle": math.degrees(measure.turn),
-        "actual_measurement": value,
-        **dict(zip(names, measure.points, strict=True)),
-    }
+    attributes = {"layer": DIMENSION, "dimstyle": style, "dimtype": number + 32 + 128}
+    attributes |= {"geometry": block.name, "text": _signed(measure.label.text)}
+    attributes |= {"text_midpoint": measure.label.middle, "angle": math.degrees(measure.turn)}
+    attributes |= {"actual_measurement": value, **dict(zip(names, measure.points, strict=True))}
     space.new_entity("DIMENSION", attributes)
 
 
@@ -188,12 +171,9 @@ def _draw_measure(space: BaseLayout, measure: Measure) -> None:
 
 
 def _text(space: BaseLayout, label: Label, layer: shapes.Layer) -> None:
-    space.add_text(
-        _signed(label.text),
-        height=label.height,
-        rotation=math.degrees(label.turn),
-        dxfattribs={"layer": layer, "style": "SHEET", "insert": label.at},
-    )
+    attributes = {"layer": layer, "style": "SHEET", "insert": label.at, "height": label.height}
+    attributes["rotation"] = math.degrees(label.turn)
+    space.add_text(_signed(label.text), dxfattribs=attributes)
 
 
 def _signed(text: str) -> str:

@@ -1,7 +1,6 @@
 """Writing a file as a whole or not at all, under a name that every system takes.
 
-Locks, which two runs cannot hold at once, and signals that end a run, are on every system. Windows
-renames and removes no open file.
+Two runs cannot hold one lock. Windows renames and removes no open file.
 """
 
 from __future__ import annotations
@@ -9,11 +8,13 @@ from __future__ import annotations
 import errno
 import ntpath
 import os
+import re
 import signal
 import stat
 import sys
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
+from importlib import import_module
 from types import FrameType
 from typing import Any, BinaryIO
 
@@ -23,10 +24,6 @@ try:
     import fcntl
 except ImportError:  # in a browser and on Windows
     fcntl = None  # type: ignore[assignment]
-try:
-    import msvcrt
-except ImportError:  # elsewhere than on Windows
-    msvcrt = None  # type: ignore[assignment]
 
 POSIX = fcntl is not None
 # The byte that is locked on Windows, where nobody else can read a locked one: past any file's end.
@@ -36,9 +33,14 @@ CAREFUL = sum(getattr(os, name, 0) for name in ("O_NOFOLLOW", "O_NONBLOCK"))
 # Windows has no SIGHUP, and only Windows has SIGBREAK: Ctrl-Break, and a closed console.
 NAMES = ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK")
 SIGNALS = [getattr(signal, name) for name in NAMES if hasattr(signal, name)]
-FORBIDDEN = {*'"*:<>?|/\\', *map(chr, range(32))}  # of Windows; after a colon is a hidden stream
-DEVICES = {"CON", "PRN", "AUX", "NUL", "CONIN$", "CONOUT$"}  # whatever the extension
-DEVICES |= {port + number for port in ("COM", "LPT") for number in "123456789¹²³"}
+# What Windows refuses in a name, and why; a hidden stream follows a colon, and the names of devices
+# are reserved whatever the extension.
+DEVICES = r"con|prn|aux|nul|conin\$|conout\$|(?:com|lpt)[1-9¹²³]"
+REFUSED = {
+    "takes no {!r} in a name": r'(["*:<>?|/\\\x00-\x1f])',
+    "drops a dot or a space at the end of a name": r"([. ])\Z",
+    'reserves the name "{}" for a device': rf"\A({DEVICES}) *(?:\.|\Z)",
+}
 
 
 def write(path: str, chunks: Iterable[str] | Iterable[bytes], inputs: Iterable[str] = ()) -> None:
@@ -61,16 +63,12 @@ def _stop(number: int, frame: FrameType | None) -> None:
 @contextmanager
 def answering(handler: Any = _stop) -> Iterator[None]:
     """Answer the signals that end a run by ``handler`` in the block; ignored ones stay so."""
-    before = {}
-    for number in SIGNALS:
-        with suppress(ValueError):  # only the main thread of a program may set signals
-            if signal.getsignal(number) not in (signal.SIG_IGN, handler):
-                before[number] = signal.signal(number, handler)
-    try:
+    with ExitStack() as before:
+        for number in SIGNALS:
+            with suppress(ValueError):  # only the main thread of a program may set signals
+                if signal.getsignal(number) not in (signal.SIG_IGN, handler):
+                    before.callback(signal.signal, number, signal.signal(number, handler))
         yield
-    finally:
-        for number, own in before.items():
-            signal.signal(number, own)
 
 
 @contextmanager
@@ -80,38 +78,30 @@ def replacing(path: str, inputs: Iterable[str] = ()) -> Iterator[BinaryIO]:
     It is a locked file beside ``path``, which takes its name at the end; one that a killed run has
     left is used again. A device or a pipe is written to directly.
     """
-    with write_errors(path), answering():
+    with write_errors(path), answering(), ExitStack() as at_error:
         real, old = place(path, inputs)
         if old is not None and not stat.S_ISREG(old.st_mode):
-            with open(real, "wb") as device:
-                yield device
+            yield at_error.enter_context(open(real, "wb"))
             return
         folder, name = os.path.split(real)
         # The temporary name holds 200 bytes of it: a file system allows 255 in all.
         name = name.encode(errors="surrogateescape")[:200].decode(errors="replace")
-        own = os.path.join(folder, f".{name}.geneva.tmp")
-        file, late = None, list[Any]()
-        try:
-            with answering(lambda *got: late.append(got)):  # the file is ours, or not there
-                file = open_locked(own, path)
-            if late:
-                _stop(*late[0])
-            file.truncate()
-            if old is not None:
-                take_after(file, old)
-            yield file
-            file.flush()
-            os.fsync(file.fileno())
-            if not POSIX:
-                file.close()
-            os.replace(own, real)
-        except BaseException:
-            if file:
-                remove(file, own)
-            raise
-        finally:
-            if file:
-                file.close()
+        own, late = os.path.join(folder, f".{name}.geneva.tmp"), list[Any]()
+        with answering(lambda *got: late.append(got)):  # the file is ours, or not there
+            file = open_locked(own, path)
+            at_error.callback(remove, file, own)
+        if late:
+            _stop(*late[0])
+        file.truncate()
+        take_after(file.fileno(), old)
+        yield file
+        file.flush()
+        os.fsync(file.fileno())
+        if not POSIX:
+            file.close()
+        os.replace(own, real)
+        at_error.pop_all()
+        file.close()
 
 
 def open_locked(path: str, shown: str) -> BinaryIO:
@@ -129,23 +119,27 @@ def open_locked(path: str, shown: str) -> BinaryIO:
 def _lock(file: BinaryIO) -> bool:
     """Lock a file for this run; False if another run has it."""
     try:
-        if fcntl is not None:
+        if POSIX:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        elif msvcrt is not None:
+        else:
+            windows: Any = import_module("msvcrt")
             file.seek(FAR)
-            msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)
+            windows.locking(file.fileno(), windows.LK_NBLCK, 1)
             file.seek(0)
+    except ImportError:  # a browser has one run
+        return True
     except OSError as error:  # any other: a file system without locks
         return error.errno not in (errno.EAGAIN, errno.EACCES)
     return True
 
 
 def remove(file: BinaryIO, path: str) -> None:
-    """Remove an open, locked file."""
-    if not POSIX:  # Windows removes no open file
+    """Remove an open, locked file, and close it."""
+    if not POSIX:
         file.close()
     with suppress(FileNotFoundError, PermissionError):  # another run has opened it since
         os.unlink(path)
+    file.close()
 
 
 @contextmanager
@@ -176,8 +170,7 @@ def place(path: str, inputs: Iterable[str] = ()) -> tuple[str, os.stat_result | 
         return real, None
     for source in inputs if stat.S_ISREG(old.st_mode) else ():  # devices may be read and written
         with suppress(OSError, ValueError):  # ValueError: a word with a NUL, which is not a file
-            read = os.fstat(0) if source == "<stdin>" else os.stat(source)
-            if os.path.samestat(read, old):
+            if os.path.samestat(os.stat(0 if source == "<stdin>" else source), old):
                 raise GenevaError(
                     f"{path}: this file is an input, and would be overwritten; give -o another name"
                 )
@@ -203,23 +196,19 @@ def real_path(path: str) -> str:
 
 def refuse_name(name: str) -> None:
     """Raise GenevaError if Windows takes no file or folder of this name."""
-    stem, why = name.partition(".")[0].rstrip(" "), ""
-    if signs := sorted(FORBIDDEN & {*name}):
-        why = f"takes no {signs[0]!r} in a name"
-    elif name.endswith((".", " ")):
-        why = "drops a dot or a space at the end of a name"
-    elif stem.upper() in DEVICES:
-        why = f'reserves the name "{stem}" for a device'
-    if why and name not in (".", ".."):
-        raise GenevaError(f'"{cut(name, 300)}": Windows {why}; give another name')
+    for why, pattern in REFUSED.items():
+        bad = re.search(pattern, name, re.IGNORECASE)
+        if bad and name not in (".", ".."):
+            why = why.format(bad[1])
+            raise GenevaError(f'"{cut(name, 300)}": Windows {why}; give another name')
 
 
-def take_after(file: BinaryIO, old: os.stat_result) -> None:
-    """Copy owner and permissions of the old file; a user without that right keeps the file.
+def take_after(place: str | int, old: os.stat_result | None) -> None:
+    """Give a path or an open file owner and permissions of the old file, as far as a user may.
 
     Windows has one permission, to write, and a file without it was refused.
     """
-    if POSIX:
+    if POSIX and old:
         with suppress(PermissionError):
-            os.fchown(file.fileno(), old.st_uid, old.st_gid)
-        os.fchmod(file.fileno(), stat.S_IMODE(old.st_mode))
+            os.chown(place, old.st_uid, old.st_gid)
+        os.chmod(place, stat.S_IMODE(old.st_mode))

@@ -16,17 +16,8 @@ from contextlib import contextmanager, suppress
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, below, cut, few
+from geneva_cli.output import files
 from geneva_cli.output.delimited import one_line
-from geneva_cli.output.files import (
-    answering,
-    place,
-    real_path,
-    refuse_name,
-    replacing,
-    take_after,
-    write,
-    write_errors,
-)
 
 LIST = "contents.csv"
 # In the folder, so that renaming needs no copy even where the folder is a mount point. A run that
@@ -56,27 +47,27 @@ def filling_folder(
     file has a name that Windows does not take, or if ``path`` cannot be written.
     """
     for entry in entries:
-        refuse_name(entry.file)  # others may have Windows
-    real = real_path(path)
+        files.refuse_name(entry.file)  # others may have Windows
+    real = files.real_path(path)
     if os.path.lexists(real) and not os.path.isdir(real):
         raise GenevaError(f"{cut(path, 300)}: this is a file; give -o the name of a folder")
     new, is_new = os.path.join(real, TEMPORARY), not os.path.isdir(real)
-    with write_errors(path), answering():
+    kept: list[str] = []
+    with files.write_errors(path), files.answering():
         if is_new:
             os.mkdir(real)
         try:
-            with replacing(below(path, LIST)) as listing:  # it keeps other runs out
+            with files.replacing(below(path, LIST)) as listing:  # it keeps other runs out
                 _require_own(path, entries, inputs, force)  # before the work
                 try:
                     shutil.rmtree(new, ignore_errors=True)
                     os.mkdir(new)
-                    kept: list[str] = []
                     yield new, kept
                     # a person may have changed a file meanwhile
                     _require_own(path, entries, inputs, force)
                     rows = [one._replace(sha256=_digest(below(new, one.file))) for one in entries]
-                    with answering(signal.SIG_IGN):  # not half of them
-                        kept.extend(_replace(real, new, rows))
+                    with files.answering(signal.SIG_IGN):  # not half of them
+                        kept += _replace(real, new, rows)
                         listing.writelines(_lines(rows))
                 finally:
                     shutil.rmtree(new, ignore_errors=True)
@@ -88,13 +79,11 @@ def filling_folder(
 
 def _require_own(path: str, entries: Sequence[Row], inputs: Sequence[str], force: bool) -> None:
     """Raise GenevaError if a file that would be replaced is a person's, or an input."""
-    rows, files = _rows(path), [entry.file for entry in entries]
-    own = _own(path, rows or [])
-    for file in {*files, LIST, *own}:
-        with write_errors(below(path, file)):
-            place(below(path, file), inputs)
-    others = [*([LIST] if rows is None else []), *(file for file in files if file not in own)]
-    others = [file for file in others if os.path.lexists(os.path.join(path, file))]
+    wanted, own = [LIST, *(entry.file for entry in entries)], _listed(path)[1]
+    for file in {*wanted, *own}:
+        with files.write_errors(below(path, file)):
+            files.place(below(path, file), inputs)
+    others = [file for file in wanted if file not in own and os.path.lexists(below(path, file))]
     if others and not force:
         raise GenevaError(
             f"{cut(path, 300)}: not written by `geneva export`, or changed since: "
@@ -108,29 +97,36 @@ def _replace(real: str, new: str, rows: Sequence[Row]) -> list[str]:
     Meanwhile the list has the old and the new digests, so that the next run knows the files of
     a run that was killed here.
     """
-    before = _rows(real) or []
-    own, files = _own(real, before), [row.file for row in rows]
-    write(os.path.join(new, LIST), _lines([*before, *rows]))
-    for file in (LIST, *files):
-        source, target = os.path.join(new, file), os.path.join(real, file)
+    before, own = _listed(real)
+    files.write(os.path.join(new, LIST), _lines([*before, *rows]))
+    wanted = [LIST, *(row.file for row in rows)]
+    for file in wanted:
+        target = os.path.join(real, file)
         if os.path.lexists(target):
-            with open(source, "rb") as opened:
-                take_after(opened, os.lstat(target))
-        os.replace(source, target)
-    listed = {row.file for row in before if os.path.lexists(os.path.join(real, row.file))}
-    for file in (listed & own).difference(files):
+            files.take_after(os.path.join(new, file), os.lstat(target))
+        os.replace(os.path.join(new, file), target)
+    for file in own.difference(wanted):
         os.unlink(os.path.join(real, file))
-    return sorted((listed - own).difference(files))
+    others = {row.file for row in before} - own.union(wanted)
+    return sorted(file for file in others if os.path.lexists(os.path.join(real, file)))
 
 
 def _lines(rows: Sequence[Row]) -> Iterator[bytes]:
     return (one_line(row).encode() for row in (Row._fields, *rows))
 
 
-def _own(folder: str, rows: Sequence[Row]) -> set[str]:
-    """The listed files that nobody has changed."""
-    paths = {row: os.path.join(folder, row.file) for row in rows}
-    return {row.file for row, path in paths.items() if row.sha256 and _digest(path) == row.sha256}
+def _listed(folder: str) -> tuple[list[Row], set[str]]:
+    """The rows of a folder's list, and its files that nobody has changed, with the list itself."""
+    with suppress(OSError, ValueError, TypeError, csv.Error):  # no list, or something else
+        with open(os.path.join(folder, LIST), encoding="utf-8", newline="") as file:
+            head, *rows = (Row(*line) for line in csv.reader(file))
+        # A list of names with folders was not written here.
+        if head == Row._fields and all(os.path.basename(row.file) == row.file for row in rows):
+            own = (
+                row for row in rows if row.sha256 and _digest(below(folder, row.file)) == row.sha256
+            )
+            return rows, {LIST, *(row.file for row in own)}
+    return [], set()
 
 
 def _digest(path: str) -> str:
@@ -139,14 +135,3 @@ def _digest(path: str) -> str:
         return ""
     with open(path, "rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
-
-
-def _rows(folder: str) -> list[Row] | None:
-    """The rows of a folder's list; None if there is none, or if the file is something else."""
-    with suppress(OSError, ValueError, TypeError, csv.Error):
-        with open(os.path.join(folder, LIST), encoding="utf-8", newline="") as file:
-            head, *rows = (Row(*line) for line in csv.reader(file))
-        # A list of names with folders was not written here.
-        if head == Row._fields and all(os.path.basename(row.file) == row.file for row in rows):
-            return rows
-    return None

@@ -2,7 +2,7 @@
 
 The rows of ``FILE`` go to the state file ``FILE.geneva``; ``FILE`` is replaced at the end, in one
 step. The state's first line names the program and the request. Each block of rows follows a line
-with the numbers of its rows and its bytes, and a checksum of all blocks up to it.
+with the numbers of its rows and its bytes, and their checksum.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ import re
 import sys
 import zlib
 from collections.abc import Collection, Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any
 
 from geneva_cli.errors import GenevaError, cut
@@ -21,7 +22,7 @@ from geneva_cli.output.files import open_locked, place, remove, replacing, write
 from geneva_cli.output.text import refuse_nonsense
 from geneva_cli.streams import use_utf8
 
-TITLE = b"geneva sweep state 2 "
+TITLE = b"geneva sweep state 3 "
 HEAD = re.compile(rb"block (\d{1,18}) (\d{1,18}) (\d{1,18})\n")
 LINE_MAX = 1000  # bytes of a line of ours; a foreign file may have one of gigabytes
 
@@ -29,42 +30,58 @@ LINE_MAX = 1000  # bytes of a line of ours; a foreign file may have one of gigab
 class GrowingTable:
     """The destination of the rows of ``names``, ``done`` of which exist already.
 
-    ``key`` is all that they depend on. With ``resume`` a run continues one with the same key, or
-    starts if there is none; ``message`` says where. Raises GenevaError if the file cannot be
-    written, if another run writes it, or if the run to continue had another key.
+    Without ``state``, an open file, rows are printed. ``message`` says where a run continues.
     """
 
-    def __init__(
-        self, names: Sequence[str], key: str, output: str, resume: bool = False, inputs: Paths = ()
-    ) -> None:
-        refuse_columns()
-        self.names, self.path, self.inputs = names, output, tuple(inputs)
-        self.done, self.sum, self.message = 0, 0, ""
-        self.state: Any = None  # a file
-        self.parquet = output.endswith(".parquet")
-        if output == "-":
-            if resume:
-                raise GenevaError("--resume continues a file: give -o FILE")
-            use_utf8()
-            sys.stdout.write(one_line(names))
-            return
-        if not output.endswith((".csv", ".parquet")):
-            raise GenevaError(f'-o "{cut(output, 300)}": it must end in .csv or .parquet')
-        if self.parquet:
-            from geneva_cli.output.parquet import refuse_without
+    def __init__(self, names: Sequence[str], output: str, state: Any = None) -> None:
+        self.names, self.output, self.state = names, output, state
+        self.is_parquet = output.endswith(".parquet")
+        self.done, self.start, self.end, self.message = 0, 0, 0, ""
 
-            refuse_without()
-        with write_errors(output):
-            self.state_path = place(output, self.inputs)[0] + ".geneva"
-            self.state = open_locked(self.state_path, output)
-            try:
-                self._begin(TITLE + key.encode() + b"\n", resume)
-            except BaseException:
-                self.close()
-                raise
+    def append(self, columns: Sequence[Any]) -> None:
+        """Add rows as columns, arrays where infinity is no value, or lists of cells.
 
-    def _begin(self, first: bytes, resume: bool) -> None:
-        name, known = cut(os.path.basename(self.state_path)), self.state.readline(LINE_MAX)
+        Raises ArithmeticError for NaN.
+        """
+        refuse_nonsense(self.names, columns, endless=True)
+        if self.is_parquet:
+            from geneva_cli.output.parquet import block_of
+
+            data = block_of(self.names, columns)
+        else:
+            text = text_of(columns, infinity="")
+            if not self.state:
+                sys.stdout.write(text)
+                return
+            data = text.encode()
+        self.write(b"block %d %d %d\n%s" % (len(columns[0]), len(data), zlib.crc32(data), data))
+        self.done += len(columns[0])
+
+    def write(self, data: bytes) -> None:
+        """Write after what is whole, and hand it to the system."""
+        with write_errors(self.output):
+            self.state.seek(self.end)
+            self.state.truncate()
+            self.state.write(data)
+            self.state.flush()
+            self.end = self.state.tell()
+
+    def blocks(self) -> Iterator[bytes]:
+        """Yield the bytes of each block up to the first damaged one, and count the rows."""
+        self.done, self.end = 0, self.start
+        size = os.fstat(self.state.fileno()).st_size
+        self.state.seek(self.end)
+        while line := HEAD.fullmatch(self.state.readline(LINE_MAX)):
+            rows, length, checksum = map(int, line.groups())
+            data = self.state.read(min(length, size))
+            if zlib.crc32(data) != checksum:
+                return
+            self.done, self.end = self.done + rows, self.state.tell()
+            yield data
+
+    def begin(self, key: str, resume: bool, name: str) -> None:
+        """Begin or continue the rows of ``key`` in the state, a file of this name."""
+        first, known = TITLE + key.encode() + b"\n", self.state.readline(LINE_MAX)
         if known and not (known.startswith(TITLE) and known.endswith(b"\n")):
             raise GenevaError(
                 f"{name}: not the state of a sweep, which has this name; rename it, or give -o "
@@ -76,81 +93,62 @@ class GrowingTable:
                 "(another spec, other options or another version); start without --resume"
             )
         self.start = len(first)
-        if resume and known:
-            for _ in self._blocks():
-                pass
+        for _ in self.blocks() if resume else ():
+            pass  # counts them
         if not self.done:
             self.end = 0
-            self._write(first)
+            self.write(first)
         if resume:
             self.message = f"--resume: {name}: continues after row {self.done}"
 
-    def _write(self, data: bytes) -> None:
-        """Write after what is whole, and hand it to the system."""
-        with write_errors(self.path):
-            self.state.seek(self.end)
-            self.state.truncate()
-            self.state.write(data)
-            self.state.flush()
-            self.end = self.state.tell()
 
-    def _blocks(self) -> Iterator[bytes]:
-        """Yield the bytes of each block up to the first damaged one, and count the rows."""
-        self.done, self.end, self.sum = 0, self.start, 0
-        size = os.fstat(self.state.fileno()).st_size
-        self.state.seek(self.end)
-        while line := HEAD.fullmatch(self.state.readline(LINE_MAX)):
-            rows, length, wanted = map(int, line.groups())
-            data = self.state.read(min(length, size))
-            if len(data) < length or zlib.crc32(data, self.sum) != wanted:
-                return
-            self.done, self.end, self.sum = self.done + rows, self.state.tell(), wanted
-            yield data
+@contextmanager
+def growing(
+    names: Sequence[str],
+    key: str,
+    output: str,
+    resume: bool = False,
+    inputs: Paths = (),
+    texts: Collection[str] = (),
+) -> Iterator[GrowingTable]:
+    """Give the destination of rows, which replaces the file if the block ends without an error.
 
-    def append(self, columns: Sequence[Any]) -> None:
-        """Add rows as columns, arrays where infinity is no value, or lists of cells.
+    ``key`` is all that they depend on. With ``resume`` a run continues one with the same key, or
+    starts if there is none. ``texts`` are columns that hold no numbers. Raises GenevaError if the
+    file cannot be written, if another run writes it, or if the run to continue had another key.
+    """
+    refuse_columns()
+    if output == "-":
+        if resume:
+            raise GenevaError("--resume continues a file: give -o FILE")
+        use_utf8()
+        sys.stdout.write(one_line(names))
+        yield GrowingTable(names, output)
+        return
+    if not output.endswith((".csv", ".parquet")):
+        raise GenevaError(f'-o "{cut(output, 300)}": it must end in .csv or .parquet')
+    if output.endswith(".parquet"):
+        from geneva_cli.output import parquet
 
-        Raises ArithmeticError for NaN.
-        """
-        refuse_nonsense(self.names, columns, endless=True)
-        if self.parquet:
-            from geneva_cli.output.parquet import block_of
-
-            data = block_of(self.names, columns)
-        else:
-            text = text_of(columns, infinity="")
-            if not self.state:
-                sys.stdout.write(text)
-                return
-            data = text.encode()
-        self.sum = zlib.crc32(data, self.sum)
-        self._write(b"block %d %d %d\n%s" % (len(columns[0]), len(data), self.sum, data))
-        self.done += len(columns[0])
-
-    def finish(self, texts: Collection[str] = ()) -> None:
-        """Replace the file by all rows; ``texts`` are columns that hold no numbers."""
-        if not self.state:
-            return
-        if self.parquet and not self.done:
-            self.append([[] for _ in self.names])  # the names of the columns are in each block
-        done = self.done
-        with write_errors(self.path), replacing(self.path, self.inputs) as file:
-            if self.parquet:
-                from geneva_cli.output.parquet import write_blocks
-
-                write_blocks(self._blocks, file, texts)
+        parquet.refuse_without()
+    with write_errors(output):
+        path = place(output, inputs)[0] + ".geneva"
+        state = open_locked(path, output)
+    with state:
+        rows = GrowingTable(names, output, state)
+        rows.begin(key, resume, cut(os.path.basename(path)))
+        yield rows
+        with replacing(output, inputs) as file:
+            if rows.is_parquet and not rows.done:
+                rows.append([[] for _ in names])  # the names of the columns are in each block
+            done = rows.done
+            if rows.is_parquet:
+                parquet.write_blocks(rows.blocks, file, texts)
             else:
-                file.write(one_line(self.names).encode())
-                file.writelines(self._blocks())
-            if self.done != done:
+                file.write(one_line(names).encode())
+                file.writelines(rows.blocks())
+            if rows.done != done:
                 raise GenevaError(
-                    f"{self.state_path}: changed or damaged while the run wrote it; run again with "
-                    "--resume"
+                    f"{path}: changed or damaged while the run wrote it; run again with --resume"
                 )
-        remove(self.state, self.state_path)
-        self.close()
-
-    def close(self) -> None:
-        """Close the state file, which remains to be continued, and end its lock."""
-        if self.state:
-            self.state.close()
+        remove(state, path)

@@ -26,6 +26,7 @@ INKS: dict[str, Ink] = {
     "PITCH": Ink(8, "#808080"),
     "CENTER": Ink(203, "#9152a5"),
     "GROOVE": Ink(54, "#7f7f00"),
+    "OUTLINE": Ink(240, "#ff003f"),  # drawn by somebody else, over ours
 }
 CENTRE_LINES = {"PITCH"}  # layers of lines that are not cut
 DASHES = (8.0, 1.5, 1.5, 1.5)  # mm: dash, gap, dash, gap of a centre line
@@ -48,22 +49,10 @@ class Paper(NamedTuple):
     curves: tuple[str, ...]
 
 
-LIGHT = Paper(
-    "#ffffff",
-    "#1a1a1a",
-    "#707070",
-    "#dddddd",
-    "#f0f0f0",
-    ("#0072b2", "#d55e00", "#007a5e", "#c0589a", "#4d4d4d", "#9a7400"),
-)
-DARK = Paper(
-    "#15181c",
-    "#e8e8e8",
-    "#8c9197",
-    "#343a41",
-    "#22272d",
-    ("#56b4e9", "#ff8a3c", "#1fc79b", "#e79ac9", "#d0d0d0", "#f0d94a"),
-)
+ON_LIGHT = ("#0072b2", "#d55e00", "#007a5e", "#c0589a", "#4d4d4d", "#9a7400")
+ON_DARK = ("#56b4e9", "#ff8a3c", "#1fc79b", "#e79ac9", "#d0d0d0", "#f0d94a")
+LIGHT = Paper("#ffffff", "#1a1a1a", "#707070", "#dddddd", "#f0f0f0", ON_LIGHT)
+DARK = Paper("#15181c", "#e8e8e8", "#8c9197", "#343a41", "#22272d", ON_DARK)
 
 
 def colour(number: int, paper: Paper) -> str:

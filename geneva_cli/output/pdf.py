@@ -13,17 +13,8 @@ from itertools import chain
 from typing import NamedTuple
 
 from geneva_cli.errors import clean
+from geneva_cli.geometry import shapes
 from geneva_cli.geometry import sheet as letters
-from geneva_cli.geometry.shapes import (
-    Arc,
-    Cubic,
-    Point,
-    Segment,
-    Shape,
-    as_contour,
-    as_cubic,
-    halved,
-)
 from geneva_cli.geometry.sheet import CAPITALS, DASHED, WIDTHS, Sheet
 from geneva_cli.output.letters import western
 from geneva_cli.table import in_decimals
@@ -78,10 +69,10 @@ def pdf_text(title: str, pages: Sequence[Page]) -> Iterator[str]:
 def sheet_chunks(sheet: Sheet) -> Iterator[str]:
     """Yield the text of a drawing sheet: one page of the paper's size with lines and texts."""
     content = BEGIN
-    for layer, shapes in sheet.by_layer():
+    for layer, own in sheet.by_layer():
         dashes = " ".join(map(number, DASHED.get(layer, ())))
         content += f"{number(WIDTHS[layer])} w [{dashes}] 0 d\n"
-        content += "".join(f"{outline(shape)}S\n" for shape in shapes)
+        content += "".join(f"{outline(shape)}S\n" for shape in own)
     for arrow in sheet.arrows:
         content += triangle(arrow.corners)
     for label in sheet.texts:
@@ -89,36 +80,36 @@ def sheet_chunks(sheet: Sheet) -> Iterator[str]:
     yield from pdf_text(sheet.title, [Page(sheet.width, sheet.height, content)])
 
 
-def outline(shape: Shape) -> str:
+def outline(shape: shapes.Shape) -> str:
     """The operators that trace a shape, closed if the shape is."""
-    shape = as_contour(shape)
+    shape = shapes.as_contour(shape)
     words = [f"{point(shape.segments[0].start)} m\n"]
     # The bulge of slightly more than 90 degrees: a longer arc needs more than one cubic.
-    parts = (halved(segment, lambda bulge: bulge > 0.415) for segment in shape.segments)
+    parts = (shapes.halved(segment, lambda bulge: bulge > 0.415) for segment in shape.segments)
     words += map(_piece, chain.from_iterable(parts))
     return "".join(words) + ("h\n" if shape.closed else "")
 
 
-def _piece(segment: Segment) -> str:
-    if isinstance(segment, Arc):
-        segment = as_cubic(segment)
-    if isinstance(segment, Cubic):
+def _piece(segment: shapes.Segment) -> str:
+    if isinstance(segment, shapes.Arc):
+        segment = shapes.as_cubic(segment)
+    if isinstance(segment, shapes.Cubic):
         return " ".join(map(point, segment[1:])) + " c\n"
     return f"{point(segment.end)} l\n"
 
 
-def triangle(corners: Sequence[Point]) -> str:
+def triangle(corners: Sequence[shapes.Point]) -> str:
     """A filled triangle."""
     a, b, c = map(point, corners)
     return f"{a} m {b} l {c} l f\n"
 
 
-def words(text: str, at: Point, size: float, bold: bool = False, ink: str = INK) -> str:
+def words(text: str, at: shapes.Point, size: float, bold: bool = False, ink: str = INK) -> str:
     """A coloured text that starts at a point on its base line."""
     return f"{ink} rg\n" + _text(western(text), at, size, 0, 2 if bold else 1)
 
 
-def _text(words: str, at: Point, size: float, turn: float, font: int = 1) -> str:
+def _text(words: str, at: shapes.Point, size: float, turn: float, font: int = 1) -> str:
     """A text that starts at a point on its base line; ``turn`` is in radians."""
     c, s = math.cos(turn), math.sin(turn)
     matrix = " ".join(number(v) for v in (c, s, -s, c, *at))
@@ -148,7 +139,7 @@ def tint(rgb: str, fraction: float = 1.0) -> str:
     return " ".join(number(1.0 - fraction * (1.0 - p)) for p in parts)
 
 
-def point(p: Point) -> str:
+def point(p: shapes.Point) -> str:
     """A point's coordinates."""
     return f"{number(p[0])} {number(p[1])}"
 

@@ -11,19 +11,9 @@ from collections.abc import Iterator
 from html import escape
 
 from geneva_cli.errors import clean
+from geneva_cli.geometry import shapes
 from geneva_cli.geometry.plates import Member, Part, in_place
-from geneva_cli.geometry.shapes import (
-    Circle,
-    Contour,
-    Cubic,
-    Layer,
-    Line,
-    Point,
-    Segment,
-    Shape,
-    as_contour,
-    halved,
-)
+from geneva_cli.geometry.shapes import Circle, Contour, Layer, Line, Point, Segment, Shape
 from geneva_cli.geometry.sheet import CAPITALS, DASHED, WIDTHS, Drawing, Sheet, extent, prepared
 from geneva_cli.output.inks import CENTRE_LINES, DARK, DASHES, INKS, LIGHT, Paper, mixed
 from geneva_cli.output.notes import LETTERS, Notes, notes
@@ -94,12 +84,12 @@ def sheet_chunks(sheet: Sheet) -> Iterator[str]:
         f'<rect class="paper" y="{top}" width="{w}" height="{h}"/>\n'
         f'<g class="ink" font-family="Helvetica, Arial, \'Liberation Sans\', sans-serif">\n'
     )
-    for layer, shapes in sheet.by_layer():
+    for layer, own in sheet.by_layer():
         dashes = ""
         if layer in DASHED:
             dashes = f' stroke-dasharray="{" ".join(map(str, DASHED[layer]))}"'
         yield f'<g id="{layer}" stroke-width="{WIDTHS[layer]}"{dashes}>\n'
-        yield from map(element, shapes)
+        yield from map(element, own)
         yield "</g>\n"
     yield '<g id="ARROWS" class="full">\n'
     for arrow in sheet.arrows:
@@ -147,7 +137,9 @@ def path(contour: Contour) -> str:
         segments = segments[:-1]  # Z draws the last line; drawn here it would have no length there
     # Bulges of 150, 210 and 300 degrees. Near a half turn the radius determines the centre badly,
     # near a whole turn the chord does.
-    split = [halved(one, lambda bulge: 0.7673 < bulge < 1.3032 or bulge > 3.7) for one in segments]
+    split = [
+        shapes.halved(one, lambda bulge: 0.7673 < bulge < 1.3032 or bulge > 3.7) for one in segments
+    ]
     words += [_command(part) for parts in split for part in parts]
     return " ".join(words) + (" Z" if contour.closed else "")
 
@@ -155,7 +147,7 @@ def path(contour: Contour) -> str:
 def _command(segment: Segment) -> str:
     if isinstance(segment, Line):
         return f"L {point(segment.end)}"
-    if isinstance(segment, Cubic):
+    if isinstance(segment, shapes.Cubic):
         return "C " + " ".join(map(point, segment[1:]))
     radius, large, down = number(segment.radius), abs(segment.bulge) > 1.0, segment.bulge < 0.0
     return f"A {radius},{radius} 0 {large:d} {down:d} {point(segment.end)}"
@@ -193,7 +185,7 @@ def rings(solid: Part) -> list[tuple[Layer, tuple[Contour, ...]]]:
     """
     placed = (plate for _, plate in in_place([Member(solid)]))
     every = sorted(placed, key=lambda plate: (plate.high, plate.low))
-    drawn = [(one.layer, tuple(map(as_contour, (one.outline, *one.holes)))) for one in every]
+    drawn = [(one.layer, tuple(map(shapes.as_contour, (one.outline, *one.holes)))) for one in every]
     return list(dict.fromkeys(reversed(drawn)))[::-1]
 
 

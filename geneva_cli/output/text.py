@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import textwrap
+import unicodedata
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
@@ -16,6 +17,7 @@ from geneva_cli.progress import Meter
 from geneva_cli.table import Column, Table, flat, in_digits, pieces, plain_rows, record_table
 
 WIDTH = 90  # letters of a line in a file or a pipe
+GAP = "  "  # between two columns
 
 
 def chunks(table: Table) -> Iterator[str]:
@@ -75,17 +77,17 @@ def _plain(table: Table) -> Iterator[str]:
         lines = [[cell(v) for v in row] for row in rows]
         columns = zip(*lines, strict=True)
         widths = [
-            max(map(len, (*(head if is_first else ()), *column)))
+            max(map(width_of, (*(head if is_first else ()), *column)))
             for head, column in zip(heads, columns, strict=True)
         ]
         left = [isinstance(v, str) for v in block[0]]
         if is_first:
             for level in zip(*heads, strict=True):
-                yield _line(level, widths, left)
-            yield "  ".join("-" * w for w in widths) + "\n"
+                yield line_of(level, widths, left) + "\n"
+            yield GAP.join("-" * w for w in widths) + "\n"
             is_first = False
         for line in lines:
-            yield _line(line, widths, left)
+            yield line_of(line, widths, left) + "\n"
 
 
 def without_noise(block: list[tuple[Any, ...]]) -> Iterator[list[Any]]:
@@ -101,12 +103,23 @@ def without_noise(block: list[tuple[Any, ...]]) -> Iterator[list[Any]]:
         ]
 
 
-def _line(texts: Sequence[str], widths: list[int], left: list[bool]) -> str:
-    cells = [
-        t.ljust(w) if is_left else t.rjust(w)
-        for t, w, is_left in zip(texts, widths, left, strict=True)
-    ]
-    return "  ".join(cells).rstrip() + "\n"
+def line_of(texts: Sequence[str], widths: Sequence[int], left: Sequence[bool]) -> str:
+    """Texts side by side in columns of these widths, to their left or their right."""
+    cells = []
+    for text, width, is_left in zip(texts, widths, left, strict=True):
+        space = " " * (width - width_of(text))
+        cells.append(text + space if is_left else space + text)
+    return GAP.join(cells).rstrip()
+
+
+def width_of(text: str) -> int:
+    """Columns that a text takes on a terminal."""
+    if text.isascii():
+        return len(text)
+    return sum(
+        0 if unicodedata.combining(c) else 2 if unicodedata.east_asian_width(c) in "WF" else 1
+        for c in text
+    )
 
 
 def apart(record: Table) -> Iterator[tuple[str, Table]]:

@@ -7,9 +7,10 @@ change which positions it goes through: such a machine is turned by its crank, l
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from functools import lru_cache
-from operator import itemgetter
+from itertools import product
+from operator import attrgetter, itemgetter
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -66,8 +67,16 @@ class Assembly(NamedTuple):
     kinds: tuple[Engagement, ...]  # of slots, each once; most wheels have one kind
     rests: tuple[float, ...]
     full: Mechanism  # the machine of the spec, with the drive of its crank
-    to_input: Callable[[float], float]  # input angle of the plain crank -> of ``full``, degrees
     plane_motion: PlaneMotion  # of the wheel
+
+    def to_input(self, input_deg: float) -> float:
+        """Return the input angle of ``full``, degrees, at one of the assembly."""
+        spec = self.full.spec
+        if self.mechanism is self.full:
+            return input_deg
+        if self.full.law is None and spec.drive.crank:  # it is turned by a plain crank
+            return spec.input_deg(input_deg)
+        return spec.drive_before.input_deg(input_deg) if spec.drive_before else input_deg
 
     def shown_deg(self, input_deg: float) -> float:
         """Return the input angle as commands show it, for an input angle of the assembly."""
@@ -125,18 +134,6 @@ class Assembly(NamedTuple):
         return out
 
 
-def input_of(mechanism: Mechanism) -> Callable[[float], float]:
-    """Return the function of an assembly's input angle that is the machine's, both in degrees."""
-    spec = mechanism.spec
-    if mechanism.law is None and spec.drive.crank:  # it is turned by a plain crank
-        return spec.input_deg
-    return spec.drive_before.input_deg if spec.drive_before else _same
-
-
-def _same(input_deg: float) -> float:
-    return input_deg
-
-
 @lru_cache(maxsize=16)
 def assembly(mechanism: Mechanism, flat: bool = True, by_input: bool = False) -> Assembly:
     """Return the assembly of a machine, cached for its sizes and its parts.
@@ -147,29 +144,24 @@ def assembly(mechanism: Mechanism, flat: bool = True, by_input: bool = False) ->
     """
     spec = plain = mechanism.spec
     if flat and not spec.wheel.FLAT:
-        raise GenevaError(
-            f'gearing = "{spec.wheel.NAME}": its parts are not flat outlines about two axes; write '
-            "`--part wheel`, `crank` or `assembly` as .dxf, .svg or .step",
-            ("wheel", "gearing"),
-        )
+        text = f'gearing = "{spec.wheel.NAME}": its parts are not flat outlines about two axes; '
+        text += "write `--part wheel`, `crank` or `assembly` as .dxf, .svg or .step"
+        raise GenevaError(text, ("wheel", "gearing"))
     if flat and spec.wheel.z > Z_DRAWN:
-        raise GenevaError(
-            f"z = {spec.wheel.z}: parts are drawn for up to {Z_DRAWN} slots", ("wheel", "z")
-        )
+        text = f"z = {spec.wheel.z}: parts are drawn for up to {Z_DRAWN} slots"
+        raise GenevaError(text, ("wheel", "z"))
     if mechanism.law is None and (crank := spec.drive.crank):
         plain = spec.replace(drive=crank, drive_before=None)
     elif spec.drive_before:  # slots and path are by the angle of the drive's own input shaft
         plain = spec.replace(drive_before=None)
     turned = mechanism if by_input or plain == spec else build(plain)
     turn, engagements = 360.0 * turned.spec.turns, turned.engagements
-    motions, rollers, half_step = list[Passage](), list[Passage](), math.inf
-    for k in range(round(turn / turned.period_deg)):
-        for engagement in engagements:
-            mid = engagement.mid_deg + k * turned.period_deg
-            motions.append(Passage(engagement, mid))
-            half_step = min(half_step, engagement.half_step)
-            for passage, ahead in engagement.passages:
-                rollers.append(Passage(passage, mid - ahead))
+    motions, rollers = list[Passage](), list[Passage]()
+    for k, engagement in product(range(round(turn / turned.period_deg)), engagements):
+        mid = engagement.mid_deg + k * turned.period_deg
+        motions.append(Passage(engagement, mid))
+        for passage, ahead in engagement.passages:
+            rollers.append(Passage(passage, mid - ahead))
     # around the wheel counterclockwise; later slots follow clockwise
     L, wheel = turned.center_distance_mm, turned.spec.wheel
     several, at = len(engagements) if wheel.steps else 1, 0.0
@@ -180,22 +172,12 @@ def assembly(mechanism: Mechanism, flat: bool = True, by_input: bool = False) ->
         rests.append((at - engagement.half_step) % math.tau)
         at -= engagement.half_step + following.half_step
     slots.sort(key=itemgetter(1))
-    return Assembly(
-        mechanism=turned,
-        L=L,
-        sign=wheel.SIGN,
-        turn_deg=turn,
-        start_deg=motions[0].engagement.entry_deg,
-        half_step=half_step,
-        motions=tuple(motions),
-        rollers=tuple(rollers),
-        slots=tuple(slots),
-        kinds=tuple(dict.fromkeys(map(itemgetter(0), slots))),
-        rests=tuple(sorted(rests)),
-        full=mechanism,
-        to_input=_same if by_input else input_of(mechanism),
-        plane_motion=wheel.plane_motion(L),
-    )
+    ends = turn, motions[0].engagement.entry_deg, min(map(attrgetter("half_step"), engagements))
+    kinds: tuple[Engagement, ...] = tuple(dict.fromkeys(map(itemgetter(0), slots)))
+    passages = tuple(motions), tuple(rollers)
+    around, at_rest, moves = tuple(slots), tuple(sorted(rests)), wheel.plane_motion(L)
+    one = turned, L, wheel.SIGN
+    return Assembly(*one, *ends, *passages, around, kinds, at_rest, mechanism, moves)
 
 
 def turn_deg(mechanism: Mechanism) -> Array:
@@ -230,12 +212,9 @@ def links_at(mechanism: Mechanism, input_deg: Array, before: bool = True) -> tup
     shaft, names, links = mechanism.own_shaft, {link.name for link in own}, [*own]
     mirror, shift, below = -sign * shaft.sense, shaft.x_mm - L, _deepest(mechanism, own)
     for link in spec.drive_before.links(mechanism.plan, sign, input_deg):
-        moved = link._replace(
-            name=f"first {link.name}" if link.name in names else link.name,
-            joints=tuple((x + shift, y * mirror) for x, y in link.joints),
-            plane=link.plane - 1 + below,
-        )
-        links.append(moved)
+        name = f"first {link.name}" if link.name in names else link.name
+        moved = tuple((x + shift, y * mirror) for x, y in link.joints)
+        links.append(link._replace(name=name, joints=moved, plane=link.plane - 1 + below))
     return tuple(links)
 
 

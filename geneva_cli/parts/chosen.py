@@ -63,21 +63,20 @@ class ByLoad(NamedTuple):
     def words(self) -> str:
         """The sizes in words, as "crank shaft 12, pin 7"; empty without any."""
         texts = dict[str, None]()  # once, in this order
-        for key, name in NAMES.items():
-            if key in self.sizes and self.sizes[key].value:
-                texts[name.format(self.sizes[key].value)] = None
+        for key in filter(self.sizes.__contains__, NAMES):
+            if value := self.sizes[key].value:
+                texts[NAMES[key].format(value)] = None
         return ", ".join(texts)
 
     @property
     def changes(self) -> str:
         """The sizes that were chosen anew, as "crank shaft 12 → 17 mm"; empty if none was."""
         texts = dict[str, None]()
-        for key, name in NAMES.items():
-            if key in self.sizes and key in self.before:
-                now, was = self.sizes[key].value, self.before[key].value
-                # a bore of 0 ends the shaft in the arm, whose bore is a key of its own
-                if now and was and now != was:
-                    texts[name.format(was).replace(f"{was:g}", f"{was:g} → {now:g} mm")] = None
+        for key in filter(self.before.__contains__, filter(self.sizes.__contains__, NAMES)):
+            now, was = self.sizes[key].value, self.before[key].value
+            # a bore of 0 ends the shaft in the arm, whose bore is a key of its own
+            if now and was and now != was:
+                texts[NAMES[key].format(was).replace(f"{was:g}", f"{was:g} → {now:g} mm")] = None
         return ", ".join(texts)
 
     @property
@@ -85,9 +84,9 @@ class ByLoad(NamedTuple):
         """The sizes as json has them: ``value``, ``was`` (null if unchanged) and ``why``."""
         out: dict[str, dict[str, float | str | None]] = {}
         for key, one in self.sizes.items():
-            was = self.before[key].value if key in self.before else one.value
-            out[key] = {"value": one.value, "was": None if was == one.value else was}
-            out[key]["why"] = one.why
+            was = self.before.get(key, one).value
+            changed = None if was == one.value else was
+            out[key] = {"value": one.value, "was": changed, "why": one.why}
         return out
 
 

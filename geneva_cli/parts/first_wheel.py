@@ -7,34 +7,28 @@ crank arm. Its crank is a link.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from functools import lru_cache
 
 from geneva_cli.drives.crank import Crank
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, refuse_size
 from geneva_cli.loads.strength.part_loads import single_loads
 from geneva_cli.motion import registry
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.wheels.external import External
-from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.links.link_plates import drawn_links
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.projection import titled
 from geneva_cli.parts.shafts.bores import has_shape, round_bore
-from geneva_cli.parts.sized_by_load import stressed
-from geneva_cli.parts.sizes import CLEARANCES, Sizes
+from geneva_cli.parts.sizes import CLEARANCES
 from geneva_cli.spec.defaults import wall_min
 from geneva_cli.spec.tables import Load, Size
 
 
-def first_spec(mechanism: Mechanism, first: tuple[int, float]) -> Spec:
-    """Return the spec of the first wheel and its crank, with the sizes that it shares.
-
-    ``first`` is its number of slots, and its distance from its own crank.
-    """
+def first_spec(mechanism: Mechanism) -> Spec:
+    """Return the spec of the first wheel and its crank, with the sizes that it shares."""
     spec, size = mechanism.spec, mechanism.spec.size
-    slots, distance_mm = first
+    assert mechanism.first_wheel is not None
+    slots, distance_mm = mechanism.first_wheel
     own = Size(
         center_distance_mm=distance_mm,
         roller_radius_mm=mechanism.roller_radius_mm,
@@ -56,25 +50,6 @@ def first_spec(mechanism: Mechanism, first: tuple[int, float]) -> Spec:
     )
 
 
-@lru_cache(maxsize=16)
-def first_sizes(
-    mechanism: Mechanism, sized: Callable[[Mechanism], tuple[Assembly, Sizes] | None]
-) -> tuple[float, float, float] | None:
-    """Return thickness, pin's and shaft's radius, mm, that a first wheel's load needs; or None."""
-    first = mechanism.first_wheel
-    spec = None if first is None else first_spec(mechanism, first)
-    if spec is None or not spec.is_loaded:
-        return None
-    # the shaft ends in the first crank, below the plane of its locking disc
-    machine = build(spec.with_("size.crank_bore_mm", 0.0))
-    flat = sized(machine)
-    parts = stressed(*flat) if flat else None
-    if parts is None or math.isnan(parts.arm.length):  # a crank without a pin has no arm
-        return None
-    thick = max(parts.contact, float(parts.arm.thickness))
-    return thick, 0.5 * parts.pin, 0.5 * parts.crank_shaft.diameter
-
-
 def first_pair(mechanism: Mechanism, outlines: Outlines | None) -> Mechanism:
     """Return the first wheel and its crank as a machine, for the second pair's ``outlines``."""
     spec, L = mechanism.spec, mechanism.center_distance_mm
@@ -85,29 +60,24 @@ def first_pair(mechanism: Mechanism, outlines: Outlines | None) -> Mechanism:
             f'--part first-wheel, first-crank: kind = "{spec.drive.NAME}" has one wheel; '
             f"{' or '.join(having)} has two"
         )
-    if has_shape(spec.size, "crank"):
-        key = "crank_bore" if spec.size.crank_keyway is None else "crank_keyway"
-        raise GenevaError(
-            f"{key}: the first wheel on the crank's shaft has a round bore; remove {key}",
-            ("size", key),
-        )
+    key = "crank_bore" if spec.size.crank_keyway is None else "crank_keyway"
+    text = f"{key}: the first wheel on the crank's shaft has a round bore; remove {key}"
+    refuse_size(has_shape(spec.size, "crank"), key, text)
     bars = drawn_links(mechanism, outlines)
     second, own = (L, 0.0), (L + first[1], 0.0)
     bore = 0.0 if bars.one_piece(own, L) else bars.shaft(own, L)
-    alone = first_spec(mechanism, first)
+    alone = first_spec(mechanism)
+    link, shaft = bars.sizes, bars.shaft(own, L)
+    assert link is not None  # the first crank is one
     size = alone.size.replace(
         wall_min_mm=wall_min(spec.size, L),
         crank_bore_mm=2.0 * bore,
         wheel_bore_mm=2.0 * bars.shaft(second, L),
+        wheel_thickness_mm=link.thickness,
+        arm_thickness_mm=link.thickness,
+        pin_mm=2.0 * link.roller_stands,
+        arm_bore_mm=2.0 * shaft,
+        arm_hub_mm=2.0 * link.hub(round_bore(spec.size, shaft)),
+        arm_eye_mm=2.0 * link.roller_eye,
     )
-    if bars.sizes:
-        link, shaft = bars.sizes, bars.shaft(own, L)
-        size = size.replace(
-            wheel_thickness_mm=link.thickness,
-            arm_thickness_mm=link.thickness,
-            pin_mm=2.0 * link.roller_stands,
-            arm_bore_mm=2.0 * shaft,
-            arm_hub_mm=2.0 * link.hub(round_bore(spec.size, shaft)),
-            arm_eye_mm=2.0 * link.roller_eye,
-        )
     return build(alone.replace(size=size, title=f"{titled(mechanism)}, first pair"))

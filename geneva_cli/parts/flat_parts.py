@@ -7,6 +7,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from contextlib import suppress
+from operator import attrgetter
 from typing import TYPE_CHECKING, NoReturn, Self
 
 import numpy as np
@@ -25,7 +27,7 @@ from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.outlines.crank_outline import crank_bore, is_whole
 from geneva_cli.parts.outlines.cut_outlines import drawn, slot_walls, wheel_contour
 from geneva_cli.parts.outlines.outlines import Outlines, dial_circle, wheel_hub, wheel_plate
-from geneva_cli.parts.parts import EdgedParts, FrameAndShafts, NamedBuilds
+from geneva_cli.parts.parts import EdgedParts, FrameAndShafts, NamedBuilds, Parts, parts_of
 from geneva_cli.parts.shafts.arm_and_shafts import (
     CrankArm,
     bolts,
@@ -90,11 +92,24 @@ class FlatParts(EdgedParts):
         rim = float(farthest(gaps.wheel, 0.0, 0.0).max() if outside else gaps.wheel.signed(axis)[0])
         return FlatPairs(gaps, self.outlines.crank, target, rim)
 
-    def _has_sizes_of(self, mechanism: Mechanism) -> bool:
-        try:
-            return machine_sizes(mechanism)[1] == self.outlines.sizes
-        except GenevaError:
-            return False
+    def following(self, mechanism: Mechanism) -> Parts:
+        """Return the parts of the next design, with this turn if it is the same.
+
+        It is if wheel, drive, motion and ``[size]`` are equal, but for the speed, and all sizes
+        that follow from the load.
+        """
+        parts, computed = parts_of(mechanism), vars(self)
+        own, other = (
+            (spec.wheel, spec.drive.replace(n_rpm=1.0), spec.motion, spec.size)
+            for spec in (self.mechanism.spec, mechanism.spec)
+        )
+        with suppress(GenevaError):  # where the sizes of the next leave no parts
+            alike = "_shape" in computed and own == other
+            if alike and machine_sizes(mechanism)[1] == self._shape.sizes:
+                assembly = self.assembly._replace(full=mechanism)
+                vars(parts)["_shape"] = self._shape._replace(assembly=assembly)
+                vars(parts).update({"turn": self.turn} if "turn" in computed else {})
+        return parts
 
     def walls(self, slot: Engagement) -> Contour:
         """Return the walls of a slot in the wheel's frame, with that slot ahead."""
@@ -172,11 +187,6 @@ class FlatParts(EdgedParts):
         centres, sizes = roller_centres(drawn.assembly), drawn.sizes
         return rollers_about(centres, r, sizes.pin, low, sizes.wheel_thickness, fit)
 
-    @property
-    def horn_mm(self) -> float | None:
-        """Thickness of the horns between slots and recesses; None without a lock."""
-        return self.outlines.sizes.horn if self.outlines.crank else None
-
     def axle_radius(self, part: str) -> float:
         """Return the radius of a part's shaft, or of its hub if the spec has one, mm; 0 if none."""
         sizes = self.outlines.sizes
@@ -229,7 +239,7 @@ class FlatParts(EdgedParts):
     @property
     def in_front(self) -> tuple[FlatParts, ...]:
         """Those parts; none without a second wheel."""
-        return (self.front,) if self.drawn and self.mechanism.first_wheel else ()
+        return (self.front,) if self.mechanism.first_wheel and self.drawn else ()
 
     @cached_property
     def first(self) -> tuple[Member, ...]:
@@ -293,11 +303,8 @@ class FlatParts(EdgedParts):
         parts, lows = self.outlines, [self._base.low] if self._base else []
         arm = parts.sizes.arm_thickness if parts.has_arm else 0.0
         lows.append(-self.mechanism.spec.size.allowances.pin_gap_mm - arm)
-        for gear in self.links.gears:
-            lows.append(gear.plate.low)
-        for one in (*self.links.cut, *self.links.joined, *self.first):
-            assert isinstance(one.part, Plate)
-            lows.append(one.part.low)
+        lows += map(attrgetter("plate.low"), self.links.gears)
+        lows += map(attrgetter("part.low"), (*self.linked, *self.first))
         if hub := wheel_hub(parts.assembly, parts.sizes):
             lows.append(hub.low)
         if self.mechanism.spec.gears:
@@ -386,7 +393,7 @@ class FrontParts(FlatParts):
     @property
     def linked(self) -> tuple[Member, ...]:
         """The links, with the pins and rollers between and on them."""
-        from geneva_cli.parts.links.link_sizes import roller_pins
+        from geneva_cli.parts.links.links import roller_pins
 
         mechanism, links = self.mechanism, self.links
         size, r = mechanism.spec.size, mechanism.roller_radius_mm

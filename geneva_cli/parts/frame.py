@@ -9,12 +9,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
+from itertools import product
 
 import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc, farthest
 from geneva_cli.geometry.plates import Member, Plate
-from geneva_cli.geometry.shapes import ORIGIN, Circle, Point, as_contour, bounds_of, convex_hull
+from geneva_cli.geometry.shapes import (
+    ORIGIN,
+    Circle,
+    Point,
+    as_contour,
+    bounds_of,
+    convex_hull,
+    placed,
+)
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Joint
 from geneva_cli.numerics.arrays import half_or
@@ -24,7 +33,7 @@ from geneva_cli.parts.links.links import Links, placed_holes
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.parts import FRAME, FrameAndShafts
 from geneva_cli.parts.shafts.arm_and_shafts import Shaft, crank_arm, shaft_ends, shafts
-from geneva_cli.parts.shafts.bores import SCREWS, around, bolt_radius, screw_through, tapped
+from geneva_cli.parts.shafts.bores import SCREWS, around, bolt_radius, circles, screw_radius, tapped
 from geneva_cli.parts.sizes import HUB, bridge_low
 from geneva_cli.spec.defaults import wall_min
 from geneva_cli.spec.tables import Size
@@ -61,9 +70,7 @@ def framed(
         if isinstance(member.part, Plate) and member.part.name in bars.standing:
             fixed += [(hole, member.part) for hole in placed_holes(member)]
     for gear in bars.gears:
-        for hole in gear.screws.holes:
-            (x, y), (u, v) = gear.at, hole.centre
-            fixed.append((Circle("BORE", (x + u, y + v), hole.radius), gear.plate))
+        fixed += [(placed(hole, gear.at), gear.plate) for hole in gear.screws.holes]
     for plate in filter(None, (base, bridge)):
         bored = placed_holes(Member(plate, (L, 0.0)))
         fixed += [(hole, plate) for hole in bored if not same(hole.centre, (L, 0.0), L)]
@@ -79,34 +86,25 @@ def framed(
     eye = max(L / 20.0, 3.0 * wall_min(size, L))  # it leaves walls around mounting holes
     if mechanism.frame > 0.0:
         reach = max((c.radius for c in holes), default=0.0) + eye
-        outline = convex_hull("FRAME", [Circle("FRAME", at, reach) for at in standing])
+        outline = convex_hull("FRAME", circles("FRAME", standing, reach))
         plate = Plate("carrier", "FRAME", outline, tuple(holes), top - thick, top)
     else:
         # a frame contains every axis, drilled or not
-        within = [*holes, Circle("BORE", ORIGIN, 0.0)]
-        for at in standing:
-            within.append(Circle("BORE", at, 0.0))
+        within = [*holes, *circles("BORE", (ORIGIN, *standing), 0.0)]
         plate = mounted_plate(holes, within, eye, (top - thick, top))
     if bars.sizes:
         from geneva_cli.parts.links.link_shafts import outside_links
 
         axles = [*outside_links(axles, bars, L)]
-    return FrameAndShafts(
-        plate,
-        tuple(axles),
-        tuple(spacers),
-        tuple(screwed),
-        (Member(bridge, (L, 0.0)),) if bridge else (),
-        tuple(unborne),
-    )
+    bridges = (Member(bridge, (L, 0.0)),) if bridge else ()
+    on_it = tuple(spacers), tuple(screwed), bridges
+    return FrameAndShafts(plate, tuple(axles), *on_it, tuple(unborne))
 
 
 def _standing(mechanism: Mechanism, bars: Links) -> dict[Point, float | None]:
-    """Return the positions of all shafts, each once, with the diameter that the spec gives it.
-
-    An internal wheel is open in the middle, and held from above.
-    """
+    """Return the positions of all shafts, each once, with the diameter that the spec gives it."""
     standing, shaft = dict[Point, float | None](), mechanism.spec.shaft
+    # an internal wheel is open in the middle, and held from above
     for place in mechanism.wheel_places if mechanism.spec.wheel.SIGN > 0.0 else ():
         standing[place.at] = shaft.wheel_diameter_mm
     for place in mechanism.crank_places:
@@ -127,7 +125,7 @@ def _bridge(parts: Outlines, bars: Links, shaft: Shaft) -> Plate | None:
     size, thick = mechanism.spec.size, sizes.arm_thickness
     if not (sizes.crank_bore and is_bridged(mechanism)):
         return None
-    from geneva_cli.parts.links.link_sizes import places
+    from geneva_cli.parts.links.links import places
 
     # no part of crank and drive turns beyond the farthest of these
     far = [sizes.lock, sizes.crank_hub]
@@ -148,8 +146,8 @@ def _bridge(parts: Outlines, bars: Links, shaft: Shaft) -> Plate | None:
     away = max(far) + wall + max(half, 2.0 * screw)
     away = 0.5 * math.ceil(2.0 * away)  # mm: to half a millimetre, for the drill
     ends = (0.0, -away), (0.0, away)
-    outline = convex_hull("FRAME", [Circle("FRAME", at, half) for at in ends])
-    holes = Circle("BORE", ORIGIN, bore), *(Circle("BORE", at, screw) for at in ends)
+    outline = convex_hull("FRAME", circles("FRAME", ends, half))
+    holes = Circle("BORE", ORIGIN, bore), *circles("BORE", ends, screw)
     low = bridge_low(size, sizes)
     return Plate("bearing bridge", "FRAME", outline, holes, low, low + thick)
 
@@ -233,13 +231,10 @@ def mounted_plate(
 ) -> Plate:
     """Return a frame around circles, its corners of the radius ``eye``, from and up to ``span``."""
     box, away = bounds_of(within), 3.0 * eye
-    mount, corners, mounts = screw_through(0.8 * eye), list[Circle](), list[Circle]()
-    for x in (box.x0 - away, box.x1 + away):
-        for y in (box.y0 - away, box.y1 + away):
-            corners.append(Circle("FRAME", (x, y), eye))
-            if mount:
-                mounts.append(Circle("BORE", (x, y), 0.5 * mount.through))
-    return Plate(FRAME, "FRAME", convex_hull("FRAME", corners), (*holes, *mounts), *span)
+    places = [*product((box.x0 - away, box.x1 + away), (box.y0 - away, box.y1 + away))]
+    outline, screw = convex_hull("FRAME", circles("FRAME", places, eye)), screw_radius(0.8 * eye)
+    mounts = circles("BORE", places if screw else (), screw)
+    return Plate(FRAME, "FRAME", outline, (*holes, *mounts), *span)
 
 
 def shaft_holes(size: Size, axles: Iterable[Member], top: float) -> list[Circle]:

@@ -7,13 +7,12 @@ the rim. The locking disc reaches past the rim and leaves a horn next to the slo
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
 from functools import cache, lru_cache, partial
 from typing import TYPE_CHECKING, TypeAlias
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, refuse_size
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.registry import thing
 from geneva_cli.numerics.arrays import value_or
 from geneva_cli.numerics.tolerances import SAME_LENGTH, bore_radius, rounded_below
@@ -21,7 +20,7 @@ from geneva_cli.parts import sizes as rules
 from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.outlines.crank_outline import arc_floor
 from geneva_cli.parts.outlines.cut_outlines import cut_lock
-from geneva_cli.parts.sizes import Fault, KeySizes, Sizes, Unloaded
+from geneva_cli.parts.sizes import KeySizes, Sizes, Unloaded
 from geneva_cli.parts.slots.roller_paths import mouth, roller_paths
 from geneva_cli.spec.defaults import wall_min
 from geneva_cli.spec.tables import Size
@@ -36,24 +35,24 @@ OF_AXLE = (  # keys that an internal wheel lacks, which is open in the middle
 )
 
 
-def sized(mechanism: Mechanism, loads: PartLoads | None = None) -> Layout | None:
+def sized(mechanism: Mechanism) -> Layout | None:
     """Return ``machine_sizes``; None where no flat parts can be cut."""
     try:
-        return machine_sizes(mechanism, loads) if mechanism.spec.is_flat else None
+        return machine_sizes(mechanism) if mechanism.spec.is_flat else None
     except GenevaError:
         return None  # the check of the parts reports the error
 
 
 @lru_cache(maxsize=16)
-def machine_sizes(mechanism: Mechanism, loads: PartLoads | None = None) -> Layout:
-    """Return a machine's assembly and sizes, for its own loads or known ones."""
+def machine_sizes(mechanism: Mechanism) -> Layout:
+    """Return a machine's assembly and sizes."""
     of = unloaded(mechanism)
     if not mechanism.spec.is_loaded:
-        rules.refuse(_faults(of.assembly, of.sizes))
+        _refuse(of.assembly, of.sizes)
         return of.assembly, of.sizes
     from geneva_cli.loads.strength.part_loads import single_loads
 
-    return of.assembly, loaded(of, mechanism, loads or single_loads(mechanism))
+    return of.assembly, loaded(of, mechanism, single_loads(mechanism))
 
 
 @lru_cache(maxsize=16)
@@ -68,17 +67,22 @@ def loaded(
     of: Unloaded, mechanism: Mechanism, loads: PartLoads, horn_MPa: float | None = None
 ) -> Sizes:
     """Return the sizes of a machine under its loads, as ``load_sizes``; raises as ``unloaded``."""
-    from geneva_cli.parts.sized_by_load import load_sizes
+    from geneva_cli.parts.sized_by_load import load_sizes, stressed
 
-    first = None
+    link = pin = shaft = 0.0  # of the first of two wheels, as its load needs them
     if mechanism.first_wheel:
-        from geneva_cli.parts.first_wheel import first_sizes
+        from geneva_cli.parts.first_wheel import first_spec
 
-        first = first_sizes(mechanism, sized)
-    link, pin, shaft = first or (0.0, 0.0, 0.0)
+        # the shaft ends in the first crank, below the plane of its locking disc
+        first = first_spec(mechanism).with_("size.crank_bore_mm", 0.0)
+        flat = sized(build(first)) if first.is_loaded else None
+        parts = stressed(*flat) if flat else None
+        if parts and not math.isnan(parts.arm.length):  # a crank without a pin has no arm
+            link = max(parts.contact, float(parts.arm.thickness))
+            pin, shaft = 0.5 * parts.pin, 0.5 * parts.crank_shaft.diameter
     out = load_sizes(of, mechanism, loads, horn_MPa, link)
     out = out._replace(first_pin=pin, first_shaft=shaft)
-    rules.refuse(_faults(of.assembly, out))
+    _refuse(of.assembly, out)
     return out
 
 
@@ -90,7 +94,6 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
         **mechanism.spec.size.allowances._asdict(),
     }
     del known["source"]
-    of_kind: Callable[[Mechanism], KeySizes] | None
     of_kind = None if mechanism.spec.no_parts else thing(mechanism.spec.wheel.NAME, "sizes")
     if of_kind:
         values, by_load = of_kind(mechanism)
@@ -183,42 +186,19 @@ def _usual_sizes(assembly: Assembly) -> tuple[Sizes, float]:
     bore = _crank_bore(full, within, L) if spec.drive.LOCKS else 0.0
     wall = wall_min(size, L)
     axle = rules.wheel_bore(full, end, wall, L) if outside or size.wheel_bore_mm else 0.0
-    wheel_reach, wheel_hub = rules.reach_and_hub(size, "wheel", axle, wall, end)
-    crank_reach, crank_hub = rules.reach_and_hub(size, "crank", bore, wall)
-    thick = size.thicknesses(rounded_below(L / 10.0))
     pin = 0.5 * value_or(size.pin_mm, rounded_below(r))
     armed = 0.0
     if full.drive.ONE_ARM and pin:  # without pins there is no arm
         armed = rules.arm_bore(full, bore, L, min(reaches) - rules.hole_radius(size, pin))
-    usual = Sizes(
-        roller=r,
-        half_width=w,
-        rim=rim,
-        outer=0.0 if outside else value_or(size.wheel_outer_radius_mm, end + max(r, L / 20.0)),
-        slot_bottom=bottom,
-        slot_end=end,
-        arm=arm,
-        reaches=(min(reaches), max(reaches)),
-        lock=lock,
-        recess=lock + allowed.lock_clearance_mm if lock else 0.0,
-        relief=relief,
-        wall_min=wall,
-        mouth_radius=size.mouth_radius_mm,
-        horn_tip=size.horn_tip_mm,
-        wheel_bore=axle,
-        wheel_reach=wheel_reach,
-        wheel_hub=wheel_hub,
-        crank_bore=bore,
-        crank_reach=crank_reach,
-        crank_hub=crank_hub,
-        pin=pin,
-        arm_bore=armed,
-        wheel_thickness=thick.wheel,
-        lock_thickness=thick.lock,
-        arm_thickness=thick.arm,
-        link_thickness=thick.link,
-    )
-    return usual, within
+    outer = 0.0 if outside else value_or(size.wheel_outer_radius_mm, end + max(r, L / 20.0))
+    recess = lock + allowed.lock_clearance_mm if lock else 0.0
+    # in the order of ``Sizes``
+    slots = r, w, rim, outer, bottom, end, arm, (min(reaches), max(reaches))
+    locks = lock, recess, relief, wall, size.mouth_radius_mm, size.horn_tip_mm
+    on_axle = axle, *rules.reach_and_hub(size, "wheel", axle, wall, end)
+    on_crank = bore, *rules.reach_and_hub(size, "crank", bore, wall), pin, armed
+    thick = size.thicknesses(rounded_below(L / 10.0))
+    return Sizes(*slots, *locks, *on_axle, *on_crank, *thick), within
 
 
 def _crank_bore(spec: Spec, space: float, L: float) -> float:
@@ -242,13 +222,9 @@ def _lock(assembly: Assembly, arm: float, w: float, rim: float) -> float:
         return 0.0
     limit = arm - w - size.allowances.lock_clearance_mm
     least, r = max(assembly.L - rim, 0.0), assembly.mechanism.roller_radius_mm
-    if limit <= least:
-        raise GenevaError(
-            f"the locking disc does not fit: it must be above {least:.4g} mm to reach the rim, but "
-            f"roller and clearances limit it to {limit:.4g}; use lock_radius_mm = 0, a smaller "
-            "roller, or no wheel_radius_mm",
-            ("size", "lock_radius_mm"),
-        )
+    text = f"the locking disc does not fit: it must be above {least:.4g} mm to reach the rim, but "
+    text += f"roller and clearances limit it to {limit:.4g}; use lock_radius_mm = 0, a smaller "
+    refuse_size(limit <= least, "lock_radius_mm", text + "roller, or no wheel_radius_mm")
     # a horn that is cut back may have no thickness where its tip would be
     spare = limit * SAME_LENGTH if size.horn_tip_mm else 0.0
     return lock_between(size.lock_radius_mm, least, limit, r, spare)
@@ -264,78 +240,49 @@ def lock_between(
     """
     if own_mm is None:
         return max(limit - min(roller, limit / 5.0), 0.5 * (limit + least))
-    if not least < own_mm < limit + spare:
-        raise GenevaError(
-            f"lock_radius_mm = {own_mm:g}: it must be above {least:.6g} to reach the rim, and "
-            f"below {limit + spare:.6g} to leave a horn; 0 means no lock",
-            ("size", "lock_radius_mm"),
-        )
+    text = f"it must be above {least:.6g} to reach the rim, and below {limit + spare:.6g} to leave "
+    wrong = not least < own_mm < limit + spare
+    refuse_size(wrong, "lock_radius_mm", f"{text}a horn; 0 means no lock", own_mm)
     return own_mm
 
 
-def _faults(assembly: Assembly, sizes: Sizes) -> Iterator[Fault]:
-    """Yield the keys of sizes that leave no wheel or no lock, or that it lacks, with the reason."""
-    size, outside = assembly.mechanism.spec.size, assembly.sign > 0.0
-    if sizes.lock and not abs(assembly.L - sizes.rim) < sizes.recess:
-        yield (
-            "wheel_radius_mm",
-            f"wheel_radius_mm = {sizes.rim:g}: the rim lies beyond the locking disc's reach; it "
-            f"must be below {assembly.L + sizes.recess:.6g}",
-        )
-    if outside and sizes.slot_end <= 0.0:
-        yield (
-            "roller_radius_mm",
-            "the slots meet in the wheel's centre: reduce roller_radius_mm, slot_clearance_mm and "
-            f"slot_bottom_clearance_mm together by more than {-sizes.slot_end:.4g} mm",
-        )
-    if outside and sizes.wheel_bore >= sizes.slot_end:
-        yield (
-            "wheel_bore_mm",
-            f"wheel_bore_mm = {2.0 * sizes.wheel_bore:g}: the slots reach down to "
-            f"{sizes.slot_end:.6g} mm; it must be below {2.0 * sizes.slot_end:.6g}",
-        )
-    own, through = size.arm_bore_mm, 2.0 * sizes.crank_bore  # of one shaft; 0 ends it in the arm
-    stepped = own and through and abs(own - through) > 2.0 * SAME_LENGTH * assembly.L
-    if assembly.full.spec.drive.ONE_ARM and stepped:
-        yield (
-            "arm_bore_mm",
-            f"arm_bore_mm = {own:g}: the shaft runs through the arm and on, so crank_bore_mm = "
-            f"{through:g} must be equal, or 0 to end it in the arm",
-        )
-    if sizes.lock and sizes.crank_bore >= sizes.lock:
-        yield (
-            "crank_bore_mm",
-            f"crank_bore_mm = {2.0 * sizes.crank_bore:g}: it must be below the locking disc's "
-            f"{2.0 * sizes.lock:.6g}",
-        )
+def _refuse(assembly: Assembly, sizes: Sizes) -> None:
+    """Raise GenevaError for sizes that leave no wheel or no lock, and for keys of no such part."""
+    size, outside, L = assembly.mechanism.spec.size, assembly.sign > 0.0, assembly.L
+    lock, end, bored = sizes.lock, sizes.slot_end, 2.0 * sizes.crank_bore
+    text = "the rim lies beyond the locking disc's reach; it must be below "
+    wrong = lock and not abs(L - sizes.rim) < sizes.recess
+    refuse_size(wrong, "wheel_radius_mm", f"{text}{L + sizes.recess:.6g}", sizes.rim)
+    text = "the slots meet in the wheel's centre: reduce roller_radius_mm, slot_clearance_mm and "
+    text += f"slot_bottom_clearance_mm together by more than {-end:.4g} mm"
+    refuse_size(outside and end <= 0.0, "roller_radius_mm", text)
+    text = f"the slots reach down to {end:.6g} mm; it must be below {2.0 * end:.6g}"
+    wrong = outside and sizes.wheel_bore >= end
+    refuse_size(wrong, "wheel_bore_mm", text, 2.0 * sizes.wheel_bore)
+    own = size.arm_bore_mm  # of one shaft with the crank's bore; 0 ends it in the arm
+    one = assembly.full.spec.drive.ONE_ARM and own and bored
+    text = f"the shaft runs through the arm and on, so crank_bore_mm = {bored:g} must be equal, "
+    stepped = one and own and abs(own - bored) > 2.0 * SAME_LENGTH * L
+    refuse_size(stepped, "arm_bore_mm", f"{text}or 0 to end it in the arm", own)
+    text = f"it must be below the locking disc's {2.0 * lock:.6g}"
+    refuse_size(lock and sizes.crank_bore >= lock, "crank_bore_mm", text, bored)
     thin = min(sizes.wheel_thickness, sizes.lock_thickness, sizes.arm_thickness)
-    yield from rules.pin_and_edge_faults(size, sizes.pin, sizes.roller, thin)
+    rules.refuse_pin_and_edges(size, sizes.pin, sizes.roller, thin)
     key = "mouth_radius_mm" if sizes.mouth_radius else "horn_tip_mm"
+    text = f"{key} is for straight slots, each of which a roller enters and leaves: remove it"
     shaped = sizes.mouth_radius or sizes.horn_tip
-    if shaped and any(kind.slot.curved or kind.apart for kind in assembly.kinds):
-        yield (
-            key,
-            f"{key} is for straight slots, each of which a roller enters and leaves: remove it",
-        )
-    if sizes.horn_tip and not sizes.lock:
-        yield (
-            "horn_tip_mm",
-            "horn_tip_mm blunts the horns between slots and recesses, and without a locking disc "
-            "there are none: remove it",
-        )
-    if not outside and sizes.outer <= max(sizes.slot_end, assembly.L + sizes.recess):
-        yield (
-            "wheel_outer_radius_mm",
-            f"wheel_outer_radius_mm = {sizes.outer:g}: it must be larger: the slots reach "
-            f"{sizes.slot_end:.6g} mm",
-        )
-    if outside and size.wheel_outer_radius_mm is not None:
-        yield (
-            "wheel_outer_radius_mm",
-            "wheel_outer_radius_mm is for internal wheels only; here set wheel_radius_mm",
-        )
+    wrong = shaped and any(kind.slot.curved or kind.apart for kind in assembly.kinds)
+    refuse_size(wrong, key, text)
+    text = "horn_tip_mm blunts the horns between slots and recesses, and without a locking disc "
+    refuse_size(sizes.horn_tip and not lock, "horn_tip_mm", f"{text}there are none: remove it")
+    text = f"it must be larger: the slots reach {end:.6g} mm"
+    wrong = not outside and sizes.outer <= max(end, L + sizes.recess)
+    refuse_size(wrong, "wheel_outer_radius_mm", text, sizes.outer)
+    text = "wheel_outer_radius_mm is for internal wheels only; here set wheel_radius_mm"
+    wrong = outside and size.wheel_outer_radius_mm is not None
+    refuse_size(wrong, "wheel_outer_radius_mm", text)
     for key in OF_AXLE if sizes.outer else ():
-        if vars(size)[key]:
-            yield key, f"{key}: an internal wheel is open in the middle; remove it"
-    yield from rules.hub_faults("wheel", sizes.wheel_hub, sizes.wheel_reach, sizes.wheel_bore)
-    yield from rules.hub_faults("crank", sizes.crank_hub, sizes.crank_reach, sizes.crank_bore)
+        text = f"{key}: an internal wheel is open in the middle; remove it"
+        refuse_size(vars(size)[key], key, text)
+    rules.refuse_bored_hub("wheel", sizes.wheel_hub, sizes.wheel_reach, sizes.wheel_bore)
+    rules.refuse_bored_hub("crank", sizes.crank_hub, sizes.crank_reach, sizes.crank_bore)

@@ -16,7 +16,6 @@ from geneva_cli.geometry.shapes import Arc, Circle, Contour
 from geneva_cli.kept import cached_property, load_named
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.registry import FRONT, named, thing
-from geneva_cli.parts.assembly import input_of
 from geneva_cli.parts.shafts.bores import Screws, tapped
 from geneva_cli.parts.turn.turned_parts import TurnedParts
 
@@ -37,16 +36,6 @@ class Parts(TurnedParts):
     LAID_FLAT: ClassVar[tuple[str, ...]] = ()
 
     @property
-    def gear_pair(self) -> tuple[Member, ...]:
-        """The noncircular gears before the crank; none without."""
-        return ()
-
-    @property
-    def round_gears(self) -> tuple[Member, ...]:
-        """Gears with round pitch circles, as blanks up to these; none without."""
-        return ()
-
-    @property
     def screws(self) -> tuple[Screws, ...]:
         """The screws between the parts; none without."""
         return ()
@@ -64,7 +53,7 @@ class Parts(TurnedParts):
     @property
     def horn_mm(self) -> float | None:
         """Thickness of the horns between slots and recesses; None without a lock."""
-        return None
+        return self.sizes.horn if self.locked else None
 
     @property
     def outlines(self) -> Outlines:
@@ -78,45 +67,15 @@ class Parts(TurnedParts):
 
         return full_turn(self)
 
-    def of(self, mechanism: Mechanism) -> Self:
-        """Return the parts of a machine whose wheel, crank and positions are equal."""
-        other = type(self)(mechanism)
-        assembly = self.assembly._replace(full=mechanism, to_input=input_of(mechanism))
-        vars(other)["_shape"] = self._shape._replace(assembly=assembly)
-        return other
-
     def following(self, mechanism: Mechanism) -> Parts:
-        """Return the parts of the next design, with these outlines and this turn if they are equal.
-
-        They are equal if wheel, drive, motion and ``[size]`` are, but for the speed, and all sizes
-        that follow from the load.
-        """
-        own, other = (
-            (spec.wheel, spec.drive.replace(n_rpm=1.0), spec.motion, spec.size)
-            for spec in (self.mechanism.spec, mechanism.spec)
-        )
-        computed = vars(self)
-        if not ("_shape" in computed and own == other and self._has_sizes_of(mechanism)):
-            return parts_of(mechanism)
-        parts = self.of(mechanism)
-        if "turn" in computed:
-            vars(parts)["turn"] = computed["turn"]
-        return parts
-
-    def _has_sizes_of(self, mechanism: Mechanism) -> bool:
-        """Return True if the sizes of a machine with an equal spec, but for its load, are equal."""
-        return False
-
-    @property
-    def turned(self) -> Self:
-        """These parts. Raises GenevaError where there is nothing to turn."""
-        _ = self._shape
-        return self
+        """Return the parts of the next design, with this turn if it is the same."""
+        return parts_of(mechanism)
 
     @property
     def built(self) -> Self:
         """These parts. Raises GenevaError where the sizes leave no wheel or no crank."""
-        return self.turned
+        _ = self._shape
+        return self
 
     @cached_property
     def flat(self) -> Parts:
@@ -139,7 +98,8 @@ class Parts(TurnedParts):
     def within(self, tolerance: float, curves: str) -> Self:
         """Return these parts with curves of a kind within a tolerance, mm."""
         finer = type(self)(self.mechanism, tolerance, curves)
-        vars(finer).update({k: v for k, v in vars(self).items() if k == "_shape"})
+        if "_shape" in vars(self):
+            vars(finer)["_shape"] = self._shape
         return finer
 
     @property
@@ -182,8 +142,7 @@ class FrameAndShafts(NamedTuple):
         """The screws that fix parts to the frame, and those of its mounting holes."""
         kinds = Counter((part, hole.radius) for hole, part in self.screwed)
         fixed = [Screws(part, n, 2.0 * r, "the frame") for (part, r), n in kinds.items()]
-        mounts = mounts_of(self.plate)
-        if mounts:
+        if mounts := mounts_of(self.plate):
             fixed.append(Screws("frame", len(mounts), 2.0 * mounts[0].radius, "its base"))
         return tuple(fixed)
 
@@ -193,12 +152,9 @@ def mounts_of(frame: Plate) -> list[Circle]:
     if frame.name != FRAME or not isinstance(frame.outline, Contour):
         return []
     corners = [piece.centre for piece in frame.outline.segments if isinstance(piece, Arc)]
-    near = 1e-9  # of a corner: rounding
-    return [
-        hole
-        for hole in frame.holes
-        if isinstance(hole, Circle) and any(math.dist(hole.centre, at) <= near for at in corners)
-    ]
+    round_ = (hole for hole in frame.holes if isinstance(hole, Circle))
+    # 1e-9 mm: rounding
+    return [one for one in round_ if any(math.dist(one.centre, at) <= 1e-9 for at in corners)]
 
 
 class EdgedParts(Parts):

@@ -83,12 +83,8 @@ def titled(mechanism: Mechanism, part: str = "") -> str:
 def outlines_of(part: Part) -> tuple[Shape, ...]:
     """Return the outlines and holes of a part in its own frame, each once, layer by layer."""
     # layer by layer, and contours before circles
-    return tuple(
-        sorted(
-            once(shapes([Member(part)])),
-            key=lambda shape: (LAYERS.index(shape.layer), isinstance(shape, Circle)),
-        )
-    )
+    own = once(shapes([Member(part)]))
+    return tuple(sorted(own, key=lambda one: (LAYERS.index(one.layer), isinstance(one, Circle))))
 
 
 def drawing_of(mechanism: Mechanism, part: str, solid: Part) -> Drawing:

@@ -10,7 +10,9 @@ wheels in series bears the greatest torque in the second's crank shaft.
 from __future__ import annotations
 
 import math
+from contextlib import suppress
 from functools import lru_cache
+from itertools import product, repeat
 from typing import NamedTuple
 
 import numpy as np
@@ -64,8 +66,7 @@ def stressed(assembly: Assembly, sizes: Sizes) -> Stressed:
     lowest, planes = min(-hub_mm, -gap - (thick if sizes.arm_bore else 0.0)), []
     for link in links_at(machine, np.zeros(1)):
         planes.append((link.plane, 0.0))
-    if spec.gears:
-        planes.append((gear_plane(machine), 0.0))
+    planes += [(gear_plane(machine), 0.0)] if spec.gears else []
     if machine.engagements[0].groove is not None:
         planes.append((3, 0.0) if spec.drive_before else (2, thick))
     first = thick if spec.drive.ONE_ARM else sizes.link_thickness
@@ -87,15 +88,11 @@ def stressed(assembly: Assembly, sizes: Sizes) -> Stressed:
         eye = half_or(size.arm_eye_mm, eye_about(hole, sizes.wall_min, passing))
         offset = 0.5 * (contact + thick) + gap
         arm = pin_arm_key.ArmDimensions(long, hub, eye, bored, hole, thick, offset)
-    return Stressed(
-        contact,
-        2.0 * sizes.pin,
-        shaft_of(spec, "wheel", sizes.wheel_bore, *on_wheel),
-        shaft_of(spec, "crank", sizes.arm_bore or sizes.crank_bore, *on_crank),
-        arm,
-        key_of(size.wheel_keyway, sizes.wheel_bore, wide + hub_mm),
-        key_of(size.crank_keyway, sizes.arm_bore, thick),
-    )
+    wheel_shaft = shaft_of(spec, "wheel", sizes.wheel_bore, *on_wheel)
+    crank_shaft = shaft_of(spec, "crank", sizes.arm_bore or sizes.crank_bore, *on_crank)
+    wheel_key = key_of(size.wheel_keyway, sizes.wheel_bore, wide + hub_mm)
+    crank_key = key_of(size.crank_keyway, sizes.arm_bore, thick)
+    return Stressed(contact, 2.0 * sizes.pin, wheel_shaft, crank_shaft, arm, wheel_key, crank_key)
 
 
 def shaft_of(spec: Spec, part: str, bore: float, to_frame: float, thick: float) -> ShaftSize:
@@ -111,14 +108,11 @@ def shaft_of(spec: Spec, part: str, bore: float, to_frame: float, thick: float) 
 
 def key_of(standard: str | None, bore: float, length: float) -> pin_arm_key.KeyDimensions:
     """Return the dimensions of a key in a bore; NaN without one."""
-    try:
-        fitted = key(standard, bore) if bore else None
-    except GenevaError:  # reported where the part is cut
-        fitted = None
-    if fitted is None:
-        return pin_arm_key.NO_KEY
-    stands = fitted.height - fitted.in_shaft
-    return pin_arm_key.KeyDimensions(2.0 * bore, fitted.width, stands, length)
+    with suppress(GenevaError):  # reported where the part is cut
+        if bore and (fitted := key(standard, bore)):
+            stands = fitted.height - fitted.in_shaft
+            return pin_arm_key.KeyDimensions(2.0 * bore, fitted.width, stands, length)
+    return pin_arm_key.NO_KEY
 
 
 def load_sizes(
@@ -163,16 +157,16 @@ def load_sizes(
     if not (sizes.arm_bore and sizes.pin) or size.arm_thickness_mm is not None:
         return _crank_bored(of, spec, loads, _wheel_bored(of, spec, loads, sizes), keyed=True)
     # a thicker arm, up to twice the wheel, is better for a key than a thicker shaft
-    for keyed in (False, True) if size.crank_keyway else (True,):
-        for thick in sizes_from(wide, 2.0 * wide):
-            bar = sizes.link_thickness if linked else thick
-            trial = sizes._replace(arm_thickness=thick, link_thickness=bar)
-            trial = _crank_bored(of, spec, loads, _wheel_bored(of, spec, loads, trial), keyed)
-            parts = stressed(of.assembly, trial)
-            arm_MPa = float(pin_arm_key.arm_stress_MPa(parts.arm, loads.wheel_N))
-            key_lasts = key_holds(spec, parts.crank_key, loads.crank_Nm)
-            if key_lasts and keeps(arm_MPa, "at most", allowed):
-                return trial
+    keys = (False, True) if size.crank_keyway else (True,)
+    for keyed, thick in product(keys, sizes_from(wide, 2.0 * wide)):
+        bar = sizes.link_thickness if linked else thick
+        trial = sizes._replace(arm_thickness=thick, link_thickness=bar)
+        trial = _crank_bored(of, spec, loads, _wheel_bored(of, spec, loads, trial), keyed)
+        parts = stressed(of.assembly, trial)
+        arm_MPa = float(pin_arm_key.arm_stress_MPa(parts.arm, loads.wheel_N))
+        key_lasts = key_holds(spec, parts.crank_key, loads.crank_Nm)
+        if key_lasts and keeps(arm_MPa, "at most", allowed):
+            break
     return trial
 
 
@@ -205,17 +199,14 @@ def _crank_bored(of: Unloaded, spec: Spec, loads: PartLoads, usual: Sizes, keyed
     if sizes.crank_bore:
         # a larger bore leaves no space for its default hub, of 1.5 bores
         most = min(0.6 * of.space, rules.within_hub(size, "crank"))
-        for d in sizes_from(2.0 * sizes.crank_bore, 2.0 * most, bores=True):
-            trials.append((d, True))
+        trials += zip(sizes_from(2.0 * sizes.crank_bore, 2.0 * most, bores=True), repeat(True))
     # past links and gears the shaft may have no other way out
     if sizes.arm_bore and not (links_at(of.assembly.full, np.zeros(1)) or spec.gears):
-        left = sizes.reaches[0] - rules.hole_radius(size, sizes.pin)
-        for d in sizes_from(2.0 * sizes.arm_bore, left, bores=True):  # half of it is left as a wall
-            trials.append((d, False))
+        left = sizes.reaches[0] - rules.hole_radius(size, sizes.pin)  # half of it stays as a wall
+        trials += zip(sizes_from(2.0 * sizes.arm_bore, left, bores=True), repeat(False))
     for d, through in trials:
-        bore = 0.5 * d if through else 0.0
+        bore, arm = 0.5 * d * through, 0.5 * d if usual.arm_bore else 0.0
         reach, hub = rules.reach_and_hub(size, "crank", bore, sizes.wall_min)
-        arm = 0.5 * d if usual.arm_bore else 0.0
         sizes = usual._replace(crank_bore=bore, crank_reach=reach, crank_hub=hub, arm_bore=arm)
         parts = stressed(of.assembly, sizes)
         if _shaft_holds(spec, "crank", parts, loads.crank_N, loads.crank_Nm, keyed):
@@ -244,19 +235,18 @@ def pin_that_holds(
         struck_N = forces_N(mechanism, jump, pin_arm_key.PinSize(trials, contact))[:, None]
     whole_N = np.fmax(loads.pin_N, struck_N) * rubbed  # with friction along the wall
     stresses = pin_arm_key.pin_stress_MPa(size, contact, trials, whole_N)[2]
-    for d, stress in zip(trials.flat, np.ravel(stresses), strict=True):
-        radius = 0.5 * float(d)
-        if keeps(float(stress), "at most", allowed):
-            break
-    return radius
+    for d, stress in zip(trials.ravel().tolist(), np.ravel(stresses).tolist(), strict=True):
+        if keeps(stress, "at most", allowed):
+            return 0.5 * d
+    return 0.5 * d
 
 
 def _shaft_holds(
     spec: Spec, part: str, parts: Stressed, force_N: float, torque_Nm: float, keyed: bool = True
 ) -> bool:
     """Return True if a shaft and its key hold a force and a torque, both greatest at once."""
-    shaft: ShaftSize = getattr(parts, f"{part}_shaft")
-    bent = spec.shaft.bending_factor * force_N * shaft.overhang / 1000.0
+    overhang: float = getattr(parts, f"{part}_shaft").overhang
+    bent = spec.shaft.bending_factor * force_N * overhang / 1000.0
     moment = math.hypot(bent, spec.shaft.torsion_factor * torque_Nm)
     return shaft_and_key_hold(spec, part, parts, moment, torque_Nm, keyed)
 

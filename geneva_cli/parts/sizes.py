@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import refuse_size
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.arrays import half_or, value_or
 from geneva_cli.numerics.tolerances import bore_radius, rounded_below, rounded_radius
@@ -72,9 +72,7 @@ class Sizes(NamedTuple):
     @property
     def outline(self) -> Sizes:
         """The sizes of the outlines of wheel and crank: 0 for those that a load may change."""
-        keys = Sizes._fields[Sizes._fields.index("wheel_bore") :]
-        none: dict[str, float] = dict.fromkeys(keys, 0.0)
-        return self._replace(**none)  # type: ignore[arg-type]
+        return Sizes(*self[: Sizes._fields.index("wheel_bore")])  # type: ignore[arg-type]
 
 
 class Unloaded(NamedTuple):
@@ -89,13 +87,6 @@ class Unloaded(NamedTuple):
 # The sizes of a machine's parts by keys of ``[size]``, mm and diameters as the keys say; and those
 # of the keys that the spec leaves out and the load chooses.
 KeySizes: TypeAlias = tuple[dict[str, float], tuple[str, ...]]
-Fault: TypeAlias = tuple[str, str]  # a key of ``[size]``, and what is wrong with it
-
-
-def refuse(faults: Iterable[Fault]) -> None:
-    """Raise GenevaError for the first fault, if there is one."""
-    for key, text in faults:
-        raise GenevaError(text, ("size", key))
 
 
 def drawn_thicknesses(size: Size, L: float) -> Thicknesses:
@@ -135,15 +126,10 @@ def hub_and_eye(
     deep = bore_of(size, "crank", bore).reach
     hub = arm_hub(size, deep, bore, wall, standing)
     eye = half_or(size.arm_eye_mm, eye_about(hole, wall, passing))
-    inner = {"hub": (hub, deep, "the diameter over its bore and keyway")}
-    inner["eye"] = eye, hole, "the pin's hole"
-    for part, (radius, least, what) in inner.items():
-        if radius <= least:
-            raise GenevaError(
-                f"arm_{part}_mm = {2.0 * radius:g}: the {part} must be above {2.0 * least:.6g}, "
-                f"{what}",
-                ("size", f"arm_{part}_mm"),
-            )
+    text = f"the hub must be above {2.0 * deep:.6g}, the diameter over its bore and keyway"
+    refuse_size(hub <= deep, "arm_hub_mm", text, 2.0 * hub)
+    text = f"the eye must be above {2.0 * hole:.6g}, the pin's hole"
+    refuse_size(eye <= hole, "arm_eye_mm", text, 2.0 * eye)
     return hub, eye
 
 
@@ -160,40 +146,27 @@ def hole_radius(size: Size, pin: float) -> float:
 def pin_hole(size: Size, pin: float) -> float:
     """Return the radius of the hole that holds a pin. Raises GenevaError where none is left."""
     hole = hole_radius(size, pin)
-    if hole <= 0.0:
-        raise GenevaError(
-            f"there is no hole for a pin of pin_mm = {2.0 * pin:g} with press_fit_mm = "
-            f"{2.0 * (pin - hole):g}; the pin must be the larger",
-            ("size", "press_fit_mm" if pin else "pin_mm"),
-        )
+    text = f"there is no hole for a pin of pin_mm = {2.0 * pin:g} with press_fit_mm = "
+    text += f"{2.0 * (pin - hole):g}; the pin must be the larger"
+    refuse_size(hole <= 0.0, "press_fit_mm" if pin else "pin_mm", text)
     return hole
 
 
-def pin_and_edge_faults(size: Size, pin: float, roller: float, thin: float) -> Iterator[Fault]:
-    """Yield the faults of a pin and of edges that leave nothing of a part.
+def refuse_pin_and_edges(size: Size, pin: float, roller: float, thin: float) -> None:
+    """Raise GenevaError for a pin, or edges, that leave nothing of a part.
 
     The pin's hole is in a roller with its least radius; the thinnest plate is ``thin`` mm thick.
     """
-    loose, chamfer = size.allowances.shaft_fit_mm, size.edge_chamfer_mm is not None
-    if pin and 2.0 * pin + loose >= 2.0 * roller:
-        yield (
-            "pin_mm",
-            f"pin_mm = {2.0 * pin:g}: it must be below {2.0 * roller - loose:.6g}, the roller's "
-            "least diameter less shaft_fit_mm",
-        )
-    if chamfer and size.edge_fillet_mm is not None:
-        yield (
-            "edge_fillet_mm",
-            "edge_fillet_mm: edges are either chamfered or rounded; remove one of edge_chamfer_mm "
-            "and edge_fillet_mm",
-        )
-    if 2.0 * size.edge_mm >= thin:
-        key = "edge_chamfer_mm" if chamfer else "edge_fillet_mm"
-        yield (
-            key,
-            f"{key} = {size.edge_mm:g}: it must be below {0.5 * thin:.6g}, half of the thinnest "
-            "plate",
-        )
+    loose, key = size.allowances.shaft_fit_mm, "edge_fillet_mm"
+    text = f"it must be below {2.0 * roller - loose:.6g}, the roller's least diameter less "
+    wide = pin and 2.0 * pin + loose >= 2.0 * roller
+    refuse_size(wide, "pin_mm", f"{text}shaft_fit_mm", 2.0 * pin)
+    chamfer = size.edge_chamfer_mm is not None
+    text = f"{key}: edges are either chamfered or rounded; remove one of edge_chamfer_mm and {key}"
+    refuse_size(chamfer and size.edge_fillet_mm is not None, key, text)
+    text = f"it must be below {0.5 * thin:.6g}, half of the thinnest plate"
+    key = "edge_chamfer_mm" if chamfer else key
+    refuse_size(2.0 * size.edge_mm >= thin, key, text, size.edge_mm)
 
 
 def arm_bore(spec: Spec, disc: float, L: float, space: float) -> float:
@@ -218,14 +191,11 @@ def wheel_bore(spec: Spec, end: float, wall: float, L: float) -> float:
     return half_or(size.wheel_bore_mm, usual)
 
 
-def hub_faults(part: str, hub: float, bored: float, bore: float) -> Iterator[Fault]:
-    """Yield the fault of a hub that its bore, which reaches to ``bored``, cuts through."""
-    if bore < hub <= bored:
-        yield (
-            f"{part}_hub_mm",
-            f"{part}_hub_mm = {2.0 * hub:g}: it must be above {2.0 * bored:.6g}, the diameter "
-            f"over bore and keyway; a smaller {part}_bore_mm leaves more of it",
-        )
+def refuse_bored_hub(part: str, hub: float, bored: float, bore: float) -> None:
+    """Raise GenevaError for a hub that its bore, which reaches to ``bored``, cuts through."""
+    text = f"it must be above {2.0 * bored:.6g}, the diameter over bore and keyway; a smaller "
+    text += f"{part}_bore_mm leaves more of it"
+    refuse_size(bore < hub <= bored, f"{part}_hub_mm", text, 2.0 * hub)
 
 
 def reach_and_hub(
@@ -243,8 +213,6 @@ def lock_bolt_directions(sectors: Iterable[tuple[float, float]], count: int) -> 
     directions = list[list[float]]()
     for start, width in sectors if count else ():
         directions.append((start + width * (np.arange(count) + 0.5) / count).tolist())
-    if count and not directions:
-        raise GenevaError(
-            "lock_bolts: there is no locking disc to fix; remove it", ("size", "lock_bolts")
-        )
+    text = "lock_bolts: there is no locking disc to fix; remove it"
+    refuse_size(count and not directions, "lock_bolts", text)
     return directions

@@ -23,8 +23,7 @@ def wheel_body(mechanism: Mechanism) -> MassProperties | None:
     own = thing(spec.wheel.NAME, "wheel_body")
     try:
         if own:
-            body: MassProperties = own(mechanism)
-            return body
+            return own(mechanism)
         where, size = machine_sizes(mechanism)
         contour = wheel_contour(where, size, turned_walls(where, size), spec.wheel.stopped)
         hub, density = wheel_hub(where, size), wheel_material(spec).density_kgm3

@@ -13,19 +13,10 @@ from __future__ import annotations
 import dataclasses
 import inspect
 import math
+import typing
 from collections.abc import Iterable, Mapping, Sequence
 from types import NoneType, UnionType
-from typing import (
-    Annotated,
-    Any,
-    ClassVar,
-    NamedTuple,
-    Self,
-    TypeAlias,
-    dataclass_transform,
-    get_args,
-    get_origin,
-)
+from typing import Annotated, Any, ClassVar, NamedTuple, Self, TypeAlias
 
 from geneva_cli.errors import GenevaError, cut, few, nearest, refuse
 from geneva_cli.spec.rules import TINY, Csv, OneOf, Range, is_array, plain
@@ -84,7 +75,7 @@ class _Signature:
         return inspect.Signature(parameters)
 
 
-@dataclass_transform(frozen_default=True, field_specifiers=(dataclasses.field,))
+@typing.dataclass_transform(frozen_default=True, field_specifiers=(dataclasses.field,))
 class SpecTable:
     """A table of the spec. Raises GenevaError, naming table and key, for an invalid value.
 
@@ -97,7 +88,12 @@ class SpecTable:
     __signature__ = _Signature()
     _parameters: ClassVar[dict[str, dataclasses.Field[object]]]  # by name
 
-    def __init_subclass__(cls, kw_only: bool = False) -> None:
+    def __init_subclass__(
+        cls, kw_only: bool = False, names: Iterable[str] = (), of: object = None
+    ) -> None:
+        for name in names:  # keys that have one annotation, and are None by default
+            cls.__annotations__[name] = of
+            setattr(cls, name, None)
         dataclasses.dataclass(init=False, eq=False, repr=False, kw_only=kw_only)(cls)
         cls._parameters = {}
         for one in dataclasses.fields(cls):  # type: ignore[arg-type]
@@ -249,10 +245,10 @@ def fields(table: type[SpecTable]) -> tuple[Field, ...]:
     for name, one in table._parameters.items():
         annotation = own.get(name)
         # others are no keys: objects with their own keys, such as a motion's law
-        if get_origin(annotation) is Annotated:
-            annotated, rule, meaning = get_args(annotation)
+        if typing.get_origin(annotation) is Annotated:
+            annotated, rule, meaning = typing.get_args(annotation)
             # an alternative (a | b) by its parts, anything else as it is; tuple[...] stays whole
-            types = get_args(annotated) if isinstance(annotated, UnionType) else (annotated,)
+            types = typing.get_args(annotated) if isinstance(annotated, UnionType) else (annotated,)
             key = name.rstrip("_").replace("_", table.WORDS_APART)
             key = "file" if isinstance(rule, Csv) else key
             keys.append(Field(key, name, types, rule, one.default, meaning))

@@ -7,7 +7,7 @@ other keys. The annotations are objects, since evaluating text on import would t
 from collections.abc import Iterable
 from dataclasses import field
 from operator import attrgetter
-from typing import Annotated, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.kept import cached_property
@@ -17,8 +17,10 @@ from geneva_cli.spec.schema import SpecTable, fields
 from geneva_cli.spec.workshops import PROCESSES, WORKSHOPS, Allowances
 
 # types of keys that wheel and crank have alike, with their meaning
-Keyway = Annotated[str | None, OneOf(("DIN 6885-1",)), "keyway in the bores on this shaft"]
-BoreShape = Annotated[str, OneOf(("round", "D", "hex")), "shape of its bores; hex: across flats"]
+Keyway = Annotated[str | None, OneOf(("DIN 6885-1",)), "keyway in all bores on this shaft"]
+BoreShape = Annotated[
+    str, OneOf(("round", "D", "hex")), "shape of all bores on this shaft; hex: across flats"
+]
 
 DISTANCE_MM = 100.0  # the centre distance of a spec that gives none
 Z_DRAWN = 360  # slots of a wheel that is drawn: one a degree
@@ -49,12 +51,15 @@ class Size(SpecTable):
         Positive, "centre distance L; spherical: sphere radius; linear: crank radius; default 100"
     ] = None
     crank_radius_mm: Annotated[
-        Positive, "crank radius R, to the roller's centre; with another R/L than needed: as built"
+        Positive,
+        "crank radius R, to the roller; alone it sets L; with another R/L than needed: as built",
     ] = field(default=None, kw_only=True)
     roller_radius_mm: Annotated[Positive, "roller radius r; default L/20"] = None
     process: Annotated[str | None, OneOf(PROCESSES), "sets clearances, fits and limits"] = None
-    slot_clearance_mm: Annotated[NotNegative, "per side, in slot; default 0, or by process"] = None
-    lock_clearance_mm: Annotated[NotNegative, "per side, of disc; default 0, or by process"] = None
+    slot_clearance_mm: Annotated[NotNegative, "per side of the roller; default 0, by process"] = (
+        None
+    )
+    lock_clearance_mm: Annotated[NotNegative, "per side of the disc; default 0, by process"] = None
     face_width_mm: Annotated[Positive, "length of the contact line between roller and slot"] = None
     wheel_radius_mm: Annotated[
         Positive,
@@ -63,10 +68,10 @@ class Size(SpecTable):
     wheel_outer_radius_mm: Annotated[Positive, "internal: outer radius; default slots + 2 r"] = None
     slot_bottom_clearance_mm: Annotated[NotNegative, "roller to a slot's end; default r/20"] = None
     lock_radius_mm: Annotated[NotNegative, "locking disc's radius; 0 none; default by horns"] = None
-    relief: Annotated[str | None, OneOf(("arc", "sector")), "default: the one that clears"] = None
+    relief: Annotated[str | None, OneOf(("arc", "sector")), "its cut; default: what clears"] = None
     relief_clearance_mm: Annotated[NotNegative, "wheel to relief's bottom; default L/200"] = None
     wall_min_mm: Annotated[NotNegative, "least wall; default L/200, or by process"] = None
-    wheel_bore_mm: Annotated[NotNegative, "diameter of the wheel's shaft; default up to L/6"] = None
+    wheel_bore_mm: Annotated[NotNegative, "wheel's shaft; default up to L/6, or by load"] = None
     wheel_hub_mm: Annotated[NotNegative, "diameter of the wheel's hub, towards the arm"] = None
     wheel_hub_length_mm: Annotated[Positive, "below the wheel; default: past the crank arm"] = None
     wheel_shaft_low_mm: Annotated[Height, "shaft's lower end, from the wheel's lower face"] = None
@@ -82,7 +87,7 @@ class Size(SpecTable):
     pin_mm: Annotated[NotNegative, "diameter of the roller's pin; default r, or by load"] = None
     press_fit_mm: Annotated[NotNegative, "pin minus its hole; default 0, or by process"] = None
     shaft_fit_mm: Annotated[NotNegative, "bores minus shafts; default 0, or by process"] = None
-    arm_bore_mm: Annotated[Positive, "crank's shaft in the arm; default crank_bore_mm"] = None
+    arm_bore_mm: Annotated[Positive, "crank's shaft in it; default crank_bore_mm, or load"] = None
     arm_hub_mm: Annotated[Positive, "width of the arm round its bore; default 1.6 bores"] = None
     arm_eye_mm: Annotated[Positive, "width of the arm round a pin; default up to 2 pins"] = None
     crank_keyway: Keyway = None
@@ -93,15 +98,17 @@ class Size(SpecTable):
     wheel_flat_mm: Annotated[Positive, "depth of a D bore's flat; default bore/10"] = None
     dial_bolts: Annotated[int, Range(0, 100), "number of bolts between dial and wheel"] = 0
     dial_bolt_mm: Annotated[Positive, "dial's bolt holes; default for a screw up to L/40"] = None
-    dial_bolt_circle_mm: Annotated[Positive, "dial's bolt circle; default amid bore, slots"] = None
+    dial_bolt_circle_mm: Annotated[Positive, "diameter; default amid bore and slots"] = None
     gear_bolts: Annotated[int, Range(0, 100), "screws between a fixed gear and the frame"] = 4
     gear_bolt_mm: Annotated[Positive, "fixed gear's screw holes; default up to L/40"] = None
-    gear_bolt_circle_mm: Annotated[Positive, "circle; default amid bore and pitch circle"] = None
+    gear_bolt_circle_mm: Annotated[Positive, "diameter; default amid bore and pitch circle"] = None
     lock_bolts: Annotated[int | None, Range(0, 100), "in each sector; default 2 if they fit"] = None
     lock_bolt_mm: Annotated[Positive, "lock's bolt holes; default for a screw up to L/40"] = None
-    lock_bolt_circle_mm: Annotated[Positive, "its bolt circle; default where it is widest"] = None
+    lock_bolt_circle_mm: Annotated[Positive, "diameter; default where the disc is widest"] = None
     pin_held: Annotated[
-        str, OneOf(("cantilever", "supported", "fixed")), "in one plate, loose in two, fixed in two"
+        str,
+        OneOf(("cantilever", "supported", "fixed")),
+        "support of the roller's pin: fixed in one plate, loose in two, or fixed in two",
     ] = "cantilever"
     pin_gap_mm: Annotated[NotNegative, "pin's plate to contact; default 0, or by process"] = None
     mouth_radius_mm: Annotated[FromZero, "rounding radius of straight slots' mouths"] = 0.0
@@ -160,8 +167,8 @@ class Size(SpecTable):
         >>> Size(process="laser", wheel_thickness_mm=3.0, lock_clearance_mm=0.1).allowances[:3]
         (0.2, 0.1, 0.15)
         """
-        own, cut_mm = vars(self), WORKSHOPS[self.process].cut_mm
-        values = (Allowances() if self.process is None else PROCESSES[self.process])._asdict()
+        own, shop = vars(self), WORKSHOPS[self.process]
+        values, cut_mm = shop.allowances._asdict(), shop.cut_mm
         if cut_mm:
             # Parts are all off by the deviation of their cut. The roller is wide and its slot
             # narrow, each by half a side; and so disc and recess, whose diameter is about the
@@ -296,7 +303,7 @@ class Motor(SpecTable):
     gear_efficiency: Annotated[float, Range(0.0, 1.0, "(]"), "efficiency of the reducer"] = 1.0
     inertia_kgm2: Annotated[FromZero, "inertia of rotor and reducer"] = 0.0
     speed_variation: Annotated[
-        float | None, Range(0.0, 2.0, "()"), "allowed (greatest - least) / mean; sizes a flywheel"
+        float | None, Range(0.0, 2.0, "()"), "(greatest - least) / mean speed; sizes a flywheel"
     ] = None
 
     @property
@@ -519,10 +526,21 @@ LIMITED = {
 }
 
 
+# the warnings that a reason may accept
+ACCEPTED = (
+    *("many_slots", "no_centre_distance", "nothing_holds", "stop_in_motion", "loose_fit"),
+    *("rounded_points", "turns_back", "off_mid_condition", "soft_shock_at_ends"),
+    *("soft_shock_at_mid", "not_positively_driven", "steep_hand_over", "undercut"),
+    *("friction_holds_the_wheel", "sharp_wall", "drives_the_motor", "heavy_inertia"),
+    *("tiny_machine", "wheel_left_out", "weight_to_one_side", "unbalanced", "nothing_to_act_on"),
+    *("driven_by_one_wall", "lags_behind", "short_motion", "stout_horns", "tolerance_left_out"),
+    *("not_every_machine_turns", "small_hole", "no_bearing", "gears_without_teeth"),
+    *("taken_as_built", "outline_units", "ideal_machine", "narrow_for_process"),
+)
 Reason = Annotated[str | None, None, "reason for accepting this warning"]
 
 
-class Accept(SpecTable):
+class Accept(SpecTable, names=ACCEPTED, of=Reason):
     """``[accept]``: the reason for each accepted warning, by its name.
 
     >>> Accept(many_slots="a dial of 30 stations").reasons
@@ -532,48 +550,16 @@ class Accept(SpecTable):
     TABLE: ClassVar[str] = "accept"
     WORDS_APART: ClassVar[str] = "-"  # in the names of warnings
 
-    many_slots: Reason = None
-    no_centre_distance: Reason = None
-    nothing_holds: Reason = None
-    stop_in_motion: Reason = None
-    loose_fit: Reason = None
-    rounded_points: Reason = None
-    turns_back: Reason = None
-    off_mid_condition: Reason = None
-    soft_shock_at_ends: Reason = None
-    soft_shock_at_mid: Reason = None
-    not_positively_driven: Reason = None
-    steep_hand_over: Reason = None
-    undercut: Reason = None
-    friction_holds_the_wheel: Reason = None
-    sharp_wall: Reason = None
-    drives_the_motor: Reason = None
-    heavy_inertia: Reason = None
-    tiny_machine: Reason = None
-    wheel_left_out: Reason = None
-    weight_to_one_side: Reason = None
-    unbalanced: Reason = None
-    nothing_to_act_on: Reason = None
-    driven_by_one_wall: Reason = None
-    lags_behind: Reason = None
-    short_motion: Reason = None
-    stout_horns: Reason = None
-    tolerance_left_out: Reason = None
-    not_every_machine_turns: Reason = None
-    small_hole: Reason = None
-    no_bearing: Reason = None
-    gears_without_teeth: Reason = None
-    taken_as_built: Reason = None
-    outline_units: Reason = None
-    ideal_machine: Reason = None
-    narrow_for_process: Reason = None
-
     # warnings of `geneva vibration` and `geneva tolerance` alone
     ELSEWHERE: ClassVar[tuple[str, ...]] = (
         *("short-motion", "tolerance-left-out", "not-every-machine-turns"),
     )
 
     reasons: ClassVar[dict[str, str]]  # of each record, by the names of the accepted warnings
+
+    if TYPE_CHECKING:
+
+        def __init__(self, **reasons: str | None) -> None: ...
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -603,20 +589,10 @@ class Accept(SpecTable):
 
 
 # The tables of every kind of machine, in the order of a file; those in LISTS may be repeated.
-PLAIN: dict[str, type[SpecTable]] = {
-    "size": Size,
-    "load": Load,
-    "mass": Mass,
-    "support": Support,
-    "motor": Motor,
-    "shaft": Shaft,
-    "material.wheel": WheelMaterial,
-    "material.roller": RollerMaterial,
-    "tolerance": Tolerance,
-    "product": Product,
-    "drawing": TitleBlock,
-    "outline": Outline,
-    "limits": Limits,
-    "accept": Accept,
-}
+PLAIN: dict[str, type[SpecTable]] = {}
+for _table in (
+    *(Size, Load, Mass, Support, Motor, Shaft, WheelMaterial, RollerMaterial, Tolerance),
+    *(Product, TitleBlock, Outline, Limits, Accept),
+):
+    PLAIN[_table.TABLE] = _table
 LISTS = ("mass",)

@@ -67,6 +67,20 @@ class Stock(NamedTuple):
     allowed_MPa: float = 165.0  # 0.6 of 275 MPa
 
 
+class Allowances(NamedTuple):
+    """Clearances by the keys of ``[size]``, mm, and their source.
+
+    Each is the amount by which a part is larger than its mate.
+    """
+
+    slot_clearance_mm: float = 0.0  # per side
+    lock_clearance_mm: float = 0.0  # per side
+    press_fit_mm: float = 0.0  # difference of diameters, pin minus hole
+    shaft_fit_mm: float = 0.0  # difference of diameters, bore minus shaft or pin in it
+    pin_gap_mm: float = 0.0  # along the axis, between wheel and crank arm
+    source: str | None = None
+
+
 class Workshop(NamedTuple):
     """What a process can hold. Limits that it does not have are 0 or infinite."""
 
@@ -81,6 +95,7 @@ class Workshop(NamedTuple):
     wall_mm: float = 0.0  # thinnest wall
     hole: float = 0.0  # smallest hole, over the plate's thickness
     plate_mm: float = float("inf")  # thickest plate
+    allowances: Allowances = Allowances()
 
 
 # by the process; without one, usual machining
@@ -96,10 +111,20 @@ WORKSHOPS: dict[str | None, Workshop] = {
         roughness="ISO 9013 range 2",
         hole=0.7,
         plate_mm=32.0,
+        # its clearances follow the plates' thicknesses: ``Size.allowances``
+        allowances=Allowances(
+            pin_gap_mm=0.5, source="ISO 9013:2017, class 1, at the thickness of each plate"
+        ),
     ),
     # Milling leaves Ra 0.8 to 6.3 (tables after ASME B46.1): 3.2 is the grade between them. H7/g6
     # of a roller of 18 to 30 mm leaves at most 41 um, over both sides.
-    "mill": Workshop("ISO 2768-m", roughness="Ra 3.2", slot_play_mm=0.02),
+    # All sizes stay nominal, for which there are reamers and bars.
+    "mill": Workshop(
+        "ISO 2768-m",
+        roughness="Ra 3.2",
+        slot_play_mm=0.02,
+        allowances=Allowances(pin_gap_mm=0.2, source="the fits of ISO 286 on the drawing sheet"),
+    ),
     # A wall needs two lines of a 0.4 mm nozzle (rigidprints.co.uk/design-guide/wall-thickness);
     # sizes are within 0.2 mm (printparams.com/docs/real-world-fit). PLA has 1.24 g/cm³ (ASTM D792,
     # data sheet of Ingeo 2003D, NatureWorks); parts that are not printed solid are lighter. Across
@@ -113,44 +138,18 @@ WORKSHOPS: dict[str | None, Workshop] = {
         deviation_mm=0.2,
         stock=Stock("PLA", 2.4, 0.36, 1240.0, 8.2),
         wall_mm=0.8,
+        # A hole is printed slightly too narrow, and holds its pin without a press fit. A printed
+        # shaft and its bore may both be off by 0.2 mm.
+        allowances=Allowances(
+            *(0.25, 0.25, 0.0, 0.4, 0.3),
+            "design guides for fused filament, ±0.2 mm: 0.2 to 0.3 mm a side where parts slide "
+            "(printparams.com/docs/real-world-fit)",
+        ),
     ),
 }
 
-
-class Allowances(NamedTuple):
-    """Clearances by the keys of ``[size]``, mm, and their source.
-
-    Each is the amount by which a part is larger than its mate.
-    """
-
-    slot_clearance_mm: float = 0.0  # per side
-    lock_clearance_mm: float = 0.0  # per side
-    press_fit_mm: float = 0.0  # difference of diameters, pin minus hole
-    shaft_fit_mm: float = 0.0  # difference of diameters, bore minus shaft or pin in it
-    pin_gap_mm: float = 0.0  # along the axis, between wheel and crank arm
-    source: str | None = None
-
-
-PROCESSES = {
-    # its clearances follow the plates' thicknesses: ``Size.allowances``
-    "laser": Allowances(
-        pin_gap_mm=0.5, source="ISO 9013:2017, class 1, at the thickness of each plate"
-    ),
-    # It keeps the fits of a sheet. All sizes stay nominal, for which there are reamers and bars.
-    "mill": Allowances(pin_gap_mm=0.2, source="the fits of ISO 286 on the drawing sheet"),
-    # A hole is printed slightly too narrow, and holds its pin without a press fit. A printed shaft
-    # and its bore may both be off by 0.2 mm.
-    "print": Allowances(
-        0.25,
-        0.25,
-        0.0,
-        0.4,
-        0.3,
-        "design guides for fused filament, ±0.2 mm: 0.2 to 0.3 mm a side where parts slide "
-        "(printparams.com/docs/real-world-fit)",
-    ),
-}
-
+# the words for processes
+PROCESSES = [*filter(None, WORKSHOPS)]
 
 # ISO 286-1:2010, micrometres for sizes up to a number of mm: grades IT6 and IT7 by its table 1, the
 # fundamental deviations g, f and p by its tables 4 and 5; up to 500 mm also IT11, and c for the

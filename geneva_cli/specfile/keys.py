@@ -83,11 +83,6 @@ def about(word: str) -> Sequence[Key]:
     return some
 
 
-def full_names() -> dict[str, str]:
-    """Every key as ``table.key``, with its meaning."""
-    return {k.name: k.meaning for k in all_keys() if k.table}
-
-
 def tables_with(key: str) -> dict[str, str]:
     """The tables that have a key, each with the key's meaning in it."""
     return {k.whole_table: k.meaning for k in all_keys() if k.key == key and k.table}
@@ -95,8 +90,7 @@ def tables_with(key: str) -> dict[str, str]:
 
 def is_whole(name: str) -> bool:
     """Return True if a key, as ``table.key``, takes only whole numbers."""
-    types = {k.type for k in all_keys() if k.name == name}
-    return types == {TYPES[int]}
+    return {k.type for k in all_keys() if k.name == name} == {TYPES[int]}
 
 
 def _key(table: str, field: Field, of: str | None = None) -> Key:

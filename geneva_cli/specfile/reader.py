@@ -54,31 +54,31 @@ class Setting(NamedTuple):
 
 def setting(text: str, option: str = "--set") -> Setting:
     """One ``table.key=value`` setting; a word's quotation marks are optional."""
-    key, sign, value = text.partition("=")
-    typed = f"{option} {cut(text.strip())}"
-    if not sign or not value.strip() or not all(key.strip().split(".")):
-        raise GenevaError(f"{typed}: it must be KEY=VALUE, as in {option} drive.n_rpm=90")
-    parts = whole_key(key.strip(), typed).split(".")
-    path = tuple(int(p) if i and p.isdecimal() else p for i, p in enumerate(parts))
+    typed, key, value = parted(text, option, f"KEY=VALUE, as in {option} drive.n_rpm=90")
+    path = tuple(int(p) if i and p.isdecimal() else p for i, p in enumerate(key.split(".")))
     return Setting(typed, path, read_value(value, typed))
 
 
-def whole_key(key: str, typed: str) -> str:
-    """Return a key with its table; without one if it is the only table that has the key.
+def parted(text: str, option: str, form: str) -> tuple[str, str, str]:
+    """Return an option as typed, the key in its text with its table, and the text of the value.
 
-    Raises GenevaError, which begins with ``typed``, for a key that no table or several tables have.
+    A key needs no table if only one has it. Raises GenevaError for a text that has not this
+    ``form``, and for a key that no table or several tables have.
     """
+    key, sign, value = map(str.strip, text.partition("="))
+    typed = f"{option} {cut(text.strip())}"
+    if not sign or not value or not all(key.split(".")):
+        raise GenevaError(f"{typed}: it must be {form}")
     if key == "title" or "." in key:
-        return key
-    from geneva_cli.specfile.keys import full_names, tables_with  # loads every kind
+        return typed, key, value
+    from geneva_cli.specfile.keys import all_keys, tables_with  # loads every kind
 
     names = [f"{table}.{key}" for table in tables_with(key)]
     if len(names) == 1:
-        return names[0]
+        return typed, names[0], value
     if names:
         raise GenevaError(f"{typed}: several tables have this key; write {' or '.join(names)}")
-    known = {name.rpartition(".")[2] for name in full_names()}
-    hint = nearest(key, sorted(known))
+    hint = nearest(key, sorted({k.key for k in all_keys() if k.table}))
     raise GenevaError(f"{typed}: no table has this key{hint}; `geneva keys` lists all")
 
 
@@ -115,16 +115,11 @@ class Text(NamedTuple):
             if not error.key:
                 raise
             # the option that set the key of an error, or a key in its table
-            options = (
-                one.option
-                for one in reversed(self.set_keys)
-                if one.path[: len(error.key)] == error.key
-            )
-            where = next(options, "")
-            if not where:
-                line = line_of(self.text, error.key)
-                where = f"{self.name}:{line}" if line else self.name
-            raise GenevaError(f"{where}: {error}") from None
+            n = len(error.key)
+            options = [one.option for one in self.set_keys if one.path[:n] == error.key]
+            line = line_of(self.text, error.key)
+            where = f"{self.name}:{line}" if line else self.name
+            raise GenevaError(f"{options[-1] if options else where}: {error}") from None
 
     def spec(self) -> Spec:
         """The spec. Raises GenevaError, ready to print, for anything wrong with it."""

@@ -8,18 +8,10 @@ from contextlib import contextmanager
 from typing import Any
 
 from geneva_cli.errors import GenevaError, below, clean, cut, few, nearest
+from geneva_cli.motion import machine_spec
 from geneva_cli.motion.drive import Drive
 from geneva_cli.motion.laws.law import Motion
-from geneva_cli.motion.machine_spec import (
-    BEFORE,
-    DRIVES,
-    LAWS,
-    WHEELS,
-    KindTable,
-    Spec,
-    drives_before,
-    kind_tables,
-)
+from geneva_cli.motion.machine_spec import BEFORE, DRIVES, LAWS, WHEELS, KindTable, Spec
 from geneva_cli.spec import schema
 from geneva_cli.spec.rules import Csv
 from geneva_cli.spec.tables import LISTS, PLAIN
@@ -93,9 +85,9 @@ def _not_a_table(table: str) -> GenevaError:
 
 def _part(table: str, part: str, values: dict[str, Any]) -> Any:
     """A table of a table, such as [material.wheel]; None without it."""
+    known = [name.partition(".")[2] for name in PLAIN if name.startswith(f"{table}.")]
     for own in values:
-        if f"{table}.{own}" not in PLAIN:
-            known = [name.partition(".")[2] for name in PLAIN if name.startswith(f"{table}.")]
+        if own not in known:
             raise schema.unknown(own, table, known)
     if not isinstance(values.get(part, {}), dict):
         raise _not_a_table(f"{table}.{part}")
@@ -143,7 +135,7 @@ def _before(values: Any, files: list[str]) -> Any:
     if "kind" not in values:
         raise GenevaError(f"[{BEFORE}] needs kind: the drive that turns the shaft", place)
     with _within(f"[{BEFORE}]", place):
-        return _kind(values, drives_before(), files)
+        return _kind(values, machine_spec.drives_before(), files)
 
 
 def _motion(values: dict[str, Any], files: list[str]) -> Motion | None:
@@ -176,8 +168,8 @@ def _unknown(
     if kinds:
         for name, others in kinds.keys.items():
             if key in [field.key for field in others]:
-                text = '{key} belongs to {word} = "{name}", but this is {word} = "{of}"'
-                text = text.format(key=key, word=kinds.word.key, name=name, of=of)
+                word = kinds.word.key
+                text = f'{key} belongs to {word} = "{name}", but this is {word} = "{of}"'
                 return GenevaError(text, place)
     half = key.replace("_diameter_", "_radius_")
     twin = f"; {half} in [{table}] is half a diameter" if half != key and half in keys else ""
@@ -188,7 +180,7 @@ def _unknown(
     hint = twin
     if ALSO_CALLED.get(key) in keys:
         hint = f' (did you mean "{ALSO_CALLED[key]}"?)'
-    for one in kind_tables():
+    for one in machine_spec.kind_tables():
         if one.table == table:
             keys.insert(0, one.word.key)
             if key in one.names:

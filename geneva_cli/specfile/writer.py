@@ -14,6 +14,9 @@ from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.spec.schema import Field, Points, fields
 from geneva_cli.spec.tables import LISTS, PLAIN
 
+# keys of the word that names the kind of a table
+WORDS = {"wheel": "gearing", "drive": "kind", BEFORE: "kind", "motion": "law"}
+
 
 def keys_of(
     gearing: type[Gearing],
@@ -74,17 +77,13 @@ def values_of(spec: Spec, table: str) -> list[dict[str, Any]]:
     """Values by key for each table of a name: one table, none, or those of a list."""
     if table in LISTS:
         return [one.as_dict() for one in vars(spec)[table]]
-    part, words = spec.part(table), dict[str, str]()
+    part = spec.part(table)
     if part is None:  # a motion that straight slots give
         return []
-    if isinstance(part, Motion):
-        words = {"law": part.law.NAME}
-    elif isinstance(part, Gearing):
-        words = {"gearing": part.NAME}
-    elif isinstance(part, Drive):
-        words = {"kind": part.NAME}
-    own = part.as_dict()
-    return [words | {k: v.file if isinstance(v, Points) else v for k, v in own.items()}]
+    named: Any = part.law if isinstance(part, Motion) else part
+    own = {WORDS[table]: named.NAME} if table in WORDS else {}
+    own |= {k: v.file if isinstance(v, Points) else v for k, v in part.as_dict().items()}
+    return [own]
 
 
 def quoted(value: Any) -> str:

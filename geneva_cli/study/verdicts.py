@@ -130,16 +130,16 @@ def of_checks(verdicts: Sequence[Verdict], page: bool, as_json: bool) -> Answer:
             continue
         sized += bool(v.chosen.sizes)
         state, text = headline(v.checks, v.warnings)
-        lines = failure_lines(v.checks) + warning_lines(v.checks, v.warnings, v.unused)
+        lines = [*failure_lines(v.checks), *warning_lines(v.checks, v.warnings, v.unused)]
         if is_single:
             # what is proved: that no parts collide, and that a stop blocks the crank
             for check in v.checks:
                 if check.passes and check.why:
                     label = "stop" if check.name == "stop_turns" else "turn"
                     lines.append(SummaryLine(label, check.why))
-            lines += tightest(v.checks) + chosen_lines(v.chosen, v.path)
-        elif own := lines + chosen_lines(v.chosen):
-            details.append(Summary(v.path, tuple(own)))
+            lines += (*tightest(v.checks), *chosen_lines(v.chosen, v.path))
+        elif own := (*lines, *chosen_lines(v.chosen)):
+            details.append(Summary(v.path, own))
         heads.append(Summary(f"{v.path}: {text}", tuple(lines) if is_single else (), state=state))
     if not is_single:
         many, judged = len(verdicts), len(heads)
@@ -168,53 +168,45 @@ def headline(checks: Sequence[Check], warnings: Sequence[Notice]) -> tuple[str, 
     >>> headline([Check("jerk_max", 31.4, "at most", 30.0, False)], [])
     ('fails', '1 of 1 checks fails')
     """
-    many, failed, not_proved, driven = len(checks), 0, 0, ""
-    for check in checks:
-        failed += check.passes is False
-        not_proved += check.passes is None
-        if check.name == "driven_fraction" and check.passes and check.value and check.value < 1.0:
-            driven = f", {meaning(check)}"
+    states = [*map(attrgetter("passes"), checks)]
+    many, failed, not_proved = len(states), states.count(False), states.count(None)
+    text = f"all {many} checks pass"
     if failed:
         text = f"{failed} of {many} checks fail{'s' * (failed == 1)}"
     elif not_proved:
         passed = many - not_proved
         text = f"{passed} of {many} checks pass{'es' * (passed == 1)}"
-    else:
-        text = f"all {many} checks pass"
-    if not_proved:
-        text += f", {not_proved} not proved"
-    text += driven
+    text += f", {not_proved} not proved" if not_proved else ""
+    for check in checks:
+        if check.name == "driven_fraction" and check.passes and check.value and check.value < 1.0:
+            text += f", {meaning(check)}"
     accepted = len([*filter(attrgetter("accepted"), warnings)])
-    if left := len(warnings) - accepted:
-        text += f", {left} warning{'s' * (left != 1)}"
-    if accepted:
-        text += f", {accepted} warning{'s' * (accepted != 1)} accepted"
+    left = len(warnings) - accepted
+    for count, end in ((left, ""), (accepted, " accepted")):
+        text += f", {count} warning{'s' * (count != 1)}{end}" if count else ""
     state = FAILS if failed else WARNS if not_proved or left else PASSES
     return state, text
 
 
-def chosen_lines(by_load: ByLoad, path: str | None = None) -> list[SummaryLine]:
+def chosen_lines(by_load: ByLoad, path: str | None = None) -> Iterator[SummaryLine]:
     """The lines of the sizes that the load chose, for a spec's path, and an option chose anew."""
-    lines = []
     if path is not None and (words := by_load.words):
         name = {"": "SPEC", "<stdin>": "-"}.get(path, path)
         text = f"chosen by load: {words} (geneva size {name} writes them)"
-        lines.append(SummaryLine("sizes", text))
+        yield SummaryLine("sizes", text)
     if changes := by_load.changes:
-        lines.append(SummaryLine("note", f"sizes chosen anew: {changes}"))
-    return lines
+        yield SummaryLine("note", f"sizes chosen anew: {changes}")
 
 
-def failure_lines(checks: Iterable[Check]) -> list[SummaryLine]:
+def failure_lines(checks: Iterable[Check]) -> Iterator[SummaryLine]:
     """A line for each check that fails: its value, its limit, and the change."""
-    lines = []
     for check in checks:
         if check.passes is not False:
             continue
         label, unit = spoken(check.name)
         explained = f"geneva explain {check.name}"
         if check.value is None or check.limit is None:
-            lines.append(SummaryLine(label, check.why, explained, FAILS))
+            yield SummaryLine(label, check.why, explained, FAILS)
             continue
         how = "with" if "=" in check.nearest else "by"  # a value, or leaving out a key
         advice = f"passes {how} {check.nearest}" if check.nearest else ""
@@ -223,24 +215,22 @@ def failure_lines(checks: Iterable[Check]) -> list[SummaryLine]:
         change = "; ".join(words for words in ("" if refused else check.why, advice) if words)
         note = f"{change} ({explained})" if change else explained
         text = check.why if refused else meaning(check) or compared_text(check, unit)
-        lines.append(SummaryLine(label, text, note, FAILS))
-    return lines
+        yield SummaryLine(label, text, note, FAILS)
 
 
 def warning_lines(
     checks: Iterable[Check], warnings: Iterable[str], unused: Iterable[str] = ()
-) -> list[SummaryLine]:
+) -> Iterator[SummaryLine]:
     """A line for each check without a proof, each warning, and each acceptance of none."""
-    lines = []
     for check in checks:
         if check.passes is None:
             text = f"{spoken(check.name)[0]}: {check.why}"
-            lines.append(SummaryLine("not proved", text, "", WARNS))
-    lines += map(warning, warnings)
+            yield SummaryLine("not proved", text, "", WARNS)
+    yield from map(warning, warnings)
     for name in unused:
-        text = f"{name}: no such warning occurs: it can be removed from [accept]"
-        lines.append(SummaryLine("note", text))
-    return lines
+        yield SummaryLine(
+            "note", f"{name}: no such warning occurs: it can be removed from [accept]"
+        )
 
 
 def warning(text: str) -> SummaryLine:
@@ -251,36 +241,24 @@ def warning(text: str) -> SummaryLine:
     return SummaryLine("warning", text, explained, WARNS)
 
 
-def tightest(checks: Iterable[Check]) -> list[SummaryLine]:
+def tightest(checks: Iterable[Check]) -> Iterator[SummaryLine]:
     """The line of the passing check with the least relative margin, or none."""
-    most, tight = 0.0, None
+    used: dict[Check, float] = {}
     for check in checks:
         value, limit = check.value, check.limit
         # where it passes, a reason says what is proved
-        if not (check.passes and value and limit) or check.why or check.name in WITHOUT_MARGIN:
-            continue
-        used = value / limit if check.must_be == "at most" else limit / value
-        if tight is None or used > most:
-            most, tight = used, check
-    if tight is None:
-        return []
-    label, unit = spoken(tight.name)
-    return [SummaryLine("tightest", f"{label} {compared_text(tight, unit)}")]
+        if check.passes and value and limit and not check.why and check.name not in WITHOUT_MARGIN:
+            used[check] = value / limit if check.must_be == "at most" else limit / value
+    if used:
+        tight = max(used, key=used.__getitem__)
+        label, unit = spoken(tight.name)
+        yield SummaryLine("tightest", f"{label} {compared_text(tight, unit)}")
 
 
 def compared_text(check: Check, unit: str) -> str:
     """The value of a check, its place, and its limit."""
     assert check.value is not None
     assert check.limit is not None
-    where = "" if check.at_deg is None else f" at {measured(check.at_deg, 'deg')}"
-    limit = measured(check.limit, unit) if unit == "deg" else value_text(check.limit)
-    return f"{measured(check.value, unit)}{where}, {check.must_be} {limit}"
-
-
-def measured(value: float, unit: str = "", digits: int = 4) -> str:
-    """A value with its unit, and with the significant digits of a sentence.
-
-    >>> measured(8.25622, "mm"), measured(-58.2111, "deg")
-    ('8.256 mm', '-58.21°')
-    """
-    return value_text(value, "°" if unit == "deg" else unit, digits)
+    where = "" if check.at_deg is None else f" at {value_text(check.at_deg, 'deg')}"
+    limit = value_text(check.limit, unit if unit == "deg" else "")
+    return f"{value_text(check.value, unit)}{where}, {check.must_be} {limit}"

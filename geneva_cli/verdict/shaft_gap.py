@@ -84,14 +84,12 @@ def gear_rings(mechanism: Mechanism, drawn: Outlines | None) -> Iterator[Ring]:
 
 
 def rings_of(members: Iterable[Member]) -> list[Ring]:
-    """Return the rings of some parts."""
-    return [ring for one in members for ring in _rings(one)]
-
-
-def _rings(member: Member) -> Iterator[Ring]:
-    """Yield the rings of a part's plates about the axis that it turns on."""
-    for _, plate in in_place([Member(member.part)]):
-        contours = oriented(plate.outline, plate.holes)
-        inner = max(0.0, float(Polyarc(contours).signed(np.zeros((1, 2)))[0]))
-        outer = float(farthest(Polyarc(contours[:1]), 0.0, 0.0).max())
-        yield Ring(plate.layer, member.at, inner, outer, plate.low, plate.high)
+    """Return the rings of some parts' plates about the axes that they turn on."""
+    rings = []
+    for member in members:
+        for _, plate in in_place([Member(member.part)]):
+            contours = oriented(plate.outline, plate.holes)
+            inner = max(0.0, float(Polyarc(contours).signed(np.zeros((1, 2)))[0]))
+            outer = float(farthest(Polyarc(contours[:1]), 0.0, 0.0).max())
+            rings.append(Ring(plate.layer, member.at, inner, outer, plate.low, plate.high))
+    return rings

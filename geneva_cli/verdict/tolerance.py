@@ -17,13 +17,7 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError, Notice, cut
 from geneva_cli.loads.impacts.entry import arm_mm
-from geneva_cli.loads.tolerance import locking
-from geneva_cli.loads.tolerance.motion_error import (
-    entry_jumps,
-    entry_jumps_worst,
-    motion_errors,
-    used,
-)
+from geneva_cli.loads.tolerance import locking, motion_error
 from geneva_cli.loads.tolerance.random_machines import (
     Draws,
     Spread,
@@ -108,7 +102,7 @@ def needed_mm(
 
 def worst_dwell_deg(mechanism: Mechanism, parts: Parts) -> float | None:
     """The greatest error of the resting wheel's angle within the tolerances, degrees."""
-    use = used(mechanism)
+    use = motion_error.used(mechanism)
     _refuse_large(mechanism, use)
     loosest = _loosest_lock(mechanism, parts, use)
     return math.degrees(loosest[1]) if loosest else None
@@ -121,7 +115,7 @@ def _loosest_lock(
 
     None if no drawn lock holds the wheel.
     """
-    locks = cut_locks(parts.turned, use)[0] if mechanism.spec.is_turned else []
+    locks = cut_locks(parts.built, use)[0] if mechanism.spec.is_turned else []
     ends = locking.corners(list(use.values()))
     each = [(lock, float(np.max(lock(ends).angle.arrays()[0]))) for lock in locks]
     lock, most = max(each, key=lambda one: one[1], default=(None, 0.0))
@@ -149,7 +143,7 @@ def _refuse(mechanism: Mechanism, samples: int, seed: int) -> None:
 
 def _refuse_large(mechanism: Mechanism, use: dict[str, float]) -> None:
     """Raise GenevaError if some machine's roller may reach the wheel's axis or the crank's."""
-    for one in motion_errors(mechanism):
+    for one in motion_error.motion_errors(mechanism):
         margin_mm = one.margin_mm(mechanism.spec, use)
         if not use["center_distance_mm"] + use["crank_radius_mm"] < margin_mm:
             raise GenevaError(
@@ -167,7 +161,8 @@ def tolerance_table(
     if radius_mm is not None:
         require_mm("--radius", radius_mm, POSITIVE)
     _refuse(mechanism, samples, seed)
-    spec, use, given = mechanism.spec, used(mechanism), locking.tolerances(mechanism.spec)
+    spec, use = mechanism.spec, motion_error.used(mechanism)
+    given = locking.tolerances(spec)
     warnings = [
         Notice("tolerance-left-out", f"{name} is left out: {reason}")
         for name, reason in locking.without_effect(spec).items()
@@ -179,13 +174,14 @@ def tolerance_table(
         loosest = _loosest_lock(mechanism, parts, use)
     except GenevaError as error:
         unknown.append(f"no parts: {error}")
-    ends, motions = locking.corners(sizes), motion_errors(mechanism)
-    jumps = max(entry_jumps(mechanism), key=lambda one: float(np.max(one(ends)[0])), default=None)
+    ends, motions = locking.corners(sizes), motion_error.motion_errors(mechanism)
+    each = motion_error.entry_jumps(mechanism)
+    jumps = max(each, key=lambda one: float(np.max(one(ends)[0])), default=None)
     machines = Draws(tuple(sizes), spec.tolerance.distribution == "normal", seed)
     likely = likely_place(machines, samples, motions) if motions else None
     drawn = random_machines(machines, samples, loosest and loosest[0], likely, jumps)
     angles = dict[str, Spread | None].fromkeys(("dwell_position", "motion_play"))
-    answers: dict[str, Any] = {}
+    at_deg, jump = None, list[float | None]([None] * 4)
     if loosest:
         lock, worst = loosest
         found = spread(lambda by: lock(by).angle + by.slot_angle_deg, sizes, worst, drawn.dwell)
@@ -196,8 +192,7 @@ def tolerance_table(
         errors = [(one, one.greatest(ends)) for one in motions]
         roots = [(one, one.greatest_rss(sizes)) for one in motions]
         one, farthest = max(errors, key=lambda error: float(error[1][0, 0]))
-        shown = mechanism.shown_deg(one.engagement.mid_deg + float(farthest[1, 0]))
-        answers["motion_play.at_deg"] = shown
+        at_deg = mechanism.shown_deg(one.engagement.mid_deg + float(farthest[1, 0]))
         other, root = max(roots, key=lambda root: float(root[1][0, 0]))
         place, side, worst = float(root[1, 0]), float(root[2, 0]), float(farthest[0, 0])
         found = spread(lambda by: other(by, place, side) * side, sizes, worst, drawn.motion)
@@ -207,37 +202,32 @@ def tolerance_table(
             "motion_play is not known: curved slots are computed for a path without errors"
         )
     if jumps:
-        worst_jump = entry_jumps_worst(mechanism, use)
+        worst_jump = motion_error.entry_jumps_worst(mechanism, use)
         assert worst_jump is not None  # there are slots to enter
-        answers |= {
-            "entry_jump.mean": float(drawn.jump.mean()),
-            "entry_jump.std": float(drawn.jump.std()),
-            "entry_jump.worst": float(worst_jump[0]),
-            "entry_jump.missed_share": drawn.missed,
-        }
+        jump = [float(drawn.jump.mean()), float(drawn.jump.std()), float(worst_jump[0])]
+        jump.append(drawn.missed)
     else:
         unknown.append("entry_jump is not known: the law, not the path, sets how the roller enters")
     warnings += [Notice("not-known", text) for text in unknown]
-    answers |= _clearances(mechanism, parts, use, warnings)
-    answers["clearances.jam_share"] = drawn.jams
+    clearances = _clearances(mechanism, parts, use, warnings)
     known = [name for name, of in angles.items() if of]
     warnings = spec.accept.applied(warnings)
     if radius_mm is None and known:
         text = f"micrometres of {' and '.join(known)}: need --radius"
         warnings.append(Notice("not-known", text))
-    values: dict[str, Any] = {"spec": spec.path, "title": spec.title}
-    values |= {"samples": samples, "seed": seed, "distribution": spec.tolerance.distribution}
-    values["radius_mm"] = radius_mm
+    values: dict[str, Any] = {"spec": spec.path, "title": spec.title, "samples": samples}
+    values |= {"seed": seed, "distribution": spec.tolerance.distribution, "radius_mm": radius_mm}
     micron = None if radius_mm is None else math.radians(1.0) * radius_mm * 1e3
     for name, of in angles.items():
         for unit, scale in {"deg": 1.0, "arcsec": 3600.0, "um": micron}.items():
             for angle in ANGLES:
                 value = getattr(of, angle) * scale if of and scale is not None else None
                 values[f"{name}.{angle}_{unit}"] = value
-    values |= {"motion_play.at_deg": None, "contributions": _contributions(angles, given)}
-    ends_of = ("mean", "std", "worst", "missed_share")
-    values |= {f"entry_jump.{end}": None for end in ends_of}
-    return record_table(values | answers | {"warnings": tuple(warnings)}, spec.title)
+    values |= {"motion_play.at_deg": at_deg, "contributions": _contributions(angles, given)}
+    for end, value in zip(("mean", "std", "worst", "missed_share"), jump, strict=True):
+        values[f"entry_jump.{end}"] = value
+    values |= clearances | {"clearances.jam_share": drawn.jams, "warnings": tuple(warnings)}
+    return record_table(values, spec.title)
 
 
 def _contributions(angles: Mapping[str, Spread | None], given: Mapping[str, float]) -> Table:
@@ -257,7 +247,7 @@ def _clearances(
     """The clearances that slot and lock have and need; adds a warning unless they are enough."""
     turned, fault = None, mechanism.no_turn or "there are no drawn parts to turn"
     try:
-        turned = parts.turned if mechanism.spec.is_turned and not mechanism.no_turn else None
+        turned = parts.built if mechanism.spec.is_turned and not mechanism.no_turn else None
     except GenevaError as error:
         fault = str(error)
     slot_mm, lock_mm = needed_mm(mechanism, turned, use)

@@ -11,7 +11,7 @@ import os
 
 from bench import batches, motion, peaks, plots, whole_runs
 from bench.method import BenchRow, with_frontier
-from bench.timing_pairs import exponent, ratios
+from bench.timing_pairs import ratios
 from geneva_cli.output import show
 from geneva_cli.table import Table, rows_table
 
@@ -23,7 +23,6 @@ SUBJECTS = {
     "synth": whole_runs.synth,
     "start": whole_runs.start,
     "advice": whole_runs.advice,
-    "growth": whole_runs.growth,
 }
 # Those of ``make bench``: kernels against rivals. The others are whole runs of the program, or have
 # no rival.
@@ -42,7 +41,7 @@ def measure(name, quick, part=1.0):
 
 
 def _rows(name, subject, task, seconds):
-    yield BenchRow(name, task.name, f"baseline: {task.baseline}", None, None, 1.0, None, False)
+    yield BenchRow(name, task.name, f"baseline: {task.baseline}", None, None, 1.0, False)
     runs = [m.run for m in task.methods]
     answers, times = ratios(task.baseline_run, runs, seconds, subject.clock)
     alone = not any(m.rival and not m.ours for m in task.methods)
@@ -54,21 +53,13 @@ def _rows(name, subject, task, seconds):
             method.size,
             task.error(answer),
             time.ratio * method.times,
-            method.memory() if method.memory else None,
             method.ours,
             rival="none but ourselves" if alone and method.ours else None,
             designs_per_s=task.designs and task.designs / (time.least_s * method.times),
         )
         for method, answer, time in zip(task.methods, answers, times, strict=True)
     ]
-    *others, largest = with_frontier(rows, subject.slack, subject.floor)
-    if subject.grows:  # the largest has the exponents of time and memory
-        sizes = [row.size for row in rows]
-        largest = largest._replace(
-            time_exponent=exponent(sizes, [row.time_ratio for row in rows]),
-            memory_exponent=exponent(sizes, [row.memory_MB or 0.0 for row in rows]),
-        )
-    yield from (*others, largest)
+    yield from with_frontier(rows, subject.slack, subject.floor)
 
 
 def bench_table(rows):
@@ -84,8 +75,7 @@ def bench_table(rows):
 
 def _spelled(row):
     """A row for people: three digits of what is measured, as more are noise."""
-    digits = {"size": 12, "time_ratio": 3, "memory_MB": 3, "designs_per_s": 3}
-    digits |= {"time_exponent": 2, "memory_exponent": 2}
+    digits = {"size": 12, "time_ratio": 3, "designs_per_s": 3}
     spelled = {"error": "0" if row.error == 0.0 else row.error and f"{row.error:.1e}"}
     for name, count in digits.items():
         value = getattr(row, name)

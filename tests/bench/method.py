@@ -15,7 +15,6 @@ class Method(NamedTuple):
     ours: bool = False
     rival: bool = True  # False for our own code in another way, which no user has to write
     times: float = 1.0  # the run is that part of the task: a loop over a sample of the designs
-    memory: Callable[[], float | None] | None = None  # peak of a run, MB
 
 
 class Task(NamedTuple):
@@ -38,7 +37,6 @@ class Subject(NamedTuple):
     slack: float = 0.1  # a method is faster if it takes less than 1 - slack of another's time
     floor: float = 1e-15  # relative errors below this count as equal
     seconds: float = 1.0  # run time of each method, at least one run
-    grows: bool = False  # methods of a task are one run of growing size
     clock: Callable[[], float] = processor_s
 
 
@@ -51,13 +49,10 @@ class BenchRow(NamedTuple):
     size: float | None
     error: float | None
     time_ratio: float  # of short calls the least time, else the median of pairs
-    memory_MB: float | None
     ours: bool
     frontier: bool | None = None
     rival: str | None = None  # "none but ourselves" where no other program does the task
     designs_per_s: float | None = None  # of one core
-    time_exponent: float | None = None  # of the growth with size, on the row of the largest
-    memory_exponent: float | None = None
 
 
 def with_frontier(rows, slack, floor):

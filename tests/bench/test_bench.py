@@ -11,7 +11,7 @@ from sampling import some
 from bench.__main__ import SUBJECTS, bench_table, measure
 from bench.kinds import KINDS, values_of
 from bench.method import BenchRow, with_frontier
-from bench.timing_pairs import exponent, median_ratio, ratios
+from bench.timing_pairs import median_ratio, ratios
 from bench.whole_runs import SCRIPTS
 from geneva_cli.motion.mechanism import build
 
@@ -68,7 +68,7 @@ def test_closed_forms_are_the_motions():
 
 
 def row(error, time):
-    return BenchRow("s", "t", "m", None, error, time, None, False)
+    return BenchRow("s", "t", "m", None, error, time, False)
 
 
 def test_frontier():
@@ -85,13 +85,6 @@ def test_ratios_are_of_pairs():
     assert len(found) == 1
     assert min(found[0]) > 0.0
     assert set(calls) == {0, 1}
-
-
-def test_costs_have_the_exponent_of_their_growth():
-    sizes = (10, 100, 1_000, 10_000)
-    assert exponent(sizes, [1.2, 1.0, 2.0, 11.0]) == pytest.approx(1.0, abs=0.01)
-    assert exponent(sizes, [1.0 + (n / 1e3) ** 2 for n in sizes]) == pytest.approx(2.0, abs=0.01)
-    assert exponent(sizes, [1.0, 1.1, 0.9, 1.05]) == 0.0
 
 
 def test_scripts_of_the_start_print_the_row():

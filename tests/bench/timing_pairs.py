@@ -4,7 +4,6 @@ A change in the computer's speed affects both alike. The ratio is the median ove
 calls shorter than SHORTEST it is that of the least times of many runs: interruptions only add.
 """
 
-import math
 import statistics
 from time import perf_counter, process_time
 from typing import NamedTuple, TypeVar
@@ -43,31 +42,6 @@ def wall_s():
 def median_ratio(pairs):
     """Median of the pairs' ratios."""
     return statistics.median(own / base for base, own in pairs)
-
-
-def exponent(sizes, costs):
-    """Exponent p of costs that grow as a + b n^p, where a is the least cost.
-
-    The slope of a line through the logarithms of growth and of the size beyond the smallest, by
-    least squares. Growth of less than a fifth of a is noise. The last such size takes part with a
-    fifth, so that a late rise is seen. Without any growth the exponent is 0.
-
-    >>> round(exponent([1, 10, 100, 1000], [1.0, 1.9, 10.9, 100.9]), 1)
-    1.0
-    """
-    start = min(costs)  # not the first, which noise may raise
-    least = 0.2 * start
-    grown = [max(cost - start, least) for cost in costs]
-    first = max((i for i, growth in enumerate(grown) if growth == least), default=0)
-    if first == 0 or len(sizes) - first > 2:  # the size in the noise only bounds the growth
-        first += 1
-    x = [math.log(size - sizes[0]) for size in sizes[first:]]
-    y = [math.log(growth) for growth in grown[first:]]
-    if len(x) < 2:
-        return 0.0
-    mean_x, mean_y = sum(x) / len(x), sum(y) / len(y)
-    products = ((u - mean_x) * (v - mean_y) for u, v in zip(x, y, strict=True))
-    return sum(products) / sum((u - mean_x) ** 2 for u in x)
 
 
 def ratios(baseline, calls, seconds, clock=processor_s):

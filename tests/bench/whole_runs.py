@@ -1,8 +1,4 @@
-"""Whole runs of the program, compared with a Python that imports Typer; none has an error.
-
-``growth`` has run time and memory by z, rows, designs, rollers and tolerance. Its exponent is that
-of a power of the size: 1 is linear, and n log n is 1.1 to 1.2.
-"""
+"""Whole runs of the program, compared with a Python that imports Typer; none has an error."""
 
 import os
 import subprocess
@@ -15,12 +11,6 @@ from geneva_cli.specfile.template import template
 
 # What the installed ``geneva`` does.
 GENEVA = "import sys; sys.argv[0] = 'geneva'; from geneva_cli.__main__ import main; main()"
-# Runs a command and prints its largest memory. The bench's own process is too large for that: a
-# child starts with the memory of its parent.
-LARGEST = (
-    "import resource, subprocess, sys; subprocess.run(sys.argv[1:], stdout=subprocess.DEVNULL);"
-    "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)"
-)
 
 
 class WholeRun(NamedTuple):
@@ -30,9 +20,9 @@ class WholeRun(NamedTuple):
     words: tuple[str, ...] = ()
     text: str = ""
 
-    def run(self, outer=()):
+    def run(self):
         """Run it, and return what it prints. Raises CalledProcessError if it fails."""
-        command = (*outer, sys.executable, "-c", self.code, *self.words)
+        command = (sys.executable, "-c", self.code, *self.words)
         # an installed program is compiled once
         environment = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
         done = subprocess.run(
@@ -42,13 +32,6 @@ class WholeRun(NamedTuple):
         if done.returncode > 1 or (done.returncode and not done.stdout):
             raise subprocess.CalledProcessError(done.returncode, command, stderr=done.stderr)
         return done.stdout
-
-    def memory_MB(self):
-        """Greatest memory of a run, MB; None on Windows, which does not tell it."""
-        if os.name == "nt":
-            return None
-        largest = float(self.run((sys.executable, "-c", LARGEST)))
-        return largest / (1e6 if sys.platform == "darwin" else 1e3)  # bytes or kilobytes
 
 
 def geneva(words, text=""):
@@ -168,82 +151,6 @@ def _design(words):
     libraries = ["typer"] if words.startswith("peaks") else ["typer", "numpy"]
     libraries += ["ezdxf"] if words.endswith("dxf") else []
     return task(f"geneva {words}", [*methods, _limit(*libraries)])
-
-
-# Growth
-
-ROWS = (10, 100, 1_000, 10_000, 100_000)
-SLOTS = (6, 12, 24, 48, 96, 192, 360)  # with parts, which are drawn for up to 360
-MANY_SLOTS = (6, 60, 600, 6_000)
-SWEEP = "sweep - --set drive.kind=side-crank --vary drive.A=-0.3..0.5 --jobs 1 --random {n}"
-# Words with {n} for the size, {1/n} for its inverse or {1..n} for so many speeds; and the sizes.
-GROWN = {
-    "table --z 3..{n} --format csv": (10, 100, 1_000, 10_000),
-    **{
-        f"{command} --set wheel.z={{n}}": sizes
-        for command, sizes in {
-            "peaks -": MANY_SLOTS,
-            "loads -": MANY_SLOTS,
-            "vibration - --period-ratio 5": MANY_SLOTS,
-            "tolerance - --set tolerance.crank_radius_mm=0.01": MANY_SLOTS,
-            "check -": SLOTS,
-            "report - --format md": SLOTS,
-            "profile - --part wheel --format svg": SLOTS,
-            "profile - --part wheel --format dxf": SLOTS,
-            "profile - --part wheel --format step": SLOTS,
-            "profile - --part sheet --format svg": SLOTS,
-            "animate -": SLOTS,
-            "plot - --format svg": SLOTS,
-        }.items()
-    },
-    "motion - --samples {n} --format csv": (*ROWS, 1_000_000),
-    "motion - --samples {n} --format json": ROWS,
-    "motion - --samples {n}": ROWS,
-    "loads - --set load.inertia_kgm2=1 --samples {n} --format csv": ROWS,
-    "vibration - --period-ratio 5 --samples {n} --format csv": ROWS,
-    "tolerance - --set tolerance.crank_radius_mm=0.01 --samples {n}": (*ROWS[1:], 1_000_000),
-    "check - --set wheel.z=3 --set drive.rollers={n}": (1, 2, 3, 4, 5),
-    "compare - --vary drive.n_rpm={1..n}": (2, 10, 100),
-    f"{SWEEP} --pick acceleration.max --format csv": ROWS,
-    f"{SWEEP} --pick pin_force_N.max --set load.inertia_kgm2=1 --format csv": ROWS[:-1],
-    f"{SWEEP} --pick horn_mm --format csv": ROWS[:-2],
-    f"{SWEEP} --check --format csv": (4, 16, 64),
-    f"{SWEEP} --pareto min:acceleration.max,max:dwell_s --format csv": ROWS,
-    f"{SWEEP} --best min:acceleration.max": ROWS,
-    "synth --motion-deg 100..179 --z 3..{n} --check 0": (4, 10, 24, 100),
-}
-GROWN_CURVED = {  # of curved slots
-    "profile - --samples {n} --format csv": ROWS,
-    "profile - --tolerance {1/n} --format csv": (*ROWS, 1_000_000),
-    "profile - --part wheel --tolerance {1/n} --format svg": ROWS,
-    "peaks - --set motion.alpha0_deg=110 --set drive.rollers={n}": (1, 4, 16, 32),
-}
-
-
-def growth(quick):
-    """One task for each command and size."""
-    runs = [(words, sizes, "external") for words, sizes in GROWN.items()]
-    runs += [(words, sizes, "curved") for words, sizes in GROWN_CURVED.items()]
-    tasks = []
-    for words, sizes, kind in runs[:2] if quick else runs:
-        each = {n: _sized(words, n, kind) for n in sizes[: 2 if quick else None]}
-        methods = [
-            Method("ours", n, run.run, True, memory=run.memory_MB) for n, run in each.items()
-        ]
-        tasks.append(task(f"geneva {words}", methods))
-    title = "Growth of whole runs: time and memory with the size"
-    return Subject(title, "none", tasks, seconds=0.5, grows=True)
-
-
-def _sized(words, n, kind):
-    """A run of one size. With the slots grows L, so that each has its room."""
-    speeds = ",".join(f"{60 + i}" for i in range(n)) if "{1..n}" in words else ""
-    L = 20 * n if "wheel.z={n}" in words else 100
-    sizes = f"center_distance_mm = {L}\nroller_radius_mm = 5\nwall_min_mm = 0.5\n"
-    text = template(kind).replace("[size]\n", f"[size]\n{sizes}", 1)
-    for mark, value in {"{n}": f"{n}", "{1/n}": f"{1.0 / n!r}", "{1..n}": speeds}.items():
-        words = words.replace(mark, value)
-    return geneva(words, text)
 
 
 # Requirements, and checks that fail

@@ -160,16 +160,14 @@ def test_a_file_stopped_in_the_middle_stays_the_old_one():
 HOLD = """
 import sys
 import as_windows  # it leaves out what Windows lacks
-from contextlib import closing
 from geneva_cli.output.folder import Row, filling_folder
-from geneva_cli.output.growing import GrowingTable
-with closing(GrowingTable(["a", "b"], "request", "rows.csv")) as rows:
+from geneva_cli.output.growing import growing
+with growing(["a", "b"], "request", "rows.csv") as rows:
     with filling_folder("shop", [Row("a.txt", "a text")]) as (new, _):
         rows.append([[1], [2]])
         print("held", flush=True)
         sys.stdin.readline()
         open(new + "/a.txt", "w").close()
-    rows.finish()
 """
 
 

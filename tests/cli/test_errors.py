@@ -229,7 +229,7 @@ OPTIONS = [
     ("table --z " + "9" * 5000, "whole numbers"),
     ("table --n", "requires an argument"),
     ("table --rollers 0", "at least 1"),
-    ("table --z 6 --internal --rollers 2", "rollers = 2", "one roller"),
+    ("table --z 6 --internal --rollers 2", "rollers = 2", "at most 1"),
     ("table --zz 6", "--z"),
     ("profile --tolerance 0 spec.toml", "above 0"),
 ]

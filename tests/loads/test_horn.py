@@ -21,7 +21,8 @@ LOAD = Load(torque_Nm=10.0)
 
 
 def greatest(mechanism, half_width, recess, width):
-    return greatest_stress(horns, mechanism, (half_width, recess), width).single
+    one = greatest_stress(horns, mechanism, (half_width, recess)).single
+    return one and one._replace(stress_MPa=one.stress_MPa / width)
 
 
 def machine(z, L, r, **load):

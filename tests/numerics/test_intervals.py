@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from sampling import some
 
-from geneva_cli.numerics.arrays import Undecided, library, narrowed, piece_of
-from geneva_cli.numerics.intervals import Interval
+from geneva_cli.numerics.arrays import library, narrowed, piece_of
+from geneva_cli.numerics.intervals import Interval, Undecided
 from geneva_cli.numerics.spline import at_rest
 
 ONE_OF = {

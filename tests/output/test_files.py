@@ -17,7 +17,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.output import files
 from geneva_cli.output.files import refuse_name, write
 from geneva_cli.output.folder import Row, filling_folder
-from geneva_cli.output.growing import GrowingTable
+from geneva_cli.output.growing import growing
 
 OLD = "the old file, whole\n"
 LONG = ["motion", "spec.toml", "--samples", "500000"]  # seconds of writing, some 40 MB
@@ -198,8 +198,8 @@ def test_every_file_and_folder_is_asked_for(monkeypatch):
     monkeypatch.setattr(sys, "platform", "win32")
     with pytest.raises(GenevaError, match=device):
         write(r"C:\shop\aux\a.csv", ["a text"])
-    with pytest.raises(GenevaError, match=device):
-        GrowingTable(["a"], "request", "shop/aux.csv")
+    with pytest.raises(GenevaError, match=device), growing(["a"], "request", "shop/aux.csv"):
+        pass
     with pytest.raises(GenevaError, match=device), filling_folder("aux", []):
         pass
     for path in (r"C:\shop\a.csv", "../a.csv", r"\\server\share\a.csv", "C:a.csv"):

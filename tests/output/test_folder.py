@@ -15,7 +15,7 @@ from geneva_cli.output.folder import LIST, Row, filling_folder
 # A run that fills "out" and stops at a point: the n-th renaming ends it.
 RUN = """
 import os, signal, sys
-from geneva_cli.output import folder
+from geneva_cli.output import files, folder
 
 text, number, at = sys.argv[1], int(sys.argv[2]), int(sys.argv[3])
 usual, calls = os.replace, iter(range(1000))
@@ -26,7 +26,7 @@ def replace(*paths):
 os.replace = replace
 with folder.filling_folder("out", [folder.Row(f, "") for f in "ab"]) as (new, kept):
     for name in "ab":
-        folder.write(os.path.join(new, name), [text])
+        files.write(os.path.join(new, name), [text])
 """
 
 

@@ -3,14 +3,14 @@
 import os
 import subprocess
 import sys
-from contextlib import closing
+from contextlib import suppress
 
 import pytest
 from repo import get as read
 from repo import posix, put
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.output.growing import GrowingTable
+from geneva_cli.output.growing import growing
 
 NAMES, KEY = ["a", "b"], "request"
 BLOCKS = [[[1, 3], [2, 4]], [[5], [6]], [[7], [8]]]  # columns of three blocks
@@ -24,12 +24,12 @@ def path(tmp_path):
 
 def run(path, blocks, resume=False, key=KEY, ends=True):
     """Add blocks; returns the number of rows that were there, and what was said."""
-    with closing(GrowingTable(NAMES, key, path, resume)) as rows:
+    with suppress(KeyboardInterrupt), growing(NAMES, key, path, resume) as rows:
         found = rows.done, rows.message
         for block in blocks:
             rows.append(block)
-        if ends:
-            rows.finish()
+        if not ends:
+            raise KeyboardInterrupt
     return found
 
 
@@ -74,12 +74,11 @@ def test_a_damaged_run_is_continued_from_its_last_whole_block(path, old, new, ke
 
 
 def test_a_state_that_is_damaged_meanwhile_does_not_become_the_file(path):
-    with closing(GrowingTable(NAMES, KEY, path)) as rows:
+    refused = pytest.raises(GenevaError, match="changed or damaged while the run wrote it")
+    with refused, growing(NAMES, KEY, path) as rows:
         for block in BLOCKS:
             rows.append(block)
         change(path, b"7,8\n", b"7,")
-        with pytest.raises(GenevaError, match="changed or damaged while the run wrote it"):
-            rows.finish()
     assert os.listdir(os.path.dirname(path)) == ["rows.csv.geneva"]
 
 
@@ -98,19 +97,17 @@ def test_what_is_not_its_own_is_refused_and_stays(path, kind, resume, monkeypatc
     FOREIGN[kind]("rows.csv.geneva")
     before = {name: os.lstat(name)[:7] for name in os.listdir()}
     with pytest.raises(GenevaError, match=r"rows\.csv\.geneva: not .*rename it"):
-        GrowingTable(NAMES, KEY, "rows.csv", resume)
+        run("rows.csv", BLOCKS, resume)
     assert {name: os.lstat(name)[:7] for name in os.listdir()} == before
 
 
 HOLD = """
 import sys
-from contextlib import closing
-from geneva_cli.output.growing import GrowingTable
-with closing(GrowingTable(["a", "b"], "request", sys.argv[1])) as rows:
+from geneva_cli.output.growing import growing
+with growing(["a", "b"], "request", sys.argv[1]) as rows:
     rows.append([[1], [2]])
     print("held", flush=True)
     sys.stdin.readline()
-    rows.finish()
 """
 
 
@@ -122,7 +119,7 @@ def test_two_runs_do_not_write_one_file(path):
         assert process.stdout.readline() == "held\n"
         for resume in (False, True):
             with pytest.raises(GenevaError, match=r"rows\.csv: another run is writing this"):
-                GrowingTable(NAMES, KEY, path, resume)
+                run(path, BLOCKS, resume)
         process.communicate("\n")
     assert (process.returncode, read(path)) == (0, "a,b\n1,2\n")
     assert os.listdir(os.path.dirname(path)) == ["rows.csv"]
@@ -131,8 +128,9 @@ def test_two_runs_do_not_write_one_file(path):
 def test_what_is_refused(path):
     run(path, BLOCKS, ends=False)
     with pytest.raises(GenevaError, match="has the rows of another run"):
-        GrowingTable(NAMES, "another", path, True)
+        run(path, BLOCKS, True, "another")
     assert read(path + ".geneva").endswith("\n7,8\n")
     put(path)
-    with pytest.raises(GenevaError, match="is an input"):
-        GrowingTable(NAMES, KEY, path, False, [path])
+    refused = pytest.raises(GenevaError, match="is an input")
+    with refused, growing(NAMES, KEY, path, False, [path]):
+        pass

@@ -20,7 +20,7 @@ from geneva_cli.geometry.shapes import Circle
 from geneva_cli.motion import registry
 from geneva_cli.motion.pivots import Joint
 from geneva_cli.parts.assembly import links_at
-from geneva_cli.parts.links.link_sizes import places
+from geneva_cli.parts.links.links import places
 from geneva_cli.spec.workshops import PROCESSES
 from geneva_cli.specfile.template import template
 

@@ -13,7 +13,7 @@ from geneva_cli.geometry.shapes import Circle
 from geneva_cli.motion.pivots import Joint
 from geneva_cli.parts.assembly import links_at
 from geneva_cli.parts.links.link_plates import drawn_links
-from geneva_cli.parts.links.link_sizes import link_sizes
+from geneva_cli.parts.links.links import link_sizes
 
 # rounding of a few sines of lengths of some hundred mm
 NEAR = 1e-10

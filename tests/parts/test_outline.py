@@ -49,7 +49,7 @@ def made(
     rollers = len(steps) if steps else rollers
     wheel, drive = Wheel(z, gearing, **own), Drive(kind, rollers=rollers)
     spec = Spec(wheel, drive, motion=given, size=Size(L, **size))
-    return parts_of(build(spec)).turned
+    return parts_of(build(spec)).built
 
 
 def disc(radius: float, x: float = 0.0, y: float = 0.0) -> Polygon:

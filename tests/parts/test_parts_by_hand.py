@@ -184,7 +184,7 @@ def test_a_relief_is_as_wide_as_the_wheel_reaches(wheel, passed):
     """
     parts = drawn(*machine_sizes(Design(wheel, size=Size(100.0, 4.0)).mechanism))
     assembly, sizes = parts.assembly, parts.sizes
-    mouths = horn_corners(assembly, sizes.roller, 0.0, sizes.recess, sizes.rim)
+    mouths = horn_corners(assembly, sizes)
     wide = {motion: end - start for start, end, motion in widened(assembly, sizes, mouths)}
     for start, end, motion in reliefs(assembly):
         middle, half = 0.5 * (start + end), 0.5 * (end - start)

@@ -111,7 +111,7 @@ def test_hand_over_is_refined_to_its_kink(
 def machine(tmp_path: Path, text: str) -> Parts:
     spec = tmp_path / "spec.toml"
     spec.write_text(text, encoding="utf-8")
-    return parts_of(load(str(spec))).turned
+    return parts_of(load(str(spec))).built
 
 
 SIZES = {

@@ -8,13 +8,13 @@ from mpmath import mp
 from repo import DESIGNS
 
 from geneva_cli import Design, Size, load
-from geneva_cli.spec.workshops import PROCESSES, deviation_mm
+from geneva_cli.spec.workshops import WORKSHOPS, deviation_mm
 from geneva_cli.verdict.checks import Check
 
 
 def test_a_mill_keeps_the_nominal_sizes() -> None:
     """There are reamers and bars for them: only the gap along the axis is not 0."""
-    assert PROCESSES["mill"][:5] == (0.0, 0.0, 0.0, 0.0, 0.2)
+    assert WORKSHOPS["mill"].allowances[:5] == (0.0, 0.0, 0.0, 0.0, 0.2)
 
 
 # Class 1 of ISO 9013:2017, by the greatest thickness: nominal sizes of 3, 10, 35 and 125 mm and

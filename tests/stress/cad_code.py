@@ -2,26 +2,23 @@
 build123d for it.
 
 Solids of build123d must have the volumes of their closed forms, and the lengths of their arcs and
-lines those of the drawing: the kernel joins arcs of one circle. FreeCAD's console takes part if it
-is installed.
+lines those of the drawing: the kernel joins arcs of one circle.
 """
 
 import math
 import os
 import re
 import shutil
-import subprocess
 import sys
 import tempfile
 from collections import Counter
-from pathlib import Path
 
 import repo
 from build123d import GeomType, import_step
 
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.plates import face, plates, solids
+from geneva_cli.geometry.plates import face, plates
 from geneva_cli.geometry.shapes import Arc, Circle, Line
 from geneva_cli.manual import page
 
@@ -80,40 +77,15 @@ def page_goes_on(functions, goes_on):
     print(f"the page's example: {hole:.3f} mm³ less")
 
 
-def of_freecad(macro):
-    """Run the macro in FreeCAD's console; check names and volumes of all solids."""
-    program = shutil.which("freecadcmd") or shutil.which("FreeCADCmd")
-    if not program:
-        print("FreeCAD is not installed: left out")
-        return
-    show = (
-        'd = FreeCAD.newDocument("Geneva")\n'
-        'load_machine("turret.toml", d)\n'
-        "for o in d.Objects:\n"
-        '    if o.TypeId == "Part::Feature":\n'
-        '        print(f"SOLID|{o.Label}|{o.Shape.Volume!r}|{o.Shape.isValid()}", flush=True)\n'
-    )
-    Path("macro.py").write_text(macro + show)
-    run = subprocess.run([program, "macro.py"], capture_output=True, text=True, timeout=300)
-    lines = [line.split("|") for line in run.stdout.splitlines() if "SOLID|" in line]
-    design = load("turret.toml")
-    own = {s.name: s.thickness * face(s).area for s in solids(design.drawing("assembly").solid)}
-    assert {line[1] for line in lines} == set(own), run.stdout
-    for _, name, volume, valid in lines:
-        assert valid == "True" and abs(float(volume) / own[name] - 1.0) < SAME, name
-    print(f"FreeCAD: {len(lines)} solids with their names and volumes")
-
-
 def main():
     functions = {}
-    definitions, goes_on, macro = code()
+    definitions, goes_on, _ = code()
     exec(definitions, functions)
     of_build123d(functions)
     with tempfile.TemporaryDirectory() as folder:
         shutil.copy(repo.DESIGNS / "turret.toml", folder)
         os.chdir(folder)
         page_goes_on(functions, goes_on)
-        of_freecad(macro)
 
 
 if __name__ == "__main__":

@@ -135,7 +135,7 @@ def parts(text):
             tried(part_table, machine, part, tolerance, samples)
     drawn = parts_of(machine)
     try:
-        drawn.turned  # noqa: B018 - made here, once for all parts
+        drawn.built  # noqa: B018 - made here, once for all parts
     except GenevaError as error:
         assert error.key, f"no place: {error}"
         return "parts refused"

@@ -194,14 +194,15 @@ def synth(case):
     """A row that says yes passes every check and is cut; one that says no fails one."""
     options, number = case
     try:
-        ranking = search(read_target(**options))
+        target = read_target(**options)
+        rows = search(target)
     except GenevaError:
         return "out of reach"
-    number = min(number, len(ranking.rows))
-    parts = ranking.rows[number - 1].cells["parts"]
+    number = min(number, len(rows))
+    parts = rows[number - 1].cells["parts"]
     if parts is None:
         return "not drawn"
-    machine, text = chosen(ranking, number)
+    machine, text = chosen(target, rows, number)
     with tempfile.TemporaryDirectory() as folder:
         file = os.path.join(folder, "spec.toml")
         repo.put(file, text)

@@ -43,7 +43,7 @@ def test_the_bound_that_binds_is_met_exactly(tmp_path):
 def test_of_the_best_alone_is_told_what_is_asked_for_beside(tmp_path, monkeypatch):
     """Its gaps take a full turn of the parts, which need not be made of a thousand designs."""
     turned = []
-    plain = Parts.turn.fget
+    plain = Parts.turn.func
     monkeypatch.setattr(Parts, "turn", property(lambda model: turned.append(model) or plain(model)))
     asked = {"pick": "smallest_gap_mm,drive.kind", "check": True, "best": "max:dwell_s"}
     lines, design = best(tmp_path, "drive.A=-0.2..0.5", **asked)

@@ -6,7 +6,7 @@ import json
 import os
 import subprocess
 import sys
-from contextlib import closing
+from contextlib import suppress
 
 import numpy as np
 import pytest
@@ -15,7 +15,7 @@ from typer.testing import CliRunner
 
 from geneva_cli import GenevaError, load
 from geneva_cli.cli.app import app
-from geneva_cli.output.growing import GrowingTable
+from geneva_cli.output.growing import growing
 from geneva_cli.specfile.reader import read
 from geneva_cli.study.sweep.request import request
 from geneva_cli.study.sweep.run import plan, sweep
@@ -69,9 +69,10 @@ def test_a_stopped_sweep_goes_on(tmp_path):
     state = tmp_path / "rows.csv.geneva"
     plan = request(SPEC, GRID)
     rows = next(plan.blocks()).columns
-    with closing(GrowingTable(plan.names, plan.key, str(file))) as left:
+    with suppress(KeyboardInterrupt), growing(plan.names, plan.key, str(file)) as left:
         for start, stop in ((0, 2), (2, 3)):
             left.append([column[start:stop] for column in rows])
+        raise KeyboardInterrupt
     half = state.read_bytes()[:-20]
     state.write_bytes(half)
     resumed = geneva(*arguments, "-o", str(file), "--resume")
@@ -138,10 +139,9 @@ def test_parquet_holds_the_same(tmp_path):
 def test_types_of_a_column_follow_from_all_blocks(tmp_path):
     """Numbers that one block has and words of another are words; whole numbers are numbers."""
     path = str(tmp_path / "rows.parquet")
-    with closing(GrowingTable(["a", "b", "c", "d"], "key", path)) as rows:
+    with growing(["a", "b", "c", "d"], "key", path) as rows:
         rows.append([np.array([4, 6]), [True, None], [None, None], np.array([1, 2])])
         rows.append([["x", None], [None, None], [1.0, None], np.array([0.5, np.inf])])
-        rows.finish()
     assert parquet(path) == (
         {"a": "string", "b": "bool", "c": "double", "d": "double"},
         [

@@ -67,7 +67,7 @@ def test_parts_are_kept_for_another_speed_and_not_for_another_drive():
     def machine(*settings):
         return load(str(repo.DESIGNS / "side-crank-z6.toml"), settings).mechanism
 
-    first = parts_of(machine()).turned
+    first = parts_of(machine()).built
     faster, other = machine("drive.n_rpm=90"), machine("drive.rollers=2")
     same = first.following(faster)
     assert same.mechanism is faster and same.outlines.wheel is first.outlines.wheel
@@ -138,7 +138,7 @@ def test_specs_of_one_kind_keep_their_own_loads_and_sizes():
 
 
 LISTS = {  # of a report's names those of tables and lists, which are no quantities
-    *("stations", "cycle.reversals_deg", "vibration.speeds_to_avoid_rpm", "strength.needs"),
+    *("stations", "loads.reversals_deg", "vibration.speeds_to_avoid_rpm", "strength.needs"),
     *("tolerance.warnings", "wheels", "cranks"),
 }
 

@@ -37,7 +37,7 @@ COSTS = ("velocity_max", "acceleration_max", "acceleration_entry", "jerk_max", "
 
 def candidates(**options):
     """The machines of a wish."""
-    return [row.cells for row in searched(**options)[1].rows]
+    return [row.cells for row in searched(**options)[1]]
 
 
 # joints so near to the crank that there are few four-bars, whose search takes the longest: for what
@@ -123,9 +123,9 @@ WISHES = [
 @pytest.mark.parametrize("options", WISHES, ids=str)
 def test_every_row_as_a_spec_is_the_row(options, tmp_path):
     target, found_rows = searched(**options)
-    for number, (_, candidate, *_) in enumerate(found_rows.rows, 1):
+    for number, (_, candidate, *_) in enumerate(found_rows, 1):
         file = tmp_path / f"{number}.toml"
-        file.write_text(written(target, found_rows.rows, number), encoding="utf-8")
+        file.write_text(written(target, found_rows, number), encoding="utf-8")
         machine = load(str(file))
         # the machine is chosen by its motion; the sizes of its parts come after that
         failing = [c for c in checks(machine, parts=False) if not c.passes]
@@ -244,9 +244,10 @@ def test_the_angle_of_the_shafts_in_50_digits():
     ids=str,
 )
 def test_a_row_that_says_yes_passes_check_and_is_cut(options, number, tmp_path):
-    found = search(read_target(**options))
-    assert found.rows[number - 1].cells["parts"] == "maybe"  # nobody has turned it yet
-    made, text = chosen(found, number)
+    target = read_target(**options)
+    found = search(target)
+    assert found[number - 1].cells["parts"] == "maybe"  # nobody has turned it yet
+    made, text = chosen(target, found, number)
     assert made.trouble == ""
     file, wheel = tmp_path / "spec.toml", tmp_path / "wheel.dxf"
     file.write_text(text, encoding="utf-8")
@@ -278,7 +279,7 @@ CURVED = {"external": True, "rollers": 1}
 
 def curved(found):
     """The rows with curved slots, the gentlest first."""
-    return [row for row in found.rows if row.cells["law"] and row.cells["drive"] == "crank"]
+    return [row for row in found if row.cells["law"] and row.cells["drive"] == "crank"]
 
 
 @pytest.mark.long

@@ -23,7 +23,7 @@ NEAR = 1e-8
 
 
 def rows(**options):
-    return searched(**options)[1].rows
+    return searched(**options)[1]
 
 
 def test_a_dwell_of_several_turns_is_behind_a_first_wheel():
@@ -157,16 +157,17 @@ def test_a_frame_and_an_order():
         sort="min:loads.input_torque_Nm.rms",
     )
     found = search(target)
-    assert found.requested.names == ("loads.input_torque_Nm.rms",)
+    (name,) = target.names
     own = target.frame
-    values = [row.extra[0] for row in found.rows]
+    values = [row.cells[name] for row in found]
     assert values == pytest.approx(sorted(values), rel=1e-11)  # those of rounding are equal
-    for row in found.rows[:4]:
+    for row in found[:4]:
         assert (row.spec.load, row.spec.wheel.z) == (own.load, own.wheel.z)
         assert row.spec.drive.n_rpm == own.drive.n_rpm == row.cells["n_rpm"]
-        rms = Design.of(row.spec).loads["input_torque_Nm"].rms
-        assert row.extra[0] == pytest.approx(rms, rel=1e-12)
-    turned_round = search(target._replace(sort=Objective(-1.0, "acceleration.max"))).rows
+        assert row.cells[name] == pytest.approx(
+            Design.of(row.spec).loads["input_torque_Nm"].rms, rel=1e-12
+        )
+    turned_round = search(target._replace(sort=Objective(-1.0, "acceleration.max")))
     peaks = [row.cells["acceleration_max"] for row in turned_round]
     assert peaks == pytest.approx(sorted(peaks, reverse=True), rel=1e-11)
 

@@ -1,9 +1,8 @@
 """``geneva animate``."""
 
 import os
-from typing import Annotated
 
-from geneva_cli.cli.command import Reverse, Settings, SpecPath, flag, output_option, say
+from geneva_cli.cli.command import REVERSE, SETTINGS, SPEC, flag, output_option, say
 
 EXAMPLES = (
     "geneva animate spec.toml -o machine.html",
@@ -13,13 +12,11 @@ EXAMPLES = (
 
 
 def run(
-    spec: SpecPath,
-    reverse: Reverse = False,
-    settings: Settings = None,
-    open_: Annotated[bool, flag("--open", "Open the page in the desktop's browser.")] = False,
-    output: Annotated[
-        str, output_option("FILE", "Write to this .html; - prints it.", show=True)
-    ] = "-",
+    spec: str = SPEC,
+    reverse: bool = REVERSE,
+    settings: list[str] = SETTINGS,
+    open_: bool = flag("--open", "Open the page in the desktop's browser."),
+    output: str = output_option("-", "FILE", "Write to this .html; - prints it.", show=True),
 ) -> None:
     """Animate the machine on a page that needs no network.
 
@@ -31,7 +28,7 @@ def run(
     from geneva_cli.output import animate
     from geneva_cli.study.animation.turning_scene import scene
 
-    design = load(spec, settings or (), reverse)
+    design = load(spec, settings, reverse)
     place = output
     if open_ and output == "-":
         import tempfile

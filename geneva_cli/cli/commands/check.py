@@ -1,11 +1,10 @@
 """``geneva check``."""
 
 import os
-from typing import Annotated
 
 import typer
 
-from geneva_cli.cli.command import Format, Output, Reverse, Settings, option, say, tell
+from geneva_cli.cli.command import FORMAT, OUTPUT, REVERSE, SETTINGS, SPECS, flag, option, say, tell
 from geneva_cli.errors import open_warnings
 
 EXAMPLES = ("geneva check spec.toml", "geneva check spec.toml --set size.slot_clearance_mm=0.05")
@@ -13,24 +12,19 @@ DRAWN = "A drawing from elsewhere"
 
 
 def run(
-    specs: Annotated[list[str], typer.Argument(metavar="SPEC...", help="Specs, TOML files.")],
-    strict: Annotated[bool, typer.Option("--strict", help="Exit 1 on a warning too.")] = False,
-    verbose: Annotated[
-        bool, typer.Option("-v", "--verbose", help="Every check, a row each.")
-    ] = False,
-    reverse: Reverse = False,
-    certify: Annotated[float | None, option("MM", "Prove that no parts overlap by more.")] = None,
-    wheel: Annotated[
-        str | None, option("FILE", "The wheel as somebody drew it: .dxf or .svg.", DRAWN)
-    ] = None,
-    crank: Annotated[str | None, option("FILE", "The crank: .dxf or .svg.", DRAWN)] = None,
-    slack: Annotated[
-        float | None,
-        option("MM", "Overlap that counts as touching.  [default: 1e-6, or 0.001]", DRAWN),
-    ] = None,
-    settings: Settings = None,
-    output: Output = "-",
-    format: Format = "",
+    specs: list[str] = SPECS,
+    strict: bool = flag("--strict", "Exit 1 on a warning too."),
+    verbose: bool = flag("-v --verbose", "Every check, a row each."),
+    reverse: bool = REVERSE,
+    certify: float | None = option(None, "MM", "Prove that no parts overlap by more."),
+    wheel: str | None = option(None, "FILE", "The wheel as somebody drew it: .dxf or .svg.", DRAWN),
+    crank: str | None = option(None, "FILE", "The crank: .dxf or .svg.", DRAWN),
+    slack: float | None = option(
+        None, "MM", "Overlap that counts as touching.  [default: 1e-6, or 0.001]", DRAWN
+    ),
+    settings: list[str] = SETTINGS,
+    output: str = OUTPUT,
+    format: str = FORMAT,
 ) -> None:
     """Check designs: failures with their remedies, warnings, and the tightest check.
 
@@ -41,7 +35,7 @@ def run(
     from geneva_cli.output import chosen, show_answer
     from geneva_cli.study.verdicts import of_checks, verdicts
 
-    name, changes = chosen(output, format), list(settings or ())
+    name, changes = chosen(output, format), list(settings)
     for part, path in (("wheel", wheel), ("crank", crank)):  # files of this folder
         if path is not None:
             changes.append(f"outline.{part}={os.path.abspath(path)}")

@@ -1,9 +1,5 @@
 """``geneva compare``."""
 
-from typing import Annotated
-
-import typer
-
 from geneva_cli.cli import command
 from geneva_cli.errors import GenevaError
 
@@ -14,23 +10,20 @@ EXAMPLES = (
 
 
 def run(
-    specs: Annotated[list[str], typer.Argument(metavar="SPEC...", help="Specs, TOML files.")],
-    vary: Annotated[
-        list[str] | None,
-        command.option("KEY=VALUES", "One spec with several values: drive.A=0,0.3,0.6."),
-    ] = None,
-    pick: Annotated[
-        str, command.option("FIELD,...", "Only these, as acceleration.max,dwell_s.")
-    ] = "",
-    against: Annotated[
-        str, command.option("NAME,...", "One spec with cam, servo: the same step, time and load.")
-    ] = "",
-    ratio: Annotated[bool, command.flag("--ratio", "Numbers over the first design's.")] = False,
-    differing: Annotated[bool, command.flag("--differing", "Only what differs.")] = False,
-    reverse: command.AlsoReverse = False,
-    settings: command.Settings = None,
-    output: command.Output = "-",
-    format: command.Format = "",
+    specs: list[str] = command.SPECS,
+    vary: list[str] = command.option(
+        (), "KEY=VALUES", "One spec with several values: drive.A=0,0.3,0.6."
+    ),
+    pick: str = command.option("", "FIELD,...", "Only these, as acceleration.max,dwell_s."),
+    against: str = command.option(
+        "", "NAME,...", "One spec with cam, servo: the same step, time and load."
+    ),
+    ratio: bool = command.flag("--ratio", "Numbers over the first design's."),
+    differing: bool = command.flag("--differing", "Only what differs."),
+    reverse: bool = command.ALSO_REVERSE,
+    settings: list[str] = command.SETTINGS,
+    output: str = command.OUTPUT,
+    format: str = command.FORMAT,
 ) -> None:
     """Designs side by side: a column for each design, a row for each quantity.
 
@@ -48,10 +41,10 @@ def run(
             raise GenevaError(
                 "--against: it compares one spec, without --vary, --pick, --ratio and --reverse"
             )
-        table = load_extra("servo", "against")(specs[0], settings or [], command.words_in(against))
+        table = load_extra("servo", "against")(specs[0], settings, command.words_in(against))
     else:
-        table = compare(specs, settings or (), vary or (), command.words_in(pick), ratio, reverse)
+        table = compare(specs, settings, vary, command.words_in(pick), ratio, reverse)
         table = only_differing(table) if differing else table
     show(table, output, format, specs)
     for path in specs:
-        command.say(path, load(path, settings or ()).ideal_notes)
+        command.say(path, load(path, settings).ideal_notes)

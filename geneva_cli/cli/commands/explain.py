@@ -1,10 +1,8 @@
 """``geneva explain``."""
 
-from typing import Annotated
-
 import typer
 
-from geneva_cli.cli.command import Format, Output
+from geneva_cli.cli.command import FORMAT, OUTPUT
 
 EXAMPLES = (
     "geneva explain",
@@ -15,48 +13,40 @@ EXAMPLES = (
 
 
 def run(
-    words: Annotated[
-        list[str] | None,
-        typer.Argument(
-            metavar="[CHECK|QUANTITY|KIND]",
-            help="horn_mm, acceleration.max, side-crank, a warning, a part, ...; without one: all.",
-        ),
-    ] = None,
-    output: Output = "-",
-    format: Format = "",
+    words: list[str] = typer.Argument(
+        (),
+        metavar="[CHECK|QUANTITY|KIND]",
+        help="horn_mm, acceleration.max, side-crank, a warning, a part, ...; without one: all.",
+    ),
+    output: str = OUTPUT,
+    format: str = FORMAT,
 ) -> None:
     """Explain a word of the output: meaning, formula, unit, source, what to do, manual page."""
     from geneva_cli.cli.pages import search
     from geneva_cli.output import is_for_people, show, show_markdown
-    from geneva_cli.specfile.meanings import (
-        Meaning,
-        as_markdown,
-        groups,
-        listed,
-        meanings,
-        related,
-        unknown,
-    )
+    from geneva_cli.specfile import meanings
     from geneva_cli.table import Reading, rows_table
 
-    word, names = " ".join(words or ()), ("group", "name", "about")
+    word, names = " ".join(words), ("group", "name", "about")
     people = is_for_people(output, format)
     if not word and people:
         title = "`geneva explain WORD` says what a word of any output means; these are explained:"
-        shown = rows_table(("words", "number", "about", "such_as"), groups(), title)
+        shown = rows_table(("words", "number", "about", "such_as"), meanings.groups(), title)
         show(shown.replaced(reading=Reading(("words", "such_as"))), output, format)
         return
     if not word:
-        show(rows_table(names, listed()), output, format)
+        show(rows_table(names, meanings.listed()), output, format)
         return
-    entries = meanings(word)
+    entries = meanings.meanings(word)
     if not entries:
-        found = related(word) or [("page", f"help {hit.topic}", hit.line) for hit in search(word)]
+        found = meanings.related(word) or [
+            ("page", f"help {on}", line) for on, _, line in search(word)
+        ]
         if not found:
-            raise unknown(word)
+            raise meanings.unknown(word)
         title = f"{word}: `geneva explain NAME` says more." if people else ""
         show(rows_table(names, found, title).replaced(reading=Reading(names[1:])), output, format)
     elif not people:
-        show(rows_table(Meaning._fields, entries), output, format)
+        show(rows_table(meanings.Meaning._fields, entries), output, format)
     else:
-        show_markdown(as_markdown(entries), output)
+        show_markdown(meanings.as_markdown(entries), output)

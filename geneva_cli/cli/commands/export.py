@@ -1,7 +1,6 @@
 """``geneva export``."""
 
 import os
-from typing import Annotated
 
 from geneva_cli.cli import command
 from geneva_cli.errors import GenevaError, below
@@ -14,20 +13,13 @@ EXAMPLES = (
 
 
 def run(
-    spec: command.SpecPath,
-    output: Annotated[
-        str, command.output_option("FOLDER", "Write into this folder (required).")
-    ] = "",
-    trade: Annotated[
-        str | None,
-        command.option(
-            "TRADE", "What laser, mill or print needs.  [default: all files]", name="--for"
-        ),
-    ] = None,
-    force: Annotated[
-        bool, command.flag("--force", "Write a machine that jams; replace changed files.")
-    ] = False,
-    settings: command.Settings = None,
+    spec: str = command.SPEC,
+    output: str = command.output_option("", "FOLDER", "Write into this folder (required)."),
+    trade: str | None = command.option(
+        None, "TRADE", "What laser, mill or print needs.  [default: all files]", name="--for"
+    ),
+    force: bool = command.flag("--force", "Write a machine that jams; replace changed files."),
+    settings: list[str] = command.SETTINGS,
 ) -> None:
     """Write every file that a shop needs into a folder, and list them.
 
@@ -45,7 +37,7 @@ def run(
     from geneva_cli.table import rows_table
 
     needed = trade_of(trade)
-    design = load(spec, settings or ())
+    design = load(spec, settings)
     if not output:
         raise GenevaError("the files need a folder: give -o FOLDER")
     if design.spec.is_turned:

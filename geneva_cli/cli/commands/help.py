@@ -1,6 +1,6 @@
 """``geneva help``."""
 
-from typing import Annotated, Any
+from typing import Any
 
 import typer
 
@@ -11,13 +11,11 @@ EXAMPLES = ("geneva help", "geneva help cycle", "geneva help friction")
 
 def run(
     context: typer.Context,
-    words: Annotated[
-        list[str] | None,
-        typer.Argument(
-            metavar="[WORD...]",
-            help="A page, a command, or words to search for; without one: all pages.",
-        ),
-    ] = None,
+    words: list[str] = typer.Argument(
+        (),
+        metavar="[WORD...]",
+        help="A page, a command, or words to search for; without one: all pages.",
+    ),
 ) -> None:
     """Show a page of the manual, the options of a command, or all places of a word."""
     from geneva_cli.cli.pages import Hit, page, search
@@ -25,7 +23,7 @@ def run(
     from geneva_cli.output import show, show_markdown, show_text
     from geneva_cli.table import Reading, rows_table
 
-    topic = " ".join(words or ())
+    topic = " ".join(words)
     commands: Any = context.find_root().command
     if not topic:
         show_markdown(contents())

@@ -1,20 +1,18 @@
 """``geneva keys``."""
 
-from typing import Annotated
-
 import typer
 
-from geneva_cli.cli.command import Format, Output
+from geneva_cli.cli.command import FORMAT, OUTPUT
 
 EXAMPLES = ("geneva keys drive", "geneva keys size.center_distance_mm")
 
 
 def run(
-    word: Annotated[
-        str, typer.Argument(metavar="[TABLE|KEY]", help="drive, drive.A or A; without one: all.")
-    ] = "",
-    output: Output = "-",
-    format: Format = "",
+    word: str = typer.Argument(
+        "", metavar="[TABLE|KEY]", help="drive, drive.A or A; without one: all."
+    ),
+    output: str = OUTPUT,
+    format: str = FORMAT,
 ) -> None:
     """List the keys of a spec: unit, allowed values, default, and the machines that have them."""
     from geneva_cli.output import show

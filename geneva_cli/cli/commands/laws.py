@@ -1,16 +1,14 @@
 """``geneva laws``."""
 
-from typing import Annotated
-
-from geneva_cli.cli.command import Format, Output, option
+from geneva_cli.cli.command import FORMAT, OUTPUT, option
 
 EXAMPLES = ("geneva laws", "geneva laws --lambda 0.1 --format csv")
 
 
 def run(
-    shape: Annotated[float, option("X", "Shape of the sine group.", name="--lambda")] = 0.0,
-    output: Output = "-",
-    format: Format = "",
+    shape: float = option(0.0, "X", "Shape of the sine group.", name="--lambda"),
+    output: str = OUTPUT,
+    format: str = FORMAT,
 ) -> None:
     """List the motion laws and their characteristic values.
 

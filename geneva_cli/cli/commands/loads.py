@@ -1,10 +1,6 @@
 """``geneva loads``."""
 
-from typing import Annotated
-
-import typer
-
-from geneva_cli.cli.command import Format, Output, Reverse, Settings, SpecPath, flag, option, say
+from geneva_cli.cli.command import FORMAT, OUTPUT, REVERSE, SETTINGS, SPEC, flag, option, say
 from geneva_cli.errors import is_warning
 
 ROWS = 361
@@ -19,18 +15,14 @@ EXAMPLES = (
 
 
 def run(
-    spec: SpecPath,
-    samples: Annotated[
-        int | None, option("N", f"The cycle in N rows instead (csv: {ROWS}).")
-    ] = None,
-    certify: Annotated[bool, flag("--certify", "Prove the greatest loads instead.")] = False,
-    verbose: Annotated[
-        bool, typer.Option("-v", "--verbose", help="Powers, all loads, sizing and life too.")
-    ] = False,
-    reverse: Reverse = False,
-    settings: Settings = None,
-    output: Output = "-",
-    format: Format = "",
+    spec: str = SPEC,
+    samples: int | None = option(None, "N", f"The cycle in N rows instead (csv: {ROWS})."),
+    certify: bool = flag("--certify", "Prove the greatest loads instead."),
+    verbose: bool = flag("-v --verbose", "Powers, all loads, sizing and life too."),
+    reverse: bool = REVERSE,
+    settings: list[str] = SETTINGS,
+    output: str = OUTPUT,
+    format: str = FORMAT,
 ) -> None:
     """Loads of the motion: torque, forces, stress and power over a cycle.
 
@@ -56,7 +48,7 @@ def run(
     from geneva_cli.output import choice, chosen, is_for_people, show, show_answer
     from geneva_cli.study.summary.load_lines import of_loads
 
-    design = load(spec, settings or (), reverse)
+    design = load(spec, settings, reverse)
     if certify:
         certificates = design.certified_loads(is_for_people(output, format))
         show(certificates, output, format, design.spec.files)

@@ -1,10 +1,8 @@
 """``geneva motion``."""
 
-from typing import Annotated
-
 import typer
 
-from geneva_cli.cli.command import Output, Reverse, Settings, SpecPath, one_of, option, say, tell
+from geneva_cli.cli.command import OUTPUT, REVERSE, SETTINGS, SPEC, one_of, option, say, tell
 from geneva_cli.errors import GenevaError
 from geneva_cli.output import CAMS, CONTROLLERS, FORMATS
 
@@ -19,25 +17,22 @@ CAM = "An electronic cam"
 
 
 def run(
-    spec: SpecPath,
-    samples: Annotated[int | None, option("N", "Rows, both ends included.  [default: 361]")] = None,
-    at: Annotated[
-        str, option("DEG,...", "Rows at these input angles from mid-motion: 30,45, -60..60:5.")
-    ] = "",
-    turns: Annotated[
-        int | None, option("N", "Turns of the input, with a row at each entry and jump.")
-    ] = None,
-    controller: Annotated[
-        str | None,
-        option("CONTROLLER", f"{one_of(CONTROLLERS)}  [default: polynomial]", CAM, name="--for"),
-    ] = None,
-    tolerance: Annotated[
-        float | None, option("DEG", "Greatest error of the wheel's angle.  [default: 0.0001]", CAM)
-    ] = None,
-    reverse: Reverse = False,
-    settings: Settings = None,
-    output: Output = "-",
-    format: Annotated[str, option("FORMAT", one_of((*FORMATS, *CAMS)))] = "",
+    spec: str = SPEC,
+    samples: int | None = option(None, "N", "Rows, both ends included.  [default: 361]"),
+    at: str = option(
+        "", "DEG,...", "Rows at these input angles from mid-motion: 30,45, -60..60:5."
+    ),
+    turns: int | None = option(None, "N", "Turns of the input, with a row at each entry and jump."),
+    controller: str | None = option(
+        None, "CONTROLLER", f"{one_of(CONTROLLERS)}  [default: polynomial]", CAM, name="--for"
+    ),
+    tolerance: float | None = option(
+        None, "DEG", "Greatest error of the wheel's angle.  [default: 0.0001]", CAM
+    ),
+    reverse: bool = REVERSE,
+    settings: list[str] = SETTINGS,
+    output: str = OUTPUT,
+    format: str = option("", "FORMAT", one_of((*FORMATS, *CAMS))),
 ) -> None:
     """Position, velocity, acceleration and jerk over a cycle from entry.
 
@@ -51,7 +46,7 @@ def run(
     from geneva_cli.design import load
     from geneva_cli.output import show, show_text
 
-    design = load(spec, settings or (), reverse)
+    design = load(spec, settings, reverse)
     files = design.spec.files
     if format not in CAMS:
         if controller is not None or tolerance is not None:

@@ -1,11 +1,10 @@
 """``geneva new``."""
 
 import os
-from typing import Annotated
 
 import typer
 
-from geneva_cli.cli.command import Output, flag, option
+from geneva_cli.cli.command import OUTPUT, flag, option
 from geneva_cli.errors import GenevaError, below
 
 EXAMPLES = (
@@ -16,17 +15,14 @@ EXAMPLES = (
 
 
 def run(
-    kind: Annotated[
-        str,
-        typer.Argument(metavar="[KIND]", help="curved, turret, a kind of drive, ...: see --list."),
-    ] = "",
-    from_design: Annotated[str, option("NAME", "A copy of one of the designs, as it is.")] = "",
-    list_: Annotated[bool, flag("--list", "All kinds and designs, and what they are.")] = False,
-    all_: Annotated[
-        bool, flag("--all", "Every key that the kind can have, with its default.")
-    ] = False,
-    force: Annotated[bool, flag("--force", "Replace files that exist.")] = False,
-    output: Output = "-",
+    kind: str = typer.Argument(
+        "", metavar="[KIND]", help="curved, turret, a kind of drive, ...: see --list."
+    ),
+    from_design: str = option("", "NAME", "A copy of one of the designs, as it is."),
+    list_: bool = flag("--list", "All kinds and designs, and what they are."),
+    all_: bool = flag("--all", "Every key that the kind can have, with its default."),
+    force: bool = flag("--force", "Replace files that exist."),
+    output: str = OUTPUT,
 ) -> None:
     """Write a short commented spec to start from; --all for every key.
 

@@ -1,8 +1,6 @@
 """``geneva peaks``."""
 
-from typing import Annotated
-
-from geneva_cli.cli.command import Format, Output, Reverse, Settings, SpecPath, flag, say
+from geneva_cli.cli.command import FORMAT, OUTPUT, REVERSE, SETTINGS, SPEC, flag, say
 
 EXAMPLES = (
     "geneva peaks spec.toml",
@@ -12,12 +10,12 @@ EXAMPLES = (
 
 
 def run(
-    spec: SpecPath,
-    certify: Annotated[bool, flag("--certify", "Prove each peak between two bounds.")] = False,
-    reverse: Reverse = False,
-    settings: Settings = None,
-    output: Output = "-",
-    format: Format = "",
+    spec: str = SPEC,
+    certify: bool = flag("--certify", "Prove each peak between two bounds."),
+    reverse: bool = REVERSE,
+    settings: list[str] = SETTINGS,
+    output: str = OUTPUT,
+    format: str = FORMAT,
 ) -> None:
     """Greatest velocity, acceleration, jerk and power of a design, as invariants.
 
@@ -30,7 +28,7 @@ def run(
     from geneva_cli.design import load
     from geneva_cli.output import is_for_people, show
 
-    design = load(spec, settings or (), reverse)
+    design = load(spec, settings, reverse)
     table = design.peaks_table
     if certify:
         table = design.certified_peaks(is_for_people(output, format))

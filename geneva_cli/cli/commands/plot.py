@@ -1,10 +1,8 @@
 """``geneva plot``."""
 
-from typing import Annotated
-
 import typer
 
-from geneva_cli.cli.command import AlsoReverse, Output, Settings, option, say, words_in
+from geneva_cli.cli.command import ALSO_REVERSE, OUTPUT, SETTINGS, option, say, words_in
 from geneva_cli.errors import GenevaError, cut
 
 EXAMPLES = (
@@ -15,22 +13,17 @@ EXAMPLES = (
 
 
 def run(
-    specs: Annotated[
-        list[str],
-        typer.Argument(metavar="SPEC...", help="Specs, TOML files; or one .csv, as of a sweep."),
-    ],
-    pick: Annotated[str, option("QUANTITY,...", "Only these, as velocity,pin_force_N.")] = "",
-    x: Annotated[str, option("COLUMN", "Column of a csv for the x axis.", name="--x")] = "",
-    y: Annotated[str, option("COLUMN,...", "Columns of a csv for the y axis.", name="--y")] = "",
-    vary: Annotated[
-        list[str] | None, option("KEY=VALUES", "One spec with several values: wheel.z=4,6,8.")
-    ] = None,
-    reverse: AlsoReverse = False,
-    settings: Settings = None,
-    output: Output = "-",
-    format: Annotated[
-        str, option("FORMAT", "svg, png, pdf, or of the points table, csv, json or md.")
-    ] = "",
+    specs: list[str] = typer.Argument(
+        ..., metavar="SPEC...", help="Specs, TOML files; or one .csv, as of a sweep."
+    ),
+    pick: str = option("", "QUANTITY,...", "Only these, as velocity,pin_force_N."),
+    x: str = option("", "COLUMN", "Column of a csv for the x axis.", name="--x"),
+    y: str = option("", "COLUMN,...", "Columns of a csv for the y axis.", name="--y"),
+    vary: list[str] = option((), "KEY=VALUES", "One spec with several values: wheel.z=4,6,8."),
+    reverse: bool = ALSO_REVERSE,
+    settings: list[str] = SETTINGS,
+    output: str = OUTPUT,
+    format: str = option("", "FORMAT", "svg, png, pdf, or of the points table, csv, json or md."),
 ) -> None:
     """Plot curves over a cycle, exact at peaks and jumps; or columns of a csv, such as a sweep's.
 
@@ -51,7 +44,7 @@ def run(
         return
     if x or y:
         raise GenevaError(f"--x and --y are for a .csv; for {cut(specs[0], 300)} give --pick")
-    figure, designs, left_out = of_specs(specs, settings or (), words_in(pick), vary or (), reverse)
+    figure, designs, left_out = of_specs(specs, settings, words_in(pick), vary, reverse)
     show_figure(figure, output, format, [file for d in designs for file in d.spec.files])
     for design in designs:
         say(design.spec.path, design.motion_warnings)

@@ -1,17 +1,7 @@
 """``geneva profile``."""
 
-from typing import Annotated
-
-from geneva_cli.cli.command import (
-    Output,
-    Settings,
-    SpecPath,
-    flag,
-    one_of,
-    option,
-    require_written,
-    say,
-)
+from geneva_cli.cli import command
+from geneva_cli.cli.command import OUTPUT, SETTINGS, SPEC, flag, one_of, option, say
 from geneva_cli.drawings.catalogue import is_sheet, require_tolerance
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.output import DRAWN, FORMATS, SHEETS, chosen, draw, draw_sheet, named, show, usual
@@ -29,29 +19,26 @@ DRAWING = "The drawing"
 
 
 def run(
-    spec: SpecPath,
-    part: Annotated[
-        str, option("PART", "slot, wheel, crank, arm, assembly, parts, sheet or another.")
-    ] = "slot",
-    tolerance: Annotated[
-        float | None,
-        option("MM", "Greatest distance from the true curve.  [default: 0.001; of meshes 0.01]"),
-    ] = None,
-    samples: Annotated[int | None, option("N", "Number of rows of a table, evenly spaced.")] = None,
-    curves: Annotated[
-        str | None, option("KIND", "Curved walls as arcs or spline; .step has spline.", DRAWING)
-    ] = None,
-    kerf: Annotated[float | None, option("MM", "Paths for a cut of this width.", CUT)] = None,
-    cutter: Annotated[
-        float | None, option("MM", "Diameter of a milling cutter that must fit.", CUT)
-    ] = None,
-    dxf_version: Annotated[
-        str | None, option("VERSION", "Version of .dxf, R12 to R2018.  [default: R2000]", DRAWING)
-    ] = None,
-    force: Annotated[bool, flag("--force", "Draw even a machine that jams.")] = False,
-    settings: Settings = None,
-    output: Output = "-",
-    format: Annotated[str, option("FORMAT", one_of(WRITTEN), name="--format")] = "",
+    spec: str = SPEC,
+    part: str = option(
+        "slot", "PART", "slot, wheel, crank, arm, assembly, parts, sheet or another."
+    ),
+    tolerance: float | None = option(
+        None, "MM", "Greatest distance from the true curve.  [default: 0.001; of meshes 0.01]"
+    ),
+    samples: int | None = option(None, "N", "Number of rows of a table, evenly spaced."),
+    curves: str | None = option(
+        None, "KIND", "Curved walls as arcs or spline; .step has spline.", DRAWING
+    ),
+    kerf: float | None = option(None, "MM", "Paths for a cut of this width.", CUT),
+    cutter: float | None = option(None, "MM", "Diameter of a milling cutter that must fit.", CUT),
+    dxf_version: str | None = option(
+        None, "VERSION", "Version of .dxf, R12 to R2018.  [default: R2000]", DRAWING
+    ),
+    force: bool = flag("--force", "Draw even a machine that jams."),
+    settings: list[str] = SETTINGS,
+    output: str = OUTPUT,
+    format: str = option("", "FORMAT", one_of(WRITTEN), name="--format"),
 ) -> None:
     """Write a part as a table of points, or as a drawing to cut: csv, dxf, svg, step or pdf.
 
@@ -65,7 +52,7 @@ def run(
     if curves not in WALLS:
         raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
     sheet, drawn = is_sheet(part), named(output, format) in DRAWN
-    design = load(spec, settings or ())
+    design = load(spec, settings)
     files = design.spec.files
     table = not sheet and design.is_table(part, drawn)
     if (sheet or table) and (kerf is not None or cutter is not None):
@@ -81,12 +68,12 @@ def run(
     chosen(output, format, SHEETS if sheet else DRAWN)  # refused before the machine is turned
     require_tolerance(design.mechanism, tolerance)
     if design.spec.is_turned:
-        require_written(design, design.judge(part), force)
+        command.require_written(design, design.judge(part), force)
     if sheet:
         draw_sheet(design.sheet(tolerance, curves), output, format, files, dxf_version or "")
     else:
         if cutter is not None:
-            require_written(design, design.cutter(part, cutter), force)
+            command.require_written(design, design.cutter(part, cutter), force)
         drawing = design.drawing(part, tolerance, curves, kerf)
         shown = drawing if kerf is not None else design.drawing_over(drawing)
         draw(shown, output, format, files, dxf_version or "")

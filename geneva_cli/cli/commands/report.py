@@ -1,10 +1,8 @@
 """``geneva report``."""
 
-from typing import Annotated
-
 import typer
 
-from geneva_cli.cli.command import Output, Settings, SpecPath, flag, one_of, option, say
+from geneva_cli.cli.command import OUTPUT, SETTINGS, SPEC, flag, one_of, option, say
 from geneva_cli.output import DOCUMENTS, FORMATS
 
 EXAMPLES = (
@@ -17,11 +15,11 @@ WRITTEN = tuple(dict.fromkeys((*FORMATS, *DOCUMENTS)))
 
 
 def run(
-    spec: SpecPath,
-    full: Annotated[bool, flag("--full", "All inputs, curves, sizes, checks too.")] = False,
-    settings: Settings = None,
-    output: Output = "-",
-    format: Annotated[str, option("FORMAT", one_of(WRITTEN))] = "",
+    spec: str = SPEC,
+    full: bool = flag("--full", "All inputs, curves, sizes, checks too."),
+    settings: list[str] = SETTINGS,
+    output: str = OUTPUT,
+    format: str = option("", "FORMAT", one_of(WRITTEN)),
 ) -> None:
     """Report on a design on two pages: verdict, motor, greatest loads and limits, parts, warnings.
 
@@ -36,7 +34,7 @@ def run(
     from geneva_cli.study.summary.report_summary import of_report
 
     is_whole = chosen(output, format, WRITTEN) in DOCUMENTS
-    design = load(spec, settings or ())
+    design = load(spec, settings)
     if is_whole:
         from geneva_cli.study.document import document, short_document
 

@@ -1,11 +1,11 @@
 """``geneva schema``."""
 
-from geneva_cli.cli.command import Output
+from geneva_cli.cli.command import OUTPUT
 
 EXAMPLES = ("geneva schema -o geneva.schema.json",)
 
 
-def run(output: Output = "-") -> None:
+def run(output: str = OUTPUT) -> None:
     """Print a JSON Schema (draft-07) of specs, with which editors complete and check keys."""
     import json
 

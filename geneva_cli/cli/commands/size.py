@@ -1,9 +1,8 @@
 """``geneva size``."""
 
 import os
-from typing import Annotated
 
-from geneva_cli.cli.command import Format, Settings, SpecPath, output_option, tell
+from geneva_cli.cli.command import FORMAT, SETTINGS, SPEC, output_option, tell
 
 EXAMPLES = (
     "geneva size spec.toml",
@@ -13,10 +12,10 @@ EXAMPLES = (
 
 
 def run(
-    spec: SpecPath,
-    settings: Settings = None,
-    output: Annotated[str, output_option("FILE", "Write the spec with all its sizes.")] = "",
-    format: Format = "",
+    spec: str = SPEC,
+    settings: list[str] = SETTINGS,
+    output: str = output_option("", "FILE", "Write the spec with all its sizes."),
+    format: str = FORMAT,
 ) -> None:
     """The sizes that a rule or the load chose; with -o the spec that has them, so that they stay.
 
@@ -32,7 +31,7 @@ def run(
     from geneva_cli.output import FORMATS, chosen, require_spec, show_answer, show_text
     from geneva_cli.study.chosen_sizes import of_sizes, sized_text
 
-    design = load(spec, settings or ())
+    design = load(spec, settings)
     extension = os.path.splitext(output)[1].lower().removeprefix(".")
     if not output or format or extension in FORMATS:
         output = output or "-"

@@ -1,10 +1,9 @@
 """``geneva sweep``."""
 
 from collections.abc import Iterator
-from contextlib import closing
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-from geneva_cli.cli.command import Format, Settings, SpecPath, flag, option, output_option, tell
+from geneva_cli.cli.command import FORMAT, SETTINGS, SPEC, flag, option, output_option, tell
 from geneva_cli.errors import GenevaError
 from geneva_cli.progress import tracked
 
@@ -25,38 +24,28 @@ LONG = "Long runs"
 
 
 def run(
-    spec: SpecPath,
-    vary: Annotated[
-        list[str] | None,
-        option("KEY=VALUES", "As drive.A=0..0.9:0.1 or motion.law=a,b; repeat.", DESIGNS),
-    ] = None,
-    pick: Annotated[
-        str, option("FIELD,...", "Quantities, as acceleration.max,dwell_s.", DESIGNS)
-    ] = "",
-    random: Annotated[
-        int | None, option("N", "N random designs from the ranges, not the grid.", DESIGNS)
-    ] = None,
-    seed: Annotated[
-        int | None, option("S", "Seed of the random designs; 0 by default.", DESIGNS)
-    ] = None,
-    check: Annotated[bool, flag("--check", "Add whether all checks pass.", DESIGNS)] = False,
-    subject_to: Annotated[
-        list[str] | None,
-        option("BOUND", 'Only rows that keep it: "dwell_s >= 0.8"; repeat.', CHOICE),
-    ] = None,
-    pareto: Annotated[
-        str, option("min:FIELD,...", "Only rows that no other row beats in all of these.", CHOICE)
-    ] = "",
-    best: Annotated[
-        str, option("min:FIELD", "The best design, refined, as a spec; or max:.", CHOICE)
-    ] = "",
-    resume: Annotated[bool, flag("--resume", "Continue a stopped run.", LONG)] = False,
-    jobs: Annotated[
-        int | None, option("N", "Number of processes; all cores by default.", LONG)
-    ] = None,
-    settings: Settings = None,
-    output: Annotated[str, output_option("FILE", "A .csv or .parquet; - prints.")] = "-",
-    format: Format = "",
+    spec: str = SPEC,
+    vary: list[str] = option(
+        (), "KEY=VALUES", "As drive.A=0..0.9:0.1 or motion.law=a,b; repeat.", DESIGNS
+    ),
+    pick: str = option("", "FIELD,...", "Quantities, as acceleration.max,dwell_s.", DESIGNS),
+    random: int | None = option(
+        None, "N", "N random designs from the ranges, not the grid.", DESIGNS
+    ),
+    seed: int | None = option(None, "S", "Seed of the random designs; 0 by default.", DESIGNS),
+    check: bool = flag("--check", "Add whether all checks pass.", DESIGNS),
+    subject_to: list[str] = option(
+        (), "BOUND", 'Only rows that keep it: "dwell_s >= 0.8"; repeat.', CHOICE
+    ),
+    pareto: str = option(
+        "", "min:FIELD,...", "Only rows that no other row beats in all of these.", CHOICE
+    ),
+    best: str = option("", "min:FIELD", "The best design, refined, as a spec; or max:.", CHOICE),
+    resume: bool = flag("--resume", "Continue a stopped run.", LONG),
+    jobs: int | None = option(None, "N", "Number of processes; all cores by default.", LONG),
+    settings: list[str] = SETTINGS,
+    output: str = output_option("-", "FILE", "A .csv or .parquet; - prints."),
+    format: str = FORMAT,
 ) -> None:
     """Compute one row for each design: the varied keys, then the quantities.
 
@@ -64,28 +53,17 @@ def run(
     whole range between.
     Long runs and the best of many: `geneva help search`.
     """
+    options = locals()
     from geneva_cli.output import chosen, require_spec, show, show_text
     from geneva_cli.study.fields import joined, without_infinity
-    from geneva_cli.study.sweep.request import Outcome, request
+    from geneva_cli.study.sweep.request import OPTIONS, Outcome, request
     from geneva_cli.table import Table
 
     if best:
         require_spec(output, format)
     else:
         chosen("-", format)
-    plan = request(
-        spec,
-        vary or (),
-        settings or (),
-        pick=pick,
-        random=random,
-        seed=seed,
-        check=check,
-        subject_to=subject_to or (),
-        pareto=pareto,
-        best=best,
-        jobs=jobs,
-    )
+    plan = request(spec, vary, settings, **{name: options[name] for name in OPTIONS})
     if resume and (best or plan.chooses or format not in ("", "csv")):
         raise GenevaError("--resume continues all rows of a sweep, as csv or parquet")
     outcome = Outcome(plan)
@@ -112,7 +90,7 @@ def _write_rows(plan: "Sweep", outcome: "Outcome", output: str, resume: bool, wh
     ``whole`` shows a person all rows too.
     """
     from geneva_cli.output import is_seen, show
-    from geneva_cli.output.growing import GrowingTable
+    from geneva_cli.output.growing import growing
     from geneva_cli.study.sweep.request import Digest
     from geneva_cli.study.sweep.run import TEXTS
 
@@ -122,8 +100,7 @@ def _write_rows(plan: "Sweep", outcome: "Outcome", output: str, resume: bool, wh
         for block in outcome.rows(_tracked(plan, 0)):
             digest.add(block)
     else:
-        growing = GrowingTable(plan.names, plan.key, output, resume, plan.inputs)
-        with closing(growing) as rows:
+        with growing(plan.names, plan.key, output, resume, plan.inputs, TEXTS) as rows:
             if rows.message:
                 tell(rows.message)
             if is_seen("-") and not (shows_all or rows.done):
@@ -133,7 +110,6 @@ def _write_rows(plan: "Sweep", outcome: "Outcome", output: str, resume: bool, wh
                 rows.append(block.columns)
                 if digest:
                     digest.add(block)
-            rows.finish(TEXTS)
     for table in digest.tables() if digest else ():
         show(table)
 

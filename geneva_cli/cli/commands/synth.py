@@ -1,9 +1,9 @@
 """``geneva synth``."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-from geneva_cli.cli.command import Format, Output, Settings, flag, option, say, tell
+from geneva_cli.cli.command import FORMAT, OUTPUT, SETTINGS, flag, option, say, tell
 from geneva_cli.errors import GenevaError, cut
 
 if TYPE_CHECKING:
@@ -21,44 +21,38 @@ ROWS = "Rows"
 
 
 def run(
-    tau: Annotated[str, option("X", "Motion / cycle.", WANTED)] = "",
-    motion_deg: Annotated[str, option("DEG", "Input angle of one motion.", WANTED)] = "",
-    dwell_deg: Annotated[str, option("DEG", "Input angle of a dwell.", WANTED)] = "",
-    motion_s: Annotated[str, option("S", "Seconds of motion.", WANTED)] = "",
-    dwell_s: Annotated[str, option("S", "Seconds of dwell.", WANTED)] = "",
-    cycle: Annotated[str, option("S", "Seconds from step to step.", WANTED)] = "",
-    subject_to: Annotated[
-        list[str] | None, option("BOUND", 'Of any quantity, as "jerk.max <= 5"; repeat.', WANTED)
-    ] = None,
-    z: Annotated[str, option("Z", "Slots: 6, 3..12 or 3,4,6.", MACHINES, show="3..24")] = "",
-    internal: Annotated[bool, flag("--internal", "Internal wheels.", MACHINES)] = False,
-    external: Annotated[bool, flag("--external", "External wheels.", MACHINES)] = False,
-    spherical: Annotated[bool, flag("--spherical", "Spherical wheels.", MACHINES)] = False,
-    rollers: Annotated[
-        int | None, option("M", "Rollers; without it, any number.", MACHINES)
-    ] = None,
-    law: Annotated[str, option("NAME", "Law of curved slots, or all.", MACHINES)] = "modified-sine",
-    space: Annotated[
-        str, option("X", "Largest four-bar, in centre distances.", MACHINES, show="3")
-    ] = "",
-    from_: Annotated[
-        str,
-        option("SPEC", "Take z, speed, sizes, loads and limits from it.", MACHINES, name="--from"),
-    ] = "",
-    settings: Settings = None,
-    sort: Annotated[
-        str, option("min:FIELD", "The least first; max:FIELD: the greatest.", ROWS)
-    ] = "",
-    check: Annotated[int, option("N", "Turn and check the parts of N rows.", ROWS)] = 20,
-    buildable: Annotated[bool, flag("--buildable", "Only rows that pass.", ROWS)] = False,
-    write: Annotated[int | None, option("N", "Write row N as a spec instead.", ROWS)] = None,
-    output: Output = "-",
-    format: Format = "",
+    tau: str = option("", "X", "Motion / cycle.", WANTED),
+    motion_deg: str = option("", "DEG", "Input angle of one motion.", WANTED),
+    dwell_deg: str = option("", "DEG", "Input angle of a dwell.", WANTED),
+    motion_s: str = option("", "S", "Seconds of motion.", WANTED),
+    dwell_s: str = option("", "S", "Seconds of dwell.", WANTED),
+    cycle: str = option("", "S", "Seconds from step to step.", WANTED),
+    subject_to: list[str] = option(
+        (), "BOUND", 'Of any quantity, as "jerk.max <= 5"; repeat.', WANTED
+    ),
+    z: str = option("", "Z", "Slots: 6, 3..12 or 3,4,6.", MACHINES, show="3..24"),
+    internal: bool = flag("--internal", "Internal wheels.", MACHINES),
+    external: bool = flag("--external", "External wheels.", MACHINES),
+    spherical: bool = flag("--spherical", "Spherical wheels.", MACHINES),
+    rollers: int | None = option(None, "M", "Rollers; without it, any number.", MACHINES),
+    law: str = option("modified-sine", "NAME", "Law of curved slots, or all.", MACHINES),
+    space: str = option("", "X", "Largest four-bar, in centre distances.", MACHINES, show="3"),
+    from_: str = option(
+        "", "SPEC", "Take z, speed, sizes, loads and limits from it.", MACHINES, name="--from"
+    ),
+    settings: list[str] = SETTINGS,
+    sort: str = option("", "min:FIELD", "The least first; max:FIELD: the greatest.", ROWS),
+    check: int = option(20, "N", "Turn and check the parts of N rows.", ROWS),
+    buildable: bool = flag("--buildable", "Only rows that pass.", ROWS),
+    write: int | None = option(None, "N", "Write row N as a spec instead.", ROWS),
+    output: str = OUTPUT,
+    format: str = FORMAT,
 ) -> None:
     """Find the machines that meet all requirements; the lowest peak comes first.
     The machines tried, and the columns: `geneva help search`.
     """
-    from geneva_cli.study.synth.reading import read_frame, read_target
+    options = locals()
+    from geneva_cli.study.synth.reading import OPTIONS, read_frame, read_target
 
     if settings and not from_:
         raise GenevaError("--set goes with --from: it changes a key of that spec")
@@ -66,24 +60,9 @@ def run(
         raise GenevaError(f"--check {cut(check)}: it must be at least {int(buildable)}")
     if write is not None and write < 1:
         raise GenevaError(f"--write {cut(write)}: rows are numbered from 1")
-    target = read_target(
-        tau=tau,
-        motion_deg=motion_deg,
-        dwell_deg=dwell_deg,
-        motion_s=motion_s,
-        dwell_s=dwell_s,
-        cycle=cycle,
-        z=z,
-        internal=internal,
-        external=external,
-        spherical=spherical,
-        rollers=rollers,
-        law=law,
-        frame=read_frame(from_, settings or ()) if from_ else None,
-        sort=sort,
-        subject_to=subject_to or (),
-        space=space,
-    )
+    frame = read_frame(from_, settings) if from_ else None
+    wanted = {name: text for name, text in options.items() if name in OPTIONS}
+    target = read_target(frame=frame, subject_to=subject_to, **wanted)
     if write is None:
         _show(target, check, buildable, output, format)
     else:
@@ -115,7 +94,7 @@ def _write(target: "Target", number: int, output: str, format: str) -> None:
     from geneva_cli.study.synth.synth_table import chosen
 
     require_spec(output, format)
-    row, text = chosen(search(target), number)
+    row, text = chosen(target, search(target), number)
     show_text(text, output, _inputs(target))
     path = "<stdout>" if output == "-" else output
     if row.trouble:

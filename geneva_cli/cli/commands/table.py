@@ -1,8 +1,6 @@
 """``geneva table``."""
 
-from typing import Annotated
-
-from geneva_cli.cli.command import Format, Output, flag, option
+from geneva_cli.cli.command import FORMAT, OUTPUT, flag, option
 from geneva_cli.errors import GenevaError
 from geneva_cli.output import show
 
@@ -14,16 +12,14 @@ EXAMPLES = (
 
 
 def run(
-    z: Annotated[str, option("Z", "Slots: 6, 3..12 or 3,4,6.")] = "3..12",
-    internal: Annotated[bool, flag("--internal", "Internal wheels.")] = False,
-    spherical: Annotated[
-        bool, flag("--spherical", "Spherical wheels, shafts at 90 degrees.")
-    ] = False,
-    n: Annotated[float, option("RPM", "Input speed.", name="--n")] = 60.0,
-    rollers: Annotated[int, option("M", "Rollers on the crank.")] = 1,
-    A: Annotated[float, option("X", "Side-crank offset; 0: plain crank.", name="--A")] = 0.0,
-    output: Output = "-",
-    format: Format = "",
+    z: str = option("3..12", "Z", "Slots: 6, 3..12 or 3,4,6."),
+    internal: bool = flag("--internal", "Internal wheels."),
+    spherical: bool = flag("--spherical", "Spherical wheels, shafts at 90 degrees."),
+    n: float = option(60.0, "RPM", "Input speed.", name="--n"),
+    rollers: int = option(1, "M", "Rollers on the crank."),
+    A: float = option(0.0, "X", "Side-crank offset; 0: plain crank.", name="--A"),
+    output: str = OUTPUT,
+    format: str = FORMAT,
 ) -> None:
     """Timing and peaks of wheels, one row for each number of slots."""
     from geneva_cli.study.survey import survey

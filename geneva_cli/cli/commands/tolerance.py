@@ -1,20 +1,18 @@
 """``geneva tolerance``."""
 
-from typing import Annotated
-
-from geneva_cli.cli.command import Format, Output, Settings, SpecPath, option, say
+from geneva_cli.cli.command import FORMAT, OUTPUT, SETTINGS, SPEC, option, say
 
 EXAMPLES = ("geneva tolerance spec.toml --set tolerance.slot_angle_deg=0.01",)
 
 
 def run(
-    spec: SpecPath,
-    samples: Annotated[int, option("N", "Number of machines to draw.")] = 65536,
-    seed: Annotated[int, option("K", "The same seed, the same machines.")] = 0,
-    radius: Annotated[float | None, option("MM", "Show micrometres too, at this radius.")] = None,
-    settings: Settings = None,
-    output: Output = "-",
-    format: Format = "",
+    spec: str = SPEC,
+    samples: int = option(65536, "N", "Number of machines to draw."),
+    seed: int = option(0, "K", "The same seed, the same machines."),
+    radius: float | None = option(None, "MM", "Show micrometres too, at this radius."),
+    settings: list[str] = SETTINGS,
+    output: str = OUTPUT,
+    format: str = FORMAT,
 ) -> None:
     """The wheel's place in the dwell, its play in motion and its entry, from [tolerance].
 
@@ -25,7 +23,7 @@ def run(
     from geneva_cli.output import is_for_people, show_answer
     from geneva_cli.study.summary.report_summary import of_tolerance
 
-    design = load(spec, settings or ())
+    design = load(spec, settings)
     table = design.tolerance(samples, seed, radius)
     show_answer(of_tolerance(design, table), output, format, design.spec.files)
     # the warnings of tolerances only

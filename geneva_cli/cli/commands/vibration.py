@@ -1,23 +1,21 @@
 """``geneva vibration``."""
 
-from typing import Annotated
-
-from geneva_cli.cli.command import Format, Output, Reverse, Settings, SpecPath, option, say
+from geneva_cli.cli.command import FORMAT, OUTPUT, REVERSE, SETTINGS, SPEC, option, say
 
 EXAMPLES = ("geneva vibration spec.toml --period-ratio 5.5 --damping 0.02",)
 
 
 def run(
-    spec: SpecPath,
-    period_ratio: Annotated[
-        float | None, option("X", "Motion time over natural period, in place of [shaft].")
-    ] = None,
-    damping: Annotated[float | None, option("Z", "Damping ratio, in place of [shaft]'s.")] = None,
-    samples: Annotated[int, option("N", "Number of speeds in the csv.")] = 401,
-    reverse: Reverse = False,
-    settings: Settings = None,
-    output: Output = "-",
-    format: Format = "",
+    spec: str = SPEC,
+    period_ratio: float | None = option(
+        None, "X", "Motion time over natural period, in place of [shaft]."
+    ),
+    damping: float | None = option(None, "Z", "Damping ratio, in place of [shaft]'s."),
+    samples: int = option(401, "N", "Number of speeds in the csv."),
+    reverse: bool = REVERSE,
+    settings: list[str] = SETTINGS,
+    output: str = OUTPUT,
+    format: str = FORMAT,
 ) -> None:
     """The load on an elastic shaft: vibration after each index, and the speeds to avoid.
 
@@ -29,7 +27,7 @@ def run(
     from geneva_cli.output import chosen, show, show_answer
     from geneva_cli.study.summary.report_summary import of_vibration
 
-    design = load(spec, settings or (), reverse)
+    design = load(spec, settings, reverse)
     if chosen(output, format) == "csv":
         table = design.spectrum(samples, period_ratio, damping)
         show(table, output, format, design.spec.files)

@@ -17,8 +17,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.assembly import same
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.links.link_sizes import roller_pins
-from geneva_cli.parts.links.links import Links, placed_holes
+from geneva_cli.parts.links.links import Links, placed_holes, roller_pins
 from geneva_cli.parts.machine_sizes import drawn_pin_radius
 from geneva_cli.parts.outlines.crank_outline import is_whole
 from geneva_cli.parts.shafts.arm_and_shafts import CrankArm

@@ -41,19 +41,14 @@ class Block(NamedTuple):
         measures = []
         for one in self.measures:
             lines = placed(Contour("", one.lines, closed=False), (dx, dy)).segments
-            moved = one._replace(points=tuple(map(point, one.points)), lines=lines)
             label = one.label._replace(at=point(one.label.at))
-            arrows = tuple(a._replace(tip=point(a.tip)) for a in one.arrows)
+            arrows = tuple(arrow._replace(tip=point(arrow.tip)) for arrow in one.arrows)
+            moved = one._replace(points=tuple(map(point, one.points)), lines=lines)
             measures.append(moved._replace(label=label, arrows=arrows))
-        return Block(
-            self.x0 + dx,
-            self.y0 + dy,
-            self.x1 + dx,
-            self.y1 + dy,
-            tuple(placed(s, (dx, dy)) for s in self.shapes),
-            tuple(label._replace(at=point(label.at)) for label in self.labels),
-            tuple(measures),
-        )
+        shapes = tuple(placed(one, (dx, dy)) for one in self.shapes)
+        labels = tuple(label._replace(at=point(label.at)) for label in self.labels)
+        corners = *point((self.x0, self.y0)), *point((self.x1, self.y1))
+        return Block(*corners, shapes, labels, tuple(measures))
 
 
 def is_overfull(blocks: Sequence[Block], area: Box) -> bool:

@@ -11,19 +11,9 @@ from typing import Any, NamedTuple
 
 from geneva_cli.drawings.sheet.packing import Block, is_overfull, packed
 from geneva_cli.errors import GenevaError
+from geneva_cli.geometry import sheet
 from geneva_cli.geometry.shapes import Point, Shape
-from geneva_cli.geometry.sheet import (
-    FRAME,
-    LARGE,
-    OUTLINE,
-    SMALL,
-    TEXT,
-    Label,
-    Sheet,
-    line,
-    rectangle,
-    width,
-)
+from geneva_cli.geometry.sheet import SMALL, TEXT, Label, line, width
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.spec.defaults import material_names
 from geneva_cli.spec.workshops import WORKSHOPS
@@ -73,7 +63,7 @@ def on_paper(
     largest: float,
     blocks: Callable[[float], tuple[list[Block], Callable[[], Iterable[list[Block]]]]],
     area: float,
-) -> Sheet:
+) -> sheet.Sheet:
     """Return the sheet with blocks at the largest scale at which all fit on it.
 
     ``rows`` are its list of items. ``blocks`` returns what is always on it, and a function that
@@ -103,15 +93,11 @@ def on_paper(
                 if placed is None:
                     continue
                 whole = [*fixed, *placed]
-                return Sheet(
-                    spec.title or spec.wheel.title,
-                    paper.width,
-                    paper.height,
-                    scale,
-                    (*_frame(paper), *(shape for block in whole for shape in block.shapes)),
-                    tuple(label for block in whole for label in block.labels),
-                    tuple(measure for block in whole for measure in block.measures),
-                )
+                shapes = *_frame(paper), *(shape for block in whole for shape in block.shapes)
+                labels = tuple(label for block in whole for label in block.labels)
+                measures = tuple(measure for block in whole for measure in block.measures)
+                size, title = (paper.width, paper.height), spec.title or spec.wheel.title
+                return sheet.Sheet(title, *size, scale, shapes, labels, measures)
     raise GenevaError("--part sheet: the parts and their tables do not fit on one A1 sheet")
 
 
@@ -121,8 +107,8 @@ def _frame(paper: PaperSize) -> list[Shape]:
     x, y = 0.5 * w, 0.5 * h
     sides = [((x, 0.0), (x, MARGIN)), ((x, h), (x, h - MARGIN))]
     sides += [((0.0, y), (LEFT, y)), ((w, y), (w - MARGIN, y))]
-    box = rectangle(FRAME, LEFT, MARGIN, w - MARGIN, h - MARGIN)
-    return [box, *(line(FRAME, *ends) for ends in sides)]
+    box = sheet.rectangle(sheet.FRAME, LEFT, MARGIN, w - MARGIN, h - MARGIN)
+    return [box, *(line(sheet.FRAME, *ends) for ends in sides)]
 
 
 def _title_block(spec: Spec, rows: list[dict[str, Any]], scale: float, paper: PaperSize) -> Block:
@@ -131,15 +117,10 @@ def _title_block(spec: Spec, rows: list[dict[str, Any]], scale: float, paper: Pa
     mass = sum(row["mass_kg"] * row["count"] for row in rows)
     # mg where kg would have too many zeros for the field
     shown = f"{_rounded(mass)} kg" if mass >= 1e-3 else f"{_rounded(1e6 * mass)} mg"
-    general = {
-        "scale": scale_name(scale),
-        "mass": shown,
-        "material": materials[0] if len(set(materials)) == 1 else "see list",
-        "tolerances": shop.tolerances,
-        "units": "mm, degrees",
-        "size": paper.name,
-        "sheet": "1/1",
-    }
+    material = materials[0] if len(set(materials)) == 1 else "see list"
+    general = {"scale": scale_name(scale), "mass": shown, "material": material}
+    general |= {"tolerances": shop.tolerances, "units": "mm, degrees", "size": paper.name}
+    general["sheet"] = "1/1"
     rough, flanks = (
         f"Ra {um:g}" if um else "" for um in (own.roughness_um, own.flank_roughness_um)
     )
@@ -149,20 +130,13 @@ def _title_block(spec: Spec, rows: list[dict[str, Any]], scale: float, paper: Pa
         edges = f"chamfered {length(chamfer)} × 45°"
     elif fillet is not None:
         edges = f"rounded R {length(fillet)}"
-    surfaces = {
-        "roughness": rough or shop.roughness,
-        "edges": edges,
-        "faces that roll, slide, lock": ", ".join(filter(None, (flanks, hard))),
-    }
-    names = {
-        "drawing number": own.number or "",
-        "revision": own.revision or "",
-        "date": own.date or "",
-        "author": own.author or "",
-    }
+    surfaces = {"roughness": rough or shop.roughness, "edges": edges}
+    surfaces["faces that roll, slide, lock"] = ", ".join(filter(None, (flanks, hard)))
+    names = {"drawing number": own.number or "", "revision": own.revision or ""}
+    names |= {"date": own.date or "", "author": own.author or ""}
     high, top = 12.0, 36.0  # mm, of a row, and of all three
-    shapes: list[Shape] = [rectangle(FRAME, 0.0, 0.0, TITLE_WIDTH, top + high)]
-    labels = _field((0.0, top), "title", spec.title or spec.wheel.title, LARGE, TITLE_WIDTH)
+    shapes: list[Shape] = [sheet.rectangle(sheet.FRAME, 0.0, 0.0, TITLE_WIDTH, top + high)]
+    labels = _field((0.0, top), "title", spec.title or spec.wheel.title, sheet.LARGE, TITLE_WIDTH)
     for k, fields in enumerate((general, surfaces, names)):  # rows from below
         x, y = 0.0, high * k
         shapes.append(line(TEXT, (0.0, y + high), (TITLE_WIDTH, y + high)))
@@ -210,7 +184,7 @@ def table(heading: Sequence[str], rows: Sequence[Sequence[str]], columns: Sequen
     """Return a table, with lines of text above it."""
     row_height = 5.0  # mm
     wide, high = sum(columns), row_height * len(rows)
-    shapes: list[Shape] = [rectangle(OUTLINE, 0.0, 0.0, wide, high)]
+    shapes: list[Shape] = [sheet.rectangle(sheet.OUTLINE, 0.0, 0.0, wide, high)]
     labels: list[Label] = []
     lefts = [sum(columns[:k]) for k in range(len(columns))]
     shapes += [line(TEXT, (x, 0.0), (x, high)) for x in lefts[1:]]

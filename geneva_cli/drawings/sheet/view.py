@@ -13,19 +13,9 @@ import numpy as np
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.packing import Block
 from geneva_cli.drawings.sheet.sized import Fits
-from geneva_cli.geometry import marks
+from geneva_cli.geometry import marks, shapes
 from geneva_cli.geometry.board import Board, chords
-from geneva_cli.geometry.shapes import (
-    Arc,
-    Circle,
-    Layer,
-    Point,
-    Segment,
-    Shape,
-    legs,
-    placed,
-    polar,
-)
+from geneva_cli.geometry.shapes import Arc, Circle, Point, Segment, Shape
 from geneva_cli.geometry.sheet import CENTRE, LARGE, OUTLINE, SMALL, Label, Measure, line
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
@@ -53,9 +43,9 @@ class View:
         self.notes: list[str] = []  # below the title: remarks, and dimensions that did not fit
         self.board = Board()
 
-    def draw(self, shape: Shape, layer: Layer) -> None:
+    def draw(self, shape: Shape, layer: shapes.Layer) -> None:
         """Draw a shape on a layer."""
-        self._draw(placed(shape, scale=self.scale)._replace(layer=layer))
+        self._draw(shapes.placed(shape, scale=self.scale)._replace(layer=layer))
 
     def draw_all(self, shapes: Iterable[Shape]) -> None:
         """Draw shapes as outlines."""
@@ -66,14 +56,14 @@ class View:
         """Draw both centre lines of a circle."""
         over = self._long(reach) + OVER
         for angle in (turn, turn + 0.5 * math.pi):
-            ends = (polar(self._at(centre), side * over, angle) for side in (-1.0, 1.0))
+            ends = (shapes.polar(self._at(centre), side * over, angle) for side in (-1.0, 1.0))
             self._draw(line(CENTRE, *ends))
 
     def centre_line(self, start: Point, end: Point) -> None:
         """Draw a centre line from one point to another, and a little beyond both."""
         angle = math.atan2(end[1] - start[1], end[0] - start[0])
         a, b = self._at(start), self._at(end)
-        self._draw(line(CENTRE, polar(a, -OVER, angle), polar(b, OVER, angle)))
+        self._draw(line(CENTRE, shapes.polar(a, -OVER, angle), shapes.polar(b, OVER, angle)))
 
     def linear(
         self, p: Point, q: Point, turn: float, text: str, where: str = "", near: bool = False
@@ -135,7 +125,7 @@ class View:
         """Draw the radius of one of some arcs, or, with ``whole``, its diameter."""
         # at most 48 equal arcs are tried: without a limit the time grows as z squared
         some = arcs[:: 1 + len(arcs) // 49]
-        turns = ((arc, marks.within(*legs(arc))) for arc in some)
+        turns = ((arc, marks.within(*shapes.legs(arc))) for arc in some)
         self._led("diameter" if whole else "radius", turns, text)
 
     def _led(

@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING, Self, cast
 
 from flint import arb
 
-from geneva_cli.numerics.arrays import Enclosed, EnclosedLibrary, Number, Undecided
+from geneva_cli.numerics.arrays import Enclosed, Number
+from geneva_cli.numerics.intervals import EnclosedLibrary, Undecided
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Library
@@ -24,9 +25,8 @@ def _operator(f: Callable[[arb, arb], arb]) -> Callable[[Ball, Ball | float], Ba
     """An operator of a ball and a number; a jet, for one, brings its own."""
 
     def operator(x: Ball, y: Ball | float) -> Ball:
-        if isinstance(y, Ball):
-            return Ball(f(x.arb, y.arb))
-        return Ball(f(x.arb, arb(y))) if isinstance(y, (float, int)) else NotImplemented
+        plain = isinstance(y, (Ball, float, int))
+        return Ball(f(x.arb, arb_of(y))) if plain else NotImplemented
 
     return operator
 
@@ -53,60 +53,18 @@ class Ball(Enclosed):
         return cls(arb(x))
 
     @classmethod
-    def between(cls, a: float, b: float) -> Ball:
+    def between(cls, a: float, b: float) -> Self:
         """A ball that holds the numbers from a to b."""
         return cls(arb(a).union(arb(b)))
 
-    @property
-    def centre(self) -> Ball:
-        """The ball of its exact middle."""
-        return Ball(self.arb.mid())
-
-    @property
-    def middle(self) -> float:
-        """Middle, to the nearest double."""
-        return float(self.arb.mid())
-
-    @property
-    def radius(self) -> float:
-        """Radius, rounded up."""
-        return math.nextafter(float(self.arb.rad()), math.inf)
-
-    @property
-    def is_finite(self) -> bool:
-        """True if it has bounds."""
-        return self.arb.is_finite()
-
     def bounds(self) -> tuple[float, float]:
         """Doubles below and above every number of it; infinite where there is no bound."""
-        return _below(self.arb.lower()), -_below(-self.arb.upper())
-
-    def sizes(self) -> tuple[float, float]:
-        """Doubles below and above the size of every number of it."""
-        return max(_below(self.arb.abs_lower()), 0.0), -_below(-self.arb.abs_upper())
-
-    @property
-    def sign(self) -> int:
-        """1 or -1 if all its numbers have that sign, else 0."""
-        return (self.arb > 0) - (self.arb < 0)
-
-    def meet(self, other: Ball) -> Ball:
-        """Intersection of two balls that hold one number; an unbounded ball adds nothing."""
-        if not other.is_finite:
-            return self
-        if not self.is_finite:
-            return other
-        overlap = self.arb.overlaps(other.arb)
-        return Ball(self.arb.intersection(other.arb)) if overlap else self.join(other)
-
-    def join(self, other: Ball) -> Ball:
-        """Hull of two balls, which holds the numbers of both."""
-        return Ball(self.arb.union(other.arb))
+        return below(self.arb.lower()), -below(-self.arb.upper())
 
     def piece(self, cuts: Sequence[float]) -> int:
         """Number of the piece between ``cuts`` that holds its middle."""
         # 2^-24 of a radius is rounding: Arb's radii have 30 bits, and each step rounds them up.
-        middle, radius = self.middle, self.radius * (1.0 - 2.0**-24)
+        middle, radius = float(self.arb.mid()), float(self.arb.rad()) * (1.0 - 2.0**-24)
         for cut in cuts:
             if radius - abs(cut - middle) > self.REACH:
                 raise Undecided
@@ -115,7 +73,7 @@ class Ball(Enclosed):
     def rising(self, f: Callable[[Number], Number]) -> Number:
         """Hull of the values of a function at both ends: all values of one that rises."""
         low, high = (f(cast("float", Ball(x))) for x in (self.arb.lower(), self.arb.upper()))
-        return cast("float", ball_of(low).join(ball_of(high)))
+        return cast("float", Ball(arb_of(low).union(arb_of(high))))
 
     def __neg__(self) -> Ball:
         return Ball(-self.arb)
@@ -134,14 +92,13 @@ class Ball(Enclosed):
     __radd__, __rmul__ = __add__, __mul__
 
     def __lt__(self, other: Ball | float) -> bool:
-        return _decided(self.arb < _arb(other), self.arb >= _arb(other))
+        return _decided(self.arb < arb_of(other), self.arb >= arb_of(other))
 
     def __le__(self, other: Ball | float) -> bool:
-        return _decided(self.arb <= _arb(other), self.arb > _arb(other))
+        return _decided(self.arb <= arb_of(other), self.arb > arb_of(other))
 
     def __eq__(self, other: object) -> bool:
-        limit = _arb(cast("float", other))
-        return _decided(self.arb == limit, self.arb != limit)
+        return _decided(self.arb == arb_of(other), self.arb != arb_of(other))
 
 
 def _decided(yes: bool, no: bool) -> bool:
@@ -151,11 +108,12 @@ def _decided(yes: bool, no: bool) -> bool:
     return yes
 
 
-def _arb(x: Ball | float) -> arb:
-    return x.arb if isinstance(x, Ball) else arb(x)
+def arb_of(x: object) -> arb:
+    """A formula's number; where the formula does not depend on its balls, it is a double."""
+    return x.arb if isinstance(x, Ball) else arb(cast("float", x))
 
 
-def _below(x: arb) -> float:
+def below(x: arb) -> float:
     """The greatest double that is not above an exact number; without bound for none."""
     if x.is_nan():
         return -math.inf
@@ -164,7 +122,7 @@ def _below(x: arb) -> float:
 
 
 def _of_one(f: Callable[[arb], arb]) -> Callable[[object, Ball | float], Ball]:
-    return lambda _, x: Ball(f(_arb(x)))
+    return lambda _, x: Ball(f(arb_of(x)))
 
 
 class _Balls(EnclosedLibrary):
@@ -178,7 +136,7 @@ class _Balls(EnclosedLibrary):
         return Ball(arb.pi())
 
     def atan2(self, y: Ball | float, x: Ball | float) -> Ball:
-        return Ball(arb.atan2(_arb(y), _arb(x)))
+        return Ball(arb.atan2(arb_of(y), arb_of(x)))
 
     def floor(self, x: Ball) -> float:
         low, high = (math.floor(bound) for bound in x.bounds())
@@ -188,9 +146,3 @@ class _Balls(EnclosedLibrary):
 
 
 Ball.library = cast("Library", _Balls())
-NOWHERE = Ball.exact(math.nan)  # a number of which no bound is known
-
-
-def ball_of(x: Number) -> Ball:
-    """A formula's number as a ball: where the formula does not depend on its balls, a double."""
-    return x if isinstance(x, Ball) else Ball.exact(cast("float", x))

@@ -8,8 +8,8 @@ the input's torque. Where an interval does not decide a sign, the load is enclos
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
+from functools import reduce
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, NamedTuple, cast
 
@@ -20,13 +20,14 @@ from geneva_cli.loads.load_case import load_case
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peaks import QUANTITIES
-from geneva_cli.numerics.arrays import Undecided, enclosed
+from geneva_cli.numerics.arrays import enclosed
+from geneva_cli.numerics.intervals import Undecided
 from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.numerics.tolerances import TIE
 from geneva_cli.table import Table, rows_table
 
 if TYPE_CHECKING:
-    from geneva_cli.extras.certify.enclosures import BoundedSpan, Formula, Greatest
+    from geneva_cli.extras.certify.enclosures import BoundedSpan, Formula
 
 LIMIT = 2000  # intervals a motion: 12 times what any design here takes, some seconds
 DIGITS = 15  # that are printed: as many as every double keeps
@@ -138,7 +139,7 @@ def not_proved(mechanism: Mechanism, quantity: str) -> str:
 
 
 def certificate(mechanism: Mechanism, quantity: str, limit: int = LIMIT) -> Certificate:
-    """The certificate of a machine's peak over all its engagements, with so many intervals each.
+    """The certificate of a machine's peak, with at most so many intervals for each engagement.
 
     It is about the spec's numbers as doubles.
 
@@ -159,14 +160,32 @@ def certificate(mechanism: Mechanism, quantity: str, limit: int = LIMIT) -> Cert
 
     from geneva_cli.extras.certify.enclosures import greatest
 
-    of = _load if quantity in LOADS else _invariant
-    peaks: list[Greatest] = []
+    formula_of, each = _load if quantity in LOADS else _invariant, mechanism.engagements
     # middles of 128 bits, 75 more than a double has, against cancellation in high derivatives
     with ctx.workprec(128):
-        for e in mechanism.engagements:
-            seams = {*e.motion.seams_deg, *e.slot.seams_deg}
-            peaks.append(greatest(of(mechanism, e, quantity), seams, limit))
-    return _combined(mechanism, quantity, peaks)
+        motions = [
+            (formula_of(mechanism, one, quantity), {*one.motion.seams_deg, *one.slot.seams_deg})
+            for one in each
+        ]
+        found = greatest(motions, limit * len(each))
+
+    def shown(span: BoundedSpan) -> Place:
+        """An interval of an engagement as the machine's; longer by the rounding of both ends."""
+        start = mechanism.shown_deg(each[span.motion].mid_deg + span.start)
+        # rounding of an angle that is counted from another mid-motion
+        slack = 0.0 if start == span.start else 2.0**-42
+        return Place(start - slack, span.end + (start - span.start) + slack)
+
+    if found.open:
+        below = found.open.high if math.isfinite(found.open.high) else None
+        left = Open(*shown(found.open), below)
+        return Certificate(quantity, found.low, None, (), False, found.intervals, left)
+    first, last = found.places[0], found.places[-1]
+    symmetric = len(found.places) == 2 and first.motion == last.motion
+    symmetric = symmetric and each[first.motion].motion.symmetric
+    mirrored = symmetric and abs(first.start + last.end) < NARROW_DEG
+    places = tuple(sorted(map(shown, found.places)))
+    return Certificate(quantity, found.low, found.high, places, mirrored, found.intervals, None)
 
 
 def _invariant(_: Mechanism, engagement: Engagement, quantity: str) -> Formula:
@@ -184,13 +203,15 @@ def _invariant(_: Mechanism, engagement: Engagement, quantity: str) -> Formula:
 
 def _load(mechanism: Mechanism, engagement: Engagement, quantity: str) -> Formula:
     """A load as a jet by the input angle, at one angle in degrees from mid-motion."""
-    from geneva_cli.extras.certify.balls import NOWHERE, ball_of
+    from flint import arb
+
+    from geneva_cli.extras.certify.balls import Ball, arb_of
 
     case = load_case(mechanism)
 
     def signs_of(jet: Jet) -> tuple[float, ...]:
-        sign = ball_of(jet.c[0]).sign
-        return (float(sign),) if sign else (1.0, -1.0)
+        value = arb_of(jet.c[0])
+        return (1.0,) if value > 0 else (-1.0,) if value < 0 else (1.0, -1.0)
 
     def torque(input_deg: Number, order: int) -> Jet:
         rates = engagement.motion.rate(input_deg, order + 1)
@@ -210,44 +231,14 @@ def _load(mechanism: Mechanism, engagement: Engagement, quantity: str) -> Formul
                     if one.margin is not None and not one.margin.c[0] > 0.0:
                         raise Undecided  # friction alone may hold the wheel: no bound of the force
                     found.append(one.value)
-        first, *others = found
-        if not others:
+        first = found[0]
+        if len(found) == 1:
             return first
         # several loads: a jet without derivatives whose value holds them all
-        value = ball_of(first.c[0])
-        for other in others:
-            value = value.join(ball_of(other.c[0]))
-        return Jet(cast("list[Number]", [value, *[NOWHERE] * first.order]))
+        value = reduce(arb.union, [arb_of(one.c[0]) for one in found])
+        return Jet(cast("list[Number]", [*map(Ball, (value, *[arb.nan()] * first.order))]))
 
     return torque if quantity == "wheel_torque_Nm" else load
-
-
-def _combined(mechanism: Mechanism, quantity: str, peaks: Sequence[Greatest]) -> Certificate:
-    """The certificate of the greatest of all engagements."""
-    each = [*zip(mechanism.engagements, peaks, strict=True)]
-    low = max(peak.low for peak in peaks)
-    least = low * (1.0 - TIE)
-    count = sum(peak.intervals for peak in peaks)
-
-    def shown(engagement: Engagement, interval: BoundedSpan) -> Place:
-        """An interval of the engagement as the machine's; longer by the rounding of both ends."""
-        start = mechanism.shown_deg(engagement.mid_deg + interval.start)
-        # rounding of an angle that is counted from another mid-motion
-        slack = 0.0 if start == interval.start else 2.0**-42
-        return Place(start - slack, interval.end + (start - interval.start) + slack)
-
-    # the intervals that are not settled, by their bounds
-    left = [(p.open.high, shown(e, p.open)) for e, p in each if p.open and p.open.high >= least]
-    if left:
-        bound, place = max(left, key=lambda one: one[0])
-        below = bound if math.isfinite(bound) else None
-        return Certificate(quantity, low, None, (), False, count, Open(*place, below))
-    places = [(e, place) for e, peak in each for place in peak.places if place.high >= least]
-    (first, one), (last, other) = places[0], places[-1]
-    opposite = first is last and first.motion.symmetric and abs(one.start + other.end) < NARROW_DEG
-    every = tuple(sorted(shown(e, place) for e, place in places))
-    high = max(peak.high for peak in peaks)
-    return Certificate(quantity, low, high, every, len(places) == 2 and opposite, count, None)
 
 
 def _outwards(x: float, rounding: str) -> str:

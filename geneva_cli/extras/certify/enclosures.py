@@ -18,9 +18,11 @@ from collections.abc import Callable, Iterable, Sequence
 from itertools import pairwise
 from typing import NamedTuple, TypeAlias, cast
 
-from geneva_cli.extras.certify.balls import NOWHERE, Ball, ball_of
+from flint import arb, arb_poly
+
+from geneva_cli.extras.certify.balls import Ball, arb_of, below
 from geneva_cli.numerics.angles import distinct
-from geneva_cli.numerics.arrays import Undecided
+from geneva_cli.numerics.intervals import Undecided
 from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.numerics.tolerances import TIE
 
@@ -31,11 +33,13 @@ ORDER = 5
 # An end of a piece is a double that rounding may have moved: by 8 units in the last place of 180
 # degrees at most. Pieces overlap by as much, so that no angle is left out.
 EDGE_DEG = 2.0**-42
+NEAR_DEG = 1e-7  # places that are nearer are one
 
 
 class BoundedSpan(NamedTuple):
-    """An interval in degrees, and a bound above the function's size on it (infinite: none)."""
+    """An interval of a motion in degrees, and a bound above the function's size on it, or inf."""
 
+    motion: int  # its number
     start: float
     end: float
     high: float
@@ -55,18 +59,10 @@ class Greatest(NamedTuple):
     open: BoundedSpan | None
 
 
-class _Enclosure(NamedTuple):
-    """Balls that hold the function in the middle of an interval, and on all of it."""
-
-    middle: Ball
-    value: Ball
-    slope: Ball
-    bend: Ball
-
-
 class _Piece(NamedTuple):
-    """Part of the motion with one formula, and what an end may be off where another takes over."""
+    """Part of a motion with one formula, and what an end may be off where another takes over."""
 
+    motion: int
     start: float
     end: float
     before: float
@@ -77,21 +73,25 @@ class _Piece(NamedTuple):
         return a - self.before * (a == self.start), b + self.after * (b == self.end)
 
 
-def greatest(formula: Formula, seams: Iterable[float], limit: int) -> Greatest:
-    """The greatest size of a formula from first to last seam, with at most so many intervals."""
-    ends = sorted(seams)
-    pieces = [
-        _Piece(a, b, EDGE_DEG * (a != ends[0]), EDGE_DEG * (b != ends[-1]))
-        for a, b in pairwise(distinct(ends, 4.0 * EDGE_DEG))  # as near as their errors: one
-    ]
-    return _Search(formula, limit).run(pieces)
+def greatest(motions: Sequence[tuple[Formula, Iterable[float]]], limit: int) -> Greatest:
+    """The greatest size of several motions' formulas, each from its first seam to its last.
+
+    It examines at most so many intervals.
+    """
+    pieces = []
+    for i, (_, seams) in enumerate(motions):
+        ends = sorted(seams)
+        for a, b in pairwise(distinct(ends, 4.0 * EDGE_DEG)):  # as near as their errors: one
+            off = EDGE_DEG * (a != ends[0]), EDGE_DEG * (b != ends[-1])
+            pieces.append(_Piece(i, a, b, *off))
+    return _Search([formula for formula, _ in motions], limit).run(pieces)
 
 
 class _Search:
     """Branch and bound, the interval with the highest bound first."""
 
-    def __init__(self, formula: Formula, limit: int) -> None:
-        self.formula, self.limit = formula, limit
+    def __init__(self, formulas: Sequence[Formula], limit: int) -> None:
+        self.formulas, self.limit = formulas, limit
         self.low, self.examined = 0.0, 0
         self.candidates: list[BoundedSpan] = []
         self.ends: list[BoundedSpan] = []  # ends of halved intervals, which are no peaks
@@ -102,25 +102,28 @@ class _Search:
         for piece in pieces:
             for x in (piece.start, piece.end):
                 a, b = piece.reach(x, x)
-                self._take(a - 3.0 * (b - x), b + 3.0 * (x - a))  # mostly inside the piece
+                # mostly inside the piece
+                self._take(piece, a - 3.0 * (b - x), b + 3.0 * (x - a))
             heapq.heappush(self.waiting, (-math.inf, piece.start, piece.end, piece))
         while self.waiting and -self.waiting[0][0] >= self._least and self.examined < self.limit:
             high, a, b, piece = heapq.heappop(self.waiting)
             self.examined += 1
-            self._examine(piece, BoundedSpan(a, b, -high))
-        left = [BoundedSpan(a, b, -high) for high, a, b, _ in self.waiting] + self.unsettled
-        left = [interval for interval in left if interval.high >= self._least]
-        kept = [interval for interval in self.candidates if interval.high >= self._least]
-        kept += [interval for interval in self.ends if interval.high >= self.low]
-        high = max(interval.high for interval in kept + left)
+            self._examine(piece, a, b, -high)
+        left = [BoundedSpan(piece.motion, a, b, -high) for high, a, b, piece in self.waiting]
+        left = [one for one in left + self.unsettled if one.high >= self._least]
+        kept = [one for one in self.candidates if one.high >= self._least]
+        kept += [one for one in self.ends if one.high >= self.low]
+        high = max(one.high for one in kept + left)
         places: list[BoundedSpan] = []
-        near = 1e-9 * (pieces[-1].end - pieces[0].start)  # nearer places are one
         for one in sorted(kept):
-            if places and one.start - places[-1].end <= near:
-                start, end, most = places.pop()
-                one = BoundedSpan(start, max(end, one.end), max(most, one.high))
-            places.append(one)
-        open_ = max(left, key=lambda interval: interval.high, default=None)
+            last = places[-1] if places else None
+            # nearer places are one
+            if last and last.motion == one.motion and one.start - last.end <= NEAR_DEG:
+                most = max(last.high, one.high)
+                places[-1] = last._replace(end=max(last.end, one.end), high=most)
+            else:
+                places.append(one)
+        open_ = max(left, key=lambda one: one.high, default=None)
         return Greatest(self.low, high, tuple(places), self.examined, open_)
 
     @property
@@ -128,23 +131,23 @@ class _Search:
         """The size that an interval must reach to be one of the greatest."""
         return self.low * (1.0 - TIE)
 
-    def _examine(self, piece: _Piece, interval: BoundedSpan) -> None:
-        a, b, high = interval
-        enclosure = self._on(*piece.reach(a, b))
-        if enclosure:
-            self.low = max(self.low, enclosure.middle.sizes()[0])
-            high = min(high, enclosure.value.sizes()[1])
+    def _examine(self, piece: _Piece, a: float, b: float, high: float) -> None:
+        inside, value, slope, bend = self._on(piece, *piece.reach(a, b))
+        if value.is_finite():
+            self.low = max(self.low, _sizes(inside)[0])
+            high = min(high, _sizes(value)[1])
             if high < self._least:
                 return
-            bends = enclosure.value.sign * enclosure.bend.sign  # above 0: the size is convex
-            if enclosure.slope.sign or bends > 0:
+            sign = _sign(value)
+            bends = sign * _sign(bend)  # above 0: the size is convex
+            if _sign(slope) or bends > 0:
                 self._take_ends(piece, a, b)
                 return
-            if bends < 0 and self._take_top(piece, a, b, enclosure):
+            if bends < 0 and self._take_top(piece, a, b, sign, bend):
                 return
             # an interval that rises by less than 1e-15 of the greatest size is a plateau
             if high <= self.low * (1.0 + 1e-15):
-                self.candidates.append(BoundedSpan(a, b, high))
+                self.candidates.append(BoundedSpan(piece.motion, a, b, high))
                 return
         # A shorter fraction of a piece is not halved, but left open. It is long enough for a seam
         # inside, that should have been known, to be seen (``arrays.Enclosed.REACH``).
@@ -152,7 +155,7 @@ class _Search:
             # A jump has no derivatives. Its bound lies above the values beside it by their slope
             # times the shortest interval: for loads by 1e-8 of them.
             spans = self.candidates if high <= self.low * (1.0 + 1e-6) else self.unsettled
-            spans.append(BoundedSpan(a, b, high))
+            spans.append(BoundedSpan(piece.motion, a, b, high))
             return
         middle = 0.5 * (a + b)
         heapq.heappush(self.waiting, (-high, a, middle, piece))
@@ -162,32 +165,28 @@ class _Search:
         """Take the sizes at both ends of an interval; those of the piece are known."""
         for x in (a, b):
             if x not in (piece.start, piece.end):
-                self.ends.append(self._sized(x, x))
+                self.ends.append(self._sized(piece, x, x))
 
-    def _take(self, a: float, b: float) -> None:
+    def _take(self, piece: _Piece, a: float, b: float) -> None:
         """Take an interval of a few units in the last place as one that may hold the greatest."""
-        interval = self._sized(a, b)
-        (self.candidates if math.isfinite(interval.high) else self.unsettled).append(interval)
+        span = self._sized(piece, a, b)
+        (self.candidates if math.isfinite(span.high) else self.unsettled).append(span)
 
-    def _sized(self, a: float, b: float) -> BoundedSpan:
+    def _sized(self, piece: _Piece, a: float, b: float) -> BoundedSpan:
         """A short interval, or one angle, with its bound; raises ``low`` to what is reached."""
-        if a == b:
-            value = self._values(Ball.exact(a), 0)[0]
-        else:
-            on = self._on(a, b)
-            value = on.value if on else NOWHERE
-        low, high = value.sizes()
+        one = self._values(piece, Ball.exact(a), 0)[0] if a == b else self._on(piece, a, b)[1]
+        low, high = _sizes(one)
         self.low = max(self.low, low)
-        return BoundedSpan(a, b, high)
+        return BoundedSpan(piece.motion, a, b, high)
 
-    def _take_top(self, piece: _Piece, a: float, b: float, on: _Enclosure) -> bool:
+    def _take_top(self, piece: _Piece, a: float, b: float, sign: int, bend: arb) -> bool:
         """Take the one place where the slope is 0; False if Newton does not close on it."""
         x, y = piece.reach(a, b)
         # 60 Newton steps, each of which squares the width
         for _ in range(60):
             middle = 0.5 * (x + y)
-            step = self._values(Ball.exact(middle), 1)[1] / on.bend
-            low, high = (middle - step * (180.0 / Ball.library.pi)).bounds()
+            step = self._values(piece, Ball.exact(middle), 1)[1] / bend
+            low, high = Ball(middle - step * 180 / arb.pi()).bounds()
             narrow = max(low, x), min(high, y)
             if narrow[0] > narrow[1]:  # the slope is nowhere 0
                 self._take_ends(piece, a, b)
@@ -198,37 +197,51 @@ class _Search:
         x, y = x - 2.0 * EDGE_DEG, y + 2.0 * EDGE_DEG
         if y - x > 5.0 * EDGE_DEG:
             return False
-        before, after = (self._values(Ball.exact(at), 1)[1].sign for at in (x, y))
-        if (before, after) != (on.value.sign, -on.value.sign):
+        if any(
+            _sign(self._values(piece, Ball.exact(at), 1)[1]) != side
+            for at, side in ((x, sign), (y, -sign))
+        ):
             return False
-        self._take(x, y)
+        self._take(piece, x, y)
         return True
 
-    def _values(self, at: Ball, order: int) -> Sequence[Ball]:
+    def _values(self, piece: _Piece, at: Ball, order: int) -> list[arb]:
         """Taylor coefficients at a ball; of a place where none are known, balls without bounds."""
         try:
-            return [ball_of(c) for c in self.formula(cast("Number", at), order).c]
+            jet = self.formulas[piece.motion](cast("Number", at), order)
         except Undecided:
-            return [NOWHERE] * (order + 1)
+            return [arb.nan()] * (order + 1)
+        return [arb_of(c) for c in jet.c]
 
-    def _on(self, a: float, b: float) -> _Enclosure | None:
-        """Enclosures on an interval by Taylor's theorem; None if the function has no bound."""
+    def _on(self, piece: _Piece, a: float, b: float) -> tuple[arb, arb, arb, arb]:
+        """The value in the middle of an interval, and value, slope and bend on all of it.
+
+        By Taylor's theorem; a value without bounds is not finite.
+        """
         # Both at the exact middle: a double beside it may belong to the formula beyond a seam.
         on = Ball.between(a, b)
-        t = Ball.between(-on.radius, on.radius) * (Ball.library.pi / 180.0)
-        thin = self._values(on.centre, ORDER - 1)
-        thick = self._values(on, ORDER)
-        c = [*thin, thick[ORDER]]
-        sums = (
-            _sum(c, t).meet(thick[0]),
-            _sum([k * v for k, v in enumerate(c)][1:], t).meet(thick[1]),
-            _sum([k * (k - 1) * v for k, v in enumerate(c)][2:], t).meet(2 * thick[2]),
-        )
-        return _Enclosure(thin[0], *sums) if sums[0].is_finite else None
+        centre = on.arb.mid()
+        thin = self._values(piece, Ball(centre), ORDER - 1)
+        thick = self._values(piece, on, ORDER)
+        # the sum and its first two derivatives, and how far they lie from the middle
+        total, t = arb_poly([*thin, thick[ORDER]]), (on.arb - centre) * arb.pi() / 180
+        rate = total.derivative()
+        value, slope = _meet(total(t), thick[0]), _meet(rate(t), thick[1])
+        return thin[0], value, slope, _meet(rate.derivative()(t), 2 * thick[2])
 
 
-def _sum(coefficients: Sequence[Ball], t: Ball) -> Ball:
-    total = coefficients[-1]
-    for c in reversed(coefficients[:-1]):
-        total = total * t + c
-    return total
+def _sign(x: arb) -> int:
+    """1 or -1 if all numbers of a ball have that sign, else 0."""
+    return (x > 0) - (x < 0)
+
+
+def _sizes(x: arb) -> tuple[float, float]:
+    """Doubles below and above the size of every number of a ball."""
+    return max(below(x.abs_lower()), 0.0), -below(-x.abs_upper())
+
+
+def _meet(x: arb, y: arb) -> arb:
+    """The intersection of two balls that hold one number; an unbounded ball adds nothing."""
+    if not (x.is_finite() and y.is_finite()):
+        return x if x.is_finite() else y
+    return x.intersection(y) if x.overlaps(y) else x.union(y)

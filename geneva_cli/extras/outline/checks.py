@@ -3,27 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import suppress
 
 import numpy as np
 
 from geneva_cli.errors import GenevaError, Notice
+from geneva_cli.extras.outline import turning
 from geneva_cli.extras.outline.contact import contacts
 from geneva_cli.extras.outline.machine import DrawnMachine
-from geneva_cli.extras.outline.turning import (
-    LOOSE,
-    SenseResult,
-    Struck,
-    Turned,
-    least_slack_mm,
-    most_slack_mm,
-    moving,
-    put_back,
-    struck_by,
-    turned,
-    turning,
-)
+from geneva_cli.extras.outline.turning import LOOSE, SenseResult, Struck, Turned, struck_by, turned
 from geneva_cli.extras.outline.walls import smallest_wall
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.loops import shown
@@ -45,9 +34,9 @@ def checks(mechanism: Mechanism) -> list[Check]:
     machine, rows = result.machine, [_turns(result, mechanism)]
     is_missed = result.rest.is_free and not any(sense.jam for sense in result.senses)
     if result.has_indexed or not is_missed:  # a wheel that finds no slot has no slack
-        least, given, why = least_slack_mm(result), machine.free.slack, ""
+        least, given, why = turning.least_slack_mm(result), machine.free.slack, ""
         if least is None:
-            most = most_slack_mm(machine)
+            most = turning.most_slack_mm(machine)
             why = f"it would not turn with {most:.3g} mm less on every face either"
         elif least > given:
             why = (
@@ -57,7 +46,7 @@ def checks(mechanism: Mechanism) -> list[Check]:
     holds = result.is_held or mechanism.spec.wheel.held_by is not None
     rows.append(compared("dwell_hold", float(holds), "at least", 1.0))
     rows += [*_rests(result), *_walls(machine), *_entry(result, mechanism)]
-    if result.turns and not put_back(machine, result.rest):
+    if result.turns and not turning.put_back(machine, result.rest):
         # a wheel that keeps its place rests at the same place after each index
         drift = math.degrees(max(abs(sense.drift) for sense in result.senses))
         play = math.degrees(result.rest.high - result.rest.low)
@@ -71,15 +60,16 @@ def as_built(mechanism: Mechanism) -> list[Check]:
     check, struck = _turns(result, mechanism), struck_by(mechanism, result)
     if not check.passes or struck is None:
         return [check]
-    text = "roller, clearance and disc strike the wheel"
-    return [check, _struck("strike_velocity", mechanism, struck, lambda: text)]
+    row, why = _struck("strike_velocity", mechanism, struck), ""
+    if not row.passes:
+        why = f"roller, clearance and disc strike the wheel{struck.text}"
+    return [check, row._replace(why=why)]
 
 
-def _struck(name: str, mechanism: Mechanism, struck: Struck, text: Callable[[], str]) -> Check:
-    """The check of an impact's velocity, over the input's, with its reason where it fails."""
+def _struck(name: str, mechanism: Mechanism, struck: Struck) -> Check:
+    """The check of an impact's velocity, over the input's, without its reason."""
     limit = entry_velocity_limit(mechanism)
-    row = compared(name, abs(struck.jump), "at most", limit, struck.at_deg)
-    return row if row.passes else row._replace(why=f"{text()}{struck.text}")
+    return compared(name, abs(struck.impact.jump), "at most", limit, struck.impact.at_deg)
 
 
 def warnings(mechanism: Mechanism) -> list[Notice]:
@@ -149,7 +139,7 @@ def _summary(result: Turned) -> str:
     index, is_moving = math.degrees(turn.gained) / len(machine.assembly.motions), turn.is_moving
     free = np.degrees(turn.high - turn.low)
     rest = math.degrees(result.rest.high - result.rest.low)
-    first, last = turn.pushes[0], max(moving(turn), default=turn.pushes[0])
+    first, last = turn.pushes[0], max(turning.moving(turn), default=turn.pushes[0])
     begin, end = _shown_deg(machine, first.begin), _shown_deg(machine, last.end)
     play, in_motion = (
         f"{x:.4g}° of play" if x > ROUNDING_DEG else "no play"
@@ -188,14 +178,15 @@ def _rests(result: Turned) -> Iterator[Check]:
     low, high = map(math.degrees, ends)
     if ends[1] - ends[0] < LOOSE or not is_free:
         return
-    places = turning(result) or (result.machine.rest, result.machine.rest)
+    places = turning.turning(result) or (result.machine.rest, result.machine.rest)
     begin, end = map(math.degrees, places)
     whole = end - begin > (high - low) * (1.0 - 1e-6)
     value, text = high - low if whole else end - begin, "from no place of rest it turns"
     if value:
         text = f"turns if it rests between {begin:.5g} and {end:.5g}°"
         text += f", and may stand between {low:.5g} and {high:.5g}°"
-    bound = ("above", 0.0) if put_back(result.machine, result.rest) else ("at least", high - low)
+    is_put_back = turning.put_back(result.machine, result.rest)
+    bound = ("above", 0.0) if is_put_back else ("at least", high - low)
     row = compared("turning_rests_deg", value, *bound)
     yield row if row.passes else row._replace(why=text)
 
@@ -217,19 +208,18 @@ def _entry(result: Turned, mechanism: Mechanism) -> Iterator[Check]:
     machine, struck = result.machine, struck_by(mechanism, result)
     if struck is None or not result.rest.is_free:
         return
-
-    def text() -> str:
+    row = _struck("entry_velocity_max", mechanism, struck)
+    if not row.passes:
         R, ideal = machine.roller.distance, machine.roller.ideal_distance
-        said = f"the wheel is set in motion at {_from_rest(machine, struck.wheel):.5g}°"
+        why = f"the wheel is set in motion at {_from_rest(machine, struck.wheel):.5g}°"
         if abs(R - ideal) > 1e-4 * ideal:
-            said += f"; R is {R:.5g} mm, and {ideal:.5g} would enter without an impact"
+            why += f"; R is {R:.5g} mm, and {ideal:.5g} would enter without an impact"
         with suppress(GenevaError):
             own = parts_of(mechanism).flat.outlines.sizes.rim
             sign, wheel = machine.assembly.sign, machine.free.stops.outline
             corners = np.hypot(wheel.x0, wheel.y0)
             rim = float(corners.max() if sign > 0.0 else corners.min())
             if sign * (own - rim) > 1e-3:
-                said += f"; the rim is at {rim:.5g} mm, and must reach {own:.4g}"
-        return said
-
-    yield _struck("entry_velocity_max", mechanism, struck, text)
+                why += f"; the rim is at {rim:.5g} mm, and must reach {own:.4g}"
+        row = row._replace(why=f"{why}{struck.text}")
+    yield row

@@ -124,11 +124,10 @@ def _assembly(mechanism: Mechanism) -> Assembly:
         )
     place = assembly(mechanism)
     at = np.linspace(-180.0, 180.0, 9)
-    first = place.pin(0, at) - np.array((place.L, 0.0))
+    # the first roller from the crank's axis, turned back
     ahead = np.pi - np.radians(at) if place.sign > 0.0 else np.radians(at)
-    R = np.hypot(*first.T)
-    aligned = np.abs(first - R[:, None] * np.column_stack((np.cos(ahead), np.sin(ahead)))).max()
-    if np.ptp(R) > 1e-9 * place.L or aligned > 1e-9 * place.L:
+    first = (place.pin(0, at) @ (1.0, 1.0j) - place.L) * np.exp(-1j * ahead)
+    if np.abs(first - np.abs(first[0])).max() > 1e-9 * place.L:
         raise GenevaError(
             "an outline is turned by rollers on a crank, but the rollers of this drive do not go "
             'round the crank\'s axis: use kind = "crank" or another drive with a crank',
@@ -174,14 +173,10 @@ def _with_rollers(
     R = ideal = abs(turned[0])
     if mechanism.engagements[0].built:  # radial slots on a crank that was built for others
         ideal = place.L * math.sin(math.pi / mechanism.spec.wheel.z)
-    crank, found = list[shapes.Contour](), list[shapes.Circle]()
-    for one in drawn:
-        if not isinstance(one, Loop):  # of our own crank
-            crank.append(one)
-        elif circle := _roller(one):
-            found.append(circle)
-        else:
-            crank.append(one.contour)
+    circles = [_roller(one) if isinstance(one, Loop) else None for one in drawn]
+    found = [circle for circle in circles if circle]
+    others = [one for one, circle in zip(drawn, circles, strict=True) if not circle]
+    crank = [one.contour if isinstance(one, Loop) else one for one in others]
     if found:
         roller = Roller(math.hypot(*found[0].centre), found[0].radius, ideal)
         return (*crank, *map(_round, found)), roller
@@ -207,9 +202,9 @@ def _roller(loop: Loop) -> shapes.Circle | None:
     if loop.depth % 2 or not isinstance(first, shapes.Arc):
         return None
     centre, radius = first.centre, first.radius
-    for p in others:
-        if not isinstance(p, shapes.Arc):
-            return None
-        if max(abs(p.radius - radius), math.dist(p.centre, centre)) >= 1e-6 * radius:
-            return None
-    return shapes.Circle("ROLLER", centre, radius) if math.hypot(*centre) > radius else None
+    is_round = math.hypot(*centre) > radius and all(
+        isinstance(p, shapes.Arc)
+        and max(abs(p.radius - radius), math.dist(p.centre, centre)) < 1e-6 * radius
+        for p in others
+    )
+    return shapes.Circle("ROLLER", centre, radius) if is_round else None

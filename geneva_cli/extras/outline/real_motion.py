@@ -15,15 +15,9 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.extras.outline.contact import contacts
 from geneva_cli.extras.outline.machine import crank_jet
 from geneva_cli.extras.outline.turning import LOOSE, Turned, moving, struck_by, turned
+from geneva_cli.motion import motion_table
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.motion_table import (
-    check_samples,
-    checked_angles,
-    inputs,
-    motion_columns,
-    rates_at_speed,
-    times_s,
-)
+from geneva_cli.motion.peaks import QUANTITIES
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.jet import Jet, composed
 from geneva_cli.parts.turn.lazy_turn import LazyTurn, Push
@@ -31,7 +25,6 @@ from geneva_cli.table import Table, record_table
 
 FINE = 33  # places about a peak, in each round of the search
 ROUNDS = 6
-QUANTITIES = ("velocity", "acceleration", "jerk", "power")
 
 
 def steady_turn(result: Turned) -> LazyTurn:
@@ -45,10 +38,7 @@ def steady_turn(result: Turned) -> LazyTurn:
     if result.rest.high - result.rest.low < LOOSE:
         return turns[0]
     steps, last = (len(turns) - 1) * result.machine.step, turns[-1]
-    pushes = tuple(
-        p._replace(begin_wheel=p.begin_wheel - steps, end_wheel=p.end_wheel - steps)
-        for p in last.pushes
-    )
+    pushes = tuple(Push(a, x - steps, b, y - steps) for a, x, b, y in last.pushes)
     moved = (last.wheel - steps, last.low - steps, last.high - steps)
     return LazyTurn(last.crank, *moved, pushes, last.jam)
 
@@ -56,21 +46,18 @@ def steady_turn(result: Turned) -> LazyTurn:
 def motion(mechanism: Mechanism, samples: int, at_deg: Sequence[float] | None = None) -> Table:
     """``samples`` rows, evenly spaced in the input angle over a period, or at ``at_deg``."""
     if at_deg is None:
-        check_samples(samples)
-        input_deg = inputs(mechanism, samples, 0, samples)
+        motion_table.check_samples(samples)
+        input_deg = motion_table.inputs(mechanism, samples, 0, samples)
     else:
-        input_deg = checked_angles(at_deg)
+        input_deg = motion_table.checked_angles(at_deg)
     result = turned(mechanism)
     turn = steady_turn(result)
     theta, whole = crank_jet(mechanism, input_deg)
     laps = np.floor((theta.c[0] - turn.crank[0]) / math.tau)
     wheel, rates = at_crank(result, turn, theta.c[0] - math.tau * laps)
-    velocity, acceleration, jerk = _by_input(wheel, rates, theta)
     shown = np.degrees(wheel + (whole + laps) * turn.gained)
-    columns = [times_s(mechanism, input_deg), input_deg, shown, velocity, acceleration, jerk]
-    of_velocity, of_acceleration = rates_at_speed(mechanism).values()
-    columns += [velocity * of_velocity, acceleration * of_acceleration]
-    return Table(motion_columns(mechanism), columns)
+    columns = motion_table.columns_of(mechanism, input_deg, shown, _by_input(wheel, rates, theta))
+    return Table(motion_table.motion_columns(mechanism), columns)
 
 
 def at_crank(result: Turned, turn: LazyTurn, crank: Array) -> tuple[Array, list[Array]]:
@@ -146,7 +133,7 @@ def peaks(mechanism: Mechanism) -> Table:
     values["stations"] = None
     struck = struck_by(mechanism, result)
     names = ("jump", "at_deg", "force_N", "moment_Nms")
-    values |= {f"impact.{name}": struck and getattr(struck, name) for name in names}
+    values |= {f"impact.{name}": struck and getattr(struck.impact, name) for name in names}
     return record_table(values)
 
 

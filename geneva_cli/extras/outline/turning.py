@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache
+from operator import itemgetter
 from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.extras.outline.contact import Contact, contacts
 from geneva_cli.extras.outline.machine import DrawnMachine, crank_jet, drawn_machine
-from geneva_cli.loads.impacts.shock_force import forces_N, impulse_Nms
+from geneva_cli.loads.impacts.shock_force import Impact, impulse_Nms, with_force
 from geneva_cli.loads.strength.pin_arm_key import PinSize, pin_diameter_mm
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.roots import boundary
@@ -180,31 +181,21 @@ def least_slack_mm(result: Turned) -> float | None:
     return high
 
 
-class Impact(NamedTuple):
-    """The velocity of the wheel, of the crank's, just after a push begins, and where it does."""
-
-    velocity: float
-    crank: float  # radians
-    wheel: float
-    touching: Contact
-
-
 class Struck(NamedTuple):
-    """An impact: the jump of the wheel's velocity over the input's, and what it causes, or None."""
+    """An impact, and the angles of crank and wheel at it, radians."""
 
-    jump: float
-    at_deg: float
-    force_N: float | None
-    moment_Nms: float | None
-    wheel: float  # its angle, radians
+    impact: Impact
+    crank: float
+    wheel: float
 
     @property
     def text(self) -> str:
         """The force in words, or the impulse of what is no roller; empty without an inertia."""
-        if self.force_N is not None:
-            return f"; the roller strikes it with {self.force_N:.4g} N"
-        if self.moment_Nms is not None:
-            return f"; it is struck by a moment impulse of {self.moment_Nms:.4g} N m s"
+        _, _, force_N, moment_Nms, _ = self.impact
+        if force_N is not None:
+            return f"; the roller strikes it with {force_N:.4g} N"
+        if moment_Nms is not None:
+            return f"; it is struck by a moment impulse of {moment_Nms:.4g} N m s"
         return ""
 
 
@@ -213,38 +204,32 @@ def moving(turn: LazyTurn) -> list[Push]:
     return [push for push in turn.pushes if push.moved > LATE]
 
 
-def hardest_impact(result: Turned) -> Impact | None:
-    """The hardest impact, the one forwards of two that are equal; None without any."""
-    every: list[tuple[float, int, Impact]] = []
+def struck_by(mechanism: Mechanism, result: Turned) -> Struck | None:
+    """The hardest impact, the one forwards of two that are equal; None without any.
+
+    It has the force of an elastic impact, and the moment of a plastic one.
+    """
+    machine, hits = result.machine, list[tuple[float, int, float, Push, Contact]]()
     for sense in result.senses:
         for push in (push for turn in sense.turns for push in moving(turn)):
-            crank, wheel = push.begin, push.begin_wheel
-            after = np.array([crank + sense.way * JUST])
-            touching = contacts(result.machine.free, after, np.array([wheel]))
+            after = np.array([push.begin + sense.way * JUST])
+            touching = contacts(machine.free, after, np.array([push.begin_wheel]))
             velocity = float(touching.motion(after)[1][0])
-            impact = Impact(velocity, crank, wheel, touching)
-            every.append((round(abs(velocity), 4), sense.way, impact))
-    return max(every, key=lambda one: one[:2])[2] if every else None
-
-
-def struck_by(mechanism: Mechanism, result: Turned) -> Struck | None:
-    """What the hardest impact causes: the force of an elastic one, the moment of a plastic one."""
-    machine, impact = result.machine, hardest_impact(result)
-    if impact is None:
+            hits.append((round(abs(velocity), 4), sense.way, velocity, push, touching))
+    if not hits:
         return None
-    at_deg, force = machine.assembly.to_input(math.degrees(impact.crank)), None
-    rate = np.ravel(crank_jet(mechanism, np.array([at_deg]))[0].c[1]).item(0)
-    jump = impact.velocity * rate
-    shown_deg = machine.assembly.shown_deg(math.degrees(impact.crank))
-    moment = impulse_Nms(mechanism, np.array([[abs(jump)]])).item()
-    if not moment > 0.0:
-        return Struck(jump, shown_deg, None, None, impact.wheel)
-    sizes, radius = built(mechanism), machine.roller.radius
-    width = sizes.face_width_mm or sizes.wheel_thickness_mm
-    # whether the roller strikes, and not the disc
-    off = abs(float(impact.touching.crank.radius[0]) - radius)
-    is_roller = bool(impact.touching.is_known[0]) and off < SAME * radius + machine.free.slack
-    if width is not None and is_roller:
-        pin = PinSize(sizes.pin_mm or pin_diameter_mm(mechanism), width)
-        force = float(forces_N(mechanism, np.array([[abs(jump)]]), pin)[0])
-    return Struck(jump, shown_deg, force, moment, impact.wheel)
+    *_, velocity, push, touching = max(hits, key=itemgetter(0, 1))
+    place, crank_deg, pin = machine.assembly, math.degrees(push.begin), None
+    rates, _ = crank_jet(mechanism, np.array([place.to_input(crank_deg)]))
+    jump = velocity * float(rates.arrays()[1][0])
+    if impulse_Nms(mechanism, abs(jump)) > 0.0:
+        sizes, radius = built(mechanism), machine.roller.radius
+        width = sizes.face_width_mm or sizes.wheel_thickness_mm
+        # whether the roller strikes, and not the disc
+        off = abs(float(touching.crank.radius[0]) - radius)
+        if width and touching.is_known[0] and off < SAME * radius + machine.free.slack:
+            pin = PinSize(sizes.pin_mm or pin_diameter_mm(mechanism), width)
+    shown = np.array([[place.shown_deg(crank_deg)], [jump]])
+    impact = with_force(mechanism, shown, pin).only
+    assert impact is not None  # the jump is a number
+    return Struck(impact, push.begin, push.begin_wheel)

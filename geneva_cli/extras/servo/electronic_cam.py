@@ -130,10 +130,9 @@ def _points(mechanism: Mechanism, count: int, tolerance_deg: float) -> tuple[Arr
     velocity and one acceleration: a jump becomes a ramp over 0.01 degrees after it.
     """
     first, error_deg, last = _period_points(mechanism, tolerance_deg, None)
-    later = first
-    if count > 1:  # a period after another may begin with a jump
-        later, error, last = _period_points(mechanism, tolerance_deg, last)
-        error_deg = max(error_deg, error)
+    # a period after another may begin with a jump
+    later, error, last = _period_points(mechanism, tolerance_deg, last)
+    error_deg = max(error_deg, error if count > 1 else 0.0)
     step = np.array([[mechanism.period_deg], [_step_deg(mechanism)], [0.0], [0.0]])
     whole = [first, *(later + k * step for k in range(1, count))]
     end = np.append(mechanism.period_deg, last)[:, None] + (count - 1) * step

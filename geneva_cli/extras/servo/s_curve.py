@@ -2,35 +2,16 @@
 
 from __future__ import annotations
 
-from functools import partial
-from typing import Annotated, ClassVar, NamedTuple
+from itertools import pairwise
+from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from geneva_cli.kept import cached_property
 from geneva_cli.motion.laws.law import Law
-from geneva_cli.numerics.jet import Jet, Number, piecewise
+from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.spec.rules import Range
 
-
-class _Phase(NamedTuple):
-    """A segment: its beginning, and what holds there."""
-
-    begin: float
-    s: float
-    v: float
-    a: float
-    jerk: float
-
-    def at(self, u: Number, order: int) -> Jet:
-        x = Jet.variable(u - self.begin, order)
-        speed = self.v + x * (0.5 * self.a + x * (self.jerk / 6.0))
-        return self.s + x * speed
-
-    def after(self, begin: float, jerk: float) -> _Phase:
-        x = begin - self.begin
-        a = self.a + self.jerk * x
-        v = self.v + x * (self.a + 0.5 * self.jerk * x)
-        s = self.s + x * (self.v + x * (0.5 * self.a + x * self.jerk / 6.0))
-        return _Phase(begin, s, v, a, jerk)
+if TYPE_CHECKING:
+    from geneva_cli.numerics.spline import PiecewisePolynomial
 
 
 class SCurve(Law):
@@ -60,32 +41,39 @@ class SCurve(Law):
         return table != "motion" or key not in self.as_dict()
 
     @cached_property
-    def _phases(self) -> list[_Phase]:
+    def _segments(self) -> PiecewisePolynomial:
+        """The first half of s, in which the wheel gains speed."""
+        # a list of the laws needs no polynomials
+        import numpy as np
+
+        from geneva_cli.numerics.jet import taylor
+        from geneva_cli.numerics.spline import PiecewisePolynomial
+
         rise = 0.5 * (1.0 - self.cruise)
         ramp = self.ramp * rise
-        most = 2.0 / (1.0 + self.cruise) / (rise - ramp)
+        most = 2.0 / (1.0 + self.cruise) / (rise - ramp)  # of the acceleration
+        jerk = most / ramp if ramp else 0.0
+        jerks = {0.0: jerk}  # by where a segment begins
+        if ramp < rise - ramp:
+            jerks[ramp] = 0.0
         if ramp:
-            phases = [_Phase(0.0, 0.0, 0.0, 0.0, most / ramp)]
-            if ramp < rise - ramp:
-                phases.append(phases[-1].after(ramp, 0.0))
-            phases.append(phases[-1].after(rise - ramp, -most / ramp))
-        else:
-            phases = [_Phase(0.0, 0.0, 0.0, most, 0.0)]
+            jerks[rise - ramp] = -jerk
         if self.cruise:
-            phases.append(phases[-1].after(rise, 0.0)._replace(a=0.0))
-        return phases
+            jerks[rise] = 0.0
+        rows, starts = [[0.0, 0.0, 0.0 if ramp else 0.5 * most, jerk / 6.0]], [*jerks]
+        for before, start in pairwise(starts):
+            rows.append([*taylor(start - before, rows[-1], 2), jerks[start] / 6.0])
+        if self.cruise:
+            rows[-1][2] = 0.0  # without the acceleration that rounding leaves
+        return PiecewisePolynomial(np.array(starts[1:]), np.array(starts), np.array(rows))
 
     @property
     def breaks(self) -> tuple[float, ...]:
         """Values of u at which the segments meet."""
-        inner = [phase.begin for phase in self._phases[1:]]
+        inner = self._segments.cuts.tolist()
         middle = [] if self.cruise else [0.5]
         return (*inner, *middle, *(1.0 - u for u in reversed(inner)))
 
     def first(self, u: Number, order: int) -> Jet:
         """First half of s, in which the wheel gains speed."""
-        phases = self._phases
-        if len(phases) == 1:
-            return phases[0].at(u, order)
-        cuts = tuple(phase.begin for phase in phases[1:])
-        return piecewise(u, cuts, [partial(phase.at, order=order) for phase in phases])
+        return Jet(self._segments(u, order))

@@ -175,13 +175,11 @@ class Sliding(PlaneMotion):
 
     def place(self, points: Array) -> Array:
         """Return the position along the rack, over the radius."""
-        out: Array = points[..., 1] / self.radius
-        return out
+        return points[..., 1] / self.radius
 
     def outwards(self, points: Array) -> Array:
         """Return the x axis."""
-        out: Array = 0.0 * points + (1.0, 0.0)
-        return out
+        return 0.0 * points + (1.0, 0.0)
 
     def lever(self, level: N) -> N:
         """Return the radius, at any level."""

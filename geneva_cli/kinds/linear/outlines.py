@@ -91,8 +91,7 @@ class SlidingStops(Stops):
 
     def lean(self, level: Array, pins: Array, close: float) -> Array:
         """Return the sine of the pressure angle where rollers touch, ``close`` mm inside them."""
-        lean: Array = (level - pins[..., 0]) / (self.roller - close)
-        return lean
+        return (level - pins[..., 0]) / (self.roller - close)
 
 
 class RackGaps(Gaps):

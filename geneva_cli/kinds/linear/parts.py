@@ -11,7 +11,7 @@ import math
 from collections.abc import Iterator
 from typing import Self
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, refuse_size
 from geneva_cli.geometry.plates import Group, Member, Plate, least_wall
 from geneva_cli.geometry.shapes import Circle
 from geneva_cli.geometry.sheet import rectangle
@@ -97,10 +97,9 @@ class RackParts(EdgedParts):
         arm, high = rack.crank_arm(size, sizes), -size.allowances.pin_gap_mm
         holes = (arm.bore, *arm.pins, *arm.bolts)
         least, needed = least_wall(holes, [arm.outline]), wall_min(size, sizes.arm)
-        if least < needed:
-            text = f"--part arm: the least wall around the arm's holes is {least:.4g} mm, below "
-            text += f"{needed:g}; use a larger arm_eye_mm or arm_hub_mm, or a smaller arm_bore_mm, "
-            raise GenevaError(text + "pin_mm or lock_bolt_mm", ("size", "arm_bore_mm"))
+        text = f"--part arm: the least wall around the arm's holes is {least:.4g} mm, below "
+        text += f"{needed:g}; use a larger arm_eye_mm or arm_hub_mm, or a smaller arm_bore_mm, "
+        refuse_size(least < needed, "arm_bore_mm", f"{text}pin_mm or lock_bolt_mm")
         return Plate("arm", "ARM", arm.outline, holes, high - sizes.thick.arm, high)
 
     @cached_property
@@ -139,10 +138,9 @@ class RackParts(EdgedParts):
         sizes, place = self.sizes, self.sizes.guide
         _, top, *_ = heights(self.mechanism, sizes)
         x, bar, slide, half = place.back, place.bar, place.slide, place.half
-        if half < bar:
-            text = f"roller_radius_mm = {sizes.roller:g}: use a smaller one: a guide that the rack "
-            text += f"always covers would be {2.0 * half:.4g} mm long, and its screws need "
-            raise GenevaError(text + f"{2.0 * bar:.4g}", ("size", "roller_radius_mm"))
+        text = f"use a smaller one: a guide that the rack always covers would be {2.0 * half:.4g} "
+        text += f"mm long, and its screws need {2.0 * bar:.4g}"
+        refuse_size(half < bar, "roller_radius_mm", text, sizes.roller)
         over = sizes.thick.wheel + self.mechanism.spec.size.allowances.pin_gap_mm
         on_rail, on_wall = (tuple(one for one in row if one.radius) for row in _screws(sizes))
         rail = rectangle("FRAME", x + bar + slide, -half, x + 2.0 * bar + slide, half)
@@ -185,11 +183,6 @@ class RackParts(EdgedParts):
         """Raise GenevaError where the crank's shaft has no bearing in the frame."""
         if reason := self.mechanism.spec.no_parts:
             raise GenevaError(reason, ("drive", "kind"))
-
-    @property
-    def horn_mm(self) -> float | None:
-        """Thickness of the horns between slots and recesses; None without a lock."""
-        return self.sizes.horn if self.sizes.lock else None
 
     @property
     def screws(self) -> tuple[Screws, ...]:

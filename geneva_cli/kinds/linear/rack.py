@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, refuse_size
 from geneva_cli.geometry.shapes import Circle, Contour, Line, Segment, about, closed, convex_hull
 from geneva_cli.kinds.linear.guide import GuidePlace, guide_place
 from geneva_cli.motion.mechanism import Mechanism
@@ -77,26 +77,22 @@ def rack_sizes(mechanism: Mechanism) -> RackSizes:
     size, r, arm = mechanism.spec.size, mechanism.roller_radius_mm, mechanism.center_distance_mm
     guide, allowed = guide_place(mechanism), size.allowances
     w = guide.slot
-    if w >= arm:
-        text = f"roller_radius_mm = {r:g}: the slots overlap; half a slot must be below {arm:.6g}, "
-        text += "half the distance of the slots"
-        raise GenevaError(text, ("size", "roller_radius_mm"))
+    text = f"the slots overlap; half a slot must be below {arm:.6g}, half the distance of the slots"
+    refuse_size(w >= arm, "roller_radius_mm", text, r)
     relief, lock = value_or(size.relief_clearance_mm, arm / 200.0), size.lock_radius_mm
     # the locking sector must be wider than its inner radius
     least, limit = 0.5 * (arm + relief), arm - w - allowed.lock_clearance_mm
-    if lock != 0.0 and limit <= least:
-        text = f"the locking sector does not fit: roller and clearances limit it to {limit:.4g} mm "
-        text += f"and it must reach {least:.4g}; use a smaller roller, or lock_radius_mm = 0"
-        raise GenevaError(text, ("size", "lock_radius_mm"))
+    text = f"the locking sector does not fit: roller and clearances limit it to {limit:.4g} mm "
+    text += f"and it must reach {least:.4g}; use a smaller roller, or lock_radius_mm = 0"
+    refuse_size(lock != 0.0 and limit <= least, "lock_radius_mm", text)
     if lock != 0.0:
         lock = lock_between(lock, least, limit, r)
     recess = lock + allowed.lock_clearance_mm if lock else 0.0
     floor = arm - recess + relief if lock else 0.0
     edge, pin = value_or(size.wheel_radius_mm, arm), pin_radius(size, r)
-    if lock and abs(edge - arm) >= recess:
-        text = f"wheel_radius_mm = {edge:g}: the rack's edge must meet its recesses, between "
-        text += f"{arm - recess:.6g} and {arm + recess:.6g} mm"
-        raise GenevaError(text, ("size", "wheel_radius_mm"))
+    text = f"the rack's edge must meet its recesses, between {arm - recess:.6g} and "
+    text += f"{arm + recess:.6g} mm"
+    refuse_size(lock and abs(edge - arm) >= recess, "wheel_radius_mm", text, edge)
     # as if R were L/2, as for 6 slots
     space = arm - hole_radius(size, pin)
     bore = arm_bore(mechanism.spec, 0.0, 2.0 * arm, space) if pin else 0.0
@@ -117,10 +113,9 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
         "lock_radius_mm": sizes.lock,
         "relief_clearance_mm": sizes.relief,
         "pin_mm": 2.0 * sizes.pin,
-        "wheel_thickness_mm": sizes.thick.wheel,
-        "lock_thickness_mm": sizes.thick.lock,
-        "arm_thickness_mm": sizes.thick.arm,
     }
+    thick = sizes.thick._asdict()
+    known |= {f"{part}_thickness_mm": thick[part] for part in ("wheel", "lock", "arm")}
     if arm:
         wide = {"bore": sizes.bore, "hub": arm.hub, "eye": arm.eye}
         known |= {f"arm_{name}_mm": 2.0 * radius for name, radius in wide.items()}
@@ -146,10 +141,10 @@ def rack_contour(sizes: RackSizes, count: int) -> Contour:
     for cut in cuts:
         edge += [Line(at, cut[0].start), *cut]
         at = cut[-1].end
-    corners = (sizes.rim, high), (back, high), (back, low), (sizes.rim, low)
-    sides = [Line(at, corners[0])]
-    sides += [Line(a, b) for a, b in zip(corners, corners[1:], strict=False)]
-    return closed("WHEEL", [*edge, *sides])
+    for corner in ((sizes.rim, high), (back, high), (back, low), (sizes.rim, low)):
+        edge.append(Line(at, corner))
+        at = corner
+    return closed("WHEEL", edge)
 
 
 def slot_places(sizes: RackSizes, count: int) -> list[float]:

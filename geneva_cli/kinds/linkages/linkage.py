@@ -33,7 +33,9 @@ class Linkage(PinPath, kw_only=True):
     LOCKS: ClassVar[bool] = False
     CARRIER: ClassVar[str]  # link that carries the roller
     LENGTHS: ClassVar[Mapping[str, str]]  # their keys by their names
-    entry_deg: Annotated[float | None, Range(-360.0, 360.0), "crank angle near its entry"] = None
+    entry_deg: Annotated[
+        float | None, Range(-360.0, 360.0), "crank angle near entry, to choose among several wheels"
+    ] = None
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -45,7 +45,9 @@ class GenevaPair(Transmission, kw_only=True):
         {"wheel": {"z": 4}, "drive": {"first_z": 4}},
     )
     first_z: Annotated[int, Range(3, Z_MAX), "number of slots of the first, external wheel"]
-    first_distance_mm: Annotated[float | None, POSITIVE, "first centre distance, for forces"] = None
+    first_distance_mm: Annotated[
+        float | None, POSITIVE, "first centre distance, for its forces (parts use L by default)"
+    ] = None
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -11,7 +11,7 @@ import math
 from typing import NamedTuple
 
 from geneva_cli.drives.transmission import places
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, refuse_size
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import value_or
@@ -138,10 +138,10 @@ def usual_ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
     bottom = deepest - bottom_mm / L
     # the roller touches the wall that faces the crank's axis at the foot of the perpendicular
     rim = math.acos(math.cos(mouth) * math.cos(w))
-    if bottom <= 0.0 or math.sin(bottom) * math.sin(math.pi / z) <= math.sin(w):
-        text = "the slots meet near their ends: reduce roller_radius_mm, slot_clearance_mm or "
-        text += f"slot_bottom_clearance_mm, or use fewer than {z} slots"
-        raise GenevaError(text, ("size", "roller_radius_mm"))
+    text = "the slots meet near their ends: reduce roller_radius_mm, slot_clearance_mm or "
+    text += f"slot_bottom_clearance_mm, or use fewer than {z} slots"
+    meet = bottom <= 0.0 or math.sin(bottom) * math.sin(math.pi / z) <= math.sin(w)
+    refuse_size(meet, "roller_radius_mm", text)
     thick = sizes.drawn_thicknesses(size.replace(wheel_thickness_mm=thickness_mm), L)
     inside, outside = L - 0.5 * thick.wheel, L + 0.5 * thick.wheel
     under = outside + allowed.pin_gap_mm  # the arm's inner face, on which the sectors stand
@@ -150,7 +150,7 @@ def usual_ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
     refuse_above("lock_thickness_mm", thick.lock, under, why)
     pin = sizes.pin_radius(size, radius_mm)
     thin = min(thick.wheel, thick.lock, thick.arm)
-    sizes.refuse(sizes.pin_and_edge_faults(size, pin, inside * math.sin(roller), thin))
+    sizes.refuse_pin_and_edges(size, pin, inside * math.sin(roller), thin)
     # the locking sectors' edge is between the wheel's rim and the rollers
     limit, least = arm - w - allowed.lock_clearance_mm / L, abs(deepest + arm - rim)
     lock_mm = _lock_mm(spec, L, least, limit, roller) if spec.has_lock else 0.0
@@ -172,14 +172,13 @@ def usual_ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
     refuse_above("wheel_bore_mm", 2.0 * bore, 2.0 * end, why)
     refuse_above("wheel_hub_mm", 2.0 * hub, 2.0 * end, why)
     ball = ball._replace(bore_mm=bore, hub_mm=hub)
-    if ball.inner <= 0.0:
-        text = "the wheel's middle is not open: the slots end within a roller's width of its axis; "
-        text += "set a wheel_bore_mm or reduce the roller"
-        raise GenevaError(text, ("size", "wheel_bore_mm"))
+    text = "the wheel's middle is not open: the slots end within a roller's width of its axis; "
+    text += "set a wheel_bore_mm or reduce the roller"
+    refuse_size(ball.inner <= 0.0, "wheel_bore_mm", text)
     # a horn thinner than a thousandth of half a step counts as none
-    if ball.opened + ball.corner > (1.0 - 1e-3) * ball.half_step:
-        text = "no horn is left between slot and recess at the rim: reduce lock_radius_mm"
-        raise GenevaError(text, ("size", "lock_radius_mm"))
+    text = "no horn is left between slot and recess at the rim: reduce lock_radius_mm"
+    thin = ball.opened + ball.corner > (1.0 - 1e-3) * ball.half_step
+    refuse_size(thin, "lock_radius_mm", text)
     return ball
 
 
@@ -189,22 +188,17 @@ def _refuse_undrawn(spec: Spec) -> None:
         text = f"z = {spec.wheel.z}: parts are drawn up to {Z_DRAWN} slots"
         raise GenevaError(text, ("wheel", "z"))
     for key in ("crank_bore_mm", "crank_hub_mm", "crank_hub_length_mm", "dial_bolts"):
-        if vars(spec.size)[key]:
-            text = f"{key}: a sphere's crank has its bore and hub in the arm (arm_bore_mm, "
-            text += f"arm_hub_mm), and its wheel no dial; remove {key}"
-            raise GenevaError(text, ("size", key))
+        text = f"{key}: a sphere's crank has its bore and hub in the arm (arm_bore_mm, "
+        text += f"arm_hub_mm), and its wheel no dial; remove {key}"
+        refuse_size(vars(spec.size)[key], key, text)
 
 
 def _lock_mm(spec: Spec, L: float, least: float, limit: float, roller: float) -> float:
-    """Return the distance of the locking sectors' edge from the crank's axis, between two angles.
-
-    Raises GenevaError, naming the key, where there is none.
-    """
+    """Return the distance of the locking sectors' edge from the crank's axis; angles bound it."""
     low, high = (L * math.sin(max(0.0, x)) for x in (least, limit))
-    if limit <= least:
-        text = f"the locking sector does not fit: lock_radius_mm must be above {low:.4g} to reach "
-        text += f"the rim, but the roller limits it to {high:.4g}; 0 omits it"
-        raise GenevaError(text, ("size", "lock_radius_mm"))
+    text = f"the locking sector does not fit: lock_radius_mm must be above {low:.4g} to reach "
+    text += f"the rim, but the roller limits it to {high:.4g}; 0 omits it"
+    refuse_size(limit <= least, "lock_radius_mm", text)
     own = spec.size.lock_radius_mm
     if own is None:
         return L * math.sin(lock_between(None, least, limit, roller))
@@ -231,6 +225,4 @@ def refuse_wide(key: str, radius: float, inner: float, outer: float) -> None:
 
 def refuse_above(key: str, value: float, most: float, why: str) -> None:
     """Raise GenevaError for a size that is not below the most that its parts leave, mm."""
-    if value >= most:
-        text = f"{key} = {value:g}: {why}; it must be below {most:.6g}"
-        raise GenevaError(text, ("size", key))
+    refuse_size(value >= most, key, f"{why}; it must be below {most:.6g}", value)

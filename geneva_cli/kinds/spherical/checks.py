@@ -16,7 +16,7 @@ from geneva_cli.kinds.spherical.parts import SphereParts
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.shafts.bores import around, reach_or_bore
-from geneva_cli.parts.sizes import hub_faults, refuse
+from geneva_cli.parts.sizes import refuse_bored_hub
 from geneva_cli.spec.defaults import wall_min
 from geneva_cli.verdict.checks import Check, compared, measured
 from geneva_cli.verdict.checks.part_checks import cuts, least_gap
@@ -54,7 +54,7 @@ def _bore_wall(parts: SphereParts) -> float:
     if not 0.0 < ball.bore_mm < ball.hub_mm:
         return to_slots
     bored = reach_or_bore(parts.mechanism.spec.size, "wheel", ball.bore_mm)
-    refuse(hub_faults("wheel", ball.hub_mm, bored, ball.bore_mm))
+    refuse_bored_hub("wheel", ball.hub_mm, bored, ball.bore_mm)
     return min(to_slots, ball.hub_mm - bored)
 
 

@@ -20,7 +20,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.loads.strength.horn import SlotEnd, slot_ends
+from geneva_cli.loads.strength.horn import Points, SlotEnd, slot_ends
 from geneva_cli.loads.strength.pin_arm_key import torsion_MPa
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Number, parameter
@@ -36,6 +36,7 @@ class SphereHorn(NamedTuple):
     half_width: float  # w
     recess: float  # k
     half_step: float  # from the slot's middle to the next horn, about the wheel's axis
+    width_mm: float  # of the contact
 
     @property
     def recess_mm(self) -> Number:
@@ -47,20 +48,23 @@ class SphereHorn(NamedTuple):
         """Thickness at the mouth over the recess's radius, (m,)."""
         return np.ravel(self.thickness(self.polar(self.at.mouth_deg)) / self.recess_mm)
 
-    def unit_stress(
-        self, roller: Array, rub: Array, sections: Array, width_mm: float
-    ) -> tuple[Array, Array, Array]:
-        """Von Mises stress at sections under 1 N, as ``horn.Horn`` describes."""
-        t0, t = self.polar(roller)[..., None], self.polar(sections)
+    def points(self, input_deg: Number) -> Points:
+        """Places of the roller, or sections, at input angles (m, k); infinitely thick elsewhere."""
+        t, L, w = self.polar(input_deg), self.radius_mm, self.half_width
         thick = self.thickness(t)
-        every = self.radius_mm, self.half_width, width_mm
-        L, w, b = (np.atleast_2d(one)[..., None] for one in every)
-        h = thick[:, None]
+        inwards = L * np.cos(w) * (self.polar(self.at.mouth_deg) - t)
+        with np.errstate(invalid="ignore"):
+            axes = np.concatenate((*_axes(t, w), *_axes(t, w + 0.5 * thick / L)))
+        return np.stack(np.broadcast_arrays(inwards, thick, L, self.width_mm, *axes))
+
+    @staticmethod
+    def unit_stress(roller: Points, sections: Points) -> Array:
+        """Von Mises stress of sections under 1 N, as ``horn.Horn`` describes."""
+        at, push, towards = np.split(roller[4:13, ..., None], 3)
+        h, L, b = sections[1:4, :, None]
+        q, across, along = np.split(sections[13:, :, None], 3)
         with np.errstate(all="ignore"):
-            at, push, towards = _axes(t0, w)
-            force = push + rub[..., None] * towards
-            middle = self.half_width + 0.5 * thick / self.radius_mm
-            q, across, along = (v[:, :, None] for v in _axes(t, middle))
+            force = push + roller[-1, ..., None] * towards
             arm = L * (at - q)
             bent, moment = (
                 np.cross(arm, np.broadcast_to(of, arm.shape), axis=0) for of in (push, force)
@@ -71,10 +75,7 @@ class SphereHorn(NamedTuple):
             normal = 6.0 * in_shell / (b * h * h) + 6.0 * off_shell / (h * b * b) + pull / (b * h)
             shear = torsion_MPa(twist, b + 0.0 * h, h)
             stress = np.sqrt(np.maximum(normal, 0.0) ** 2 + 3.0 * shear**2)
-            mouth = self.polar(self.at.mouth_deg)
-            inwards = self.radius_mm * np.cos(self.half_width) * (mouth - t)
-            stress = np.where((t[:, None] < t0) & np.isfinite(stress), stress, 0.0)
-        return stress, inwards, thick
+            return np.where(np.isfinite(stress), stress, 0.0)
 
     def thickness(self, t: Array) -> Array:
         """Thickness of the sections at polar angles, mm; infinite where another horn begins."""
@@ -84,8 +85,7 @@ class SphereHorn(NamedTuple):
             foot = np.arctan2(y, along) - np.arccos(np.cos(self.recess) / np.hypot(along, y))
         azimuth = np.arctan2(np.sin(foot), np.cos(foot) * np.sin(t))
         own = azimuth < self.half_step  # False without a foot, too
-        thick: Array = np.where(own, self.radius_mm * (foot - self.half_width), np.inf)
-        return thick
+        return np.where(own, self.radius_mm * (foot - self.half_width), np.inf)
 
     def polar(self, input_deg: Number) -> Array:
         """The polar angles of the roller at input angles, (m, k) both."""
@@ -104,12 +104,15 @@ def _axes(t: Array, x: Array | float) -> tuple[Array, Array, Array]:
 
 
 def sphere_horns(
-    mechanism: Mechanism, half_width: float, recess: float, axes: float
+    mechanism: Mechanism, half_width: float, recess: float, axes: float, width_mm: float = 1.0
 ) -> list[SphereHorn]:
-    """Both horns of each kind of slot; slot, recess and the angle of the shafts in radians."""
+    """Both horns of each kind of slot; slot, recess and the angle of the shafts in radians.
+
+    ``width_mm`` is that of the contact, which their stress depends on.
+    """
     L, sides = mechanism.center_distance_mm, []
     for at in slot_ends(mechanism):
         half, out = at.engagement.half_step, np.sin(axes)
         axis = parameter(out * np.cos(half)), parameter(out * np.sin(half)), np.cos(axes)
-        sides.append(SphereHorn(at, L, axis, half_width, recess, half))
+        sides.append(SphereHorn(at, L, axis, half_width, recess, half, width_mm))
     return sides

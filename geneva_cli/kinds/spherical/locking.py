@@ -82,14 +82,10 @@ def sphere_locks(parts: Parts, sizes: Mapping[str, float]) -> Locks:
     """A recess with each locking sector of a spherical crank, and the clearance that they need."""
     assert isinstance(parts, SphereParts)
     ball, L = parts.shells.ball, parts.shells.ball.radius_mm
-    halves = {
-        round(edge.sweep / SAME): 0.5 * edge.sweep
-        for region in parts.shells.crank
-        for edge in region.boundary[:1]  # it begins with the locking edge
-    }
-    locks = [
-        SphereLock(L, ball.axes, ball.lock, ball.recess, ball.rim, half) for half in halves.values()
-    ]
+    edges = [region.boundary[0] for region in parts.shells.crank]  # the locking edges
+    halves = {round(edge.sweep / SAME): 0.5 * edge.sweep for edge in edges}
+    angles = L, ball.axes, ball.lock, ball.recess, ball.rim
+    locks = [SphereLock(*angles, half) for half in halves.values()]
     by = sizes["lock_radius_mm"] + sizes["recess_radius_mm"]
     grown = math.asin(min(1.0, math.sin(ball.lock) + by / L)) - ball.lock
     return locks, L * grown if ball.lock else None

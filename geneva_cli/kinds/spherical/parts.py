@@ -11,7 +11,7 @@ from typing import ClassVar, NamedTuple
 
 import numpy as np
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import refuse_size
 from geneva_cli.geometry.plates import (
     MM,
     Group,
@@ -37,7 +37,7 @@ from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.projection import NamedParts
 from geneva_cli.parts.shafts.arm_and_shafts import Shaft, shaft_ends
 from geneva_cli.parts.shafts.bores import Bore, bore_of, has_shape
-from geneva_cli.parts.sizes import hub_faults, refuse
+from geneva_cli.parts.sizes import refuse_bored_hub
 from geneva_cli.spec.defaults import wheel_material
 from geneva_cli.spec.tables import Size
 
@@ -89,11 +89,6 @@ class SphereParts(Parts):
     def outside_mm(self) -> float | None:
         """Radius of the wheel's outer face, from which heights count inwards."""
         return self.ball.span_mm[1]
-
-    @property
-    def horn_mm(self) -> float | None:
-        """Thickness of the horns between slots and recesses; None without a lock."""
-        return self.shells.sizes.horn if self.shells.crank else None
 
     def pairs(self, target: float) -> SpherePairs:
         """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""
@@ -189,17 +184,16 @@ def wheel_shell(ball: Ball) -> Shell:
 def wheel_hub(size: Size, ball: Ball) -> Plate | None:
     """Return the wheel's hub: in its shell and outside it, by default out to the arm's face."""
     wide = ball.hub_mm > ball.bore_mm
-    if has_shape(size, "wheel") and not (wide and ball.bore_mm):
-        name = "wheel_bore" if size.wheel_keyway is None else "wheel_keyway"
-        text = f"{name}: on a sphere only the wheel's hub has a bore that is not round; set "
-        text += f"wheel_bore_mm and wheel_hub_mm, or remove {name}"
-        raise GenevaError(text, ("size", name))
+    name = "wheel_bore" if size.wheel_keyway is None else "wheel_keyway"
+    text = f"{name}: on a sphere only the wheel's hub has a bore that is not round; set "
+    text += f"wheel_bore_mm and wheel_hub_mm, or remove {name}"
+    refuse_size(has_shape(size, "wheel") and not (wide and ball.bore_mm), name, text)
     if not wide:
         return None
     inside, outside = ball.span_mm
     refuse_wide("wheel_hub_mm", ball.hub_mm, inside, outside)
     form = bore_of(size, "wheel", ball.bore_mm)
-    refuse(hub_faults("wheel", ball.hub_mm, form.reach, ball.bore_mm))
+    refuse_bored_hub("wheel", ball.hub_mm, form.reach, ball.bore_mm)
     bored = (form.shape("BORE", ball.half_step),) if ball.bore_mm else ()
     span = inside, inside + ball.hub_length_mm(size)
     return Plate("wheel's hub", "HUB", Circle("HUB", ORIGIN, ball.hub_mm), bored, *span)

@@ -20,7 +20,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, refuse_size
 from geneva_cli.geometry.sphere import (
     POLE,
     Cap,
@@ -229,17 +229,15 @@ def crank_arm(ball: Ball, sectors: Sequence[Region], size: Size) -> CapArm:
         least = min(arm.wall, wall_min(size, ball.radius_mm) + 2.0 * size.edge_mm)
         bolted = (_arm(ball, sectors, size, count) for count in (2, 1))
         arm = next((one for one in bolted if one.wall >= least), arm)
-    if arm.wall <= 0.0:
-        text = "the round holes of the crank arm overlap, or cut an edge: reduce lock_bolt_mm, "
-        text += "arm_hub_mm, pin_mm or lock_bolts, or change lock_bolt_circle_mm"
-        raise GenevaError(text, ("size", "lock_bolts" if arm.bolts else "arm_hub_mm"))
+    text = "the round holes of the crank arm overlap, or cut an edge: reduce lock_bolt_mm, "
+    text += "arm_hub_mm, pin_mm or lock_bolts, or change lock_bolt_circle_mm"
+    refuse_size(arm.wall <= 0.0, "lock_bolts" if arm.bolts else "arm_hub_mm", text)
     return arm
 
 
 def _arm(ball: Ball, sectors: Sequence[Region], size: Size, bolts_each: int) -> CapArm:
     """Return the arm with so many bolts in each locking sector."""
-    if not ball.arm_bore_mm:
-        raise GenevaError("pin_mm = 0: there is no pin for an arm to carry", ("size", "pin_mm"))
+    refuse_size(not ball.arm_bore_mm, "pin_mm", "pin_mm = 0: there is no pin for an arm to carry")
     L, wall, (under, over) = ball.radius_mm, wall_min(size, ball.radius_mm), ball.arm_span_mm
     hole = pin_hole(size, ball.pin_mm)
     hub, eye = hub_and_eye(size, wall, hole, ball.arm_bore_mm, ball.passing_mm(ball.opening_mm))

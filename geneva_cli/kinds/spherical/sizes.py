@@ -124,7 +124,7 @@ def _horn_thickness_mm(mechanism: Mechanism, usual: Ball) -> float:
     least = usual.span_mm[1] - usual.span_mm[0]
     # a thicker wheel bends its pins more than its horns
     for thick in sizes_from(least, 2.0 * least):
-        horn = greatest_stress(sphere_horns, mechanism, angles, thick).single
+        horn = greatest_stress(sphere_horns, mechanism, (*angles, thick)).single
         if keeps(horn.stress_MPa if horn else 0.0, "at most", allowed):
             break
     return thick

@@ -92,8 +92,7 @@ class SphereStops(Stops):
     def lean(self, level: Array, pins: Array, close: float) -> Array:
         """Return the sine of the pressure angle where rollers touch, ``close`` inside them."""
         radius, far = self.roller - close, polar(pins)
-        lean: Array = np.cos(far) - np.cos(radius) * np.cos(level)
-        return lean / (np.sin(radius) * np.sin(level))
+        return (np.cos(far) - np.cos(radius) * np.cos(level)) / (np.sin(radius) * np.sin(level))
 
 
 def _extremes(far: Array, size: Array) -> Array:
@@ -108,8 +107,7 @@ def _point(axis: Array, x: Array, y: Array, size: Array, turn: Array) -> Array:
     """Return the points of rims (n, k, 3) at angles about their axes."""
     flat = np.sin(size)
     c, s = (flat * np.cos(turn))[:, None], (flat * np.sin(turn))[:, None]
-    point: Array = np.cos(size)[:, None] * axis + c * x + s * y
-    return point
+    return np.cos(size)[:, None] * axis + c * x + s * y
 
 
 def polar(points: Array) -> Array:

@@ -64,15 +64,9 @@ def wheel_stop(outlines: Outlines) -> WheelStop | None:
     from_middle = math.pi / z - delta - float(assembly.wheel(at)[0])
     half_face = math.pi / z - math.asin(sizes.half_width / ra)
     last = assembly.to_input(math.degrees(crank))
-    return WheelStop(
-        assembly.to_input(-math.degrees(crank)),
-        360.0 * (z - 1) + last,
-        360.0 * (z // 2),
-        L * math.sin(delta),
-        ra * (half_face - abs(from_middle)),
-        rk + ra - L,
-        math.degrees(crank),
-    )
+    stops = assembly.to_input(-math.degrees(crank)), 360.0 * (z - 1) + last, 360.0 * (z // 2)
+    lengths = L * math.sin(delta), ra * (half_face - abs(from_middle)), rk + ra - L
+    return WheelStop(*stops, *lengths, math.degrees(crank))
 
 
 def clearances_before(outlines: Outlines, stop: WheelStop, past_deg: float = 0.0) -> Array:
@@ -93,12 +87,10 @@ def stop(parts: Parts) -> Values:
         stops = wheel_stop(parts.outlines) if spec.wheel.stopped and spec.is_flat else None
     if stops is None:
         return {}
+    names = "turns", "first_deg", "last_deg", "overlap_mm", "lever_mm"
     force, stress = stop_contact(parts.outlines, stops)
-    return {
-        **{"turns": stops.turns, "first_deg": stops.first_deg, "last_deg": stops.last_deg},
-        **{"overlap_mm": stops.overlap_mm, "lever_mm": stops.lever_mm},
-        **{"force_N": force, "contact_stress_MPa": stress},
-    }
+    own: Values = {name: getattr(stops, name) for name in names}
+    return {**own, "force_N": force, "contact_stress_MPa": stress}
 
 
 def stop_contact(outlines: Outlines, stop: WheelStop) -> tuple[float | None, float | None]:

@@ -17,6 +17,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, NamedTuple, TypeAlias
 
@@ -29,11 +30,16 @@ from geneva_cli.motion.batch import taken
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.path_and_slot import pitch
-from geneva_cli.numerics.arrays import Number, array, blocks, joined, parameter
+from geneva_cli.numerics.arrays import Number, Whole, array, blocks, joined, parameter
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.tolerances import TIE
 
 STOUT = 0.5  # thickness at the mouth over the recess's radius, beyond which a horn is no beam
+
+
+# The fraction of the greatest stress in any horn below which a horn's search ends: after samples a
+# sixtieth of a half motion apart, after samples 16 and 256 times as close, and at last.
+BELOW = (0.5, 0.9, 0.99, 1.0)
 
 
 class HornStress(NamedTuple):
@@ -76,6 +82,10 @@ def slot_ends(mechanism: Mechanism) -> list[SlotEnd]:
 
 
 Sizes: TypeAlias = "tuple[float, ...]"  # half the slot's width, the recess, and what else differs
+# Rows of what a horn's stress depends on at places of the roller or at sections, (rows, m, k) of m
+# designs or one for all: the distance inwards from the mouth, a section's thickness, mm, and more;
+# behind those of the roller is the friction on the wall under 1 N across it, towards the mouth.
+Points: TypeAlias = "Array"
 
 
 class Horn(NamedTuple):
@@ -116,38 +126,36 @@ class Horn(NamedTuple):
             thick = along - np.sqrt(square)
             return wall, normal, thick, self.half - np.arctan2(*(wall + thick * normal))
 
-    def unit_stress(
-        self, roller: Array, rub: Array, sections: Array, width_mm: float
-    ) -> tuple[Array, Array, Array]:
-        """Stresses under 1 N, MPa (m, places, sections), and of sections place and thickness.
-
-        The roller's places and the sections are input angles (m, k). ``rub`` is the friction on the
-        wall under 1 N across it, positive towards the mouth. A section's place is its distance from
-        the mouth, mm; its thickness, mm, is infinite beyond the horn.
-        """
-        count = roller.shape[1]
-        places, normals, thick, left = self.sections(np.hstack((roller, sections)))
-        contact, push = places[..., :count, None], normals[..., :count, None]
-        wall, normal = places[..., None, count:], normals[..., None, count:]
-        # where another horn begins there are no sections
-        thick = np.where(left[:, count:] > 0.0, thick[:, count:], np.inf)
+    def points(self, input_deg: Number) -> Points:
+        """Places of the roller, or sections, at input angles (m, k); infinitely thick elsewhere."""
+        wall, normal, thick, left = self.sections(input_deg)
         # places of the wall that a tip which is cut back has left
-        depth = places[1, :, :count] - self.tip_mm
+        depth = wall[1] - self.tip_mm
         inner = np.sqrt(np.maximum(np.square(self.recess_mm) - depth * depth, 0.0))
-        begun = (depth >= self.recess_mm) | (places[0, :, :count] >= inner)
-        begun = begun | np.equal(self.tip_mm, 0.0)
+        begun = (depth >= self.recess_mm) | (wall[0] >= inner) | np.equal(self.tip_mm, 0.0)
+        # where another horn begins there are no sections
+        rows = wall[0], np.where(left > 0.0, thick, np.inf), *wall, *normal, begun
+        return np.stack(np.broadcast_arrays(*rows))
+
+    @staticmethod
+    def unit_stress(roller: Points, sections: Points) -> Array:
+        """Stresses of sections under 1 N on 1 mm of contact, MPa: (m, places, sections)."""
+        contact, push, (begun, rub) = roller[2:4], roller[4:6], roller[6:]
+        thick, wall, normal = sections[1], sections[2:4], sections[4:6]
         # friction along the wall towards the mouth, where the first axis is negative
-        push = push + rub[..., None] * np.stack((push[1], -push[0]))
+        x, y = (push + rub * np.stack((push[1], -push[0]))) * begun
+        # With the moment M about the section's middle and the pull P along the beam, the stress
+        # 6 M/t² - P/t is a sum of products: each of a factor of the roller and one of the section.
         with np.errstate(all="ignore"):
-            # from the contact to the middle of the section, (2, m, places, sections)
-            deep = thick[:, None]
-            arm = (wall + 0.5 * deep * normal) - contact
-            moment = arm[1] * push[0] - arm[0] * push[1]
-            pull = push[1] * normal[0] - push[0] * normal[1]  # along the beam
-            bent = (moment * (6.0 / deep**2) - pull / deep) / np.asarray(width_mm)[..., None]
-            further = (wall[0] > contact[0]) & begun[:, :, None]
-            stress = np.where(further & np.isfinite(bent), bent, 0.0)
-        return stress, places[0, :, count:], thick
+            bends = 6.0 / thick**2
+            factors = bends * (wall + 0.5 * thick * normal) + normal / thick
+            known = np.isfinite(factors).all(axis=0) & np.isfinite(bends)
+        along, across = np.where(known, factors, 0.0)
+        stress: Array = x[..., None] * across[:, None]
+        stress -= y[..., None] * along[:, None]
+        turn = contact[0] * y - contact[1] * x
+        stress += turn[..., None] * np.where(known, bends, 0.0)[:, None]
+        return stress
 
     @property
     def stoutness(self) -> Array:
@@ -184,74 +192,130 @@ def horns(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> list[
     return sides
 
 
-def greatest_stress(
-    sides: Sides, mechanism: Mechanism, sizes: Sizes, width: float = 1.0
-) -> HornStress:
-    """Greatest stress of m designs for a width of the contact, mm; of a single one it is kept."""
-    every, m = (mechanism, sizes, width), mechanism.designs
+def greatest_stress(sides: Sides, mechanism: Mechanism, sizes: Sizes) -> HornStress:
+    """Greatest stress of m designs, of flat horns for 1 mm of contact; a single one's is kept."""
     if isinstance(mechanism.design, int):
-        return _single_stress(sides, *every)
-    # the stresses of 16 designs stay in the cache
-    return joined([_greatest(sides, *taken(every, some)) for some in blocks(m, 16)])
+        return _single_stress(sides, mechanism, sizes)
+    every = [taken((mechanism, sizes), some) for some in blocks(mechanism.designs, 1024)]
+    return joined([_greatest(sides, *some) for some in every])
 
 
-def _greatest(sides: Sides, mechanism: Mechanism, sizes: Sizes, width: float) -> HornStress:
-    m = mechanism.designs
-    best = np.full((4, m), np.nan)
-    for side in sides(mechanism, *sizes):
+@dataclass
+class _Search:
+    """A search for the greatest stress in one horn."""
+
+    horn: int
+    places: Array  # input angles of the roller (n, k), of the n designs where the search goes on
+    sections: Array  # (n, k)
+    designs: Whole  # (n,)
+
+
+def _greatest(sides: Sides, mechanism: Mechanism, sizes: Sizes) -> HornStress:
+    m, horns, searches = mechanism.designs, sides(mechanism, *sizes), list[_Search]()
+    grid = np.linspace(1.0, NEAR_CUSP, 61)
+    for k, side in enumerate(horns):
         # the roller runs along this horn's wall from its own end; in a straight slot from both
-        slot = side.at.engagement
+        slot, mouth = side.at.engagement, side.at.mouth_deg
         flat = side.at.whole.slot.walls_flat
-        for start in (slot.entry_deg, slot.exit_deg) if flat else (side.at.mouth_deg,):
-            own = _over_a_half(mechanism, side, start, width)
-            own[1] += np.ravel(side.at.whole.mid_deg - side.at.ahead_deg)
-            better = ~(own[0] <= best[0] * (1.0 + TIE)) & ~np.isnan(own[0])
-            best = np.where(better, own, best)
-    at_deg = np.ravel(mechanism.under_load.shown_deg(parameter(best[1][:, None])))
-    return HornStress(*map(parameter, (best[0], at_deg, *best[2:])))
+        for start in (slot.entry_deg, slot.exit_deg) if flat else (mouth,):
+            places, sections = np.atleast_2d(start) * grid, np.atleast_2d(mouth) * grid
+            searches.append(_Search(k, places, sections, np.arange(m)))
+    each = np.full((len(searches), 4, m), np.nan)
+    for below in BELOW:
+        for one, best in zip(searches, each, strict=True):
+            which, some, side = one.designs, mechanism, horns[one.horn]
+            if 0 < len(which) < m:
+                some, own = taken((mechanism, sizes), which)
+                side = sides(some, *own)[one.horn]
+            if len(which):
+                rows, one.places, one.sections = _sampled(some, side, one)
+                best[:, which] = np.where(rows[0] > 0.0, rows, best[:, which])
+        most = np.fmax.reduce(each[:, 0])
+        for one, stress in zip(searches, each[:, 0], strict=True):
+            left = ~(np.nan_to_num(stress) < below * most)[one.designs]
+            one.designs, one.places = one.designs[left], one.places[left]
+            one.sections = one.sections[left]
+    greatest = np.full((4, m), np.nan)
+    for one, best in zip(searches, each, strict=True):
+        at = horns[one.horn].at
+        best[1] += np.ravel(at.whole.mid_deg - at.ahead_deg)
+        better = ~(best[0] <= greatest[0] * (1.0 + TIE)) & ~np.isnan(best[0])
+        greatest = np.where(better, best, greatest)
+    greatest[1] = np.ravel(mechanism.under_load.shown_deg(parameter(greatest[1][:, None])))
+    return HornStress(*map(parameter, greatest))
 
 
 _single_stress = lru_cache(maxsize=64)(_greatest)
 
 
-def _over_a_half(mechanism: Mechanism, side: Horn, start: float, width: float) -> Array:
-    """The rows of ``HornStress``, (4, m), for the roller from ``start`` to mid-motion."""
-    case, best = load_case(mechanism), np.full((4, mechanism.designs), np.nan)
-    grid, finer = np.linspace(1.0, NEAR_CUSP, 61), np.linspace(0.0, 1.0, 33)
-    places, sections = np.atleast_2d(start) * grid, np.atleast_2d(side.at.mouth_deg) * grid
-    for _ in range(4):  # then between the neighbours of the best sample so far
-        x = places - side.at.ahead_deg
-        x = x[0] if len(x) == 1 else x  # as (k,) in half the time
-        at = contact_values(contact(side.at.whole, x, reactions=False))
-        with np.errstate(all="ignore"):
-            loads = Instant(case, at, None, None, 1.0)
-            bears = np.asarray(loads.wheel_torque_Nm) * side.at.end < 0.0  # or else the other horn
-            force = np.where(bears & (loads.grip > 0.0), np.abs(loads.force_N), 0.0)
-        own = np.flatnonzero(bears.any(axis=0) if bears.ndim > 1 else bears)  # elsewhere it is 0
-        # a mouth is away from the axis, but for internal wheels
-        rub = case.friction * mechanism.spec.wheel.SIGN * loads.slides * at.touches
-        # designs may have the same force and rub in different ways, and the reverse
-        force, rub = map(np.atleast_2d, np.broadcast_arrays(force, rub))
-        unit, inwards, thick = side.unit_stress(places[:, own], rub[:, own], sections, width)
-        m, count = max(len(force), len(unit)), sections.shape[1]
-        stress = np.zeros((m, places.shape[1], count))
-        with np.errstate(invalid="ignore"):  # of a force without a bound
-            loaded = force[:, own, None] * unit
-        stress[:, own] = np.where(np.isfinite(loaded), loaded, 0.0)
-        # designs may differ in their loads or sizes alone, and share their slots
-        sections, inwards, thick, _ = np.broadcast_arrays(sections, inwards, thick, stress[:, 0])
-        places, every = np.broadcast_to(places, (m, places.shape[1])), np.arange(m)
-        flat = stress.reshape(m, -1)
-        most = flat.max(axis=1)
-        first = np.argmax(flat >= most[:, None] * (1.0 - TIE), axis=1)
-        i, j = np.divmod(first, count)
-        rows = flat[every, first], places[every, i], inwards[every, j], thick[every, j]
-        best = np.where(most > 0.0, rows, best)
-        refined = list[Array]()
-        for samples, k in ((places, i), (sections, j)):
-            last = samples.shape[1] - 1
-            before = samples[every, np.maximum(k - 1, 0), None]
-            after = samples[every, np.minimum(k + 1, last), None]
-            refined.append(before + (after - before) * finer)
-        places, sections = refined
-    return best
+def _sampled(mechanism: Mechanism, side: Horn, search: _Search) -> tuple[Array, Array, Array]:
+    """The greatest stress of n designs at samples, as rows of ``HornStress`` (4, n).
+
+    Then places of the roller and sections (n, 33), between the samples beside that one.
+    """
+    case, x = load_case(mechanism), search.places - side.at.ahead_deg
+    x = x[0] if len(x) == 1 else x  # as (k,) in half the time
+    at = contact_values(contact(side.at.whole, x, reactions=False))
+    with np.errstate(all="ignore"):
+        loads = Instant(case, at, None, None, 1.0)
+        bears = np.asarray(loads.wheel_torque_Nm) * side.at.end < 0.0  # or else the other horn
+        force = np.where(bears & (loads.grip > 0.0), np.abs(loads.force_N), 0.0)
+    force = np.atleast_2d(np.where(np.isfinite(force), force, 0.0))
+    own = np.flatnonzero(force.any(axis=0))  # elsewhere it is 0
+    own = own if len(own) else np.arange(1)
+    # a mouth is away from the axis, but for internal wheels
+    rub = case.friction * mechanism.spec.wheel.SIGN * loads.slides * at.touches
+    force, places, rub = force[:, own], search.places[:, own], np.atleast_2d(rub + 0.0 * x)[:, own]
+    points = side.points(np.hstack((places, search.sections)))
+    roller = np.stack(np.broadcast_arrays(*points[..., : len(own)], rub))
+    sections = points[..., len(own) :]
+    most, i = _first(force * _most_stressed(side, roller, sections), mechanism.designs)
+    unit = _inner_stress(side, _picked(roller, i)[..., None], sections)[:, 0]
+    _, j = _first(_picked(force, i)[:, None] * unit, mechanism.designs)
+    rows = np.stack((most, _picked(places, i), *_picked(sections[:2], j)))
+    return rows, _finer(search.places, own[i]), _finer(search.sections, j)
+
+
+def _most_stressed(side: Horn, roller: Points, sections: Points) -> Array:
+    """The stress under 1 N of the most stressed section for each place (m, k), at least 0."""
+    _, m, k = roller.shape
+    most = np.zeros((max(m, sections.shape[1]), k))
+    for own in blocks(k, 16):
+        places = roller[..., own]
+        inner = np.flatnonzero((sections[0] > places[0].min(axis=1, keepdims=True)).any(axis=0))
+        if not len(inner):
+            continue
+        edges = sections[..., inner[0] :]
+        count = 1 + (1 << 14) // (places.shape[2] * edges.shape[2])
+        for some in blocks(len(most), count):  # whose stresses stay in the cache
+            at = places if m == 1 else places[:, some]
+            ends = edges if edges.shape[1] == 1 else edges[:, some]
+            most[some, own] = np.maximum(_inner_stress(side, at, ends).max(axis=2), 0.0)
+    return most
+
+
+def _inner_stress(side: Horn, roller: Points, sections: Points) -> Array:
+    """The stress under 1 N of the sections farther inwards than the roller, 0 of the others."""
+    inner = sections[0][:, None] > roller[0][..., None]
+    return np.where(inner, side.unit_stress(roller, sections), 0.0)
+
+
+def _first(stress: Array, m: int) -> tuple[Array, Whole]:
+    """The greatest stress of each of m designs, and the first sample (m or 1, k) that has it."""
+    most = stress.max(axis=1)
+    first = np.argmax(stress >= most[:, None] * (1.0 - TIE), axis=1)
+    return np.broadcast_to(most, m), np.broadcast_to(first, m)
+
+
+def _picked(rows: Array, k: Whole) -> Array:
+    """Of rows (..., m or 1, samples) the sample of each of m designs: (..., m)."""
+    every = 0 if rows.shape[-2] == 1 else np.arange(len(k))
+    picked: Array = rows[..., every, k]
+    return picked
+
+
+def _finer(samples: Array, k: Whole) -> Array:
+    """Samples (n, 33) between the neighbours of the k-th ones (n,)."""
+    before = _picked(samples, np.maximum(k - 1, 0))[:, None]
+    after = _picked(samples, np.minimum(k + 1, samples.shape[1] - 1))[:, None]
+    return before + (after - before) * np.linspace(0.0, 1.0, 33)

@@ -143,7 +143,9 @@ class Motion(SpecTable):
     law: Law
     alpha0_deg: Annotated[float, FINITE, "extra dwell angle of the crank"] = 0.0
     ratio: Annotated[
-        float | str | None, Range(0.0, 1.0, "()", ("matched",)), "R/L; matched: of finite pressure"
+        float | str | None,
+        Range(0.0, 1.0, "()", ("matched",)),
+        'R/L of curved slots, or "matched" for a finite pressure angle',
     ] = None
 
     def __post_init__(self) -> None:

@@ -70,24 +70,16 @@ def first_half(u: Number, order: int, b: float, d: float, v: float = 0.0) -> Jet
         return from_velocity(x, order, lambda x: a / rate * (x - m.sin(rate * x) / rate), velocity)
 
     def flat(x: Number) -> Jet:
-        t = x - sine
-        return from_velocity(
-            x, order, lambda x: s_1 + t * (v_1 + 0.5 * a * t), lambda x: (x - sine) * a + v_1
-        )
+        t = Jet.variable(x - sine, order)
+        return t * (t * (0.5 * a) + v_1) + s_1
 
     def end(x: Number) -> Jet:
-        rate = 0.5 * pi / cosine
-        t = x - level
-
-        def position(x: Number) -> Number:
-            return s_2 + v_2 * t + 2.0 * a * (m.sin(0.5 * rate * t) / rate) ** 2
-
-        return from_velocity(
-            x, order, position, lambda x: sin((x - level) * rate) * (a / rate) + v_2
-        )
+        rate, t = 0.5 * pi / cosine, Jet.variable(x - level, order)
+        half = sin(t * (0.5 * rate))
+        return half * half * (2.0 * a / (rate * rate)) + t * v_2 + s_2
 
     def middle(x: Number) -> Jet:
-        return from_velocity(x, order, lambda x: 0.5 - top * (0.5 - x), lambda x: x * 0.0 + top)
+        return 0.5 - (0.5 - Jet.variable(x, order)) * top
 
     each = zip(pairwise(joints), (start, flat, end, middle), strict=True)
     pieces = [(until, piece) for (since, until), piece in each if since < until]

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, ClassVar
 from geneva_cli.errors import GenevaError
 from geneva_cli.kept import cached_property
 from geneva_cli.motion.laws.law import Law
-from geneva_cli.numerics.jet import Jet, Number
+from geneva_cli.numerics.jet import Jet, Number, taylor
 from geneva_cli.spec.rules import Csv
 from geneva_cli.spec.schema import Points
 
@@ -75,7 +75,7 @@ def _halves(
     # a list of the laws needs no splines
     import numpy as np
 
-    from geneva_cli.numerics.spline import SPLINE_DEGREE, PiecewisePolynomial, at_rest, taylor
+    from geneva_cli.numerics.spline import SPLINE_DEGREE, PiecewisePolynomial, at_rest
 
     u, s = zip(*points, strict=True)
     spline = at_rest(u, s)

@@ -35,7 +35,9 @@ class External(Gearing):
 
     NAME: ClassVar[str] = "external"
     EXAMPLE: ClassVar[Example] = Example("an external wheel, straight slots", {"wheel": {"z": 6}})
-    offset_mm: Annotated[float, LENGTH, "slots' axes to the wheel's; > 0 enters gently"] = 0.0
+    offset_mm: Annotated[
+        float, LENGTH, "distance from the slots' axes to the wheel's; > 0 enters gently"
+    ] = 0.0
     steps_deg: Annotated[
         tuple[float, ...] | None, Range(0.0, 360.0, "()"), "unequal steps, as a repeating pattern"
     ] = None

@@ -16,7 +16,7 @@ from geneva_cli.output.plot.plot_layout import labels, ticks
 from geneva_cli.output.svg import element
 
 if TYPE_CHECKING:
-    from geneva_cli.output.scene import Place, Scene, Track
+    from geneva_cli.output.scene import Body, Place, Rotation, Scene, Track
 
 
 def chunks(scene: Scene) -> Iterator[str]:
@@ -26,18 +26,10 @@ def chunks(scene: Scene) -> Iterator[str]:
     margin = 0.02 * size
     view = x0 - margin, -y1 - margin, x1 - x0 + 2.0 * margin, y1 - y0 + 2.0 * margin
     data = json.dumps(_data(scene, size), separators=(",", ":"), allow_nan=False)
-    parts = {
-        "TITLE": escape(clean(scene.title)),
-        "CAPTION": escape(clean(scene.caption)),
-        "SPEC": escape(scene.spec),
-        "STYLE": _file("page.css"),
-        "DRAWING": "",
-        "LINKS": "",
-        "DATA": data.replace("<", "\\u003c"),
-        "MOTION": _file("motion.js"),
-        "SCRIPT": _file("page.js"),
-        "VIEW": " ".join(f"{v:.6g}" for v in view),
-    }
+    parts = {"TITLE": escape(clean(scene.title)), "CAPTION": escape(clean(scene.caption))}
+    parts |= {"SPEC": escape(scene.spec), "STYLE": _file("page.css"), "DRAWING": "", "LINKS": ""}
+    parts |= {"MOTION": _file("motion.js"), "SCRIPT": _file("page.js")}
+    parts |= {"DATA": data.replace("<", "\\u003c"), "VIEW": " ".join(f"{v:.6g}" for v in view)}
     for body in scene.bodies:
         shapes = [_shape(shape, shape.layer.lower()) for shape in body.shapes]
         parts["DRAWING"] += f'<g id="{_id(body.name)}">{"".join(shapes)}</g>\n'
@@ -63,42 +55,27 @@ def _shape(shape: Shape, name: str) -> str:
 
 
 def _data(scene: Scene, size: float) -> dict[str, Any]:
-    return {
-        "start": scene.start_deg,
-        "turn": scene.turn_deg,
-        "stops": scene.stops,
-        "seconds": scene.seconds,
-        "pauses": scene.pauses,
-        "stop_s": scene.stop_s,
-        "size": size,
-        "bodies": [
-            {
-                "id": _id(b.name),
-                "centre": b.centre,
-                "angle": _track(b.angle),
-                "travel": b.travel and _track(b.travel),
-            }
-            for b in scene.bodies
-        ],
-        "frame": scene.frame and {"centre": scene.frame.centre, "angle": _track(scene.frame.angle)},
-        "bars": [
-            {
-                "name": bar.name,
-                "joints": list(map(_place, bar.joints)),
-                "radius": bar.radius,
-                "plates": [plate.joint for plate in bar.plates],
-            }
-            for bar in scene.bars
-        ],
-        "rollers": list(map(_place, scene.rollers)),
-        "radius": scene.roller_radius,
-        "pushes": [[[_short(v) for v in column] for column in push] for push in scene.pushes],
-        "states": [[_short(s.start), _short(s.end), s.moves, s.words] for s in scene.states],
-        "panels": list(_panels(scene)),
-        "window": scene.figure.window,
-        "angles": _ticks(*scene.figure.window, 7, "deg"),
-        "inks": {layer.lower(): ink.rgb for layer, ink in INKS.items()},
-    }
+    data: dict[str, Any] = {"start": scene.start_deg, "turn": scene.turn_deg, "stops": scene.stops}
+    data |= {"seconds": scene.seconds, "pauses": scene.pauses, "stop_s": scene.stop_s, "size": size}
+    data["bodies"] = [
+        {"id": _id(one.name), **_turn(one), "travel": one.travel and _track(one.travel)}
+        for one in scene.bodies
+    ]
+    data["frame"] = scene.frame and _turn(scene.frame)
+    data["bars"] = []
+    for bar in scene.bars:
+        own = {"name": bar.name, "joints": list(map(_place, bar.joints)), "radius": bar.radius}
+        data["bars"].append({**own, "plates": [plate.joint for plate in bar.plates]})
+    data |= {"rollers": list(map(_place, scene.rollers)), "radius": scene.roller_radius}
+    data["pushes"] = [[list(map(_short, column)) for column in push] for push in scene.pushes]
+    data["states"] = [[_short(s.start), _short(s.end), s.moves, s.words] for s in scene.states]
+    data |= {"panels": list(_panels(scene)), "window": scene.figure.window}
+    data["angles"] = _ticks(*scene.figure.window, 7, "deg")
+    return {**data, "inks": {layer.lower(): ink.rgb for layer, ink in INKS.items()}}
+
+
+def _turn(one: Body | Rotation) -> dict[str, Any]:
+    return {"centre": one.centre, "angle": _track(one.angle)}
 
 
 def _track(track: Track) -> dict[str, Any]:
@@ -127,13 +104,9 @@ def _panels(scene: Scene) -> Iterator[dict[str, Any]]:
                 least = 1e-9 * max(map(abs, values))
                 piece.append([_short(v) if abs(v) > least else 0.0 for v in values])
             pieces.append(piece)
-        yield {
-            "name": panel.y.label + (f", {panel.y.unit}" if panel.y.unit else ""),
-            "low": low,
-            "high": high,
-            "ticks": _ticks(low, high, 4),
-            "pieces": pieces,
-        }
+        name = panel.y.label + (f", {panel.y.unit}" if panel.y.unit else "")
+        shown = {"name": name, "low": low, "high": high}
+        yield {**shown, "ticks": _ticks(low, high, 4), "pieces": pieces}
 
 
 def _ticks(low: float, high: float, most: int, unit: str = "") -> list[tuple[float, str]]:

@@ -9,33 +9,23 @@ from geneva_cli.figure import Figure
 from geneva_cli.output.inks import LIGHT, colour, dashes
 from geneva_cli.output.letters import western
 from geneva_cli.output.pdf import BEGIN, INK, Page, box, number, pdf_text, point, tint, wide, words
-from geneva_cli.output.plot.plot_layout import (
-    INCH,
-    PAGE,
-    TEXT,
-    FigureBlock,
-    Frame,
-    Kind,
-    Look,
-    Path,
-    Point,
-    blocks,
-)
+from geneva_cli.output.plot import plot_layout as layout
+from geneva_cli.output.plot.plot_layout import TEXT, Frame, Kind, Look, Path, Point
 
 
 def chunks(figure: Figure) -> Iterator[str]:
     """Yield the text of a file with the figure alone."""
-    parts = list(blocks(figure))
-    mm = 25.4 / INCH  # one px on a figure's own page
+    parts = list(layout.blocks(figure))
+    mm = 25.4 / layout.INCH  # one px on a figure's own page
     tall = mm * sum(block.high for block in parts)
     content, top = BEGIN, tall
     for block in parts:
         content += drawn(block, 0.0, mm, top)
         top -= mm * block.high
-    yield from pdf_text(western(figure.title), [Page(mm * PAGE, tall, content, fonts=2)])
+    yield from pdf_text(western(figure.title), [Page(mm * layout.PAGE, tall, content, fonts=2)])
 
 
-def drawn(block: FigureBlock, left: float, scale: float, top: float) -> str:
+def drawn(block: layout.FigureBlock, left: float, scale: float, top: float) -> str:
     """Return the operators of a part of a figure, from a height downwards."""
     pen = _PdfPen(left, scale, top)
     block.draw(pen, 0.0)

@@ -11,18 +11,8 @@ from html import escape
 from geneva_cli.errors import GenevaError, clean
 from geneva_cli.figure import Figure
 from geneva_cli.output.inks import DARK, LIGHT, Paper, colour, dashes
-from geneva_cli.output.plot.plot_layout import (
-    LEFT,
-    PAGE,
-    TEXT,
-    Frame,
-    Kind,
-    Look,
-    Path,
-    Point,
-    blocks,
-    named,
-)
+from geneva_cli.output.plot import plot_layout as layout
+from geneva_cli.output.plot.plot_layout import TEXT, Frame, Kind, Look, Path, Point
 from geneva_cli.table import in_decimals
 
 WIDE = 1500  # pixels of a png: ten inches at 150 dots an inch
@@ -31,16 +21,16 @@ WIDE = 1500  # pixels of a png: ten inches at 150 dots an inch
 def chunks(figure: Figure) -> Iterator[str]:
     """Yield the file's text."""
     known, pen, tall = figure.curves(), _SvgPen(), 0.0
-    for block in blocks(figure):
+    for block in layout.blocks(figure):
         block.draw(pen, tall)
         tall += block.high
-    names = ", ".join(named(panel.y) for panel in figure.panels)
-    content = f"{names} by {named(figure.x).lower()}"
+    names = ", ".join(layout.named(panel.y) for panel in figure.panels)
+    content = f"{names} by {layout.named(figure.x).lower()}"
     patterns = [(n, " ".join(map(_n, dashes(n)))) for n in known]
     dashed = "".join(f".c{n} {{ stroke-dasharray: {d} }}\n" for n, d in patterns if d)
     yield (
-        f'<svg xmlns="http://www.w3.org/2000/svg" width="{_n(PAGE)}" height="{_n(tall)}"'
-        f' viewBox="0 0 {_n(PAGE)} {_n(tall)}" role="img" font-family="sans-serif"'
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{_n(layout.PAGE)}" height="{_n(tall)}"'
+        f' viewBox="0 0 {_n(layout.PAGE)} {_n(tall)}" role="img" font-family="sans-serif"'
         f' font-size="{_n(TEXT)}">\n'
         f"<title>{escape(clean(figure.title).strip(), quote=False)}</title>\n"
         f"<desc>{escape(content, quote=False)}</desc>\n"
@@ -49,7 +39,7 @@ def chunks(figure: Figure) -> Iterator[str]:
         f"{dashed}.jump {{ stroke-width: 0.8; stroke-dasharray: none }}\n"
         ".points { stroke-width: 4; stroke-linecap: round; stroke-dasharray: none }\n"
         f"@media screen and (prefers-color-scheme: dark) {{\n{_style(DARK, known)}}}\n</style>\n"
-        f'<rect class="page" width="{_n(PAGE)}" height="{_n(tall)}"/>\n'
+        f'<rect class="page" width="{_n(layout.PAGE)}" height="{_n(tall)}"/>\n'
     )
     yield from pen.out
     yield "</svg>\n"
@@ -70,7 +60,7 @@ def png_chunks(figure: Figure) -> Iterator[bytes]:
         ) from None
     yield svg_to_bytes(
         "".join(chunks(figure)),
-        zoom=WIDE / PAGE,
+        zoom=WIDE / layout.PAGE,
         skip_system_fonts=True,  # a picture does not depend on the machine
         font_files=[fonts["SourceSansPro"], fonts["SourceSansProBold"]],
         sans_serif_family="Source Sans Pro",
@@ -99,7 +89,7 @@ class _SvgPen:
         # the last digits of a peak may differ between machines
         x, y = (" ".join(f"{v:.12g}" for v in ends) for ends in (frame.window, frame.span))
         self.out.append(
-            f'<g id="{escape(name)}" data-x="{x}" data-y="{y}" data-frame="{_n(LEFT)}'
+            f'<g id="{escape(name)}" data-x="{x}" data-y="{y}" data-frame="{_n(layout.LEFT)}'
             f' {_n(frame.top)} {_n(frame.wide)} {_n(frame.high)}">\n'
         )
 

@@ -159,21 +159,12 @@ class _Edges:
             return *self.sides[arc.back.key][:2], False
         start, end = self._corner(arc.start), self._corner(arc.end)
         axis, angle = _cone(arc)
-        low, high = (
-            self.file.edge(
-                start[k],
-                end[k],
-                self.file.circle(
-                    _times(axis, radius * math.cos(angle)),
-                    radius * math.sin(angle),
-                    axis,
-                    arc.ahead,
-                ),
-                not _wide(arc),
-            )
-            for k, radius in enumerate(self.radii)
-        )
-        self.sides[arc.key] = low, high, True
+        edges = []
+        for k, radius in enumerate(self.radii):
+            middle, across = _times(axis, radius * math.cos(angle)), radius * math.sin(angle)
+            circle = self.file.circle(middle, across, axis, arc.ahead)
+            edges.append(self.file.edge(start[k], end[k], circle, not _wide(arc)))
+        self.sides[arc.key] = edges[0], edges[1], True
         return self.sides[arc.key]
 
     def _corner(self, at: Vector) -> tuple[str, str, str]:

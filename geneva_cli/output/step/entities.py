@@ -80,11 +80,7 @@ class Entities:
         return self.add(f"ADVANCED_FACE('',{listed(bounds)},{surface},{_flag(same)})")
 
     def tube(
-        self,
-        radius: float,
-        levels: Sequence[float],
-        outside: bool,
-        frame: Frame = (ORIGIN, POLE, AHEAD),
+        self, radius: float, levels: Sequence[float], outside: bool, frame: Frame
     ) -> tuple[str, str, str]:
         """Circles on two levels of a frame's axis, counterclockwise about it, and their wall."""
         at, axis, ahead = frame

@@ -8,16 +8,14 @@ from __future__ import annotations
 import os
 import re
 import shutil
-import unicodedata
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 from geneva_cli.errors import clean
-from geneva_cli.output.text import WIDTH, cell
+from geneva_cli.output.text import GAP, WIDTH, cell, line_of, width_of
 from geneva_cli.table import for_people
 
 BOLD, DIM, PLAIN = "\x1b[1m", "\x1b[2m", "\x1b[0m"
-GAP = "  "  # between two columns
 PROSE = 28  # letters to which a column of prose is narrowed before another column is omitted
 NUMBER = 11  # letters of the widest number, -123456.789 mm
 
@@ -72,16 +70,6 @@ class ShownColumn(NamedTuple):
     def _words(self) -> list[str]:
         cells = [word for text in self.cells for word in text.split()] if self.is_text else []
         return [*self.words.split(), self.unit, *cells]
-
-
-def width_of(text: str) -> int:
-    """Columns that a text takes on a terminal."""
-    if text.isascii():
-        return len(text)
-    return sum(
-        0 if unicodedata.combining(c) else 2 if unicodedata.east_asian_width(c) in "WF" else 1
-        for c in text
-    )
 
 
 def wrapped(text: str, width: int) -> list[str]:
@@ -151,25 +139,17 @@ def heads(columns: Sequence[ShownColumn], sizes: Sequence[int], is_styled: bool)
     high = max(map(len, texts))
     is_text = [column.is_text for column in columns]
     for line in zip(*([""] * (high - len(text)) + text for text in texts), strict=True):
-        yield styled(_line(line, sizes, is_text), BOLD, is_styled)
+        yield styled(line_of(line, sizes, is_text), BOLD, is_styled)
     if any(column.unit for column in columns):
         units = [column.unit for column in columns]
-        yield styled(_line(units, sizes, is_text), DIM, is_styled)
+        yield styled(line_of(units, sizes, is_text), DIM, is_styled)
 
 
 def row(texts: Sequence[str], sizes: Sequence[int], is_text: Sequence[bool]) -> Iterator[str]:
     """The lines of a row, one except for prose."""
     cells = [wrapped(text, size) for text, size in zip(texts, sizes, strict=True)]
     for level in range(max(map(len, cells))):
-        yield _line([cell[level] if level < len(cell) else "" for cell in cells], sizes, is_text)
-
-
-def _line(texts: Sequence[str], sizes: Sequence[int], is_text: Sequence[bool]) -> str:
-    cells = []
-    for text, size, left in zip(texts, sizes, is_text, strict=True):
-        space = " " * (size - width_of(text))
-        cells.append(text + space if left else space + text)
-    return GAP.join(cells).rstrip()
+        yield line_of([cell[level] if level < len(cell) else "" for cell in cells], sizes, is_text)
 
 
 def value(number: Any, unit: str = "") -> str:

@@ -10,8 +10,8 @@ from typing import Any
 from geneva_cli.errors import clean
 from geneva_cli.names import heading, spoken
 from geneva_cli.output.terminal import layout
-from geneva_cli.output.terminal.layout import BOLD, DIM, GAP, NUMBER, ShownColumn, Window
-from geneva_cli.output.text import WIDTH, apart, without_noise
+from geneva_cli.output.terminal.layout import BOLD, DIM, NUMBER, ShownColumn, Window
+from geneva_cli.output.text import GAP, WIDTH, apart, width_of, without_noise
 from geneva_cli.table import Table
 
 
@@ -53,16 +53,16 @@ def _values(record: Table, window: Window) -> Iterator[str]:
             else:
                 texts = [*map(layout.value, cell)] or ["none"]
             shown.append((group, "  " * bool(group) + words, texts))
-    width = max((layout.width_of(label) for _, label, _ in shown), default=0)
+    width = max((width_of(label) for _, label, _ in shown), default=0)
     free, current = window.columns - width - len(GAP), ""
     for group, label, texts in shown:
         if group != current:
             yield layout.styled(heading(group), BOLD, window.styled)
             current = group
         # A long value stands below its label if fewer than 30 letters are free behind it.
-        if len(texts) == 1 and (layout.width_of(texts[0]) <= free or free >= 30):
+        if len(texts) == 1 and (width_of(texts[0]) <= free or free >= 30):
             first, *more = layout.wrapped(texts[0], free)
-            yield f"{label}{' ' * (width - layout.width_of(label))}{GAP}{first}"
+            yield f"{label}{' ' * (width - width_of(label))}{GAP}{first}"
             yield from (" " * (width + len(GAP)) + line for line in more)
             continue
         yield label
@@ -115,7 +115,7 @@ def rows_of(table: Table, window: Window) -> Iterator[str]:
         rest = sorted((column.name for column in lost), key=order.index)
         one = "1 more column" if len(rest) == 1 else f"{len(rest)} more columns"
         start, shown = f"{one}: --wide, or --columns ", ""
-        while rest and layout.width_of(start + shown + rest[0]) + len(",...") <= window.columns:
+        while rest and width_of(start + shown + rest[0]) + len(",...") <= window.columns:
             shown += rest.pop(0) + ","
         line = f"{start}{shown}..." if rest else start + shown[:-1]
         yield ""

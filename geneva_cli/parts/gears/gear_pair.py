@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, refuse_size
 from geneva_cli.geometry import chords
 from geneva_cli.geometry.plates import Member, Plate
 from geneva_cli.geometry.shapes import Point, closed
@@ -29,7 +29,7 @@ from geneva_cli.numerics.jet import Jet
 from geneva_cli.numerics.tolerances import bore_radius
 from geneva_cli.parts.assembly import gear_plane, same
 from geneva_cli.parts.links.link_plates import drawn_links
-from geneva_cli.parts.links.link_sizes import link_sizes
+from geneva_cli.parts.links.links import link_sizes
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.shafts.arm_and_shafts import Shaft, bore_at, shaft_ends
 from geneva_cli.parts.shafts.bores import Bore, round_bore
@@ -200,12 +200,9 @@ def gear_pair(
     for name, curve, (at, on), (least, _), key in zip(
         GEARS, curves, bores, pitch_radii(pair), keys, strict=True
     ):
-        if on.reach >= least:
-            raise GenevaError(
-                f"no blank of the {name} is left: its bore of {2.0 * on.reach:.6g} mm must be "
-                f"below {2.0 * least:.6g}, twice its least radius; reduce {key}",
-                ("size", key),
-            )
+        text = f"no blank of the {name} is left: its bore of {2.0 * on.reach:.6g} mm must be below "
+        text += f"{2.0 * least:.6g}, twice its least radius; reduce {key}"
+        refuse_size(on.reach >= least, key, text)
         holes = (on.hole(),) if on.radius else ()
         outline = closed("PITCH", list(write(curve, -np.pi, np.pi)))
         members.append(Member(Plate(name, "PITCH", outline, holes, *span), at))

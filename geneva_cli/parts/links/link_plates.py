@@ -1,29 +1,33 @@
-"""Links cut out of plates, and the pins, washers and rollers between them.
+"""Links cut out of plates, the pins, washers and rollers between them, and round gears.
 
 A link's own frame has its first joint as origin, and x through its second. Its outline is the
-convex hull of an eye about each hole; a pin that slides along it has a block in a slot.
+convex hull of an eye about each hole; a pin that slides along it has a block in a slot. Gears are
+plates up to their pitch circles: whole, in sectors about a hub, or as a ring. A blank's mass is a
+gear's within a few percent. A gear that stands still is screwed to the frame.
 """
 
 from __future__ import annotations
 
 import cmath
+import math
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import refuse_size
+from geneva_cli.geometry import shapes
 from geneva_cli.geometry.plates import Member, Plate, apart, plate_wall
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Layer, Shape, convex_hull, placed
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.pivots import Joint, Link
+from geneva_cli.motion.pivots import Joint, Link, Teeth
 from geneva_cli.numerics.tolerances import SAME_LENGTH, bore_radius
 from geneva_cli.parts.assembly import links_at, same, turn_deg
-from geneva_cli.parts.links.link_sizes import joined, joints, link_sizes, places, point_at_zero
-from geneva_cli.parts.links.links import LinkAxis, Links, LinkSizes
+from geneva_cli.parts.links import links as linkage
+from geneva_cli.parts.links.links import Gear, LinkAxis, Links, LinkSizes
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.shafts.arm_and_shafts import bore_at
-from geneva_cli.parts.shafts.bores import round_bore, screw_through
+from geneva_cli.parts.shafts.bores import BoltCircle, Bore, bolt_circle, round_bore, screw_radius
 
 SHAFT = Joint.SHAFT
 SLOT_MARGIN = 0.25  # distance from a block to the end of its slot, as a fraction of the pin's hole
@@ -46,22 +50,19 @@ def drawn_links(mechanism: Mechanism, parts: Outlines | None = None) -> Links:
     links = links_at(mechanism, turn_deg(mechanism))
     if not links:
         return Links()
-    sizes, L = link_sizes(mechanism, links, parts), mechanism.center_distance_mm
+    sizes, L = linkage.link_sizes(mechanism, links, parts), mechanism.center_distance_mm
     linked = [link for link in links if not link.radius_mm]
     bars = [_bar(link, sizes, L) for link in linked]
     axes = []
     for axis in _axes(links, SAME_LENGTH * L):
         # the shaft of wheel or crank is as wide as their own bores
         on_crank, on_wheel = (same(axis.at, at, L) for at in ((L, 0.0), ORIGIN))
-        known = (sizes.crank_shaft or 0.0) if on_crank else 0.0
-        if on_wheel and parts and not on_crank:
-            known = parts.sizes.wheel_bore
+        of_wheel = parts.sizes.wheel_bore if on_wheel and parts else 0.0
+        known = (sizes.crank_shaft or 0.0) if on_crank else of_wheel
         axes.append(_with_shaft(axis, bars, links, sizes, known, mechanism))
     gears = []
     for link in (one for one in links if one.radius_mm):
-        from geneva_cli.parts.gears.gear_blanks import link_gear
-
-        at = point_at_zero(*places(link))
+        at = linkage.point_at_zero(*linkage.places(link))
         bore = next(axis.bore for axis in axes if same(axis.at, at, L))
         gears.append(link_gear(link, at, bore, sizes, mechanism))
     kinds = {kind for link in linked if link.plane == 1 for kind in link.kinds}
@@ -72,27 +73,24 @@ def drawn_links(mechanism: Mechanism, parts: Outlines | None = None) -> Links:
     for bar in bars:
         cut += [_bored(bar, axes, sizes, L), *bar.blocks]
     roller = mechanism.roller_radius_mm
-    return Links(
-        sizes,
-        tuple(cut),
-        (*_pins(linked, sizes, SAME_LENGTH * L), *_rollers(linked, sizes, roller)),
-        tuple(gears),
-        pin_low,
-        standing=frozenset(link.name for link in linked if link.kinds[0] is Joint.NONE),
-        blocks=frozenset(block.part.name for bar in bars for block in bar.blocks),
-        axes=tuple(axes),
-    )
+    joined = *_pins(linked, sizes, SAME_LENGTH * L), *_rollers(linked, sizes, roller)
+    standing = frozenset(link.name for link in linked if link.kinds[0] is Joint.NONE)
+    blocks = frozenset(block.part.name for bar in bars for block in bar.blocks)
+    return Links(sizes, tuple(cut), joined, tuple(gears), pin_low, standing, blocks, tuple(axes))
 
 
 def _axes(links: Iterable[Link], near: float) -> Iterator[LinkAxis]:
     """Yield each axis once; ``near`` is the distance, mm, below which two axes are one."""
-    left = [(link.name, kind, at) for link in links for at, kind in joints(link, SHAFT, Joint.PIN)]
+    left = [
+        (link.name, kind, at)
+        for link in links
+        for at, kind in linkage.joints(link, SHAFT, Joint.PIN)
+    ]
     while left:
         path = left[0][2]
-        met = [bool(np.abs(at - path).max() < near) for _, _, at in left]
-        here = [one for one, is_here in zip(left, met, strict=True) if is_here]
-        left = [one for one, is_here in zip(left, met, strict=True) if not is_here]
-        at = point_at_zero(path)
+        here = [one for one in left if np.abs(one[2] - path).max() < near]
+        left = [one for one in left if np.abs(one[2] - path).max() >= near]
+        at = linkage.point_at_zero(path)
         names, kinds, _ = zip(*here, strict=True)
         yield LinkAxis(names, kinds, at, bool(np.abs(path - complex(*at)).max() < near))
 
@@ -130,8 +128,8 @@ def _with_shaft(
 
 def _bar(link: Link, sizes: LinkSizes, L: float) -> _Bar:
     """Return a link without bores for shafts, and the blocks that slide along it."""
-    joints = places(link)
-    at = [complex(*point_at_zero(joint)) for joint in joints]
+    joints = linkage.places(link)
+    at = [complex(*linkage.point_at_zero(joint)) for joint in joints]
     ahead = at[1] - at[0]
     unit = ahead / abs(ahead) if abs(ahead) > SAME_LENGTH * L else 1.0
     bar = _Bar(link, at[0], unit, tuple((z - at[0]) / unit for z in at), [], [], [])
@@ -150,8 +148,7 @@ def _bar(link: Link, sizes: LinkSizes, L: float) -> _Bar:
             bar.eyes.extend(_circle("LINK", r * along, half + hole) for r in ends)
             if link.kinds[0] is Joint.NONE:  # screws beyond the slot fix it to the frame
                 beyond = half + 2.0 * sizes.pin
-                screw = screw_through(2.0 * sizes.pin)
-                through = 0.5 * screw.through if screw else sizes.pin
+                through = screw_radius(2.0 * sizes.pin) or sizes.pin
                 for f in ((ends[0] - beyond) * along, (ends[1] + beyond) * along):
                     bar.holes.append(_circle("BORE", f, through))
                     bar.eyes.append(_circle("LINK", f, sizes.eye))
@@ -176,12 +173,9 @@ def _bored(bar: _Bar, turning: Iterable[LinkAxis], sizes: LinkSizes, L: float) -
     span = sizes.span(bar.link.plane)
     plate = Plate(name, "LINK", convex_hull("LINK", eyes), tuple(holes), *span)
     wall = plate_wall(plate)
-    if wall <= 0.0:
-        raise GenevaError(
-            f"--part links: no plate is left around the holes of the {name}: it lacks "
-            f"{-wall:.4g} mm; reduce link_pin_mm, link_bore_mm or pin_mm, or move joints apart",
-            ("size", "link_pin_mm"),
-        )
+    text = f"--part links: no plate is left around the holes of the {name}: it lacks {-wall:.4g} "
+    text += "mm; reduce link_pin_mm, link_bore_mm or pin_mm, or move joints apart"
+    refuse_size(wall <= 0.0, "link_pin_mm", text)
     return _placed(plate, bar.at, bar.unit)
 
 
@@ -197,8 +191,8 @@ def _pins(links: Iterable[Link], sizes: LinkSizes, near: float) -> Iterator[Memb
     """Yield each pin that joins links, with the washers and spacers on it."""
     pin, ring = Circle("ROLLER", ORIGIN, sizes.pin), Circle("LINK", ORIGIN, sizes.ring)
     hole = Circle("LINK", ORIGIN, sizes.pin + sizes.loose)
-    for path, both in joined(links, near):
-        where, name = point_at_zero(path), " and ".join(link.name for link in both)
+    for path, both in linkage.joined(links, near):
+        where, name = linkage.point_at_zero(path), " and ".join(link.name for link in both)
         spans = [sizes.span(link.plane) for link in both]
         yield Member(Plate(f"pin of {name}", "ROLLER", pin, (), spans[-1][0], spans[0][1]), where)
         for (high, _), (_, low) in zip(spans, spans[1:], strict=False):
@@ -214,8 +208,8 @@ def _rollers(links: Iterable[Link], sizes: LinkSizes, roller: float) -> Iterator
         return
     pin, hole, whole = (Circle("ROLLER", ORIGIN, r) for r in (radius, radius + sizes.loose, roller))
     for link in links:
-        for at, kind in zip(places(link), link.kinds, strict=True):
-            where, plates = point_at_zero(at), []
+        for at, kind in zip(linkage.places(link), link.kinds, strict=True):
+            where, plates = linkage.point_at_zero(at), []
             if kind is Joint.ROLLER and link.plane > 1:
                 low, high = sizes.span(link.plane - 1)
                 below = sizes.span(link.plane)[0]
@@ -225,3 +219,50 @@ def _rollers(links: Iterable[Link], sizes: LinkSizes, roller: float) -> Iterator
                 span = sizes.span(link.plane + 1)
                 plates.append(Plate("roller in the groove", "ROLLER", whole, (hole,), *span))
             yield from (Member(plate, where) for plate in plates)
+
+
+def link_gear(
+    link: Link, at: shapes.Point, on: Bore, sizes: LinkSizes, mechanism: Mechanism
+) -> Gear:
+    """Return the gear of a link that is a pitch circle, on a shaft; bored round if it is fixed."""
+    teeth, L, radius = link.teeth, mechanism.center_distance_mm, link.radius_mm
+    if teeth.fixed:
+        on = Bore(on.around, on.loose)
+    hub = on.reach if teeth.all_round else sizes.hub(on)
+    outline: Circle | shapes.Contour = Circle("PITCH", ORIGIN, radius)
+    holes: list[Shape] = [on.hole()] if on.reach else []
+    inner, outer = on.reach, radius
+    if teeth.inside:
+        inner, outer, hub = radius, radius + 2.0 * sizes.eye, 0.0
+        outline = Circle("LINK", ORIGIN, outer)
+        holes = [Circle("PITCH", ORIGIN, inner)]
+    elif not teeth.all_round and hub < radius:
+        outline = _gear_sectors(radius, hub, teeth)
+    screws = BoltCircle(0.0, 0.0, ())
+    if teeth.fixed:
+        # the first at 45 degrees, off the line on which the shafts lie
+        screws = bolt_circle(mechanism.spec.size, "gear", L, (inner, outer), 0.25 * math.pi)
+        holes += screws.holes
+    plate = Plate(link.name, "PITCH", outline, tuple(holes), *sizes.span(link.plane))
+    wall = min(radius - hub, plate_wall(plate))
+    # the key that sets its bore, unless its bolts are in the way
+    key = {0.0: "wheel_bore_mm", L: "crank_bore_mm"}.get(math.hypot(*at), "link_bore_mm")
+    key = "gear_bolt_circle_mm" if screws.holes and hub < radius else key
+    text = f"no blank of the {link.name} is left: its holes reach {-wall:.4g} mm too far; change "
+    refuse_size(wall <= 0.0, key, text + key)
+    return Gear(at, radius, Bore(0.0) if teeth.inside else on, teeth, plate, screws)
+
+
+def _gear_sectors(radius: float, hub: float, teeth: Teeth) -> shapes.Contour:
+    """Return evenly spaced sectors of a pitch circle, joined by the hub between them."""
+    wide, pitch = math.radians(teeth.each_deg), math.tau / teeth.sectors
+    first = math.radians(teeth.middle_deg) - 0.5 * wide
+    end = shapes.about(ORIGIN, hub, first, 1.0).start
+    pieces: list[shapes.Line | shapes.Arc] = []
+    for k in range(teeth.sectors):
+        start = first + k * pitch
+        rim = shapes.about(ORIGIN, radius, start, wide)
+        back = shapes.about(ORIGIN, hub, start + wide, pitch - wide)
+        pieces += [shapes.Line(end, rim.start), rim, shapes.Line(rim.end, back.start), back]
+        end = back.end
+    return shapes.closed("PITCH", pieces)

@@ -15,13 +15,12 @@ import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.plates import Member, Plate
-from geneva_cli.geometry.shapes import Circle, Contour
+from geneva_cli.geometry.shapes import Circle, Contour, Point
 from geneva_cli.motion.pivots import Joint, Link
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import gear_plane, links_at, same, turn_deg
-from geneva_cli.parts.links.link_sizes import joined, places
-from geneva_cli.parts.links.links import LinkAxis, Links, LinkSizes, placed_holes
+from geneva_cli.parts.links.links import LinkAxis, Links, LinkSizes, joined, placed_holes, places
 from geneva_cli.parts.outlines.outlines import Outlines, wheel_hub_length
 from geneva_cli.parts.shafts.arm_and_shafts import bore_at, wheel_shaft_ends
 from geneva_cli.parts.shafts.bores import bore_of
@@ -177,13 +176,11 @@ def _standing(
     mechanism, L = parts.assembly.full, parts.assembly.L
     lowest, links = gear_plane(mechanism), links_at(mechanism, np.zeros(1))
     planes = {link.name: link.plane for link in links}
-    rounds = [
-        (f"the pivot of {axis.names[0]}", axis.at, axis.bore.radius)
-        for axis in bars.axes
-        if axis.stands
-        and not any(same(axis.at, shaft, L) for shaft in ((0.0, 0.0), (L, 0.0)))
-        and max(planes[name] for name in axis.names) < lowest
-    ]
+    rounds = list[tuple[str, Point, float]]()
+    for axis in bars.axes:
+        own = same(axis.at, (0.0, 0.0), L) or same(axis.at, (L, 0.0), L)  # of wheel or crank
+        if axis.stands and not own and max(planes[name] for name in axis.names) < lowest:
+            rounds.append((f"the pivot of {axis.names[0]}", axis.at, axis.bore.radius))
     for one in spacers:
         assert isinstance(one.part, Plate) and isinstance(one.part.outline, Circle)
         rounds.append((f"the {one.part.name}", one.at, one.part.outline.radius))

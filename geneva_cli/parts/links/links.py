@@ -1,17 +1,30 @@
-"""The links of a machine: their sizes, axes, gears and plates."""
+"""The links of a machine: their sizes, joints, axes, gears and plates.
+
+Sizes are of the spec or by default with walls between holes. They are radii, in millimetres, where
+a key of the spec is a diameter or a width.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterable, Iterator
+from itertools import combinations
 from typing import NamedTuple
 
+import numpy as np
+
+from geneva_cli.errors import refuse_size
 from geneva_cli.geometry.plates import Member, Plate
 from geneva_cli.geometry.shapes import Circle, Point, placed
-from geneva_cli.motion.pivots import Joint, Teeth
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.pivots import Joint, Link, Teeth
+from geneva_cli.numerics.arrays import Array, half_or
 from geneva_cli.numerics.tolerances import bore_radius, rounded_radius
-from geneva_cli.parts.assembly import same
+from geneva_cli.parts.assembly import links_at, same
+from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.shafts.bores import BoltCircle, Bore
-from geneva_cli.parts.sizes import HUB, plane_span
+from geneva_cli.parts.sizes import HUB, drawn_thicknesses, pin_hole, pin_radius, plane_span
+from geneva_cli.spec.defaults import eye_about, wall_min
 
 
 class LinkSizes(NamedTuple):
@@ -132,3 +145,86 @@ def placed_holes(member: Member) -> Iterator[Circle]:
     for hole in member.part.holes:
         if isinstance(hole, Circle):
             yield placed(hole, member.at, member.turn)
+
+
+def link_sizes(
+    mechanism: Mechanism, links: Iterable[Link], parts: Outlines | None = None
+) -> LinkSizes:
+    """Return the sizes of links, whose joints are known at many input angles."""
+    spec, L = mechanism.spec, mechanism.center_distance_mm
+    size, bars = spec.size, [link for link in links if not link.radius_mm]
+    drawn = parts.sizes if parts else None
+    wall, thick = wall_min(size, L), drawn_thicknesses(size, L)
+    stands = pin_radius(size, mechanism.roller_radius_mm)
+    thickness, arm = thick.link, thick.arm
+    if drawn:
+        stands = drawn.first_pin or drawn.pin
+        thickness, arm = drawn.link_thickness, drawn.arm_thickness
+    own = None if size.link_bore_mm is None else 0.5 * size.link_bore_mm
+    roller, loose = pin_hole(size, stands) if stands else 0.0, 0.5 * size.allowances.shaft_fit_mm
+    # a fifth of the distance to the next joint leaves eyes and a gap between
+    near = list[float]()
+    for link in bars:
+        for (p, a), (q, b) in combinations(zip(places(link), link.kinds, strict=True), 2):
+            if {a, b} & {Joint.PIN, Joint.SLIDE} and Joint.NONE not in (a, b):
+                near.append(float(np.abs(p - q).min()))
+    nearest = min(near, default=L)
+    pin = half_or(size.link_pin_mm, rounded_radius(min(L / 40.0, 0.2 * nearest)))
+    eye = half_or(size.link_width_mm, eye_about(pin + loose, wall))
+    text = f"it must be above {2.0 * (pin + loose):.6g}, the diameter of the pins' holes"
+    refuse_size(eye <= pin + loose, "link_width_mm", text, 2.0 * eye)
+    crank_mm = spec.shaft.crank_diameter_mm
+    crank_shaft = None if crank_mm is None else 0.5 * crank_mm
+    if parts and (parts.has_arm or parts.sizes.crank_bore):
+        crank_shaft = parts.sizes.arm_bore if parts.has_arm else parts.sizes.crank_bore
+    roller_eye = eye_about(roller, wall, _eye_limit(mechanism, bars)) if roller else eye
+    pins = pin, stands, roller, eye, roller_eye
+    shaft = drawn.first_shaft if drawn and drawn.first_shaft else own
+    planes = thickness, arm if spec.drive.ONE_ARM else thickness
+    between = size.allowances.pin_gap_mm, size.washer_mm, loose
+    return LinkSizes(wall, *pins, shaft, crank_shaft, *planes, *between)
+
+
+def places(link: Link) -> list[Array]:
+    """Return the joints of a link as complex numbers x + iy (n,), by the input angle."""
+    still = 0.0 * link.joints[0][0]
+    return [np.asarray(x + still + 1j * (y + still)) for x, y in link.joints]
+
+
+def joints(link: Link, *kinds: Joint) -> list[tuple[Array, Joint]]:
+    """Return path, as ``places``, and kind of the joints of a link that are of some kinds."""
+    both = zip(places(link), link.kinds, strict=True)
+    return [(path, kind) for path, kind in both if kind in kinds]
+
+
+def point_at_zero(path: Array) -> Point:
+    """Return the point of a path at input angle 0, in the middle of its angles."""
+    z = complex(path[len(path) // 2])
+    return z.real, z.imag
+
+
+def joined(links: Iterable[Link], near: float) -> Iterator[tuple[Array, list[Link]]]:
+    """Yield each pin of several links: its path, and the links from the upper plane down."""
+    pins = [(link, at) for link in links for at, _ in joints(link, Joint.PIN, Joint.SLIDE)]
+    for i, (link, at) in enumerate(pins):
+        others = [other for other, there in pins[i + 1 :] if np.abs(at - there).max() < near]
+        if others:
+            yield at, sorted((link, *others), key=lambda one: one.plane)
+
+
+def roller_pins(mechanism: Mechanism) -> Iterator[tuple[Link, Point]]:
+    """Yield the links that carry rollers, with the centre of each roller at input angle 0."""
+    for link in links_at(mechanism, np.zeros(1)):
+        for path, _ in joints(link, Joint.ROLLER, Joint.CARRIED):
+            yield link, point_at_zero(path)
+
+
+def _eye_limit(mechanism: Mechanism, links: Iterable[Link]) -> float:
+    """Return a link's largest radius about the roller's pin that clears the wheel's hub."""
+    size = mechanism.spec.size
+    near = [float(np.abs(at).min()) for link in links for at, _ in joints(link, Joint.ROLLER)]
+    if not near:
+        return math.inf
+    w = mechanism.roller_radius_mm * 1.05 + size.allowances.slot_clearance_mm
+    hub = 0.75 * (min(near) - w) if size.wheel_hub_mm is None else 0.5 * size.wheel_hub_mm
+    return min(near) - hub

@@ -15,7 +15,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, refuse_size
 from geneva_cli.geometry import shapes
 from geneva_cli.geometry.shapes import ORIGIN, Arc, Contour, Line, Segment, Shape
 from geneva_cli.motion.engagement import Engagement
@@ -146,12 +146,10 @@ def crank_contours(
         return _rings(assembly, sizes, swept, spare)
     around = reliefs(assembly)
     if relief == "sector":
-        lengths = sizes.roller, sizes.half_width, sizes.recess, sizes.rim, sizes.horn_tip
-        around = widened(assembly, sizes, horn_corners(assembly, *lengths))
+        around = widened(assembly, sizes, horn_corners(assembly, sizes))
     segments, locking = list[Segment](), dict(sectors(around))
-    if not locking:
-        text = f"reliefs leave no locking disc: use fewer rollers, or below {sizes.roller:g} mm"
-        raise GenevaError(text, ("size", "roller_radius_mm"))
+    text = f"reliefs leave no locking disc: use fewer rollers, or below {sizes.roller:g} mm"
+    refuse_size(not locking, "roller_radius_mm", text)
     for start, end, _ in around:
         middle, half = 0.5 * (start + end), 0.5 * (end - start)
         if relief == "sector":  # down to where the wheel never comes

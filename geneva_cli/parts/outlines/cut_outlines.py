@@ -16,7 +16,7 @@ from operator import attrgetter
 
 import numpy as np
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, refuse_size
 from geneva_cli.geometry import shapes
 from geneva_cli.geometry.shapes import ORIGIN, Arc, Contour, Line, Segment
 from geneva_cli.kept import KEPT
@@ -96,7 +96,7 @@ def cut_lock(assembly: Assembly, sizes: Sizes) -> Lock:
     Beyond the crank's axis the wheel leaves less than a sector between two reliefs.
     """
     L, lock, recess, flat = assembly.L, sizes.lock, sizes.recess, sizes.horn_tip
-    mouths = paths.horn_corners(assembly, sizes.roller, sizes.half_width, recess, sizes.rim, flat)
+    mouths = paths.horn_corners(assembly, sizes)
     whole, halves = crank_outline.is_whole(assembly, sizes), list[float]()
     around = crank_outline.reliefs(assembly)
     # arcs end where the motions do
@@ -174,9 +174,8 @@ def slot_walls(
             end = -1.0 if (y0 * c - x0 * s > level) == (side > 0.0) else 1.0
             rim = math.hypot(*paths.corner(assembly, engagement, end, sizes.roller))
         start = math.sqrt(max((rim + (sizes.rim - widest)) ** 2 - across * across, 0.0))
-        if not out * (start - bottom) > 0.0:
-            text = f"wheel_radius_mm = {sizes.rim:g}: the slots' ends lie at {bottom:.6g} mm"
-            raise GenevaError(text, ("size", "wheel_radius_mm"))
+        text = f"the slots' ends lie at {bottom:.6g} mm"
+        refuse_size(not out * (start - bottom) > 0.0, "wheel_radius_mm", text, sizes.rim)
         starts.append(start)
     first = Line((starts[0], level - w), (bottom, level - w))
     last = Line((bottom, level + w), (starts[1], level + w))
@@ -242,12 +241,11 @@ def _rim(
     """Return the rim from one slot's corner, through the recess, to the next slot's corner."""
     start, end = before[-1].end, after[0].start
     first, last = math.atan2(start[1], start[0]), math.atan2(end[1], end[0])
-    if math.remainder(last - first, math.tau) <= 0.0:
-        text = f"the mouths of adjacent slots overlap: reduce roller_radius_mm = {sizes.roller:g}"
-        raise GenevaError(text, ("size", "roller_radius_mm"))
+    text = f"the mouths of adjacent slots overlap: reduce roller_radius_mm = {sizes.roller:g}"
+    refuse_size(math.remainder(last - first, math.tau) <= 0.0, "roller_radius_mm", text)
     least = max(math.hypot(*start), math.hypot(*end))
     if sizes.lock:
-        least = paths.least_mouth(assembly.L, sizes.recess, sizes.rim)
+        least = paths.least_mouth(assembly, sizes)
     mirror = [*shapes.mirrored(after[:1])]
     rising = _beside(assembly, sizes, before, at, least)
     falling = shapes.mirrored(_beside(assembly, sizes, mirror, -at, least))
@@ -276,10 +274,9 @@ def _beside(
             wall[-1] = line._replace(end=flat.start)
             return [flat]
     turn = at - (at - math.atan2(corner[1], corner[0])) % math.tau
-    if sizes.lock and away <= sizes.recess:
-        text = f"no horn is left between slot and recess: lock_radius_mm = {sizes.lock:.6g} must be"
-        text = f"{text} below {sizes.lock + away - sizes.recess:.6g}, or the roller smaller"
-        raise GenevaError(text, ("size", "lock_radius_mm"))
+    text = f"no horn is left between slot and recess: lock_radius_mm = {sizes.lock:.6g} must be"
+    text += f" below {sizes.lock + away - sizes.recess:.6g}, or the roller smaller"
+    refuse_size(sizes.lock and away <= sizes.recess, "lock_radius_mm", text)
     if assembly.sign > 0.0 and least > rim + SAME_LENGTH * L:
         rim, turn = least, at - _opening(L, least, away)
         out.append(paths.arc_about(axis, corner, shapes.polar(ORIGIN, least, turn), 1.0))
@@ -292,8 +289,7 @@ def _beside(
 def _opening(L: float, rim: float, radius: float) -> float:
     """Return half the angle over which a circle about the crank's axis opens the rim."""
     cosine = (L * L + rim * rim - radius * radius) / (2.0 * L * rim)
-    if not abs(cosine) < 1.0:
-        text = f"a rim of {rim:.6g} mm does not meet the recess's circle: wheel_radius_mm must be"
-        text = f"{text} between {abs(L - radius):.6g} and {L + radius:.6g}"
-        raise GenevaError(text, ("size", "wheel_radius_mm"))
+    text = f"a rim of {rim:.6g} mm does not meet the recess's circle: wheel_radius_mm must be"
+    text += f" between {abs(L - radius):.6g} and {L + radius:.6g}"
+    refuse_size(not abs(cosine) < 1.0, "wheel_radius_mm", text)
     return math.acos(cosine)

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, refuse_size
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.plates import Member, Plate, least_wall
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Contour, Point, Shape, convex_hull, polar
@@ -29,7 +29,15 @@ from geneva_cli.parts.outlines.crank_outline import (
     sectors,
 )
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.shafts.bores import Bore, bolt_radius, bore_of, has_shape, round_bore, tapped
+from geneva_cli.parts.shafts.bores import (
+    Bore,
+    bolt_radius,
+    bore_of,
+    circles,
+    has_shape,
+    round_bore,
+    tapped,
+)
 from geneva_cli.parts.sizes import hub_and_eye, lock_bolt_directions, pin_hole
 from geneva_cli.parts.slots.roller_paths import roller_centres
 from geneva_cli.spec.defaults import eye_about
@@ -51,14 +59,10 @@ class Shaft(NamedTuple):
     @property
     def member(self) -> Member:
         """The shaft in the machine."""
-        if not self.low < self.high:
-            key = f"{self.part}_shaft_low_mm"
-            raise GenevaError(
-                f"{key}: the {self.part}'s shaft would reach from {self.low:g} up to {self.high:g} "
-                f"mm (0 is the wheel's lower face); reduce {key} or increase "
-                f"{self.part}_shaft_high_mm",
-                ("size", key),
-            )
+        key = f"{self.part}_shaft_low_mm"
+        text = f"{key}: the {self.part}'s shaft would reach from {self.low:g} up to {self.high:g} "
+        text += f"mm (0 is the wheel's lower face); reduce {key} or increase {self.part}_shaft_high"
+        refuse_size(not self.low < self.high, key, f"{text}_mm")
         section = self.bore.shape("SHAFT", self.bore.direction, shaft=True)
         plate = Plate(self.name, "SHAFT", section, (), self.low, self.high)
         return Member(plate, self.at, self.turn)
@@ -82,13 +86,10 @@ def crank_hub(parts: Outlines) -> Plate | None:
         high = low + size.crank_hub_length_mm
     if parts.crank and is_whole(parts.assembly, sizes):
         low += sizes.lock_thickness
-    elif not parts.has_arm:
+    else:
         key = "crank_hub_length_mm" if size.crank_hub_mm is None else "crank_hub_mm"
-        raise GenevaError(
-            f"{key}: a hub needs the locking disc or the crank arm to stand on, and there is "
-            "neither; remove it",
-            ("size", key),
-        )
+        text = f"{key}: a hub needs the locking disc or the crank arm to stand on, and there is "
+        refuse_size(not parts.has_arm, key, f"{text}neither; remove it")
     if high <= low:
         return None
     bores, outline = crank_bore(parts.assembly, sizes), Circle("HUB", ORIGIN, sizes.crank_hub)
@@ -174,29 +175,16 @@ def crank_arm(parts: Outlines) -> CrankArm:
     standing = 0.0 if is_whole(assembly, sizes) else sizes.lock  # the sectors stand on the hub
     form = bore_of(size, "crank", radius)
     hub, eye = hub_and_eye(size, wall, hole, radius, passing, standing)
-    if form.reach + hole >= near:
-        raise GenevaError(
-            f"arm_bore_mm = {2.0 * radius:g}: the bore cuts the pin's hole; with its keyway it "
-            f"must be below {2.0 * (near - hole):.6g}",
-            ("size", "arm_bore_mm"),
-        )
+    text = "the bore cuts the pin's hole; with its keyway it must be below "
+    wrong, text = form.reach + hole >= near, f"{text}{2.0 * (near - hole):.6g}"
+    refuse_size(wrong, "arm_bore_mm", text, 2.0 * radius)
     bolted = wall + 2.0 * size.edge_mm
-    around, pins, threads = [Circle("ARM", ORIGIN, hub)], list[Circle](), list[Circle]()
-    for centre in centres:
-        around.append(Circle("ARM", centre, eye))
-        pins.append(Circle("BORE", centre, hole))
-    for screw in bolts(parts):
+    around = [Circle("ARM", ORIGIN, hub), *circles("ARM", centres, eye)]
+    pins, screws = circles("BORE", centres, hole), bolts(parts)
+    for screw in screws:
         around.append(Circle("ARM", screw.centre, eye_about(screw.radius, bolted)))
-        threads.append(tapped(screw))
-    return CrankArm(
-        convex_hull("ARM", around),
-        form.shape("BORE", keyway_direction(assembly)),
-        pins,
-        threads,
-        hub,
-        eye,
-        passing + free - eye,
-    )
+    outline, bore = convex_hull("ARM", around), form.shape("BORE", keyway_direction(assembly))
+    return CrankArm(outline, bore, pins, [*map(tapped, screws)], hub, eye, passing + free - eye)
 
 
 def bolts(parts: Outlines) -> list[Circle]:
@@ -213,8 +201,7 @@ def bolts(parts: Outlines) -> list[Circle]:
         return []
     wall = sizes.wall_min + 2.0 * size.edge_mm
     holes = [Circle("BORE", ORIGIN, bore_of(size, "crank", sizes.arm_bore).reach)]
-    for centre in roller_centres(assembly):
-        holes.append(Circle("BORE", centre, pin_hole(size, sizes.pin)))
+    holes += circles("BORE", roller_centres(assembly), pin_hole(size, sizes.pin))
     space = math.inf
     if assembly.sign > 0.0:
         space = assembly.L - max(sizes.wheel_bore, sizes.wheel_hub)
@@ -242,7 +229,7 @@ def _bolts(parts: Outlines, count: int) -> list[Circle]:
     if circle is not None:
         radii = np.array([0.5 * circle])
     inner = sizes.arm_bore if parts.has_arm else sizes.crank_bore
-    edge, half, places, holes = Polyarc(parts.crank), math.inf, list[Point](), list[Circle]()
+    edge, half, places = Polyarc(parts.crank), math.inf, list[Point]()
     for turns in directions:
         x, y = np.outer(radii, np.cos(turns)).ravel(), np.outer(radii, np.sin(turns)).ravel()
         walls = -edge.signed(np.column_stack((x, y))).reshape(len(radii), len(turns))
@@ -252,9 +239,7 @@ def _bolts(parts: Outlines, count: int) -> list[Circle]:
         for turn in turns:
             places.append(polar(ORIGIN, float(radii[best]), turn))
     r = bolt_radius(size.lock_bolt_mm, parts.assembly.L, half, "lock_bolt", size.lock_bolts)
-    for place in places if r else ():
-        holes.append(Circle("BORE", place, r))
-    return holes
+    return circles("BORE", places, r) if r else []
 
 
 def walls(arm: CrankArm, parts: Outlines) -> float:
@@ -262,10 +247,8 @@ def walls(arm: CrankArm, parts: Outlines) -> float:
     in_disc: list[Shape] = [*bolts(parts)]
     if parts.sizes.crank_bore and is_whole(parts.assembly, parts.sizes):
         in_disc += crank_bore(parts.assembly, parts.sizes)
-    return min(
-        least_wall([arm.bore, *arm.pins, *arm.bolts], [arm.outline]),
-        least_wall(in_disc, parts.crank),
-    )
+    in_arm = least_wall([arm.bore, *arm.pins, *arm.bolts], [arm.outline])
+    return min(in_arm, least_wall(in_disc, parts.crank))
 
 
 def rollers_about(

@@ -8,13 +8,17 @@ the part that it fixes, and its thread is in the part below.
 from __future__ import annotations
 
 import math
+from bisect import bisect_right
+from collections.abc import Iterable
+from functools import partial
 from itertools import starmap
+from operator import attrgetter
 from typing import NamedTuple
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, refuse_size
 from geneva_cli.geometry import shapes
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Line, Shape
-from geneva_cli.numerics.arrays import half_or
+from geneva_cli.numerics.arrays import half_or, value_or
 from geneva_cli.numerics.tolerances import ROUNDED
 from geneva_cli.spec.defaults import ParallelKey, key
 from geneva_cli.spec.tables import Size
@@ -80,11 +84,9 @@ class Bore(NamedTuple):
                 return shapes.closed(layer, [first, second, sides[1], top, sides[0]])
             return shapes.closed(layer, [top, sides[0], first, second, sides[1]])
         if self.form == "hex":
-            reach = radius / math.cos(math.pi / 6.0)
-            corners = []
-            for k in range(6):
-                corners.append(_turned(reach, 0.0, direction + (2 * k - 1) * math.pi / 6.0))
-            return shapes.polygon(layer, corners)
+            reach, sixth = radius / math.cos(math.pi / 6.0), math.pi / 6.0
+            turns = [direction + (2 * k - 1) * sixth for k in range(6)]
+            return shapes.polygon(layer, [_turned(reach, 0.0, turn) for turn in turns])
         if self.form == "D":
             first, second = _arcs(radius, direction, math.acos(1.0 - self.flat / radius))
             return shapes.closed(layer, [Line(second.end, first.start), first, second])
@@ -112,26 +114,15 @@ def bore_of(size: Size, part: str, radius: float) -> Bore:
     if form == "round":
         fitting = key(standard, radius, part)
         return Bore(radius, loose, key=fitting, standard=standard if fitting else "")
-    if standard is not None:
-        raise GenevaError(
-            f'{part}_keyway: {part}_bore = "{form}" holds the shaft without a key; remove one',
-            ("size", f"{part}_keyway"),
-        )
-    if not radius:
-        raise GenevaError(
-            f'{part}_bore = "{form}": the {part} has no bore; set {part}_bore_mm, or remove it',
-            ("size", f"{part}_bore"),
-        )
+    text = f'{part}_keyway: {part}_bore = "{form}" holds the shaft without a key; remove one'
+    refuse_size(standard is not None, f"{part}_keyway", text)
+    text = f'{part}_bore = "{form}": the {part} has no bore; set {part}_bore_mm, or remove it'
+    refuse_size(not radius, f"{part}_bore", text)
     if form == "hex":
         return Bore(radius, loose, form)
-    own: float | None = values[f"{part}_flat_mm"]
-    flat = 0.2 * radius if own is None else own
-    if flat >= radius:
-        raise GenevaError(
-            f"{part}_flat_mm = {flat:g}: the flat must be less deep than the bore's radius of "
-            f"{radius:g} mm",
-            ("size", f"{part}_flat_mm"),
-        )
+    flat = value_or(values[f"{part}_flat_mm"], 0.2 * radius)
+    text = f"the flat must be less deep than the bore's radius of {radius:g} mm"
+    refuse_size(flat >= radius, f"{part}_flat_mm", text, flat)
     return Bore(radius, loose, form, flat)
 
 
@@ -228,6 +219,11 @@ SCREWS = [*starmap(Screw, (
 # fmt: on
 
 
+def circles(layer: shapes.Layer, places: Iterable[shapes.Point], radius: float) -> list[Circle]:
+    """Return equal circles about some places."""
+    return [*map(partial(Circle, layer, radius=radius), places)]
+
+
 class BoltCircle(NamedTuple):
     """Holes evenly on a circle about an axis: both radii, mm, and the holes in a plate."""
 
@@ -267,10 +263,14 @@ def screw_through(hole_mm: float) -> Screw | None:
     >>> screw_through(6.25).thread, screw_through(1.7)
     (5, None)
     """
-    for one in reversed(SCREWS):
-        if one.through <= hole_mm * (1.0 + ROUNDED):
-            return one
-    return None
+    fits = bisect_right(SCREWS, hole_mm * (1.0 + ROUNDED), key=attrgetter("through"))
+    return SCREWS[fits - 1] if fits else None
+
+
+def screw_radius(hole_mm: float) -> float:
+    """Return the radius of the clearance hole of that screw; 0 where none is so thin."""
+    one = screw_through(hole_mm)
+    return 0.5 * one.through if one else 0.0
 
 
 def tapped(hole: Circle) -> Circle:
@@ -294,14 +294,9 @@ def bolt_radius(
     >>> bolt_radius(None, 100.0, 10.0), bolt_radius(None, 60.0, 10.0)
     (1.2, 0.0)
     """
-    one = screw_through(min(L / 40.0, half_width))
-    radius = half_or(diameter_mm, 0.5 * one.through if one else 0.0)
-    if asked and not radius:
-        raise GenevaError(
-            f"{key}s = {asked}: the parts are too small for a screw of M{SCREWS[0].thread:g}; set "
-            f"{key}_mm for other holes, or remove {key}s",
-            ("size", f"{key}s"),
-        )
+    radius = half_or(diameter_mm, screw_radius(min(L / 40.0, half_width)))
+    text = f"the parts are too small for a screw of M{SCREWS[0].thread:g}; set {key}_mm for other "
+    refuse_size(asked and not radius, f"{key}s", f"{text}holes, or remove {key}s", asked)
     return radius
 
 
@@ -321,7 +316,7 @@ def bolt_circle(
     radius = half_or(values[f"{part}_bolt_circle_mm"], 0.5 * (low + high))
     asked = count if part == "dial" else 0
     hole = bolt_radius(values[f"{part}_bolt_mm"], L, 0.5 * (high - low), "dial_bolt", asked)
-    holes = []
+    holes = list[Circle]()
     for k in range(count if hole else 0):
         at = shapes.polar(ORIGIN, radius, start + math.tau * k / count)
         holes.append(Circle("BORE", at, hole))

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, refuse_size
 from geneva_cli.geometry import chords, fit
 from geneva_cli.geometry.plates import Plate
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Contour, Layer, closed, polar
@@ -21,11 +21,11 @@ from geneva_cli.numerics.roots import boundary_by_sections, greatest_at
 from geneva_cli.parts.links.links import Links
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.shafts.arm_and_shafts import bore_at
-from geneva_cli.parts.shafts.bores import screw_through
+from geneva_cli.parts.shafts.bores import screw_radius
 from geneva_cli.table import Table
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.jet_functions import Groove
+    from geneva_cli.motion.given_motion import SolvedPath
 
 NAMES = ("input_deg", "radius_mm", *WALLED)
 GRID = 3600  # positions all round, between which the greatest pressure angle is searched
@@ -33,7 +33,9 @@ BELOW = 2  # planes below the wheel: that of the groove, below the crank
 MOUNTS = 4
 
 
-def groove_curve(groove: Groove, L: float, offset: float) -> Callable[[Array], tuple[Array, Array]]:
+def groove_curve(
+    groove: SolvedPath, L: float, offset: float
+) -> Callable[[Array], tuple[Array, Array]]:
     """Return the groove, or a flank ``offset`` mm to its left, as points in mm and unit tangents.
 
     They are functions of the input angle, degrees, over a whole turn.
@@ -50,7 +52,7 @@ def groove_curve(groove: Groove, L: float, offset: float) -> Callable[[Array], t
     return curve
 
 
-def sampled_extremes(groove: Groove, input_deg: Array) -> tuple[Array, Array]:
+def sampled_extremes(groove: SolvedPath, input_deg: Array) -> tuple[Array, Array]:
     """Return least distances from the crank's axis, over L, and pressure angles of m grooves, (m,).
 
     They are the extremes at ``input_deg`` (m, k) and 360 places of the dwell.
@@ -63,7 +65,7 @@ def sampled_extremes(groove: Groove, input_deg: Array) -> tuple[Array, Array]:
     return R.min(axis=1), np.degrees(np.arctan((np.abs(slope) / R).max(axis=1)))
 
 
-def greatest_pressure(groove: Groove) -> tuple[float, float]:
+def greatest_pressure(groove: SolvedPath) -> tuple[float, float]:
     """Return the groove's greatest pressure angle, atan|R'/R|, degrees, and its input angle."""
     entry, exit_, step = groove.motion.entry_deg, groove.motion.exit_deg, 360.0 / GRID
     grid = entry + 360.0 * np.arange(GRID) / GRID
@@ -72,16 +74,14 @@ def greatest_pressure(groove: Groove) -> tuple[float, float]:
     tops = (steep >= np.roll(steep, 1)) & (steep >= np.roll(steep, -1))
     # the grid is fine enough that lower local maxima need no refinement
     tops &= steep > 0.99 * steep.max()
-    middle = 0.5 * (entry + exit_)
-    candidates = []
+    middle, candidates = 0.5 * (entry + exit_), []
+
+    def rise(x: Array) -> Array:
+        r, dr, ddr = distances(groove, x)
+        return np.sign(dr) * (r * ddr - dr * dr)
+
     # a groove is as steep before the motion as after it: start in the middle of the dwell
     for about in sorted(math.remainder(x - middle, 360.0) + middle for x in grid[tops]):
-        sense = math.copysign(1.0, distances(groove, np.array([about]))[1][0])
-
-        def rise(x: Array, sense: float = sense) -> Array:
-            r, dr, ddr = distances(groove, x)
-            return sense * (r * ddr - dr * dr)
-
         # a corner of the groove, or a smooth maximum
         at_deg = boundary_by_sections(rise, about - step, about + step)
         r, dr, _ = distances(groove, np.array([at_deg]))
@@ -118,7 +118,7 @@ def groove_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None)
     return Table(NAMES, [shown, L * R, *points, pressure, radius])
 
 
-def _groove_of(mechanism: Mechanism) -> Groove:
+def _groove_of(mechanism: Mechanism) -> SolvedPath:
     groove = mechanism.engagements[0].groove
     if groove is None:
         kind = mechanism.spec.drive.NAME
@@ -158,14 +158,12 @@ def groove_base(parts: Outlines, bars: Links) -> Plate:
     space = L - max(sizes.wheel_bore, sizes.wheel_hub) - wall - far
     # where it fits, the rim around the groove is 1.5 roller radii wide
     rim = min(max(1.5 * sizes.roller, 4.0 * wall), space)
-    if rim < 4.0 * wall:
-        text = f"{space:.4g} mm between groove and wheel's hub are less than four times wall_min_mm"
-        text = f"--part groove-plate: {text}: reduce roller, wheel_hub_mm or wheel_bore_mm"
-        raise GenevaError(text, ("size", "wheel_hub_mm"))
-    screw, away = screw_through(0.5 * rim), far + 0.5 * rim
+    text = f"{space:.4g} mm between groove and wheel's hub are less than four times wall_min_mm"
+    text = f"--part groove-plate: {text}: reduce roller, wheel_hub_mm or wheel_bore_mm"
+    refuse_size(rim < 4.0 * wall, "wheel_hub_mm", text)
+    screw, away = screw_radius(0.5 * rim), far + 0.5 * rim
     turns = [math.tau * (k + 0.5) / MOUNTS for k in range(MOUNTS)] if screw else []
-    through = 0.5 * screw.through if screw else 0.0
-    mounts = [Circle("BORE", polar(ORIGIN, away, turn), through) for turn in turns]
+    mounts = [Circle("BORE", polar(ORIGIN, away, turn), screw) for turn in turns]
     shaft = bars.shaft((L, 0.0), L)
     if shaft:  # which turns in the base
         shaft = bore_at(full, (L, 0.0), shaft).around

@@ -12,11 +12,12 @@ from functools import lru_cache, partial
 
 import numpy as np
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import refuse_size
 from geneva_cli.geometry import shapes
 from geneva_cli.geometry.shapes import Arc, Contour, Line, Point, Segment
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.parts.assembly import Assembly
+from geneva_cli.parts.turn.stops import Lengths
 
 TURN_SAMPLES = 720  # input angles at which a path is sampled
 
@@ -90,22 +91,21 @@ def _mouth(assembly: Assembly, engagement: Engagement, end: float) -> Point:
     return px + further * ux, py + further * uy
 
 
-def least_mouth(L: float, recess: float, rim: float) -> float:
+def least_mouth(assembly: Assembly, sizes: Lengths) -> float:
     """Return the radius to which lower mouths are extended, mm."""
-    reach = L - recess
-    return reach + 0.2 * (rim - reach)
+    reach = assembly.L - sizes.recess
+    return reach + 0.2 * (sizes.rim - reach)
 
 
-def horn_corners(
-    assembly: Assembly, r: float, half_width: float, recess: float, rim: float, flat: float = 0.0
-) -> dict[Engagement, tuple[float, float]]:
+def horn_corners(assembly: Assembly, sizes: Lengths) -> dict[Engagement, tuple[float, float]]:
     """Return the distances from the axis of each slot's horns, mm, before and after a motion.
 
     They are those of its mouth's corners where the roller comes and goes, or of tips cut to flats.
     """
+    r, flat, recess = sizes.roller, sizes.horn_tip, sizes.recess
     widest = [*map(partial(mouth, assembly, r=r), assembly.kinds)]
-    shift = rim - max(widest)
-    least = least_mouth(assembly.L, recess, rim) if assembly.sign > 0.0 else 0.0
+    shift = sizes.rim - max(widest)
+    least = least_mouth(assembly, sizes) if assembly.sign > 0.0 else 0.0
     out = {}
     for kind, wide in zip(assembly.kinds, widest, strict=True):
         ends = []
@@ -113,7 +113,7 @@ def horn_corners(
             at = math.hypot(*corner(assembly, kind, end, r)) if kind.slot.offset else wide
             at = max(at + shift, least)
             if flat and recess:
-                wall = _wall_of_horn(assembly, kind, end, half_width, at)
+                wall = _wall_of_horn(assembly, kind, end, sizes.half_width, at)
                 cut = tip(wall, rest(assembly, kind, end), recess, flat)
                 at = math.hypot(*cut.end) if cut else at
             ends.append(at)
@@ -175,9 +175,8 @@ def tip(wall: Line, centre: Point, recess: float, width: float) -> Line | None:
     at = foot - math.sqrt(max(recess**2 - depth * depth, 0.0))
     if at >= long:
         return None
-    if depth <= 0.0 or at <= 0.5 * long:
-        text = "the horns would lose more than half of the slots: reduce it, or lock_radius_mm"
-        raise GenevaError(f"horn_tip_mm = {width:g}: {text}", ("size", "horn_tip_mm"))
+    text = "the horns would lose more than half of the slots: reduce it, or lock_radius_mm"
+    refuse_size(depth <= 0.0 or at <= 0.5 * long, "horn_tip_mm", text, width)
     across = math.copysign(width, side)
     on_wall = x + at * u, y + at * v
     return Line(on_wall, (on_wall[0] - across * v, on_wall[1] + across * u))
@@ -194,9 +193,9 @@ def rounded(before: Segment, after: Segment, radius: float, sign: float) -> list
         distance, (x, y) = offsets.away(piece, centre)
         ends.append((centre[0] - distance * x, centre[1] - distance * y))
         parts.append(shapes.fraction_at(piece, ends[-1]))
-    if not (0.0 < parts[0] <= 1.0 and 0.0 <= parts[1] < 1.0):
-        text = f"mouth_radius_mm = {radius:g}: a mouth's corner has no space for this rounding"
-        raise GenevaError(f"{text}; use a smaller one", ("size", "mouth_radius_mm"))
+    text = "a mouth's corner has no space for this rounding; use a smaller one"
+    fits = 0.0 < parts[0] <= 1.0 and 0.0 <= parts[1] < 1.0
+    refuse_size(not fits, "mouth_radius_mm", text, radius)
     first, last = ends
     return [
         offsets.between(before, before.start, first),

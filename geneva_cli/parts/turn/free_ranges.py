@@ -68,14 +68,12 @@ class FreeRanges:
 
     def at(self, crank_angle: Array) -> Ranges:
         """Return the free ranges at crank angles (n,), radians."""
-        rows, starts, ends = [np.zeros(0, dtype=int)], [np.zeros(0)], [np.zeros(0)]
+        parts = [(np.zeros(0, dtype=int), np.zeros(0), np.zeros(0))]
         for first in range(0, len(crank_angle), BLOCK):
             for row, start, end, *_ in self.meetings(crank_angle[first : first + BLOCK]):
-                rows.append(first + row)
-                starts.append(start)
-                ends.append(end)
-        intervals = np.concatenate(rows), np.concatenate(starts), np.concatenate(ends)
-        return Ranges(intervals, len(crank_angle), self.period)
+                parts.append((first + row, start, end))
+        row, start, end = map(np.concatenate, zip(*parts, strict=True))
+        return Ranges((row, start, end), len(crank_angle), self.period)
 
     def meetings(self, crank_angle: Array) -> Iterator[Meetings]:
         """Yield the pairs of branches that meet at crank angles (n,), which are near each other."""

@@ -106,9 +106,14 @@ def full_turn(parts: TurnedParts) -> FullTurn:
         leads, _ = wheel_stops(parts, np.array(resting), fits)
         dwell = _most(np.degrees(leads.max(axis=0)), np.array(resting), first)
     play, push_deg = play_of(parts, fits)
-    inside, outside = play.guided, ~play.guided
-    guided_deg = play.input_deg[inside]
     either, both = np.maximum(play.back, play.on), np.minimum(play.back, play.on)
+    inside = play.guided
+    hand_over = _most(either[~inside], play.input_deg[~inside], first)
+    guided_deg = play.input_deg[inside]
+    motion = _most(both[inside], guided_deg, first)
+    ahead = _most(play.on[inside], guided_deg, first)
+    behind = _most(play.back[inside], guided_deg, first)
+    push = _most(push_deg, play.input_deg[:-1], first)
     # of each kind of motion, the first contact that is farthest off its slot's middle
     contact, begin, known = (-math.inf, 0.0), 0, set()
     for i, (engagement, _) in enumerate(assembly.motions):
@@ -117,18 +122,8 @@ def full_turn(parts: TurnedParts) -> FullTurn:
         if engagement not in known:
             known.add(engagement)
             contact = max(contact, _contact(parts, i, own), key=itemgetter(0))
-    return FullTurn(
-        gaps,
-        dwell,
-        _most(either[outside], play.input_deg[outside], first),
-        _most(both[inside], guided_deg, first),
-        _most(play.on[inside], guided_deg, first),
-        _most(play.back[inside], guided_deg, first),
-        _most(push_deg, play.input_deg[:-1], first),
-        (contact[0], assembly.shown_deg(contact[1])),
-        math.degrees(assembly.half_step),
-        play,
-    )
+    met, free_deg = (contact[0], assembly.shown_deg(contact[1])), math.degrees(assembly.half_step)
+    return FullTurn(gaps, dwell, hand_over, motion, ahead, behind, push, met, free_deg, play)
 
 
 def _most(values: Array, at: Array, first: First) -> Most:
@@ -179,8 +174,7 @@ def _gap(parts: TurnedParts, pair: str, at: Array) -> Array:
         since, until = away - engagement.entry_deg, engagement.exit_deg - away
         driving[:, i] = np.minimum(since, until) >= -SAME_INPUT_DEG
     meanwhile = driving.any(axis=1, keepdims=True) & ~driving
-    out: Array = np.where(meanwhile == (pair == IDLE), gaps.rollers(pose), np.inf).min(axis=1)
-    return out
+    return np.where(meanwhile == (pair == IDLE), gaps.rollers(pose), np.inf).min(axis=1)
 
 
 def _least(parts: TurnedParts, pair: str, at: Array, first: First) -> Gap:
@@ -224,8 +218,7 @@ def _contact(parts: TurnedParts, motion: int, own: slice) -> tuple[float, float]
     def margin(at: Array) -> Array:
         """Return the gaps of the rollers to the wheel at rest, mm, more than ``close``."""
         pose = gaps.pose(at)
-        gap: Array = gaps.rollers(pose, rest - pose.wheel)[:, own].min(axis=1)
-        return gap - close
+        return gaps.rollers(pose, rest - pose.wheel)[:, own].min(axis=1) - close
 
     if margin(np.array([start]))[0] <= 0.0:  # the roller is in the slot's middle there
         return 0.0, start

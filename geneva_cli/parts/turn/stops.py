@@ -245,8 +245,7 @@ class Stops:
         """Return the sine of the pressure angle where rollers touch, ``close`` mm inside them."""
         radius, square = self.roller - close, (pins * pins).sum(axis=-1)
         out = (level * level + radius * radius - square) / (2.0 * radius)  # along the normal
-        lean: Array = (out + close) / np.sqrt(level * level + close * (2.0 * out + close))
-        return lean
+        return (out + close) / np.sqrt(level * level + close * (2.0 * out + close))
 
 
 def cut(

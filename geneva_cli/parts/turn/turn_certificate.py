@@ -76,10 +76,7 @@ def _halved(
     ends: tuple[float, float],
     target: float,
 ) -> Certificate:
-    """Return a lower bound of a pair's gap, by halving intervals until it is ``target`` mm on each.
-
-    Without success the most doubtful interval is returned as open.
-    """
+    """Return a lower bound of a pair's gap, with intervals halved until ``target`` mm is proved."""
     cuts = np.linspace(*ends, 33)
     start, end = cuts[:-1], cuts[1:]
     least, count = math.inf, 0
@@ -91,7 +88,7 @@ def _halved(
         start, end, middle, bound = np.array((start, end, middle, bound))[:, ~closed]
         collides = bool((middle < target).any())
         if collides or count + 2 * len(start) > MOST:
-            i = int(np.argmin(middle if collides else bound))
+            i = int(np.argmin(middle if collides else bound))  # the most doubtful interval
             left = float(start[i]), float(end[i]), float(middle[i]), float(bound[i])
             return Certificate(least, count, left)
         half = 0.5 * (start + end)

@@ -20,18 +20,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Joint
 from geneva_cli.motion.registry import thing
 from geneva_cli.numerics.angles import radians
-from geneva_cli.output.scene import (
-    Bar,
-    Body,
-    Box,
-    CarriedShapes,
-    Phase,
-    Place,
-    Rotation,
-    Scene,
-    Track,
-    pose,
-)
+from geneva_cli.output import scene as page
 from geneva_cli.parts.assembly import links_at
 from geneva_cli.parts.gears.gear_pair import gears_table
 from geneva_cli.parts.links.link_plates import drawn_links
@@ -42,7 +31,7 @@ from geneva_cli.study.summary.load_lines import title_of
 from geneva_cli.verdict.report import words
 
 
-def scene(design: Design) -> Scene:
+def scene(design: Design) -> page.Scene:
     """The machine over a whole turn of its crank, with curves, forces and the wheel's states."""
     mechanism = design.mechanism
     turn = MachineTurn(mechanism)
@@ -60,9 +49,9 @@ def scene(design: Design) -> Scene:
     if mechanism.frame:  # the carrier makes whole turns
         rate = mechanism.frame * radians(1.0)
         ends = rate * turn.start, rate * turn.end
-        angle = Track((0.0, turn.turn_deg), ends, (rate, rate), ends[1] - ends[0])
+        angle = page.Track((0.0, turn.turn_deg), ends, (rate, rate), ends[1] - ends[0])
         x, y = centre = mechanism.center_distance_mm, 0.0
-        frame = Rotation(centre, angle)
+        frame = page.Rotation(centre, angle)
         reach = max(math.dist(b.centre, centre) + max(map(_reach, b.shapes)) for b in parts)
         box = x - reach, y - reach, x + reach, y + reach
     pauses = []
@@ -70,7 +59,7 @@ def scene(design: Design) -> Scene:
         entries = [*(one.entry for one in turn.passages[1:]), turn.end]
         dwells = zip(turn.passages, entries, strict=True)
         pauses = [0.5 * (one.exit + after) - turn.start for one, after in dwells]
-    return Scene(
+    return page.Scene(
         title=title,
         caption=words(mechanism) + _remark(design),
         spec="\n".join((f"title = {quoted(title)}", *spec_lines(spec))),
@@ -94,25 +83,23 @@ def scene(design: Design) -> Scene:
 
 def _plates(
     mechanism: Mechanism, outlines: Outlines | None
-) -> dict[str, tuple[CarriedShapes, ...]]:
+) -> dict[str, tuple[page.CarriedShapes, ...]]:
     """The plates of each link by its name; empty if the links' sizes allow none."""
-    out: dict[str, tuple[CarriedShapes, ...]] = {}
-    try:
+    out, plates = dict[str, tuple[page.CarriedShapes, ...]](), list[Plate]()
+    with suppress(GenevaError):
         plates = [m.part for m in drawn_links(mechanism, outlines).cut if isinstance(m.part, Plate)]
-    except GenevaError:
-        return out
     for link in links_at(mechanism, np.zeros(1)):
         slid = [j for j, kind in enumerate(link.kinds) if kind in (Joint.SLIDE, Joint.CARRIED)]
         blocks = [plate for plate in plates if plate.name == f"{link.name}'s block"]
         own = [plate for plate in plates if plate.name == link.name]
         out[link.name] = tuple(
-            CarriedShapes(j, (plate.outline, *plate.holes))
+            page.CarriedShapes(j, (plate.outline, *plate.holes))
             for j, plate in zip([0] * len(own) + slid, [*own, *blocks], strict=False)
         )
     return out
 
 
-def _bodies(design: Design, turn: MachineTurn) -> Iterator[Body]:
+def _bodies(design: Design, turn: MachineTurn) -> Iterator[page.Body]:
     """Wheel, crank with its arm, the cam's groove and gears, as far as the machine has them."""
     L = turn.L
     # parts of a sphere are drawn laid flat: these outlines do not turn about the shaft
@@ -128,15 +115,15 @@ def _bodies(design: Design, turn: MachineTurn) -> Iterator[Body]:
         carried = tuple(shape for shape in carried if shape.layer != "ROLLER")
         for place in turn.mechanism.crank_places:
             name = f"crank {place.number}" if place.number > 1 else "crank"
-            yield Body(name, carried, place.at, turn.crank(place))
-        yield Body("groove", _shapes(design, "groove"), (L, 0.0), STILL)
+            yield page.Body(name, carried, place.at, turn.crank(place))
+        yield page.Body("groove", _shapes(design, "groove"), (L, 0.0), STILL)
         if turn.mechanism.frame > 0.0:
-            yield Body("carrier", _shapes(design, "frame"), (0.0, 0.0), STILL)
+            yield page.Body("carrier", _shapes(design, "frame"), (0.0, 0.0), STILL)
     if design.spec.gears:
         yield from _gears(design.spec.gears, turn)
 
 
-def _gears(gears: Gears, turn: MachineTurn) -> Iterator[Body]:
+def _gears(gears: Gears, turn: MachineTurn) -> Iterator[page.Body]:
     """Gears that are not round, by their pitch curves."""
     machine = turn.mechanism
     x, sense = machine.gear_shaft
@@ -149,9 +136,9 @@ def _gears(gears: Gears, turn: MachineTurn) -> Iterator[Body]:
         return (polygon("GEAR", list(zip(u.tolist(), v.tolist(), strict=True))),)
 
     driver = turn.input_shaft(-sense) if first or before is None else turn.own_shaft(-sense)
-    yield Body("driver gear", curve("driver"), (x + gears.distance_mm, 0.0), driver)
+    yield page.Body("driver gear", curve("driver"), (x + gears.distance_mm, 0.0), driver)
     driven = turn.own_shaft(sense) if first else turn.crank_from_mid()
-    yield Body("driven gear", curve("driven"), (x, 0.0), driven)
+    yield page.Body("driven gear", curve("driven"), (x, 0.0), driven)
 
 
 def _shapes(design: Design, part: str) -> tuple[Shape, ...]:
@@ -175,7 +162,7 @@ def _remark(design: Design) -> str:
     return out
 
 
-def _states(design: Design, turn: MachineTurn) -> Iterator[Phase]:
+def _states(design: Design, turn: MachineTurn) -> Iterator[page.Phase]:
     holder = design.spec.dwell_holder  # what holds the wheel at rest
     rest = f"the {design.spec.output.noun} rests"
     if design.spec.wheel.held_by:
@@ -186,8 +173,10 @@ def _states(design: Design, turn: MachineTurn) -> Iterator[Phase]:
         (only,), places = turn.passages, design.mechanism.wheel_places
         for place in places:
             a, b = place.behind_deg, place.behind_deg + only.engagement.motion_deg
-            yield Phase(a, b, True, f"the finger turns wheel {place.number} on the carrier")
-            yield Phase(b, a + turn.turn_deg / len(places), False, "all wheels rest on the carrier")
+            yield page.Phase(a, b, True, f"the finger turns wheel {place.number} on the carrier")
+            yield page.Phase(
+                b, a + turn.turn_deg / len(places), False, "all wheels rest on the carrier"
+            )
         return
     cranks = len(design.mechanism.crank_places)
     following = (*turn.passages[1:], None)
@@ -198,39 +187,33 @@ def _states(design: Design, turn: MachineTurn) -> Iterator[Phase]:
         if one.engagement.paired:
             which = "a roller, then gears, then a roller"
         a, b = one.entry - turn.start, one.exit - turn.start
-        yield Phase(a, b, True, f"{which} moves the {design.mechanism.output.noun}")
+        yield page.Phase(a, b, True, f"{which} moves the {design.mechanism.output.noun}")
         end = after.entry - turn.start if after else turn.turn_deg
         if end > b + 1e-9:
-            yield Phase(b, end, False, rest)
+            yield page.Phase(b, end, False, rest)
 
 
 def _box(
-    parts: tuple[Body, ...],
-    bars: tuple[Bar, ...],
-    rollers: tuple[Place, ...],
+    parts: tuple[page.Body, ...],
+    bars: tuple[page.Bar, ...],
+    rollers: tuple[page.Place, ...],
     radius: float,
     turn_deg: float,
-) -> Box:
+) -> page.Box:
     """The bounding box of bodies at any angle, and of joints, rollers and links in the turn."""
-    boxes = []
-    for body in parts:
-        reach = max(map(_reach, body.shapes))
-        (x, y) = body.centre
-        boxes.append((x - reach, y - reach, x + reach, y + reach))
+    circles = [(*body.centre, max(map(_reach, body.shapes))) for body in parts]
     places = [(place, bar.radius) for bar in bars for place in bar.joints]
-    places += [(place, radius) for place in rollers]
-    for (across, up), r in places:
-        x0, x1, y0, y1 = min(across.value), max(across.value), min(up.value), max(up.value)
-        boxes.append((x0 - r, y0 - r, x1 + r, y1 + r))
+    for (across, up), r in (*places, *((place, radius) for place in rollers)):
+        circles += [(end(across.value), end(up.value), r) for end in (min, max)]
     for bar, k in itertools.product(bars, range(24)):
         for plate in bar.plates:
-            x, y, angle = pose(bar, plate, turn_deg * k / 24)
+            x, y, angle = page.pose(bar, plate, turn_deg * k / 24)
             own, turned = bounds(plate.shapes[0]), cmath.rect(1.0, angle)
             corners = itertools.product((own.x0, own.x1), (own.y0, own.y1))
             ends = [complex(x, y) + complex(*corner) * turned for corner in corners]
-            boxes += [(z.real, z.imag, z.real, z.imag) for z in ends]
-    columns = list(zip(*boxes, strict=True))
-    return min(columns[0]), min(columns[1]), max(columns[2]), max(columns[3])
+            circles += [(z.real, z.imag, 0.0) for z in ends]
+    x, y, r = np.array(circles).T
+    return min(x - r), min(y - r), max(x + r), max(y + r)
 
 
 def _reach(shape: Shape) -> float:
@@ -244,7 +227,7 @@ def _reach(shape: Shape) -> float:
 class WheelScene:
     """What a page shows of wheels that turn without end."""
 
-    def bodies(self, shapes: tuple[Shape, ...], turn: MachineTurn) -> Iterator[Body]:
+    def bodies(self, shapes: tuple[Shape, ...], turn: MachineTurn) -> Iterator[page.Body]:
         """All wheels; without shapes, as symbols."""
         one, machine = turn.passages[0], turn.mechanism
         # distances of the first roller from the wheel's axis in its slot
@@ -264,9 +247,9 @@ class WheelScene:
         wheel = (*shapes, Circle("PITCH", (dot, 0.0), 0.012 * turn.L))
         for place in turn.mechanism.wheel_places:
             name = f"wheel {place.number}" if place.number > 1 else "wheel"
-            yield Body(name, wheel, place.at, turn.wheel(place))
+            yield page.Body(name, wheel, place.at, turn.wheel(place))
 
-    def view(self, wheel: Body, box: Box, turn: MachineTurn) -> Box:
+    def view(self, wheel: page.Body, box: page.Box, turn: MachineTurn) -> page.Box:
         """The box that a page shows; ``box`` bounds all that turns."""
         return box
 

@@ -13,7 +13,7 @@ from geneva_cli.loads.load_peaks import LoadSummary
 from geneva_cli.loads.load_tables import RATED_kW, no_load, recommended_motor
 from geneva_cli.numerics.tolerances import TIE
 from geneva_cli.study.fields import pick
-from geneva_cli.study.verdicts import chosen_lines, measured, warning
+from geneva_cli.study.verdicts import chosen_lines, warning
 from geneva_cli.table import Table
 from geneva_cli.verdict.failures import below_summary
 
@@ -43,11 +43,11 @@ def load_lines(design: Design) -> Iterator[SummaryLine]:
         took = []
         for what, name in (("stops with", "brake_torque_Nm"), ("starts with", "start_torque_Nm")):
             if (torque := values[f"input_stop.{name}"]) is not None:
-                took.append(f"{what} {measured(torque, 'N m')}")
+                took.append(f"{what} {value_text(torque, 'N m')}")
         text = "not known: set inertia_kgm2 in [motor]"
         if values["input_stop.inertia_kgm2"] is not None:
             energy, power = values["input_stop.energy_J"], values["input_stop.power_W"]
-            took.append(f"{measured(energy, 'J')} each time, {measured(power, 'W')}")
+            took.append(f"{value_text(energy, 'J')} each time, {value_text(power, 'W')}")
             text = ", ".join(took)
             text += "; set brake_s and start_s in [drive] for both torques" * (len(took) < 3)
         yield SummaryLine("brake", text)
@@ -60,8 +60,8 @@ def flywheel_line(design: Design) -> Iterator[SummaryLine]:
     sizing = _sizing(design)
     whole, add = sizing["flywheel_kgm2"], sizing["flywheel_to_add_kgm2"]
     if whole is not None:
-        variation = measured(100.0 * (design.spec.motor.speed_variation or 0.0), "%")
-        text = f"{measured(whole, 'kg m²')} on the input for a speed variation of {variation}"
+        variation = value_text(100.0 * (design.spec.motor.speed_variation or 0.0), "%")
+        text = f"{value_text(whole, 'kg m²')} on the input for a speed variation of {variation}"
         text += "" if add == whole else f", {value_text(add)} of it besides the motor"
         yield SummaryLine("flywheel", text)
 
@@ -73,11 +73,11 @@ def cycle_lines(design: Design) -> Iterator[SummaryLine]:
     if not math.isfinite(torque.max - torque.min):
         yield SummaryLine("input", f"torque {NO_BOUND}")
     else:
-        text = f"{value_text(torque.min)} to {measured(torque.max, 'N m')}"
+        text = f"{value_text(torque.min)} to {value_text(torque.max, 'N m')}"
         text += f", rms {value_text(torque.rms)}" if torque.rms is not None else ""
         driven = "never drives the motor"
         if torque.min < 0.0:
-            driven = f"drives the motor with up to {measured(-torque.min, 'N m')}"
+            driven = f"drives the motor with up to {value_text(-torque.min, 'N m')}"
         yield SummaryLine("input", f"{text}; the {design.spec.output.noun} {driven}")
     stress = "needs face_width_mm in [size]"
     if design.spec.size.face_width_mm is not None:
@@ -86,12 +86,12 @@ def cycle_lines(design: Design) -> Iterator[SummaryLine]:
     yield SummaryLine("pin", f"{pin}; contact stress {stress}")
     impact = design.strength.reversal  # of the roller on the other wall of its slot
     if impact["jump"] is not None and impact["at_deg"] is not None:
-        text = f"speed jumps by {measured(impact['jump'])} of the input's"
+        text = f"speed jumps by {value_text(impact['jump'])} of the input's"
         if impact["force_N"] is not None:
-            text = measured(impact["force_N"], "N")
-        text += f" at {measured(impact['at_deg'], 'deg')}, where the roller changes sides"
+            text = value_text(impact["force_N"], "N")
+        text += f" at {value_text(impact['at_deg'], 'deg')}, where the roller changes sides"
         if impact["contact_stress_MPa"] is not None:
-            text += f"; contact stress {measured(impact['contact_stress_MPa'], 'MPa')}"
+            text += f"; contact stress {value_text(impact['contact_stress_MPa'], 'MPa')}"
         yield SummaryLine("impact", text, "geneva explain reversal_shock_N")
     label, moved, unit = "rack", "rack_acceleration_m_s2", "m/s²"
     what, pushed, unit_of = "force", "rack_force_N", "N"
@@ -117,8 +117,8 @@ def _greatest(ends: LoadSummary[float | None], unit: str) -> str:
     if known is None:
         return NO_BOUND
     size, at_deg = known
-    where = "" if at_deg is None else f" at {measured(at_deg, 'deg')}"
-    return f"{measured(size, unit)}{where}"
+    where = "" if at_deg is None else f" at {value_text(at_deg, 'deg')}"
+    return f"{value_text(size, unit)}{where}"
 
 
 def _sizing(design: Design) -> dict[str, Any]:
@@ -134,26 +134,26 @@ def motor_line(design: Design) -> SummaryLine:
     keys = design.spec.motor
     why = "at most over the exact cycle"
     if motor.formula_W >= motor.peak_W:  # the cam-indexer formula decides
-        why = f"with service factor {measured(keys.service_factor)} and all losses"
-    needed = f"{measured(motor.needed_W, 'W')} {why}"
+        why = f"with service factor {value_text(keys.service_factor)} and all losses"
+    needed = f"{value_text(motor.needed_W, 'W')} {why}"
     if motor.rated_kW is None:
         text = f"{needed}: more than any standard motor has"
         return SummaryLine("motor", text, "geneva explain motor", WARNS)
-    power, source = measured(motor.rated_kW, "kW"), "the next power of IEC 60072-1"
+    power, source = value_text(motor.rated_kW, "kW"), "the next power of IEC 60072-1"
     if motor.needed_W < 1e3 * RATED_kW[0]:
         source = f"less than the smallest motor of IEC 60072-1, {power}"
         torque_Nm = motor.needed_W * 60.0 / (motor.rpm * math.tau)
-        power = f"{measured(motor.needed_W, 'W')}, {measured(torque_Nm, 'N m')}"
+        power = f"{value_text(motor.needed_W, 'W')}, {value_text(torque_Nm, 'N m')}"
     four_poles_rpm = 1400.0  # at full load, of small motors with four poles at 50 Hz
-    geared = f", gear ratio {measured(keys.ratio)}"
+    geared = f", gear ratio {value_text(keys.ratio)}"
     if keys.gear_ratio is None and 2.0 * motor.rpm <= four_poles_rpm:  # a slow input
-        ratio = measured(four_poles_rpm / motor.rpm, digits=3)
+        ratio = value_text(four_poles_rpm / motor.rpm, digits=3)
         geared = (
-            f" behind its reducer, as gear ratio {ratio} from {measured(four_poles_rpm, 'rpm')}"
+            f" behind its reducer, as gear ratio {ratio} from {value_text(four_poles_rpm, 'rpm')}"
         )
-    torque = f"{measured(motor.input_torque_Nm, 'N m')} on the input by the cam-indexer formula"
+    torque = f"{value_text(motor.input_torque_Nm, 'N m')} on the input by the cam-indexer formula"
     note = f"{needed}; {torque}; {source} (geneva explain motor)"
-    return SummaryLine("motor", f"{power}, {measured(motor.rpm, 'rpm')}{geared}", note)
+    return SummaryLine("motor", f"{power}, {value_text(motor.rpm, 'rpm')}{geared}", note)
 
 
 def _powers(design: Design) -> Iterator[SummaryLine]:
@@ -176,7 +176,7 @@ def _powers(design: Design) -> Iterator[SummaryLine]:
         powers.append((motor.peak_W, text))
     known = [(size, text) for size, text in powers if size is not None]
     for size, text in sorted(known, key=lambda pair: -pair[0]):
-        yield SummaryLine(measured(size, "W"), text)
+        yield SummaryLine(value_text(size, "W"), text)
 
 
 def record_answer(

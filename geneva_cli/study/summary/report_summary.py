@@ -11,22 +11,8 @@ from geneva_cli.errors import is_warning
 from geneva_cli.loads.cycle_figures import AXIS_BY_NAME
 from geneva_cli.names import spoken
 from geneva_cli.output.text import only
-from geneva_cli.study.summary.load_lines import (
-    cycle_lines,
-    flywheel_line,
-    greatest,
-    motor_line,
-    record_answer,
-    title_of,
-)
-from geneva_cli.study.verdicts import (
-    chosen_lines,
-    failure_lines,
-    headline,
-    measured,
-    tightest,
-    warning_lines,
-)
+from geneva_cli.study import verdicts
+from geneva_cli.study.summary import load_lines
 from geneva_cli.table import Reading, Table, record_table, rows_table
 from geneva_cli.verdict.checks import LIMITS, Check
 from geneva_cli.verdict.failures import below_summary
@@ -54,7 +40,7 @@ def greatest_loads(design: Design) -> Table:
         rows.append((words[:1].upper() + words[1:], size, unit, at_deg, *bound))
 
     for name in LOADS if design.cycle.is_loaded else ():
-        axis, known = AXIS_BY_NAME[name], greatest(design.loads[name])
+        axis, known = AXIS_BY_NAME[name], load_lines.greatest(design.loads[name])
         stem, _, unit = name.rpartition("_")
         if known:  # else the row of its check says that it has no bound
             add(axis.label, known[0], axis.unit, known[1], checks.pop(f"{stem}_max_{unit}", None))
@@ -79,16 +65,16 @@ def of_report(design: Design, is_full: bool) -> Answer:
     If ``is_full``, all values of the report stand below the summary instead.
     """
     record, checks, warnings = design.report.table, design.checks, design.warnings
-    state, text = headline(checks, warnings)
-    last = warning_lines(checks, warnings, design.unused_acceptances)
-    lines = (*failure_lines(checks), *key_figures(design), *last)
+    state, text = verdicts.headline(checks, warnings)
+    last = verdicts.warning_lines(checks, warnings, design.unused_acceptances)
+    lines = (*verdicts.failure_lines(checks), *key_figures(design), *last)
     if is_full:
         shown = ("title", "passes", "checks_failed", "not_proved", "chosen")
         page = below_summary(record, without=shown)
     else:
         tables = {"greatest_loads": greatest_loads(design), "parts": parts_of(design)}
         page = record_table({n: t for n, t in tables.items() if t}, prose=record.prose)
-    return Answer((Summary(f"{title_of(design)}: {text}", lines, state),), page, record)
+    return Answer((Summary(f"{load_lines.title_of(design)}: {text}", lines, state),), page, record)
 
 
 OF_LOADS = ("input", "pin", "wheel", "rack", "tightest", "motor")
@@ -100,44 +86,44 @@ def machine_lines(design: Design) -> Iterator[SummaryLine]:
     yield from (line for line in lines if line.label not in OF_LOADS)
     yield from (line for line in lines if line.label == "motor")
     if design.cycle.is_loaded:
-        yield from flywheel_line(design)
+        yield from load_lines.flywheel_line(design)
 
 
 def key_figures(design: Design) -> Iterator[SummaryLine]:
     """Six figures of a machine and its motor; without a load its peaks instead."""
     values = design.report.table.to_dict()
     unit, times = design.mechanism.output.unit, design.timings
-    texts = [(measured(t.step, unit), measured(t.motion_s, "s"), measured(t.dwell_s, "s"))
+    texts = [(value_text(t.step, unit), value_text(t.motion_s, "s"), value_text(t.dwell_s, "s"))
              for t in times]  # fmt: skip
     steps, motions, dwells = (
         " and ".join(dict.fromkeys(each)) for each in zip(*texts, strict=True)
     )
-    n_rpm = measured(design.spec.drive.n_rpm, "rpm")
+    n_rpm = value_text(design.spec.drive.n_rpm, "rpm")
     text = f"{steps} in {motions}, then {dwells} of dwell; input at {n_rpm}"
     if design.spec.drive.stop_s:
-        text += f", at rest for {measured(design.spec.drive.stands_s, 's')} of each dwell"
+        text += f", at rest for {value_text(design.spec.drive.stands_s, 's')} of each dwell"
     yield SummaryLine("cycle", text)
-    size = f"sphere of radius {measured(values['sizes.sphere_radius_mm'], 'mm')}"
+    size = f"sphere of radius {value_text(values['sizes.sphere_radius_mm'], 'mm')}"
     if values["sizes.center_distance_mm"] is not None:
-        size = f"centre distance {measured(values['sizes.center_distance_mm'], 'mm')}"
+        size = f"centre distance {value_text(values['sizes.center_distance_mm'], 'mm')}"
         if values["timing.index_mm"] is not None:  # a rack has no axis
-            size = f"crank radius {measured(values['sizes.crank_radius_mm'], 'mm')}"
+            size = f"crank radius {value_text(values['sizes.crank_radius_mm'], 'mm')}"
         if (rim := values["sizes.wheel_radius_mm"]) is not None:
-            size += f", wheel Ø {measured(2.0 * rim, 'mm')}"
-    roller = measured(2.0 * values["sizes.roller_radius_mm"], "mm")
+            size += f", wheel Ø {value_text(2.0 * rim, 'mm')}"
+    roller = value_text(2.0 * values["sizes.roller_radius_mm"], "mm")
     yield SummaryLine("size", f"{size}, roller Ø {roller}")
     if design.cycle.is_loaded:
-        yield from cycle_lines(design)
-        yield from tightest(design.checks)
-        yield motor_line(design)
-        yield from chosen_lines(design.chosen_by_load, design.spec.path)
+        yield from load_lines.cycle_lines(design)
+        yield from verdicts.tightest(design.checks)
+        yield load_lines.motor_line(design)
+        yield from verdicts.chosen_lines(design.chosen_by_load, design.spec.path)
     else:
         unit = design.mechanism.output.rate_unit
         powers = {"velocity": ("", ""), "acceleration": ("2", "²"), "jerk": ("3", "³")}
         for name, (digit, power) in powers.items():
-            size = measured(values[f"{name}.max_{unit}_s{digit}"], f"{unit}/s{power}")
-            yield SummaryLine(name, f"{size} at {measured(values[f'{name}.at_deg'], 'deg')}")
-        yield from tightest(design.checks)
+            size = value_text(values[f"{name}.max_{unit}_s{digit}"], f"{unit}/s{power}")
+            yield SummaryLine(name, f"{size} at {value_text(values[f'{name}.at_deg'], 'deg')}")
+        yield from verdicts.tightest(design.checks)
         yield SummaryLine("motor", f"not known: set {design.spec.output.load_keys}")
 
 
@@ -145,27 +131,27 @@ def of_vibration(design: Design, record: Table) -> Answer:
     """The answer of ``geneva vibration``, from the record of ``Design.vibration``."""
     values = record.to_dict()
     warnings = [text for text in values["warnings"] if is_warning(text)]
-    return record_answer(design, record, _swing_lines(values), warnings)
+    return load_lines.record_answer(design, record, _swing_lines(values), warnings)
 
 
 def _swing_lines(values: dict[str, Any]) -> Iterator[SummaryLine]:
-    ratio = measured(values["period_ratio"])
-    damping = measured(values["damping_ratio"])
+    ratio = value_text(values["period_ratio"])
+    damping = value_text(values["damping_ratio"])
     hertz = values["natural_Hz"]
-    natural = "" if hertz is None else f" of {measured(hertz, 'Hz')}"
+    natural = "" if hertz is None else f" of {value_text(hertz, 'Hz')}"
     yield SummaryLine("motion", f"lasts {ratio} natural periods{natural}, damping ratio {damping}")
-    residual = measured(values["residual_share"])
+    residual = value_text(values["residual_share"])
     swing = "an index leaves the load swinging"
     if values["residual_deg"] is not None:
-        swing += f" by {measured(values['residual_deg'], 'deg')}"
+        swing += f" by {value_text(values['residual_deg'], 'deg')}"
     if values["residual_share"] < 1e-6:  # of a step of 90°, a third of an arc second
         swing = "an index leaves the load practically at rest"
     yield SummaryLine("residual", f"{swing}, {residual} of the step")
-    text = f"accelerated {measured(values['dynamic_factor'])} times as hard as the wheel"
+    text = f"accelerated {value_text(values['dynamic_factor'])} times as hard as the wheel"
     if values["windup_deg"] is not None:
-        text += f"; the shaft winds up by {measured(values['windup_deg'], 'deg')}"
+        text += f"; the shaft winds up by {value_text(values['windup_deg'], 'deg')}"
     yield SummaryLine("load", text)
-    avoid = ", ".join(map(measured, values["speeds_to_avoid_rpm"]))
+    avoid = ", ".join(map(value_text, values["speeds_to_avoid_rpm"]))
     text = f"{avoid} rpm" if avoid else "no speed from half to twice the design's"
     yield SummaryLine("avoid", text)
 
@@ -174,7 +160,7 @@ def of_tolerance(design: Design, record: Table) -> Answer:
     """The answer of ``geneva tolerance``, from the record of ``Design.tolerance``."""
     values = record.to_dict()
     warnings = [*design.motion_warnings, *filter(is_warning, values["warnings"])]
-    return record_answer(design, record, _error_lines(values), warnings)
+    return load_lines.record_answer(design, record, _error_lines(values), warnings)
 
 
 def _error_lines(values: dict[str, Any]) -> Iterator[SummaryLine]:
@@ -184,14 +170,14 @@ def _error_lines(values: dict[str, Any]) -> Iterator[SummaryLine]:
     most = max(rows, key=lambda row: row["share"] or 0.0, default=None)
     if most and most["share"]:
         words, _ = spoken(most["dimension"])
-        percent = measured(100.0 * most["share"], "%", 3)
+        percent = value_text(100.0 * most["share"], "%", 3)
         yield SummaryLine("greatest", f"{words} contributes {percent} of the dwell's variance")
     if values["entry_jump.worst"] is not None:
-        jump = measured(values["entry_jump.worst"])
+        jump = value_text(values["entry_jump.worst"])
         yield SummaryLine("entry", f"the wheel's velocity jumps by up to {jump} of the input's")
     turns = {True: "every machine turns", False: "not every machine turns", None: "not known"}
     parts = [
-        f"{part} {measured(values[f'clearances.{part}_mm'], 'mm')}, needed {value_text(needed)}"
+        f"{part} {value_text(values[f'clearances.{part}_mm'], 'mm')}, needed {value_text(needed)}"
         for part in ("slot", "lock")
         if (needed := values[f"clearances.{part}_needed_mm"]) is not None
     ]
@@ -203,6 +189,6 @@ def _angle(label: str, what: str, name: str, values: dict[str, Any]) -> SummaryL
     worst = values[f"{name}.worst_deg"]
     if worst is None:
         return SummaryLine(label, f"{what} is not known")
-    most = measured(values[f"{name}.p997_deg"], "deg")
-    text = f"{what} within {most} in 99.7 % of machines, {measured(worst, 'deg')} at worst"
+    most = value_text(values[f"{name}.p997_deg"], "deg")
+    text = f"{what} within {most} in 99.7 % of machines, {value_text(worst, 'deg')} at worst"
     return SummaryLine(label, text)

@@ -18,6 +18,9 @@ from geneva_cli.study.sweep.run import DEFAULT, Sweep, plan, sweep, with_values
 from geneva_cli.study.sweep.values import axis, refuse_twice
 from geneva_cli.table import Table, rows_table
 
+# options of ``geneva sweep`` that ``request`` takes by their names
+OPTIONS = ("pick", "random", "seed", "check", "subject_to", "pareto", "best", "jobs")
+
 
 def request(
     path: str,
@@ -28,7 +31,7 @@ def request(
     random: int | None = None,
     seed: int | None = None,
     check: bool = False,
-    subject_to: Sequence[str] = (),
+    subject_to: Sequence[str] | None = None,
     pareto: str = "",
     best: str = "",
     jobs: int | None = None,
@@ -57,7 +60,7 @@ def request(
         random = 4096  # designs that --best scans
     if seed is not None and random is None:
         raise GenevaError(f"--seed {cut(seed)}: it needs --random N; a grid has no random draw")
-    bounds = [constraints.constraint(text) for text in subject_to]
+    bounds = [constraints.constraint(text) for text in subject_to or ()]
     if pareto and best:
         raise GenevaError("--pareto with --best: a front, or one design; choose one of them")
     option = "--best" if best else "--pareto"

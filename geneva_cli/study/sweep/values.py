@@ -15,7 +15,7 @@ from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.spec.rules import range_text
 from geneva_cli.spec.units import in_unit_of, unit_key
 from geneva_cli.specfile.keys import is_whole
-from geneva_cli.specfile.reader import Setting, read_value, whole_key
+from geneva_cli.specfile.reader import Setting, parted, read_value
 from geneva_cli.study.fields import Column, column_of
 
 Value: TypeAlias = float | int | str
@@ -55,12 +55,9 @@ def axis(text: str, random: bool = False) -> VariedKey:
 
     With ``random`` values are drawn, and LOW..HIGH of a key that takes fractions is a span.
     """
-    key, sign, values = text.partition("=")
-    option = f"--vary {cut(text.strip())}"
-    if not sign or not values.strip() or not all(key.strip().split(".")):
-        raise GenevaError(f"{option}: it must be KEY=VALUES, as in --vary drive.A=0..0.9:0.1")
-    whole = whole_key(key.strip(), option)
-    return _axis(whole, values.strip().strip('"'), option, random)
+    form = "KEY=VALUES, as in --vary drive.A=0..0.9:0.1"
+    option, key, values = parted(text, "--vary", form)
+    return _axis(key, values.strip('"'), option, random)
 
 
 def numbers(text: str, option: str) -> list[float]:

@@ -10,11 +10,7 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.registry import STANDARD_LAWS as LAWS
 from geneva_cli.spec.rules import POSITIVE, Range, range_text
 from geneva_cli.study.survey import parse_z
-from geneva_cli.study.sweep.constraints import (
-    constraint,
-    objective,
-    refuse_unsound,
-)
+from geneva_cli.study.sweep.constraints import constraint, objective, refuse_unsound
 from geneva_cli.study.target import GEARINGS, ROLLERS_MAX, SPACE, AllowedSpan, Target
 
 # The requirements for a number or a range: allowed values, and name and unit in words.
@@ -26,6 +22,8 @@ SPANS = {
     "dwell_s": (POSITIVE, "a dwell of", " s"),
     "cycle": (Range(1e-6, 1e6), "a cycle of", " s"),
 }
+# options of ``geneva synth`` that ``read_target`` takes by their names, as they are typed
+OPTIONS = (*SPANS, *("z", "internal", "external", "spherical", "rollers", "law", "sort", "space"))
 
 
 def read_target(

@@ -9,6 +9,7 @@ collisions in a whole turn are left to ``synth_table``.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -80,56 +81,42 @@ def slot_paths(machine: Mechanism) -> SlotPaths:
     return SlotPaths(*np.broadcast_arrays(*rows))
 
 
-def suiting(
-    machine: Mechanism, which: Whole, rollers: Array, largest: bool = True
-) -> tuple[Array, list[str]]:
+def suiting(machine: Mechanism, rollers: Array, largest: bool = True) -> tuple[Array, list[str]]:
     """For n machines the radii in mm of the rollers that suit them, and the obstacles to parts.
 
-    ``which`` (n,) are their numbers in the batch, and ``rollers`` (n,) those on the crank. The
-    roller is the largest usual one up to L/20 without an obstacle, or the least that leaves no
-    island; without ``largest`` any one. It is NaN for the spec's own, for the default, and for a
-    machine whose obstacle no roller avoids.
+    ``rollers`` (n,) are their numbers on the crank. The roller is the largest usual one up to L/20
+    without an obstacle, or the least that leaves no island; without ``largest`` any one. It is NaN
+    for the spec's own, for the default, and for a machine whose obstacle no roller avoids.
     """
-    size, paths = machine.spec.size, SlotPaths(*(part[which] for part in slot_paths(machine)))
-    L = np.broadcast_to(np.ravel(machine.center_distance_mm), (machine.designs,))[which]
+    n, size, paths = machine.designs, machine.spec.size, slot_paths(machine)
+    L = np.broadcast_to(np.ravel(machine.center_distance_mm), (n,))
     given, least = size.roller_radius_mm, SPARE * paths.least
     if given is None:
         digits = np.array([to_digits(x, 2, math.ceil) for x in (least / L).tolist()])
         radii = 0.01 * np.array(USUAL)[:, None] * L
         radii = np.vstack((radii, np.maximum(digits * L, radii[-1])))
     else:
-        radii, least = np.full((1, len(which)), given), paths.least
-    walls = np.array([wall[1:6] for wall in outer_walls(machine, UNDERCUT_SAMPLES) or ()])
-    code = _obstacles(machine.spec, paths, len(walls) > 0, L, radii, rollers)
+        radii, least = np.full((1, n), given), paths.least
+    walls = [np.array(wall[1:6]) for wall in outer_walls(machine, UNDERCUT_SAMPLES) or ()]
+    code = _obstacles(machine.spec, paths, bool(walls), L, radii, rollers)
 
-    def fits(some: Whole, numbers: Whole) -> Mask:
-        if not len(walls):
-            return np.full(len(some), True)
+    def fitting(some: Whole, numbers: Whole | int) -> Whole:
+        """Those machines whose slot is not undercut by the roller of this number."""
         w = radii[numbers, some] + size.allowances.slot_clearance_mm
-        return ~_is_undercut(walls[:, :, which[some]], w, L[some])
+        return some[~_is_undercut([wall[:, some] for wall in walls], w, L[some])]
 
-    def first_of(able: Mask) -> Whole:
-        """For each machine the number of the first of the rollers that is not undercut; or -1."""
-        order = np.argsort(~able, axis=0, kind="stable")
-        low, high = np.zeros(len(which), dtype=int), able.sum(axis=0) - 1
-        left = np.flatnonzero(high >= 0)
-        passing = left[fits(left, order[high[left], left])]  # the smallest is undercut least
-        left = passing if largest else passing[:0]
-        while len(left := left[low[left] < high[left]]):
-            middle = (low[left] + high[left]) // 2
-            passes = fits(left, order[middle, left])
-            high[left[passes]] = middle[passes]
-            low[left[~passes]] = middle[~passes] + 1
-        found = np.full(len(which), -1)
-        found[passing] = order[high[passing], passing]
-        return found
-
-    radius, is_island = np.full(len(which), math.nan), radii < least
+    radius, is_island = np.full(n, math.nan), radii < least
     why = np.where(code[-1] == 0, UNDERCUT, code[-1])
     for obstacle, able in ((0, ~is_island), (ISLAND, is_island))[: 1 + largest]:
-        first = first_of((code == 0) & able & np.isnan(radius))
-        found = np.flatnonzero(first >= 0)
-        why[found], radius[found] = obstacle, radii[first[found], found]
+        able &= (code == 0) & np.isnan(radius)
+        smallest = len(radii) - 1 - able[::-1].argmax(axis=0)  # it is undercut least
+        left = np.flatnonzero(able.any(axis=0))
+        left = fitting(left, smallest[left])
+        why[left] = obstacle
+        for number, own in enumerate(radii if largest else ()):
+            found = fitting(left[able[number, left]], number)
+            radius[found] = own[found]
+            left = np.setdiff1d(left, found)
     radius[radius == radii[0]] = math.nan  # the spec's own, or the default
     return radius, [OBSTACLES[i] for i in why]
 
@@ -162,10 +149,10 @@ def _obstacles(
     return first
 
 
-def _is_undercut(walls: Array, w: Array, L: Array) -> Mask:
+def _is_undercut(walls: Sequence[Array], w: Array, L: Array) -> Mask:
     """Mask (n,) of the machines in which a slot of half the width w, mm, is undercut.
 
-    ``walls`` (2, 5, n, k) are the outer walls: pitch curve, normal and curvature over L.
+    ``walls`` (5, n, k) are the outer walls: pitch curve, normal and curvature over L.
     """
     R, out = w / L, np.zeros(len(L), dtype=bool)
     for x, y, normal_x, normal_y, bend in walls:

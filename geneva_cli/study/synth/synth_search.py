@@ -6,22 +6,19 @@ A row is a machine with its description and its costs.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from itertools import pairwise
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from geneva_cli.drives.crank import Crank
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.registry import families_of_kinds, gearing, thing
-from geneva_cli.motion.timing import Timing, timing
 from geneva_cli.motion.wheels.classic import rollers_max
 from geneva_cli.motion.wheels.gearing import Gearing
-from geneva_cli.numerics.angles import omega
 from geneva_cli.progress import tracked
 from geneva_cli.study.batches import batch_machines, columns, numbers
 from geneva_cli.study.fields import Cell, Pick, rows_of
@@ -32,7 +29,7 @@ from geneva_cli.study.synth.families.family import Family, natural_deg, pieces
 from geneva_cli.study.synth.families.straight_slots import straight
 from geneva_cli.study.synth.family_search import best
 from geneva_cli.study.synth.suiting import suiting, with_roller
-from geneva_cli.study.target import USUAL_RPM, Target
+from geneva_cli.study.target import Target
 from geneva_cli.verdict.quantities.quantity_names import in_batch
 
 # Entries of the table for parts that pass a full turn, and for parts that were not turned.
@@ -40,6 +37,10 @@ YES = "yes"
 MAYBE = "maybe"
 COSTS = ("velocity.max", "acceleration.max", "acceleration.entry", "jerk.max", "power.max")
 TIMES = ("motion_deg", "dwell_deg", "tau", "k", "motion_s", "dwell_s")
+# Cells that are quantities, and those of them that need a required speed.
+QUANTITIES = {name.replace(".", "_"): name for name in (*COSTS, "acceleration.max_rad_s2")}
+QUANTITIES |= {name: f"timing.{name}" for name in TIMES}
+TIMED = ("motion_s", "dwell_s", "acceleration_max_rad_s2")
 # The cells of a row: its number from 1, the machine's keys as far as it has them, its costs
 # (invariants), its times in seconds if they are required, and whether its parts can be built; None
 # if they are not drawn.
@@ -54,17 +55,10 @@ CELLS = (
 
 
 class MachineRow(NamedTuple):
-    """A machine: its spec, cells by their names, and further requested quantities."""
+    """A machine: its spec, and cells by their names, with further requested quantities last."""
 
     spec: Spec
     cells: dict[str, Any]
-    extra: tuple[float | int | str | bool | None, ...] = ()
-
-    @property
-    def peak(self) -> float:
-        """The greatest acceleration, in rad/s² if the speed is required."""
-        per_s2: float | None = self.cells["acceleration_max_rad_s2"]
-        return self.cells["acceleration_max"] if per_s2 is None else per_s2
 
     @property
     def trouble(self) -> str:
@@ -74,138 +68,85 @@ class MachineRow(NamedTuple):
 
 def rows(target: Target, specs: Sequence[Spec]) -> list[MachineRow]:
     """The rows of machines that can be built and have the required motion."""
-    limits = target.soft_bounds
-    # at the usual speed with one of its equal rollers a machine has the same peaks
-    alone = [s.replace(drive=s.drive.replace(n_rpm=USUAL_RPM, rollers=1)) for s in specs]
-    costs, sized = _costs_and_rollers(specs, alone)
-    limited = numbers(batch_machines(specs), [b.name for b in limits.values()], len(specs))
-    out: list[MachineRow] = []
-    each = zip(specs, alone, sized, limited.T.tolist(), strict=True)
-    for spec, one, (radius, why), held in each:
-        cost, drive = costs.get(one), spec.drive
-        if cost is None:
+    limits, out = target.soft_bounds, dict[int, MachineRow]()
+    names = [bound.name for bound in limits.values()]
+    for members, machine in batch_machines(specs):
+        own, n, m = [specs[i] for i in members.tolist()], len(members), machine.spec.drive.rollers
+        costs = columns(machine, [*QUANTITIES.values()], n)
+        if costs is None:
             continue
-        *_, motion_deg, period, entry, end = cost
-        dwell_deg = period / drive.rollers + entry - end
-        if not target.motions(drive.rollers / drive.turns, motion_deg).allows(motion_deg):
-            continue
-        if not dwell_deg > 1e-9:  # rollers without a dwell may jam
-            dwell_deg = 0.0
-            try:
-                build(spec)
-            except GenevaError:
+        held = columns(machine, names, n) or np.full((len(names), n), np.nan)
+        radii, why = np.full(n, math.nan), [""] * n
+        if any(spec.is_flat for spec in own):
+            radii, why = suiting(machine, np.full(n, m))
+        each = np.column_stack(np.broadcast_arrays(*costs, np.ravel(machine.ratio), *held))
+        suited = zip(radii.tolist(), why, strict=True)
+        for i, spec, roller, row in zip(members, own, suited, each.tolist(), strict=True):
+            values = dict(zip((*QUANTITIES, "ratio", *limits), row, strict=True))
+            motion_deg = values["motion_deg"]
+            allowed = target.motions(m / spec.drive.turns, motion_deg)
+            if not (math.isfinite(values["acceleration_max"]) and allowed.allows(motion_deg)):
                 continue
-        index_deg = spec.wheel.index_deg(0)
-        times = timing(motion_deg, dwell_deg, index_deg, drive.n_rpm, None, drive.stop_s)
-        bounds = zip(limits.items(), held, strict=True)
-        over = [key for (key, bound), x in bounds if not (np.isnan(x) or bound.kept(x))]
-        parts = MAYBE if spec.is_turned else None
-        if why or (over and parts):
-            parts = f"no: {why or ', '.join(over)}"
-        cells = _cells(target, spec, cost, times, parts)
-        out.append(MachineRow(with_roller(spec, radius), cells))
-    return out
+            radius, obstacle = roller if spec.is_flat else _roller(spec)
+            over = [k for k, b in limits.items() if not (math.isnan(x := values[k]) or b.kept(x))]
+            parts = MAYBE if spec.is_turned else None
+            if obstacle or (over and parts):
+                parts = f"no: {obstacle or ', '.join(over)}"
+            out[int(i)] = MachineRow(with_roller(spec, radius), _cells(target, spec, values, parts))
+    return [out[i] for i in sorted(out)]
 
 
-def _costs_and_rollers(
-    specs: Sequence[Spec], alone: Sequence[Spec]
-) -> tuple[dict[Spec, list[float]], list[tuple[float, str]]]:
-    """The costs, R/L, motion, period and ends of the machines ``alone``; the rollers that suit.
-
-    ``alone`` are the specs with one roller each. The rollers are those of specs, with obstacles.
-    Both come from the same batches. A spec that makes no machine, or one whose acceleration has no
-    bound, has no costs.
-    """
-    # with the same slots and rollers' paths: plain cranks, whatever turns them
-    slots = [
-        one.replace(drive=Crank(n_rpm=USUAL_RPM)) if s.motion is None and s.drive.crank else one
-        for s, one in zip(specs, alone, strict=True)
-    ]
-    several: dict[Spec, dict[int, None]] = {}  # the numbers of rollers with such slots
-    for spec, one in zip(specs, slots, strict=True):
-        if spec.is_flat:
-            several.setdefault(one, {})[spec.drive.rollers] = None
-    costs: dict[Spec, list[float]] = {}
-    found: dict[tuple[Spec, int], tuple[float, str]] = {}
-    each = [*dict.fromkeys((*alone, *several))]
-    for members, machine in batch_machines(each):
-        own = [each[i] for i in members.tolist()]
-        if values := columns(machine, COSTS, len(own)):
-            (moved,) = machine.engagements
-            ends = moved.mid_deg + moved.entry_deg, moved.mid_deg + moved.exit_deg
-            more = machine.ratio, moved.motion_deg, machine.period_deg, *ends
-            table = np.broadcast_arrays(*values, *map(np.ravel, more))
-            known = zip(own, np.column_stack(table).tolist(), strict=True)
-            costs |= {spec: row for spec, row in known if math.isfinite(row[1])}
-        pairs = [(i, one, m) for i, one in enumerate(own) for m in several.get(one, ())]
-        if pairs:
-            which, suited_specs, counts = zip(*pairs, strict=True)
-            radii, why = suiting(machine, np.array(which), np.array(counts))
-            suited = zip(radii.tolist(), why, strict=True)
-            found.update(zip(zip(suited_specs, counts, strict=True), suited, strict=True))
-    out = []
-    for spec, one in zip(specs, slots, strict=True):
-        roller = found.get((one, spec.drive.rollers), (math.nan, ""))
-        if not spec.is_flat and spec.is_turned and (suits := thing(spec.wheel.NAME, "roller")):
-            try:
-                roller = suits(build(spec))
-            except GenevaError as error:
-                roller = math.nan, str(error)
-        out.append(roller)
-    return costs, out
+def _roller(spec: Spec) -> tuple[float, str]:
+    """The roller that suits a machine without flat outlines, as ``suiting`` returns it."""
+    suits = thing(spec.wheel.NAME, "roller") if spec.is_turned else None
+    try:
+        roller: tuple[float, str] = suits(build(spec)) if suits else (math.nan, "")
+    except GenevaError as error:
+        return math.nan, str(error)
+    return roller
 
 
 def _cells(
-    target: Target, spec: Spec, costs: list[float], times: Timing, parts: str | None
+    target: Target, spec: Spec, values: Mapping[str, float], parts: str | None
 ) -> dict[str, Any]:
-    keys, motion, n = spec.wheel.as_dict() | spec.drive.as_dict(), spec.motion, spec.drive.n_rpm
+    keys, motion = spec.wheel.as_dict() | spec.drive.as_dict(), spec.motion
     cells: dict[str, Any] = {name: keys.get(name) for name in CELLS}
-    cells |= {name.replace(".", "_"): cost for name, cost in zip(COSTS, costs, strict=False)}
-    cells |= {name: getattr(times, name) for name in TIMES if target.timed or name[-2:] != "_s"}
+    known = [name for name in (*QUANTITIES, "ratio") if target.timed or name not in TIMED]
+    cells |= {name: values[name] for name in known}
     return cells | {
         "gearing": spec.wheel.NAME,
         "rollers": spec.drive.rollers,
         "drive": spec.drive.NAME,
         "alpha0_deg": motion.alpha0_deg if motion else None,
         "law": motion.law.NAME if motion else None,
-        "ratio": costs[len(COSTS)],
-        "n_rpm": n if target.timed else None,
-        "acceleration_max_rad_s2": costs[1] * omega(n) ** 2 if target.timed else None,
+        "n_rpm": spec.drive.n_rpm if target.timed else None,
         "parts": parts,
         "offset_mm": cells["offset_mm"] or None,
     }
 
 
 KIND = ("gearing", "z", "drive", "law", "fixed", "rollers")
-TURNED = 20  # rows whose parts are turned by default
 # Least numbers of slots in a group: a search of so many four-bars has its fewest samples for each
 # (four_bar_search), so that groups find what one search of all does.
 GROUP = 24
 Kind: TypeAlias = Callable[[Target, Sequence[Gearing]], Iterator[Family]]
 
 
-class Ranking(NamedTuple):
-    """The rows that meet a requirement, in order, and the requirement itself."""
-
-    rows: list[MachineRow]
-    target: Target  # with its bounds on times as ranges
-    requested: Target
-
-    def rank(self, row: MachineRow) -> tuple[object, ...]:
-        """The sort key of a row: the goal's quantity, then peaks, equal in 12 digits."""
-        target, numbers, cells = self.requested, [row.peak, row.cells["jerk_max"]], row.cells
-        first: tuple[object, ...] = ()
-        if target.sort:
-            value = row.extra[target.names.index(target.sort.name)]
-            # texts, and unknown values, come behind the numbers
-            first = (1, str(value))
-            if is_number(value):
-                first = (0, float(f"{target.sort.sign * float(value):.12g}"))
-        peaks = (float(f"{x:.12g}") for x in numbers)
-        return (*first, *peaks, *(cells[name] for name in ("rollers", "z", "gearing", "drive")))
+def _rank(target: Target, row: MachineRow) -> tuple[object, ...]:
+    """The sort key of a row: the goal's quantity, then peaks, equal in 12 digits."""
+    cells, first = row.cells, tuple[object, ...]()
+    if target.sort:
+        value = cells[target.sort.name]
+        # texts, and unknown values, come behind the numbers
+        first = (1, str(value))
+        if is_number(value):
+            first = (0, float(f"{target.sort.sign * float(value):.12g}"))
+    peak = cells["acceleration_max_rad_s2" if target.timed else "acceleration_max"]
+    peaks = (float(f"{x:.12g}") for x in (peak, cells["jerk_max"]))
+    return (*first, *peaks, *(cells[name] for name in ("rollers", "z", "gearing", "drive")))
 
 
-def search(target: Target) -> Ranking:
+def search(target: Target) -> list[MachineRow]:
     """The machines that meet the requirement, in order; no part has been turned yet."""
     narrowed = target.with_times()
     narrowed.refuse_contradictions()
@@ -213,19 +154,17 @@ def search(target: Target) -> Ranking:
     every = _all_groups(narrowed, target.names, False) or _all_groups(target, target.names, True)
     if not every:
         raise GenevaError(_out_of_reach(target))
-    ranking = Ranking([], narrowed, target)
-    kept = sorted(_bounded(target, every), key=ranking.rank)
     # without a search for the goal or a bound a family has several rows: the first of each kind,
     # and the first that may be built
-    has_one, can_be = in_batch(target.names), dict[object, bool]()
-    for i, row in enumerate(kept):
+    has_one, can_be, out = in_batch(target.names), dict[object, bool](), list[MachineRow]()
+    for i, row in enumerate(sorted(_bounded(target, every), key=partial(_rank, target))):
         is_single = has_one and row.cells["crank_mm"] is None
         kind: object = i if is_single else tuple(row.cells[name] for name in KIND)
         if kind not in can_be or (not can_be[kind] and not row.trouble):
-            ranking.rows.append(row)
-            row.cells["no"] = len(ranking.rows)
+            out.append(row)
+            row.cells["no"] = len(out)
             can_be[kind] = not row.trouble
-    return ranking
+    return out
 
 
 def _all_groups(target: Target, names: Sequence[str], how_near: bool) -> list[MachineRow]:
@@ -269,41 +208,37 @@ def _group(task: tuple[Kind, Target], names: Sequence[str], how_near: bool) -> l
     if how_near:
         shown += [*(specs[i] for i in np.flatnonzero(~keeps).tolist()), *near]
     found = rows(target, [*dict.fromkeys(shown)])
-    if not (names and in_batch(names)):
-        return found
-    out, values = [], numbers(batch_machines([row.spec for row in found]), names, len(found))
-    for row, own in zip(found, values.T.tolist(), strict=True):
-        cells = tuple(None if math.isinf(x) else x for x in own)
-        # a row without one of them needs its own machine
-        out.append(row if any(map(math.isnan, own)) else row._replace(extra=cells))
-    return out
+    if names and in_batch(names):
+        values = numbers(batch_machines([row.spec for row in found]), names, len(found))
+        for row, own in zip(found, values.T.tolist(), strict=True):
+            if not any(map(math.isnan, own)):  # else it needs its own machine
+                cells = (None if math.isinf(x) else x for x in own)
+                row.cells.update(zip(names, cells, strict=True))
+    return found
 
 
 def _bounded(target: Target, found: list[MachineRow]) -> list[MachineRow]:
     """The rows, with the requested quantities, that keep the bounds."""
-    names = target.names
-    if not names:
-        return found
-    alone = [row.spec for row in found if not row.extra]
-    rest = mapped(partial(_values, Pick(names)), alone, min(cores(), len(alone)))
-    rest = tracked(rest, "machines computed", len(alone))
-    values = [row.extra or next(rest) for row in found]
-    pairs = zip(found, values, strict=True)
-    known = [row._replace(extra=cells) for row, cells in pairs if cells is not None]
-    bounds = [(names.index(b.name), b) for b in target.bounds]
-    kept = [row for row in known if all(b.kept(row.extra[i]) for i, b in bounds)]
+    names, bounds = target.names, target.bounds
+    alone = [row for row in found if not row.cells.keys() >= {*names}]
+    specs = [row.spec for row in alone]
+    rest = mapped(partial(_values, Pick(names)), specs, min(cores(), len(alone)))
+    for row, cells in zip(alone, tracked(rest, "machines computed", len(alone)), strict=True):
+        row.cells.update(zip(names, cells or (), strict=False))
+    known = [row for row in found if row.cells.keys() >= {*names}]
+    kept = [row for row in known if all(b.kept(row.cells[b.name]) for b in bounds)]
     if not kept:
-        nearness = Nearness(bounds)
+        nearness = Nearness([*enumerate(bounds)])
         if known:
-            nearness.add(rows_of([row.extra for row in known]).numbers)
+            nearness.add(rows_of([[row.cells[b.name] for b in bounds] for row in known]).numbers)
         why = "; ".join(nearness.phrases())
         raise GenevaError(f"--subject-to: none of {len(found)} machines keeps all bounds: {why}")
     return kept
 
 
-def _values(of: Pick, spec: Spec) -> tuple[Cell, ...] | None:
+def _values(of: Pick, spec: Spec) -> list[Cell] | None:
     try:
-        return tuple(of.of(build(spec)))
+        return of.of(build(spec))
     except GenevaError:  # parts that cannot be drawn have no quantities
         return None
 

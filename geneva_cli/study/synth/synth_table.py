@@ -6,6 +6,7 @@ For people rows have short names and a description of each machine.
 from __future__ import annotations
 
 import math
+from bisect import bisect_left
 from collections.abc import Collection, Sequence
 from functools import partial
 from typing import Any
@@ -23,28 +24,12 @@ from geneva_cli.specfile.writer import quoted, spec_lines
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.sweep.constraints import Constraint
 from geneva_cli.study.synth.suiting import SPARE, USUAL, slot_paths, with_roller
-from geneva_cli.study.synth.synth_search import (
-    CELLS,
-    COSTS,
-    MAYBE,
-    TURNED,
-    YES,
-    MachineRow,
-    Ranking,
-    search,
-)
+from geneva_cli.study.synth.synth_search import CELLS, COSTS, MAYBE, YES, MachineRow, search
 from geneva_cli.study.target import Target
 from geneva_cli.table import Reading, Table, rows_table
-from geneva_cli.verdict.checks import (
-    LIMITS,
-    MOTION,
-    STANDING,
-    all_pass,
-    checks,
-    every_check,
-    single_check,
-)
+from geneva_cli.verdict import checks as judged
 
+TURNED = 20  # rows whose parts are turned by default
 # keys of [limits] and what they bound
 _LIMITED = {
     **LIMITED,
@@ -53,7 +38,8 @@ _LIMITED = {
 }
 # keys that conflict with a crank's bore
 SHAFT = {"crank_shaft_mm", "crank_hub_mm", "crank_bore_wall_mm"}
-UNSIZED = {*MOTION, *LIMITS} - {"undercut_mm"}  # checks that no other roller can mend
+# checks that no other roller can mend
+UNSIZED = {*judged.MOTION, *judged.LIMITS} - {"undercut_mm"}
 # Columns in order, with the requested quantities before the last, and short names of some.
 COLUMNS = (
     *("no", "z", "gearing", "rollers", "machine", "ratio", "motion_deg", "dwell_deg", "motion_s"),
@@ -80,34 +66,36 @@ WORDS = {
 
 def synthesis_table(target: Target, count: int = TURNED, buildable: bool = False) -> Table:
     """One row for each machine, numbered from 1, as ``turned`` returns them."""
-    ranking = search(target)
-    shown = [(*row.cells.values(), *row.extra) for row in turned(ranking, count, buildable)]
+    rows = search(target)
+    shown = [tuple(row.cells.values()) for row in turned(target, rows, count, buildable)]
     title = "1 machine" if len(shown) == 1 else f"{len(shown)} machines"
     if several := len(shown) > 1:
         first = str(target.sort or "") or f"lowest peak acceleration{' in rad/s2' * target.timed}"
         title = f"{title}, {first} first"
     if buildable:
-        title = f"{title}{',' * several} of {len(ranking.rows)}"
+        title = f"{title}{',' * several} of {len(rows)}"
     return rows_table((*CELLS, *target.names), shown, f"{target.words}: {title}.")
 
 
-def turned(ranking: Ranking, count: int = TURNED, buildable: bool = False) -> list[MachineRow]:
+def turned(
+    target: Target, rows: list[MachineRow], count: int = TURNED, buildable: bool = False
+) -> list[MachineRow]:
     """The rows, the first ``count`` of them turned; with ``buildable`` the first that pass.
 
     A turned row says yes, with sizes that pass, or no. Others say maybe, or no if that is known
     without turning.
     """
-    maybe = [row for row in ranking.rows if row.cells["parts"] == MAYBE]
+    maybe = [row for row in rows if row.cells["parts"] == MAYBE]
     if not buildable:
         maybe = [row for row in maybe if row.cells["no"] <= count]
-    done = mapped(partial(_turned, ranking.target), maybe, min(len(maybe), cores()))
+    done = mapped(partial(_turned, target), maybe, min(len(maybe), cores()))
     results, passed = dict[int, MachineRow](), list[MachineRow]()
     for row in tracked(done, "machines turned", len(maybe)):
         results[row.cells["no"]] = row
         passed += [row] if row.cells["parts"] == YES else []
         if buildable and len(passed) >= count:
             break
-    return passed if buildable else [results.get(row.cells["no"], row) for row in ranking.rows]
+    return passed if buildable else [results.get(row.cells["no"], row) for row in rows]
 
 
 def _turned(target: Target, row: MachineRow) -> MachineRow:
@@ -116,7 +104,7 @@ def _turned(target: Target, row: MachineRow) -> MachineRow:
         return row
     sizes = target.frame.size.as_dict() if target.frame else {}
     spec, trouble = built(row.spec, {key for key, value in sizes.items() if value is not None})
-    return MachineRow(spec, row.cells | {"parts": f"no: {trouble}" if trouble else YES}, row.extra)
+    return MachineRow(spec, row.cells | {"parts": f"no: {trouble}" if trouble else YES})
 
 
 def built(spec: Spec, fixed: Collection[str] = ()) -> tuple[Spec, str]:
@@ -126,16 +114,16 @@ def built(spec: Spec, fixed: Collection[str] = ()) -> tuple[Spec, str]:
     keys of its [size] that must not change. If no sizes pass, the spec is unchanged.
     """
     machine = build(spec)
-    failing = [check.name for check in checks(machine, parts=False) if check.passes is False]
+    failing = [check.name for check in judged.checks(machine, parts=False) if check.passes is False]
     if not {*failing} & UNSIZED:
-        failing = [check.name for check in checks(machine) if check.passes is False]
+        failing = [check.name for check in judged.checks(machine) if check.passes is False]
     trouble = {*failing}
     if not trouble or trouble & UNSIZED:
         return spec, ", ".join(failing)
     own = spec
     if "crank_bore_mm" not in fixed and trouble & SHAFT:
         own = spec.with_("size.crank_bore_mm", 0.0)  # the shaft ends in the arm
-        if all_pass(every_check(build(own), quick=True)):
+        if judged.all_pass(judged.every_check(build(own), quick=True)):
             return own, ""
     if trouble <= SHAFT or "roller_radius_mm" in fixed:
         return spec, ", ".join(failing)
@@ -145,41 +133,35 @@ def built(spec: Spec, fixed: Collection[str] = ()) -> tuple[Spec, str]:
         least = max(least, wall_min(spec.size, L))  # a horn is no thicker than its roller's radius
     most = machine.roller_radius_mm * (1.0 - 1e-9)
     radii = [r for r in 0.01 * L * np.array(USUAL) if least <= r < most]
-    best = None
-    low, high = 0, len(radii)  # those from ``high`` on pass
-    while low < high:
-        middle = (low + high) // 2
-        other = with_roller(own, radii[middle])
-        if _passes(other, failing):
-            best, high = other, middle
-        else:
-            low = middle + 1
-    return (best, "") if best else (spec, ", ".join(failing))
+    each = [with_roller(own, radius) for radius in radii]
+    first = bisect_left(each, True, key=lambda other: _passes(other, failing))
+    return (each[first], "") if first < len(each) else (spec, ", ".join(failing))
 
 
 def _passes(spec: Spec, failing: Sequence[str]) -> bool:
     """Whether a machine passes every check, of which ``failing`` are those most likely to fail."""
     machine = build(spec)
     parts = parts_of(machine)
+    standing = [name for name in failing if name in judged.STANDING]
     try:  # before a whole turn
-        first = [single_check(machine, name, parts) for name in failing if name in STANDING]
+        first = [judged.single_check(machine, name, parts) for name in standing]
     except GenevaError:
         return False
-    if not all_pass(filter(None, first)):
+    if not judged.all_pass(filter(None, first)):
         return False
-    return all_pass(every_check(machine, parts, quick=True))
+    return judged.all_pass(judged.every_check(machine, parts, quick=True))
 
 
-def chosen(ranking: Ranking, number: int) -> tuple[MachineRow, str]:
+def chosen(target: Target, rows: list[MachineRow], number: int) -> tuple[MachineRow, str]:
     """Row ``number``, and the text of its spec with comments, as ``turned`` shows it.
 
     The parts are turned through a whole turn, unless they are known to be impossible.
     """
-    if not 1 <= number <= len(ranking.rows):
-        raise GenevaError(f"--write {cut(number)}: the table has rows 1 to {len(ranking.rows)}")
-    row = _turned(ranking.target, ranking.rows[number - 1])
-    row = row._replace(spec=with_limits(ranking.requested, row.spec))
-    return row, commented(ranking.target, number, row)
+    if not 1 <= number <= len(rows):
+        raise GenevaError(f"--write {cut(number)}: the table has rows 1 to {len(rows)}")
+    row = _turned(target, rows[number - 1])
+    row = row._replace(spec=with_limits(target, row.spec))
+    return row, commented(target, number, row)
 
 
 def with_limits(target: Target, spec: Spec) -> Spec:
@@ -248,6 +230,7 @@ def for_people(table: Table, most: int | None = None) -> Table:
     # rows are sorted by the peak, and --write takes their number: a narrow window keeps both
     peak = next(name for name in ("acceleration_max_rad_s2", "acceleration_max") if name in columns)
     ranked = ("no", "machine", "parts", peak, "z", "gearing", "n_rpm", *extra, "rollers")
+    ranked += ("motion_deg", "dwell_s")  # what most requirements are of
     first = tuple(heads[name] for name in ranked if name in heads)
     reading = Reading(first, decide=("parts",))
     return Table(tuple(heads.values()), [*columns.values()], title=title, reading=reading)

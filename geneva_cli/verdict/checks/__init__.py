@@ -238,7 +238,7 @@ def every_check(
         machine = machine or parts_of(mechanism)
         try:
             rows = unbuilt or [*applicable(standing, machine.built)]
-            _ = machine.turned
+            _ = machine.assembly
         except GenevaError as error:
             rows, turned = [refused("parts", error)], False
         yield from rows
@@ -275,10 +275,10 @@ def single_check(mechanism: Mechanism, name: str, machine: Parts | None = None) 
             pushed = pushed_round(mechanism) if mechanism.no_turn else []
             return next((check for check in pushed if check.name == name), None)
         if name in OF_TURN:
-            among, of = TURNING, (machine, machine.turned.turn)
+            among, of = TURNING, (machine, machine.turn)
         else:
             if name == "parts":
-                _ = machine.turned
+                _ = machine.assembly
             if mechanism.spec.no_parts:
                 return None
             among, of = own_checks(mechanism)[1], (machine.built,)

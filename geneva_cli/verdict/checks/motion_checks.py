@@ -87,14 +87,11 @@ def limits(names: Collection[str], mechanism: Mechanism) -> Iterator[Check]:
         elif limit is None:
             continue
         elif name in ("velocity_max", "acceleration_max", "acceleration_entry_max", "jerk_max"):
-            from geneva_cli.motion.peaks import worst, worst_of
+            from geneva_cli.motion.peaks import worst
 
-            if name == "acceleration_entry_max":
-                most = worst(mechanism).ends.acceleration_entry
-            elif name == "jerk_max":
-                most = worst(mechanism).jerk.max
-            else:
-                most = worst_of(mechanism, name.removesuffix("_max")).max
+            peaks, own = worst(mechanism), name.removesuffix("_max")
+            at_entry = peaks.ends.acceleration_entry
+            most = at_entry if own == "acceleration_entry" else getattr(peaks, own).max
             yield compared(name, most, "at most", limit)
         elif name.endswith("_s"):
             from geneva_cli.motion.timing import timings
@@ -107,8 +104,8 @@ def limits(names: Collection[str], mechanism: Mechanism) -> Iterator[Check]:
             from geneva_cli.verdict.quantities.batch_designs import number_of, single
             from geneva_cli.verdict.quantities.load_quantities import greatest
 
-            peaks, load = single(mechanism).columns(greatest), LIMITED[name].split(".")[1]
-            most, at_deg = number_of(peaks[f"{load}.max"], 0), number_of(peaks[f"{load}.at_deg"], 0)
+            loads, load = single(mechanism).columns(greatest), LIMITED[name].split(".")[1]
+            most, at_deg = number_of(loads[f"{load}.max"], 0), number_of(loads[f"{load}.at_deg"], 0)
             yield compared(name, most, "at most", limit, at_deg)
 
 
@@ -240,7 +237,7 @@ def proof(names: Collection[str], parts: Parts, to_mm: float | None) -> Iterator
     ``to_mm`` is how far below the smallest gap the bound may be: by default 1 um, or twice the
     overlap that counts as touching, if that is more.
     """
-    gap, name = parts.turned.turn.smallest.mm, "gap_proved_mm"
+    gap, name = parts.turn.smallest.mm, "gap_proved_mm"
     if gap < -parts.contact:
         return
     to_mm = to_mm or max(1e-3, 2.0 * parts.contact)

@@ -119,7 +119,7 @@ class UnderLoad:
             return bent._replace(stress_MPa=parameter(bent.stress_MPa / np.ravel(width)))
         assert self.horn_sizes
         wide = np.ravel(width).item() if self.designs.single else width  # to be hashed
-        return greatest_stress(self.sides, self.machine, self.horn_sizes, wide)
+        return greatest_stress(self.sides, self.machine, (*self.horn_sizes, wide))
 
     @cached_property
     def _flat_horns(self) -> HornStress:

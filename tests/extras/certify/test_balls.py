@@ -10,7 +10,8 @@ from flint import ctx
 from geneva_cli.extras.certify.balls import Ball
 from geneva_cli.extras.certify.enclosures import greatest
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import Undecided, library
+from geneva_cli.numerics.arrays import library
+from geneva_cli.numerics.intervals import Undecided
 from geneva_cli.numerics.jet import Jet, atan2, sin_cos, sqrt
 
 
@@ -57,7 +58,7 @@ def wave(x, order):
 
 def test_the_greatest_size_and_all_its_places():
     with ctx.workprec(128):
-        found = greatest(wave, (0.0, 180.0), 200)
+        found = greatest([(wave, (0.0, 180.0))], 200)
     assert found.open is None
     assert found.low <= 1.0 <= found.high
     assert found.high - found.low <= 4e-16  # a unit in the last place to either side
@@ -72,7 +73,7 @@ def test_a_curve_without_bounds_is_left_open():
         return 1.0 / (Jet.variable(x, order) - 1.0)
 
     with ctx.workprec(128):
-        found = greatest(pole, (0.0, 3.0), 500)
+        found = greatest([(pole, (0.0, 3.0))], 500)
     assert found.open is not None
     assert found.open.start <= 1.0 <= found.open.end
     assert found.high == math.inf

@@ -28,7 +28,7 @@ MACHINES = some(60, 6)
 
 def rack_of(z: int = 6, **sizes: float):
     size = Size(**{"center_distance_mm": R, "roller_radius_mm": r, **sizes})
-    return parts_of(Design(Linear(z), size=size).mechanism).turned
+    return parts_of(Design(Linear(z), size=size).mechanism).built
 
 
 def random_parts(seed: int):

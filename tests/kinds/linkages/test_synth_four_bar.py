@@ -22,7 +22,7 @@ KEYS = ("crank_mm", "ground_mm", "coupler_mm", "rocker_mm", "point_mm", "point_d
 @functools.cache
 def four_bars(**options):
     """The four-bars of a wish, with their rows, searched for once."""
-    found = search(read_target(**options)).rows
+    found = search(read_target(**options))
     return [row for row in found if row.cells["drive"] == "four-bar"]
 
 

@@ -12,7 +12,7 @@ NEAR = "0.1"  # joints so near to the crank that the search of four-bars is shor
 
 
 def of_kind(kind, **options):
-    rows = search(read_target(space=NEAR, **options)).rows
+    rows = search(read_target(space=NEAR, **options))
     return [row for row in rows if row.cells["drive"] == kind]
 
 

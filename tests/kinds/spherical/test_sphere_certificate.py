@@ -43,7 +43,7 @@ def random_parts(seed):
     )
     drive = Crank(rollers=rng.choice((1, 1, 2)))
     try:
-        return parts_of(Design(Spherical(z, axes_deg=axes_deg), drive, size=size).mechanism).turned
+        return parts_of(Design(Spherical(z, axes_deg=axes_deg), drive, size=size).mechanism).built
     except GenevaError:
         return None
 

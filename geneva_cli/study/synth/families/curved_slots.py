@@ -40,22 +40,18 @@ def with_laws(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
     several = [m for m in counts if m <= max(MORE, counts[0])] if counts else []
     if not wheels[0].FLAT:
         return
-    free: dict[tuple[Gearing, int], AllowedSpan] = {}  # the allowed motions
-    for wheel, m in product(wheels, several):
-        natural = natural_deg(wheel)
-        if m <= rollers_max(natural) or target.rollers is None:
-            span = target.free_motions(m, natural)
-            free |= {(wheel, m): span} if span else {}
     for name, is_cam in product(target.laws, (False, True)):
         lines, law = list[_LawLine](), registry.law(name)()
-        for (wheel, m), span in free.items():
-            is_extra = m > max(rollers_max(natural_deg(wheel)), several[0])
+        for wheel, m in product(wheels, several):
+            natural = natural_deg(wheel)
+            most, own = rollers_max(natural), target.free_motions(m, natural)
+            if own is None or (m > most and target.rollers is not None):
+                continue
             # a cam's motion is shorter than that of a slot parallel to the crank
             parallel = (1.0 - OPEN_END) * (360.0 - wheel.SIGN * 360.0 / wheel.z)
-            own = span
-            if is_cam and not span.exact and span.low < parallel:
-                own = AllowedSpan(span.low, min(span.high, parallel))
-            lines.append(_LawLine(target, wheel, law, is_cam, m, is_extra, own))
+            if is_cam and not own.exact and own.low < parallel:
+                own = AllowedSpan(own.low, min(own.high, parallel))
+            lines.append(_LawLine(target, wheel, law, is_cam, m, m > max(most, several[0]), own))
         for one, longest in zip(lines, _longest(lines) if lines else (), strict=True):
             yield from one.families(longest)
 
@@ -124,8 +120,7 @@ def _buildable(lines: Sequence[_LawLine], motions: Array) -> Mask:
     varied = {"wheel.z": z.astype(int), "motion.alpha0_deg": natural - motions}
     first = lines[0]._replace(m=1).spec(motions[0])
     for members, batch in built(first, varied, np.arange(len(lines))):
-        every = np.arange(len(members))
-        _, obstacles = suiting(batch, every, rollers[members], largest=False)
+        _, obstacles = suiting(batch, rollers[members], largest=False)
         able[members] = [not why for why in obstacles]
     return able
 
