@@ -57,8 +57,7 @@ class GearSector(Drive, kw_only=True):
         place = wheel.place(classic.HalfStep.of_deg(library(b).degrees(b)), L)
         crank = cast("Transmission", registry.drive("crank")())
         (inner,) = crank.straight(wheel, L, place).engagements
-        engagement = SectorEngagement(inner, self.sector_deg, u)
-        return self.planned(engagement, library(b).sin(b), L)
+        return self.planned(SectorEngagement(inner, self.sector_deg, u), library(b).sin(b), L)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
         """Dimensions of slot and gears, and angles between rollers and between slots."""

@@ -66,9 +66,8 @@ class SphereHorn(NamedTuple):
         with np.errstate(all="ignore"):
             force = push + roller[-1, ..., None] * towards
             arm = L * (at - q)
-            bent, moment = (
-                np.cross(arm, np.broadcast_to(of, arm.shape), axis=0) for of in (push, force)
-            )
+            both = (np.broadcast_to(of, arm.shape) for of in (push, force))
+            bent, moment = (np.cross(arm, of, axis=0) for of in both)
             in_shell = (moment * q).sum(axis=0) * np.sign((bent * q).sum(axis=0))
             off_shell, twist = (abs((moment * axis).sum(axis=0)) for axis in (across, along))
             pull = (force * along).sum(axis=0)
