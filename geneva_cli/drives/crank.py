@@ -6,7 +6,7 @@ Whole steps apart they move the wheel alike, in turn: as by one crank with that 
 import math
 from typing import Annotated, ClassVar, Self
 
-from geneva_cli.drives.transmission import Transmission
+from geneva_cli.drives.transmission import Transmission, places
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.spec.rules import Z_MAX, Range
@@ -39,7 +39,7 @@ class Crank(Transmission, kw_only=True):
             vars(self)["cranks"] = self.crank_steps
 
     def as_built(self, wheel: Gearing, place: RollerPlace, L: float) -> Plan:
-        return self.straight(wheel, L, place)
+        return self.straight(wheel, places(wheel, self, L, place), L)
 
     def backwards(self, plan: Plan) -> Self:
         out = super().backwards(plan)

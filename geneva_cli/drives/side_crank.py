@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from geneva_cli.drives.pushed import CirclingPush, PushedCrank
+from geneva_cli.drives.transmission import places
 from geneva_cli.drives.whitworth import Whitworth
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot, ShaftPlace
@@ -44,7 +45,7 @@ class SideCrank(Whitworth, kw_only=True):
     ] = None
 
     def as_built(self, wheel: Gearing, place: RollerPlace, L: float) -> Plan:
-        return self.straight(wheel, L, place)
+        return self.straight(wheel, places(wheel, self, L, place), L)
 
     @property
     def missing_length(self) -> str:

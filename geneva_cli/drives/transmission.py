@@ -75,11 +75,10 @@ class Transmission(Drive, kw_only=True):
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
         if motion is not None:
             return self._curved(wheel, motion, L)
-        return self.straight(wheel, L)
+        return self.straight(wheel, places(wheel, self, L), L)
 
-    def straight(self, wheel: Gearing, L: float, passing: RollerPlace | None = None) -> Plan:
-        """Plan of straight slots, which all rollers may pass as ``passing`` does."""
-        rollers = places(wheel, self, L, passing)
+    def straight(self, wheel: Gearing, rollers: list[RollerPlace], L: float) -> Plan:
+        """Plan of straight slots for the places of the rollers on the crank."""
         if not self.direct:
             entry, _, exit_ = rollers[0].poses
             self._refuse_reach(wheel, larger(-entry.crank_deg, exit_.crank_deg))

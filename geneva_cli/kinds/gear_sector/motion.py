@@ -56,7 +56,7 @@ class GearSector(Drive, kw_only=True):
         b, u = self._solved(math.pi / wheel.z)
         place = wheel.place(classic.HalfStep.of_deg(library(b).degrees(b)), L)
         crank = cast("Transmission", registry.drive("crank")())
-        (inner,) = crank.straight(wheel, L, place).engagements
+        (inner,) = crank.straight(wheel, [place], L).engagements
         return self.planned(SectorEngagement(inner, self.sector_deg, u), library(b).sin(b), L)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
