@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from functools import cache, partial
 from itertools import chain
+from operator import attrgetter
 from typing import Any
 
 from geneva_cli.errors import GenevaError, few, nearest
@@ -78,7 +79,7 @@ _CORE = (
         refuses="motion.compatible:of_cam",
     ),
 )
-_FOLDED = [load_named(f"kinds.{folder}:KINDS") for folder in FOLDERS]
+_FOLDED = map(load_named, map("kinds.{}:KINDS".format, FOLDERS))
 KINDS: tuple[Kind, ...] = (*_CORE, *chain.from_iterable(_FOLDED))
 # function that puts a drive in front of another, which few machines need
 IN_FRONT = "drives.retimed:retimed"
@@ -114,8 +115,9 @@ def families_of_kinds(where: str, wheel: str = "") -> list[Any]:
     return [load_named(kind.families[where]) for kind in kinds if where in kind.families]
 
 
-GEARINGS = {kind.name: kind.wheel for kind in KINDS if kind.wheel}
-DRIVES = {kind.name: kind.drive for kind in KINDS if kind.drive}
+_wheel, _drive = attrgetter("wheel"), attrgetter("drive")
+GEARINGS: dict[str, str] = dict(map(attrgetter("name", "wheel"), filter(_wheel, KINDS)))
+DRIVES: dict[str, str] = dict(map(attrgetter("name", "drive"), filter(_drive, KINDS)))
 # laws that need no key or file of the user
 _STANDARD = {
     "harmonic": "motion.laws.standard:Harmonic",
