@@ -84,7 +84,7 @@ def cycle_lines(design: Design) -> Iterator[SummaryLine]:
     if design.spec.size.face_width_mm is not None:
         stress = _greatest(loads, "contact_stress_MPa")
     yield SummaryLine("pin", f"{_greatest(loads, 'pin_force_N')}; contact stress {stress}")
-    impact = design.strength.reversal  # of the roller on the other wall of its slot
+    impact = design.strength.table("shock.reversal")  # of the roller on the other wall of its slot
     if impact["jump"] is not None and impact["at_deg"] is not None:
         text = f"speed jumps by {value_text(impact['jump'])} of the input's"
         if impact["force_N"] is not None:
