@@ -68,7 +68,8 @@ def load(path: str, settings: Iterable[str] = (), reverse: bool = False) -> Desi
     return design.backwards if reverse else design
 
 
-def _form(curves: str) -> str:
+def form_of(curves: str) -> str:
+    """The form in which curved walls are written, of the option ``--curves``."""
     if curves not in CURVES:
         raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
     return CURVES[curves]
@@ -373,10 +374,7 @@ class Design:
 
     @question
     def motion(
-        self,
-        samples: int = 361,
-        turns: int | None = None,
-        at_deg: Sequence[float] | None = None,
+        self, samples: int = 361, turns: int | None = None, at_deg: Sequence[float] | None = None
     ) -> Table:
         """``samples`` rows over a period from the first entry, evenly spaced in the input angle.
 
@@ -461,8 +459,7 @@ class Design:
         answers = {"shock.reversal": impact, "sizing": sizing, "life": self.life}
         table = loads_table(self.cycle, answers, notes, for_people)
         return table.replaced(
-            names=(*table.names, "chosen"),
-            columns=[*table.columns, (self.chosen_by_load.record,)],
+            names=(*table.names, "chosen"), columns=[*table.columns, (self.chosen_by_load.record,)]
         )
 
     @answer
@@ -621,7 +618,7 @@ class Design:
         """
         from geneva_cli.drawings.catalogue import part_drawing, require_cut
 
-        picture = part_drawing(self.parts, part, tolerance_mm, _form(curves))
+        picture = part_drawing(self.parts, part, tolerance_mm, form_of(curves))
         if kerf_mm is None:
             return picture
         from geneva_cli.geometry.offsets import paths
@@ -652,7 +649,7 @@ class Design:
         """
         from geneva_cli.drawings.catalogue import part_sheet
 
-        return part_sheet(self.parts, tolerance_mm, _form(curves))
+        return part_sheet(self.parts, tolerance_mm, form_of(curves))
 
     @question
     def save(

@@ -1,7 +1,4 @@
-"""Designs side by side, as a table or a figure; and a figure of the columns of a CSV file.
-
-The designs are several files, or one spec with keys varied.
-"""
+"""Designs side by side, as a table or a figure; and a figure of the columns of a CSV file."""
 
 from __future__ import annotations
 

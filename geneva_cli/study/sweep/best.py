@@ -112,9 +112,8 @@ class _SweepSearch:
     def foremost(self, rows: Rows, most: int) -> Rows:
         """The best designs, one of each choice of words and whole numbers before a second of any.
 
-        Designs of one choice in different thirds of a span are in different places, of which each
-        has its best. A scan has few designs for each number of slots, so its best design may have
-        the wrong number. Refining the best design of each number tells which is right.
+        A scan has few designs for each number of slots, so its best one may have the wrong number:
+        the best of each number is refined. So is the best in each third of a span.
         """
         violations, costs = self.merits(rows)
         order = np.lexsort((costs, violations))

@@ -2,10 +2,8 @@
 
 A search has many tasks as one batch: a grid, then samples ever closer. The places of a task are
 points of a unit cube. A place is better if it violates its bounds less or, at equal violations, if
-it costs less.
-
-The best machine has the least peak acceleration (in rad/s² if times are required), or the least of
-the goal's quantity. If any motion is allowed, it is the nearest to the plain crank.
+it costs less: in peak acceleration (in rad/s² if times are required), or in the goal's quantity.
+If any motion is allowed, the cost is the distance from the plain crank.
 """
 
 from __future__ import annotations

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from itertools import compress
 
 from geneva_cli.errors import GenevaError, cut, few, nearest
 from geneva_cli.motion.machine_spec import Spec
@@ -59,8 +60,7 @@ def read_target(
     options = dict.fromkeys([b.name for b in bounds], "--subject-to")
     refuse_unsound(bounds, options, "only numbers are bound")
     phrases += [str(bound) for bound in bounds]
-    chosen = dict(zip(GEARINGS, (external, internal, spherical), strict=True))
-    gearings = tuple(name for name, is_chosen in chosen.items() if is_chosen)
+    gearings = tuple(compress(GEARINGS, (external, internal, spherical)))
     if rollers is not None and not 1 <= rollers <= ROLLERS_MAX:
         raise GenevaError(f"--rollers {cut(rollers)}: it must be at least 1, at most {ROLLERS_MAX}")
     words = ", ".join(phrases) or "the spec alone"
