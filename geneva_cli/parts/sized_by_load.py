@@ -124,21 +124,22 @@ def load_sizes(
     the loads need of a first wheel, 0 without one. A load without a bound leaves all sizes.
     """
     spec, size, sizes = machine.spec, machine.spec.size, of.sizes
-    by = of.cut_lock() if sizes.lock else None
     if not all(map(math.isfinite, loads)):
         return sizes
     if link:
         sizes = sizes._replace(link_thickness=link)
     linked = machine.first_wheel or size.link_thickness_mm is not None  # links have their own
     # the force between disc and wheel in the dwell loads both shafts
-    held = lock.held_force_N(machine, by).item() if spec.load.dwell_torque_Nm else 0.0
+    held = 0.0
+    if spec.load.dwell_torque_Nm:
+        held = lock.held_force_N(machine, of.cut_lock() if sizes.lock else None).item()
     carried = float(np.max(centrifugal_N(machine))) if machine.frame else 0.0
     wheel_N, crank_N = max(loads.wheel_shaft_N, held + carried), max(loads.crank_N, held)
     loads = loads._replace(wheel_shaft_N=wheel_N, crank_N=crank_N)
     allowed = wheel_material(spec).allowed_MPa
-    if by and size.wheel_thickness_mm is None and size.face_width_mm is None:
+    if sizes.lock and size.wheel_thickness_mm is size.face_width_mm is None:
         if bent_MPa is None:
-            bent_MPa = float(lock.horn_MPa(machine, sizes.half_width, by)[0])
+            bent_MPa = float(lock.horn_MPa(machine, sizes.half_width, of.cut_lock())[0])
         # a thicker wheel bends its pins more than its horns
         for wide in sizes_from(sizes.wheel_thickness, 2.0 * sizes.wheel_thickness):
             if keeps(bent_MPa / wide, "at most", allowed):
