@@ -457,7 +457,7 @@ class Design:
         own = self.wheel_plate and self.wheel_plate.inertia_kgm2
         sizing, sized_by = sized(self.cycle, own)
         notes = (*self.warnings, *missing(self.cycle), *needed, *sized_by)
-        impact = self.strength.reversal
+        impact = self.strength.table("shock.reversal")
         answers = {"shock.reversal": impact, "sizing": sizing, "life": self.life}
         table = loads_table(self.cycle, answers, notes, for_people)
         return table.replaced(
@@ -487,7 +487,7 @@ class Design:
         >>> round(held.life["roller_turns_per_motion"], 12)
         2.655148449921
         """
-        return self.strength.life
+        return self.strength.table("life")
 
     @answer
     def strength(self) -> Strength:
@@ -832,8 +832,8 @@ class Design:
         ['ideal-machine']
         """
         text = (
-            "loads, curves and parts are those of the ideal machine of this spec, not of the "
-            "drawings in [outline]; check, peaks, motion and animate turn the drawings"
+            "loads, curves, parts and certificates are those of the ideal machine of this spec, "
+            "not of the drawings in [outline]; check, peaks, motion and animate turn the drawings"
         )
         return self.spec.accept.applied([Notice("ideal-machine", text)] if self.is_drawn else [])
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from geneva_cli.drives.pushed import CirclingPush, PushedCrank
-from geneva_cli.drives.transmission import places
 from geneva_cli.drives.whitworth import Whitworth
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot, ShaftPlace
@@ -37,7 +36,7 @@ class SideCrank(Whitworth, kw_only=True):
     WORDS: ClassVar[str] = "a side-crank"
     IN_FRONT: ClassVar[str] = "a side-crank"
     EXAMPLE: ClassVar[Example] = Example(
-        "a side-crank drive: a slower, softer index", {"wheel": {"z": 6}, "drive": {"A": 0.6}}
+        "a side-crank drive: a slower, softer index", {"drive": {"A": 0.6}}
     )
     A: Annotated[float, Range(-1.0, 1.0, "()"), "side-crank: base offset / crank; > 0 is slower"]
     input_crank_mm: Annotated[
@@ -45,7 +44,7 @@ class SideCrank(Whitworth, kw_only=True):
     ] = None
 
     def as_built(self, wheel: Gearing, place: RollerPlace, L: float) -> Plan:
-        return self.straight(wheel, places(wheel, self, L, place), L)
+        return self.straight(wheel, L, place)
 
     @property
     def missing_length(self) -> str:

@@ -1,12 +1,11 @@
 """Drives with a transmission between input shaft and crank: the roller runs on a circle.
 
-And the base of those that move it along another path; and the places of rollers on the crank.
+And the places of rollers on the crank.
 """
 
 from __future__ import annotations
 
 import math
-from abc import abstractmethod
 from itertools import pairwise
 from typing import TYPE_CHECKING, ClassVar, TypeAlias, cast
 
@@ -38,9 +37,11 @@ LocalTransmission: TypeAlias = "tuple[float, Displacement]"
 class Transmission(Drive, kw_only=True):
     """A drive in front of the crank; a kind defines ``about``, and more only if it needs more."""
 
-    @abstractmethod
+    ONE_ARM: ClassVar[bool] = True
+
     def about(self, crank_deg: float) -> LocalTransmission:
         """The transmission about a crank angle in degrees, which is 0 at mid-motion."""
+        return crank_deg, rotation  # without one the crank turns as the input does
 
     @property
     def crank(self) -> Drive:
@@ -74,10 +75,11 @@ class Transmission(Drive, kw_only=True):
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
         if motion is not None:
             return self._curved(wheel, motion, L)
-        return self.straight(wheel, places(wheel, self, L), L)
+        return self.straight(wheel, L)
 
-    def straight(self, wheel: Gearing, rollers: list[RollerPlace], L: float) -> Plan:
-        """Plan of straight slots for the places of the rollers on the crank."""
+    def straight(self, wheel: Gearing, L: float, passing: RollerPlace | None = None) -> Plan:
+        """Plan of straight slots, which all rollers may pass as ``passing`` does."""
+        rollers = places(wheel, self, L, passing)
         if not self.direct:
             entry, _, exit_ = rollers[0].poses
             self._refuse_reach(wheel, larger(-entry.crank_deg, exit_.crank_deg))
@@ -166,26 +168,6 @@ class Transmission(Drive, kw_only=True):
         text += '"{name}" turns it only {most:.6g}: reduce z or first_z'
         values = {"z": wheel.z, "far": farthest_deg, "name": self.NAME, "most": self.reach_deg}
         refuse_text(farthest_deg > self.reach_deg * (1.0 + 1e-12), ("wheel", "z"), text, **values)
-
-
-class Direct(Transmission, kw_only=True):
-    """A drive without a transmission: crank angle and input angle are equal."""
-
-    direct: ClassVar[bool] = True
-
-    def about(self, crank_deg: float) -> LocalTransmission:
-        return crank_deg, rotation  # the crank turns as the input does
-
-
-class PinPath(Drive, kw_only=True):
-    """A drive that moves the roller along a path of its own, with straight radial slots."""
-
-    ONE_ARM: ClassVar[bool] = False
-
-    def planned(self, own: Engagement, ratio: float, L: float) -> Plan:
-        """The plan with one engagement for each roller."""
-        refuse_jam(self.rollers, own.motion_deg)
-        return Plan((own,), 360.0 / self.rollers, ratio, rollers_max(own.motion_deg), L)
 
 
 def places(

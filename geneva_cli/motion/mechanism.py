@@ -134,11 +134,6 @@ class Mechanism(NamedTuple):
         wheels = self.spec.drive.wheels_on_carrier
         return self._replace(period_deg=360.0 / wheels) if wheels > 1 else self
 
-    def index_deg(self, i: int) -> float:
-        """Wheel step of engagement i, in degrees; unequal steps repeat."""
-        wheel = self.spec.wheel
-        return wheel.index_deg(i % len(wheel.steps) if wheel.steps else i)
-
     def dwell_deg(self, i: int) -> float:
         """Input angle in degrees from the exit of engagement i to the next entry."""
         here = self.engagements[i]

@@ -6,6 +6,7 @@ Their classes, and those of laws, are imported by name at their first use.
 from __future__ import annotations
 
 from functools import cache, partial
+from itertools import chain
 from typing import Any
 
 from geneva_cli.errors import GenevaError, few, nearest
@@ -77,10 +78,8 @@ _CORE = (
         refuses="motion.compatible:of_cam",
     ),
 )
-_kinds = [*_CORE]
-for _folder in FOLDERS:
-    _kinds += load_named(f"kinds.{_folder}:KINDS")
-KINDS: tuple[Kind, ...] = tuple(_kinds)
+_FOLDED = [load_named(f"kinds.{folder}:KINDS") for folder in FOLDERS]
+KINDS: tuple[Kind, ...] = (*_CORE, *chain.from_iterable(_FOLDED))
 # function that puts a drive in front of another, which few machines need
 IN_FRONT = "drives.retimed:retimed"
 
@@ -115,12 +114,8 @@ def families_of_kinds(where: str, wheel: str = "") -> list[Any]:
     return [load_named(kind.families[where]) for kind in kinds if where in kind.families]
 
 
-GEARINGS, DRIVES = dict[str, str](), dict[str, str]()
-for _kind in KINDS:
-    if _kind.wheel:
-        GEARINGS[_kind.name] = _kind.wheel
-    if _kind.drive:
-        DRIVES[_kind.name] = _kind.drive
+GEARINGS = {kind.name: kind.wheel for kind in KINDS if kind.wheel}
+DRIVES = {kind.name: kind.drive for kind in KINDS if kind.drive}
 # laws that need no key or file of the user
 _STANDARD = {
     "harmonic": "motion.laws.standard:Harmonic",

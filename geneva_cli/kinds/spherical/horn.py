@@ -51,7 +51,7 @@ class SphereHorn(NamedTuple):
     def points(self, input_deg: Number) -> Points:
         """Places of the roller, or sections, at input angles (m, k); infinitely thick elsewhere."""
         t, L, w = self.polar(input_deg), self.radius_mm, self.half_width
-        thick = self.thickness(t)
+        t, thick = np.broadcast_arrays(t, self.thickness(t))  # designs may share their angles
         inwards = L * np.cos(w) * (self.polar(self.at.mouth_deg) - t)
         with np.errstate(invalid="ignore"):
             axes = np.concatenate((*_axes(t, w), *_axes(t, w + 0.5 * thick / L)))

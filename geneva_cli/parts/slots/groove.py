@@ -13,7 +13,7 @@ from geneva_cli.errors import GenevaError, refuse_size
 from geneva_cli.geometry import chords, fit
 from geneva_cli.geometry.plates import Plate
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Contour, Layer, closed, polar
-from geneva_cli.motion.groove_path import back, distances
+from geneva_cli.motion.groove_path import distances, in_dwell
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.path_and_slot import WALLED
 from geneva_cli.numerics.arrays import Array
@@ -60,7 +60,7 @@ def sampled_extremes(groove: SolvedPath, input_deg: Array) -> tuple[Array, Array
     dwell = 360.0 - (groove.motion.exit_deg - groove.motion.entry_deg)
     rest = groove.motion.exit_deg + dwell * (np.arange(360) / 360)
     moving = groove.distances(input_deg, 1)[1].derivatives()
-    resting = back(groove, np.atleast_2d(rest), 1)
+    resting = in_dwell(groove, np.atleast_2d(rest), 1).derivatives()
     R, slope = (np.hstack(pair) for pair in zip(moving, resting, strict=True))
     return R.min(axis=1), np.degrees(np.arctan((np.abs(slope) / R).max(axis=1)))
 

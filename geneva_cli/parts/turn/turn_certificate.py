@@ -267,11 +267,14 @@ def path_travel(engagement: Engagement, L: float, turn_deg: float) -> Travel:
     start, end = edges[:-1], edges[1:]
     if groove is None:
         return Travel(edges, curve_rates(engagement.path, start, end), L, turn_deg)
-    from geneva_cli.motion.groove_path import dwell_rates
+    from geneva_cli.motion.groove_path import path_in_dwell
 
     moving = (engagement.entry_deg <= start) & (end <= engagement.exit_deg)
-    rates = np.tile(np.array(dwell_rates(groove))[:, None], len(start))
+    later = np.where(start < engagement.entry_deg, 360.0, 0.0)  # in the dwell after the motion
+    rates = np.empty((2, len(start)))
     rates[:, moving] = curve_rates(engagement.path, start[moving], end[moving])
+    start, end, curve = start + later, end + later, partial(path_in_dwell, groove)
+    rates[:, ~moving] = curve_rates(curve, start[~moving], end[~moving])
     return Travel(edges, rates, L, turn_deg)
 
 
