@@ -294,7 +294,7 @@ class Adviser:
         while True:
             gap, change = good.value - bad.value, abs(good.value - now)
             near = max(NEAR * min(change, 4.0 * abs(good.value) or change), whole)
-            half, part, spare = 0.5 * near / abs(gap), 0.5, 0.25
+            half, part, spare = 0.5 * near / abs(gap), 0.5, 0.125
             if half >= 0.5:
                 return good
             zero = (bad.zero(*line) - bad.value) / gap
@@ -303,8 +303,9 @@ class Adviser:
             value = short(bad.value + part * gap, spare * abs(gap))
             trial = self.trial([(remedy.key, type(now)(value))], wanted)
             last, good, bad = (good, trial, bad) if trial.passes else (bad, good, trial)
-            # after a slow step, the line through the last two values on one side
-            slow = slow + 1 if abs(good.value - bad.value) > 0.5 * abs(gap) else 0
+            # after a step that leaves more than a rounded half, the line through the last two
+            # values on one side
+            slow = slow + 1 if abs(good.value - bad.value) > 0.625 * abs(gap) else 0
             line = (last, trial) if slow else (bad, good)
 
     def trial(self, changes: Sequence[Change], names: Iterable[str], every: bool = False) -> Trial:
