@@ -105,7 +105,7 @@ def chosen(path: LinkPath, b: Array, wanted: Array | None = None) -> Array:
         some, (entry, exit_) = path.of(found.which), found.phi
         wheels = PathWheels(found, *_centre(tangents.points_at(some, found.phi)))
         far, turns = wheels.driven(*_even(some, entry, exit_ - entry, EVEN, 1))
-        cost = top((turns / far**2).T)
+        cost = np.nan_to_num(top((turns / far**2).T), nan=np.inf)
     else:
         off = found.phi[0] - wanted[found.which]
         cost = np.abs(off - math.tau * np.round(off / math.tau))

@@ -157,7 +157,9 @@ def _starts(samples: Samples, b: Array) -> tuple[Pairs, Array]:
     bend, origin = np.abs(turn), np.empty(n, dtype=complex)
     sharpest = bend == np.maximum.reduceat(bend, begin)[which]
     origin[which[sharpest]] = p[sharpest]
-    turned, speed = np.append(0.0, np.cumsum(np.angle(v[1:] * v[:-1].conj()))), np.abs(v)
+    # one sum for all designs, without the NaN of those that cannot be built
+    turned = np.append(0.0, np.cumsum(np.nan_to_num(np.angle(v[1:] * v[:-1].conj()))))
+    speed = np.abs(v)
     ray = (p - origin[which]) * (v / speed).conj()
     total = turned[np.append(begin[1:], len(turned)) - 1] - turned[begin]
     # The tangent turns against the wheel: the lines' angles rise along the arcs that can be used.
@@ -237,7 +239,7 @@ def pairs(path: LinkPath, samples: Samples, b: Array) -> Pairs:
         near = (np.abs(here - begin.take(live, axis=1)) < 2.0 * arc).all(axis=0)
         # Newton's errors are of the order of the last one's square: the next is rounding
         moved, before, excess[live] = np.abs(move).max(axis=0), last[live], rest.excess
-        done = near & ((moved < 1e-9) | (moved**3 < 1e-12 * before**2))  # radians
+        done = near & ((moved < 1e-9) | (moved**3 < 1e-14 * before**2))  # radians
         last[live], good[live], flat[live] = moved, done & ~rest.double, done & rest.double
         live = live[near & ~done]
         if not len(live):
