@@ -68,7 +68,8 @@ def load(path: str, settings: Iterable[str] = (), reverse: bool = False) -> Desi
     return design.backwards if reverse else design
 
 
-def _form(curves: str) -> str:
+def form_of(curves: str) -> str:
+    """The form in which curved walls are written, of the option ``--curves``."""
     if curves not in CURVES:
         raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
     return CURVES[curves]
@@ -373,10 +374,7 @@ class Design:
 
     @question
     def motion(
-        self,
-        samples: int = 361,
-        turns: int | None = None,
-        at_deg: Sequence[float] | None = None,
+        self, samples: int = 361, turns: int | None = None, at_deg: Sequence[float] | None = None
     ) -> Table:
         """``samples`` rows over a period from the first entry, evenly spaced in the input angle.
 
@@ -457,12 +455,11 @@ class Design:
         own = self.wheel_plate and self.wheel_plate.inertia_kgm2
         sizing, sized_by = sized(self.cycle, own)
         notes = (*self.warnings, *missing(self.cycle), *needed, *sized_by)
-        impact = self.strength.reversal
+        impact = self.strength.table("shock.reversal")
         answers = {"shock.reversal": impact, "sizing": sizing, "life": self.life}
         table = loads_table(self.cycle, answers, notes, for_people)
         return table.replaced(
-            names=(*table.names, "chosen"),
-            columns=[*table.columns, (self.chosen_by_load.record,)],
+            names=(*table.names, "chosen"), columns=[*table.columns, (self.chosen_by_load.record,)]
         )
 
     @answer
@@ -475,7 +472,7 @@ class Design:
         size = self.spec.size
         if size.face_width_mm is None and size.wheel_thickness_mm is None:
             return None  # before the import of what draws parts
-        from geneva_cli.parts.wheel_body import wheel_body
+        from geneva_cli.parts.machine_sizes import wheel_body
 
         return wheel_body(self.mechanism)
 
@@ -487,7 +484,7 @@ class Design:
         >>> round(held.life["roller_turns_per_motion"], 12)
         2.655148449921
         """
-        return self.strength.life
+        return self.strength.table("life")
 
     @answer
     def strength(self) -> Strength:
@@ -621,7 +618,7 @@ class Design:
         """
         from geneva_cli.drawings.catalogue import part_drawing, require_cut
 
-        picture = part_drawing(self.parts, part, tolerance_mm, _form(curves))
+        picture = part_drawing(self.parts, part, tolerance_mm, form_of(curves))
         if kerf_mm is None:
             return picture
         from geneva_cli.geometry.offsets import paths
@@ -652,7 +649,7 @@ class Design:
         """
         from geneva_cli.drawings.catalogue import part_sheet
 
-        return part_sheet(self.parts, tolerance_mm, _form(curves))
+        return part_sheet(self.parts, tolerance_mm, form_of(curves))
 
     @question
     def save(
@@ -832,8 +829,8 @@ class Design:
         ['ideal-machine']
         """
         text = (
-            "loads, curves and parts are those of the ideal machine of this spec, not of the "
-            "drawings in [outline]; check, peaks, motion and animate turn the drawings"
+            "loads, curves, parts and certificates are those of the ideal machine of this spec, "
+            "not of the drawings in [outline]; check, peaks, motion and animate turn the drawings"
         )
         return self.spec.accept.applied([Notice("ideal-machine", text)] if self.is_drawn else [])
 

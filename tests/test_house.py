@@ -251,7 +251,6 @@ CLASSES = {
     for path in kinds.values()
 } | {
     "Transmission",
-    "PinPath",
     "Linkage",
     "StraightSlotMotion",
     "LawMotion",

@@ -1,6 +1,4 @@
-"""A command as Typer runs it: own conversion of values, help with examples.
-
-Also the options that several commands have, and the warnings that they print.
+"""A command as Typer runs it: own conversion of values, help with examples, shared options.
 
 Annotations are objects here and in the commands, for Typer.
 """

@@ -43,6 +43,7 @@ KINDS = {
     "dimension": ("name", "value", "unit"),
     "missing": ("name", "why"),
 }
+ROWS = {Pivot: "pivot", Dimension: "dimension", Missing: "missing"}
 Row: TypeAlias = dict[str, object]
 # The columns from the most important one, for a window that has not room for all.
 FIRST = ("row", "name", "value", "unit", "why", "count", "mass_kg", "size_x_mm", "size_y_mm")
@@ -57,14 +58,13 @@ def parts_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) 
 def parts_list(parts: Parts) -> Table:
     """Return the list of parts of a machine, whose outlines may already be computed."""
     mechanism = parts.mechanism
-    entries = [*_parts(parts)]
     pivots = [p for p in mechanism.layout if isinstance(p, Pivot)]
-    for pivot in (*mechanism.spec.wheel.axes(mechanism.center_distance_mm), *pivots):
-        entries.append({"row": "pivot", **pivot._asdict()})
-    for one in _dimensions(parts):
-        entries.append(one if isinstance(one, Missing) else {"row": "dimension", **one._asdict()})
-    mappings = [{"row": "missing", **r._asdict()} if isinstance(r, Missing) else r for r in entries]
-    rows = [[row.get(name) for name in NAMES] for row in mappings]
+    axes = mechanism.spec.wheel.axes(mechanism.center_distance_mm)
+    rows = []
+    for one in (*_parts(parts), *axes, *pivots, *_dimensions(parts)):
+        if not isinstance(one, dict):
+            one = {"row": ROWS[type(one)], **one._asdict()}
+        rows.append([one.get(name) for name in NAMES])
     table = rows_table(NAMES, rows, mechanism.spec.title, mixed=True)
     return table.replaced(reading=Reading(FIRST))
 

@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 from typing import ClassVar
 
-from geneva_cli.drives.transmission import PinPath
 from geneva_cli.errors import GenevaError, refuse_text
-from geneva_cli.motion.drive import Plan
+from geneva_cli.motion.drive import Drive, Plan
 from geneva_cli.motion.engagement import Engagement, Held, Loads, Vector, cross
 from geneva_cli.motion.given_motion import LawMotion, SolvedPath, SolvedPathSlot, refuse_alpha0
 from geneva_cli.motion.laws.law import Motion
@@ -18,7 +17,7 @@ from geneva_cli.numerics.jet import Number
 from geneva_cli.spec.schema import Example
 
 
-class Cam(PinPath, kw_only=True):
+class Cam(Drive, kw_only=True):
     """A fixed groove guides the roller along the crank.
 
     It needs a ``Motion``, whose law gives the shape of the groove. The slots stay straight and
@@ -32,7 +31,7 @@ class Cam(PinPath, kw_only=True):
     WORDS: ClassVar[str] = "a crank whose roller runs in a cam"
     EXAMPLE: ClassVar[Example] = Example(
         "a cam-Geneva: straight slots, and a motion law from a fixed cam",
-        {"wheel": {"z": 6}, "motion": {"law": "cycloidal"}},
+        {"motion": {"law": "cycloidal"}},
     )
 
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:

@@ -6,13 +6,13 @@ Whole steps apart they move the wheel alike, in turn: as by one crank with that 
 import math
 from typing import Annotated, ClassVar, Self
 
-from geneva_cli.drives.transmission import Direct, places
+from geneva_cli.drives.transmission import Transmission, places
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.spec.rules import Z_MAX, Range
 
 
-class Crank(Direct, kw_only=True):
+class Crank(Transmission, kw_only=True):
     """The plain crank: crank angle and input angle are equal.
 
     ``n_rpm`` is its constant speed. ``rollers`` is the number of rollers, evenly spaced unless
@@ -26,6 +26,7 @@ class Crank(Direct, kw_only=True):
 
     NAME: ClassVar[str] = "crank"
     WORDS: ClassVar[str] = "a crank"
+    direct: ClassVar[bool] = True
     crank_steps: Annotated[
         tuple[float, ...] | None,
         Range(0.0, Z_MAX, "[)"),

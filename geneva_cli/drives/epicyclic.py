@@ -9,9 +9,8 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar, NamedTuple, cast
 
-from geneva_cli.drives.transmission import PinPath
 from geneva_cli.errors import refuse_text
-from geneva_cli.motion.drive import Plan
+from geneva_cli.motion.drive import Drive, Plan
 from geneva_cli.motion.engagement import Anchor, Engagement, Held, Loads, Vector, cross
 from geneva_cli.motion.laws.law import Motion
 from geneva_cli.motion.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
@@ -25,7 +24,7 @@ from geneva_cli.spec.rules import OneOf, Range
 from geneva_cli.spec.schema import Example
 
 
-class Epicyclic(PinPath, kw_only=True):
+class Epicyclic(Drive, kw_only=True):
     """A planet gear carries the roller.
 
     ``planet_ratio`` is the planet's crank over the centre distance; with "shockless" the

@@ -61,8 +61,7 @@ class EllipticalGears(GearPair, kw_only=True):
     WORDS: ClassVar[str] = "a crank behind elliptical gears"
     IN_FRONT: ClassVar[str] = "elliptical gears"
     EXAMPLE: ClassVar[Example] = Example(
-        "equal elliptical gears in front: a slower, softer index",
-        {"wheel": {"z": 6}, "drive": {"eccentricity": 0.3}},
+        "equal elliptical gears in front: a slower, softer index", {"drive": {"eccentricity": 0.3}}
     )
     eccentricity: Annotated[float, Range(0.0, 1.0, "[)"), "of the gears' pitch ellipses"]
     phase: Annotated[str, OneOf(("slow", "quick")), "phase of the gears at mid-motion"] = "slow"
@@ -134,8 +133,7 @@ class NoncircularGears(GearPair, Whitworth, kw_only=True):
     WORDS: ClassVar[str] = "a crank behind noncircular gears"
     IN_FRONT: ClassVar[str] = "noncircular gears"
     EXAMPLE: ClassVar[Example] = Example(
-        "noncircular gears in front, with the ratio of a side-crank",
-        {"wheel": {"z": 6}, "drive": {"A": 0.6}},
+        "noncircular gears in front, with the ratio of a side-crank", {"drive": {"A": 0.6}}
     )
     A: Annotated[float, Range(-1.0, 1.0, "()"), "ratio of a side-crank with this A"]
 

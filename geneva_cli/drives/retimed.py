@@ -117,8 +117,7 @@ class _Slot(_Path, base.Slot):
 
     def __init__(self, own: base.Slot, timing: Timing) -> None:
         super().__init__(own, timing)
-        self.curved, self.relieved, self.offset = own.curved, own.relieved, own.offset
-        self.walls_flat = own.walls_flat
+        self.curved, self.walls_flat, self.offset = own.curved, own.walls_flat, own.offset
         if own.height is not None:
             turn = _Displacement(own.height.turn, timing.advances[1])
             self.height = own.height._replace(turn=turn)
@@ -168,7 +167,7 @@ class Engagement(base.Engagement):
         return _of_rate(self._own.carrier(at, order), turned)
 
     def shaft_rate(self, input_deg: Number, order: int = 0) -> Jet:
-        return self.timing(input_deg, order + 1).derivative()
+        return self.timing.at(input_deg, order + 1)[1].derivative()
 
     def own_deg(self, input_deg: Array) -> Array:
         return array(self.timing.at(input_deg, 0)[0])
@@ -213,10 +212,6 @@ class Timing(Batchable):
         """Machine's input angle at an angle of the driven shaft, both from mid-motion, degrees."""
         return self.before.about(self.rest_deg + own_deg)[0] - self.within_deg
 
-    def __call__(self, input_deg: Number, order: int) -> Jet:
-        """Angle of the driven shaft in radians from mid-motion, at input angles in degrees."""
-        return self.at(input_deg, order)[1]
-
     def at(self, input_deg: Number, order: int) -> tuple[Number, Jet]:
         """Angle of the driven shaft in degrees, and in radians with its derivatives."""
         pieces = [partial(self._about, i, order) for i in range(3)]
@@ -243,7 +238,7 @@ class ShaftPath(NamedTuple):
 
     def __call__(self, input_deg: Number, order: int = 3) -> Vector:
         """Point (x, y) in the fixed frame."""
-        s, c = sin_cos(self.angle(input_deg, order))
+        s, c = sin_cos(self.angle.at(input_deg, order)[1])
         return 1.0 - c * self.sign, s
 
 

@@ -37,7 +37,7 @@ class SideCrank(Whitworth, kw_only=True):
     WORDS: ClassVar[str] = "a side-crank"
     IN_FRONT: ClassVar[str] = "a side-crank"
     EXAMPLE: ClassVar[Example] = Example(
-        "a side-crank drive: a slower, softer index", {"wheel": {"z": 6}, "drive": {"A": 0.6}}
+        "a side-crank drive: a slower, softer index", {"drive": {"A": 0.6}}
     )
     A: Annotated[float, Range(-1.0, 1.0, "()"), "side-crank: base offset / crank; > 0 is slower"]
     input_crank_mm: Annotated[

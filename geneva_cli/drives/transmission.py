@@ -1,12 +1,11 @@
 """Drives with a transmission between input shaft and crank: the roller runs on a circle.
 
-And the base of those that move it along another path; and the places of rollers on the crank.
+And the places of rollers on the crank.
 """
 
 from __future__ import annotations
 
 import math
-from abc import abstractmethod
 from itertools import pairwise
 from typing import TYPE_CHECKING, ClassVar, TypeAlias, cast
 
@@ -23,7 +22,7 @@ from geneva_cli.numerics.jet import rotation
 
 if TYPE_CHECKING:
     from geneva_cli.drives.pushed import PushedCrank
-    from geneva_cli.motion.laws.law import Law, Motion
+    from geneva_cli.motion.laws.law import Motion
     from geneva_cli.numerics.jet_functions import Displacement, Path
 
 
@@ -38,9 +37,11 @@ LocalTransmission: TypeAlias = "tuple[float, Displacement]"
 class Transmission(Drive, kw_only=True):
     """A drive in front of the crank; a kind defines ``about``, and more only if it needs more."""
 
-    @abstractmethod
+    ONE_ARM: ClassVar[bool] = True
+
     def about(self, crank_deg: float) -> LocalTransmission:
         """The transmission about a crank angle in degrees, which is 0 at mid-motion."""
+        return crank_deg, rotation  # without one the crank turns as the input does
 
     @property
     def crank(self) -> Drive:
@@ -145,13 +146,10 @@ class Transmission(Drive, kw_only=True):
     def _ratio(self, wheel: Gearing, motion: Motion, motion_deg: float) -> float:
         """R/L of a curved slot: the spec's, sin b, or matched to the law at mid-motion, or NaN."""
         if isinstance(motion.ratio, str):
-            return self.matched_ratio(wheel, motion.law, motion_deg)
+            crank = self.about(0.0)[1](0.0, 1)[0].c[1]
+            turned = motion.law(0.5, 1).c[1] * 2.0 * wheel.step.b / radians(motion_deg)
+            return wheel.matched_ratio(parameter(turned / crank))
         return wheel.step.sin_cos[0] if motion.ratio is None else motion.ratio
-
-    def matched_ratio(self, wheel: Gearing, law: Law, motion_deg: float) -> float:
-        crank = self.about(0.0)[1](0.0, 1)[0].c[1]
-        turned = law(0.5, 1).c[1] * 2.0 * wheel.step.b / radians(motion_deg)
-        return wheel.matched_ratio(parameter(turned / crank))
 
     def _behind(self, wheel: Gearing, own: Engagement, advance: Displacement, L: float) -> None:
         """Complete an engagement whose crank is behind the transmission: its rate and reactions."""
@@ -166,26 +164,6 @@ class Transmission(Drive, kw_only=True):
         text += '"{name}" turns it only {most:.6g}: reduce z or first_z'
         values = {"z": wheel.z, "far": farthest_deg, "name": self.NAME, "most": self.reach_deg}
         refuse_text(farthest_deg > self.reach_deg * (1.0 + 1e-12), ("wheel", "z"), text, **values)
-
-
-class Direct(Transmission, kw_only=True):
-    """A drive without a transmission: crank angle and input angle are equal."""
-
-    direct: ClassVar[bool] = True
-
-    def about(self, crank_deg: float) -> LocalTransmission:
-        return crank_deg, rotation  # the crank turns as the input does
-
-
-class PinPath(Drive, kw_only=True):
-    """A drive that moves the roller along a path of its own, with straight radial slots."""
-
-    ONE_ARM: ClassVar[bool] = False
-
-    def planned(self, own: Engagement, ratio: float, L: float) -> Plan:
-        """The plan with one engagement for each roller."""
-        refuse_jam(self.rollers, own.motion_deg)
-        return Plan((own,), 360.0 / self.rollers, ratio, rollers_max(own.motion_deg), L)
 
 
 def places(

@@ -12,7 +12,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from geneva_cli.geometry import shapes
-from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line, Point, Segment, Shape
+from geneva_cli.geometry.shapes import Arc, Contour, Line, Point, Segment, Shape
 from geneva_cli.geometry.sheet import ABOVE, BELOW, Label, Measure
 from geneva_cli.numerics.arrays import Array
 
@@ -28,12 +28,12 @@ class Board:
         # straight lines of the part, all chords of it, straight dimension lines; dimension lines,
         # leaders and arrows; extension lines; and all
         none: Array = np.empty((0, 2), dtype=complex)
-        self._drawn = self._part = self._ruled = self._main = self._extended = self._all = none
+        self._drawn = self.part = self._ruled = self._main = self._extended = self._all = none
 
     def draw(self, shape: Shape) -> None:
         """Add the lines of a shape."""
         own = chords(shape)
-        self._all, self._part = (np.concatenate((a, own)) for a in (self._all, self._part))
+        self._all, self.part = (np.concatenate((a, own)) for a in (self._all, self.part))
         if isinstance(shape, Contour):
             lines = _chords(piece for piece in shape.segments if isinstance(piece, Line))
             self._drawn = np.concatenate((self._drawn, lines))
@@ -67,7 +67,7 @@ class Board:
             main = _main(measure)
             count = _crossings(main, self._main) + _crossings(main, self._extended)
             count += _crossings(_chords(measure.extension_lines), self._main)
-            count += sum(_grazes(piece, self._part) for piece in measure.main_lines)
+            count += sum(_grazes(piece, self.part) for piece in measure.main_lines)
             if count < least:
                 best, least = measure, count
         if best is not None:
@@ -103,7 +103,7 @@ class Board:
 
 def chords(shape: Shape) -> Array:
     """Return the chords of a shape."""
-    return _chords(shapes.two_arcs(shape) if isinstance(shape, Circle) else shape.segments)
+    return _chords(shapes.as_contour(shape).segments)
 
 
 def _beside(line: Line, lines: Array) -> tuple[float, Array, Array]:
@@ -188,6 +188,7 @@ def _ring(corners: Sequence[Point]) -> Array:
     return np.column_stack((ends, np.roll(ends, -1)))
 
 
+@np.errstate(divide="ignore", invalid="ignore")
 def _crosses(label: Label, lines: Array, gap: float) -> bool:
     """Return True if chords come nearer to a text's box than ``gap`` mm."""
     near = np.ones(len(lines), dtype=bool)  # the few that may
@@ -202,12 +203,7 @@ def _crosses(label: Label, lines: Array, gap: float) -> bool:
         (seen.imag, -BELOW * label.height - gap, ABOVE * label.height + gap),
     )
     for place, least, most in limits:
-        start, step = place[:, 0], place[:, 1] - place[:, 0]
-        flat = np.abs(step) < 1e-12
-        safe = np.where(flat, 1.0, step)
-        a, b = (least - start) / safe, (most - start) / safe
-        within = (start >= least) & (start <= most)
-        first = np.where(flat, np.where(within, -np.inf, np.inf), np.minimum(a, b))
-        last = np.where(flat, np.where(within, np.inf, -np.inf), np.maximum(a, b))
-        low, high = np.maximum(low, first), np.minimum(high, last)
+        start, step = place[:, 0], np.diff(place)[:, 0]
+        a, b = (least - start) / step, (most - start) / step  # infinite, of a line along the side
+        low, high = np.fmax(low, np.fmin(a, b)), np.fmin(high, np.fmax(a, b))
     return bool((low <= high).any())

@@ -18,6 +18,7 @@ from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.plates import with_material_left
 from geneva_cli.geometry.shapes import Arc, Contour, Line, Point, Segment, at, backwards, closed
 from geneva_cli.numerics.arrays import Array, Mask, Whole
+from geneva_cli.table import in_decimals
 
 JOINED_MM = 1e-3  # ends that are nearer to each other are one
 SHORTEST_MM = 1e-6  # shorter pieces are left out
@@ -74,8 +75,7 @@ def greatest_gap(pieces: Sequence[Line | Arc]) -> float:
 
 def shown(point: Point) -> str:
     """A place in a drawing, for messages."""
-    x, y = (f"{v:.4f}".rstrip("0").rstrip(".") for v in point)
-    return f"({x}, {y})".replace("-0,", "0,").replace("-0)", "0)")
+    return f"({', '.join(in_decimals(value, 4) for value in point)})"
 
 
 def _distinct(pieces: Sequence[Line | Arc]) -> Iterator[Line | Arc]:

@@ -67,37 +67,33 @@ def linear(
 
 
 def angular(
-    legs: tuple[float, float], begin: float, radii: Iterable[float], text: str, value: float
+    legs: tuple[float, float], begin: float, radius: float, text: str, value: float
 ) -> Iterator[sheet.Measure]:
-    """Yield candidates of an angle about the axis, counterclockwise from leg to leg, on arcs.
+    """Yield candidates of an angle about the axis, counterclockwise from leg to leg, on an arc.
 
-    The extension lines begin at the distance ``begin``. An arc goes on to a text beyond its legs.
+    The extension lines begin at the distance ``begin``. The arc goes on to a text beyond its legs.
     """
     first, last = legs
-    wide = last - first
-    for radius in radii:
-        inside = radius * wide > 3.0 * LENGTH
-        spare = 0.0 if inside else 2.5 * LENGTH / radius
-        starts = [polar(ORIGIN, begin, leg) for leg in legs]
-        sides = [
-            Line(p, polar(ORIGIN, radius + PAST, leg)) for p, leg in zip(starts, legs, strict=True)
-        ]
-        # an arrow's back lies on the arc
-        lean = (0.5 * math.pi - 0.5 * LENGTH / radius) * (1.0 if inside else -1.0)
-        turned = (first, first - lean), (last, last + lean)
-        arrows = tuple(sheet.Arrow(polar(ORIGIN, radius, leg), turn) for leg, turn in turned)
-        middle = 0.5 * (first + last)
-        points = ORIGIN, *starts, polar(ORIGIN, radius, middle)
-        for fraction in (0.5, 0.3, 0.7, -0.3, 1.3):
-            at = first + fraction * wide if inside else middle
-            start, end = min(first - spare, at), max(last + spare, at)
-            arc = about(ORIGIN, radius, start, end - start)
-            # an upright text whose box keeps clear of the arc
-            half = 0.5 * sheet.width(text) * sheet.SMALL, 0.7 * sheet.SMALL
-            away = half[0] * abs(math.cos(at)) + half[1] * abs(math.sin(at)) + 2.0 * CLEAR
-            x, y = polar(polar(ORIGIN, radius, at), away, at)
-            label = sheet.Label(text, (x - half[0], y - 0.4 * sheet.SMALL), sheet.SMALL)
-            yield sheet.Measure("angular", points, value, label, (arc, *sides), arrows)
+    wide, middle = last - first, 0.5 * (first + last)
+    inside = radius * wide > 3.0 * LENGTH
+    spare = 0.0 if inside else 2.5 * LENGTH / radius
+    starts = [polar(ORIGIN, begin, leg) for leg in legs]
+    sides = [Line(p, polar(ORIGIN, radius + PAST, a)) for p, a in zip(starts, legs, strict=True)]
+    # an arrow's back lies on the arc
+    lean = (0.5 * math.pi - 0.5 * LENGTH / radius) * (1.0 if inside else -1.0)
+    turned = (first, first - lean), (last, last + lean)
+    arrows = tuple(sheet.Arrow(polar(ORIGIN, radius, leg), turn) for leg, turn in turned)
+    points = ORIGIN, *starts, polar(ORIGIN, radius, middle)
+    for fraction in (0.5, 0.3, 0.7, -0.3, 1.3):
+        at = first + fraction * wide if inside else middle
+        start, end = min(first - spare, at), max(last + spare, at)
+        arc = about(ORIGIN, radius, start, end - start)
+        # an upright text whose box keeps clear of the arc
+        half = 0.5 * sheet.width(text) * sheet.SMALL, 0.7 * sheet.SMALL
+        away = half[0] * abs(math.cos(at)) + half[1] * abs(math.sin(at)) + 2.0 * CLEAR
+        x, y = polar(polar(ORIGIN, radius, at), away, at)
+        label = sheet.Label(text, (x - half[0], y - 0.4 * sheet.SMALL), sheet.SMALL)
+        yield sheet.Measure("angular", points, value, label, (arc, *sides), arrows)
 
 
 def balloon(tip: Point, text: str) -> Iterator[sheet.Measure]:

@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
 from itertools import chain, combinations, repeat, starmap
-from operator import lt
+from operator import lt, mul
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
@@ -68,16 +68,6 @@ class Shell(NamedTuple):
         bored = math.fsum(hole.volume(self.inner, self.outer) for hole in self.holes)
         return covered * (self.outer**3 - self.inner**3) / 3.0 - bored
 
-    @property
-    def centroid(self) -> Vector:
-        """Centre of mass of a uniform shell, mm."""
-        covered = np.sum([r.moments[0] for r in self.regions], axis=0)
-        first = covered * (self.outer**4 - self.inner**4) / 4.0
-        for hole in self.holes:
-            first = first - hole.first(self.inner, self.outer) * np.array(hole.axis)
-        x, y, z = (first / self.volume).tolist()
-        return x, y, z
-
     def reach(self, direction: Vector) -> float:
         """Greatest coordinate of the shell along a direction, mm from the centre."""
         from geneva_cli.geometry.sphere_arcs import SphereArcs
@@ -89,7 +79,7 @@ class Shell(NamedTuple):
 
     def inertia(self, axis: Vector) -> float:
         """The volume's moment of inertia about an axis through the centre, mm⁵."""
-        covered = math.fsum(r.area - float(r.moments[1] @ axis @ axis) for r in self.regions)
+        covered = math.fsum(r.area - float(r.moments @ axis @ axis) for r in self.regions)
         bored = math.fsum(hole.inertia(self.inner, self.outer, axis) for hole in self.holes)
         return covered * (self.outer**5 - self.inner**5) / 5.0 - bored
 
@@ -221,13 +211,9 @@ def added(one: MassProperties, other: MassProperties) -> MassProperties:
 
 def face(plate: Plate) -> Moments:
     """Area, first moments and polar moment of a plate's face about the origin."""
-    rows, sign = [], 1.0
-    for shape in (plate.outline, *plate.holes):
-        area, x, y, polar = moments(shape)
-        factor = sign * math.copysign(1.0, area)
-        rows.append((factor * area, factor * x, factor * y, factor * polar))
-        sign = -1.0  # the outline is the first
-    return total(rows)
+    rows = [*map(moments, (plate.outline, *plate.holes))]
+    signs = [(1.0 if k == 0 else -1.0) * math.copysign(1.0, row.area) for k, row in enumerate(rows)]
+    return Moments(*(math.fsum(map(mul, signs, column)) for column in zip(*rows, strict=True)))
 
 
 def least_wall(holes: Sequence[Shape], outline: Sequence[Contour] = ()) -> float:

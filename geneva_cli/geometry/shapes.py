@@ -283,14 +283,10 @@ def halved(segment: Segment, is_long: Callable[[float], bool]) -> list[Segment]:
 
 def as_cubic(arc: Arc) -> Cubic:
     """The cubic with the arc's ends, tangents and middle: within 3e-4 radii at 90 degrees."""
-    (x0, y0), (x1, y1) = arc.start, arc.end
-    long = (1.0 + arc.bulge * arc.bulge) / 3.0
-    half = 0.5 * arc.sweep
-    c, s = long * math.cos(half), long * math.sin(half)
-    x, y = x1 - x0, y1 - y0
-    first = x0 + c * x + s * y, y0 + c * y - s * x
-    second = x1 - c * x + s * y, y1 - c * y - s * x
-    return Cubic(arc.start, first, second, arc.end)
+    start, end = complex(*arc.start), complex(*arc.end)
+    turn = cmath.rect((1.0 + arc.bulge * arc.bulge) / 3.0, 0.5 * arc.sweep)
+    first, second = start + turn.conjugate() * (end - start), end - turn * (end - start)
+    return Cubic(arc.start, (first.real, first.imag), (second.real, second.imag), arc.end)
 
 
 def placed(

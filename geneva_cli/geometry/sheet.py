@@ -133,17 +133,9 @@ SMALL, LARGE = 2.5, 3.5  # mm: capitals of dimensions, and of titles (ISO 3098-1
 BELOW, ABOVE = 0.3, 1.1  # of a text's height: how far its letters reach below and above the line
 
 # The layers of a sheet, with the width of their lines in mm (ISO 128-2: two widths, 2 to 1).
-OUTLINE: Layer = "OUTLINE"
-HIDDEN: Layer = "HIDDEN"
-CENTRE: Layer = "CENTER"
-HATCH: Layer = "HATCH"
-DIMENSION: Layer = "DIMENSION"
-TEXT: Layer = "TEXT"
-FRAME: Layer = "FRAME"
-WIDTHS = {
-    **{OUTLINE: 0.5, HIDDEN: 0.25, CENTRE: 0.25, HATCH: 0.18, DIMENSION: 0.25, TEXT: 0.25},
-    FRAME: 0.7,
-}
+WIDTHS: dict[Layer, float] = {"OUTLINE": 0.5, "HIDDEN": 0.25, "CENTER": 0.25, "HATCH": 0.18}
+WIDTHS |= {"DIMENSION": 0.25, "TEXT": 0.25, "FRAME": 0.7}
+OUTLINE, HIDDEN, CENTRE, HATCH, DIMENSION, TEXT, FRAME = WIDTHS
 DASHED = {CENTRE: (8.0, 1.5, 1.0, 1.5), HIDDEN: (3.0, 1.5)}  # mm: dash, gap, dash, gap
 
 

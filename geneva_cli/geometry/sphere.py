@@ -117,24 +117,22 @@ class Region(NamedTuple):
         return math.tau - math.fsum(turned)
 
     @property
-    def moments(self) -> tuple[Array, Array]:
-        """Integrals of u and of u u' over the region, (3,) and (3, 3), from its boundary only.
+    def moments(self) -> Array:
+        """Integral of u u' over the region, (3, 3), from its boundary only.
 
-        The integral of u is half that of u x du. That of u u' is a third of the area minus a sixth
-        of the flow out of the region: the other parts are harmonics of degree 2.
+        It is a third of the area minus a sixth of the flow out of the region: the other parts are
+        harmonics of degree 2.
         """
         # 24 points are exact: the integrands are of the second degree in sine and cosine
         nodes, weights = rule(24)
-        first, second = np.zeros(3), np.eye(3) * self.area / 3.0
+        second: Array = np.eye(3) * self.area / 3.0
         for arc in self.boundary:
             half = 0.5 * arc.sweep
             u, du = arc.at(half * (1.0 + nodes))
             out = np.cross(du, u)  # to the right, as long as the step
-            weight = half * weights
-            first -= 0.5 * (weight[:, None] * out).sum(axis=0)
-            flow = np.einsum("n,ni,nj->ij", weight, out, u)
+            flow = np.einsum("n,ni,nj->ij", half * weights, out, u)
             second -= (flow + flow.T) / 6.0
-        return first, second
+        return second
 
     def turned(self, turn: Rotation) -> Region:
         """The region rotated with the sphere."""

@@ -169,10 +169,6 @@ class RoundHole(NamedTuple):
         """Volume between two spheres, mm³."""
         return self._integrals(outer)[0] - self._integrals(inner)[0]
 
-    def first(self, inner: float, outer: float) -> float:
-        """Integral of the height along its axis, mm⁴."""
-        return 0.5 * math.pi * self.radius**2 * (outer - inner) * (outer + inner)
-
     def inertia(self, inner: float, outer: float, about: Vector) -> float:
         """The volume's moment of inertia about an axis through the centre, mm⁵."""
         (_, far, up), (_, less, below) = self._integrals(outer), self._integrals(inner)

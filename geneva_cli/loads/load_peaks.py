@@ -263,7 +263,8 @@ def _sums_of(load: LoadFunctions, result: SearchResult) -> Array:
     rooted = any(name in contact.SQUARED for name in load.names)
     needed = np.tile(bounded, (2, 1))
     with np.errstate(all="ignore"):
-        total = span_integrals(rows, (spread(a, w), spread(b, w)), design, needed, rooted)
+        each = span_integrals(rows, (spread(a, w), spread(b, w)), design, needed, rooted)
+        total: Array = np.array([np.bincount(design, row, n) for row in each])
         if load.engagement.slot.curved:
             # No stretch reaches mid-motion. The integral of a cubic from 0 to 1 follows from its
             # values at 1, 2 and 3 (Adams and Bashforth).

@@ -24,6 +24,7 @@ from geneva_cli.motion.peak_search import PeakArray, greater, search_motion
 from geneva_cli.numerics.angles import DEGREE, omega
 from geneva_cli.numerics.arrays import Array, Which, parameter
 from geneva_cli.numerics.extremes import Smooth
+from geneva_cli.numerics.jet import Jet
 
 
 class ProductMotion(NamedTuple):
@@ -81,11 +82,11 @@ def _resultant(mechanism: Mechanism, ratio: Array) -> PeakArray:
     def greatest(engagement: Engagement) -> PeakArray:
         some = selection(engagement.motion)
 
-        def square(x: Array, which: Which, order: int, _: Sequence[int]) -> list[tuple[Array, ...]]:
+        def square(x: Array, which: Which, order: int, _: Sequence[int]) -> list[Jet]:
             rate = some(which).rate(x, order + 1)
             velocity, acceleration = rate.lower + mechanism.frame, rate.derivative()
             turned = velocity * velocity * ratio[which][:, None]
-            return [(acceleration * acceleration + turned * turned).arrays()]
+            return [acceleration * acceleration + turned * turned]
 
         most, x, _ = search_motion(engagement.motion, Smooth(square, unit=DEGREE))
         place = engagement.mid_deg + parameter(x[0][:, None])

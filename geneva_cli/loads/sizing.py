@@ -154,7 +154,7 @@ def _by_formula(mechanism: Mechanism) -> dict[str, Number]:
     load = inertia_kgm2(spec), friction, work
     each: list[tuple[IndexerFormula, CamFactors]] = []
     for number, engagement in enumerate(mechanism.engagements):
-        step, motion = mechanism.index_deg(number), engagement.motion_deg
+        step, motion = mechanism.spec.wheel.index_deg(number), engagement.motion_deg
         velocity, acceleration, power = _peaks(engagement, "velocity", "acceleration", "power")
         factors = cam_factors(velocity, acceleration, power, motion, step)
         line = indexer_formula(factors, step, motion, spec.drive.n_rpm, load, fc)
@@ -256,7 +256,7 @@ def _works(load: LoadFunctions, bounded: Mask) -> tuple[Array, Array]:
 
     needed = np.stack((bounded, bounded))
     with np.errstate(all="ignore"):
-        each = span_integrals(rows, (a, b), design, needed, ends=True, apart=True) * DEGREE
+        each = span_integrals(rows, (a, b), design, needed, ends=True) * DEGREE
     number = np.arange(len(design)) - np.searchsorted(design, design)
     works = np.zeros((n, int(number.max()) + 1))
     works[design, number] = each[0]

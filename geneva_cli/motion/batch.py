@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from functools import cache
 from typing import TypeAlias, TypeVar, cast
 
@@ -24,18 +24,6 @@ def taken(thing: T, which: Which | int) -> T:
         return array[which] if isinstance(which, slice) else array.take(numbers_of(which), axis=0)
 
     return cast("T", _changed(thing, change, {}))
-
-
-def each_of(thing: T, count: int) -> Iterator[T]:
-    """Yield each of ``count`` designs of an object of a batch, as ``taken`` reduces it to one."""
-
-    def one(i: int, done: dict[int, object]) -> T:
-        return cast("T", _changed(thing, lambda array: array[i, 0].item(), done))
-
-    found: dict[int, object] = {}
-    one(0, found)
-    same = {key: copy for key, copy in found.items() if id(copy) == key}
-    return (one(i, same.copy()) for i in range(count))
 
 
 def selection(thing: T) -> Callable[[Which], T]:

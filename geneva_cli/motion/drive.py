@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self
 from geneva_cli.errors import GenevaError, refuse_text
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.pivots import Layout, Link, ShaftPlace
+from geneva_cli.motion.wheels.classic import refuse_jam, rollers_max
 from geneva_cli.numerics.arrays import larger
 from geneva_cli.spec.rules import SPEED, Z_MAX, FromZero, Range
 from geneva_cli.spec.schema import Example, SpecTable
 
 if TYPE_CHECKING:
-    from geneva_cli.motion.laws.law import Law, Motion
+    from geneva_cli.motion.laws.law import Motion
     from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
     from geneva_cli.numerics.arrays import Array
     from geneva_cli.numerics.jet_functions import Displacement
@@ -47,7 +48,7 @@ class Drive(SpecTable, kw_only=True):
     # example spec, without its kind
     EXAMPLE: ClassVar[Example]
     # True if the roller stays as far from the crank's axis as at mid-motion
-    ONE_ARM: ClassVar[bool] = True
+    ONE_ARM: ClassVar[bool] = False
     # True if its crank can carry a locking disc about the line of centres
     LOCKS: ClassVar[bool] = True
     # what turns the input shaft of another drive, in [drive.before]; empty if it cannot
@@ -126,10 +127,6 @@ class Drive(SpecTable, kw_only=True):
         """
         return None
 
-    def matched_ratio(self, wheel: Gearing, law: Law, motion_deg: float) -> float:
-        """R/L at which curved slots have a finite pressure angle at mid-motion; NaN if none."""
-        return math.nan
-
     def may_vary(self, table: str, key: str) -> bool:
         """True if a number of a table may be an array along a design axis with this drive."""
         return True
@@ -165,6 +162,11 @@ class Drive(SpecTable, kw_only=True):
         ``L`` is the centre distance, mm. Raises GenevaError if rollers would jam.
         """
         return None
+
+    def planned(self, own: Engagement, ratio: float, L: float) -> Plan:
+        """The plan of one engagement for each roller. Raises GenevaError if they would jam."""
+        refuse_jam(self.rollers, own.motion_deg)
+        return Plan((own,), 360.0 / self.rollers, ratio, rollers_max(own.motion_deg), L)
 
     @abstractmethod
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:

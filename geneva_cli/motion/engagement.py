@@ -48,9 +48,7 @@ class Slot(Batchable, ABC):
 
     # True for a curve that was solved for: it has two branches and its own walls.
     curved = False
-    # True if something other than the roller drives the wheel for part of the motion.
-    relieved = False
-    # True if the roller presses on a straight wall throughout: neither of these
+    # True if the roller drives the wheel throughout, on a straight wall
     walls_flat = True
     # e: distance between a straight slot's axis and the wheel's centre, over L.
     offset: float = 0.0

@@ -92,14 +92,6 @@ class SolvedPath(arrays.Batchable):
         s, c = sin_cos(self.motion(input_deg, order))
         return rho * c, rho * s
 
-    def groove(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
-        """Pitch curve (x, y) of the fixed groove about the crank's axis."""
-        _, R = self.distances(input_deg, order)
-        s, c = sin_cos(Jet.variable(radians(input_deg), order))
-        # At mid-motion the crank points towards the wheel's axis (outside) or away from it
-        # (inside).
-        return R * c * -self.sign, R * s
-
 
 class SolvedPathSlot(Slot):
     """The straight radial slot of a solved path."""

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Array, Number, smaller
+from geneva_cli.numerics.jet import Jet, piecewise, sin_cos
 
 if TYPE_CHECKING:
     from geneva_cli.motion.given_motion import SolvedPath
@@ -23,80 +24,64 @@ def roller_in_groove(groove: SolvedPath, input_deg: Array) -> Array:
     return np.column_stack((1.0 - groove.sign * R * np.cos(angle), R * np.sin(angle)))
 
 
-def dwell_rates(groove: SolvedPath) -> tuple[float, float]:
-    """Return bounds of the sizes of a roller path's two derivatives in the dwell, in units of L.
-
-    They are those of the parts that ``back`` adds, each at its greatest: u (1 - u)² reaches 4/27,
-    (1 - u) (1 - 3 u) lies between -1/3 and 1, and the step's derivatives reach 15/8 and 10/sqrt(3).
-    """
-    span = radians(360.0 - (groove.motion.exit_deg - groove.motion.entry_deg))
-    eased = smaller(math.radians(EASED_DEG), span / 3.0)
-    none, far, slope, bend = np.zeros(1), 0.0, 0.0, 0.0
-    levels = []
-    for end, sense in zip(groove.ends, (-1.0, 1.0), strict=True):
-        R, first, second = (float(x) for x in end)
-        levels.append(float(_eased(end, eased, none, sense)[3]))
-        m = abs(second) * eased
-        far = max(far, abs(R)) + eased * (abs(first) + m)
-        slope = max(slope, abs(first) + 4.0 / 27.0 * m)
-        bend = max(bend, (1.5 * abs(first) + m) / eased)
-    rise, length = abs(levels[0] - levels[1]), span - 2.0 * eased
-    slope = max(slope, 1.875 * rise / length)
-    bend = max(bend, 10.0 / math.sqrt(3.0) * rise / length**2)
-    return math.hypot(slope, far), bend + 2.0 * slope + far
+def path_in_dwell(groove: SolvedPath, input_deg: Number, order: int) -> tuple[Jet, Jet]:
+    """Roller (x, y) at input angles in the dwell after the motion, in units of L."""
+    R = in_dwell(groove, input_deg, order)
+    s, c = sin_cos(Jet.variable(radians(input_deg), order))
+    return 1.0 - R * c * groove.sign, R * s
 
 
-def distances(groove: SolvedPath, input_deg: Array, order: int = 2) -> list[Array]:
-    """Return the roller's distance from the crank's axis, with derivatives by the input in radians.
+def distances(groove: SolvedPath, input_deg: Array, order: int = 2) -> tuple[Array, ...]:
+    """The roller's distance from the crank's axis, with derivatives by the input in radians.
 
-    There are ``order`` derivatives, at most two. In the dwell the slope fades over some degrees
-    beyond either end; between, the groove is an arc about the crank's axis. If the two ends lead to
-    different arcs, a 3-4-5 curve joins them. The second derivative is continuous all round.
+    In the dwell the slope fades over some degrees beyond either end; between, the groove is an arc
+    about the crank's axis. If the two ends lead to different arcs, a 3-4-5 curve joins them. The
+    second derivative is continuous all round.
     """
     at = (input_deg - groove.motion.entry_deg) % 360.0 + groove.motion.entry_deg
-    moving = at <= groove.motion.exit_deg
-    out = [np.empty(len(at)) for _ in range(order + 1)]
-    for here in (moving, ~moving):
-        if here.any():
-            if here is moving:
-                values = [*groove.distances(at[here], order)[1].arrays()]
-            else:
-                values = back(groove, at[here], order)
-            for column, own in zip(out, values, strict=True):
-                column[here] = own
-    return out
+
+    def moving(x: Number) -> Jet:
+        return groove.distances(x, order)[1]
+
+    rests = partial(in_dwell, groove, order=order)
+    return piecewise(at, (groove.motion.exit_deg,), (moving, rests)).arrays()
 
 
-def back(groove: SolvedPath, input_deg: Array, order: int) -> list[Array]:
-    """Return distance and derivatives at input angles in the dwell; see ``distances``."""
-    span = radians(360.0 - (groove.motion.exit_deg - groove.motion.entry_deg))
-    eased = smaller(math.radians(EASED_DEG), span / 3.0)
-    t = np.radians(input_deg - groove.motion.exit_deg)
+def in_dwell(groove: SolvedPath, input_deg: Number, order: int) -> Jet:
+    """That distance at input angles in the dwell after the motion."""
+    wide_deg = 360.0 - (groove.motion.exit_deg - groove.motion.entry_deg)
+    eased_deg, since_deg = smaller(EASED_DEG, wide_deg / 3.0), input_deg - groove.motion.exit_deg
     entry, exit_ = groove.ends
-    after = _eased(exit_, eased, t, 1.0)
-    before = _eased(entry, eased, span - t, -1.0)
-    # Each fades to a constant before the other begins; the step goes from one level to the other.
-    length, rise = span - 2.0 * eased, before[3] - after[3]
-    u = np.clip((t - eased) / length, 0.0, 1.0)
-    step = (
-        u**3 * (10.0 - 15.0 * u + 6.0 * u * u),
-        30.0 * (u * (1.0 - u)) ** 2 / length,
-        60.0 * u * (1.0 - u) * (1.0 - 2.0 * u) / length**2,
-    )
-    out = [a + b + rise * s for a, b, s in zip(after[:3], before[:3], step, strict=True)]
-    out[0] -= before[3]
-    return out[: order + 1]
+    after, first = _eased(exit_, 1.0, eased_deg, since_deg, order)
+    before, last = _eased(entry, -1.0, eased_deg, wide_deg - since_deg, order)
+
+    def step(x: Number) -> Jet:
+        u = Jet.variable(radians(x - eased_deg), order) / radians(wide_deg - 2.0 * eased_deg)
+        return u * u * u * (10.0 - u * (15.0 - u * 6.0)) * (last - first) + first
+
+    # Each fades to a level before the other begins; a step goes from one level to the other.
+    level, other = (partial(_level, one, order) for one in (first, last))
+    cuts = eased_deg, wide_deg - eased_deg
+    return after + before - first - last + piecewise(since_deg, cuts, (level, step, other))
 
 
 def _eased(
-    end: Sequence[Number], length: float, t: Array, sense: float
-) -> tuple[Array, Array, Array, Number]:
-    """Return distance and two derivatives ``t`` beyond an end, and the distance it fades to."""
+    end: Sequence[Number], sense: float, wide_deg: float, beyond_deg: Number, order: int
+) -> tuple[Jet, Number]:
+    """Distance at angles beyond an end of the motion, and the level to which it fades."""
     R, slope, bend = end[0], sense * end[1], end[2]
-    u = np.minimum(t / length, 1.0)
+    length = radians(wide_deg)
     m = bend * length
-    run = slope * (u - u**3 + 0.5 * u**4) + m * (0.5 * u**2 - 2.0 / 3.0 * u**3 + 0.25 * u**4)
-    rate = slope * (1.0 - u) ** 2 * (1.0 + 2.0 * u) + m * u * (1.0 - u) ** 2
-    turn = (-6.0 * slope * u * (1.0 - u) + m * (1.0 - u) * (1.0 - 3.0 * u)) / length
     level = R + length * (0.5 * slope + m / 12.0)
-    return R + length * run, sense * rate, turn, level
+
+    def near(x: Number) -> Jet:
+        u = Jet.variable(sense * radians(x), order) * (sense / length)
+        high = u * (0.5 * slope + 0.25 * m) - (slope + 2.0 / 3.0 * m)
+        return u * (u * (u * high + 0.5 * m) + slope) * length + R
+
+    return piecewise(beyond_deg, (wide_deg,), (near, partial(_level, level, order))), level
+
+
+def _level(level: Number, order: int, x: Number) -> Jet:
+    """A constant at some places."""
+    return Jet((level + x * 0.0, *[x * 0.0] * order))

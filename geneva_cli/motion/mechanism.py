@@ -99,10 +99,11 @@ class Mechanism(NamedTuple):
     @property
     def matched_ratio(self) -> float | None:
         """R/L of finite pressure at mid-motion of a design's curved slots; None without."""
-        if self.law is None:
+        own = self.engagements[0].own
+        if not own.slot.curved:
             return None
-        motion_deg = self.engagements[0].own.motion_deg
-        matched = self.spec.drive.matched_ratio(self.spec.wheel, self.law, motion_deg)
+        turned = float(own.motion(0.0, 1).c[1]) / abs(float(own.carrier(0.0).c[0]))
+        matched = self.spec.wheel.matched_ratio(turned)
         return None if math.isnan(matched) else float(matched)
 
     @property
@@ -133,11 +134,6 @@ class Mechanism(NamedTuple):
         """The machine with the period of its loads: up to the entry of the next wheel."""
         wheels = self.spec.drive.wheels_on_carrier
         return self._replace(period_deg=360.0 / wheels) if wheels > 1 else self
-
-    def index_deg(self, i: int) -> float:
-        """Wheel step of engagement i, in degrees; unequal steps repeat."""
-        wheel = self.spec.wheel
-        return wheel.index_deg(i % len(wheel.steps) if wheel.steps else i)
 
     def dwell_deg(self, i: int) -> float:
         """Input angle in degrees from the exit of engagement i to the next entry."""

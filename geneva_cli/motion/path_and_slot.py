@@ -195,15 +195,21 @@ def retraces(engagement: base.Engagement) -> bool:
     return cast("bool", left < bar)
 
 
-def pitch(engagement: base.Engagement, input_deg: Number) -> Pitch:
-    """Compute the pitch curve at input angles other than a retracing mid-motion."""
-    x, y = engagement.slot(input_deg, 2)
-    m = library(x.c[0])
-    (x0, x1, x2), (y0, y1, y2) = x.derivatives(), y.derivatives()
+def pitch(engagement: base.Engagement, input_deg: Number, first: int = 1) -> Pitch:
+    """Compute the pitch curve at input angles other than a retracing mid-motion.
+
+    There M' = 0, and ``first``, the order of the first derivative that moves the pin, is 2: it is
+    the limit from the entry.
+    """
+    x, y = engagement.slot(input_deg, first + 1)
+    m, sense = library(x.c[0]), 3.0 - 2.0 * first
+    dx, dy = x.derivatives(), y.derivatives()
+    (x0, x1, x2), (y0, y1, y2) = (dx[0], *dx[first:]), (dy[0], *dy[first:])
     speed = m.hypot(x1, y1)
-    turning = (x1 * y2 - y1 * x2) / (speed * speed)
+    turning = (x1 * y2 - y1 * x2) / (first * speed * speed)
     pressure = m.atan2(size(x0 * y1 - y0 * x1), size(x0 * x1 + y0 * y1))
-    return Pitch(x0, y0, x1 / speed, y1 / speed, speed, turning, pressure)
+    along = sense * x1 / speed, sense * y1 / speed
+    return Pitch(x0, y0, *along, speed if first == 1 else 0.0, turning, pressure)
 
 
 def opposites(engagement: base.Engagement, input_deg: Array) -> Array:
@@ -214,10 +220,4 @@ def opposites(engagement: base.Engagement, input_deg: Array) -> Array:
 @lru_cache(maxsize=16)
 def pitch_at_retrace(engagement: base.Engagement) -> Pitch:
     """Limit of the pitch curve at mid-motion for a pin that retraces, approached from the entry."""
-    x, y = engagement.slot(0.0, 3)
-    m = library(x.c[0])
-    (x0, _, x2, x3), (y0, _, y2, y3) = x.derivatives(), y.derivatives()
-    bend = m.hypot(x2, y2)
-    turning = (x2 * y3 - y2 * x3) / (2.0 * bend * bend)
-    pressure = m.atan2(size(x0 * y2 - y0 * x2), size(x0 * x2 + y0 * y2))
-    return Pitch(x0, y0, -x2 / bend, -y2 / bend, 0.0, turning, pressure)
+    return pitch(engagement, 0.0, 2)

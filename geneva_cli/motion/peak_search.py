@@ -29,25 +29,18 @@ def curves(motion: WheelMotion, quantities: Sequence[str]) -> Smooth:
     """Quantities of motions over the input angle in degrees."""
     some = selection(motion)
 
-    def derivatives(
-        x: Array, which: Which, order: int, requested: Sequence[int]
-    ) -> list[Sequence[Array]]:
+    def jets(x: Array, which: Which, order: int, requested: Sequence[int]) -> list[Jet]:
         names = [quantities[i] for i in requested]
-        out: list[Sequence[Array]] = []
-        p = some(which).rate(x, max(ORDERS[name] for name in names) - 1 + order).arrays()
+        velocity = some(which).rate(x, max(ORDERS[name] for name in names) - 1 + order)
+        out = []
         for name in names:
-            if name == "power":
-                power = [p[0] * p[1]]
-                if order > 0:
-                    power.append(p[1] ** 2 + p[0] * p[2])
-                if order > 1:
-                    power.append(3.0 * p[1] * p[2] + p[0] * p[3])
-                out.append(power)
-            else:
-                out.append(p[ORDERS[name] - 1 :])
+            jet = velocity
+            for _ in range(1, ORDERS[name]):
+                jet = jet.derivative()
+            out.append(velocity.lower * jet if name == "power" else jet)
         return out
 
-    return Smooth(derivatives, len(quantities), unit=DEGREE)
+    return Smooth(jets, len(quantities), unit=DEGREE)
 
 
 def breaks(motion: WheelMotion, m: int) -> list[Array]:
@@ -119,19 +112,14 @@ def search_peaks(motion: WheelMotion, quantities: Sequence[str]) -> dict[str, Pe
     """The peaks from the search only, without closed forms; NaN for designs that are NaN."""
     most, x, _ = search_motion(motion, curves(motion, quantities))
     most = np.where(most < 0.0, np.nan, most)
-    return {
-        name: PeakArray(*row)
-        for name, row in zip(quantities, zip(most, x, strict=True), strict=True)
-    }
+    return dict(zip(quantities, map(PeakArray, most, x), strict=True))
 
 
 def greater(first: PeakArray, other: PeakArray) -> PeakArray:
     """The greater of two sizes; if they are equal, at the place of the first."""
+    most = np.where(other.max > first.max, other.max, first.max)
     more = other.max > first.max * (1.0 + TIE)
-    return PeakArray(
-        np.where(other.max > first.max, other.max, first.max),
-        np.where(more, other.at_deg, first.at_deg),
-    )
+    return PeakArray(most, np.where(more, other.at_deg, first.at_deg))
 
 
 def braking(engagement: Engagement) -> float:

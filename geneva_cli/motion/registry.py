@@ -6,6 +6,8 @@ Their classes, and those of laws, are imported by name at their first use.
 from __future__ import annotations
 
 from functools import cache, partial
+from itertools import chain
+from operator import attrgetter
 from typing import Any
 
 from geneva_cli.errors import GenevaError, few, nearest
@@ -77,10 +79,8 @@ _CORE = (
         refuses="motion.compatible:of_cam",
     ),
 )
-_kinds = [*_CORE]
-for _folder in FOLDERS:
-    _kinds += load_named(f"kinds.{_folder}:KINDS")
-KINDS: tuple[Kind, ...] = tuple(_kinds)
+_FOLDED = map(load_named, map("kinds.{}:KINDS".format, FOLDERS))
+KINDS: tuple[Kind, ...] = (*_CORE, *chain.from_iterable(_FOLDED))
 # function that puts a drive in front of another, which few machines need
 IN_FRONT = "drives.retimed:retimed"
 
@@ -115,12 +115,9 @@ def families_of_kinds(where: str, wheel: str = "") -> list[Any]:
     return [load_named(kind.families[where]) for kind in kinds if where in kind.families]
 
 
-GEARINGS, DRIVES = dict[str, str](), dict[str, str]()
-for _kind in KINDS:
-    if _kind.wheel:
-        GEARINGS[_kind.name] = _kind.wheel
-    if _kind.drive:
-        DRIVES[_kind.name] = _kind.drive
+_wheel, _drive = attrgetter("wheel"), attrgetter("drive")
+GEARINGS: dict[str, str] = dict(map(attrgetter("name", "wheel"), filter(_wheel, KINDS)))
+DRIVES: dict[str, str] = dict(map(attrgetter("name", "drive"), filter(_drive, KINDS)))
 # laws that need no key or file of the user
 _STANDARD = {
     "harmonic": "motion.laws.standard:Harmonic",

@@ -55,7 +55,7 @@ def timings(mechanism: Mechanism) -> list[Timing]:
     """The timing of every engagement, in order."""
     output, drive, out = mechanism.output, mechanism.spec.drive, []
     for i, one in enumerate(mechanism.engagements):
-        index_deg = mechanism.index_deg(i) if output.turns else None
+        index_deg = mechanism.spec.wheel.index_deg(i) if output.turns else None
         index_mm = None if output.turns else 2.0 * one.half_step * output.per_radian
         ends = one.motion_deg, mechanism.dwell_deg(i)
         out.append(timing(*ends, index_deg, drive.n_rpm, index_mm, drive.stop_s))

@@ -22,11 +22,7 @@ MIDDLE = DEGREE // 2  # number of the middle point
 
 def product(matrix: Array, values: Array) -> Array:
     """A matrix (n, k) times values (..., k, m), summed in order."""
-    out: Array = matrix[:, 0, None] * values[..., None, 0, :]
-    term = np.empty_like(out)
-    for k in range(1, matrix.shape[1]):
-        out += np.multiply(matrix[:, k, None], values[..., None, k, :], out=term)
-    return out
+    return np.asarray(np.einsum("nk,...km->...nm", matrix, values))
 
 
 def at(terms: Array, t: Array) -> Array:

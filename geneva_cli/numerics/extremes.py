@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from math import factorial
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -34,6 +33,7 @@ from geneva_cli.numerics.tolerances import TIE
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.cuts import Asked, Functions, Held
+    from geneva_cli.numerics.jet import Jet
 
 Spans: TypeAlias = Sequence[tuple[Array, Array]]  # both ends (n, 1) of each
 Known: TypeAlias = tuple[int, Array, Array]  # a function's number, places and values
@@ -66,14 +66,14 @@ class SearchResult(NamedTuple):
 
 @dataclass
 class Smooth:
-    """Functions of designs without kinks and jumps, from their derivatives.
+    """Functions of designs without kinks and jumps.
 
-    ``derivatives(x, which, order, requested)`` returns value and derivatives of each requested
-    function, ``order`` of them or more. The signs of the first ``signs`` functions matter. ``unit``
-    is that of the places over the derivatives'.
+    ``jets(x, which, order, requested)`` returns the jet of each requested function, of ``order`` or
+    a higher one. The signs of the first ``signs`` functions matter. ``unit`` is that of the places
+    over the jets'.
     """
 
-    derivatives: Callable[[Array, Which, int, Sequence[int]], Sequence[Sequence[Array]]]
+    jets: Callable[[Array, Which, int, Sequence[int]], Sequence[Jet]]
     wanted: int = 1
     signs: int = 0
     unit: float = 1.0
@@ -86,9 +86,9 @@ class Smooth:
         numbers = range(self.wanted) if requested is None else requested
         every = [*range(self.signs), *(self.signs + i for i in numbers)]
         out = np.empty((order + 1, len(every), *x.shape[::-1])).swapaxes(2, 3)
-        for i, row in enumerate(self.derivatives(np.asfortranarray(x), which, order, every)):
+        for i, jet in enumerate(self.jets(np.asfortranarray(x), which, order, every)):
             for k in range(order + 1):
-                out[k, i] = row[k] * (self.unit**k / factorial(k)) if k else row[k]
+                out[k, i] = jet.c[k] * self.unit**k if k else jet.c[k]
         return out[0][: self.signs] > 0.0, out
 
 

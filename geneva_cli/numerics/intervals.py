@@ -124,16 +124,12 @@ class Interval(Enclosed):
     def __mul__(self, other: Interval | float) -> Interval:
         if other is self:
             return self**2
-        if not isinstance(other, Interval):
-            return _between(self.low * other, self.high * other)
-        low, high = other.low, other.high
+        low, high = _ends(other)
         return _between(self.low * low, self.low * high, self.high * low, self.high * high)
 
     @_operator
     def __truediv__(self, other: Interval | float) -> Interval:
-        if not isinstance(other, Interval):
-            other = Interval(other, other)
-        low, high = other.low, other.high
+        low, high = _ends(other)
         out = _between(self.low / low, self.low / high, self.high / low, self.high / high)
         return _unknown((low <= 0.0) & (high >= 0.0), out)
 

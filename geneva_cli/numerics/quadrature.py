@@ -44,9 +44,8 @@ def span_integrals(
     design: Whole,
     needed: Mask,
     ends: bool = False,
-    apart: bool = False,
 ) -> Array:
-    """The integral of each function over all spans of each design: (functions, n).
+    """The integral of each function over each span: (functions, spans).
 
     ``functions(x, which)`` returns the functions (functions, m, k) of the spans ``which``, numbers
     (m,), at places (m, k). With ``ends`` they may behave as the root of the distance from a span's
@@ -54,13 +53,9 @@ def span_integrals(
     integrals that are needed; others, such as unbounded ones, are meaningless. The functions may
     clear elements of it while they are evaluated. Unbounded integrals are infinite. Those of noise
     are NaN, since halving their spans does not help.
-
-    With ``apart`` the result is the integral of each span, (functions, spans), to the same
-    fraction of its design's.
     """
     n, count = needed.shape[1], len(design)
-    into = np.arange(count) if apart else design
-    total, size = np.zeros((len(needed), count if apart else n)), np.zeros(needed.shape)
+    total, size = np.zeros((len(needed), count)), np.zeros(needed.shape)
     unbounded, of = total != 0.0, np.arange(count)
     low, high = np.zeros(count), np.ones(count)
     for halved in range(40):  # the narrowest spans are 1e-12 of their design's
@@ -68,24 +63,24 @@ def span_integrals(
         lost = ~np.isfinite(sizes)  # spans of an unbounded function are not halved further
         for row, endless, marks in zip(needed, lost, unbounded, strict=True):
             row[design[of[endless]]] = False
-            marks[into[of[endless]]] = True
+            marks[of[endless]] = True
         if not halved:
             for own, row in zip(size, sizes, strict=True):
                 own += np.bincount(design[of], row, n)
         open_ = (~(last <= LAST_TERMS * size[:, design[of]]) & needed[:, design[of]]).any(axis=0)
         for own, row in zip(total, whole, strict=True):
-            own += np.bincount(into[of[~open_]], row[~open_], len(own))
+            own += np.bincount(of[~open_], row[~open_], count)
         parts = np.bincount(design[of[open_]], minlength=n)
         # a kink or a pole leaves some open parts at each depth, noise twice as many as before
         lost_in_noise = (parts > 20_000)[design[of]]
-        total[:, into[of[open_ & lost_in_noise]]] = np.nan
+        total[:, of[open_ & lost_in_noise]] = np.nan
         open_ &= ~lost_in_noise
         if not open_.any():
             return np.where(unbounded, np.inf, total)
         middle = 0.5 * (low + high)[open_]
         low, high = np.concatenate((low[open_], middle)), np.concatenate((middle, high[open_]))
         of = np.concatenate((of[open_], of[open_]))
-    total[:, into[of]] = np.inf
+    total[:, of] = np.inf
     return np.where(unbounded, np.inf, total)
 
 

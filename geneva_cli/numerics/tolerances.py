@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_right
 from collections.abc import Callable
+from itertools import product, starmap
 
 from geneva_cli.numerics.arrays import SINGLE, Array, N, Number, choose, larger
 
@@ -64,10 +65,7 @@ def same(value: object, other: object) -> bool:
 
 # Rounded numbers of all decades of sizes, 10 to 90 times each power of ten.
 _TENS = (10, 11, 12, 14, 16, 18, 20, 22, 25, 28, 30, 35, 40, 45, 50, 55, 60, 70, 80, 90)
-_ROUNDED = list[float]()
-for _power in range(-20, 16):
-    for _n in _TENS:
-        _ROUNDED.append(float(f"{_n}e{_power}"))
+_ROUNDED = [*map(float, starmap("{1}e{0}".format, product(range(-20, 16), _TENS)))]
 # Bores of radial bearings by ISO 15, mm.
 _SMALL = (1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 12.0, 15.0, 17.0)
 _LARGE = (*range(20, 110, 5), *range(110, 200, 10), *range(200, 501, 20))

@@ -13,10 +13,11 @@ import sys
 import zlib
 from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager
+from itertools import chain
 from typing import Any
 
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.output import Paths, refuse_columns
+from geneva_cli.output import Paths, parquet, refuse_columns
 from geneva_cli.output.delimited import one_line, text_of
 from geneva_cli.output.files import open_locked, place, remove, replacing, write_errors
 from geneva_cli.output.text import refuse_nonsense
@@ -35,7 +36,6 @@ class GrowingTable:
 
     def __init__(self, names: Sequence[str], output: str, state: Any = None) -> None:
         self.names, self.output, self.state = names, output, state
-        self.is_parquet = output.endswith(".parquet")
         self.done, self.start, self.end, self.message = 0, 0, 0, ""
 
     def append(self, columns: Sequence[Any]) -> None:
@@ -44,16 +44,13 @@ class GrowingTable:
         Raises ArithmeticError for NaN.
         """
         refuse_nonsense(self.names, columns, endless=True)
-        if self.is_parquet:
-            from geneva_cli.output.parquet import block_of
-
-            data = block_of(self.names, columns)
+        if self.output.endswith(".parquet"):
+            data = parquet.block_of(self.names, columns)
         else:
-            text = text_of(columns, infinity="")
-            if not self.state:
-                sys.stdout.write(text)
-                return
-            data = text.encode()
+            data = text_of(columns, infinity="").encode()
+        if not self.state:
+            sys.stdout.write(data.decode())
+            return
         self.write(b"block %d %d %d\n%s" % (len(columns[0]), len(data), zlib.crc32(data), data))
         self.done += len(columns[0])
 
@@ -113,9 +110,9 @@ def growing(
 ) -> Iterator[GrowingTable]:
     """Give the destination of rows, which replaces the file if the block ends without an error.
 
-    ``key`` is all that they depend on. With ``resume`` a run continues one with the same key, or
-    starts if there is none. ``texts`` are columns that hold no numbers. Raises GenevaError if the
-    file cannot be written, if another run writes it, or if the run to continue had another key.
+    ``key`` is all that they depend on. With ``resume`` they continue those of the same key, if any.
+    ``texts`` are columns that hold no numbers. Raises GenevaError if the file cannot be written, if
+    another run writes it, or if the run to continue had another key.
     """
     refuse_columns()
     if output == "-":
@@ -127,9 +124,8 @@ def growing(
         return
     if not output.endswith((".csv", ".parquet")):
         raise GenevaError(f'-o "{cut(output, 300)}": it must end in .csv or .parquet')
-    if output.endswith(".parquet"):
-        from geneva_cli.output import parquet
-
+    is_parquet = output.endswith(".parquet")
+    if is_parquet:
         parquet.refuse_without()
     with write_errors(output):
         path = place(output, inputs)[0] + ".geneva"
@@ -139,14 +135,13 @@ def growing(
         rows.begin(key, resume, cut(os.path.basename(path)))
         yield rows
         with replacing(output, inputs) as file:
-            if rows.is_parquet and not rows.done:
+            if is_parquet and not rows.done:
                 rows.append([[] for _ in names])  # the names of the columns are in each block
             done = rows.done
-            if rows.is_parquet:
+            if is_parquet:
                 parquet.write_blocks(rows.blocks, file, texts)
             else:
-                file.write(one_line(names).encode())
-                file.writelines(rows.blocks())
+                file.writelines(chain([one_line(names).encode()], rows.blocks()))
             if rows.done != done:
                 raise GenevaError(
                     f"{path}: changed or damaged while the run wrote it; run again with --resume"

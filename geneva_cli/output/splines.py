@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from itertools import accumulate
 from typing import NamedTuple, TypeAlias
 
 from geneva_cli.geometry.shapes import Arc, Cubic, Line, Point, Segment, as_cubic
@@ -89,7 +90,5 @@ def _interval(before: Cubic, after: Segment, interval: float) -> float:
 
 def _spline(run: list[Cubic], intervals: list[float]) -> Spline:
     poles = [pole for cubic in run for pole in (cubic.first, cubic.second)]
-    knots = [0.0]
-    for interval in intervals:
-        knots.append(knots[-1] + interval)
-    return Spline((run[0].start, *poles, run[-1].end), tuple(knots))
+    knots = tuple(accumulate(intervals, initial=0.0))
+    return Spline((run[0].start, *poles, run[-1].end), knots)

@@ -36,19 +36,17 @@ def chunks(table: Table) -> Iterator[str]:
             yield "\n"
             continue
         # one line for each value, and a heading where the first part of the dotted name changes
-        shown, width = [], 0
+        shown, current = [], ""
         own = flat(piece) if piece.names else piece
         for name, (value,) in zip(own.names, own.columns, strict=True):
             if value not in (None, ""):  # a value that does not apply has no line
                 group, _, last = name.rpartition(".")
-                shown.append((group, last, value))
-                width = max(width, len(last) + (2 if group else 0))
-        current = ""
-        for group, name, value in shown:
+                shown.append((group, "  " * bool(group) + last, value))
+        width = max((len(label) for _, label, _ in shown), default=0)
+        for group, label, value in shown:
             if group != current:
                 yield f"{group}\n" if group else ""
                 current = group
-            label = f"  {name}" if group else name
             yield f"{label.ljust(width)}  {cell(value)}\n"
 
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from contextlib import suppress
-from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
@@ -90,9 +89,7 @@ class ByLoad(NamedTuple):
         return out
 
 
-def chosen(
-    mechanism: Mechanism, details: Mapping[str, float | str] = MappingProxyType({})
-) -> dict[str, Chosen]:
+def chosen(mechanism: Mechanism, details: Values | None = None) -> dict[str, Chosen]:
     """Return every size that a rule or the load chose, by its key ``size.NAME``; mm.
 
     ``details`` are those of ``detail_sizes``, which need the parts. Written into the spec the sizes
@@ -102,7 +99,7 @@ def chosen(
     Chosen(value=5.0, why='default L/20')
     """
     size, out = mechanism.spec.size, {}
-    values = {**key_sizes(mechanism)[0], **details}
+    values = {**key_sizes(mechanism)[0], **(details or {})}
     loaded, meanings = by_load(mechanism), {field.key: field.meaning for field in fields(Size)}
     for key, own in size.as_dict().items():
         if own is not None or key not in values or not _is_written(mechanism, key, values):

@@ -23,21 +23,19 @@ from geneva_cli.parts.sizes import CLEARANCES
 from geneva_cli.spec.defaults import wall_min
 from geneva_cli.spec.tables import Load, Size
 
+THICK = "wheel_thickness_mm", "arm_thickness_mm"  # as thick as the links
+
 
 def first_spec(mechanism: Mechanism) -> Spec:
     """Return the spec of the first wheel and its crank, with the sizes that it shares."""
     spec, size = mechanism.spec, mechanism.spec.size
     assert mechanism.first_wheel is not None
     slots, distance_mm = mechanism.first_wheel
-    own = Size(
-        center_distance_mm=distance_mm,
-        roller_radius_mm=mechanism.roller_radius_mm,
-        wheel_thickness_mm=size.link_thickness_mm,
-        arm_thickness_mm=size.link_thickness_mm,
-        arm_bore_mm=size.link_bore_mm,
-        lock_bolts=0,  # the link below its disc has no holes for them
-        **{key: vars(size)[key] for key in ("process", "pin_mm", *CLEARANCES)},
-    )
+    shared = {key: vars(size)[key] for key in ("process", "pin_mm", *CLEARANCES)}
+    shared |= dict.fromkeys(THICK, size.link_thickness_mm)
+    # the link below its disc has no holes for bolts
+    shared |= {"arm_bore_mm": size.link_bore_mm, "lock_bolts": 0}
+    own = Size(distance_mm, mechanism.roller_radius_mm, **shared)
     torque = single_loads(mechanism).crank_Nm if spec.is_loaded else 0.0
     return Spec(
         External(slots),
@@ -56,10 +54,8 @@ def first_pair(mechanism: Mechanism, outlines: Outlines | None) -> Mechanism:
     first = mechanism.first_wheel
     if first is None:
         having = registry.drives_with("first_wheel")
-        raise GenevaError(
-            f'--part first-wheel, first-crank: kind = "{spec.drive.NAME}" has one wheel; '
-            f"{' or '.join(having)} has two"
-        )
+        text = f'--part first-wheel, first-crank: kind = "{spec.drive.NAME}" has one wheel; '
+        raise GenevaError(f"{text}{' or '.join(having)} has two")
     key = "crank_bore" if spec.size.crank_keyway is None else "crank_keyway"
     text = f"{key}: the first wheel on the crank's shaft has a round bore; remove {key}"
     refuse_size(has_shape(spec.size, "crank"), key, text)
@@ -69,15 +65,9 @@ def first_pair(mechanism: Mechanism, outlines: Outlines | None) -> Mechanism:
     alone = first_spec(mechanism)
     link, shaft = bars.sizes, bars.shaft(own, L)
     assert link is not None  # the first crank is one
-    size = alone.size.replace(
-        wall_min_mm=wall_min(spec.size, L),
-        crank_bore_mm=2.0 * bore,
-        wheel_bore_mm=2.0 * bars.shaft(second, L),
-        wheel_thickness_mm=link.thickness,
-        arm_thickness_mm=link.thickness,
-        pin_mm=2.0 * link.roller_stands,
-        arm_bore_mm=2.0 * shaft,
-        arm_hub_mm=2.0 * link.hub(round_bore(spec.size, shaft)),
-        arm_eye_mm=2.0 * link.roller_eye,
-    )
+    radii = {"crank_bore": bore, "wheel_bore": bars.shaft(second, L), "arm_bore": shaft}
+    radii |= {"arm_hub": link.hub(round_bore(spec.size, shaft)), "arm_eye": link.roller_eye}
+    known = {f"{name}_mm": 2.0 * r for name, r in {**radii, "pin": link.roller_stands}.items()}
+    known |= {"wall_min_mm": wall_min(spec.size, L), **dict.fromkeys(THICK, link.thickness)}
+    size = alone.size.replace(**known)
     return build(alone.replace(size=size, title=f"{titled(mechanism)}, first pair"))

@@ -28,13 +28,7 @@ from geneva_cli.parts.outlines.crank_outline import crank_bore, is_whole
 from geneva_cli.parts.outlines.cut_outlines import drawn, slot_walls, wheel_contour
 from geneva_cli.parts.outlines.outlines import Outlines, dial_circle, wheel_hub, wheel_plate
 from geneva_cli.parts.parts import EdgedParts, FrameAndShafts, NamedBuilds, Parts, parts_of
-from geneva_cli.parts.shafts.arm_and_shafts import (
-    CrankArm,
-    bolts,
-    crank_arm,
-    crank_hub,
-    rollers_about,
-)
+from geneva_cli.parts.shafts.arm_and_shafts import CrankArm, bolts, crank_arm, crank_hub, rollers
 from geneva_cli.parts.shafts.bores import Screws
 from geneva_cli.parts.sizes import drawn_thicknesses, pin_radius
 from geneva_cli.parts.slots.roller_paths import roller_centres, wall_lost
@@ -99,12 +93,11 @@ class FlatParts(EdgedParts):
         that follow from the load.
         """
         parts, computed = parts_of(mechanism), vars(self)
-        own, other = (
-            (spec.wheel, spec.drive.replace(n_rpm=1.0), spec.motion, spec.size)
-            for spec in (self.mechanism.spec, mechanism.spec)
-        )
+        own, other = self.mechanism.spec, mechanism.spec
+        keys = attrgetter("wheel", "motion", "size")
+        alike = own.drive.replace(n_rpm=1.0) == other.drive.replace(n_rpm=1.0)
+        alike &= "_shape" in computed and keys(own) == keys(other)
         with suppress(GenevaError):  # where the sizes of the next leave no parts
-            alike = "_shape" in computed and own == other
             if alike and machine_sizes(mechanism)[1] == self._shape.sizes:
                 assembly = self.assembly._replace(full=mechanism)
                 vars(parts)["_shape"] = self._shape._replace(assembly=assembly)
@@ -129,8 +122,7 @@ class FlatParts(EdgedParts):
                 contour = wheel_contour(where, sizes, walls, where.full.spec.wheel.stopped)
         turn, plate = float(where.wheel(np.zeros(1))[0]), wheel_plate(where, sizes, contour)
         hub = wheel_hub(where, sizes)
-        part = Group(plate.name, (Member(plate), Member(hub))) if hub else plate
-        return Member(part, turn=turn)
+        return Member(Group(plate.name, (Member(plate), Member(hub))) if hub else plate, turn=turn)
 
     @cached_property
     def orbiting(self) -> tuple[Member, ...]:
@@ -183,9 +175,8 @@ class FlatParts(EdgedParts):
         if low is None:
             arm = drawn.sizes.arm_thickness if drawn.has_arm else 0.0
             low = -self.mechanism.spec.size.allowances.pin_gap_mm - arm
-        r, fit = self.mechanism.roller_radius_mm, self.mechanism.spec.size.allowances.shaft_fit_mm
         centres, sizes = roller_centres(drawn.assembly), drawn.sizes
-        return rollers_about(centres, r, sizes.pin, low, sizes.wheel_thickness, fit)
+        return rollers(self.mechanism, centres, sizes.pin, low, sizes.wheel_thickness)
 
     def axle_radius(self, part: str) -> float:
         """Return the radius of a part's shaft, or of its hub if the spec has one, mm; 0 if none."""
@@ -193,16 +184,6 @@ class FlatParts(EdgedParts):
         bore = sizes.wheel_bore if part == "wheel" else sizes.crank_bore
         hub = sizes.wheel_hub if part == "wheel" else sizes.crank_hub
         return max(bore, hub) if self.mechanism.spec.size.has_hub(part) else bore
-
-    @cached_property
-    def crank(self) -> Member:
-        """The crank: locking disc or sectors, arm, rollers on their pins, hub."""
-        return self._crank(self.arm_plate)
-
-    @cached_property
-    def crank_without_arm(self) -> Member:
-        """The crank as it lies in the wheel's plane."""
-        return self._crank(None)
 
     def _crank(self, arm: Plate | None) -> Member:
         assembly, members = self.outlines.assembly, list[Member]()
@@ -281,7 +262,7 @@ class FlatParts(EdgedParts):
         return groove_base(self.outlines, self.links)
 
     @cached_property
-    def groove(self) -> tuple[Contour, Contour, Contour]:
+    def groove(self) -> tuple[Contour, ...]:
         """The flanks of a cam's groove and its pitch curve; raises GenevaError without a groove."""
         from geneva_cli.parts.slots.groove import groove_lines
 
@@ -304,7 +285,7 @@ class FlatParts(EdgedParts):
         arm = parts.sizes.arm_thickness if parts.has_arm else 0.0
         lows.append(-self.mechanism.spec.size.allowances.pin_gap_mm - arm)
         lows += map(attrgetter("plate.low"), self.links.gears)
-        lows += map(attrgetter("part.low"), (*self.linked, *self.first))
+        lows += map(attrgetter("part.low"), (*self.links.cut, *self.links.joined, *self.first))
         if hub := wheel_hub(parts.assembly, parts.sizes):
             lows.append(hub.low)
         if self.mechanism.spec.gears:
@@ -396,13 +377,12 @@ class FrontParts(FlatParts):
         from geneva_cli.parts.links.links import roller_pins
 
         mechanism, links = self.mechanism, self.links
-        size, r = mechanism.spec.size, mechanism.roller_radius_mm
+        size, pin = mechanism.spec.size, pin_radius(mechanism.spec.size, mechanism.roller_radius_mm)
         centres = [at for link, at in roller_pins(mechanism) if link.plane == 1]
         high = drawn_thicknesses(size, mechanism.center_distance_mm).wheel
         low = value_or(links.pin_low, -size.allowances.pin_gap_mm)
         own = *links.cut, *links.joined
-        fit = size.allowances.shaft_fit_mm
-        return (*own, *rollers_about(centres, r, pin_radius(size, r), low, high, fit))
+        return (*own, *rollers(mechanism, centres, pin, low, high))
 
     @property
     def members(self) -> tuple[Member, ...]:

@@ -152,21 +152,19 @@ def _bridge(parts: Outlines, bars: Links, shaft: Shaft) -> Plate | None:
     return Plate("bearing bridge", "FRAME", outline, holes, low, low + thick)
 
 
-def _all_shafts(
-    outlines: Outlines, bars: Links, lowest: float, first: Sequence[Member]
-) -> list[Shaft]:
-    """Return all shafts and pivots, as ``framed``; ``lowest`` is the frame's lower face."""
-    mechanism, own, L = outlines.assembly.full, outlines.sizes, outlines.assembly.L
+def _all_shafts(parts: Outlines, bars: Links, low: float, first: Sequence[Member]) -> list[Shaft]:
+    """Return all shafts and pivots, as ``framed``; ``low`` is the frame's lower face."""
+    mechanism, own, L = parts.assembly.full, parts.sizes, parts.assembly.L
     stop, out = None, list[Shaft]()
     if bars.sizes:
         from geneva_cli.parts.links.link_shafts import crank_stop
 
-        stop = crank_stop(outlines, bars)
+        stop = crank_stop(parts, bars)
     known: list[Point] = []  # axes whose shafts carry wheel or crank
-    known += [(L, 0.0)] if (own.arm_bore if outlines.has_arm else own.crank_bore) else []
+    known += [(L, 0.0)] if (own.arm_bore if parts.has_arm else own.crank_bore) else []
     known += [ORIGIN] if own.wheel_bore else []
     half = mechanism.engagements[0].half_step
-    for one in shafts(outlines, lowest, stop):
+    for one in shafts(parts, low, stop):
         out.append(one)
         if same(one.at, ORIGIN, L):
             for place in mechanism.wheel_places[1:]:
@@ -176,15 +174,15 @@ def _all_shafts(
         for place in mechanism.crank_places[1:]:
             turn = 0.0
             if not one.bore.is_plain:  # a plain one has no direction
-                crank = outlines.assembly.crank(np.array([-place.behind_deg, 0.0]))
+                crank = parts.assembly.crank(np.array([-place.behind_deg, 0.0]))
                 turn = one.turn + place.turn + float(crank[0] - crank[1])
             out.append(one._replace(at=place.at, turn=turn))
     if bars.axes:
-        out += _link_shafts(outlines, bars, (lowest, stop), known, first)
+        out += _link_shafts(parts, bars, (low, stop), known, first)
     if mechanism.spec.gears:
         from geneva_cli.parts.gears.gear_pair import gear_shafts
 
-        out += gear_shafts(mechanism, outlines, lowest, (L, 0.0) in known)
+        out += gear_shafts(mechanism, parts, low, (L, 0.0) in known)
     return out
 
 

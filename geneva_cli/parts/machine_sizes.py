@@ -1,18 +1,21 @@
 """The usual sizes of the parts, in millimetres: those of the spec, or defaults without a load.
 
 The rim is where the roller enters: on a smaller wheel it would lose its slot, on a larger one touch
-the rim. The locking disc reaches past the rim and leaves a horn next to the slot.
+the rim. The locking disc reaches past the rim and leaves a horn next to the slot. With the sizes
+goes the mass that they give the wheel.
 """
 
 from __future__ import annotations
 
 import math
+from contextlib import suppress
 from functools import cache, lru_cache, partial
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
 from geneva_cli.errors import GenevaError, refuse_size
+from geneva_cli.geometry import plates
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.registry import thing
@@ -21,10 +24,11 @@ from geneva_cli.numerics.tolerances import SAME_LENGTH, bore_radius, rounded_bel
 from geneva_cli.parts import sizes as rules
 from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.outlines.crank_outline import arc_floor
-from geneva_cli.parts.outlines.cut_outlines import cut_lock
+from geneva_cli.parts.outlines.cut_outlines import cut_lock, turned_walls, wheel_contour
+from geneva_cli.parts.outlines.outlines import wheel_hub, wheel_plate
 from geneva_cli.parts.sizes import KeySizes, Sizes, Unloaded
 from geneva_cli.parts.slots.roller_paths import mouth, roller_paths
-from geneva_cli.spec.defaults import wall_min
+from geneva_cli.spec.defaults import wall_min, wheel_material
 from geneva_cli.spec.tables import Size
 
 if TYPE_CHECKING:
@@ -39,10 +43,9 @@ OF_AXLE = (  # keys that an internal wheel lacks, which is open in the middle
 
 def sized(mechanism: Mechanism) -> Layout | None:
     """Return ``machine_sizes``; None where no flat parts can be cut."""
-    try:
+    with suppress(GenevaError):  # the check of the parts reports the error
         return machine_sizes(mechanism) if mechanism.spec.is_flat else None
-    except GenevaError:
-        return None  # the check of the parts reports the error
+    return None
 
 
 @lru_cache(maxsize=16)
@@ -113,13 +116,8 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
     if not flat:
         return known, ()
     own = flat[1]
-    known |= {
-        "wheel_radius_mm": own.rim,
-        "slot_bottom_clearance_mm": own.slot_bottom,
-        "lock_radius_mm": own.lock,
-        "relief_clearance_mm": own.relief,
-        "wall_min_mm": own.wall_min,
-    }
+    known |= {"wheel_radius_mm": own.rim, "lock_radius_mm": own.lock, "wall_min_mm": own.wall_min}
+    known |= {"slot_bottom_clearance_mm": own.slot_bottom, "relief_clearance_mm": own.relief}
     for part in ("wheel", "lock", "arm", "link"):
         known[f"{part}_thickness_mm"] = getattr(own, f"{part}_thickness")
     for radius in ("wheel_bore", "wheel_hub", "crank_bore", "crank_hub", "pin"):
@@ -167,6 +165,23 @@ def drawn_pin_radius(mechanism: Mechanism) -> float:
     return rules.pin_radius(mechanism.spec.size, mechanism.roller_radius_mm)
 
 
+@lru_cache(maxsize=16)
+def wheel_body(mechanism: Mechanism) -> plates.MassProperties | None:
+    """Return mass and inertia of wheel and hub; None without a thickness or parts."""
+    spec = mechanism.spec
+    if spec.size.wheel_thickness_mm is None and spec.size.face_width_mm is None:
+        return None
+    with suppress(GenevaError):
+        if own := thing(spec.wheel.NAME, "wheel_body"):
+            return own(mechanism)
+        where, sizes = machine_sizes(mechanism)
+        contour = wheel_contour(where, sizes, turned_walls(where, sizes), spec.wheel.stopped)
+        hub, density = wheel_hub(where, sizes), wheel_material(spec).density_kgm3
+        body = plates.mass_properties(wheel_plate(where, sizes, contour), density)
+        return plates.added(body, plates.mass_properties(hub, density)) if hub else body
+    return None
+
+
 def _usual_sizes(assembly: Assembly) -> tuple[Sizes, float]:
     """Return the sizes without a load, and the radius about the crank's axis inside the relief."""
     spec, full, L, sign = assembly.mechanism.spec, assembly.full.spec, assembly.L, assembly.sign
@@ -187,7 +202,17 @@ def _usual_sizes(assembly: Assembly) -> tuple[Sizes, float]:
         apart = apart or bool(s.apart)
     rim = value_or(size.wheel_radius_mm, max(mouths))
     end, depth = (min(ends) - w) * sign, abs(L - rim)
-    lock = _lock(assembly, arm, w, rim)
+    lock = 0.0
+    if spec.has_lock:
+        limit, least = arm - w - allowed.lock_clearance_mm, max(L - rim, 0.0)
+        text = f"the locking disc does not fit: it must be above {least:.4g} mm to reach the rim, "
+        text += f"but roller and clearances limit it to {limit:.4g}; use lock_radius_mm = 0, a "
+        refuse_size(
+            limit <= least, "lock_radius_mm", text + "smaller roller, or no wheel_radius_mm"
+        )
+        # a horn that is cut back may have no thickness where its tip would be
+        spare = limit * SAME_LENGTH if size.horn_tip_mm else 0.0
+        lock = lock_between(size.lock_radius_mm, least, limit, r, spare)
     relief = value_or(size.relief_clearance_mm, min(L / 200.0, depth / 4.0))
     space = (lock or rim) / arm * (L - math.sqrt(max(rim * rim - r * r, 0.0))) if outside else 0.0
     if apart:  # gears between rollers widen the relief
@@ -224,21 +249,6 @@ def _crank_bore(spec: Spec, space: float, L: float) -> float:
         return 0.5 * shaft if 0.5 * shaft <= 0.6 * space else 0.0
     within = rules.within_hub(size, "crank")
     return bore_radius(min(0.45 * space, within)) if 0.45 * space >= L / 40.0 else 0.0
-
-
-def _lock(assembly: Assembly, arm: float, w: float, rim: float) -> float:
-    """Return the locking disc's radius: it leaves a horn as thick as the roller's radius."""
-    spec, size = assembly.mechanism.spec, assembly.mechanism.spec.size
-    if not spec.has_lock:
-        return 0.0
-    limit = arm - w - size.allowances.lock_clearance_mm
-    least, r = max(assembly.L - rim, 0.0), assembly.mechanism.roller_radius_mm
-    text = f"the locking disc does not fit: it must be above {least:.4g} mm to reach the rim, but "
-    text += f"roller and clearances limit it to {limit:.4g}; use lock_radius_mm = 0, a smaller "
-    refuse_size(limit <= least, "lock_radius_mm", text + "roller, or no wheel_radius_mm")
-    # a horn that is cut back may have no thickness where its tip would be
-    spare = limit * SAME_LENGTH if size.horn_tip_mm else 0.0
-    return lock_between(size.lock_radius_mm, least, limit, r, spare)
 
 
 def lock_between(

@@ -176,8 +176,22 @@ class EdgedParts(Parts):
 
     @property
     @abstractmethod
+    def arm_plate(self) -> Plate | None:
+        """The crank's arm; None without one."""
+
+    @cached_property
+    def crank(self) -> Member:
+        """The crank: locking disc or sectors, arm, rollers on their pins, hub."""
+        return self._crank(self.arm_plate)
+
+    @cached_property
     def crank_without_arm(self) -> Member:
         """The crank as it lies in the plane of the wheel or the rack."""
+        return self._crank(None)
+
+    @abstractmethod
+    def _crank(self, arm: Plate | None) -> Member:
+        """Return the crank's parts in its own frame."""
 
     @property
     @abstractmethod

@@ -70,11 +70,6 @@ class Sizes(NamedTuple):
         hub = larger(self.wheel_bore, self.wheel_hub)
         return choose(self.outer > 0.0, math.inf, away - hub)
 
-    @property
-    def outline(self) -> Sizes:
-        """The sizes of the outlines of wheel and crank: 0 for those that a load may change."""
-        return Sizes(*self[: Sizes._fields.index("wheel_bore")])  # type: ignore[arg-type]
-
 
 class Unloaded(NamedTuple):
     """The parts of a machine as they are without a load."""
@@ -85,6 +80,7 @@ class Unloaded(NamedTuple):
     cut_lock: Callable[[], Lock]  # which no load changes; for sizes with a lock
 
 
+Span: TypeAlias = tuple[float, float]  # lower and upper face, or two radii, mm
 # The sizes of a machine's parts by keys of ``[size]``, mm and diameters as the keys say; and those
 # of the keys that the spec leaves out and the load chooses.
 KeySizes: TypeAlias = tuple[dict[str, float], tuple[str, ...]]
@@ -100,9 +96,7 @@ def pin_radius(size: Size, r: float) -> float:
     return 0.5 * value_or(size.pin_mm, rounded_below(r))
 
 
-def plane_span(
-    plane: int, gap: float, first: float, link: float, washer: float
-) -> tuple[float, float]:
+def plane_span(plane: int, gap: float, first: float, link: float, washer: float) -> Span:
     """Return lower and upper end, along the axis, of parts in a plane below the wheel's, mm."""
     high = -gap
     if plane > 1:
@@ -200,9 +194,7 @@ def refuse_bored_hub(part: str, hub: float, bored: float, bore: float) -> None:
     refuse_size(bore < hub <= bored, f"{part}_hub_mm", text, 2.0 * hub)
 
 
-def reach_and_hub(
-    size: Size, part: str, bore: float, wall: float, end: float = 0.0
-) -> tuple[float, float]:
+def reach_and_hub(size: Size, part: str, bore: float, wall: float, end: float = 0.0) -> Span:
     """Return how far a part's bore reaches with its shape, and the radius of its hub."""
     usual = smaller(HUB * bore, LARGEST_HUB * end) if part == "wheel" else 1.5 * bore
     reach, usual = reach_or_bore(size, part, bore), rounded_radius(usual)

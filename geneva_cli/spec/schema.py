@@ -15,7 +15,7 @@ import inspect
 import math
 import typing
 from collections.abc import Iterable, Mapping, Sequence
-from types import NoneType, UnionType
+from types import MappingProxyType, NoneType, UnionType
 from typing import Annotated, Any, ClassVar, NamedTuple, Self, TypeAlias
 
 from geneva_cli.errors import GenevaError, cut, few, nearest, refuse
@@ -396,7 +396,7 @@ def shown(value: Any) -> str:
 
 
 class Example(NamedTuple):
-    """An example spec for ``geneva new``: its title, and its keys by table."""
+    """An example spec for ``geneva new``: its title, and its keys by table besides z = 6."""
 
     about: str
-    tables: dict[str, dict[str, object]]
+    tables: Mapping[str, dict[str, object]] = MappingProxyType({})

@@ -37,18 +37,13 @@ class Columns(NamedTuple):
         use = " or ".join(matches or self.names)
         raise GenevaError(f"{option} {cut(short)}: {fault}; use {use}")
 
-    def texts(self, name: str) -> list[str]:
-        """Texts of a column."""
-        i = self.names.index(name)
-        return [row[i] for row in self.rows]
-
     def numbers(self, name: str, option: str) -> list[float | None]:
         """Numbers of a column, None for a missing one.
 
         Raises GenevaError if the column has no number at all.
         """
-        texts = self.texts(name)
-        numbers = list(map(_number, texts))
+        i = self.names.index(name)
+        numbers = [_number(row[i]) for row in self.rows]
         if any(value is not None for value in numbers):
             return numbers
         fault = f"no numbers in this column of {cut(self.path, 300)}"

@@ -13,7 +13,7 @@ from functools import cache
 from typing import Any, NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, nearest
-from geneva_cli.motion.machine_spec import KindTable, kind_tables
+from geneva_cli.motion.machine_spec import BEFORE, KindTable, kind_tables
 from geneva_cli.names import unit_of
 from geneva_cli.spec.rules import Csv, OneOf, Range
 from geneva_cli.spec.schema import LIST, LIST_MAX, REQUIRED, TEXT_MAX, Field, fields
@@ -117,15 +117,11 @@ TEXT: Schema = {"type": "string", "maxLength": TEXT_MAX}
 def schema() -> Schema:
     """JSON Schema, draft 7, of a spec."""
     properties: Schema = {"title": {**TEXT, "description": "free text"}}
-    for kinds in kind_tables():
-        whole, _, part = kinds.table.partition(".")
-        if part:
-            properties[whole]["properties"][part] = {**_cases(kinds), "required": [kinds.word.key]}
-        else:
-            properties[whole] = _cases(kinds)
-    for name, table in PLAIN.items():
+    tables = {kinds.table: _cases(kinds) for kinds in kind_tables()}
+    tables[BEFORE]["required"] = ["kind"]
+    tables |= {name: _table(fields(table)) for name, table in PLAIN.items()}
+    for name, one in tables.items():
         whole, _, part = name.partition(".")
-        one = _table(fields(table))
         if part:
             properties.setdefault(whole, _closed({}))["properties"][part] = one
         else:

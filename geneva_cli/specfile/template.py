@@ -128,7 +128,8 @@ def example(kind: str) -> Example:
         before = tree.get("drive", {}).pop("before", None)
         return Example(tree.pop("title"), tree | ({BEFORE: before} if before else {}))
     is_wheel = kind in registry.GEARINGS
-    about, tables = (registry.gearing(kind) if is_wheel else registry.drive(kind)).EXAMPLE
+    about, own = (registry.gearing(kind) if is_wheel else registry.drive(kind)).EXAMPLE
+    tables: dict[str, dict[str, object]] = {"wheel": {"z": 6}, **own}
     table, key, usual = ("wheel", "gearing", External.NAME) if is_wheel else ("drive", "kind", "")
     named = {} if kind == usual else {key: kind}  # to show that it is the default
     return Example(about, {**tables, table: {**named, **tables.get(table, {})}})

@@ -1,14 +1,11 @@
-"""Designs side by side, as a table or a figure; and a figure of the columns of a CSV file.
-
-The designs are several files, or one spec with keys varied.
-"""
+"""Designs side by side, as a table or a figure; and a figure of the columns of a CSV file."""
 
 from __future__ import annotations
 
 import itertools
 import math
 import os
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Mapping, Sequence
 from itertools import pairwise
 
 from geneva_cli.design import Design
@@ -29,25 +26,22 @@ from geneva_cli.verdict.quantities.groups import INPUTS, MACHINE
 from geneva_cli.verdict.quantities.quantity_names import group_of
 
 DESIGNS_MAX = 100  # in one comparison
+COLUMNS = ("quantity", "differs")  # of a comparison, besides the designs
 
 
 def compare(
-    paths: Sequence[str],
-    settings: Sequence[str] = (),
-    vary: Sequence[str] = (),
+    designs: Mapping[str, Design],
     picks: Sequence[str] = (),
     ratio: bool = False,
-    reverse: bool = False,
+    varied: bool = False,
 ) -> Table:
     """Return the comparison: ``quantity``, one column for each design, and ``differs`` for several.
 
-    The designs are those of ``designs_of``. ``picks`` are the quantities to show. Without them all
-    that need no parts are shown, and the keys of wheel, drives and motion in which the specs
-    differ. ``ratio`` divides numbers by those of the first design. Numbers differ if they do so by
-    more than rounding.
+    ``picks`` are the quantities to show. Without them all that need no parts are shown, and the
+    keys of wheel, drives and motion in which the specs differ, unless their names say what is
+    ``varied``. ``ratio`` divides numbers by those of the first design. Numbers differ if they do so
+    by more than rounding.
     """
-    # the table's own columns
-    designs = designs_of(paths, settings, vary, reverse, ("quantity", "differs"))
     picked = pick(picks) if picks else None
     each: list[dict[str, Cell]] = []
     for design in designs.values():
@@ -68,7 +62,7 @@ def compare(
             continue
         cells = [own.get(quantity) for own in each]
         differs = not all(same(c, cells[0]) for c in cells[1:])
-        if quantity not in group_of() and (vary or not differs):
+        if quantity not in group_of() and (varied or not differs):
             continue  # a key that the designs share, or that the columns' names show
         if any(c is not None for c in cells):
             if ratio:
@@ -98,9 +92,8 @@ def designs_of(
     settings: Sequence[str] = (),
     vary: Sequence[str] = (),
     reverse: bool = False,
-    taken: Collection[str] = (),
 ) -> dict[str, Design]:
-    """The designs of specs, by a short name each that is not one of ``taken``.
+    """The designs of specs, by a short name each that is no column of a comparison.
 
     ``settings``, texts ``KEY=VALUE``, replace keys of each spec. With ``vary``, texts
     ``KEY=VALUES``, there is one spec, and a design for each combination of values. With ``reverse``
@@ -132,7 +125,7 @@ def designs_of(
         # a file's name without folder and ending, if no other file shares it
         stems = [os.path.splitext(os.path.basename(path))[0] for path in paths]
         for stem, path in zip(stems, paths, strict=True):
-            is_short = stems.count(stem) == 1 and stem not in taken
+            is_short = stems.count(stem) == 1 and stem not in COLUMNS
             texts[stem if is_short else path] = read(path, settings)
     designs: dict[str, Design] = {}
     for name, text in texts.items():
@@ -145,24 +138,14 @@ def designs_of(
 POINTS_MARKED = 40  # marks of more points of a curve would touch
 
 
-def of_specs(
-    paths: Sequence[str],
-    settings: Iterable[str] = (),
-    pick: Sequence[str] = (),
-    vary: Sequence[str] = (),
-    reverse: bool = False,
-) -> tuple[Figure, list[Design], list[LeftOut]]:
-    """The cycles of some specs in one figure, the designs, and the quantities that it lacks.
-
-    With ``vary``, texts ``KEY=VALUES``, there is one spec, drawn for each combination of values.
-    With ``reverse`` each design also turns the other way.
-    """
-    designs = designs_of(paths, tuple(settings), vary, reverse)
+def of_designs(
+    designs: Mapping[str, Design], pick: Sequence[str] = ()
+) -> tuple[Figure, list[LeftOut]]:
+    """The cycles of designs in one figure, and the quantities that it lacks, by their paths."""
     # acceleration.max is a value of the curve of acceleration
     names = [next((x for x in name.split(".") if x in AXIS_BY_NAME), name) for name in pick]
     curves, left_out = figure({name: design.cycle for name, design in designs.items()}, names)
-    lacks = [(designs[name].spec.path, text) for name, text in left_out]
-    return curves, list(designs.values()), lacks
+    return curves, [(designs[name].spec.path, text) for name, text in left_out]
 
 
 def of_table(path: str, x: str, ys: Sequence[str]) -> Figure:

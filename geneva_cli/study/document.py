@@ -15,30 +15,12 @@ from geneva_cli.loads.load_tables import no_load
 from geneva_cli.manual.explained import entries
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.names import described
-from geneva_cli.output.document.blocks import (
-    BAD,
-    Block,
-    Curves,
-    Document,
-    Fact,
-    Grid,
-    Heading,
-    Picture,
-    Prose,
-    Row,
-    TextList,
-    fact_grid,
-)
+from geneva_cli.output.document import blocks as page
+from geneva_cli.output.document.blocks import Document, Fact, Grid, Heading, Prose, TextList
 from geneva_cli.output.text import only
 from geneva_cli.specfile.writer import keys_in, values_of
+from geneva_cli.study.summary import report_summary
 from geneva_cli.study.summary.load_lines import title_of
-from geneva_cli.study.summary.report_summary import (
-    PARTS,
-    greatest_loads,
-    key_figures,
-    machine_lines,
-    parts_of,
-)
 from geneva_cli.study.verdicts import headline
 from geneva_cli.table import Table, in_digits
 from geneva_cli.verdict.failures import below_summary
@@ -72,16 +54,16 @@ def short_document(design: Design) -> Document:
     It has the verdict, a picture, the machine in words, the motor, the greatest loads with their
     limits, the parts and the warnings. Raises GenevaError for a spec that makes no machine.
     """
-    blocks = [*_begin(design, machine_lines(design)), Heading("Greatest loads")]
-    words = {True: "passes", False: BAD, None: ""}
+    blocks = [*_begin(design, report_summary.machine_lines(design)), Heading("Greatest loads")]
+    words = {True: "passes", False: page.BAD, None: ""}
     rows = [(*row[:-3], row[-3] or "", row[-2], words[row[-1]])
-            for row in greatest_loads(design).rows()]  # fmt: skip
+            for row in report_summary.greatest_loads(design).rows()]  # fmt: skip
     if rows:
         heads = ("", "Greatest", "Unit", "At input angle, °", "Must be", "Limit", "Verdict")
         blocks.append(Grid("Over a cycle, with the limit of its check", heads, tuple(rows)))
     if not design.cycle.is_loaded:
         blocks.append(Prose(f"{capital(no_load(design.cycle))}."))
-    if table := parts_of(design):
+    if table := report_summary.parts_of(design):
         blocks += (Heading("Parts"), grid("", table))
     blocks += _warnings(design)
     blocks.append(Prose("All inputs, curves, sizes and checks: geneva report SPEC --full -o FILE."))
@@ -110,12 +92,13 @@ def document(design: Design) -> Document:
         if not is_default
     ]
     caption = "Keys that are set; the appendix has those at their defaults"
-    blocks = [*_begin(design, key_figures(design)), *_warnings(design), Heading("Inputs")]
+    head = _begin(design, report_summary.key_figures(design))
+    blocks = [*head, *_warnings(design), Heading("Inputs")]
     blocks.append(Grid(caption, ("Key", "Value", "Unit", "Meaning"), tuple(rows)))
     loads = ("pin_force_N", "input_torque_Nm") if design.cycle.is_loaded else ()
     figure = design.figure(("velocity", "acceleration", "jerk", *loads))
     figure = figure._replace(title="By the input's angle, from the first entry")
-    blocks += (Heading("Curves over a cycle"), Curves(figure), *_loads(design))
+    blocks += (Heading("Curves over a cycle"), page.Curves(figure), *_loads(design))
     for heading, firsts in SECTIONS.items():
         own = {n: left.pop(n) for n in [*left] if n.partition(".")[0] in firsts}
         if values := [*_values(own)]:
@@ -130,18 +113,18 @@ def document(design: Design) -> Document:
         blocks += (Heading(title), TextList(unknown))
     blocks += (Heading("Sources of the formulas"), TextList((*_sources(design.spec), *SOURCES)))
     defaults = [Fact(name, value, unit) for name, value, unit, _, is_default in keys if is_default]
-    blocks += (Heading("Appendix: keys at their defaults"), fact_grid("", defaults))
+    blocks += (Heading("Appendix: keys at their defaults"), page.fact_grid("", defaults))
     return _document(design, blocks)
 
 
-def _document(design: Design, blocks: Iterable[Block]) -> Document:
+def _document(design: Design, blocks: Iterable[page.Block]) -> Document:
     state, text = headline(design.checks, design.warnings)
     table = design.report.table
     reasons = (*table["checks_failed"], *table["not_proved"])
     return Document(title_of(design), state, capital(text), reasons, tuple(blocks))
 
 
-def _begin(design: Design, lines: Iterable[SummaryLine]) -> Iterator[Block]:
+def _begin(design: Design, lines: Iterable[SummaryLine]) -> Iterator[page.Block]:
     """The machine in words and as a picture, or the reason for none, and lines of a summary."""
     yield Prose(design.report.table.prose)
     yield Heading("The machine")
@@ -149,7 +132,7 @@ def _begin(design: Design, lines: Iterable[SummaryLine]) -> Iterator[Block]:
         drawing = design.drawing("assembly", tolerance_mm=0.01)  # it is only viewed
         flat = design.spec.wheel.FLAT
         title = "Put together, at mid-motion" if flat else "Wheel and crank, laid flat"
-        yield Picture(drawing._replace(title=title))
+        yield page.Picture(drawing._replace(title=title))
     except GenevaError as error:
         yield Prose(f"Not drawn: {error}")
     command = re.compile(r" ?\(?geneva explain [\w.-]+\)?")
@@ -158,29 +141,29 @@ def _begin(design: Design, lines: Iterable[SummaryLine]) -> Iterator[Block]:
     yield Grid("In short", ("", ""), tuple(rows))
 
 
-def _warnings(design: Design) -> Iterator[Block]:
+def _warnings(design: Design) -> Iterator[page.Block]:
     texts = tuple(design.warnings)
     yield Heading("Warnings")
     yield TextList(texts) if texts else Prose("None.")
 
 
-def _loads(design: Design) -> Iterator[Block]:
+def _loads(design: Design) -> Iterator[page.Block]:
     """The cycle under load, and sizing."""
-    page = design.loads_page.to_dict()
+    values = design.loads_page.to_dict()
     columns = [f"{_fact(x).name}{', °' * x.endswith('_at_deg')}" for x in LoadSummary._fields]
-    rows: list[Row] = []
-    for row in page["loads"]:
+    rows: list[page.Row] = []
+    for row in values["loads"]:
         axis = AXIS_BY_NAME[row.pop("quantity")]
         rows.append((axis.label, axis.unit, *row.values()))
     yield Heading("Loads")
     caption = "Over the motions, and means over a whole period"
     yield Grid(caption, ("Quantity", "Unit", *columns), tuple(rows))
-    yield from _values({n: v for n, v in page.items() if n.startswith("sizing.")})
+    yield from _values({n: v for n, v in values.items() if n.startswith("sizing.")})
 
 
-def _checks(design: Design) -> Iterator[Block]:
+def _checks(design: Design) -> Iterator[page.Block]:
     """Every check."""
-    words = {True: "passes", False: BAD, None: "not proved"}
+    words = {True: "passes", False: page.BAD, None: "not proved"}
     heads = ("Check", "Value", "At input angle, °", "Must be", "Limit", "Verdict", "Remark")
     checks = [
         (c.name, c.value, c.at_deg, c.must_be, c.limit, words[c.passes], c.nearest or c.why)
@@ -190,14 +173,14 @@ def _checks(design: Design) -> Iterator[Block]:
     yield Grid("Every check with its verdict", heads, tuple(checks))
 
 
-def _parts_list(tables: Mapping[str, Table | None]) -> Iterator[Block]:
+def _parts_list(tables: Mapping[str, Table | None]) -> Iterator[page.Block]:
     """Parts, pivots and dimensions."""
     parts = tables["parts_list.part"]
     if any(table is not None for table in tables.values()):
         yield Heading("Parts list")
     if parts is not None:  # two tables, each as wide as a page
         places = ("z_low_mm", "z_high_mm", "centroid_x_mm", "centroid_y_mm", "inertia_kgm2")
-        yield grid("Parts", only(parts, PARTS))
+        yield grid("Parts", only(parts, report_summary.PARTS))
         caption = "Places, densities and inertias"
         yield grid(caption, only(parts, ("name", "density_kgm3", *places)))
     captions = {"pivot": "Pivots", "dimension": "Dimensions", "missing": "Not built"}
@@ -209,7 +192,7 @@ def _parts_list(tables: Mapping[str, Table | None]) -> Iterator[Block]:
             yield block._replace(rows=tuple(rows))
 
 
-def _values(values: Mapping[str, Any]) -> Iterator[Block]:
+def _values(values: Mapping[str, Any]) -> Iterator[page.Block]:
     """Values of a report in groups, by the first parts of their names; tables as grids."""
     groups: dict[str, dict[str, Any]] = {}
     for name, value in values.items():
@@ -220,7 +203,7 @@ def _values(values: Mapping[str, Any]) -> Iterator[Block]:
             groups.setdefault(group, {})[own] = value
     for group, facts in groups.items():
         caption = capital(", ".join(described(part)[0] for part in group.split(".")))
-        yield fact_grid(caption, (_fact(name, value) for name, value in facts.items()))
+        yield page.fact_grid(caption, (_fact(name, value) for name, value in facts.items()))
 
 
 def _table(caption: str, table: Table) -> Iterator[Grid]:

@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from functools import partial
-from typing import NamedTuple, TypeVar
+from typing import NamedTuple, TypeAlias, TypeVar
 
 from geneva_cli.design import CURVES, Design
 from geneva_cli.drawings.catalogue import without_sheet
@@ -30,17 +30,13 @@ class ExportFile(NamedTuple):
     write: Callable[[str], None]
 
 
-class Trade(NamedTuple):
-    """The files that a trade needs besides the list of parts and the spec."""
-
-    single: tuple[str, ...]  # formats of each part; outlines only of parts that are cut
-    whole: tuple[str, ...]  # names of the other files
-
-
-TRADES = {
-    "laser": Trade(("dxf",), ("sheet.pdf",)),
-    "mill": Trade(("dxf", "step"), ("sheet.pdf", "assembly.step")),
-    "print": Trade(("stl",), ("plate.3mf",)),
+# The files that a trade needs besides the list of parts and the spec: formats of each part, with
+# outlines only of parts that are cut, and names of the other files.
+Trade: TypeAlias = tuple[tuple[str, ...], tuple[str, ...]]
+TRADES: dict[str, Trade] = {
+    "laser": (("dxf",), ("sheet.pdf",)),
+    "mill": (("dxf", "step"), ("sheet.pdf", "assembly.step")),
+    "print": (("stl",), ("plate.3mf",)),
 }
 CONTENTS = {
     "sheet.pdf": "drawing sheet with dimensions",
@@ -56,7 +52,7 @@ SINGLE = {"dxf": "outline to cut", "step": "solid", "stl": "mesh to print"}
 def trade_of(name: str | None) -> Trade:
     """The files of a trade; of all trades for None. Raises GenevaError for an unknown one."""
     if name is None:
-        return Trade(("dxf", "step", "stl"), tuple(CONTENTS))
+        return ("dxf", "step", "stl"), tuple(CONTENTS)
     if name not in TRADES:
         raise GenevaError(f"--for {cut(name)}: it must be one of {', '.join(TRADES)}")
     return TRADES[name]
@@ -69,10 +65,10 @@ def export_files(design: Design, trade: Trade) -> tuple[list[ExportFile], list[M
     nor a rack has a sheet.
     """
     design.refuse_drawn("the files for a shop are those")
-    files: list[ExportFile] = []
-    missing: list[Missing] = []
+    files, missing = list[ExportFile](), list[Missing]()
+    single, whole = trade
     bent = design.parts.LAID_FLAT
-    for format in trade.single:
+    for format in single:
         curves, fine = usual("", format)
         parts, missing = single_parts(design.parts, fine, CURVES[curves])
         for part in bent if format == "dxf" else ():
@@ -91,8 +87,8 @@ def export_files(design: Design, trade: Trade) -> tuple[list[ExportFile], list[M
                 files.append(ExportFile(f"{stem}{more}.{format}", content, work))
     lacks = {"sheet.pdf"} if without_sheet(design.mechanism) else set()
     lacks |= {"plate.3mf"} if bent else set()  # shells do not lie on a bed
-    names = [name for name in trade.whole if name not in lacks]
-    files += [ExportFile(name, CONTENTS[name], partial(_write, design, name)) for name in names]
+    for name in (name for name in whole if name not in lacks):
+        files.append(ExportFile(name, CONTENTS[name], partial(_write, design, name)))
     parts_list = partial(show, design.part_table("parts"))
     files.append(ExportFile("parts.csv", "list of parts", parts_list))
     return [*files, *_spec_files(design)], missing

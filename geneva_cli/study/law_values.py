@@ -1,7 +1,4 @@
-"""The characteristic values C_v, C_a, C_j and C_p of motion laws, and their factors Am, Vm, Qm.
-
-They are for the table of laws; the peaks of machines' motions are in ``peak_search``.
-"""
+"""The characteristic values C_v, C_a, C_j and C_p of motion laws, and their factors Am, Vm, Qm."""
 
 from __future__ import annotations
 

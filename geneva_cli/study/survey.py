@@ -11,19 +11,9 @@ from geneva_cli.numerics.angles import sin_cos_pi
 from geneva_cli.spec.rules import SPEED, Z_MAX, range_text
 from geneva_cli.table import Reading, Table, rows_table
 
-NAMES = (
-    "z",
-    "gearing",
-    "rollers",
-    *Timing._fields[:-1],  # no rack is among them
-    "velocity_max",
-    "acceleration_max",
-    "acceleration_max_deg",
-    "acceleration_entry",
-    "jerk_entry",
-    "rollers_max",
-    *CamFactors._fields,
-)
+TIMES = Timing._fields[:-1]  # no rack is among them
+PEAKS = ("velocity_max", *(f"acceleration_{x}" for x in ("max", "max_deg", "entry")), "jerk_entry")
+NAMES = ("z", "gearing", "rollers", *TIMES, *PEAKS, "rollers_max", *CamFactors._fields)
 SIGNS = {"external": 1.0, "internal": -1.0}  # the gearings with closed forms
 ROWS_MAX = 10_000
 # Timing, peaks of velocity to jerk and of power, and the most rollers.
@@ -84,19 +74,16 @@ def _classic(z: int, sign: float, n_rpm: float, rollers: int) -> Moves:
 
 def _general(z: int, gearing: str, n_rpm: float, rollers: int, A: float) -> Moves:
     """Those from a built machine, without closed forms."""
+    from geneva_cli.design import Design
     from geneva_cli.drives.crank import Crank
     from geneva_cli.drives.side_crank import SideCrank
     from geneva_cli.motion import registry
-    from geneva_cli.motion.machine_spec import Spec
-    from geneva_cli.motion.mechanism import build
-    from geneva_cli.motion.peaks import peaks
-    from geneva_cli.motion.timing import timings
 
     drive = SideCrank(A=A, n_rpm=n_rpm) if A else Crank(n_rpm=n_rpm, rollers=rollers)
-    mechanism = build(Spec(registry.gearing(gearing)(z), drive))
-    velocity, most, _, power, ends = peaks(mechanism.engagements[0])
+    design = Design(registry.gearing(gearing)(z), drive)
+    velocity, most, _, power, ends = design.peaks
     own = velocity.max, most.max, most.at_deg, ends.acceleration_entry, ends.jerk_entry, power.max
-    return timings(mechanism)[0], own, mechanism.rollers_max
+    return design.timing, own, design.mechanism.rollers_max
 
 
 def parse_z(text: str) -> list[int]:

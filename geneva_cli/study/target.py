@@ -34,7 +34,6 @@ BARE = Spec(External(3))  # the tables of a machine without a frame
 # fraction of a turn over m that an open end of a range leaves to motion and to dwell
 OPEN_END = 0.01
 GEARINGS = ("external", "internal", "spherical")
-USUAL_RPM = 60.0
 PEAK = "acceleration.max"
 SPACE = 3.0  # centre distances that a linkage may take by default
 ROLLERS_MAX = 60  # on a crank; more run into each other
@@ -81,11 +80,11 @@ class Target(NamedTuple):
     @property
     def soft_bounds(self) -> dict[str, Constraint]:
         """The limits of the frame that a batch can compute, by their keys: better kept than not."""
-        values = self.frame.limits.as_dict() if self.frame else {}
+        values = self.own.limits.as_dict()
         return {
             key: Constraint(name, ">=" if "_min" in key else "<=", float(values[key]))
             for key, name in LIMITED.items()
-            if values.get(key) is not None and in_batch([name])
+            if values[key] is not None and in_batch([name])
         }
 
     @property
@@ -190,14 +189,12 @@ class Target(NamedTuple):
         as_built = L is not None and size.crank_radius_mm is not None  # it has its own R/L
         if size.center_distance_mm != L or as_built:
             size = size.replace(center_distance_mm=L, crank_radius_mm=None)
-        return own.replace(
-            wheel=wheel, drive=made, motion=motion, size=size, title="", path="", files=()
-        )
+        shape = {"wheel": wheel, "drive": made, "motion": motion, "size": size}
+        return own.replace(**shape, title="", path="", files=())
 
     def n_rpm(self, m: float, motion_deg: float) -> float:
         """The input speed for m cycles in a turn: the usual one, or the nearest that is allowed."""
-        fraction = m * motion_deg / 360.0
-        usual = self.frame.drive.n_rpm if self.frame else USUAL_RPM
+        fraction, usual = m * motion_deg / 360.0, self.own.drive.n_rpm
         if not self.timed:
             return usual
         cycle = self.cycle_s(m)

@@ -9,13 +9,12 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from functools import cache
-from typing import NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.registry import KINDS
 from geneva_cli.parts.chosen import ByLoad, by_load
@@ -28,20 +27,18 @@ from geneva_cli.verdict.checks import QUICK, SIZELESS, TURNED, Check, every_chec
 # The reason why a failing check has no advice.
 NONE = "no single change that was tried passes all checks"
 STOPPED = "no single change passed all checks within the limit of trials"
-FINE = 0.005  # fraction of a change to which its least value is searched
-NEARLY = 0.01  # fraction of a change by which the value advised may exceed the least one
+NEAR = 0.015  # fraction of a change by which the one advised may exceed the least one
 TRIALS = 80  # machines that are built for all searches of a design
-# Fractions of the way to a remedy's end that are tried: the first step, the end, and between them.
-PLACES = (1.0 / 12.0, 1.0, 1.0 / 3.0, 2.0 / 3.0, 1.0 / 6.0)
+# Fractions of the way to a remedy's end that are tried: the end, the first step, and between them.
+PLACES = (1.0, 1.0 / 12.0, 1.0 / 3.0, 2.0 / 3.0, 1.0 / 6.0)
 # Requirements on the machine's size, process and walls, which no advice reduces.
 REQUIRED = ("center_distance_mm", "crank_radius_mm", "face_width_mm", "process", "wall_min_mm")
 # The words of each check, the likeliest first. A word is a key, by default of [size], and what
-# becomes of its present value: key*2 is up to the double, key:5 towards 5, key+180 up to 180 more,
-# key=a,b one of these (an empty one leaves out the key), key? towards the default or anywhere.
-# Words in capitals stand for their own lines. The centre distance is changed for its own limits
-# only, where the spec gives it. Sizes that the spec sets are tried behind the words. The speed is a
-# requirement: it is changed where a limit forbids it, and for a part's strength only where no size
-# of it helps.
+# becomes of its present value: key*2 is up to the double, key:5 towards 5, key=5 only 5, key= none,
+# key? towards the default or anywhere. Words in capitals stand for their own lines; "drives" are
+# [drive] and [drive.before]. The centre distance is changed for its own limits only, where the spec
+# gives it. Sizes that the spec sets are tried behind the words. The speed is a requirement: it is
+# changed where a limit forbids it, and for a part's strength only where no size of it helps.
 _TABLE = """
 LARGER: center_distance_mm*20
 SLOWER: drive.n_rpm*0.001
@@ -49,10 +46,9 @@ FASTER: drive.n_rpm*30
 WIDER: face_width_mm*10
 TIGHTER: slot_clearance_mm:0
 SMALLER: roller_radius_mm*0.2
-LONGER: motion.alpha0_deg+-180 motion.alpha0_deg+180
-MILDER: drive.A:0.99 drive.A:-0.99 drive.eccentricity:0.99 drive.eccentricity:0
-  drive.before.A:0.99 drive.before.A:-0.99 drive.before.eccentricity:0.99
-  drive.before.eccentricity:0 LONGER wheel.z:24
+LONGER: motion.alpha0_deg:-180 motion.alpha0_deg:180
+MILDER: drives.A:0.99 drives.A:-0.99 drives.eccentricity:0.99 drives.eccentricity:0 LONGER
+  wheel.z:24
 velocity_max acceleration_max acceleration_entry_max jerk_max: MILDER
 entry_velocity_max: crank_radius_mm= wheel_radius_mm?
 turns strike_velocity: crank_radius_mm=
@@ -89,72 +85,74 @@ crank_key_pressure_MPa: arm_thickness_mm*10 arm_bore_mm*5 LARGER
 pressure_angle_deg: motion.ratio=matched LONGER wheel.z:24
 driven_fraction: FASTER LONGER
 undercut_mm: SMALLER LONGER
-velocity_min: motion.lambda=0.125,-0.125
+velocity_min: motion.lambda=0.125 motion.lambda=-0.125
 dwell_deg: drive.rollers:1 LONGER
 driver_gear_convexity driven_gear_convexity: drive.eccentricity:0 drive.A:0 wheel.z:24
 dwell_hold: lock_radius_mm= wheel.held_by=detent
-tolerance_slot_mm: slot_clearance_mm+1
-tolerance_lock_mm: lock_clearance_mm+1
+tolerance_slot_mm: slot_clearance_mm:5
+tolerance_lock_mm: lock_clearance_mm:5
 beside_shafts_mm arm_wall_mm arm_to_hub_mm link_wall_mm dial_wall_mm outer_wall_mm:
 cut_plate_mm cut_slot_mm: wheel_thickness_mm? face_width_mm? lock_thickness_mm? arm_thickness_mm?
 wall_between_slots_mm: SMALLER TIGHTER
 horn_mm: lock_radius_mm? SMALLER lock_clearance_mm:0 TIGHTER
 wheels_apart_mm: SMALLER LARGER drive.wheels:1
-rollers_apart_mm: SMALLER drive.sector_deg+30
+rollers_apart_mm: SMALLER drive.sector_deg:180
 crank_shaft_mm crank_hub_mm crank_bore_wall_mm: crank_hub_mm? crank_bore_mm*0.2 crank_bore_mm=0
 wheel_shaft_mm wheel_bore_wall_mm: wheel_hub_mm? wheel_bore_mm*0.2 wheel_bore_mm=0
-gear_gap_mm: drive.gear_distance_mm*0.3 drive.eccentricity*0.3 drive.A*0.3
-  drive.before.gear_distance_mm*0.3 drive.before.eccentricity*0.3 drive.before.A*0.3
-  wheel_hub_mm=0 arm_bore_mm*0.3
+gear_gap_mm: drives.gear_distance_mm*0.3 drives.eccentricity*0.3 drives.A*0.3 wheel_hub_mm=0
+  arm_bore_mm*0.3
 link_gap_mm: link_width_mm? link_pin_mm? crank_shaft_low_mm= drive.before.input_crank_mm*0.2
   wheel_hub_mm*0.5 wheel_hub_mm=0
 branches_apart_mm branches_crossed_mm: roller_radius_mm*3 LONGER
 OTHERS: lock_clearance_mm:0 TIGHTER roller_radius_mm*0.4 wheel.offset_mm:0
 """
-Value: TypeAlias = float | int | str | None  # None: the key is left out
+Change: TypeAlias = tuple[str, Any]  # a key with its table, and a value; None leaves it out
 
 
 class Remedy(NamedTuple):
-    """Values of one key: a list of them, or all from the present one ``now`` to ``end``."""
+    """A new value of a key; with its present one, any between both may be advised."""
 
     key: str  # with its table
-    values: tuple[Value, ...] = ()
-    now: float = 0.0
-    end: float = 0.0
-    even: bool = True  # or in one ratio
-
-    def at(self, fraction: float) -> float | int:
-        """The value at a fraction of the way from the present one, with the digits shown."""
-        if not self.even:
-            return float(f"{self.now * (self.end / self.now) ** fraction:.12g}")
-        value = self.now + (self.end - self.now) * fraction
-        return round(value) if isinstance(self.now, int) else float(f"{value:.12g}")
-
-    def rounded(self, fraction: float) -> list[float | int]:
-        """The value at a fraction with two digits, as limits often have, or a bit farther away."""
-        value = self.at(fraction)
-        if isinstance(value, int):
-            return [value]
-        near, short = NEARLY * abs(value - self.now), float(f"{value:.2g}")
-        away, farther = value, math.ceil if self.end > self.now else math.floor
-        for digits in range(11, 2, -1):
-            step = 10.0 ** (math.floor(math.log10(abs(value) or 1.0)) + 1 - digits)
-            rough = float(f"{farther(value / step) * step:.{digits + 1}g}")
-            away = rough if abs(rough - value) <= near else away
-        return [short, away] if abs(short - value) <= near else [away]
+    end: Any
+    now: Any = None  # a number, or None
 
 
-Advice: TypeAlias = tuple[Remedy, Value]
+class Trial(NamedTuple):
+    """A value of a key, and the margins of the checks with it, up to the first that fails."""
+
+    value: Any
+    spares: dict[str, float]
+
+    @property
+    def passes(self) -> bool:
+        """True if no check fails."""
+        return min(self.spares.values()) >= 0.0
+
+    def zero(self, one: Trial, other: Trial) -> float:
+        """The value up to which a check fails that fails here, by lines through two trials."""
+        zeros = [self.value]
+        for name in (name for name, spare in self.spares.items() if spare < 0.0):
+            low, high = (trial.spares.get(name, math.inf) for trial in (one, other))
+            slope = (high - low) / (other.value - one.value)
+            zeros.append(one.value - low / slope if math.isfinite(slope) and slope else math.inf)
+        return max(zeros, key=lambda zero: abs(zero - self.value))
+
+
+def short(value: float, spare: float) -> float:
+    """The number with the fewest digits that differs from a value by at most ``spare``."""
+    rounded = (float(f"{value:.{digits}g}") for digits in range(1, 13))
+    return next((number for number in rounded if abs(number - value) <= spare), value)
 
 
 @cache
-def _words() -> dict[str, str]:
+def words_of_checks() -> dict[str, str]:
     """The words of each check, with those in capitals spelled out."""
     out: dict[str, str] = {}
     rows = [row.partition(":")[::2] for row in _TABLE.strip().replace("\n  ", " ").splitlines()]
     for names, words in (*rows, *(row for kind in KINDS for row in kind.remedies.items())):
         spelled = " ".join(out.get(word, word) for word in words.split())
-        out |= dict.fromkeys(names.split(), spelled)
+        both = re.sub(r"drives(\S+)", r"drive\1 drive.before\1", spelled)
+        out |= dict.fromkeys(names.split(), both)
     return out
 
 
@@ -163,49 +161,35 @@ def remedies(check: Check, mechanism: Mechanism) -> Iterator[Remedy]:
     spec, size = mechanism.spec, mechanism.spec.size.as_dict()
     usual = {} if check.name in SIZELESS else Size().as_dict()
     own = [key for key in usual if size[key] != usual[key] and key not in REQUIRED]
+    known, how = words_of_checks(), "=" if "remove it" in check.why else "?"
     # first a size that the reason names, such as "wheel_bore_mm = 30: it must be below 20"
-    words = [f"{key}?" for key in own if key in check.why]
-    words += _words().get(check.name, _words()["OTHERS"]).split()
-    words += [f"{key}?" for key in own if key not in check.why]
-    given = [key for key in REQUIRED[:2] if size[key]]
-    for word in words:
-        if given and word == _words()["LARGER"]:
-            if len(given) > 1 or spec.limits.as_dict().get(check.name) is None:
-                continue
-            word = word.replace(REQUIRED[0], given[0])
-        yield from _of_word(word, mechanism)
-
-
-def _of_word(word: str, mechanism: Mechanism) -> Iterator[Remedy]:
-    match = re.fullmatch(r"(?:([\w.]+)\.)?(\w+)([*:+=?])(.*)", word)
-    assert match, word
-    table, key, how, end = match[1] or "size", match[2], match[3], match[4]
-    whole, keys = f"{table}.{key}", mechanism.spec.table(table)
-    if key not in keys:
-        return
-    if how == "=":
-        texts = end.split(",")
-        yield Remedy(whole, tuple(float(t) if t[-1:].isdigit() else t or None for t in texts))
-        return
-    now = _now(mechanism, table, key)
-    if isinstance(now, float | int) and not isinstance(now, bool):
-        ends = [(float(end or 0.0) + (now if how == "+" else 0.0), True)]
-        if how == "*":
-            ends = [(now * float(end), False)]
-        elif how == "?" and not isinstance(now, int):
-            ends = [(0.1 * now, False), (10.0 * now, False)]
+    first, last = [key + how for key in own if key in check.why], [f"{key}?" for key in own]
+    text = " ".join((*first, known.get(check.name, known["OTHERS"]), *last))
+    if given := [key for key in REQUIRED[:2] if size[key]]:
+        limited = len(given) == 1 and spec.limits.as_dict().get(check.name) is not None
+        larger = known["LARGER"].replace(REQUIRED[0], given[0]) if limited else ""
+        text = text.replace(known["LARGER"], larger)
+    for table, key, how, end in re.findall(r"(?:([\w.]+)\.)?(\w+)([*:=?])(\S*)", text):
+        whole, keys = f"{table or 'size'}.{key}", spec.table(table or "size")
+        now = _now(mechanism, whole) if key in keys else None
+        if how == "=" and key in keys:
+            yield Remedy(whole, float(end) if end[-1:].isdigit() else end or None)
+        elif how in "*:" and now is not None:
+            yield Remedy(whole, float(end) * (now if how == "*" else 1.0), now)
+        elif how == "?" and isinstance(now, float):
             with suppress(GenevaError):
-                bare = mechanism.spec.with_(whole, None)
-                usual = _now(mechanism._replace(spec=bare), table, key)
-                ends = [(usual, True), *ends] if isinstance(usual, float) else ends
-        yield from (Remedy(whole, (), now, last, even) for last, even in ends if last != now)
-    if how == "?" and keys[key] is not None:
-        yield Remedy(whole, (None,))
+                usual_now = _now(mechanism._replace(spec=spec.with_(whole, None)), whole)
+                yield Remedy(whole, now if usual_now is None else usual_now, now)
+            yield Remedy(whole, 0.1 * now, now)
+            yield Remedy(whole, 10.0 * now, now)
+        if how == "?" and keys.get(key) is not None:
+            yield Remedy(whole, None)
 
 
-def _now(mechanism: Mechanism, table: str, key: str) -> Value:
+def _now(mechanism: Mechanism, whole: str) -> Any:
     """A key's present value; the machine's for a size that the spec leaves out."""
-    value: Value = mechanism.spec.table(table)[key]
+    table, _, key = whole.rpartition(".")
+    value = mechanism.spec.table(table)[key]
     return built(mechanism).as_dict()[key] if value is None and table == "size" else value
 
 
@@ -214,41 +198,40 @@ def advised(mechanism: Mechanism, rows: list[Check]) -> list[Check]:
     failing = [c for c in rows if c.passes is False]
     if not failing:
         return rows
-    adviser, count = Adviser(mechanism, failing), len(failing)
-    one, why = adviser.advice(failing, TRIALS if count == 1 else TRIALS // 2)
-    each, own = [one] if one else [], [""] * count
+    adviser, count, own = Adviser(mechanism, failing), len(failing), dict[str, str]()
+    one = adviser.advice(failing, TRIALS // min(count, 2))
+    each, why = [one] if one else [], STOPPED if adviser.left < adviser.stop else NONE
     if not one and count > 1:
-        # one trial is for all changes together
-        some = [
-            adviser.advice([c], (adviser.left - 1) // (count - i))[0] for i, c in enumerate(failing)
-        ]
-        by_key = {one[0].key: one for one in some if one}
-        adviser.aim(failing, 0)
-        if all(some) and adviser.margin([*by_key.values()], True) >= 0.0:
-            each = sorted(by_key.values(), key=lambda advice: advice[1] is None)
-        own = [f"{line(*one)} passes this one" if one else "" for one in some]
-    anew, change = "", " and ".join(line(*one) for one in each)
+        some = dict[str, Change]()
+        for i, c in enumerate(failing):  # one trial is for all changes together
+            if change := adviser.advice([c], (adviser.left - 1) // (count - i)):
+                own[c.name], some[change[0]] = f"{line(*change)} passes this one", change
+        adviser.stop = 0
+        together = sorted(some.values(), key=lambda change: change[1] is None)
+        if len(own) == count and adviser.trial(together, adviser.failing, True).passes:
+            each = together
+    anew, text = "", " and ".join(line(*change) for change in each)
     if each and mechanism.spec.is_loaded:
-        changed = build(adviser.changed(each), mechanism)
+        changed = build(mechanism.spec.with_keys(dict(each)), mechanism)
         anew = ByLoad(by_load(changed), by_load(mechanism)).changes
-    out, advice = [], iter(own)
+    out = []
     for c in rows:
         if c.passes is False and each:
             # where the same key passes, the other sizes may have changed with it
             value, but, _ = c.why.partition(", but ")
-            same = but and value.startswith(f"{change.partition(' ')[0]} is ")
-            c = c._replace(nearest=change, why=value if same else c.why, anew=anew)
+            same = but and value.startswith(f"{text.partition(' ')[0]} is ")
+            c = c._replace(nearest=text, why=value if same else c.why, anew=anew)
         elif c.passes is False:
-            c = c._replace(why="; ".join(filter(None, (c.why, why, next(advice)))))
+            c = c._replace(why="; ".join(filter(None, (c.why, why, own.get(c.name)))))
         out.append(c)
     return out
 
 
-def line(remedy: Remedy, value: Value) -> str:
+def line(whole: str, value: Any) -> str:
     """A change as a line of the spec; a key that an earlier table has too stands with its table."""
-    table, _, key = remedy.key.rpartition(".")
+    table, _, key = whole.rpartition(".")
     if table != next(iter(tables_with(key))):
-        key = remedy.key
+        key = whole
     if value is None:
         return f"leaving out {key}"
     return f'{key} = "{value}"' if isinstance(value, str) else f"{key} = {value:.12g}"
@@ -258,101 +241,99 @@ class Adviser:
     """Search for changes with which the ``failing`` checks pass."""
 
     def __init__(self, mechanism: Mechanism, failing: list[Check]) -> None:
-        self.mechanism, self.failing, self.left = mechanism, failing, TRIALS
-        self._last: tuple[Mechanism, Parts] | None = None
+        self.mechanism, self.left, self.stop = mechanism, TRIALS, 0
+        self.failing = {c.name for c in failing}
+        self._parts: dict[tuple[Change, ...], Parts] = {}
 
-    def changed(self, changes: Sequence[Advice]) -> Spec:
-        """The spec with some changes."""
-        spec = self.mechanism.spec
-        for remedy, value in changes:
-            spec = spec.with_(remedy.key, value)
-        return spec
-
-    def aim(self, wanted: list[Check], stop: int) -> None:
-        """Search for these checks, the quick ones first, until so many trials are left."""
+    def advice(self, wanted: list[Check], trials: int) -> Change | None:
+        """The change with which some failing checks pass and no other fails, in so many trials."""
+        self.stop, tried = self.left - trials, set()
         by_cost = sorted(wanted, key=lambda c: (c.name in TURNED, c.name not in QUICK))
-        self.units = {c.name: -c.spare if c.spare > -math.inf else 1.0 for c in by_cost}
-        self.turns, self.stop = by_cost[-1].name in TURNED, stop
-
-    def advice(self, wanted: list[Check], trials: int) -> tuple[Advice | None, str]:
-        """The change with which some failing checks pass and no other fails; else the reason."""
-        self.aim(wanted, self.left - trials)
-        tried = set()
+        spares = {c.name: c.spare for c in by_cost}
         for remedy in (one for check in wanted for one in remedies(check, self.mechanism)):
-            way = remedy[:2] if remedy.values else (remedy.key, remedy.end > remedy.now)
-            found = None if way in tried else self._least(remedy)
-            if self.left < self.stop:
-                return None, STOPPED
-            if found:
-                return found, ""
-            tried.add(way)
-        return None, NONE
+            key, end, now = remedy
+            if now is None:
+                change = (key, end) if self.trial([(key, end)], spares, True).passes else None
+            elif end == now or (key, end > now) in tried:
+                continue
+            else:
+                change = self._least(remedy, Trial(now, spares), [*spares])
+                tried.add((key, end > now))
+            if change or self.left < self.stop:
+                return change
+        return None
 
-    def _least(self, remedy: Remedy) -> Advice | None:
-        """The least sufficient value of one key, with its remedy; None if there is none."""
-        for value in remedy.values:
-            if self.margin([(remedy, value)], True) >= 0.0:
-                return remedy, value
-        at, short = 0.0, -1.0
-        # parts that are turned anyway cost as much as all checks, which are last otherwise
-        for every in () if remedy.values else (True,) if self.turns else (False, True):
-            at = self._edge(remedy, every, at, short)
-            if at < 0.0:
-                return None
-            for value in remedy.rounded(at):
-                if self.margin([(remedy, value)], True) >= 0.0:
-                    return remedy, value
-            short = -math.inf
-        return None if remedy.values else (remedy, remedy.at(at))
-
-    def _edge(self, remedy: Remedy, every: bool, start: float, short: float) -> float:
-        """The fraction nearest to a failing ``start`` with a margin of at least 0; -1 without.
-
-        The margin may be largest between ``start`` and 1. ``short`` is that at the start.
-        """
-        known, good = {start: short}, start
+    def _least(self, remedy: Remedy, start: Trial, wanted: Sequence[str]) -> Change | None:
+        """The least change from a failing start with which the wanted and all others pass."""
+        (key, end, now), known, better = remedy, {0.0: start}, False
         for part in PLACES:
-            good = start + (1.0 - start) * part
-            known[good] = self.margin([(remedy, remedy.at(good))], every)
-            if known[good] >= 0.0:
+            value = start.value + (end - start.value) * part
+            if start.value * end > 0.0:
+                value = start.value * (end / start.value) ** part
+            spare = 0.05 * abs(value - start.value) if part < 1.0 else 1e-12 * abs(value)
+            known[part] = good = self.trial([(key, type(now)(short(value, spare)))], wanted)
+            if good.passes:
                 break
-            # no peak is expected before an end that is no better, nor between places that are not
-            if part != PLACES[0] and -math.inf < max(known.values()) <= short:
-                return -1.0
+            name, spare = [*good.spares.items()][-1]
+            better = better or spare > start.spares.get(name, -math.inf)
+            # none passes before an end, or between places, that are no better than the start
+            if part != PLACES[0] and not better:
+                return None
         else:
-            return -1.0
-        bad = max(x for x in known if x < good)
-        while good - bad > FINE * good:
-            middle = 0.5 * (good + bad)
-            holds = self.margin([(remedy, remedy.at(middle))], every) >= 0.0
-            good, bad = (middle, bad) if holds else (good, middle)
-        return good
+            return None
+        good = self._nearest(remedy, known[max(x for x in known if x < part)], good, wanted)
+        every = self.trial([(key, good.value)], wanted, True)
+        if every.passes:
+            return key, good.value
+        # where another check fails, it is wanted too from there on
+        return self._least(remedy, every, (*wanted, [*every.spares][-1]))
 
-    def margin(self, changes: Sequence[Advice], every: bool) -> float:
-        """The least margin of the wanted checks, relative to its present violation.
+    def _nearest(self, remedy: Remedy, bad: Trial, good: Trial, wanted: Sequence[str]) -> Trial:
+        """The trial nearest to one that fails, between it and one that passes, which does."""
+        now, whole, slow, line = remedy.now, isinstance(remedy.now, int), 0, (bad, good)
+        while True:
+            gap, change = good.value - bad.value, abs(good.value - now)
+            near = max(NEAR * min(change, 4.0 * abs(good.value) or change), whole)
+            half, part, spare = 0.5 * near / abs(gap), 0.5, 0.125
+            if half >= 0.5:
+                return good
+            zero = (bad.zero(*line) - bad.value) / gap
+            if 0.0 <= zero <= 1.0 and slow < 2 and not whole:
+                part, spare = min(max(zero + 0.5 * half, half), 1.0 - half), 0.5 * half
+            value = short(bad.value + part * gap, spare * abs(gap))
+            trial = self.trial([(remedy.key, type(now)(value))], wanted)
+            last, good, bad = (good, trial, bad) if trial.passes else (bad, good, trial)
+            # after a step that leaves more than a rounded half, the line through the last two
+            # values on one side
+            slow = slow + 1 if abs(good.value - bad.value) > 0.625 * abs(gap) else 0
+            line = (last, trial) if slow else (bad, good)
 
-        With ``every`` it is -1 if another check begins to fail; -inf for a spec that makes no
-        machine, or whose turn takes too long, and without trials left.
+    def trial(self, changes: Sequence[Change], names: Iterable[str], every: bool = False) -> Trial:
+        """The margins of some checks with changes of the spec; -inf if it makes no machine.
+
+        With ``every`` those of all others follow that pass now.
         """
-        least = math.inf
+        out, key = Trial(changes[0][1], {}), tuple(changes)
         try:
-            spec = self.changed(changes)
-            if self._last is None or self._last[0].spec != spec:
+            if key not in self._parts:
                 self.left = max(self.left, self.stop) - 1
                 if self.left < self.stop:
-                    return -math.inf
-                machine = build(spec, self.mechanism)
-                self._last = machine, parts_of(machine)
-            machine, parts = self._last
-            for name, unit in self.units.items():
-                check = single_check(machine, name, parts)
-                least = min(least, check.spare / unit if check else math.inf)
-                if least < 0.0:
-                    return least
-            failed = {c.name for c in self.failing} - self.units.keys()
-            for check in every_check(machine, parts, quick=True) if every else ():
-                if check.passes is False and check.name not in failed:
-                    return -1.0
-        except GenevaError:
-            return -math.inf
-        return least
+                    raise GenevaError(STOPPED)
+                spec = self.mechanism.spec.with_keys(dict(changes))
+                self._parts[key] = parts_of(build(spec, self.mechanism))
+            parts = self._parts[key]
+            for name in names:
+                check = single_check(parts.mechanism, name, parts)
+                out.spares[name] = check.spare if check else math.inf
+                if not out.passes:
+                    return out
+            # where a check has no value, others say how near it is
+            if every or math.inf in out.spares.values():
+                for check in every_check(parts.mechanism, parts, quick=True):
+                    if check.name not in self.failing:
+                        out.spares[check.name] = check.spare
+                        if check.passes is False:
+                            break
+        except GenevaError:  # no machine, a turn that takes too long, or no trials left
+            return out._replace(spares={"": -math.inf})
+        return out

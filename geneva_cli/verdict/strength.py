@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.errors import Notice
-from geneva_cli.kept import cached_property
 from geneva_cli.loads.strength.horn import STOUT
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import value_or
@@ -74,17 +73,11 @@ class Strength:
         groups = report_groups()
         return only((groups.get(name) or groups[table]).columns(self.design).get(own))
 
-    @cached_property
-    def life(self) -> dict[str, float | None]:
-        """The values of the group ``life``, by name."""
-        names = (name for name in report_groups() if name.startswith("life."))
-        return {name.removeprefix("life."): self[name] for name in names}
+    def table(self, name: str) -> dict[str, float | None]:
+        """The values of a table, such as ``life`` or ``shock.reversal``, by their own names."""
+        from geneva_cli.verdict.quantities.groups import own_names
 
-    @cached_property
-    def reversal(self) -> dict[str, float | None]:
-        """The impact at a change of sides: the values of ``shock.reversal``, by name."""
-        table = "shock.reversal"
-        return {name: self[f"{table}.{name}"] for name in report_groups()[table].own}
+        return {own: self[f"{name}.{own}"] for own in own_names(name)}
 
     @property
     def contact_mm(self) -> float | None:

@@ -14,10 +14,10 @@ from geneva_cli.motion.compatible import is_geared
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import keeps
+from geneva_cli.parts.machine_sizes import wheel_body
 from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.turn.full_turn import SAME
-from geneva_cli.parts.wheel_body import wheel_body
 from geneva_cli.spec.tables import Motor
 from geneva_cli.spec.workshops import WORKSHOPS
 from geneva_cli.verdict.checks.motion_checks import motion_play_max, slips_deg

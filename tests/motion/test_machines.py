@@ -218,7 +218,7 @@ def test_stations_and_their_places(machine, witness, case):
         for value, want in ((s.mid_deg, w.mid), (s.entry_deg, w.entry), (s.exit_deg, w.exit)):
             assert abs(mp.mpf(value) - to_degrees(want)) <= bar
         assert s.half_step == pytest.approx(float(w.b), rel=2e-16)
-        assert m.index_deg(i) == pytest.approx(float(to_degrees(2 * w.b)), rel=2e-16)
+        assert m.spec.wheel.index_deg(i) == pytest.approx(float(to_degrees(2 * w.b)), rel=2e-16)
         # A second roller's motion is symmetric too, but its two ends are rounded apart.
         mirrored = abs(w.entry + w.exit) < mp.mpf(10) ** -30
         assert mirrored if s.motion.symmetric else i or not mirrored or case in ON_PATH
@@ -467,8 +467,8 @@ def test_cam_groove(machine, witness):
             assert found.c[0] == pytest.approx(float(R), rel=1e-13)
             assert found.c[1] == pytest.approx(float(R1), rel=1e-9, abs=1e-10)
             assert rho.c[0] == pytest.approx(float(mp.sin(phi) / both), rel=1e-13)
-            gx, gy = s.groove.groove(x, 1)
-            assert math.hypot(gx.c[0], gy.c[0]) == pytest.approx(float(R), rel=1e-13)
+            gx, gy = s.path(x, 1)
+            assert math.hypot(gx.c[0] - 1.0, gy.c[0]) == pytest.approx(float(R), rel=1e-12)
         end = math.radians(s.exit_deg)
         _, last = s.groove.distances(s.exit_deg, 1)
         assert last.c[0] == pytest.approx(math.sin(s.half_step) / math.sin(end + g * s.half_step))

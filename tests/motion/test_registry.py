@@ -56,7 +56,7 @@ def numbers(engagement):
         jets = [engagement.motion(at), *engagement.path(at), *engagement.slot(at)]
         jets += [engagement.carrier(at, 1), *(engagement.slot.axis(at, 1) or ())]
         if engagement.groove:
-            jets += engagement.groove.groove(at)
+            jets += engagement.groove.distances(at)
         out += [np.broadcast_to(c, np.shape(at)).tolist() for jet in jets for c in jet.c]
         out.append(np.broadcast_to(engagement.slot.touches(at), np.shape(at)).tolist())
     return [*out, [v.tolist() for v in engagement.motion.derivatives(x)]]

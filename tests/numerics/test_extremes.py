@@ -7,6 +7,7 @@ import pytest
 from numpy.polynomial import polynomial
 
 from geneva_cli.numerics.extremes import Smooth, cuts, search
+from geneva_cli.numerics.jet import Jet
 
 WHOLE = 10.0
 pytestmark = pytest.mark.filterwarnings("error")  # nothing is said of designs that are no numbers
@@ -17,11 +18,12 @@ def column(values):
 
 
 def waves(rates):
-    def derivatives(x, which, order, requested):
+    def jets(x, which, order, requested):
         rate = rates[which, None]
-        return [(np.sin(rate * x), rate * np.cos(rate * x), -(rate**2) * np.sin(rate * x))]
+        sine, cosine = np.sin(rate * x), np.cos(rate * x)
+        return [Jet((sine, rate * cosine, -0.5 * rate**2 * sine))]
 
-    return Smooth(derivatives)
+    return Smooth(jets)
 
 
 def extremes(rates, parted):
@@ -32,11 +34,11 @@ def extremes(rates, parted):
 def polynomials(c):
     """One polynomial a row of c."""
 
-    def derivatives(x, which, order, requested):
-        own = [polynomial.polyder(c[which], k, axis=1) for k in range(3)]
-        return [[polynomial.polyval(x.T, one.T[:, None], tensor=False).T for one in own]]
+    def jets(x, which, order, requested):
+        own = [polynomial.polyder(c[which], k, axis=1) / max(1, k) for k in range(3)]
+        return [Jet(polynomial.polyval(x.T, one.T[:, None], tensor=False).T for one in own)]
 
-    return Smooth(derivatives)
+    return Smooth(jets)
 
 
 @pytest.mark.long
@@ -137,7 +139,7 @@ def test_rounding_is_not_halved_without_end():
         nonlocal evaluations
         evaluations += x.size
         noise = 1e-11 * np.sin(1e9 * x)
-        return [(12.0 + noise, 1e4 * noise, noise)]
+        return [Jet((12.0 + noise, 1e4 * noise, noise))]
 
     most = search(Smooth(noisy), [(np.zeros((1, 1)), np.ones((1, 1)))], True).most
     assert most[0, 0] == pytest.approx(12.0, rel=1e-11)

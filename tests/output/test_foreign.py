@@ -204,12 +204,7 @@ def test_svg_curves_and_their_smooth_continuations(tmp_path):
 
 def test_a_skewed_circle_is_the_ellipse_of_its_points():
     p, q = 8 + 0j, 4 * math.tan(math.radians(20.0)) - 4j
-    from geneva_cli.output.foreign.svg_pieces import _axes
-
-    major, minor, (cosine, sine) = _axes(p, q)
-    shift = math.atan2(sine, cosine)
-    pieces = ellipse_pieces(0j, (major, minor), (-shift, math.tau))
-    for piece in pieces[::5]:
+    for piece in ellipse_pieces(0j, (p, q), (0.0, math.tau))[::5]:
         z = complex(*piece.start)
         t = np.linalg.solve(np.array([[p.real, q.real], [p.imag, q.imag]]), (z.real, z.imag))
         assert np.hypot(*t) == pytest.approx(1.0, abs=1e-4)

@@ -124,20 +124,24 @@ def differs(one, at, turn, name, colour, body):
     # in steps, as the quick integral runs across a spline's knots, and is 1e-4 off
     BRepGProp.VolumeProperties_s(body, found, STEPS, False)
     volume, own, polar, reach = properties(one)
-    centre = found.CentreOfMass()
+    centre, off = found.CentreOfMass(), 0.0
+    if own is not None:
+        off = math.dist((centre.X(), centre.Y(), centre.Z()), at + turn @ own)
     axis = gp_Ax1(gp_Pnt(*at.tolist()), gp_Dir(*turn[:, 2].tolist()))
     return (
         abs(found.Mass() / volume - 1.0),
-        math.dist((centre.X(), centre.Y(), centre.Z()), at + turn @ own)
-        / (reach + math.hypot(*at)),
+        off / (reach + math.hypot(*at)),
         abs(found.MomentOfInertia(axis) / polar - 1.0),
     )
 
 
 def properties(one):
-    """Volume, centroid and polar moment of a solid in its own frame, and its reach."""
+    """Volume, centroid and polar moment of a solid in its own frame, and its reach.
+
+    The inertia of a shell, about an axis through the centre, shows where it is too.
+    """
     if not isinstance(one, Plate):
-        return one.volume, one.centroid, one.inertia((0.0, 0.0, 1.0)), one.outer
+        return one.volume, None, one.inertia((0.0, 0.0, 1.0)), one.outer
     body = mass_properties(one, 1e9)  # mm³ and, by 1e6, mm⁵
     centre = (*body.centroid_mm, 0.5 * (one.low + one.high))
     reach = max(map(abs, (*bounds(one.outline), one.low, one.high)))

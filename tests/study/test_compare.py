@@ -10,13 +10,17 @@ from typer.testing import CliRunner
 from geneva_cli import GenevaError
 from geneva_cli.cli.app import app
 from geneva_cli.figure import JOINED, POINTS
-from geneva_cli.study.compare import compare, of_table
+from geneva_cli.study.compare import compare, designs_of, of_table
 
 pytestmark = pytest.mark.usefixtures("made_once")
 
 
 def path(name):
     return str(repo.DESIGNS / name)
+
+
+def compared(paths, settings=(), vary=(), **options):
+    return compare(designs_of(paths, settings, vary), varied=bool(vary), **options)
 
 
 def by_quantity(table):
@@ -26,7 +30,7 @@ def by_quantity(table):
 def test_the_papers_ratios():
     """Polyudov and Kandyak: at A = 0.6, z = 6 the plain crank's velocity, acceleration and kinetic
     power are 1.600, 2.583 and 4.164 times as high."""
-    found = by_quantity(compare([path("side-crank-z6.toml")], vary=["drive.A=0.6,0"], ratio=True))
+    found = by_quantity(compared([path("side-crank-z6.toml")], vary=["drive.A=0.6,0"], ratio=True))
     ratios = [found[f"{name}.max"]["drive.A=0"] for name in ("velocity", "acceleration", "power")]
     assert [round(r, 3) for r in ratios] == [1.6, 2.583, 4.164]
 
@@ -34,11 +38,11 @@ def test_the_papers_ratios():
 def test_what_nothing_bounds_is_none():
     """Two pins of which one dwell has no length, and a wall as sharp as its roller: in the report's
     json null, and no fault of the program."""
-    pins = by_quantity(compare([path("two-pins-z4.toml")]))
+    pins = by_quantity(compared([path("two-pins-z4.toml")]))
     assert "timing.k" not in pins and "acceleration.max" in pins
     limited = ["limits.contact_stress_max_MPa=500"]
     stress = "checks.contact_stress_max_MPa"
-    found = by_quantity(compare([path("press-345.toml")], limited, picks=[stress, "passes"]))
+    found = by_quantity(compared([path("press-345.toml")], limited, picks=[stress, "passes"]))
     assert list(found) == ["checks.passes"] and found["checks.passes"]["press-345"] is False
 
 
@@ -51,7 +55,7 @@ def test_rounding_is_no_difference(tmp_path):
         '[wheel]\nz = 6\n[drive]\nkind = "side-crank"\nA = 0.3\n[size]\nface_width_mm = 10\n'
         "[load]\ninertia_kgm2 = 0.4\ntorque_Nm = 5\n"
     )
-    found = by_quantity(compare([str(spec)], vary=["size.center_distance_mm=100,90,100.000001"]))
+    found = by_quantity(compared([str(spec)], vary=["size.center_distance_mm=100,90,100.000001"]))
     pv, L = found["life.pv_max_W_m2"], found["sizes.center_distance_mm"]
     values = [pv[f"{key}"] for key in pv if key not in ("quantity", "differs")]
     assert max(values) <= min(values) * (1.0 + 1e-12) and len(set(values)) > 1
@@ -76,7 +80,7 @@ def test_rounding_is_no_difference(tmp_path):
 )
 def test_what_cannot_be_compared(arguments, said):
     with pytest.raises(GenevaError) as error:
-        compare([path("side-crank-z6.toml")], **arguments)
+        compared([path("side-crank-z6.toml")], **arguments)
     assert said in str(error.value)
 
 

@@ -11,9 +11,10 @@ from words import load
 
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.spec.schema import fields
+from geneva_cli.specfile.keys import tables_with
 from geneva_cli.specfile.writer import keys_of
 from geneva_cli.verdict import advice
-from geneva_cli.verdict.advice import NONE, STOPPED, remedies
+from geneva_cli.verdict.advice import NONE, STOPPED, remedies, words_of_checks
 from geneva_cli.verdict.checks import Check, all_pass, checks
 
 DESIGNS = repo.DESIGNS
@@ -180,6 +181,22 @@ def test_the_key_that_a_reason_names_is_tried_first(tmp_path: Path) -> None:
     first = next(remedies(parts, mechanism))
     assert (parts.name, first.key) == ("parts", "size.wheel_bore_mm")
     assert "wheel_bore_mm" in parts.why and "roller_radius_mm" not in parts.why
+
+
+def test_each_word_of_a_check_names_a_key() -> None:
+    """A word in capitals without a line of its own was a fault of the program, of stops."""
+    for name, words in words_of_checks().items():
+        for word in words.split():
+            whole = re.split(r"[*:=?]", word)[0]
+            table, _, key = whole.rpartition(".")
+            assert (table or "size") in tables_with(key), (name, word)
+
+
+def test_a_size_that_the_machine_cannot_have_is_left_out() -> None:
+    """The least change is none of its value: the reason says to remove it."""
+    internal = load(DESIGNS / "internal-z6.toml").spec.with_("size.wheel_bore_mm", 60.0)
+    (parts,) = [c for c in judged(build(internal)) if c.passes is False]
+    assert parts.nearest == "leaving out wheel_bore_mm"
 
 
 @pytest.mark.long

@@ -188,7 +188,7 @@ def test_the_wall_of_a_curved_slot_is_struck_as_it_presses():
         size=Size(slot_clearance_mm=0.02, face_width_mm=10.0),
         load=Load(inertia_kgm2=0.05, torque_Nm=1.0),
     )
-    told = of.strength.reversal
+    told = of.strength.table("shock.reversal")
     names = ["contact_stress_MPa", "pin_force_N"]
     stress, force = of.cycle.states(np.array([told["at_deg"]]), names)[:, 0].tolist()
     ratio = stress * stress / abs(force)

@@ -31,8 +31,7 @@ def run(
     """
     from geneva_cli.design import load
     from geneva_cli.output import show
-    from geneva_cli.study.compare import compare
-    from geneva_cli.study.compare import differing as only_differing
+    from geneva_cli.study import compare
 
     if against:
         from geneva_cli.kept import load_extra
@@ -43,8 +42,9 @@ def run(
             )
         table = load_extra("servo", "against")(specs[0], settings, command.words_in(against))
     else:
-        table = compare(specs, settings, vary, command.words_in(pick), ratio, reverse)
-        table = only_differing(table) if differing else table
+        designs = compare.designs_of(specs, settings, vary, reverse)
+        table = compare.compare(designs, command.words_in(pick), ratio, bool(vary))
+        table = compare.differing(table) if differing else table
     show(table, output, format, specs)
     for path in specs:
         command.say(path, load(path, settings).ideal_notes)

@@ -32,5 +32,6 @@ def run(
     table = design.peaks_table
     if certify:
         table = design.certified_peaks(is_for_people(output, format))
+        say(design.spec.path, design.ideal_notes)
     show(table, output, format, design.spec.files)
     say(design.spec.path, design.motion_warnings)

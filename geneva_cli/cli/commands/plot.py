@@ -30,7 +30,7 @@ def run(
     Without -o it prints points. png needs the extra geneva-cli[plot]. `geneva help plots`.
     """
     from geneva_cli.output import FORMATS, PLOTTED, chosen, show_figure
-    from geneva_cli.study.compare import of_specs, of_table
+    from geneva_cli.study.compare import designs_of, of_designs, of_table
 
     chosen(output, format, (*PLOTTED, *FORMATS))  # refuse a wrong format before any computation
     tables = [path for path in specs if path.lower().endswith(".csv")]
@@ -44,9 +44,10 @@ def run(
         return
     if x or y:
         raise GenevaError(f"--x and --y are for a .csv; for {cut(specs[0], 300)} give --pick")
-    figure, designs, left_out = of_specs(specs, settings, words_in(pick), vary, reverse)
-    show_figure(figure, output, format, [file for d in designs for file in d.spec.files])
-    for design in designs:
+    designs = designs_of(specs, settings, vary, reverse)
+    figure, left_out = of_designs(designs, words_in(pick))
+    show_figure(figure, output, format, [x for d in designs.values() for x in d.spec.files])
+    for design in designs.values():
         say(design.spec.path, design.motion_warnings)
         say(design.spec.path, design.ideal_notes)
     for path, text in left_out:

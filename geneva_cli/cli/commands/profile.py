@@ -3,7 +3,7 @@
 from geneva_cli.cli import command
 from geneva_cli.cli.command import OUTPUT, SETTINGS, SPEC, flag, one_of, option, say
 from geneva_cli.drawings.catalogue import is_sheet, require_tolerance
-from geneva_cli.errors import GenevaError, cut
+from geneva_cli.errors import GenevaError
 from geneva_cli.output import DRAWN, FORMATS, SHEETS, chosen, draw, draw_sheet, named, show, usual
 
 EXAMPLES = (
@@ -13,7 +13,6 @@ EXAMPLES = (
 )
 
 WRITTEN = (*FORMATS, *DRAWN, "pdf")
-WALLS = ("arcs", "spline")
 CUT = "To cut"
 DRAWING = "The drawing"
 
@@ -45,12 +44,11 @@ def run(
     A drawing is written only if its machine completes a whole turn. All parts, frames of
     reference and layers: `geneva help parts`.
     """
-    from geneva_cli.design import load
+    from geneva_cli.design import form_of, load
 
     walls, tolerance = usual(output, format, tolerance)
     curves = curves or walls
-    if curves not in WALLS:
-        raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
+    form_of(curves)  # refuses another word
     sheet, drawn = is_sheet(part), named(output, format) in DRAWN
     design = load(spec, settings)
     files = design.spec.files

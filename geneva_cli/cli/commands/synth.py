@@ -1,6 +1,5 @@
 """``geneva synth``."""
 
-from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from geneva_cli.cli.command import FORMAT, OUTPUT, SETTINGS, flag, option, say, tell
@@ -69,11 +68,6 @@ def run(
         _write(target, write, output, format)
 
 
-def _inputs(target: "Target") -> Sequence[str]:
-    """The files that the requirement was read from."""
-    return target.frame.files if target.frame else ()
-
-
 def _show(target: "Target", check: int, buildable: bool, output: str, format: str) -> None:
     from geneva_cli.output import is_for_people, is_seen, show
     from geneva_cli.study.synth.synth_table import for_people, synthesis_table
@@ -84,7 +78,7 @@ def _show(target: "Target", check: int, buildable: bool, output: str, format: st
     if is_for_people(output, format):
         # a terminal shows no fewer than are turned by default
         table = for_people(table, max(check, 20) if is_seen(output) else None)
-    show(table, output, format, _inputs(target))
+    show(table, output, format, target.own.files)
 
 
 def _write(target: "Target", number: int, output: str, format: str) -> None:
@@ -95,7 +89,7 @@ def _write(target: "Target", number: int, output: str, format: str) -> None:
 
     require_spec(output, format)
     row, text = chosen(target, search(target), number)
-    show_text(text, output, _inputs(target))
+    show_text(text, output, target.own.files)
     path = "<stdout>" if output == "-" else output
     if row.trouble:
         tell(f"{path}: warning: its parts cannot be built: {row.trouble}")

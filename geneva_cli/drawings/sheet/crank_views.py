@@ -49,9 +49,9 @@ def draw_disc(view: View, parts: FlatParts) -> View:
             far = length(math.hypot(*at(arc, 0.5)))
             reliefs.setdefault((sized.plain(arc.radius, "R "), far), []).append(arc)
     _gaps(view, sizes.lock, locking)  # first, as their legs have no other place
-    view.of_arcs(locking, sized.made(view.fits, mechanism, "lock", sizes.lock), whole=True)
+    view.diameter(locking, sized.made(view.fits, mechanism, "lock", sizes.lock))
     for (radius, far), some in reliefs.items():
-        view.of_arcs(some, times(len(some), radius))
+        view.radius(some, times(len(some), radius))
         arc, middle = some[0], at(some[0], 0.5)
         if math.hypot(*arc.centre) > SAME_ON_SHEET and math.hypot(*middle) > SAME_ON_SHEET:
             view.radial(middle, times(len(some), far))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator
 from functools import cache, partial
 from typing import Any, NamedTuple
@@ -65,17 +66,12 @@ def sheet(parts: FlatParts) -> Sheet:
         off, box = mechanism.spec.tolerance.center_distance_mm, shapes.bounds_of(drawn)
         view.linear(shapes.ORIGIN, (L, 0.0), 0.0, sized.plain(L, "L = ", off))
         view.section((box.x0, 0.0), (box.x1, 0.0), "A")
-        tips: dict[int, list[shapes.Point]] = {}
+        tips = defaultdict[int, list[shapes.Point]](list)
         for own, plate in in_place(parts.members):
             if items[own] not in marked:
-                shape = plate.outline
-                pieces = (
-                    shapes.two_arcs(shape) if isinstance(shape, shapes.Circle) else shape.segments
-                )
+                pieces = shapes.as_contour(plate.outline).segments
                 longest = sorted(pieces, key=lambda piece: -math.dist(piece.start, piece.end))
-                tips.setdefault(items[own], []).extend(
-                    shapes.at(piece, 0.5) for piece in longest[:8]
-                )
+                tips[items[own]] += [shapes.at(piece, 0.5) for piece in longest[:8]]
         view.balloons(tips)
         return view.block()
 
@@ -83,12 +79,11 @@ def sheet(parts: FlatParts) -> Sheet:
     def section(scale: float) -> Block:
         view = View(f"A-A ({scale_name(scale)})", scale)
         _draw_section(view, faces, (0.0, L))
-        tips: dict[int, list[shapes.Point]] = {}  # the middles of the faces' sides
+        tips = defaultdict[int, list[shapes.Point]](list)  # the middles of the faces' sides
         for face in sorted(faces, key=lambda f: f.left - f.right):
             low, high = face.plate.low, face.plate.high
             x, z = 0.5 * (face.left + face.right), 0.5 * (low + high)
-            own = (x, high), (x, low), (face.right, z), (face.left, z)
-            tips.setdefault(items[face.plate], []).extend(own)
+            tips[items[face.plate]] += [(x, high), (x, low), (face.right, z), (face.left, z)]
         view.balloons(tips)
         return view.block()
 

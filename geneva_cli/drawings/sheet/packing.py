@@ -66,16 +66,16 @@ def packed(blocks: Sequence[Block], taken: Sequence[Block], area: Box) -> list[B
         lambda block: -block.height,
         lambda block: -block.width,
     )
+    result = None
     for order in orders:
-        result = None
         for apart in (8.0, 12.0, 18.0, 27.0, 40.0):  # mm between blocks
             wider = packed_apart(blocks, taken, area, order, apart)
             if wider is None:
                 break
             result = wider
         if result is not None:
-            return result
-    return None
+            break
+    return result
 
 
 def packed_apart(

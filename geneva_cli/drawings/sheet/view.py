@@ -6,6 +6,7 @@ import cmath
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from heapq import merge
+from itertools import product
 from typing import TypeVar
 
 import numpy as np
@@ -14,10 +15,9 @@ from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.packing import Block
 from geneva_cli.drawings.sheet.sized import Fits
 from geneva_cli.geometry import marks, shapes
-from geneva_cli.geometry.board import Board, chords
+from geneva_cli.geometry.board import Board
 from geneva_cli.geometry.shapes import Arc, Circle, Point, Segment, Shape
 from geneva_cli.geometry.sheet import CENTRE, LARGE, OUTLINE, SMALL, Label, Measure, line
-from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.spec.written import degrees, length
 
@@ -38,7 +38,6 @@ class View:
         self.title, self.scale = title, scale
         self.fits = fits or Fits()  # how the part's sizes are written
         self.shapes: list[Shape] = []
-        self.corners: list[Array] = []  # start points of the chords of all shapes, complex
         self.measures: list[Measure] = []
         self.notes: list[str] = []  # below the title: remarks, and dimensions that did not fit
         self.board = Board()
@@ -111,37 +110,25 @@ class View:
         start = self._long(begin) + marks.CLEAR
         candidates = (
             mark
-            for wide in radii
-            for legs in pairs
-            for mark in marks.angular(legs, start, [wide], text, math.degrees(legs[1] - legs[0]))
+            for wide, legs in product(radii, pairs)
+            for mark in marks.angular(legs, start, wide, text, math.degrees(legs[1] - legs[0]))
         )
         self._put(candidates, text)
 
-    def diameter(self, circles: Iterable[Circle], text: str, where: str = "") -> None:
-        """Draw the diameter of one of some circles; ``where`` is added if it stands as a note."""
-        self._led("diameter", ((one, marks.around()) for one in circles), text, where)
+    def radius(self, arcs: Sequence[Arc], text: str) -> None:
+        """Draw the radius of one of some arcs."""
+        self.diameter(arcs, text, kind="radius")
 
-    def of_arcs(self, arcs: Sequence[Arc], text: str, whole: bool = False) -> None:
-        """Draw the radius of one of some arcs, or, with ``whole``, its diameter."""
-        # at most 48 equal arcs are tried: without a limit the time grows as z squared
-        some = arcs[:: 1 + len(arcs) // 49]
-        turns = ((arc, marks.within(*shapes.legs(arc))) for arc in some)
-        self._led("diameter" if whole else "radius", turns, text)
-
-    def _led(
-        self,
-        kind: str,
-        rounds: Iterable[tuple[Circle | Arc, list[float]]],
-        text: str,
-        where: str = "",
+    def diameter(
+        self, rounds: Sequence[Circle | Arc], text: str, where: str = "", kind: str = "diameter"
     ) -> None:
-        factor = 1.0 if kind == "radius" else 2.0
-        candidates = (
-            marks.led(
-                kind, self._at(c.centre), self._long(c.radius), turns, text, factor * c.radius
-            )
-            for c, turns in rounds
-        )
+        """Draw the diameter of one of some circles or arcs; ``where`` is added in a note."""
+        candidates = []
+        # at most 48 equal ones are tried: without a limit the time grows as z squared
+        for one in rounds[:: 1 + len(rounds) // 49]:
+            turns = marks.around() if isinstance(one, Circle) else marks.within(*shapes.legs(one))
+            reach, value = self._long(one.radius), one.radius * (1.0 + (kind == "diameter"))
+            candidates.append(marks.led(kind, self._at(one.centre), reach, turns, text, value))
         self._put(_short_first(candidates), f"{text} {where}".rstrip())
 
     def radii(self, pieces: Iterable[Segment], besides: float = -1.0) -> None:
@@ -154,7 +141,7 @@ class View:
                 groups.setdefault(same, []).append(arc)
         for radius, some in groups.items():
             if abs(radius - besides) > SAME_ON_SHEET:
-                self.of_arcs(some, times(len(some), sized.plain(radius, "R ")))
+                self.radius(some, times(len(some), sized.plain(radius, "R ")))
 
     def note(self, tip: Point, text: str) -> None:
         """Draw a text that points at a place."""
@@ -197,12 +184,11 @@ class View:
 
     def _draw(self, shape: Shape) -> None:
         self.shapes.append(shape)
-        self.corners.append(chords(shape)[:, 0])
         self.board.draw(shape)
 
     def _levels(self, turn: float, near: tuple[Point, ...]) -> Iterator[float]:
         """Yield levels for a dimension line, normal to its direction, nearest first."""
-        places = np.array([complex(*p) for p in near]) if near else np.concatenate(self.corners)
+        places = np.array([complex(*p) for p in near]) if near else self.board.part[:, 0]
         across = (places * cmath.rect(1.0, -turn)).imag
         low, high = float(across.min()), float(across.max())
         for k in range(2 * RANKS if near else RANKS):

@@ -57,7 +57,7 @@ def draw_wheel(view: View, parts: FlatParts) -> View:
         deviation = assembly.mechanism.spec.tolerance.center_distance_mm
         view.radial(at_rest, sized.plain(L, off=deviation))
         recess = sized.made(view.fits, assembly.mechanism, "recess", sizes.recess)
-        view.of_arcs(own, times(len(own), recess), whole=True)
+        view.diameter(own, times(len(own), recess))
         view.radii(arc for arc in about if arc not in own)
     for engagement in assembly.kinds:
         count = sum(1 for one, _ in assembly.slots if one is engagement)
@@ -136,7 +136,7 @@ def _slot(view: View, parts: Outlines, engagement: Engagement, count: int) -> No
     pieces = [s for d in directions for s in shapes.turned(parts.slots[engagement], d).segments]
     arcs = [s for s in pieces if isinstance(s, shapes.Arc)]
     rounds = [s for s in arcs if math.hypot(*s.centre) > SAME_ON_SHEET]
-    view.of_arcs(rounds, times(count, sized.plain(rounds[0].radius, "R ")))
+    view.radius(rounds, times(count, sized.plain(rounds[0].radius, "R ")))
 
 
 def _steps(view: View, parts: Outlines, reach: float) -> None:
@@ -179,7 +179,7 @@ def draw_frame(
     view.places(
         (hole.centre for hole in holes), shapes.ORIGIN, (f"across, {where}", f"up, {where}")
     )
-    corner = (box.x0, box.y0)
+    corner = box[:2]
     if holes:
         to_left, to_low = length(-box.x0), length(-box.y0)
         view.linear(corner, shapes.ORIGIN, 0.0, to_left, f"from the left edge to {axis_name}")
@@ -193,9 +193,7 @@ def draw_frame(
         places = ", ".join(f"({length(x)}, {length(y)})" for _, (x, y), _ in some)
         view.diameter(some, text, f"at {places} from {axis_name}")
     assert isinstance(plate.outline, shapes.Contour)
-    arcs = [piece for piece in plate.outline.segments if isinstance(piece, shapes.Arc)]
-    if arcs:  # of one radius but for rounding, which may show in the last decimal
-        view.of_arcs(arcs, times(len(arcs), sized.plain(arcs[0].radius, "R ")))
+    view.radii(plate.outline.segments)
     return view
 
 

@@ -210,7 +210,10 @@ def _entry(result: Turned, mechanism: Mechanism) -> Iterator[Check]:
         return
     row = _struck("entry_velocity_max", mechanism, struck)
     if not row.passes:
-        R, ideal = machine.roller.distance, machine.roller.ideal_distance
+        R, L = math.hypot(*machine.roller.centre), machine.assembly.L
+        ideal = mechanism.ratio * L
+        if mechanism.engagements[0].built:  # radial slots on a crank that was built for others
+            ideal = L * math.sin(math.pi / mechanism.spec.wheel.z)
         why = f"the wheel is set in motion at {_from_rest(machine, struck.wheel):.5g}°"
         if abs(R - ideal) > 1e-4 * ideal:
             why += f"; R is {R:.5g} mm, and {ideal:.5g} would enter without an impact"

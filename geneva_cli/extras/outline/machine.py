@@ -27,21 +27,13 @@ EXACT_MM, MOST_MM = 1e-6, 1e-3  # overlaps that count as touching: of exact arcs
 OFF_AXIS = 0.05  # of L: farther from the origin is no wheel with a bolt or a slot less
 
 
-class Roller(NamedTuple):
-    """A roller of the crank, mm."""
-
-    distance: float  # from the crank's axis
-    radius: float
-    ideal_distance: float  # with which it would enter without an impact
-
-
 class DrawnMachine(NamedTuple):
     """The outlines of wheel and crank in their own frames, and how the crank turns the wheel."""
 
     assembly: Assembly
     wheel: tuple[shapes.Contour, ...]
     crank: tuple[shapes.Contour, ...]  # all that lies in the wheel's plane, rollers too
-    roller: Roller
+    roller: shapes.Circle  # the first of them, in the crank's frame
     free: FreeRanges
     start: float  # crank angle in the middle of a dwell, radians from mid-motion
     rest: float  # the wheel's angle there, radians from the middle of its step
@@ -163,28 +155,22 @@ def _drawn(spec: Spec, part: str, notes: list[Notice]) -> tuple[tuple[Loop, ...]
 
 def _with_rollers(
     drawn: Sequence[Loop | shapes.Contour], mechanism: Mechanism, place: Assembly
-) -> tuple[tuple[shapes.Contour, ...], Roller]:
-    """The crank with its rollers: those that its drawing has, or our own."""
-    radius, axis = mechanism.roller_radius_mm, np.array((place.L, 0.0))
-    # of all rollers, in the crank's frame
-    pins = [place.pin(i, np.zeros(1))[0] - axis for i in range(len(place.rollers))]
-    ahead = np.pi if place.sign > 0.0 else 0.0
-    turned = [complex(*pin) * complex(math.cos(-ahead), math.sin(-ahead)) for pin in pins]
-    R = ideal = abs(turned[0])
-    if mechanism.engagements[0].built:  # radial slots on a crank that was built for others
-        ideal = place.L * math.sin(math.pi / mechanism.spec.wheel.z)
+) -> tuple[tuple[shapes.Contour, ...], shapes.Circle]:
+    """The crank with its rollers, those that its drawing has or our own; and the first of them."""
     circles = [_roller(one) if isinstance(one, Loop) else None for one in drawn]
-    found = [circle for circle in circles if circle]
+    rollers = [circle for circle in circles if circle]
     others = [one for one, circle in zip(drawn, circles, strict=True) if not circle]
     crank = [one.contour if isinstance(one, Loop) else one for one in others]
-    if found:
-        roller = Roller(math.hypot(*found[0].centre), found[0].radius, ideal)
-        return (*crank, *map(_round, found)), roller
-    pin = np.array([(turned[0].real, turned[0].imag)])
-    is_drawn = any(isinstance(one, Loop) for one in drawn)
-    if not (is_drawn and Polyarc(crank).signed(pin)[0] < 0.0):
-        crank += [_round(shapes.Circle("ROLLER", (pin.real, pin.imag), radius)) for pin in turned]
-    return tuple(crank), Roller(R, radius, ideal)
+    if not rollers:
+        for i in range(len(place.rollers)):
+            x, y = (place.pin(i, np.zeros(1))[0] - (place.L, 0.0)).tolist()
+            centre = (-x, -y) if place.sign > 0.0 else (x, y)
+            rollers.append(shapes.Circle("ROLLER", centre, mechanism.roller_radius_mm))
+        # a drawn crank may have the rollers in its outline
+        is_drawn = any(isinstance(one, Loop) for one in drawn)
+        if is_drawn and Polyarc(crank).signed(np.array([rollers[0].centre]))[0] < 0.0:
+            return tuple(crank), rollers[0]
+    return (*crank, *map(_round, rollers)), rollers[0]
 
 
 def _round(roller: shapes.Circle) -> shapes.Contour:

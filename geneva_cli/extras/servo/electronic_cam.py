@@ -14,6 +14,7 @@ from collections.abc import Iterator
 from decimal import ROUND_CEILING, Context
 
 import numpy as np
+from numpy.polynomial.polynomial import polyval
 
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError, cut
@@ -189,9 +190,7 @@ def _errors(stretch: Stretch, nodes: Array, powers: Array) -> Array:
     t = np.diff(nodes)[:, None] * INSIDE
     places = (nodes[:-1, None] + t).ravel()
     true = stretch.slave_deg(places).reshape(t.shape)
-    value = np.zeros_like(t)
-    for power in powers[::-1]:
-        value = value * t + power[:, None]
+    value = polyval(t, powers[:, :, None], tensor=False)
     out: Array = BETWEEN * abs(value - true).max(axis=1)
     return out
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, ClassVar
 
-from geneva_cli.drives.transmission import Direct
+from geneva_cli.drives.transmission import Transmission
 from geneva_cli.errors import refuse_text
 from geneva_cli.motion.compatible import Conflict, of_transmission, other_wheels
 from geneva_cli.motion.drive import Plan
@@ -23,7 +23,7 @@ from geneva_cli.spec.rules import Range
 from geneva_cli.spec.schema import Example
 
 
-class Carousel(Direct, kw_only=True):
+class Carousel(Transmission, kw_only=True):
     """Equal ``wheels`` that orbit on a carrier, evenly spaced, and index at a fixed finger.
 
     ``n_rpm`` is the carrier's speed. ``rollers`` are the fingers, if there is one wheel.
@@ -35,6 +35,7 @@ class Carousel(Direct, kw_only=True):
 
     NAME: ClassVar[str] = "carousel"
     WORDS: ClassVar[str] = "a carrier round a fixed finger"
+    direct: ClassVar[bool] = True
     EXAMPLE: ClassVar[Example] = Example(
         "wandering hours: wheels orbit on a carrier and index at a fixed finger",
         {"wheel": {"z": 4}, "drive": {"wheels": 3, "n_rpm": 1.0}},

@@ -11,9 +11,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Annotated, ClassVar, cast
 
-from geneva_cli.drives.transmission import PinPath
 from geneva_cli.motion import registry
-from geneva_cli.motion.drive import Plan
+from geneva_cli.motion.drive import Drive, Plan
 from geneva_cli.motion.engagement import Engagement, Slot, SlotAxis, Vector, WheelMotion
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Teeth
 from geneva_cli.motion.wheels import classic
@@ -31,7 +30,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet_functions import Path
 
 
-class GearSector(PinPath, kw_only=True):
+class GearSector(Drive, kw_only=True):
     """Slot, gears at constant ratio, slot; ``sector_deg`` is the crank's angle in gear.
 
     >>> Design(External(3), GearSector(sector_deg=60)).timing.motion_deg
@@ -58,8 +57,7 @@ class GearSector(PinPath, kw_only=True):
         place = wheel.place(classic.HalfStep.of_deg(library(b).degrees(b)), L)
         crank = cast("Transmission", registry.drive("crank")())
         (inner,) = crank.straight(wheel, [place], L).engagements
-        engagement = SectorEngagement(inner, self.sector_deg, u)
-        return self.planned(engagement, library(b).sin(b), L)
+        return self.planned(SectorEngagement(inner, self.sector_deg, u), library(b).sin(b), L)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
         """Dimensions of slot and gears, and angles between rollers and between slots."""
@@ -158,7 +156,7 @@ class _SectorSlot(_SectorPath, Slot):
     """The slot, and the gears' pitch circle L/(1+u) while they drive, without sliding."""
 
     inner: Slot
-    relieved, walls_flat = True, False
+    walls_flat = False
 
     def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
         axis = self.inner.axis(self.motion.slot_deg(input_deg), order)

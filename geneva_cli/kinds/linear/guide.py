@@ -94,8 +94,7 @@ class RackGuide(NamedTuple):
         """
         turns = self.lever(case, at, drives, slides) * (1.0 / self.half)
         both = lesser(turns * -1.0, turns)  # less their size
-        least = turns * 0.0 - case.friction
-        return lesser(both, least) * (0.0 - self.friction)
+        return lesser(both, turns * 0.0 - case.friction) * (0.0 - self.friction)
 
 
 def with_guide(mechanism: Mechanism, case: LoadCase) -> LoadCase:
@@ -107,5 +106,4 @@ def with_guide(mechanism: Mechanism, case: LoadCase) -> LoadCase:
     friction = value_or(spec.load.guide_friction, spec.load.friction)
     there = place.half > 0.0
     half = choose(there, place.half / L, 1.0)
-    guide = RackGuide(choose(there, friction, 0.0), place.middle / L, half)
-    return case._replace(guide=guide)
+    return case._replace(guide=RackGuide(choose(there, friction, 0.0), place.middle / L, half))

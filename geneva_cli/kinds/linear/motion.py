@@ -39,9 +39,7 @@ class Linear(Gearing):
     """
 
     NAME: ClassVar[str] = "linear"
-    EXAMPLE: ClassVar[Example] = Example(
-        "a rack of parallel slots: motion and dwell equal", {"wheel": {"z": 6}}
-    )
+    EXAMPLE: ClassVar[Example] = Example("a rack of parallel slots: motion and dwell equal")
     USUAL_LOAD: ClassVar[dict[str, float]] = {"mass_kg": 4, "force_N": 30}
     FLAT: ClassVar[bool] = False
     DISTANCE: ClassVar[str] = "crank radius"

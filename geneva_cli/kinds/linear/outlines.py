@@ -46,8 +46,7 @@ class SlidingStops(Stops):
         x, y = axis + np.array((x0, x1)), np.array((y0, y1))  # (2, n, k)
         bent, flat = np.flatnonzero(outline.arc), np.flatnonzero(~outline.arc)
         left, radius = outline.sense[bent] > 0.0, radii[bent]
-        centre = np.column_stack((outline.cx, outline.cy))[bent]
-        cx, cy = rotated(centre, turn)
+        cx, cy = rotated(np.column_stack((outline.cx, outline.cy))[bent], turn)
         cx, zero = axis + cx, 0.0 * cx
         known = np.stack((x[..., bent], np.abs(y[..., bent] - cy) / self.L))
         known = np.where(left, known, known[:, ::-1])
@@ -108,8 +107,7 @@ class RackGaps(Gaps):
         self.around = rack.subset(np.flatnonzero(np.abs(rack.oy) <= 3.5 * radius))
         # a slot and the recess after it, whose pieces begin between two recesses
         self.one = rack.subset(np.flatnonzero((rack.y0 >= -radius) & (rack.y0 < radius)))
-        cranks = self.stops.crank
-        self.stops = SlidingStops(self.one, self.pitch, cranks, radius, sizes.roller)
+        self.stops = SlidingStops(self.one, self.pitch, self.stops.crank, radius, sizes.roller)
 
 
 class RackOutlines(NamedTuple):

@@ -26,7 +26,7 @@ from geneva_cli.parts.frame import hole_without_shaft, mounted_plate, shaft_hole
 from geneva_cli.parts.gears.gear_pair import gear_pair, gear_shafts, gear_span
 from geneva_cli.parts.parts import EdgedParts, FrameAndShafts, NamedBuilds
 from geneva_cli.parts.projection import NamedParts
-from geneva_cli.parts.shafts.arm_and_shafts import Shaft, rollers_about, shaft_ends
+from geneva_cli.parts.shafts.arm_and_shafts import Shaft, rollers, shaft_ends
 from geneva_cli.parts.shafts.bores import Screws, bolt_radius, bore_of, reach_or_bore, tapped
 from geneva_cli.parts.sized_by_load import ShaftSize, Stressed, key_of, shaft_of
 from geneva_cli.parts.turn.turn_certificate import FlatPairs
@@ -86,7 +86,7 @@ class RackParts(EdgedParts):
         return Member(Plate("guide bar", "LINK", outline, self._bar_bolts, 0.5 * top, 0.0))
 
     @cached_property
-    def arm(self) -> Plate | None:
+    def arm_plate(self) -> Plate | None:
         """The crank's arm, x to the roller; None without a pin for the roller."""
         return self.required_arm if self.sizes.bore else None
 
@@ -102,23 +102,12 @@ class RackParts(EdgedParts):
         refuse_size(least < needed, "arm_bore_mm", f"{text}pin_mm or lock_bolt_mm")
         return Plate("arm", "ARM", arm.outline, holes, high - sizes.thick.arm, high)
 
-    @cached_property
-    def crank_without_arm(self) -> Member:
-        """Locking sector, roller and pin, as they lie in the rack's plane."""
-        return self._crank(None)
-
-    @cached_property
-    def crank(self) -> Member:
-        """The crank: arm, locking sector, roller on its pin."""
-        return self._crank(self.arm)
-
     def _crank(self, arm: Plate | None) -> Member:
         """The crank's parts in the arm's frame; the locking sector stands on the arm."""
         size, sizes, thick = self.mechanism.spec.size, self.sizes, self.sizes.thick
-        stands, fit = -size.allowances.pin_gap_mm, size.allowances.shaft_fit_mm
+        stands, members = -size.allowances.pin_gap_mm, [Member(arm)] if arm else []
         ends, centres = (stands - thick.arm, thick.wheel), [(sizes.arm, 0.0)]
-        members = [Member(arm)] if arm else []
-        members += rollers_about(centres, sizes.roller, sizes.pin, *ends, fit)
+        members += rollers(self.mechanism, centres, sizes.pin, *ends)
         sector = rack.locking_sector(sizes)
         if sector is not None:
             holes, high = tuple(rack.lock_bolts(size, sizes)), stands + thick.lock
@@ -188,7 +177,7 @@ class RackParts(EdgedParts):
     def screws(self) -> tuple[Screws, ...]:
         """The screws of locking sector, guide bar, and what is fixed to the frame."""
         spec, own = self.mechanism.spec, list[Screws]()
-        if self.arm and (bolts := rack.lock_bolts(spec.size, self.sizes)):
+        if self.arm_plate and (bolts := rack.lock_bolts(spec.size, self.sizes)):
             own.append(Screws("locking sector", len(bolts), 2.0 * bolts[0].radius, "the arm"))
         if bolted := self._bar_bolts:
             nuts = "nuts under the guide bar"

@@ -15,19 +15,11 @@ from geneva_cli.geometry.shapes import Circle, Contour, Line, Segment, about, cl
 from geneva_cli.kinds.linear.guide import GuidePlace, guide_place
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import half_or, value_or
+from geneva_cli.parts import sizes as rules
 from geneva_cli.parts.machine_sizes import lock_between
 from geneva_cli.parts.shafts.arm_and_shafts import CrankArm
 from geneva_cli.parts.shafts.bores import bolt_radius, bore_of, tapped
-from geneva_cli.parts.sizes import (
-    KeySizes,
-    arm_bore,
-    drawn_thicknesses,
-    hole_radius,
-    hub_and_eye,
-    lock_bolt_directions,
-    pin_hole,
-    pin_radius,
-)
+from geneva_cli.parts.sizes import KeySizes
 from geneva_cli.spec.defaults import wall_min
 from geneva_cli.spec.tables import Size, Thicknesses
 
@@ -89,15 +81,15 @@ def rack_sizes(mechanism: Mechanism) -> RackSizes:
         lock = lock_between(lock, least, limit, r)
     recess = lock + allowed.lock_clearance_mm if lock else 0.0
     floor = arm - recess + relief if lock else 0.0
-    edge, pin = value_or(size.wheel_radius_mm, arm), pin_radius(size, r)
+    edge, pin = value_or(size.wheel_radius_mm, arm), rules.pin_radius(size, r)
     text = f"the rack's edge must meet its recesses, between {arm - recess:.6g} and "
     text += f"{arm + recess:.6g} mm"
     refuse_size(lock and abs(edge - arm) >= recess, "wheel_radius_mm", text, edge)
     # as if R were L/2, as for 6 slots
-    space = arm - hole_radius(size, pin)
-    bore = arm_bore(mechanism.spec, 0.0, 2.0 * arm, space) if pin else 0.0
+    space = arm - rules.hole_radius(size, pin)
+    bore = rules.arm_bore(mechanism.spec, 0.0, 2.0 * arm, space) if pin else 0.0
     widths = arm, r, w, edge, guide.bottom, lock, floor, recess, relief
-    return RackSizes(*widths, guide, pin, bore, drawn_thicknesses(size, arm))
+    return RackSizes(*widths, guide, pin, bore, rules.drawn_thicknesses(size, arm))
 
 
 def key_sizes(mechanism: Mechanism) -> KeySizes:
@@ -107,13 +99,8 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
         arm = crank_arm(mechanism.spec.size, sizes) if sizes.bore else None
     except GenevaError:  # reported by the check of the parts
         return {}, ()
-    known = {
-        "wheel_radius_mm": sizes.rim,
-        "slot_bottom_clearance_mm": sizes.slot_bottom,
-        "lock_radius_mm": sizes.lock,
-        "relief_clearance_mm": sizes.relief,
-        "pin_mm": 2.0 * sizes.pin,
-    }
+    known = {"wheel_radius_mm": sizes.rim, "lock_radius_mm": sizes.lock, "pin_mm": 2.0 * sizes.pin}
+    known |= {"slot_bottom_clearance_mm": sizes.slot_bottom, "relief_clearance_mm": sizes.relief}
     thick = sizes.thick._asdict()
     known |= {f"{part}_thickness_mm": thick[part] for part in ("wheel", "lock", "arm")}
     if arm:
@@ -178,13 +165,12 @@ def locking_sector(sizes: RackSizes) -> Contour | None:
 
 def crank_arm(size: Size, sizes: RackSizes) -> CrankArm:
     """Return the arm: its outline about hub and eye, and the holes of shaft, pin and bolts."""
-    R, hole = sizes.arm, pin_hole(size, sizes.pin)
-    hub, eye = hub_and_eye(size, wall_min(size, R), hole, sizes.bore, math.inf, sizes.lock)
+    R, hole = sizes.arm, rules.pin_hole(size, sizes.pin)
+    hub, eye = rules.hub_and_eye(size, wall_min(size, R), hole, sizes.bore, math.inf, sizes.lock)
     outline = convex_hull("ARM", [Circle("ARM", (0.0, 0.0), hub), Circle("ARM", (R, 0.0), eye)])
     bored = bore_of(size, "crank", sizes.bore).shape("BORE", math.pi)
     threads = [tapped(hole) for hole in lock_bolts(size, sizes)]
-    pins = [Circle("BORE", (R, 0.0), hole)]
-    return CrankArm(outline, bored, pins, threads, hub, eye, math.inf)
+    return CrankArm(outline, bored, [Circle("BORE", (R, 0.0), hole)], threads, hub, eye, math.inf)
 
 
 def lock_bolts(size: Size, sizes: RackSizes) -> list[Circle]:
@@ -195,5 +181,5 @@ def lock_bolts(size: Size, sizes: RackSizes) -> list[Circle]:
     away = half_or(size.lock_bolt_circle_mm, 0.5 * (sizes.floor + sizes.lock))
     half_width = min(away - sizes.floor, sizes.lock - away)
     r = bolt_radius(size.lock_bolt_mm, 2.0 * sizes.arm, half_width, "lock_bolt", size.lock_bolts)
-    turns = [turn for some in lock_bolt_directions(half_turn, count) for turn in some if r]
+    turns = [turn for some in rules.lock_bolt_directions(half_turn, count) for turn in some if r]
     return [Circle("BORE", (away * math.cos(x), away * math.sin(x)), r) for x in turns]

@@ -7,14 +7,14 @@ at an angle from the line AB. The wheel's centre is solved for.
 
 from collections.abc import Mapping
 from functools import reduce
-from typing import Annotated, ClassVar, NamedTuple, Self
+from typing import Annotated, Any, ClassVar, NamedTuple, Self
 
 from geneva_cli.errors import refuse_text
-from geneva_cli.kinds.linkages.link_path import LinkPath, PointDisplacement
+from geneva_cli.kinds.linkages.link_path import Displacement, LinkPath
 from geneva_cli.kinds.linkages.linkage import Linkage, Moving
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link
-from geneva_cli.numerics.arrays import enclosed, larger, library, parameter, smaller
+from geneva_cli.numerics.arrays import Array, enclosed, larger, library, parameter, smaller
 from geneva_cli.numerics.jet import Jet, sqrt, turned_at
 from geneva_cli.spec.rules import POSITIVE, OneOf, Range
 from geneva_cli.spec.schema import Example
@@ -135,13 +135,32 @@ class CouplerPath(LinkPath):
         rate = (u * ((a - g) * (a + g)) + 1.0) / 2.0 - sine * (a * g) * (1.0 - u * m) / N
         return turned_at(rate, ex, ey, order)
 
+    def turned(self, sine: Array, cosine: Array, order: int) -> tuple[Any, ...]:
+        """The coupler's unit vector, its rate of rotation, and that rate's slope."""
+        a, g, b, c, _, _ = self.numbers
+        d = g - a * (cosine + 1j * sine)
+        D = d.real**2 + d.imag**2
+        m, u, high, low = (b - c) * (b + c), 1.0 / D, (b + c) ** 2 - D, D - (b - c) ** 2
+        N = library(D).sqrt(high * low) * self.side
+        along = d * u * ((D + m) + 1j * N) * (0.5 / b)
+        if not order:
+            return (along,)
+        k, share = 0.5 * (a - g) * (a + g), a * g * (1.0 - u * m) / N
+        rate = 0.5 + k * u - sine * share
+        if order == 1:
+            return along, rate
+        slope = 2.0 * a * g * sine  # of D
+        by_u, by_N = slope * u * u, 0.5 * slope * (high - low) / (high * low)  # of -u; of N, over N
+        share_slope = a * g * m * by_u / N - share * by_N
+        return along, rate, -k * by_u - cosine * share - sine * share_slope
+
     def hold(self, sine: Jet, cosine: Jet) -> tuple[float, tuple[Jet, Jet]]:
         """Coupler length from A to B, and the rocker's direction, in which it pushes or pulls."""
         a, g, b, c, _, _ = self.numbers
         ex, ey = self.link(sine, cosine)
         return b, ((cosine * a + ex * b - g) / c, (sine * a + ey * b) / c)
 
-    def about(self, phi: float) -> PointDisplacement:
+    def about(self, phi: float) -> Displacement:
         """Displacement since a crank angle."""
         a, g, b, c, p, q = self.numbers
         m = library(phi, a, g)

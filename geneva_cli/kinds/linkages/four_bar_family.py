@@ -105,9 +105,9 @@ def _spec(target: Target, goal: search.Goal, places: Places, number: int) -> Spe
         )
     except GenevaError:
         return None
-    path, phi = keys.roller_path, np.hstack((entry, entry + motion))
+    path, phi = keys.roller_path, np.vstack((entry, entry + motion))
     wheels = driven(path, Pairs(np.zeros(1, dtype=int), phi, sense[0]), sampled(path, 1))
-    return own.replace(drive=keys) if len(wheels.which) else None
+    return own.replace(drive=keys) if len(wheels.distance) else None
 
 
 def _machine(target: Target, wheel: Gearing, drive: FourBar, motion_deg: float) -> Spec:

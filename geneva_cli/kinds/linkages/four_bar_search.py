@@ -108,7 +108,7 @@ def search_four_bars(goal: Goal) -> list[Places]:
         first = each[0].joined(*each[1:])
         first = first.take(np.isfinite(first.violation))
         closer = 3e-3 ** (1.0 / samplings)
-        near = Zoom(offsets, 0.3, closer, closer, samplings, around=(3,))
+        near = Zoom(offsets, 0.3, closer, samplings, around=(3,))
         several = zoom(coarse, first.best(parents), near, keep=parents).joined(first)
         # fine samples remove those that fail between the coarse ones
         kept = sampled(fine, several.of, several.at)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 from abc import ABC, abstractmethod
-from typing import NamedTuple, Protocol, Self, cast
+from typing import Any, NamedTuple, Protocol, Self, cast
 
 from geneva_cli.motion.engagement import Held, Loads, Vector, cross
 from geneva_cli.numerics.angles import radians, sin_cos_deg
@@ -13,7 +13,7 @@ from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
 from geneva_cli.spec.rules import is_array
 
 
-class PointDisplacement(Protocol):
+class Displacement(Protocol):
     """The pin's displacement since a moment, by the crank's rotation d since then."""
 
     def __call__(self, sine: Jet, versine: Jet) -> Vector:
@@ -31,8 +31,8 @@ class LinkPath(Batchable, ABC):
         sine, cosine = sin_cos_deg(angle_deg)
         self.numbers = (*lengths, reach_mm * cosine, reach_mm * sine)
 
-    def of(self, which: Which) -> Self:
-        """Paths of some of the designs."""
+    def of(self, which: Which | tuple[Which, int]) -> Self:
+        """Paths of some of the designs; with numbers (n,) for ``which, 0``."""
         some = copy.copy(self)
         some.numbers = tuple(
             cast(float, cast("Array", x)[which]) if is_array(x) else x for x in self.numbers
@@ -49,11 +49,15 @@ class LinkPath(Batchable, ABC):
         """Unit vector along the link, from A towards B."""
 
     @abstractmethod
+    def turned(self, sine: Array, cosine: Array, order: int) -> tuple[Any, ...]:
+        """The same vector as complex numbers, and its rate of rotation with ``order`` slopes."""
+
+    @abstractmethod
     def hold(self, sine: Jet, cosine: Jet) -> tuple[float, tuple[Jet, Jet]]:
         """Distance along the link from A to the other joint B, and the line of the force at B."""
 
     @abstractmethod
-    def about(self, phi: float) -> PointDisplacement:
+    def about(self, phi: float) -> Displacement:
         """The point's displacement since a crank angle (radians); exactly 0 for no rotation."""
 
     def place(self, sine: Jet, cosine: Jet) -> tuple[Jet, Jet]:
@@ -61,10 +65,6 @@ class LinkPath(Batchable, ABC):
         a, *_, p, q = self.numbers
         x, y = self.link(sine, cosine)
         return x * p - y * q + cosine * a, x * q + y * p + sine * a
-
-    def at(self, phi: Number, order: int) -> tuple[Jet, Jet]:
-        """Point (x, y) for a crank angle in radians."""
-        return self.place(*sin_cos(Jet.variable(phi, order)))
 
 
 class LinkRate(NamedTuple):

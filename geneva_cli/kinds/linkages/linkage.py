@@ -7,10 +7,9 @@ from collections.abc import Mapping
 from functools import reduce
 from typing import Annotated, ClassVar, Self, TypeAlias, TypeVar, cast
 
-from geneva_cli.drives.transmission import PinPath
 from geneva_cli.errors import refuse_text
 from geneva_cli.kinds.linkages.link_path import LinkPath, LinkReactions
-from geneva_cli.motion.drive import Plan
+from geneva_cli.motion.drive import Drive, Plan
 from geneva_cli.motion.laws.law import Motion
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot
 from geneva_cli.motion.wheels.gearing import Gearing
@@ -24,7 +23,7 @@ Place = TypeVar("Place", float, "Array")
 Moving: TypeAlias = "tuple[Array, Array]"  # x and y at input angles
 
 
-class Linkage(PinPath, kw_only=True):
+class Linkage(Drive, kw_only=True):
     """A linkage; the position of the wheel's centre is solved for.
 
     Its crank does not carry the roller, and so it has no locking disc.

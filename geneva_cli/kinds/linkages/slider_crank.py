@@ -6,14 +6,14 @@ from the line AB. The wheel's centre is solved for.
 """
 
 from collections.abc import Mapping
-from typing import Annotated, ClassVar, NamedTuple, Self
+from typing import Annotated, Any, ClassVar, NamedTuple, Self
 
 from geneva_cli.errors import refuse_text
-from geneva_cli.kinds.linkages.link_path import LinkPath, PointDisplacement
+from geneva_cli.kinds.linkages.link_path import Displacement, LinkPath
 from geneva_cli.kinds.linkages.linkage import Linkage, Moving
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.pivots import Joint, Layout, Link
-from geneva_cli.numerics.arrays import enclosed, library, parameter
+from geneva_cli.numerics.arrays import Array, enclosed, library, parameter
 from geneva_cli.numerics.jet import Jet, sqrt
 from geneva_cli.spec.rules import LENGTH, POSITIVE, Range
 from geneva_cli.spec.schema import Example
@@ -98,12 +98,20 @@ class SlidingRod(LinkPath):
         ey = (h - sine * a) / b
         return sqrt((1.0 - ey) * (ey + 1.0)), ey
 
+    def turned(self, sine: Array, cosine: Array, order: int) -> tuple[Any, ...]:
+        """The rod's unit vector, its rate of rotation, and that rate's slope."""
+        a, b, h, _, _ = self.numbers
+        y = (h - a * sine) / b
+        x = library(y).sqrt((1.0 - y) * (1.0 + y))
+        rate = -a * cosine / (b * x)
+        return x + 1j * y, rate, (a * sine / b + rate * rate * y) / x
+
     def hold(self, sine: Jet, cosine: Jet) -> tuple[float, tuple[Jet, Jet]]:
         """Rod length from A to B, and the direction of the guide's push, across its line."""
         _, b, *_ = self.numbers
         return b, (sine * 0.0, cosine * 0.0 + 1.0)
 
-    def about(self, phi: float) -> PointDisplacement:
+    def about(self, phi: float) -> Displacement:
         """Displacement since a crank angle."""
         a, b, h, p, q = self.numbers
         m = library(phi, a, h)

@@ -72,13 +72,12 @@ class GenevaPair(Transmission, kw_only=True):
         """Pivots and dimensions of the first pair."""
         L = plan.center_distance_mm
         first = self._distance_mm(L)
+        radius = first * classic.HalfStep.of(1, self.first_z).sin_cos[0]
         return (
             Pivot("first crank axis", L + first, 0.0),
             Dimension("first wheel's slots", self.first_z),
             Dimension("first centre distance", first, "mm"),
-            Dimension(
-                "first crank radius", first * classic.HalfStep.of(1, self.first_z).sin_cos[0], "mm"
-            ),
+            Dimension("first crank radius", radius, "mm"),
         )
 
     def links(self, plan: Plan, sign: float, input_deg: Array) -> tuple[Link, ...]:
@@ -142,8 +141,7 @@ def _crank_at(first_z: int, wheel_deg: float) -> float:
         l sin a = sin psi cos² b / (cos psi + k),   l cos a = k cos psi + sin² psi
     """
     if not (isinstance(first_z, int) and isinstance(wheel_deg, float)):
-        each: float = of_each(lambda z, deg: (_crank_at(z, deg),), first_z, wheel_deg)[0]
-        return each
+        return of_each(lambda z, deg: (_crank_at(z, deg),), first_z, wheel_deg)[0]
     step = classic.HalfStep.of(1, first_z)
     n, d = wheel_deg.as_integer_ratio()
     whole = 180 * d * step.q

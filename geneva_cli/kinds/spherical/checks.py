@@ -87,8 +87,7 @@ def _shaft_gaps(parts: SphereParts) -> Iterator[float]:
     if sectors:
         low = min(math.pi - sector.boundary[2].angle for sector in sectors)
         crank_rings.append(_Sweep(False, low, ball.lock, *ball.lock_span_mm))
-    inner = 0.0 if ball.opening_mm else ball.inner
-    ring = _Sweep(False, inner, ball.rim, *ball.span_mm)
+    ring = _Sweep(False, 0.0 if ball.opening_mm else ball.inner, ball.rim, *ball.span_mm)
     pairs = [*product(on_wheel, [*on_crank, *crank_rings]), *((one, ring) for one in on_crank)]
     for one, other in pairs:
         low, high = max(one.inner, other.inner), min(one.outer, other.outer)

@@ -179,11 +179,9 @@ class SpherePairs:
             middle = gaps.pose(np.array([0.5 * (span[0] + span[1])]))
             x, y, _ = about(middle.pins[:, number], -middle.wheel)[0]
             out = np.array((x, y, 0.0)) / math.hypot(x, y)
-            across = np.array((-out[1], out[0], 0.0))
-            circle = Circle(across, np.array(POLE), out, QUARTER)
+            circle = Circle(np.array((-out[1], out[0], 0.0)), np.array(POLE), out, QUARTER)
             # the distance from the wheel's axis changes by no more than the roller moves
-            half = math.sin(ball.arm) * on.crank
-            return gap, self._along(circle, centre, half, gap)
+            return gap, self._along(circle, centre, math.sin(ball.arm) * on.crank, gap)
         away = polar(centre)
         # the wheel is within its rim's circle
         beyond = ball.radius_mm * (away - ball.rim - ball.roller)

@@ -51,7 +51,7 @@ class SphereHorn(NamedTuple):
     def points(self, input_deg: Number) -> Points:
         """Places of the roller, or sections, at input angles (m, k); infinitely thick elsewhere."""
         t, L, w = self.polar(input_deg), self.radius_mm, self.half_width
-        thick = self.thickness(t)
+        t, thick = np.broadcast_arrays(t, self.thickness(t))  # designs may share their angles
         inwards = L * np.cos(w) * (self.polar(self.at.mouth_deg) - t)
         with np.errstate(invalid="ignore"):
             edge, middle = _axes(t, w), _axes(t, w + 0.5 * thick / L)
@@ -69,9 +69,8 @@ class SphereHorn(NamedTuple):
         with np.errstate(all="ignore"):
             force = push + roller[-1, ..., None] * towards
             arm = L * (at - q)
-            bent, moment = (
-                np.cross(arm, np.broadcast_to(of, arm.shape), axis=0) for of in (push, force)
-            )
+            both = (np.broadcast_to(of, arm.shape) for of in (push, force))
+            bent, moment = (np.cross(arm, of, axis=0) for of in both)
             in_shell = (moment * q).sum(axis=0) * np.sign((bent * q).sum(axis=0))
             off_shell, twist = (abs((moment * axis).sum(axis=0)) for axis in (across, along))
             pull = (force * along).sum(axis=0)

@@ -12,16 +12,8 @@ from typing import ClassVar, NamedTuple
 import numpy as np
 
 from geneva_cli.errors import refuse_size
-from geneva_cli.geometry.plates import (
-    MM,
-    Group,
-    MassProperties,
-    Member,
-    Plate,
-    Shell,
-    added,
-    mass_properties,
-)
+from geneva_cli.geometry import plates
+from geneva_cli.geometry.plates import Group, MassProperties, Member, Plate, Shell
 from geneva_cli.geometry.shapes import ORIGIN, Circle
 from geneva_cli.geometry.sphere import POLE, Cap, Region, axis_frame, place
 from geneva_cli.geometry.sphere_arcs import RoundHole
@@ -97,8 +89,7 @@ class SphereParts(Parts):
     def past_mouth(self, motion: int, at: Array) -> Array:
         """Return how far a motion's roller is in its slot, beyond the mouth's corners, mm, (n,)."""
         height = self.shells.gaps.pose(at).pins[:, motion, 2]  # the same in the wheel's frame
-        polar = np.arccos(np.clip(height, -1.0, 1.0))
-        return self.ball.radius_mm * (self.ball.mouth - polar)
+        return self.ball.radius_mm * (self.ball.mouth - np.arccos(np.clip(height, -1.0, 1.0)))
 
     @cached_property
     def wheel(self) -> Member:
@@ -204,9 +195,9 @@ def shell_body(mechanism: Mechanism) -> MassProperties:
     size, sizes = mechanism.spec.size, ball(mechanism)
     density = wheel_material(mechanism.spec).density_kgm3
     shell, hub = wheel_shell(sizes), wheel_hub(size, sizes)
-    mass = density * shell.volume * MM**3
-    rim = MassProperties(mass, (0.0, 0.0), density * shell.inertia(POLE) * MM**5)
-    return added(rim, mass_properties(hub, density)) if hub else rim
+    mass = density * shell.volume * plates.MM**3
+    rim = MassProperties(mass, (0.0, 0.0), density * shell.inertia(POLE) * plates.MM**5)
+    return plates.added(rim, plates.mass_properties(hub, density)) if hub else rim
 
 
 def screw_sizes(mechanism: Mechanism) -> dict[str, float]:

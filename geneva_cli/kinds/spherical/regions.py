@@ -21,21 +21,11 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.errors import GenevaError, refuse_size
-from geneva_cli.geometry.sphere import (
-    POLE,
-    Cap,
-    Region,
-    Rotation,
-    SphereArc,
-    combined,
-    convex_hull,
-    cross,
-    dot,
-    opposite,
-    place,
-)
+from geneva_cli.geometry import sphere
+from geneva_cli.geometry.sphere import POLE, Cap, Region, Rotation, SphereArc, opposite, place
 from geneva_cli.geometry.sphere_arcs import RoundHole, least_wall
 from geneva_cli.kinds.spherical.ball import Ball, refuse_above, refuse_wide
+from geneva_cli.kinds.spherical.stops import about
 from geneva_cli.numerics.arrays import Array, within_half_turn
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.outlines.crank_outline import widest
@@ -85,7 +75,8 @@ def edge(ball: Ball, at: float = 0.0) -> list[SphereArc]:
         low, high = (place(ball.rim, at + side * (b - ball.opened)) for side in (-1.0, 1.0))
     mouths = [place(ball.rim, at + side * corner) for side in (-1.0, 1.0)]
     middle, across = place(ball.bottom, at), (-math.sin(at), math.cos(at), 0.0)
-    ends = [combined(middle, math.cos(w), across, side * math.sin(w)) for side in (-1.0, 1.0)]
+    c, s = math.cos(w), math.sin(w)
+    ends = [sphere.combined(middle, c, across, side * s) for side in (-1.0, 1.0)]
     arcs = [
         SphereArc(POLE, ball.rim, low, mouths[0]),
         SphereArc(opposite(across), QUARTER - w, mouths[0], ends[0]),
@@ -104,11 +95,8 @@ def edge_points(ball: Ball, each: int = 200) -> Array:
     """Return points along the edge of the whole wheel, (n, 3), ``each`` on every arc."""
     fractions = np.arange(each) / each
     one = np.concatenate([arc.at(arc.sweep * fractions)[0] for arc in edge(ball)])
-    angle = 2.0 * ball.half_step * np.arange(ball.z)[:, None]  # of each slot
-    c, s = np.cos(angle), np.sin(angle)
-    x, y, up = one.T
-    slots = np.broadcast_arrays(x * c - y * s, x * s + y * c, up)
-    return np.stack(slots, axis=2).reshape(-1, 3)
+    angle = 2.0 * ball.half_step * np.arange(ball.z)  # of each slot
+    return about(np.tile(one, (ball.z, 1)), np.repeat(angle, len(one)))
 
 
 def sectors(ball: Ball) -> list[Region]:
@@ -122,8 +110,7 @@ def sectors(ball: Ball) -> list[Region]:
 
     def sector(start: float, end: float) -> Region:
         middle = 0.5 * (start + end)
-        ahead = np.stack([azimuth + turn - middle for turn in ball.rollers])
-        off = np.abs(within_half_turn(ahead))
+        off = np.abs(within_half_turn(np.stack([azimuth + t - middle for t in ball.rollers])))
 
         @cache
         def nearest(half: float) -> float:
@@ -157,8 +144,7 @@ def locked(ball: Ball) -> list[tuple[float, float]]:
     """Return the azimuths about the crank's axis, from and to, between which the crank locks."""
     if not ball.lock:
         return []
-    after = (*ball.rollers[1:], ball.rollers[0] + math.tau)
-    pairs = zip(ball.rollers, after, strict=True)
+    pairs = zip(ball.rollers, (*ball.rollers[1:], ball.rollers[0] + math.tau), strict=True)
     spans = [(a + ball.half_motion, b - ball.half_motion) for a, b in pairs]
     return [(a, b) for a, b in spans if b - a > SAME_ANGLE]
 
@@ -171,7 +157,7 @@ def rollers(ball: Ball) -> list[Region]:
 def at_mid_motion(ball: Ball) -> Rotation:
     """Return the crank's frame in the wheel's frame, with the first roller at mid-motion."""
     axis, ahead = place(ball.axes, 0.0), place(ball.axes - QUARTER, 0.0)
-    return Rotation(ahead, cross(axis, ahead), axis)
+    return Rotation(ahead, sphere.cross(axis, ahead), axis)
 
 
 def swept(ball: Ball) -> tuple[Array, Array]:
@@ -254,13 +240,13 @@ def _arm(ball: Ball, sectors: Sequence[Region], size: Size, bolts_each: int) -> 
     cap, eye, bolted = ball.cap(hub, form.reach, wall), eye / L, wall + 2.0 * size.edge_mm
     caps = [Cap(POLE, cap), *(Cap(pin.axis, eye) for pin in pins)]
     caps += [Cap(b.axis, eye_about(b.radius, bolted) / under) for b in bolts]
-    boundary, holes = convex_hull(caps), (RoundHole(POLE, hub), *pins, *bolts)
+    boundary, holes = sphere.convex_hull(caps), (RoundHole(POLE, hub), *pins, *bolts)
     walls = [hub - form.reach, least_wall(boundary, holes, under)]
     for k, sector in enumerate(sectors if bolts else []):
         of_sector = bolts[k * bolts_each : (k + 1) * bolts_each]
         walls.append(least_wall(sector, of_sector, ball.lock_span_mm[0]))
     keyway = next((0.5 * (a + b) for a, b in locked(ball)), 0.5 * ball.rollers[-1] + math.pi)
-    reach = max(math.acos(dot(one.middle, POLE)) + one.angle for one in caps)
+    reach = max(math.acos(sphere.dot(one.middle, POLE)) + one.angle for one in caps)
     return CapArm(boundary, form, keyway, hub, pins, bolts, cap, eye, reach, min(walls))
 
 

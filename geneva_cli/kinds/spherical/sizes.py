@@ -20,17 +20,10 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import array, half_or, value_or
 from geneva_cli.numerics.tolerances import keeps, sizes_from
+from geneva_cli.parts import sized_by_load as load
 from geneva_cli.parts import sizes as rules
 from geneva_cli.parts.machine_sizes import keys_by_load
 from geneva_cli.parts.shafts.bores import reach_or_bore
-from geneva_cli.parts.sized_by_load import (
-    Stressed,
-    key_holds,
-    key_of,
-    pin_that_holds,
-    shaft_and_key_hold,
-    shaft_of,
-)
 from geneva_cli.parts.sizes import KeySizes
 from geneva_cli.spec.defaults import eye_about, wall_min, wheel_material
 from geneva_cli.study.synth.suiting import LOCK, SIZES, USUAL, with_roller
@@ -39,13 +32,12 @@ from geneva_cli.study.synth.suiting import LOCK, SIZES, USUAL, with_roller
 @lru_cache(maxsize=16)
 def sized_ball(mechanism: Mechanism) -> Ball | None:
     """Return the cached sizes of a spherical machine; None where it has no parts."""
-    try:
+    with suppress(GenevaError):  # the check of the parts reports the error
         return None if mechanism.spec.no_parts else ball(mechanism)
-    except GenevaError:
-        return None  # the check of the parts reports the error
+    return None
 
 
-def stressed(mechanism: Mechanism) -> Stressed | None:
+def stressed(mechanism: Mechanism) -> load.Stressed | None:
     """Return the sizes of stressed parts; None if the sizes leave no shells."""
     sizes = sized_ball(mechanism)
     return sphere_stressed(mechanism.spec, sizes) if sizes else None
@@ -62,12 +54,8 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
     sizes, size = sized_ball(mechanism), mechanism.spec.size
     if sizes is None:
         return {}, ()
-    known = {
-        "slot_bottom_clearance_mm": sizes.bottom_mm,
-        "lock_radius_mm": sizes.lock_mm,
-        "wheel_bore_mm": 2.0 * sizes.bore_mm,
-        "pin_mm": 2.0 * sizes.pin_mm,
-    }
+    known = {"slot_bottom_clearance_mm": sizes.bottom_mm, "lock_radius_mm": sizes.lock_mm}
+    known |= {"wheel_bore_mm": 2.0 * sizes.bore_mm, "pin_mm": 2.0 * sizes.pin_mm}
     if sizes.arm_bore_mm:
         known["arm_bore_mm"] = 2.0 * sizes.arm_bore_mm
         with suppress(GenevaError):  # reported by the check of the parts
@@ -99,7 +87,7 @@ def ball(mechanism: Mechanism) -> Ball:
     hub = max(usual.opening_mm, rules.LARGEST_HUB * usual.slot_end_mm)
     eye = min(usual.passing_mm(hub), 0.99 * L * (0.5 * math.pi - usual.arm))
     roller, clear = inside * math.sin(usual.roller), eye - wall_min(size, L)
-    pin = pin_that_holds(mechanism, usual.pin_mm, outside - inside, roller, clear, loads)
+    pin = load.pin_that_holds(mechanism, usual.pin_mm, outside - inside, roller, clear, loads)
     sizes, under = usual._replace(pin_mm=array(pin).item()), usual.arm_span_mm[0]
 
     if not sizes.arm_bore_mm or size.arm_thickness_mm is not None:
@@ -111,7 +99,7 @@ def ball(mechanism: Mechanism) -> Ball:
             trial = _crank_bored(mechanism, _wheel_bored(mechanism, trial), keyed)
             parts = sphere_stressed(spec, trial)
             arm_MPa = float(arm_stress_MPa(parts.arm, loads.wheel_N))
-            key_lasts = key_holds(spec, parts.crank_key, loads.crank_Nm)
+            key_lasts = load.key_holds(spec, parts.crank_key, loads.crank_Nm)
             if key_lasts and keeps(arm_MPa, "at most", wheel_material(spec).allowed_MPa):
                 return trial
     return trial
@@ -147,7 +135,7 @@ def _wheel_bored(mechanism: Mechanism, ball: Ball) -> Ball:
             break
         ball, parts = trial, sphere_stressed(spec, trial)
         moment = max(_moment_Nm(mechanism, "wheel", parts.wheel_shaft.overhang), held)
-        if shaft_and_key_hold(spec, "wheel", parts, moment, single_loads(mechanism).wheel_Nm):
+        if load.shaft_and_key_hold(spec, "wheel", parts, moment, single_loads(mechanism).wheel_Nm):
             break
     return ball
 
@@ -185,7 +173,7 @@ def _crank_bored(mechanism: Mechanism, ball: Ball, keyed: bool) -> Ball:
         sizes, parts = trial, sphere_stressed(spec, trial)
         moment = _moment_Nm(mechanism, "crank", parts.crank_shaft.overhang)
         torque = single_loads(mechanism).crank_Nm
-        if shaft_and_key_hold(spec, "crank", parts, moment, torque, keyed):
+        if load.shaft_and_key_hold(spec, "crank", parts, moment, torque, keyed):
             break
     return sizes
 
@@ -197,7 +185,7 @@ def _moment_Nm(mechanism: Mechanism, part: str, overhang_mm: float) -> float:
     return math.sqrt(squares[part].max.item()) if squares else 0.0
 
 
-def sphere_stressed(spec: Spec, ball: Ball) -> Stressed:
+def sphere_stressed(spec: Spec, ball: Ball) -> load.Stressed:
     """Return the dimensions of a spherical machine's parts."""
     size, L, (under, over) = spec.size, ball.radius_mm, ball.arm_span_mm
     thick, arm, bore = over - under, NO_ARM, ball.arm_bore_mm
@@ -212,10 +200,11 @@ def sphere_stressed(spec: Spec, ball: Ball) -> Stressed:
         radii = L * ball.arm, middle * cap, middle * eye / L, bored, hole
         arm = ArmDimensions(*radii, thick, off)
     contact = value_or(size.face_width_mm, ball.span_mm[1] - ball.span_mm[0])
-    shafts = shaft_of(spec, "wheel", ball.bore_mm, *end), shaft_of(spec, "crank", bore, *end)
-    in_wheel = key_of(size.wheel_keyway, ball.bore_mm, ball.hub_length_mm(size))
-    in_arm = key_of(size.crank_keyway, bore, thick)
-    return Stressed(contact, 2.0 * ball.pin_mm, *shafts, arm, in_wheel, in_arm)
+    on_wheel = load.shaft_of(spec, "wheel", ball.bore_mm, *end)
+    on_crank = load.shaft_of(spec, "crank", bore, *end)
+    in_wheel = load.key_of(size.wheel_keyway, ball.bore_mm, ball.hub_length_mm(size))
+    in_arm = load.key_of(size.crank_keyway, bore, thick)
+    return load.Stressed(contact, 2.0 * ball.pin_mm, on_wheel, on_crank, arm, in_wheel, in_arm)
 
 
 def ball_roller(mechanism: Mechanism) -> tuple[float, str]:

@@ -29,12 +29,12 @@ class SphereStops(Stops):
     """
 
     def __init__(self, edge: SphereArcs, crank: list[SphereArcs], out: Out, ball: Ball) -> None:
-        self.outline, self.crank, self.out = edge, crank, out
-        self.pitch, self.roller, self.radius_mm = 2.0 * ball.half_step, ball.roller, ball.radius_mm
+        super().__init__(edge, 2.0 * ball.half_step, crank, ball.radius_mm, ball.roller)
+        self.out = out
 
     def first(self, pose: Pose, most: float, close: float) -> tuple[Array, Array]:
         """Return the stops as on a plane, of parts that may overlap by ``close`` mm."""
-        return super().first(pose, most, close / self.radius_mm)
+        return super().first(pose, most, close / self.L)
 
     def rollers(self, centres: Array, inset: float) -> Array:
         """Return rollers about n centres, directions (n, 3), as branches on one side of them."""

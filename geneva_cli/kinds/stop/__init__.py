@@ -20,7 +20,7 @@ KINDS = (
         remedies={
             "stop_turns": "lock_radius_mm? SMALLER",
             "stop_overlap_mm": "lock_radius_mm? SMALLER",
-            "stop_stress_max_MPa": "BLUNTER",
+            "stop_stress_max_MPa": "lock_edge_mm*10 WIDER LARGER",
         },
         scene="kinds.stop.scene:StopScene",
         parts_checks={

@@ -60,8 +60,7 @@ def wheel_stop(outlines: Outlines) -> WheelStop | None:
     on_disc = [p for p in ends if abs(math.hypot(*p) - rk) < SAME_LENGTH * L]
     crank = min(abs(math.atan2(y, x)) for x, y in on_disc) - gamma
     delta = math.asin(rk * math.sin(gamma) / ra)  # of the contact, from the line of centres
-    at = np.array([math.degrees(crank)])
-    from_middle = math.pi / z - delta - float(assembly.wheel(at)[0])
+    from_middle = math.pi / z - delta - float(assembly.wheel(np.array([math.degrees(crank)]))[0])
     half_face = math.pi / z - math.asin(sizes.half_width / ra)
     last = assembly.to_input(math.degrees(crank))
     stops = assembly.to_input(-math.degrees(crank)), 360.0 * (z - 1) + last, 360.0 * (z // 2)
@@ -128,15 +127,12 @@ def standing(names: Collection[str], parts: FlatParts) -> Iterator[Check]:
         before = float(clearances_before(outlines, stop).min())
         beyond = float(clearances_before(outlines, stop, past_deg=1.0)[:, -1].max())
         passes = stop.face_mm >= 0.0 and before >= -parts.contact >= beyond
-        text = (
-            f"the face blocks the crank at {stop.first_deg:.4g} and {stop.last_deg:.6g}° from the "
-            f"middle of its first engagement: {stop.turns:.4f} turns"
-        )
+        text = f"the face blocks the crank at {stop.first_deg:.4g} and {stop.last_deg:.6g}° from "
+        text += f"the middle of its first engagement: {stop.turns:.4f} turns"
         if not passes:
-            text = (
-                f"disc and wheel are {before:.4g} mm apart before the stop, and {beyond:.4g} mm a "
-                f"degree beyond; the mouth of a slot is {stop.face_mm:.4g} mm away on the face"
-            )
+            text = f"disc and wheel are {before:.4g} mm apart before the stop, and {beyond:.4g} mm "
+            text += f"a degree beyond; the mouth of a slot is {stop.face_mm:.4g} mm away on the "
+            text += "face"
         yield Check("stop_turns", stop.turns, "at most", float(z), passes, text)
     yield compared("stop_overlap_mm", stop.overlap_mm, "at least", outlines.sizes.wall_min)
     limit, name = parts.mechanism.spec.limits.stop_stress_max_MPa, "stop_stress_max_MPa"

@@ -21,14 +21,8 @@ def refuses(spec: Spec) -> Iterator[Conflict]:
         return
     plain = drive.crank and not drive.first_wheel(spec.given_distance_mm) and not spec.motion
     one = drive.rollers == 1 and not drive.roller_angles_deg
-    yield (
-        not (plain and one) or spec.wheel.skewed,
-        ("wheel", "stop"),
-        "stop needs equal radial slots and a plain crank with one roller: remove law, kind, "
-        "rollers, roller_angles_deg, offset_mm and steps_deg",
-    )
-    yield (
-        spec.size.lock_radius_mm == 0.0,
-        ("size", "lock_radius_mm"),
-        "stop needs the locking disc, which meets the convex face: remove lock_radius_mm = 0",
-    )
+    text = "stop needs equal radial slots and a plain crank with one roller: remove law, kind, "
+    text += "rollers, roller_angles_deg, offset_mm and steps_deg"
+    yield not (plain and one) or spec.wheel.skewed, ("wheel", "stop"), text
+    text = "stop needs the locking disc, which meets the convex face: remove lock_radius_mm = 0"
+    yield spec.size.lock_radius_mm == 0.0, ("size", "lock_radius_mm"), text

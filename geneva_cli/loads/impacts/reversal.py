@@ -24,7 +24,7 @@ from geneva_cli.motion.peak_search import braking, spans
 from geneva_cli.numerics import arrays
 from geneva_cli.numerics.angles import DEGREE, omega
 from geneva_cli.numerics.extremes import Smooth, cuts
-from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.jet import Array, Jet
 from geneva_cli.numerics.quadrature import rule
 from geneva_cli.numerics.roots import find_roots
 from geneva_cli.numerics.tolerances import ROUNDED
@@ -39,11 +39,9 @@ def changes(engagement: Engagement, drag: Array) -> tuple[arrays.Whole, Array]:
         return np.arange(m), begins.astype(float)
     some = selection(motion)
 
-    def torque(
-        x: Array, which: arrays.Which, order: int, _: Sequence[int]
-    ) -> list[tuple[Array, ...]]:
+    def torque(x: Array, which: arrays.Which, order: int, _: Sequence[int]) -> list[Jet]:
         rate = some(which).rate(x, order + 1)
-        return [(rate.derivative() + arrays.parameter(drag[which])).arrays()]
+        return [rate.derivative() + arrays.parameter(drag[which])]
 
     f = Smooth(torque, 0, signs=1, unit=DEGREE)
     which, _, (a, b), positive = cuts(f, spans(motion, m))

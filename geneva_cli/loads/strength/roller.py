@@ -74,7 +74,7 @@ def passage(engagement: Engagement, case: LoadCase, half: float = 0.0) -> SlotPa
     every_one = np.full(n, True)
     requested = np.stack((every_one, every_one, bounded, bounded))
     with np.errstate(all="ignore"):
-        each = span_integrals(rows, (a, b), design, requested, ends=True, apart=True)
+        each = span_integrals(rows, (a, b), design, requested, ends=True)
         moved, *others = each * DEGREE
     total = [np.bincount(design, row, n) for row in (abs(moved), *others)]
     return SlotPassage(*map(parameter, np.where(requested, total, np.inf)))

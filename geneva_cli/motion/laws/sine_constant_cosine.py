@@ -74,9 +74,14 @@ def first_half(u: Number, order: int, b: float, d: float, v: float = 0.0) -> Jet
         return t * (t * (0.5 * a) + v_1) + s_1
 
     def end(x: Number) -> Jet:
-        rate, t = 0.5 * pi / cosine, Jet.variable(x - level, order)
-        half = sin(t * (0.5 * rate))
-        return half * half * (2.0 * a / (rate * rate)) + t * v_2 + s_2
+        rate, t = 0.5 * pi / cosine, x - level
+
+        def position(x: Number) -> Number:
+            return s_2 + v_2 * t + 2.0 * a * (m.sin(0.5 * rate * t) / rate) ** 2
+
+        return from_velocity(
+            x, order, position, lambda x: sin((x - level) * rate) * (a / rate) + v_2
+        )
 
     def middle(x: Number) -> Jet:
         return 0.5 - (0.5 - Jet.variable(x, order)) * top

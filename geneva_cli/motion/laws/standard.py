@@ -10,25 +10,6 @@ from geneva_cli.numerics.jet import Jet, Number, sin, sin_cos
 from geneva_cli.spec.rules import Range
 
 
-class Harmonic(Law):
-    """Simple sine line: ds/du = (pi/2) sin(pi u).
-
-    Acceleration jumps at both ends, by pi²/2.
-
-    >>> round(Harmonic()(0.5).c[1], 6)  # ds/du at its greatest
-    1.570796
-    """
-
-    NAME: ClassVar[str] = "harmonic"
-    ABOUT: ClassVar[str] = "simple sine line; its acceleration jumps at both ends"
-
-    def first(self, u: Number, order: int) -> Jet:
-        m = library(u)
-        return from_velocity(
-            u, order, lambda u: m.sin(m.pi / 2.0 * u) ** 2, lambda u: sin(u * m.pi) * (m.pi / 2.0)
-        )
-
-
 class Cycloidal(Law):
     """Inclined sine line: ds/du = 2 sin²(pi u).
 
@@ -54,7 +35,8 @@ class Cycloidal(Law):
 class _ScaledLaw(Law):
     """A law whose acceleration is a sine, a constant and a cosine in fixed time fractions."""
 
-    # fractions of the sine and the cosine, and of constant velocity in the middle
+    # fractions of the sine and the cosine, and of constant velocity in the middle; they may be set
+    # as a law is made
     FRACTIONS: ClassVar[tuple[float, float, float]]
 
     @property
@@ -65,7 +47,21 @@ class _ScaledLaw(Law):
         return first_half(u, order, *self.FRACTIONS)
 
 
-class SineConstantCosine(Law):
+class Harmonic(_ScaledLaw):
+    """Simple sine line: ds/du = (pi/2) sin(pi u).
+
+    Acceleration jumps at both ends, by pi²/2.
+
+    >>> round(Harmonic()(0.5).c[1], 6)  # ds/du at its greatest
+    1.570796
+    """
+
+    NAME: ClassVar[str] = "harmonic"
+    ABOUT: ClassVar[str] = "simple sine line; its acceleration jumps at both ends"
+    FRACTIONS: ClassVar[tuple[float, float, float]] = (0.0, 1.0, 0.0)
+
+
+class SineConstantCosine(_ScaledLaw):
     """Sine, constant and cosine acceleration in fractions b, c and d of the time.
 
     Special cases (b, c, d):
@@ -99,22 +95,13 @@ class SineConstantCosine(Law):
                 text = f"{key} = {fraction:g} must be 0, for none, or at least {least:g}"
                 raise GenevaError(text, (self.TABLE, key))
 
+        # of exactly the whole; without c, b is exactly 1 - d
+        d = self.d / whole
+        b = self.b / whole if self.c else 1.0 - d
+        vars(self)["FRACTIONS"] = b, d, 0.0
+
     def may_vary(self, table: str, key: str) -> bool:
         return table != "motion" or key not in self.as_dict()
-
-    @property
-    def _fractions(self) -> tuple[float, float]:
-        """Fractions b and d of exactly the whole; without c, b is exactly 1 - d."""
-        whole = self.b + self.c + self.d
-        d = self.d / whole
-        return (self.b / whole if self.c else 1.0 - d), d
-
-    @property
-    def breaks(self) -> tuple[float, ...]:
-        return breaks(*self._fractions, 0.0)
-
-    def first(self, u: Number, order: int) -> Jet:
-        return first_half(u, order, *self._fractions)
 
 
 class ModifiedTrapezoid(_ScaledLaw):

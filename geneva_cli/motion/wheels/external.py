@@ -34,7 +34,7 @@ class External(Gearing):
     """
 
     NAME: ClassVar[str] = "external"
-    EXAMPLE: ClassVar[Example] = Example("an external wheel, straight slots", {"wheel": {"z": 6}})
+    EXAMPLE: ClassVar[Example] = Example("an external wheel, straight slots")
     offset_mm: Annotated[
         float, LENGTH, "distance from the slots' axes to the wheel's; > 0 enters gently"
     ] = 0.0

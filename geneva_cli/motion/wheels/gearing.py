@@ -132,8 +132,8 @@ class Gearing(SpecTable):
         return Output("wheel", "wheel_deg", "deg", 180.0 / math.pi, "rad", 1.0, keys)
 
     def index_deg(self, i: int) -> float:
-        """The wheel's step at its i-th engagement, degrees."""
-        return self.steps[i] if self.steps else 360.0 / self.z
+        """The wheel's step at its i-th engagement, degrees; unequal steps repeat."""
+        return self.steps[i % len(self.steps)] if self.steps else 360.0 / self.z
 
     def half_motion_deg(self, step: HalfStep) -> float:
         """Crank angle in degrees from entry to the line of centres, for an entry without shock."""

@@ -16,9 +16,7 @@ class Internal(Gearing):
     """
 
     NAME: ClassVar[str] = "internal"
-    EXAMPLE: ClassVar[Example] = Example(
-        "an internal wheel: more motion than dwell", {"wheel": {"z": 6}}
-    )
+    EXAMPLE: ClassVar[Example] = Example("an internal wheel: more motion than dwell")
     SIGN: ClassVar[float] = -1.0
 
     def as_built(self, ratio: float, rim: float, L: float) -> RollerPlace:

@@ -22,7 +22,7 @@ import numpy as np
 from geneva_cli.motion.engagement import Peak
 from geneva_cli.motion.path_and_slot import AnchoredPath, StraightSlotMotion
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Array, Number, Whole, parameter
+from geneva_cli.numerics.arrays import Array, Number, Whole, parameter, record_taken
 
 SCAN = 10  # intervals over half the motion; 8 miss none of a million designs, 6 miss twelve
 
@@ -63,10 +63,6 @@ class SideCrankWheels(NamedTuple):
     rest2: Array  # (1-l)²
     big: Array  # 1 + 4 l + l²
 
-    def taken(self, which: Whole) -> SideCrankWheels:
-        """Return some of the wheels."""
-        return SideCrankWheels._make(v.take(which) for v in self)
-
 
 def wheels(sign: Number, l: Number, rest: Number, A: Number) -> SideCrankWheels:
     """Wheels of R/L = l and ``rest`` = 1 - l, external (sign 1) or internal (-1): (n,) each."""
@@ -92,10 +88,10 @@ def acceleration_peaks(w: SideCrankWheels) -> tuple[Array, Array]:
     which = np.flatnonzero((w.sign > 0.0) | (w.A < 0.0))
     count = 16384  # designs in a block: more leave the processor's cache, fewer need more calls
     for block in (which[i : i + count] for i in range(0, len(which), count)):
-        part = w.taken(block)
+        part = record_taken(w, block)
         with np.errstate(all="ignore"):
             design, low, high, x, slope = map(np.concatenate, zip(*_rises(part), strict=True))
-            near, of = part.taken(design), block[design]
+            near, of = record_taken(part, design), block[design]
             before = here = np.zeros(len(x))
             close = np.zeros(len(x), bool)
             for step in range(4):  # secant steps, from a parabola's root

@@ -33,7 +33,7 @@ class Spherical(Gearing):
 
     NAME: ClassVar[str] = "spherical"
     EXAMPLE: ClassVar[Example] = Example(
-        "a spherical wheel: shafts that meet, motion and dwell equal", {"wheel": {"z": 6}}
+        "a spherical wheel: shafts that meet, motion and dwell equal"
     )
     FLAT: ClassVar[bool] = False
     DISTANCE: ClassVar[str] = "sphere's radius"

@@ -31,8 +31,7 @@ def _block(block: blocks.Block) -> Iterator[str]:
         look = block.drawing.look
         yield _list([span_text(span) for span in look.spans] if look else [])
         yield "The drawing: `geneva profile SPEC --part assembly -o FILE.svg`\n\n"
-    else:
-        assert isinstance(block, blocks.Curves)
+    elif isinstance(block, blocks.Curves):
         peaks = tuple(
             (named(panel.y), mark_text(mark))
             for panel in block.figure.panels

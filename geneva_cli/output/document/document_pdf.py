@@ -118,8 +118,7 @@ def _block(block: blocks.Block) -> Iterator[Item]:
     elif isinstance(block, blocks.Picture):
         yield from _caption(block.drawing.title)
         yield _drawing(block.drawing)
-    else:
-        assert isinstance(block, blocks.Curves)
+    elif isinstance(block, blocks.Curves):
         scale, parts = WIDE / plot_layout.PAGE, list(plot_layout.blocks(block.figure))
         for i, part in enumerate(parts):  # no title and no last panel stands alone
             draw = partial(plot_pdf.drawn, part, LEFT, scale)

@@ -53,8 +53,7 @@ def _block(block: blocks.Block) -> Iterator[str]:
         yield from _grid(block)
     elif isinstance(block, blocks.Picture):
         yield from _figure("drawing", block.drawing.title, svg.chunks(block.drawing))
-    else:
-        assert isinstance(block, blocks.Curves)
+    elif isinstance(block, blocks.Curves):
         yield from _figure("curves", block.figure.title, plot_svg.chunks(block.figure))
 
 

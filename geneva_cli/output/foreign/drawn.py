@@ -37,12 +37,12 @@ def ellipse_pieces(
 ) -> list[Line | Arc]:
     """Return an ellipse centre + major cos t + minor sin t from one parameter on, as arcs.
 
-    Both half ``axes`` are complex numbers at right angles. ``span`` has the first parameter and how
-    far it goes on, and ``unit`` the millimetres in a unit of the drawing.
+    Both half ``axes``, which may be skewed, are complex numbers. ``span`` has the first parameter
+    and how far it goes on, and ``unit`` the millimetres in a unit of the drawing.
     """
     (major, minor), (start, sweep) = axes, span
-    if abs(abs(major) - abs(minor)) <= 1e-9 * abs(major):
-        way = math.copysign(1.0, (major.conjugate() * minor).imag)
+    way = math.copysign(1.0, (major.conjugate() * minor).imag)
+    if abs(minor - way * 1j * major) <= 1e-9 * abs(major):  # a circle
         at = centre.real, centre.imag
         return arc_pieces(at, abs(major), cmath.phase(major) + way * start, way * sweep)
 

@@ -6,6 +6,7 @@ import cmath
 import math
 import re
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
 from typing import NamedTuple
 from xml.etree import ElementTree
 
@@ -117,21 +118,17 @@ def _trace(element: ElementTree.Element, out: _Traced) -> None:
         x, y = _lengths(element, "cx cy")
         rx, ry = _lengths(element, "r r" if name == "circle" else "rx ry")
         out.ellipse(complex(x, y), rx + 0j, ry * 1j, 0.0, math.tau)
-    elif name in ("path", "line", "polygon", "polyline"):
-        _trace_path(_path_of(element, name), out)
+    elif name == "path":
+        _trace_path(element.get("d", ""), out)
+    elif name in ("line", "polygon", "polyline"):
+        v = _numbers(element.get("points", ""))
+        v = _lengths(element, "x1 y1 x2 y2") if name == "line" else v
+        corners = [complex(*pair) for pair in zip(v[::2], v[1::2], strict=False)]
+        for p, q in pairwise([*corners, *corners[: name == "polygon"]]):
+            if p != q:
+                out.line(p, q)
     elif name in ("image", "rect", "use"):
         raise GenevaError(f"<{name}> is no outline: convert it to a path")
-
-
-def _path_of(element: ElementTree.Element, name: str) -> str:
-    """Return a basic shape as the data of a path."""
-    if name == "path":
-        return element.get("d", "")
-    if name == "line":
-        return "M {!r} {!r} {!r} {!r}".format(*_lengths(element, "x1 y1 x2 y2"))
-    v = _numbers(element.get("points", ""))
-    text = " ".join(map(repr, v[: len(v) - len(v) % 2]))
-    return f"M {text}{' Z' * (name == 'polygon')}" if text else ""
 
 
 class _Affine(NamedTuple):
@@ -184,21 +181,10 @@ class _Traced:
         self, centre: complex, major: complex, minor: complex, start: float, sweep: float
     ) -> None:
         """Add a part of an ellipse from its half axes, as arcs; angles are parameters, radians."""
-        p, q, (c, s) = _axes(self.frame.turned(major), self.frame.turned(minor))
-        if min(abs(p), abs(q)) <= 1e-9 * max(abs(p), abs(q)):
+        p, q = self.frame.turned(major), self.frame.turned(minor)
+        if abs((p.conjugate() * q).imag) <= 1e-9 * max(abs(p), abs(q)) ** 2:
             raise GenevaError("a circle or ellipse has no width: remove it")
-        shift = cmath.phase(complex(c, s))
-        self.pieces += ellipse_pieces(self.frame(centre), (p, q), (start - shift, sweep))
-
-
-def _axes(p: complex, q: complex) -> tuple[complex, complex, tuple[float, float]]:
-    """Return the half axes, at right angles, of the ellipse p cos t + q sin t.
-
-    The last pair has cosine and sine of the t at which the first of them is reached.
-    """
-    t = 0.5 * math.atan2(2.0 * (p.conjugate() * q).real, abs(p) ** 2 - abs(q) ** 2)
-    c, s = math.cos(t), math.sin(t)
-    return p * c + q * s, q * c - p * s, (c, s)
+        self.pieces += ellipse_pieces(self.frame(centre), (p, q), (start, sweep))
 
 
 def _trace_path(data: str, out: _Traced) -> None:

@@ -24,6 +24,10 @@ RULE = re.compile(r"\|[-:| ]+")  # the line below the headings of a table
 
 def chunks(text: str, window: Window) -> Iterator[str]:
     """The page, line by line."""
+    return (f"{line}\n" for line in _lines(text, window))
+
+
+def _lines(text: str, window: Window) -> Iterator[str]:
     block: list[str] = []
     for line in text.splitlines():
         first = block[0] if block else ""
@@ -41,7 +45,7 @@ def chunks(text: str, window: Window) -> Iterator[str]:
         if line:
             block.append(line)
         else:
-            yield "\n"
+            yield ""
     if block:
         yield from _shown(block, window)
 
@@ -51,15 +55,15 @@ def _shown(block: list[str], window: Window) -> Iterator[str]:
     first = block[0]
     if first.startswith(FENCE):
         for line in block[1:]:
-            yield from (f"{INDENT}{part}\n" for part in _broken(line, window.columns - len(INDENT)))
+            yield from (INDENT + part for part in _broken(line, window.columns - len(INDENT)))
     elif first.startswith(4 * " "):  # code without fences
         for line in block:
-            yield from (f"{part}\n" for part in _broken(line, window.columns))
+            yield from _broken(line, window.columns)
     elif first.startswith("|"):
-        yield from (f"{line}\n" for line in _table(block, window))
+        yield from _table(block, window)
     elif first.startswith("#") and window.styled:
         for line in layout.wrapped(_bare(first.lstrip("# ")), window.columns):
-            yield f"{BOLD}{line}{PLAIN}\n"
+            yield f"{BOLD}{line}{PLAIN}"
     else:
         indent = INDENT * first.startswith(("- ", "* "))
         text = LINK.sub(r"\1", " ".join(line.strip() for line in block))
@@ -68,7 +72,7 @@ def _shown(block: list[str], window: Window) -> Iterator[str]:
             text = CODE.sub(
                 lambda m: BOLD + (m[1] or m[2]).replace("\n", f"{PLAIN}\n{BOLD}") + PLAIN, text
             )
-        yield f"{text}\n"
+        yield text
 
 
 def _broken(line: str, width: int) -> list[str]:

@@ -64,10 +64,8 @@ def gears_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) 
         """Return the points (n, 2) at which driver and driven gear touch."""
         turn, ratio = _ratio(gears, phi)
         driver, driven = _radii(gears, ratio)
-        return (
-            np.column_stack((driver * np.cos(phi), -driver * np.sin(phi))),
-            np.column_stack((-driven * np.cos(turn), -driven * np.sin(turn))),
-        )
+        at = np.column_stack((driver * np.cos(phi), -driver * np.sin(phi)))
+        return at, np.column_stack((-driven * np.cos(turn), -driven * np.sin(turn)))
 
     # one turn; the curves' frames are at input angle 0
     phi = np.linspace(-np.pi, np.pi, samples or 3)
@@ -84,10 +82,9 @@ def required_gears(mechanism: Mechanism) -> Gears:
     gears, kind = mechanism.spec.gears, mechanism.spec.drive.NAME
     if gears is None:
         geared = [*registry.drives_with("gears"), *registry.drives_with("round_gears")]
-        raise GenevaError(
-            f'--part gears: kind = "{kind}" has no gears with a table of their pitch curves; '
-            f"{', '.join(geared)} have gears, of which the round ones are only drawn"
-        )
+        text = f'--part gears: kind = "{kind}" has no gears with a table of their pitch curves; '
+        text += f"{', '.join(geared)} have gears, of which the round ones are only drawn"
+        raise GenevaError(text)
     return gears
 
 
@@ -103,11 +100,9 @@ def pitch_radii(pair: Gears) -> list[tuple[float, float]]:
     driver, driven = _radii(pair, ratio_and_turn(pair, np.linspace(-np.pi, np.pi, SAMPLES))[0])
     for name, r in zip(GEARS, (driven, driver), strict=True):
         if r.min() < THIN * C:
-            raise GenevaError(
-                f"the pitch curve of the {name} comes within {r.min():.3g} mm of its axis: that is "
-                f"no gear. A smaller change of the ratio keeps it at {THIN * C:.3g} mm",
-                ("drive", "kind"),
-            )
+            text = f"the pitch curve of the {name} comes within {r.min():.3g} mm of its axis: that "
+            text += f"is no gear. A smaller change of the ratio keeps it at {THIN * C:.3g} mm"
+            raise GenevaError(text, ("drive", "kind"))
     return [(float(r.min()), float(r.max())) for r in (driven, driver)]
 
 
@@ -137,10 +132,8 @@ def _pitch_curve(gears: Gears, sense: float, driver: bool, phi: Array) -> tuple[
     place, speed = r * direction, (change + spin * r) * direction
     tangent = speed / np.abs(speed)
     # as doubles; processors differ in products of complex doubles
-    return (
-        np.column_stack((place.real, place.imag)).astype(np.float64),
-        np.column_stack((tangent.real, tangent.imag)).astype(np.float64),
-    )
+    at, along = (np.column_stack((z.real, z.imag)).astype(np.float64) for z in (place, tangent))
+    return at, along
 
 
 def _radii(gears: Gears, ratio: Jet) -> tuple[Array, Array]:
@@ -210,22 +203,19 @@ def gear_pair(
 
 
 def gear_shafts(
-    mechanism: Mechanism,
-    parts: Outlines | None,
-    lowest: float,
-    crank_has_one: bool,
-    on_crank: float = 0.0,
+    mechanism: Mechanism, parts: Outlines | None, lowest: float, shaft: bool, on_crank: float = 0.0
 ) -> Iterator[Shaft]:
     """Yield the shafts that carry only gears, from the frame's lower face up; none without gears.
 
-    The driver's shaft goes through it, or ends below one that is too small for a bore.
+    The driver's shaft goes through it, or ends below one that is too small for a bore. With
+    ``shaft`` the crank has its own.
     """
     if mechanism.spec.gears is None:
         return
     (first, wide), (at, radius), bored = _shafts(mechanism, parts, on_crank)
     under, over = gear_span(mechanism, parts)
     at_crank = same(first, mechanism.crank_shaft.at, mechanism.center_distance_mm)
-    if at_crank and not (crank_has_one or _on_links(mechanism, parts)):
+    if at_crank and not (shaft or _on_links(mechanism, parts)):
         reach = shaft_ends(mechanism.spec.size, "crank", lowest, over)
         on = bore_at(mechanism, first, wide)
         yield Shaft("crank's shaft", "crank", on, *reach, first)

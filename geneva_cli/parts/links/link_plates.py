@@ -18,7 +18,7 @@ import numpy as np
 from geneva_cli.errors import refuse_size
 from geneva_cli.geometry import shapes
 from geneva_cli.geometry.plates import Member, Plate, apart, plate_wall
-from geneva_cli.geometry.shapes import ORIGIN, Circle, Layer, Shape, convex_hull, placed
+from geneva_cli.geometry.shapes import ORIGIN, Circle, Layer, Point, Shape, convex_hull, placed
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Joint, Link, Teeth
 from geneva_cli.numerics.tolerances import SAME_LENGTH, bore_radius
@@ -81,11 +81,8 @@ def drawn_links(mechanism: Mechanism, parts: Outlines | None = None) -> Links:
 
 def _axes(links: Iterable[Link], near: float) -> Iterator[LinkAxis]:
     """Yield each axis once; ``near`` is the distance, mm, below which two axes are one."""
-    left = [
-        (link.name, kind, at)
-        for link in links
-        for at, kind in linkage.joints(link, SHAFT, Joint.PIN)
-    ]
+    turn = SHAFT, Joint.PIN
+    left = [(one.name, kind, at) for one in links for at, kind in linkage.joints(one, *turn)]
     while left:
         path = left[0][2]
         here = [one for one in left if np.abs(one[2] - path).max() < near]
@@ -221,9 +218,7 @@ def _rollers(links: Iterable[Link], sizes: LinkSizes, roller: float) -> Iterator
             yield from (Member(plate, where) for plate in plates)
 
 
-def link_gear(
-    link: Link, at: shapes.Point, on: Bore, sizes: LinkSizes, mechanism: Mechanism
-) -> Gear:
+def link_gear(link: Link, at: Point, on: Bore, sizes: LinkSizes, mechanism: Mechanism) -> Gear:
     """Return the gear of a link that is a pitch circle, on a shaft; bored round if it is fixed."""
     teeth, L, radius = link.teeth, mechanism.center_distance_mm, link.radius_mm
     if teeth.fixed:

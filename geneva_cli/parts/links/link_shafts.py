@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
 import numpy as np
 
@@ -24,8 +24,7 @@ from geneva_cli.parts.links.links import LinkAxis, Links, LinkSizes, joined, pla
 from geneva_cli.parts.outlines.outlines import Outlines, wheel_hub_length
 from geneva_cli.parts.shafts.arm_and_shafts import bore_at, wheel_shaft_ends
 from geneva_cli.parts.shafts.bores import bore_of
-
-Span: TypeAlias = tuple[float, float]  # lower and upper face, mm
+from geneva_cli.parts.sizes import Span
 
 
 def carried(bars: Links, axis: LinkAxis, others: Iterable[Member], L: float) -> list[Span]:
@@ -95,7 +94,7 @@ def planes(
     ends = math.inf if low is None else low + SAME_LENGTH * L
     reached = {link.plane for link in links if bars.sizes.span(link.plane)[1] > ends}
     rounds = [*_on_wheel(parts, links, bars.sizes, 0.0 * turn)]
-    rounds += _standing(parts, bars, spacers, turn)
+    rounds += _posts(parts, bars, spacers, turn)
     for path, both in joined(links, SAME_LENGTH * L):  # spacers on pins
         name = f"the pin of {' and '.join(link.name for link in both)}"
         own = [link.plane for link in both]
@@ -107,8 +106,7 @@ def planes(
     for link in links:
         met += [_meeting(bars, link, one, turn) for one in rounds if one.plane == link.plane]
     through = parts.sizes.crank_bore > 0.0  # the locking disc
-    blocked = None if through else _blocked(bars, links, carries, shaft, turn)
-    return min(met, default=None), blocked
+    return min(met, default=None), None if through else _blocked(bars, links, carries, shaft, turn)
 
 
 def crank_stop(parts: Outlines, bars: Links) -> float | None:
@@ -169,9 +167,7 @@ def _gears(parts: Outlines, bars: Links, gears: list[Link], turn: Array) -> Iter
             yield Meeting(float(gaps[least]), float(turn[least]), gear.plate.name, one.name)
 
 
-def _standing(
-    parts: Outlines, bars: Links, spacers: Iterable[Member], turn: Array
-) -> Iterator[Round]:
+def _posts(parts: Outlines, bars: Links, spacers: Iterable[Member], turn: Array) -> Iterator[Round]:
     """Yield the pivots and spacers between the frame and links, in the planes of a drive below."""
     mechanism, L = parts.assembly.full, parts.assembly.L
     lowest, links = gear_plane(mechanism), links_at(mechanism, np.zeros(1))

@@ -147,9 +147,7 @@ def placed_holes(member: Member) -> Iterator[Circle]:
             yield placed(hole, member.at, member.turn)
 
 
-def link_sizes(
-    mechanism: Mechanism, links: Iterable[Link], parts: Outlines | None = None
-) -> LinkSizes:
+def link_sizes(mechanism: Mechanism, links: Iterable[Link], parts: Outlines | None) -> LinkSizes:
     """Return the sizes of links, whose joints are known at many input angles."""
     spec, L = mechanism.spec, mechanism.center_distance_mm
     size, bars = spec.size, [link for link in links if not link.radius_mm]
@@ -168,8 +166,7 @@ def link_sizes(
         for (p, a), (q, b) in combinations(zip(places(link), link.kinds, strict=True), 2):
             if {a, b} & {Joint.PIN, Joint.SLIDE} and Joint.NONE not in (a, b):
                 near.append(float(np.abs(p - q).min()))
-    nearest = min(near, default=L)
-    pin = half_or(size.link_pin_mm, rounded_radius(min(L / 40.0, 0.2 * nearest)))
+    pin = half_or(size.link_pin_mm, rounded_radius(min(L / 40.0, 0.2 * min(near, default=L))))
     eye = half_or(size.link_width_mm, eye_about(pin + loose, wall))
     text = f"it must be above {2.0 * (pin + loose):.6g}, the diameter of the pins' holes"
     refuse_size(eye <= pin + loose, "link_width_mm", text, 2.0 * eye)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_left
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import cache, partial
 from operator import attrgetter
 from typing import TypeAlias
@@ -237,9 +237,7 @@ def widest(whole: float, clears: Callable[[float], bool]) -> float | None:
     return halves[first] if first < len(halves) else None
 
 
-def _inner(
-    sizes: Sizes, points: tuple[Array, Array], more: float, half: float
-) -> tuple[float, float]:
+def _inner(sizes: Sizes, points: Sequence[Array], more: float, half: float) -> tuple[float, float]:
     """Return the inner arc of a locking sector: its distance at the edges and in the middle.
 
     ``points`` of the wheel are radii, and directions from the sector's middle. Of the circles

@@ -38,7 +38,8 @@ SWEPT_DEG = 0.2  # of the input, between the positions of the wheel that a relie
 
 def drawn(assembly: Assembly, sizes: Sizes) -> Outlines:
     """Return the outlines of an assembly with known sizes, cached without what a load changes."""
-    return _drawn(assembly, sizes.outline)._replace(sizes=sizes)
+    bare = sizes[: Sizes._fields.index("wheel_bore")]
+    return _drawn(assembly, Sizes(*bare))._replace(sizes=sizes)  # type: ignore[arg-type]
 
 
 @lru_cache(maxsize=KEPT)  # a sweep cuts the locks of its designs first, and then turns the parts
@@ -110,8 +111,7 @@ def cut_lock(assembly: Assembly, sizes: Sizes) -> Lock:
                 halves.append(0.5 * abs(arc.sweep))
     edge, corners = assembly.full.spec.size.lock_edge_mm or 0.0, [*chain(*mouths.values())]
     first = corners[0] if flat else sizes.rim
-    half = min(halves, default=math.nan)
-    out = Lock(L, assembly.sign, lock, recess, first, half, edge)
+    out = Lock(L, assembly.sign, lock, recess, first, min(halves, default=math.nan), edge)
     if max(corners) - min(corners) < SAME_LENGTH * L:
         return out
     near, far = abs(L - recess), L + recess
@@ -187,8 +187,7 @@ def slot_walls(
         inwards, outwards = Arc(first.end, middle, -quarter), Arc(middle, last.start, -quarter)
         begin = shapes.turned(Contour("", (first, inwards)), -apart).segments
         between = shapes.about(ORIGIN, middle[0], -apart, 2.0 * apart)
-        finish = shapes.turned(Contour("", (outwards, last)), apart).segments
-        pieces = (*begin, between, *finish)
+        pieces = (*begin, between, *shapes.turned(Contour("", (outwards, last)), apart).segments)
     return shapes.turned(Contour("WHEEL", shapes.joined(pieces), closed=False), angle)
 
 

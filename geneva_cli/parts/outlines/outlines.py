@@ -10,6 +10,7 @@ from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.plates import Plate
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Contour
 from geneva_cli.motion.engagement import Engagement
+from geneva_cli.numerics.arrays import value_or
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.shafts.bores import BoltCircle, bolt_circle, bore_of, has_shape
 from geneva_cli.parts.sizes import Sizes
@@ -50,8 +51,7 @@ def wheel_holes(assembly: Assembly, sizes: Sizes) -> tuple[Contour | Circle, ...
     size, bolts = assembly.mechanism.spec.size, dial_circle(assembly, sizes).holes
     if not (sizes.wheel_bore or has_shape(size, "wheel")):
         return tuple(bolts)
-    bore = bore_of(size, "wheel", sizes.wheel_bore)
-    return (bore.shape("BORE", assembly.rests[0]), *bolts)
+    return (bore_of(size, "wheel", sizes.wheel_bore).shape("BORE", assembly.rests[0]), *bolts)
 
 
 def dial_circle(assembly: Assembly, sizes: Sizes) -> BoltCircle:
@@ -75,9 +75,7 @@ def wheel_hub(assembly: Assembly, sizes: Sizes) -> Plate | None:
 
 def wheel_hub_length(size: Size, sizes: Sizes) -> float:
     """Return the length of the wheel's hub: by default as far down as the crank arm."""
-    if size.wheel_hub_length_mm is not None:
-        return size.wheel_hub_length_mm
-    return size.allowances.pin_gap_mm + sizes.arm_thickness
+    return value_or(size.wheel_hub_length_mm, size.allowances.pin_gap_mm + sizes.arm_thickness)
 
 
 def wheel_plate(assembly: Assembly, sizes: Sizes, contour: Contour) -> Plate:

@@ -12,6 +12,7 @@ from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
+from geneva_cli.geometry.shapes import Point
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.path_and_slot import Pitch, retraces
 from geneva_cli.numerics.arrays import Array, Mask, array
@@ -37,7 +38,7 @@ class Wall(NamedTuple):
     points: Array
     tangents: Array
     free: Mask  # samples that no other position of the roller covers
-    centre: tuple[float, float] | None = None  # where the wall is an arc, by its angle
+    centre: Point | None = None  # where the wall is an arc, by its angle
     radius: float = 0.0
 
 
@@ -60,16 +61,11 @@ def walls(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> list[Wall
         outward = bool(part[-1] > 0.0)
         if outward and engagement.mirrored:
             # the roller runs back over the mirror image of its path, with the same wall on its left
-            flanks += [
-                Wall(
-                    parallel(assembly, engagement, side, outward),
-                    -flank.t[::-1],
-                    flank.points[::-1] * (1.0, -1.0),
-                    flank.tangents[::-1] * (-1.0, 1.0),
-                    flank.free[::-1],
-                )
-                for flank, side in zip(flanks, (-w, w), strict=True)
-            ]
+            for flank, side in zip([*flanks], (-w, w), strict=True):
+                curve = parallel(assembly, engagement, side, outward)
+                points, tangents = flank.points[::-1] * (1.0, -1.0), flank.tangents[::-1]
+                line = -flank.t[::-1], points, tangents * (-1.0, 1.0), flank.free[::-1]
+                flanks.append(Wall(curve, *line))
             break
         for side in (-w, w):
             curve = parallel(assembly, engagement, side, outward)
@@ -93,7 +89,7 @@ def walls(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> list[Wall
 
 def _circle(
     assembly: Assembly, sizes: Sizes, engagement: Engagement, end: float
-) -> tuple[tuple[float, float], Array]:
+) -> tuple[Point, Array]:
     """Return the roller's path before entry (-1) or after exit (1): centre, and points outwards."""
     centre = rest(assembly, engagement, end)
     x, y = _pitch(assembly.L, engagement, np.array([engagement.end_deg(end)]))[0]
@@ -115,9 +111,7 @@ def _circle(
     return centre, path(np.linspace(0.0, whole, max(CIRCLE_SAMPLES, many)))
 
 
-def _arc(
-    path: Array, near: float, centre: tuple[float, float], radius: float, angles: Array
-) -> Wall:
+def _arc(path: Array, near: float, centre: Point, radius: float, angles: Array) -> Wall:
     def curve(t: Array) -> tuple[Array, Array]:
         c, s = np.cos(t), np.sin(t)
         points = np.column_stack((centre[0] + radius * c, centre[1] + radius * s))

@@ -19,15 +19,10 @@ from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.plates import Member, Plate, least_wall
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Contour, Point, Shape, convex_hull, polar
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.numerics.arrays import value_or
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import assembly, links_at, same
-from geneva_cli.parts.outlines.crank_outline import (
-    crank_bore,
-    is_whole,
-    keyway_direction,
-    reliefs,
-    sectors,
-)
+from geneva_cli.parts.outlines import crank_outline as disc
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.shafts.bores import (
     Bore,
@@ -71,8 +66,8 @@ class Shaft(NamedTuple):
 def shaft_ends(size: Size, part: str, low: float, high: float) -> tuple[float, float]:
     """Return the ends of a part's shaft: those of the spec, or else the heights low and high."""
     values = vars(size)
-    ends = values.get(f"{part}_shaft_low_mm"), values.get(f"{part}_shaft_high_mm")
-    return low if ends[0] is None else ends[0], high if ends[1] is None else ends[1]
+    lowest, highest = values.get(f"{part}_shaft_low_mm"), values.get(f"{part}_shaft_high_mm")
+    return value_or(lowest, low), value_or(highest, high)
 
 
 def crank_hub(parts: Outlines) -> Plate | None:
@@ -81,10 +76,9 @@ def crank_hub(parts: Outlines) -> Plate | None:
     if not (size.has_hub("crank") and sizes.crank_hub > sizes.crank_bore):
         return None
     low = 0.0 - size.allowances.pin_gap_mm  # no -0.0
-    high = sizes.wheel_thickness
-    if size.crank_hub_length_mm is not None:
-        high = low + size.crank_hub_length_mm
-    if parts.crank and is_whole(parts.assembly, sizes):
+    length = size.crank_hub_length_mm
+    high = sizes.wheel_thickness if length is None else low + length
+    if parts.crank and disc.is_whole(parts.assembly, sizes):
         low += sizes.lock_thickness
     else:
         key = "crank_hub_length_mm" if size.crank_hub_mm is None else "crank_hub_mm"
@@ -92,7 +86,7 @@ def crank_hub(parts: Outlines) -> Plate | None:
         refuse_size(not parts.has_arm, key, f"{text}neither; remove it")
     if high <= low:
         return None
-    bores, outline = crank_bore(parts.assembly, sizes), Circle("HUB", ORIGIN, sizes.crank_hub)
+    bores, outline = disc.crank_bore(parts.assembly, sizes), Circle("HUB", ORIGIN, sizes.crank_hub)
     return Plate("crank's hub", "HUB", outline, bores, low, high)
 
 
@@ -107,7 +101,7 @@ def shafts(parts: Outlines, lowest: float, stop: float | None) -> Iterator[Shaft
         yield Shaft("wheel's shaft", "wheel", bore, *ends, ORIGIN, turn)
     radius = sizes.arm_bore if parts.has_arm else sizes.crank_bore
     if radius:
-        bore = bore_of(size, "crank", radius)._replace(direction=keyway_direction(assembly))
+        bore = bore_of(size, "crank", radius)._replace(direction=disc.keyway_direction(assembly))
         # what it carries ends in the arm, or in a bored locking disc or its hub
         top = 0.0 - size.allowances.pin_gap_mm  # no -0.0
         if sizes.crank_bore:
@@ -139,7 +133,7 @@ def bore_at(mechanism: Mechanism, at: Point, radius: float) -> Bore:
     if part == "wheel":
         direction, turn = own.rests[0], own.wheel(still)
     else:
-        direction, turn = keyway_direction(own), own.crank(still)
+        direction, turn = disc.keyway_direction(own), own.crank(still)
     return bore_of(size, part, radius)._replace(direction=direction + float(turn[0]))
 
 
@@ -160,11 +154,8 @@ def crank_arm(parts: Outlines) -> CrankArm:
     assembly, sizes, drive = parts.assembly, parts.sizes, parts.assembly.full.spec.drive
     size, radius, wall = assembly.full.spec.size, sizes.arm_bore, sizes.wall_min
     if not drive.ONE_ARM:
-        raise GenevaError(
-            f'--part arm: kind = "{drive.NAME}" carries its roller on no crank arm; '
-            "--part parts lists its links",
-            ("drive", "kind"),
-        )
+        text = f'--part arm: kind = "{drive.NAME}" carries its roller on no crank arm; '
+        raise GenevaError(f"{text}--part parts lists its links", ("drive", "kind"))
     centres, hole = roller_centres(assembly), pin_hole(size, sizes.pin)
     near, far = math.inf, 0.0
     for centre in centres:
@@ -172,7 +163,7 @@ def crank_arm(parts: Outlines) -> CrankArm:
     # the wheel's hub stands on the roller's side, where the arm's end passes below the wheel
     passing = sizes.passing_eye(assembly.L - far)
     free = 0.0 if size.has_hub("wheel") else max(sizes.wheel_hub - sizes.wheel_bore, 0.0)
-    standing = 0.0 if is_whole(assembly, sizes) else sizes.lock  # the sectors stand on the hub
+    standing = 0.0 if disc.is_whole(assembly, sizes) else sizes.lock  # the sectors stand on the hub
     form = bore_of(size, "crank", radius)
     hub, eye = hub_and_eye(size, wall, hole, radius, passing, standing)
     text = "the bore cuts the pin's hole; with its keyway it must be below "
@@ -183,7 +174,7 @@ def crank_arm(parts: Outlines) -> CrankArm:
     pins, screws = circles("BORE", centres, hole), bolts(parts)
     for screw in screws:
         around.append(Circle("ARM", screw.centre, eye_about(screw.radius, bolted)))
-    outline, bore = convex_hull("ARM", around), form.shape("BORE", keyway_direction(assembly))
+    outline, bore = convex_hull("ARM", around), form.shape("BORE", disc.keyway_direction(assembly))
     return CrankArm(outline, bore, pins, [*map(tapped, screws)], hub, eye, passing + free - eye)
 
 
@@ -219,7 +210,7 @@ def _bolts(parts: Outlines, count: int) -> list[Circle]:
     """Return the holes of so many equal bolts in each sector, where the disc's walls are widest."""
     size, sizes = parts.assembly.mechanism.spec.size, parts.sizes
     spans: list[tuple[float, float]] = []
-    for start, end in sectors(reliefs(parts.assembly)) if parts.crank and count else ():
+    for start, end in disc.sectors(disc.reliefs(parts.assembly)) if parts.crank and count else ():
         spans.append((start, end - start))
     directions = lock_bolt_directions(spans, count)
     if not directions:
@@ -245,18 +236,20 @@ def _bolts(parts: Outlines, count: int) -> list[Circle]:
 def walls(arm: CrankArm, parts: Outlines) -> float:
     """Return the least wall around the arm's holes, and around the disc's bolts and keyway."""
     in_disc: list[Shape] = [*bolts(parts)]
-    if parts.sizes.crank_bore and is_whole(parts.assembly, parts.sizes):
-        in_disc += crank_bore(parts.assembly, parts.sizes)
+    if parts.sizes.crank_bore and disc.is_whole(parts.assembly, parts.sizes):
+        in_disc += disc.crank_bore(parts.assembly, parts.sizes)
     in_arm = least_wall([arm.bore, *arm.pins, *arm.bolts], [arm.outline])
     return min(in_arm, least_wall(in_disc, parts.crank))
 
 
-def rollers_about(
-    centres: Iterable[Point], radius: float, pin: float, low: float, high: float, fit: float
+def rollers(
+    mechanism: Mechanism, centres: Iterable[Point], pin: float, low: float, high: float
 ) -> tuple[Member, ...]:
-    """Return rollers from 0 up to ``high``, and their pins from ``low``, looser by ``fit``."""
-    bored = (Circle("ROLLER", ORIGIN, pin + 0.5 * fit),) if pin else ()
-    roller = Plate("roller", "ROLLER", Circle("ROLLER", ORIGIN, radius), bored, 0.0, high)
+    """Return a machine's rollers from 0 up to ``high``, and their pins from ``low``."""
+    wide = pin + 0.5 * mechanism.spec.size.allowances.shaft_fit_mm
+    bored = (Circle("ROLLER", ORIGIN, wide),) if pin else ()
+    outline = Circle("ROLLER", ORIGIN, mechanism.roller_radius_mm)
+    roller = Plate("roller", "ROLLER", outline, bored, 0.0, high)
     within, out = Plate("pin", "ROLLER", Circle("ROLLER", ORIGIN, pin), (), low, high), []
     for centre in centres:
         out.append(Member(roller, centre))

@@ -60,8 +60,7 @@ class Bore(NamedTuple):
         cut = self.radius + self.loose
         if self.key:
             over = length(cut + self.reach)
-            wide = length(self.key.width)
-            return f"keyway {wide} JS9, {over} over bore ({self.standard})"
+            return f"keyway {length(self.key.width)} JS9, {over} over bore ({self.standard})"
         if self.form == "hex":
             return f"hexagon {length(2.0 * cut)} across flats"
         return f"flat, {length(2.0 * cut - self.flat)} to the far side" if self.flat else ""
@@ -184,8 +183,7 @@ def section_note(section: Shape) -> str:
     far, bottom = min((math.hypot(*shapes.at(line, 0.5)), line) for line in lines)
     if len(lines) == 1:
         return Bore(radius, 0.0, "D", radius - far).note
-    wide = length(math.dist(bottom.start, bottom.end))
-    return f"keyway {wide} P9, {length(radius - far)} deep"
+    return f"keyway {length(math.dist(bottom.start, bottom.end))} P9, {length(radius - far)} deep"
 
 
 def around(section: Shape) -> float:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from itertools import chain, pairwise
 from typing import TYPE_CHECKING
 
@@ -13,7 +13,7 @@ from geneva_cli.errors import GenevaError, refuse_size
 from geneva_cli.geometry import chords, fit
 from geneva_cli.geometry.plates import Plate
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Contour, Layer, closed, polar
-from geneva_cli.motion.groove_path import back, distances
+from geneva_cli.motion.groove_path import distances, in_dwell
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.path_and_slot import WALLED
 from geneva_cli.numerics.arrays import Array
@@ -60,7 +60,7 @@ def sampled_extremes(groove: SolvedPath, input_deg: Array) -> tuple[Array, Array
     dwell = 360.0 - (groove.motion.exit_deg - groove.motion.entry_deg)
     rest = groove.motion.exit_deg + dwell * (np.arange(360) / 360)
     moving = groove.distances(input_deg, 1)[1].derivatives()
-    resting = back(groove, np.atleast_2d(rest), 1)
+    resting = in_dwell(groove, np.atleast_2d(rest), 1).derivatives()
     R, slope = (np.hstack(pair) for pair in zip(moving, resting, strict=True))
     return R.min(axis=1), np.degrees(np.arctan((np.abs(slope) / R).max(axis=1)))
 
@@ -126,9 +126,7 @@ def _groove_of(mechanism: Mechanism) -> SolvedPath:
     return groove
 
 
-def groove_lines(
-    parts: Outlines, tolerance: float | None, curves: str
-) -> tuple[Contour, Contour, Contour]:
+def groove_lines(parts: Outlines, tolerance: float | None, curves: str) -> tuple[Contour, ...]:
     """Return both flanks of the groove all round, about the crank's axis, and its pitch curve."""
     guide = _groove_of(parts.assembly.full)
     # the flanks are within 0.001 mm by default, as a drawing's
@@ -175,17 +173,12 @@ def groove_base(parts: Outlines, bars: Links) -> Plate:
     return Plate("groove plate's base", "FRAME", edge, (*bore, *mounts), low, high)
 
 
-def groove_stack(
-    base: Plate, bars: Links, flanks: tuple[Contour, Contour]
-) -> tuple[Plate, Plate, Plate]:
+def groove_stack(base: Plate, bars: Links, flanks: Iterable[Contour]) -> tuple[Plate, ...]:
     """Return base, ring and island; ``flanks`` are those of the groove."""
     assert bars.sizes is not None
     inner, outer = sorted(flanks, key=lambda one: max(math.hypot(*p.start) for p in one.segments))
     low, high = bars.sizes.span(BELOW)
     bore = tuple(one for one in base.holes if isinstance(one, Circle) and one.centre == ORIGIN)
     mounts = base.holes[len(bore) :]
-    return (
-        base,
-        Plate("groove plate's ring", "FRAME", base.outline, (outer, *mounts), low, high),
-        Plate("groove plate's island", "FRAME", inner, bore, low, high),
-    )
+    ring = Plate("groove plate's ring", "FRAME", base.outline, (outer, *mounts), low, high)
+    return base, ring, Plate("groove plate's island", "FRAME", inner, bore, low, high)

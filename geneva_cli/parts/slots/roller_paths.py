@@ -197,19 +197,16 @@ def rounded(before: Segment, after: Segment, radius: float, sign: float) -> list
     fits = 0.0 < parts[0] <= 1.0 and 0.0 <= parts[1] < 1.0
     refuse_size(not fits, "mouth_radius_mm", text, radius)
     first, last = ends
-    return [
-        offsets.between(before, before.start, first),
-        arc_about(centre, first, last, sign),
-        offsets.between(after, last, after.end),
-    ]
+    begin = offsets.between(before, before.start, first)
+    finish = offsets.between(after, last, after.end)
+    return [begin, arc_about(centre, first, last, sign), finish]
 
 
 def arc_about(axis: Point, start: Point, end: Point, sense: float) -> Arc:
     """Return an arc about an axis, counterclockwise (+1) or clockwise (-1)."""
     a = math.atan2(start[1] - axis[1], start[0] - axis[0])
     b = math.atan2(end[1] - axis[1], end[0] - axis[0])
-    sweep = sense * (sense * (b - a) % math.tau)
-    return Arc(start, end, math.tan(0.25 * sweep))
+    return Arc(start, end, math.tan(0.25 * (sense * (sense * (b - a) % math.tau))))
 
 
 def cut_walls(walls: Contour, wheel: Contour) -> Contour:

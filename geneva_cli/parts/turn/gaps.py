@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import copy
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -184,11 +185,7 @@ def _places_within(place: Array, period: float, middle: Array, half: float) -> t
 
 
 def _candidates(
-    own: Polyarc,
-    near: tuple[Whole, Whole],
-    other: Polyarc,
-    placed: tuple[Array, Array],
-    reach: float,
+    own: Polyarc, near: tuple[Whole, Whole], other: Polyarc, placed: Sequence[Array], reach: float
 ) -> tuple[Whole, Array]:
     """Return points of ``own`` that may touch ``other``, within ``reach`` of its origin.
 

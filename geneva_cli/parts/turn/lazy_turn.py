@@ -78,11 +78,7 @@ class LazyTurn(NamedTuple):
 
 
 class _Stuck(Exception):
-    """The wheel cannot follow; not an error of a spec."""
-
-    def __init__(self, jam: Jam) -> None:
-        super().__init__(jam)
-        self.jam = jam
+    """The wheel cannot follow, because of the jam in it; not an error of a spec."""
 
 
 class Turner:
@@ -110,7 +106,7 @@ class Turner:
                 crank = self.start + way * math.tau * k / self.steps
                 path.to(crank, partial(self.ranges.around, way * k % self.steps))
         except _Stuck as stuck:
-            jam = stuck.jam
+            (jam,) = stuck.args
         if path.begun is not None:
             path.pushes.append(Push(*path.begun, *path.rows[-1][:2]))
         crank_at, wheel_at, low, high = np.array(path.rows).reshape(-1, 4).T

@@ -12,6 +12,7 @@ for a rack positions across it.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import cache, partial
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -77,6 +78,8 @@ class Stops:
     ) -> None:
         self.outline, self.pitch, self.crank, self.L = outline, pitch, crank, L
         self.roller = roller
+        # branches of the wheel by how far they are inset: equal for all poses
+        self.own = cache(partial(self.branches, outline, None))
 
     def first(self, pose: Pose, most: float, close: float) -> tuple[Array, Array]:
         """Return the stops of the wheel, turned back and turned on from n poses: (2, n) both.
@@ -85,8 +88,7 @@ class Stops:
         this angle the pressure angle of a roller that stops it is returned, 0 for anything else.
         """
         n, count, size = pose.pins.shape
-        wheel = self.branches(self.outline, None, 0.0)
-        inset = self.branches(self.outline, None, close)
+        wheel, inset = self.own(0.0), self.own(close)
         # both sides of each roller: those on the other one follow
         sides = np.tile(self.rollers(pose.pins.reshape(-1, size), close), 2)
         Branches(*sides).sign[n * count :] = -1.0
@@ -249,11 +251,7 @@ class Stops:
 
 
 def cut(
-    mask: Mask,
-    span: tuple[Array, Array],
-    known: Array,
-    extremes: Array,
-    curve: tuple[Array, Array, Array],
+    mask: Mask, span: Sequence[Array], known: Array, extremes: Array, curve: Sequence[Array]
 ) -> list[Array]:
     """Return branches of the arcs of a mask (n, k), cut at their nearest and farthest points.
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from functools import lru_cache, partial
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -24,6 +24,8 @@ from geneva_cli.parts.turn.stops import Clearances, Pose
 from geneva_cli.parts.turn.turned_parts import Intervals, TurnedParts, Window, windows
 
 MOST = 20_000  # intervals of one pair of parts: ten times what the designs take; under a second
+# the gap of a pair of parts in the middles of intervals, and its bound on them, mm
+Bound: TypeAlias = "Callable[[Intervals], tuple[Array, Array]]"
 UNKNOWN = 1e30  # mm: a bound that is not known, so large that no interval closes with it
 
 
@@ -49,7 +51,7 @@ def certificate(parts: TurnedParts, gap_mm: float, to_mm: float) -> Certificate:
     spare = 1e-11 * parts.assembly.L
     target = max(gap_mm, 0.0) - to_mm + spare
     pairs, least, count = parts.pairs(target), math.inf, 0
-    todo: list[tuple[str, Callable[[Intervals], tuple[Array, Array]], tuple[float, float]]] = []
+    todo: list[tuple[str, Bound, tuple[float, float]]] = []
     for window in windows(parts):
         if parts.locked:
             ends = window.start, window.end
@@ -70,12 +72,7 @@ def certificate(parts: TurnedParts, gap_mm: float, to_mm: float) -> Certificate:
     return Certificate(least, count)
 
 
-def _halved(
-    gaps: Clearances,
-    pair: Callable[[Intervals], tuple[Array, Array]],
-    ends: tuple[float, float],
-    target: float,
-) -> Certificate:
+def _halved(gaps: Clearances, pair: Bound, ends: tuple[float, float], target: float) -> Certificate:
     """Return a lower bound of a pair's gap, with intervals halved until ``target`` mm is proved."""
     cuts = np.linspace(*ends, 33)
     start, end = cuts[:-1], cuts[1:]
@@ -267,11 +264,14 @@ def path_travel(engagement: Engagement, L: float, turn_deg: float) -> Travel:
     start, end = edges[:-1], edges[1:]
     if groove is None:
         return Travel(edges, curve_rates(engagement.path, start, end), L, turn_deg)
-    from geneva_cli.motion.groove_path import dwell_rates
+    from geneva_cli.motion.groove_path import path_in_dwell
 
     moving = (engagement.entry_deg <= start) & (end <= engagement.exit_deg)
-    rates = np.tile(np.array(dwell_rates(groove))[:, None], len(start))
+    later = np.where(start < engagement.entry_deg, 360.0, 0.0)  # in the dwell after the motion
+    rates = np.empty((2, len(start)))
     rates[:, moving] = curve_rates(engagement.path, start[moving], end[moving])
+    start, end, curve = start + later, end + later, partial(path_in_dwell, groove)
+    rates[:, ~moving] = curve_rates(curve, start[~moving], end[~moving])
     return Travel(edges, rates, L, turn_deg)
 
 

@@ -70,10 +70,10 @@ class MachineTurn:
         crank, ahead = self.crank(), math.pi if self.mechanism.spec.wheel.SIGN > 0.0 else 0.0
         return crank._replace(value=tuple(v - ahead for v in crank.value))
 
-    def input_shaft(self, sense: float) -> Track:
-        """The input's angle from mid-motion, radians, for a shaft of a sense of rotation."""
-        rate = sense * math.pi / 180.0
-        begin, gain = rate * (self.start - self.passages[0].mid), rate * self.turn_deg
+    def steady(self, speed: float, zero_deg: float) -> Track:
+        """The angle, radians, of what turns at a speed over the input's, from 0 at an angle."""
+        rate = speed * math.pi / 180.0
+        begin, gain = rate * (self.start - zero_deg), rate * self.turn_deg
         return Track((0.0, self.turn_deg), (begin, begin + gain), (rate, rate), gain)
 
     def own_shaft(self, sense: float) -> Track:

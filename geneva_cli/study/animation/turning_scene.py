@@ -19,7 +19,6 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Joint
 from geneva_cli.motion.registry import thing
-from geneva_cli.numerics.angles import radians
 from geneva_cli.output import scene as page
 from geneva_cli.parts.assembly import links_at
 from geneva_cli.parts.gears.gear_pair import gears_table
@@ -47,11 +46,8 @@ def scene(design: Design) -> page.Scene:
     box = _box(turning, bars, rollers, mechanism.roller_radius_mm, turn.turn_deg)
     frame = None
     if mechanism.frame:  # the carrier makes whole turns
-        rate = mechanism.frame * radians(1.0)
-        ends = rate * turn.start, rate * turn.end
-        angle = page.Track((0.0, turn.turn_deg), ends, (rate, rate), ends[1] - ends[0])
         x, y = centre = mechanism.center_distance_mm, 0.0
-        frame = page.Rotation(centre, angle)
+        frame = page.Rotation(centre, turn.steady(mechanism.frame, 0.0))
         reach = max(math.dist(b.centre, centre) + max(map(_reach, b.shapes)) for b in parts)
         box = x - reach, y - reach, x + reach, y + reach
     pauses = []
@@ -135,7 +131,8 @@ def _gears(gears: Gears, turn: MachineTurn) -> Iterator[page.Body]:
         u, v = -table[f"{name}_x_mm"][:-1], sense * table[f"{name}_y_mm"][:-1]
         return (polygon("GEAR", list(zip(u.tolist(), v.tolist(), strict=True))),)
 
-    driver = turn.input_shaft(-sense) if first or before is None else turn.own_shaft(-sense)
+    is_input = first or before is None
+    driver = turn.steady(-sense, turn.passages[0].mid) if is_input else turn.own_shaft(-sense)
     yield page.Body("driver gear", curve("driver"), (x + gears.distance_mm, 0.0), driver)
     driven = turn.own_shaft(sense) if first else turn.crank_from_mid()
     yield page.Body("driven gear", curve("driven"), (x, 0.0), driven)

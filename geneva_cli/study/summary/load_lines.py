@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from geneva_cli.answer import WARNS, Answer, Summary, SummaryLine, value_text
@@ -11,6 +11,7 @@ from geneva_cli.design import Design
 from geneva_cli.errors import open_warnings
 from geneva_cli.loads.load_peaks import LoadSummary
 from geneva_cli.loads.load_tables import RATED_kW, no_load, recommended_motor
+from geneva_cli.names import unit_of
 from geneva_cli.numerics.tolerances import TIE
 from geneva_cli.study.fields import pick
 from geneva_cli.study.verdicts import chosen_lines, warning
@@ -81,10 +82,9 @@ def cycle_lines(design: Design) -> Iterator[SummaryLine]:
         yield SummaryLine("input", f"{text}; the {design.spec.output.noun} {driven}")
     stress = "needs face_width_mm in [size]"
     if design.spec.size.face_width_mm is not None:
-        stress = _greatest(loads["contact_stress_MPa"], "MPa")
-    pin = _greatest(loads["pin_force_N"], "N")
-    yield SummaryLine("pin", f"{pin}; contact stress {stress}")
-    impact = design.strength.reversal  # of the roller on the other wall of its slot
+        stress = _greatest(loads, "contact_stress_MPa")
+    yield SummaryLine("pin", f"{_greatest(loads, 'pin_force_N')}; contact stress {stress}")
+    impact = design.strength.table("shock.reversal")  # of the roller on the other wall of its slot
     if impact["jump"] is not None and impact["at_deg"] is not None:
         text = f"speed jumps by {value_text(impact['jump'])} of the input's"
         if impact["force_N"] is not None:
@@ -93,13 +93,10 @@ def cycle_lines(design: Design) -> Iterator[SummaryLine]:
         if impact["contact_stress_MPa"] is not None:
             text += f"; contact stress {value_text(impact['contact_stress_MPa'], 'MPa')}"
         yield SummaryLine("impact", text, "geneva explain reversal_shock_N")
-    label, moved, unit = "rack", "rack_acceleration_m_s2", "m/s²"
-    what, pushed, unit_of = "force", "rack_force_N", "N"
+    label, moved, what, pushed = "rack", "rack_acceleration_m_s2", "force", "rack_force_N"
     if design.spec.output.turns:
-        label, moved, unit = "wheel", "alpha_rad_s2", "rad/s²"
-        what, pushed, unit_of = "torque", "wheel_torque_Nm", "N m"
-    text = f"{_greatest(loads[moved], unit)}; {what} {_greatest(loads[pushed], unit_of)}"
-    yield SummaryLine(label, text)
+        label, moved, what, pushed = "wheel", "alpha_rad_s2", "torque", "wheel_torque_Nm"
+    yield SummaryLine(label, f"{_greatest(loads, moved)}; {what} {_greatest(loads, pushed)}")
 
 
 def greatest(ends: LoadSummary[float | None]) -> tuple[float, float | None] | None:
@@ -111,14 +108,13 @@ def greatest(ends: LoadSummary[float | None]) -> tuple[float, float | None] | No
     return min((p for p in both if p[0] >= bar), key=lambda p: p[1] or 0.0)
 
 
-def _greatest(ends: LoadSummary[float | None], unit: str) -> str:
+def _greatest(loads: Mapping[str, LoadSummary[float | None]], name: str) -> str:
     """Greatest size of a load, and its input angle, in words."""
-    known = greatest(ends)
+    known = greatest(loads[name])
     if known is None:
         return NO_BOUND
-    size, at_deg = known
-    where = "" if at_deg is None else f" at {value_text(at_deg, 'deg')}"
-    return f"{value_text(size, unit)}{where}"
+    where = "" if known[1] is None else f" at {value_text(known[1], 'deg')}"
+    return f"{value_text(known[0], unit_of(name) or '')}{where}"
 
 
 def _sizing(design: Design) -> dict[str, Any]:

@@ -93,13 +93,12 @@ def key_figures(design: Design) -> Iterator[SummaryLine]:
     """Six figures of a machine and its motor; without a load its peaks instead."""
     values = design.report.table.to_dict()
     unit, times = design.mechanism.output.unit, design.timings
-    texts = [(value_text(t.step, unit), value_text(t.motion_s, "s"), value_text(t.dwell_s, "s"))
-             for t in times]  # fmt: skip
-    steps, motions, dwells = (
-        " and ".join(dict.fromkeys(each)) for each in zip(*texts, strict=True)
-    )
-    n_rpm = value_text(design.spec.drive.n_rpm, "rpm")
-    text = f"{steps} in {motions}, then {dwells} of dwell; input at {n_rpm}"
+
+    def each(name: str, unit: str) -> str:
+        return " and ".join(dict.fromkeys(value_text(getattr(t, name), unit) for t in times))
+
+    text = f"{each('step', unit)} in {each('motion_s', 's')}, then {each('dwell_s', 's')} of dwell"
+    text += f"; input at {value_text(design.spec.drive.n_rpm, 'rpm')}"
     if design.spec.drive.stop_s:
         text += f", at rest for {value_text(design.spec.drive.stands_s, 's')} of each dwell"
     yield SummaryLine("cycle", text)

@@ -39,7 +39,7 @@ def best_spec(outcome: Outcome, goal: Objective, row_blocks: Iterable[Rows]) -> 
     places = search.closer(search.foremost(found[0], PLACES_MAX))
     starts = places.taken(search.merits(places)[0] == 0.0)
     if not len(starts):
-        why = outcome.nearness.phrases() or [f"no design has a value of {goal.name}"]
+        why = [*outcome.nearness.phrases()] or [f"no design has a value of {goal.name}"]
         raise GenevaError(f"--best: none of {outcome.all:,} designs is feasible: {'; '.join(why)}")
     # the best of them suffice; at last onto the bounds that bind
     each = [search.refined(row) for row in [*starts][: 3 if sweep.is_batched else 1]]
@@ -112,9 +112,8 @@ class _SweepSearch:
     def foremost(self, rows: Rows, most: int) -> Rows:
         """The best designs, one of each choice of words and whole numbers before a second of any.
 
-        Designs of one choice in different thirds of a span are in different places, of which each
-        has its best. A scan has few designs for each number of slots, so its best design may have
-        the wrong number. Refining the best design of each number tells which is right.
+        A scan has few designs for each number of slots, so its best one may have the wrong number:
+        the best of each number is refined. So is the best in each third of a span.
         """
         violations, costs = self.merits(rows)
         order = np.lexsort((costs, violations))
@@ -145,7 +144,7 @@ class _SweepSearch:
             return self.merits(self.sweep.rows_of(self.moved(rows.taken(of), at)))
 
         # half a span wide at first; 16 rounds take it to 1e-4
-        near = Zoom(cloud, 0.25, 0.6, 0.6, 16)
+        near = Zoom(cloud, 0.25, 0.6, 16)
         found = zoom(evaluate, sampled(evaluate, every, self.fractions(rows)), near, keep=1)
         found = found.take(np.lexsort((found.cost, found.violation)))
         # clouds come far closer to a minimum than 1 %, so that a place above it is no rival

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import NamedTuple, TypeGuard
 
 import numpy as np
@@ -92,20 +92,18 @@ class Nearness:
             if known:
                 self.nearest[k] = max(known) if c.sign == ">=" else min(known)
 
-    def phrases(self) -> list[str]:
+    def phrases(self) -> Iterator[str]:
         """A phrase for each bound: how many designs keep it, or the nearest value.
 
         Where no design keeps one bound, others may not have been computed.
         """
         some = any(x is not None for x in self.nearest)
-        phrases = []
         for (_, c), count, nearest in zip(self.bounds, self.kept, self.nearest, strict=True):
             if nearest is not None:
                 near = "" if count else f" (nearest {nearest:.6g})"
-                phrases.append(f"{c} is kept by {count:,}{near}")
+                yield f"{c} is kept by {count:,}{near}"
             elif not some:
-                phrases.append(f"no design has a value of {c.name}")
-        return phrases
+                yield f"no design has a value of {c.name}"
 
 
 def refuse_unsound(

@@ -118,28 +118,27 @@ class Outcome:
                     del self._unknown[i]
             yield rows
 
-    def notes(self) -> list[str]:
+    def notes(self) -> Iterator[str]:
         """Notes for the user besides the rows, or the best design."""
-        notes, sweep = list[str](), self.sweep
+        sweep = self.sweep
         if self.failed:
             is_shown = not (sweep.chooses or sweep.goal)
             why = "column error says why" if is_shown else f"the first: {self._first}"
-            notes.append(f"{self.failed:,} of {self.all:,} designs cannot be built: {why}")
+            yield f"{self.failed:,} of {self.all:,} designs cannot be built: {why}"
         if sweep.goal:
-            return notes
+            return
         if self.all and not self.left:
             unknown = [f"no design has a value of {name}" for name in self._unknown.values()]
             reasons = dict.fromkeys([*unknown, *self.nearness.phrases()])
-            notes.append(f"none of {self.all:,} rows is left: {'; '.join(reasons)}")
+            yield f"none of {self.all:,} rows is left: {'; '.join(reasons)}"
         if any(group.table.startswith(OF_SIZES) for group in sweep.pick.groups):
             with suppress(GenevaError):  # the spec may lack a varied key
                 if words := ByLoad(by_load(build(sweep.text.spec())), {}).words:
                     name = {"<stdin>": "-"}.get(sweep.text.name, sweep.text.name)
-                    notes.append(
+                    yield (
                         f"note: each row has the sizes that its own load needs, the spec {words}; "
                         f"`geneva size {name}` writes those, so that they stay"
                     )
-        return notes
 
 
 ROWS = 5  # the first rows, and as many of the best; up to twice as many are all shown

@@ -2,10 +2,8 @@
 
 A search has many tasks as one batch: a grid, then samples ever closer. The places of a task are
 points of a unit cube. A place is better if it violates its bounds less or, at equal violations, if
-it costs less.
-
-The best machine has the least peak acceleration (in rad/s² if times are required), or the least of
-the goal's quantity. If any motion is allowed, it is the nearest to the plain crank.
+it costs less: in peak acceleration (in rad/s² if times are required), or in the goal's quantity.
+If any motion is allowed, the cost is the distance from the plain crank.
 """
 
 from __future__ import annotations
@@ -62,14 +60,13 @@ class Zoom(NamedTuple):
     """Samplings near the best places.
 
     ``offsets`` returns those of a sampling by its number, (k, d) in steps. The first step is a
-    fraction of the cube's side; after each sampling it is multiplied by ``better`` if the place was
-    improved, and else by ``worse``. ``around`` are the coordinates that wrap round.
+    fraction of the cube's side; after each sampling it is multiplied by ``closer``. ``around`` are
+    the coordinates that wrap round.
     """
 
     offsets: Callable[[int], Array]
     step: float
-    better: float
-    worse: float
+    closer: float
     most: int  # samplings
     around: Sequence[int] = ()
 
@@ -100,21 +97,20 @@ def zoom(
     is given up where no small step can keep the bounds.
     """
     track = best.of if keep else np.arange(len(best.of))
-    step, live = np.full(len(track), how.step), np.full(len(track), True)
+    step, live = how.step, np.full(len(track), True)
     for number in range(how.most):
         if not live.any():
             break
         parents, offsets = best.take(live), how.offsets(number)
         k, d = offsets.shape
-        at = (parents.at[:, None] + step[live][:, None, None] * offsets).reshape(-1, d)
+        at = (parents.at[:, None] + step * offsets).reshape(-1, d)
         inside = np.clip(at, 0.0, 1.0)
         inside[:, how.around] = at[:, how.around] % 1.0
         near = sampled(evaluate, np.repeat(parents.of, k), inside)
         tracks = np.concatenate((track, np.repeat(track[live], k)))
-        steps = np.concatenate((step * how.worse, np.repeat(step[live] * how.better, k)))
-        every = best.joined(near)
+        every, step = best.joined(near), step * how.closer
         kept = _first(every, tracks, keep or 1)
-        best, track, step = every.take(kept), tracks[kept], steps[kept]
+        best, track = every.take(kept), tracks[kept]
         if keep:
             live = np.full(len(track), True)
         else:
@@ -156,7 +152,7 @@ def _done(best: Places, live: Mask, violation: Array, cost: Array, patient: bool
 
 
 # Samples on both sides of the best, each time four times as close.
-LINE = Zoom(lambda number: QUARTERS, 1.0 / GRID, 0.25, 0.25, 20)
+LINE = Zoom(lambda number: QUARTERS, 1.0 / GRID, 0.25, 20)
 
 
 def best(
@@ -166,26 +162,25 @@ def best(
 
     The others break the bounds least, with ``how_near`` to the last digit.
     """
-    numbers = [f.low if math.isnan(f.best) else f.best for f in families]
     searched = [i for i, f in enumerate(families) if f.is_free and math.isnan(f.best)]
-    keeps: dict[int, bool | None] = dict.fromkeys(range(len(families)), True)
-    keeps |= dict.fromkeys(searched)  # None without a machine
+    # numbers by those of their families, and whether they keep the bounds
+    numbers = {i: (f.low if math.isnan(f.best) else f.best, True) for i, f in enumerate(families)}
     if searched:
         free = FamilyCosts([families[i] for i in searched], target)
         found = _best_places(free, how_near)
         own = free.numbers(found.of, found.at[:, 0]).tolist()
-        kept = (found.violation < BROKEN).tolist()
-        for of, x, keep in zip(found.of.tolist(), own, kept, strict=True):
-            numbers[searched[of]], keeps[searched[of]] = x, keep
-    out: dict[bool | None, list[Spec]] = {True: [], False: []}
-    for i, (f, x) in enumerate(zip(families, numbers, strict=True)):
-        is_known = abs(x - f.known) <= 1e-4 * (f.high - f.low)  # of another family
-        if keeps[i] is not None and not is_known:
+        best = zip(own, (found.violation < BROKEN).tolist(), strict=True)
+        numbers = {i: one for i, one in numbers.items() if i not in searched}
+        numbers |= zip((searched[of] for of in found.of.tolist()), best, strict=True)
+    out: tuple[list[Spec], list[Spec]] = ([], [])
+    for i, (x, keeps) in sorted(numbers.items()):
+        f = families[i]
+        if not abs(x - f.known) <= 1e-4 * (f.high - f.low):  # it is not of another family
             values = f.keys(np.array([x])) if f.keys and math.isnan(f.best) else {}
             with suppress(GenevaError):  # no machine at a number
                 spec = f.spec.with_keys({key: float(v[0]) for key, v in values.items()})
-                out[keeps[i]].append(spec)
-    return out[True], out[False]
+                out[not keeps].append(spec)
+    return out
 
 
 def _best_places(free: FamilyCosts, how_near: bool) -> Places:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from itertools import compress
 
 from geneva_cli.errors import GenevaError, cut, few, nearest
 from geneva_cli.motion.machine_spec import Spec
@@ -54,14 +55,12 @@ def read_target(
             "no requirement; give one or more of --tau, --motion-deg, --dwell-deg, --motion-s, "
             "--dwell-s, --cycle and --subject-to"
         )
-    phrases = [spans[name].words(*SPANS[name][1:]) for name in spans]
-    phrases = [w if w[:2] == "a " else " = ".join(w.split(" ", 1)) for w in phrases]
+    phrases = [spans[name].words(*SPANS[name][1:]).replace("tau ", "tau = ", 1) for name in spans]
     bounds = tuple(constraint(text) for text in subject_to)
     options = dict.fromkeys([b.name for b in bounds], "--subject-to")
     refuse_unsound(bounds, options, "only numbers are bound")
     phrases += [str(bound) for bound in bounds]
-    chosen = dict(zip(GEARINGS, (external, internal, spherical), strict=True))
-    gearings = tuple(name for name, is_chosen in chosen.items() if is_chosen)
+    gearings = tuple(compress(GEARINGS, (external, internal, spherical)))
     if rollers is not None and not 1 <= rollers <= ROLLERS_MAX:
         raise GenevaError(f"--rollers {cut(rollers)}: it must be at least 1, at most {ROLLERS_MAX}")
     words = ", ".join(phrases) or "the spec alone"
@@ -137,13 +136,11 @@ def span(option: str, text: str, rule: Range) -> AllowedSpan:
     low, high, step = ends
     if step or not (low or high):
         raise GenevaError(f"{option} {cut(text)}: a range is LOW..HIGH, LOW.. or ..HIGH")
-    interval = AllowedSpan(
-        number(option, low, rule) if low else -math.inf,
-        number(option, high, rule) if high else math.inf,
-    )
-    if interval.empty:
+    least = number(option, low, rule) if low else -math.inf
+    most = number(option, high, rule) if high else math.inf
+    if least > most:
         raise GenevaError(f"{option} {cut(text)}: the first number must not be above the second")
-    return interval
+    return AllowedSpan(least, most)
 
 
 def number(option: str, text: str, rule: Range) -> float:

@@ -1,7 +1,4 @@
-"""The search for machines that meet a requirement, with their costs, the best first.
-
-A row is a machine with its description and its costs.
-"""
+"""The search for machines that meet a requirement, with their costs, the best first."""
 
 from __future__ import annotations
 

@@ -1,7 +1,4 @@
-"""The rows that a search found as a table, the first of them turned, and a row as a spec.
-
-For people rows have short names and a description of each machine.
-"""
+"""The rows that a search found as a table, the first of them turned, and a row as a spec."""
 
 from __future__ import annotations
 

@@ -263,27 +263,24 @@ def checks(
 
 def single_check(mechanism: Mechanism, name: str, machine: Parts | None = None) -> Check | None:
     """The check with this name, without the others; None if there is no such check."""
-    among = MOTION if name in MOTION else LIMITS
-    of: tuple[object, ...] = (mechanism,)
-    if name not in among:
-        if not mechanism.spec.is_turned:
-            return None
+    rows: Iterable[Check] = ()
+    if path := MOTION.get(name) or LIMITS.get(name):
+        rows = load_named(path)([name], mechanism)
+    elif mechanism.spec.is_turned:
         from geneva_cli.parts.parts import parts_of
 
         machine = machine or parts_of(mechanism)
-        if name in PUSHED:
-            pushed = pushed_round(mechanism) if mechanism.no_turn else []
-            return next((check for check in pushed if check.name == name), None)
-        if name in OF_TURN:
-            among, of = TURNING, (machine, machine.turn)
+        if name in PUSHED and mechanism.no_turn:
+            rows = pushed_round(mechanism)
+        elif name in OF_TURN:
+            turn = machine.turn
+            rows = load_named(TURNING[name])([name], machine, turn) if name in TURNING else ()
         else:
             if name == "parts":
                 _ = machine.assembly
-            if mechanism.spec.no_parts:
-                return None
-            among, of = own_checks(mechanism)[1], (machine.built,)
-    found = load_named(among[name])([name], *of) if name in among else ()
-    return next((check for check in found if check.name == name), None)
+            path = None if mechanism.spec.no_parts else own_checks(mechanism)[1].get(name)
+            rows = load_named(path)([name], machine.built) if path else ()
+    return next((check for check in rows if check.name == name), None)
 
 
 def pushed_round(mechanism: Mechanism) -> list[Check]:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Self, TypeAlias, TypeVar
 import numpy as np
 
 from geneva_cli.kept import Known, cached_property
-from geneva_cli.motion.batch import each_of
+from geneva_cli.motion.batch import taken
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.spec.tables import LIMITED
 
@@ -84,7 +84,7 @@ class Designs:
         """The machines of the single designs."""
         if self.single:
             return [self.machine]
-        return self._each or [*map(build, each_of(self.spec, self.machine.designs))]
+        return self._each or [build(taken(self.spec, i)) for i in range(self.machine.designs)]
 
     @cached_property
     def loaded(self) -> Array:

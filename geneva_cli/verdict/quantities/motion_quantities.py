@@ -9,13 +9,15 @@ import numpy as np
 
 from geneva_cli.loads.product import ProductMotion, product_motion
 from geneva_cli.motion.many import worst_peaks
-from geneva_cli.motion.peak_search import QUANTITIES
+from geneva_cli.motion.peak_search import QUANTITIES, PeakArray
 from geneva_cli.motion.timing import timings
 from geneva_cli.motion.wheels.gearing import Output
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import Array, N, Number
 from geneva_cli.verdict.quantities.batch_designs import Columns, Designs
 from geneva_cli.verdict.quantities.groups import RATES
+
+ENDS = ("entry", "exit")  # how the names begin of quantities at the ends of a motion
 
 
 def timing(of: Designs) -> Columns:
@@ -77,13 +79,16 @@ def peaks(of: Designs) -> Columns:
 
     The jumps are those of the velocity, infinite for a roller that misses its slot's axis.
     """
-    requested = [name for name in QUANTITIES if of.requested(name)]
+    requested = {name: own for name in QUANTITIES if (own := of.requested(name))}
+    # values at the ends need no search
+    sought = [n for n, own in requested.items() if any(not x.startswith(ENDS) for x in own)]
+    found, unknown = worst_peaks(of.machine, sought), PeakArray(*np.full((2, 1), np.nan))
     w, output = np.ravel(omega(of.spec.drive.n_rpm)), of.machine.output
     flat = np.ravel(output.rate_per_radian)  # one for each design
     output = output._replace(rate_per_radian=cast("float", flat))
     out: dict[str, Number | None] = {}
     engagements = of.machine.engagements
-    for name, peak in worst_peaks(of.machine, requested).items():
+    for name in requested:
         ends: list[Array] = []
         if name == "velocity":  # the greatest jumps at an entry, and at an exit, with their signs
             for each in zip(*(engagement.jumps for engagement in engagements), strict=True):
@@ -96,7 +101,7 @@ def peaks(of: Designs) -> Columns:
             at = [one.motion(getattr(one.motion, end), order).arrays() for one in engagements]
             sizes = [np.ravel(abs(derivatives[order])) for derivatives in at]
             ends.append(np.max(np.broadcast_arrays(*sizes), axis=0))
-        out |= peak_values(name, output, w, tuple(peak), ends)
+        out |= peak_values(name, output, w, found.get(name, unknown), ends)
     return out
 
 

@@ -19,7 +19,7 @@ from geneva_cli.loads.strength.horn import greatest_stress, horns
 from geneva_cli.loads.strength.part_loads import PartLoads, part_loads, single_loads
 from geneva_cli.loads.strength.pin_arm_key import PinSize
 from geneva_cli.loads.tolerance.locking import Lock
-from geneva_cli.motion.batch import designs_in, each_of, taken
+from geneva_cli.motion.batch import designs_in, taken
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.registry import thing
@@ -95,7 +95,7 @@ class UnderLoad:
                 bare = Spec(of.wheel, drive, *keys, shaft=of.shaft, drive_before=before)
             if designs_in(bare) == 1:  # designs that differ in speed and loads have the same
                 return [_bare(build(taken(bare, 0)))]
-            return [*map(_bare, each_of(self.machine, self.machine.designs))]
+            return [_bare(taken(self.machine, i)) for i in range(self.machine.designs)]
         return [*map(_bare, self.designs.each)]
 
     @cached_property

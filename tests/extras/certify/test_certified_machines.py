@@ -220,7 +220,7 @@ def test_no_true_peak_of_a_law_is_excluded(law, drive):
         with mpmath.workdps(DIGITS):
             shape, sizes = LAWS[law](rng, law)
             if sizes is None:  # its fractions are numbers of the program, of exactly the whole
-                sizes = scca(*map(mpf, shape._fractions))
+                sizes = scca(*map(mpf, shape.FRACTIONS[:2]))
         alpha0_deg = round(rng.uniform(-40.0, 20.0), 2)
         machine = Design(
             External(rng.randint(5, 16)), drive(), Motion(shape, alpha0_deg=alpha0_deg)

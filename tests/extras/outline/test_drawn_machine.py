@@ -400,6 +400,9 @@ def test_what_takes_the_ideal_machine_says_so(tmp_path):
     assert not plain.ideal_notes
     with pytest.raises(GenevaError, match="our own parts, which drawings"):
         design.tolerance()
+    pytest.importorskip("flint")
+    said = CliRunner().invoke(app, ["peaks", str(tmp_path / "spec.toml"), "--certify"])
+    assert "parts and certificates are those of the ideal machine" in said.stderr
 
 
 def test_a_drawing_is_named_by_options_too(tmp_path):

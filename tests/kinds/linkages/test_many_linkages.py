@@ -106,3 +106,11 @@ def test_the_gentlest_wheel_is_found_past_a_sharp_bend():
     x = np.linspace(engagement.entry_deg, engagement.entry_deg + engagement.motion_deg, 361)
     assert engagement.motion(x, 1).c[1].max() == pytest.approx(0.4077, abs=1e-3)
     assert engagement.motion_deg == pytest.approx(170.38, abs=0.02)
+
+
+def test_designs_that_cannot_turn_leave_the_others_alone():
+    """The lines' angles are one sum over all designs, whose NaN would reach those behind them."""
+    found = many(four_bar(), {"drive.crank_mm": np.array([1000.0, 40.0])})
+    assert found.refused.tolist() == [True, False]
+    alone_mm = build(four_bar()).center_distance_mm
+    assert found.machine.center_distance_mm.item() == pytest.approx(alone_mm, rel=NEAR)

@@ -7,12 +7,13 @@ import pytest
 from mpmath import mp
 from shell_stress import horn as in_the_shell
 
-from geneva_cli import External, Spherical
+from geneva_cli import Crank, External, Spherical
 from geneva_cli.kinds.spherical.horn import sphere_horns
 from geneva_cli.loads.strength.horn import greatest_stress, horns
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.spec.tables import Load, Size
+from geneva_cli.study.batches import batch_machines, numbers
 
 LOAD = Load(torque_Nm=10.0)
 
@@ -139,3 +140,14 @@ def test_finite_elements_of_the_shell_agree_with_the_beam(z, axes_deg, L, h, b):
     inside = (inwards > 0.8 * h) & (inwards < 0.75 * (mouth - deep) * L)
     assert h < L * math.sin(k) / 8.0
     assert mises[inside].max() == pytest.approx(own_stress[inside].max(), rel=0.03)
+
+
+def test_horns_of_designs_that_share_their_angles():
+    """Of a sweep whose loads choose the recess: each design alone has the same stress."""
+    names = ["strength.horn.stress_MPa"]
+    load = Load(inertia_kgm2=0.05, torque_Nm=2.0)
+    specs = [Spec(Spherical(6), Crank(n_rpm=speed), load=load) for speed in (30.0, 60.0)]
+    (both,) = numbers(batch_machines(specs), names, 2)
+    alone = [numbers(batch_machines([one]), names, 1).item() for one in specs]
+    assert both == pytest.approx(alone, rel=1e-12)
+    assert both[1] > both[0] > 0.0

@@ -69,6 +69,19 @@ def test_force_and_stress_by_hand():
     assert values["stop.contact_stress_MPa"] == pytest.approx(usual, rel=2e-3)  # 0.418 has 3 digits
 
 
+def test_a_stop_that_gives_way_gets_advice():
+    """A rounder edge lowers its stress. A word for it once stood for nothing: a fault of 70."""
+    limits, load = Limits(stop_stress_max_MPa=600.0), Load(winding_torque_Nm=2.0)
+    size = Size(face_width_mm=10.0, lock_edge_mm=0.1)
+    d = Design(External(5, stop=True), load=load, limits=limits, size=size)
+    (failing,) = [check for check in d.checks if check.passes is False]
+    assert failing.name == "stop_stress_max_MPa"
+    key, _, value = failing.nearest.partition(" = ")
+    assert key == "lock_edge_mm"
+    rounder = size.replace(lock_edge_mm=float(value))
+    assert Design(External(5, stop=True), load=load, limits=limits, size=rounder).passes
+
+
 @pytest.mark.long
 @pytest.mark.usefixtures("no_advice")
 def test_checks_can_fail():
