@@ -7,7 +7,7 @@ With the unit tangents t1 and t2 there, its centre is
 
 so that the chord P2 - P1 is parallel to t1 + t2. Through each point of the path there is the line
 of its chord, as an entry and as an exit: by angle and offset two curves in a plane, cubics between
-samples. From their crossings Newton's method leads to the pairs.
+samples. Where two arcs may cross, Newton's method leads to a pair.
 Arrays have designs, samples or pairs along their last axis; paths have numbers (n,).
 """
 
