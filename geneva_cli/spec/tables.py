@@ -56,10 +56,8 @@ class Size(SpecTable):
     ] = field(default=None, kw_only=True)
     roller_radius_mm: Annotated[Positive, "roller radius r; default L/20"] = None
     process: Annotated[str | None, OneOf(PROCESSES), "sets clearances, fits and limits"] = None
-    slot_clearance_mm: Annotated[NotNegative, "per side of the roller; default 0, by process"] = (
-        None
-    )
-    lock_clearance_mm: Annotated[NotNegative, "per side of the disc; default 0, by process"] = None
+    slot_clearance_mm: Annotated[NotNegative, "per side; default 0, or by process"] = None
+    lock_clearance_mm: Annotated[NotNegative, "per side; default 0, or by process"] = None
     face_width_mm: Annotated[Positive, "length of the contact line between roller and slot"] = None
     wheel_radius_mm: Annotated[
         Positive,
@@ -68,7 +66,9 @@ class Size(SpecTable):
     wheel_outer_radius_mm: Annotated[Positive, "internal: outer radius; default slots + 2 r"] = None
     slot_bottom_clearance_mm: Annotated[NotNegative, "roller to a slot's end; default r/20"] = None
     lock_radius_mm: Annotated[NotNegative, "locking disc's radius; 0 none; default by horns"] = None
-    relief: Annotated[str | None, OneOf(("arc", "sector")), "its cut; default: what clears"] = None
+    relief: Annotated[
+        str | None, OneOf(("arc", "sector")), "its cut; default: the one that clears"
+    ] = None
     relief_clearance_mm: Annotated[NotNegative, "wheel to relief's bottom; default L/200"] = None
     wall_min_mm: Annotated[NotNegative, "least wall; default L/200, or by process"] = None
     wheel_bore_mm: Annotated[NotNegative, "wheel's shaft; default up to L/6, or by load"] = None
@@ -87,7 +87,9 @@ class Size(SpecTable):
     pin_mm: Annotated[NotNegative, "diameter of the roller's pin; default r, or by load"] = None
     press_fit_mm: Annotated[NotNegative, "pin minus its hole; default 0, or by process"] = None
     shaft_fit_mm: Annotated[NotNegative, "bores minus shafts; default 0, or by process"] = None
-    arm_bore_mm: Annotated[Positive, "crank's shaft in it; default crank_bore_mm, or load"] = None
+    arm_bore_mm: Annotated[Positive, "crank's shaft in it; default crank_bore_mm, or by load"] = (
+        None
+    )
     arm_hub_mm: Annotated[Positive, "width of the arm round its bore; default 1.6 bores"] = None
     arm_eye_mm: Annotated[Positive, "width of the arm round a pin; default up to 2 pins"] = None
     crank_keyway: Keyway = None
