@@ -70,7 +70,8 @@ def sheet(parts: FlatParts) -> Sheet:
         for own, plate in in_place(parts.members):
             if items[own] not in marked:
                 pieces = shapes.as_contour(plate.outline).segments
-                longest = sorted(pieces, key=lambda piece: -math.dist(piece.start, piece.end))
+                # equal sides in their order, whatever their last digits
+                longest = sorted(pieces, key=lambda one: -round(math.dist(one.start, one.end), 6))
                 tips[items[own]] += [shapes.at(piece, 0.5) for piece in longest[:8]]
         view.balloons(tips)
         return view.block()
