@@ -2,11 +2,9 @@
 
 import os
 import shlex
-import subprocess
 from typing import NamedTuple, get_args
 
 import pytest
-from repo import GENEVA
 from typer.main import get_command
 from typer.testing import CliRunner
 
@@ -303,19 +301,3 @@ def test_an_option_of_one_value_is_given_once(arguments, option):
     write("spec.toml", WHEEL)
     refused(run(*arguments.split()), "only one of both would count", place=f"{option}: given twice")
     assert os.listdir() == ["spec.toml"]
-
-
-INSTALLED = {
-    "table --z 2": "--z 2: ",
-    "tabel": "geneva: no such command 'tabel' (did you mean 'table'?); see geneva -h",
-    "peaks": "geneva peaks: missing argument 'SPEC'; see geneva peaks -h",
-}
-
-
-@pytest.mark.sampled(3)
-@pytest.mark.parametrize("line", INSTALLED)
-def test_the_installed_command(line):
-    """The same through a real process, whose streams and exit code a script would see."""
-    found = subprocess.run([GENEVA, *line.split()], capture_output=True, encoding="utf-8")
-    assert (found.returncode, found.stdout) == (2, "")
-    assert found.stderr.startswith(INSTALLED[line])

@@ -55,17 +55,6 @@ INTERNAL = """
 12 0.205604646759568224693193969093 -0.0961679962599035443141110175575
 24 0.115456141678356872441258327524 -0.0785438683215996993361105887342
 """
-# z: peak power of an external wheel and its angle in degrees (section 5.4)
-POWER = {
-    3: (159.3141681653509548, -3.620124499),
-    4: (10.015265915566938613, -8.483567513),
-    5: (2.4578431344989399689, -12.64885891),
-    6: (0.99033003352939846981, -16.06526314),
-    8: (0.30630459237683626823, -21.20877445),
-    10: (0.14209638196495825587, -24.84823457),
-    12: (0.080726869851324852285, -27.54245829),
-    24: (0.01276713326923605988, -35.36801609),
-}
 
 
 def every_other(A):
@@ -145,15 +134,6 @@ def test_table_internal(machine, z):
     assert found.acceleration == (near(entry, SIZE), s.entry_deg)
     assert found.ends.jerk_entry == near(jerk_entry, SIZE)
     assert s.motion(0.0).derivatives()[3] == near(jerk_mid, SIZE)
-
-
-@pytest.mark.parametrize("z", POWER)
-def test_table_power(machine, z):
-    size, at_deg = POWER[z]
-    m = machine(z)
-    found = peaks(m.engagements[0]).power
-    assert found.max == near(size, SIZE)
-    assert found.at_deg == pytest.approx(at_deg, abs=1e-8)  # as printed: ten digits
 
 
 @pytest.mark.parametrize("gearing", ["external", "internal"])
