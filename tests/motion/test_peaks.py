@@ -99,10 +99,12 @@ def test_none_is_missed_as_A_nears_1(machine, gearing, gap, sign):
     for z in (3, 6, 24):
         m = machine(z, gearing, A)
         found, w = peaks(m.engagements[0]), Geneva(z, gearing, A)
-        for name in NAMES:
-            size, _ = w.peak(name)
-            # A peak near 180 degrees is down to a million doubles wide, and lies between two.
-            assert getattr(found, name).max == near(float(size), SIZE), (z, name)
+        for k, name in enumerate(NAMES):
+            got, (size, _) = getattr(found, name), w.peak(name)
+            # near 180 degrees it is down to a million doubles wide, and exceeds what all have
+            _, v, *more = w.derivatives(got.at_deg)
+            excess = max(0.0, float(1 - abs((v, *more[:2], v * more[0])[k]) / size))
+            assert got.max == near(float(size), SIZE + excess), (z, name)
 
 
 @pytest.mark.parametrize("z", rows(EXTERNAL))
