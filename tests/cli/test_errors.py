@@ -15,7 +15,6 @@ WITHOUT_SPEC = {"table", "laws", "new", "synth", "explain", "keys", "help", "sch
 WHEEL = "[wheel]\nz = 6\n"
 SIDE = '[drive]\nkind = "side-crank"\n'
 BEFORE = '[drive.before]\nkind = "side-crank"\nA = 0\n'
-CURVED = '[motion]\nlaw = "cycloidal"\n'
 TABLE = '[motion]\nlaw = "table"\nfile = "law.csv"\n'
 
 
@@ -237,7 +236,6 @@ OPTIONS = [
 @pytest.mark.parametrize(("line", "wants"), [pytest.param(x, w, id=x[:40]) for x, *w in OPTIONS])
 def test_wrong_option(line, wants):
     write("spec.toml", WHEEL)
-    write("curved.toml", WHEEL + CURVED)
     words = shlex.split(line)
     said = refused(run(*words), words[1], *wants)
     assert len(said) <= 1001
