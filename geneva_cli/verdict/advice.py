@@ -325,6 +325,8 @@ class Adviser:
             for name in names:
                 check = single_check(parts.mechanism, name, parts)
                 out.spares[name] = check.spare if check else math.inf
+                if check and check.passes is None:  # a change is no advice that hides a check
+                    out.spares[name] = -math.inf
                 if not out.passes:
                     return out
             # where a check has no value, others say how near it is

@@ -80,6 +80,10 @@ def test_a_stop_that_gives_way_gets_advice():
     assert key == "lock_edge_mm"
     rounder = size.replace(lock_edge_mm=float(value))
     assert Design(External(5, stop=True), load=load, limits=limits, size=rounder).passes
+    # without the key nothing would say what the stress is, which is no way to pass
+    low = Limits(stop_stress_max_MPa=60.0)
+    none = Design(External(5, stop=True), load=load, limits=low, size=size)
+    assert [c.nearest for c in none.checks if c.passes is False] == [""]
 
 
 @pytest.mark.long
