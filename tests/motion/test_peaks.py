@@ -1,7 +1,7 @@
 """Peaks and the angles where they occur, against roots found at 50 digits.
 
 The program finds a peak as a root of the next derivative; the witness brackets on its own grid and
-solves on its own formulas. Tables: the reference values of the theory notes (sections 5.4 and 7).
+solves on its own formulas. Tables: the reference values of the theory notes (section 7).
 """
 
 import math
