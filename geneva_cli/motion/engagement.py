@@ -132,6 +132,11 @@ class WheelMotion(Batchable, ABC):
         return (self.entry_deg, 0.0, self.exit_deg)
 
     @property
+    def knots_deg(self) -> tuple[float, ...]:
+        """The breaks, and places where a derivative above the fourth jumps, in degrees."""
+        return self.breaks_deg
+
+    @property
     def seams_deg(self) -> tuple[float, ...]:
         """Entry, every place where another formula takes over, and exit, in degrees."""
         return self.breaks_deg

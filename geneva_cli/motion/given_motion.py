@@ -151,11 +151,18 @@ class LawMotion(WheelMotion):
 
     @property
     def breaks_deg(self) -> tuple[float, ...]:
+        return self._places(self.law.breaks)
+
+    @property
+    def knots_deg(self) -> tuple[float, ...]:
+        return self._places(self.law.knots)
+
+    def _places(self, fractions: tuple[float, ...]) -> tuple[float, ...]:
         whole = self.exit_deg - self.entry_deg
-        places = (0.5, *self.law.breaks)
-        inner = [0.0, *[self.entry_deg + u * whole for u in places]]
         if self.symmetric:
-            inner = [0.0, *[(u - 0.5) * whole for u in self.law.breaks]]
+            inner = [0.0, *[(u - 0.5) * whole for u in fractions]]
+        else:
+            inner = [0.0, *[self.entry_deg + u * whole for u in (0.5, *fractions)]]
         return (self.entry_deg, *arrays.ascending(inner), self.exit_deg)
 
     @property

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 from functools import lru_cache
 
-from geneva_cli.numerics.arrays import Array, Enclosed, N, parameter
+from geneva_cli.numerics.arrays import SINGLE, Array, Enclosed, N, parameter
 
 DEGREE = math.pi / 180.0
 _ONE = 1 << 128  # 1 in numbers of 128 binary places
@@ -41,10 +41,12 @@ def one_minus_sin_pi(p: int, q: int) -> float:
 
 
 def of_each(f: Callable[..., tuple[float, ...]], *numbers: float) -> list[float]:
-    """Apply a function of Python numbers to arrays, once for each distinct set of arguments.
+    """Apply a function of Python numbers to numbers or arrays, once for each distinct set of them.
 
-    ``f`` returns a tuple; the result has one array for each of its members.
+    ``f`` returns a tuple; the result has one number or array for each of its members.
     """
+    if all(isinstance(x, SINGLE) for x in numbers):
+        return [*f(*numbers)]
     import numpy as np
 
     arrays = np.broadcast_arrays(*numbers)

@@ -161,19 +161,6 @@ def choose(condition: Truth, yes: Real, no: Real) -> Real:
     return cast("Real", numpy.where(condition, *both))
 
 
-def of_each(f: Callable[[float], T], x: Number) -> T:
-    """What ``f`` makes of a number, or of each number of an array, once of equal ones.
-
-    Of several numbers each is an array, in one along a last axis.
-    """
-    if isinstance(x, SINGLE):
-        return f(x)
-    import numpy
-
-    values = rising(x)
-    return cast("T", numpy.array([*map(f, values.tolist())])[numpy.searchsorted(values, x)])
-
-
 def value_or(value: float | None, default: float) -> float:
     """Return a value of the spec, or else the default."""
     return default if value is None else value

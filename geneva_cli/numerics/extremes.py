@@ -351,7 +351,7 @@ def _stretches(pieces: Sequence[tuple[Rows, Array]]) -> Stretches:
     if not pieces:
         return Stretches(np.arange(0), np.arange(0), np.zeros((2, 0)), np.full((0, 0), True))
     rows, sign = joined(pieces)
-    order = np.lexsort((rows.x[0], rows.span, rows.design))
+    order = np.lexsort((rows.x[1], rows.x[0], rows.span, rows.design))  # empty pieces first
     design, span, _, (a, b) = record_taken(rows, order)
     positive = sign[:, order] > 0.0
     first = np.ones(len(design), dtype=bool)

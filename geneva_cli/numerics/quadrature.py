@@ -1,6 +1,7 @@
 """Integrals of functions of designs by Gauss-Legendre rules, halved where a series has not ended.
 
-The last of the n terms from n nodes bound the rule's error, which has the size of term 2 n.
+The last of the n terms from n nodes bound the rule's error, which has the size of term 2 n. A kink
+between an end and the node next to it shows as a difference from the series at that end.
 """
 
 from __future__ import annotations
@@ -91,29 +92,38 @@ def _parts(
 
     With ``ends`` places are at the fraction t² (3 - 2 t) of the span.
     """
-    (a, b), (node, terms), rows = spans, _rule(), []
+    (a, b), (node, terms, at_ends), rows = spans, _rule(), []
     for here in blocks(len(of), 1024):  # whose nodes fit in the processor's cache
         own, (low, high) = of[here], fractions[:, here]
         half = 0.5 * (high - low)[:, None]
         # designs lie side by side in memory
         t = np.asfortranarray((0.5 * (low + high))[:, None] + half * node)
+        # at the ends of a span itself a function may have no value
+        inner = np.stack((low > 0.0, high < 1.0), axis=-1)
+        t[:, NODES:] = np.where(inner, t[:, NODES:], t[:, [NODES - 1, 0]])
         width = (b - a)[own, None]
         rate = width * half
         if ends:
             rate = rate * (6.0 * t * (1.0 - t))
             t = t * t * (3.0 - 2.0 * t)
-        value = functions(a[own, None] + width * t, own) * rate
+        every = functions(a[own, None] + width * t, own) * rate
+        value, apart = every[..., :NODES], every[..., NODES:]
         sums = matrix_product(value, terms)
-        last = np.abs(sums[..., 1:]).max(axis=-1)
+        apart = np.where(inner, apart - matrix_product(value, at_ends), 0.0)
+        last = np.abs(np.concatenate((sums[..., 1:], (1.0 - node[0]) * apart), axis=-1))
+        last = last.max(axis=-1)
         rows.append((sums[..., 0], last, matrix_product(np.abs(value), terms[:, 0])))
     return joined(rows)
 
 
 @cache
-def _rule() -> tuple[Array, Array]:
-    """Nodes in [-1, 1]; their weights, and those of the last terms."""
+def _rule() -> tuple[Array, Array, Array]:
+    """Nodes in [-1, 1] and the ends; weights for the sum and the last terms, and for the ends."""
     node, weight = rule(NODES)
     before, last = legendre(node, NODES - 1)
     # The last two terms together: every other term of an even or odd function is 0.
     terms = np.ones(NODES), (NODES - 1.5) * before, (NODES - 0.5) * last
-    return read_only((node, weight[:, None] * np.column_stack(terms)))
+    # the series at an end, by the sum of Christoffel and Darboux
+    at_ends = [0.5 * NODES * last / (s - node) for s in (-1.0, 1.0)]
+    ends = weight[:, None] * np.column_stack(at_ends)
+    return read_only((np.append(node, [-1.0, 1.0]), weight[:, None] * np.column_stack(terms), ends))

@@ -24,6 +24,7 @@ from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.motion.batch import taken
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.numerics.angles import of_each
 from geneva_cli.numerics.arrays import (
     Array,
     Number,
@@ -31,7 +32,6 @@ from geneva_cli.numerics.arrays import (
     choose,
     half_or,
     mapped,
-    of_each,
     parameter,
     rising,
     smaller,
@@ -150,7 +150,7 @@ def shaft_of(spec: Spec, part: str, bore: float, to_frame: float, thick: float) 
     return ShaftSize(value_or(own[0], diameter), value_or(own[1], to_frame + 0.5 * thick))
 
 
-def key_of(standard: str | None, bore: Number, length: Number) -> pin_arm_key.KeyDimensions:
+def key_of(standard: str | None, bore: float, length: float) -> pin_arm_key.KeyDimensions:
     """Return the dimensions of keys in bores; NaN without one, or where no key is as large."""
     if standard is None:
         return pin_arm_key.NO_KEY

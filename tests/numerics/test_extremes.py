@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from numpy.polynomial import polynomial
 
-from geneva_cli.numerics.extremes import Smooth, cuts, search
+from geneva_cli.numerics.cuts import Rows
+from geneva_cli.numerics.extremes import SearchResult, Smooth, cuts, search
 from geneva_cli.numerics.jet import Jet
 
 WHOLE = 10.0
@@ -51,6 +52,12 @@ def test_the_greatest_and_the_least_of_waves():
     low = np.where(rates * WHOLE > 1.5 * np.pi, -1.0, dense.min(axis=1))
     assert found.most[0] == pytest.approx(top, rel=1e-15)
     assert -found.most[1] == pytest.approx(low, rel=1e-15)
+
+
+def test_an_empty_piece_hides_none_that_begins_with_it():
+    ends, one = np.array([[0.0, 2.0, 2.0], [2.0, 5.0, 2.0]]), np.zeros(3, dtype=int)
+    found = SearchResult(*np.zeros((2, 1)), [(Rows(one, one, ends, ends), np.ones((1, 3)))])
+    assert found.stretches.x.tolist() == [[0.0], [5.0]]
 
 
 class Bent:

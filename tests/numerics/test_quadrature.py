@@ -36,9 +36,9 @@ def test_roots_at_the_ends_cost_no_more_than_what_is_smooth(name):
     assert len(calls) <= 4, "an end is halved time and again"
 
 
-@pytest.mark.parametrize("kink", [2.0 + 1e-3, 2.003, 2.05, 3.5, 4.997])
+@pytest.mark.parametrize("kink", [2.0 + 1e-3, 2.003, 2.05, 3.4999, 3.5, 3.503, 4.997])
 def test_a_kink_beside_an_end_is_found(kink):
-    """|x - kink| over 2..5, between an end and the nearest place of a rule without halving."""
+    """|x - kink| over 2..5, between an end, or the middle, and the nearest place of a rule."""
     ends, one = (np.array([2.0]), np.array([5.0])), np.zeros(1, dtype=int)
     found = span_integrals(lambda x, _: abs(x - kink)[None], ends, one, np.full((1, 1), True), True)
     exact = 0.5 * ((kink - 2.0) ** 2 + (5.0 - kink) ** 2)

@@ -25,10 +25,9 @@ import numpy as np
 from geneva_cli import design
 from geneva_cli.motion.motion_table import motion_table
 from geneva_cli.geometry import fit
-from geneva_cli.parts.assembly import assembly
 from geneva_cli.parts.slots.groove import groove_curve
 from geneva_cli.parts.outlines.cut_outlines import slot_walls
-from geneva_cli.parts.machine_sizes import sizes
+from geneva_cli.parts.machine_sizes import machine_sizes
 def load(path):
     return design.load(path).mechanism
 def tell(what):
@@ -39,8 +38,7 @@ for side in (1.0, 0.0):
     for a, b in ((cam.entry_deg, cam.exit_deg), (cam.exit_deg, cam.entry_deg + 360.0)):
         tell(fit.KINDS["arcs"](curve, a, b, 0.001))
 curved = load("designs/modified-sine-matched.toml")
-where = assembly(curved)
-tell(slot_walls(where, sizes(where), curved.engagements[0], 0.001))
+tell(slot_walls(*machine_sizes(curved), curved.engagements[0], 0.001))
 tell([c.tolist() for c in motion_table(load("designs/table-law.toml"), 999).columns])
 tell([c.tolist() for c in motion_table(load(sys.argv[1]), 999).columns])
 for name in ("cam-geneva", "turret"):

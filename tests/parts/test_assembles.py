@@ -129,7 +129,7 @@ def solids(parts):
 def misfits(every, L, fit):
     """Round shafts and the bores about them that are not wider by the fit."""
     for shaft in (one for one in every if one.layer == "SHAFT" and one.radius):
-        for one in (one for one in every if one.shares_height(shaft)):
+        for one in (one for one in every if one is not shaft and one.shares_height(shaft)):
             for at, radius in one.bores:
                 loose = 2.0 * (radius - shaft.radius)
                 if abs(at - shaft.at) < NEAR and abs(loose - fit) > 1e-9 * L:

@@ -182,7 +182,7 @@ def angle(p, d, i, one, folder):
 
 def in_gear(d):
     """Slot, gears at a constant ratio, slot."""
-    half, a = 0.5 * d["sector's angle"], d["handover, from the line of centres"]
+    half = 0.5 * d["sector's angle"]
 
     def slot(deg):
         pin = d["centre distance"] - d["crank radius"] * turn(-deg)
@@ -193,8 +193,7 @@ def in_gear(d):
     def found(x):
         if abs(x) <= half:
             return d["gears' ratio u"] * math.radians(x)
-        beyond = math.copysign(abs(x) - half + a, x)
-        return slot(beyond) - math.copysign(1.0, x) * (slot(a) - turned)
+        return slot(math.copysign(abs(x) - half, x)) + math.copysign(turned, x)
 
     return found
 

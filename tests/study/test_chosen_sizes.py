@@ -84,7 +84,10 @@ def test_a_sized_spec_chooses_nothing_and_keeps_its_text(pair):
 def test_a_sized_spec_has_the_same_values_in_check(pair):
     origin, sized, _ = pair
     before, after = values(origin), values(sized)
-    assert {name: after[name] for name in before} == before
+    for name, (value, *rest) in before.items():
+        assert after[name][1:] == tuple(rest)
+        # the cube of an array or a number: a rounding
+        assert value == after[name][0] or value == pytest.approx(after[name][0], rel=5e-16, abs=0.0)
     assert after.keys() - before.keys() <= OF_KEYS
     assert all(after[name][2] for name in after.keys() - before.keys())
 

@@ -143,7 +143,7 @@ def test_a_key_by_hand():
     assert all(row.width >= 2.0 * (row.height - row.in_shaft) for row in DIN_6885_1)
 
 
-@pytest.mark.long
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("seed", range(8))
 def test_no_default_passes_beyond_its_steel(seed):
     """Machines over decades of size and load: what passes has stresses below the steel's.

@@ -191,12 +191,6 @@ def _engagement(
     return Engagement(0.0, anchored, RadialSlot(anchored), motion, body, reactions, -s), L
 
 
-def _around(path: LinkPath, middle: Array, ends: Array) -> Complex:
-    """Displacements, velocities and accelerations (3, 2, n) at angles ``ends`` from ``middle``."""
-    move = path.about(parameter(middle))
-    return tangents.complex_of(*move(*sine_versine(Jet.variable(ends, 2))))
-
-
 class _AlongRay(NamedTuple):
     """The pin's displacement along a ray (x, y) and across it, positive with the wheel."""
 

@@ -20,7 +20,6 @@ import numpy as np
 from geneva_cli.motion.batch import selection
 from geneva_cli.motion.engagement import WheelMotion
 from geneva_cli.motion.laws.law import Law
-from geneva_cli.motion.peak_search import breaks
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import (
     Array,
@@ -102,7 +101,7 @@ def motion_shapes(motion: WheelMotion, m: int = 1) -> Panels:
         angle = some(some.entry_deg + u * whole, 2)
         return [v / step for v in angle.c], whole * DEGREE
 
-    every = np.hstack(breaks(motion, m))
+    every = np.hstack([np.broadcast_to(np.asarray(x), (m, 1)) for x in motion.knots_deg])
     return _panels(taylor, (every - every[:, :1]) / (every[:, -1:] - every[:, :1]))
 
 

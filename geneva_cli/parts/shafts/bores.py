@@ -18,7 +18,8 @@ from typing import NamedTuple
 from geneva_cli.errors import GenevaError, refuse_size
 from geneva_cli.geometry import shapes
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Line, Shape
-from geneva_cli.numerics.arrays import half_or, of_each, value_or
+from geneva_cli.numerics.angles import of_each
+from geneva_cli.numerics.arrays import half_or, value_or
 from geneva_cli.numerics.tolerances import ROUNDED
 from geneva_cli.spec.defaults import ParallelKey, key
 from geneva_cli.spec.tables import Size
@@ -142,13 +143,13 @@ def reach_or_bore(size: Size, part: str, bore: float) -> float:
     if own[f"{part}_bore"] == "round" and own[f"{part}_keyway"] is None:
         return bore + 0.5 * size.allowances.shaft_fit_mm
 
-    def reach(radius: float) -> float:
+    def reach(radius: float) -> tuple[float]:
         try:
-            return bore_of(size, part, radius).reach
+            return (bore_of(size, part, radius).reach,)
         except GenevaError:  # reported where the part is cut
-            return radius
+            return (radius,)
 
-    return of_each(reach, bore)
+    return of_each(reach, bore)[0]
 
 
 def radius_of(shape: Shape) -> float:
