@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import posixpath
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sized
 from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import Any
@@ -87,10 +87,13 @@ def refuse_text(where: Any, key: tuple[str, str], text: str, /, **values: object
         refuse(where, lambda: GenevaError(text.format(**values), key))
 
 
-def refuse_size(wrong: object, key: str, text: str, value: float | None = None) -> None:
-    """Raise GenevaError where ``wrong`` holds: a text, after a key of ``[size]`` and its value."""
-    if wrong:
-        raise GenevaError(text if value is None else f"{key} = {value:g}: {text}", ("size", key))
+def refuse_size(
+    wrong: Any, key: str, text: str, own: float | None = None, /, **values: object
+) -> None:
+    """``refuse_text`` of a key of ``[size]``, after its name and its ``own`` value."""
+    told = text if own is None else f"{key} = {{own:g}}: {text}"
+    where = wrong if isinstance(wrong, Sized) else bool(wrong)  # an array, or one design's
+    refuse_text(where, ("size", key), told, own=own, **values)
 
 
 @contextmanager

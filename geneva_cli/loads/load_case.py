@@ -78,7 +78,7 @@ def load_case(mechanism: Mechanism) -> LoadCase:
 def centrifugal_N(mechanism: Mechanism) -> Array:
     """The centrifugal force of all bodies on a wheel on a carrier, N, (m, 1)."""
     spec, L = mechanism.spec, mechanism.center_distance_mm / 1000.0
-    return np.atleast_2d(carried_kg(spec) * omega(spec.drive.n_rpm) ** 2 * L)
+    return np.full((mechanism.designs, 1), carried_kg(spec) * omega(spec.drive.n_rpm) ** 2 * L)
 
 
 def multiples(mechanism: Mechanism) -> dict[str, tuple[str, float | None, str]]:

@@ -114,7 +114,7 @@ class Spec(SpecTable):
         L, before = self.size.distance_mm, self.drive_before
         turns = self.drive.turns * (before.turns if before else 1)
         gears = (before and before.gears) or (None if self.drive.direct else self.drive.gears)
-        lock = self.drive.LOCKS and self.size.lock_radius_mm != 0.0
+        lock = self.drive.LOCKS and not all_true(self.size.lock_radius_mm == 0.0)
         own = {"turns": turns, "given_distance_mm": L, "gears": gears, "has_lock": lock}
         holder = self.wheel.held_by or (self.wheel.LOCK if lock else None)
         vars(self).update(own, output=self.wheel.output(L), dwell_holder=holder)

@@ -12,6 +12,7 @@ from bisect import bisect_right
 from collections.abc import Callable
 from itertools import product, starmap
 
+from geneva_cli.numerics.angles import of_each
 from geneva_cli.numerics.arrays import SINGLE, Array, N, Number, choose, larger
 
 # Fraction of the centre distance, or of a sphere's radius: lengths and places nearer to each other
@@ -119,6 +120,8 @@ def rounded_radius(most: N) -> N:
 
 def bore_radius(most: float) -> float:
     """Return the radius up to ``most`` mm of a standard bearing's bore; or 0."""
+    if not isinstance(most, SINGLE):
+        return of_each(lambda radius: (bore_radius(radius),), most)[0]
     widest = 2.0 * most
     if not _BORES[0] <= widest <= _BORES[-1]:
         return 0.5 * rounded_below(widest)

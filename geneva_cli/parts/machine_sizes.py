@@ -9,17 +9,18 @@ from __future__ import annotations
 
 import math
 from contextlib import suppress
-from functools import cache, lru_cache, partial
+from functools import cache, lru_cache, partial, reduce
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from geneva_cli.errors import GenevaError, refuse_size
+from geneva_cli.errors import GenevaError, marking, refuse_size
 from geneva_cli.geometry import plates
+from geneva_cli.motion.batch import taken
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.registry import thing
-from geneva_cli.numerics.arrays import mapped, value_or
+from geneva_cli.numerics.arrays import Mask, choose, larger, library, mapped, smaller, value_or
 from geneva_cli.numerics.tolerances import SAME_LENGTH, bore_radius, rounded_below
 from geneva_cli.parts import sizes as rules
 from geneva_cli.parts.assembly import Assembly, assembly
@@ -91,13 +92,37 @@ def loaded(of: Unloaded, mechanism: Mechanism, loads: PartLoads) -> Sizes:
     return out
 
 
-def fits(of: Unloaded, sizes: Sizes) -> bool:
-    """Return False for sizes under a load that leave no wheel or no lock."""
-    try:
-        _refuse(of.assembly, sizes)
-    except GenevaError:  # the check of the parts reports the error
-        return False
-    return True
+def unloaded_alike(machine: Mechanism) -> Unloaded | None:
+    """Return the parts without a load of m designs that move alike, NaN where a lock does not fit.
+
+    None if no design has parts.
+    """
+    where = of_batch(assembly(taken(machine, 0)), machine)
+    with marking() as marks:
+        sizes, space = _usual_sizes(where._replace(full=where.full._replace(spec=machine.spec)))
+    wrong: Mask = reduce(np.logical_or, marks, np.zeros((1, 1), dtype=bool))
+    sizes = mapped(lambda x: choose(wrong, math.nan, x), sizes) if marks else sizes
+    return None if np.all(wrong) else Unloaded(where, sizes, space, partial(cut_lock, where, sizes))
+
+
+def of_batch(first: Assembly, machine: Mechanism) -> Assembly:
+    """Return the assembly of one of m designs with the sizes of all."""
+    L = machine.center_distance_mm
+    with marking():  # they are checked
+        spec = first.mechanism.spec.replace(size=machine.spec.size)
+    one = first.mechanism._replace(spec=spec, center_distance_mm=L)
+    return first._replace(mechanism=one, L=L)
+
+
+def fits(of: Unloaded, sizes: Sizes) -> Mask:
+    """Return for which designs sizes under a load leave a wheel and a lock, (m, 1) or (1, 1)."""
+    fit = np.atleast_2d(np.isfinite(sizes.rim))  # not that of a design without parts
+    with marking() as marks:
+        try:
+            _refuse(of.assembly, sizes)
+        except GenevaError:  # the check of the parts reports the error
+            return fit & False
+    return fit & ~reduce(np.logical_or, marks, ~fit)
 
 
 def key_sizes(mechanism: Mechanism) -> KeySizes:
@@ -183,53 +208,60 @@ def wheel_body(mechanism: Mechanism) -> plates.MassProperties | None:
 
 
 def _usual_sizes(assembly: Assembly) -> tuple[Sizes, float]:
-    """Return the sizes without a load, and the radius about the crank's axis inside the relief."""
+    """Return the sizes without a load, and the radius about the crank's axis inside the relief.
+
+    Of m designs that differ in size alone, they are numbers or (m, 1).
+    """
     spec, full, L, sign = assembly.mechanism.spec, assembly.full.spec, assembly.L, assembly.sign
     size, r = spec.size, assembly.mechanism.roller_radius_mm
     deepest, arm, reaches = roller_paths(assembly)
     allowed, outside = size.allowances, sign > 0.0
     w = r + allowed.slot_clearance_mm
-    bottom = value_or(size.slot_bottom_clearance_mm, max(allowed.slot_clearance_mm, r / 20.0))
+    bottom = value_or(size.slot_bottom_clearance_mm, larger(allowed.slot_clearance_mm, r / 20.0))
     mouths, ends, apart = list[float](), list[float](), False
     for s, far in zip(assembly.kinds, deepest, strict=True):
         mouths.append(mouth(assembly, s, r))
         # the gap below the deepest roller is along the slot, whose axis may miss the wheel's
         offset = L * s.through.slot.offset
-        along = math.sqrt(max(far * far - offset * offset, 0.0))
-        along -= 0.0 if s.slot.curved else sign * bottom
+        m = library(far, bottom)
+        along = m.sqrt(larger(far * far - offset * offset, 0.0))
+        along = along - (0.0 if s.slot.curved else sign * bottom)
         # beyond the wheel's axis the distance is negative
-        ends.append(sign * math.copysign(math.hypot(along, offset), along))
+        ends.append(sign * m.copysign(m.hypot(along, offset), along))
         apart = apart or bool(s.apart)
-    rim = value_or(size.wheel_radius_mm, max(mouths))
-    end, depth = (min(ends) - w) * sign, abs(L - rim)
+    rim = value_or(size.wheel_radius_mm, reduce(larger, mouths))
+    end, depth = (reduce(smaller, ends) - w) * sign, abs(L - rim)
     lock = 0.0
     if spec.has_lock:
-        limit, least = arm - w - allowed.lock_clearance_mm, max(L - rim, 0.0)
-        text = f"the locking disc does not fit: it must be above {least:.4g} mm to reach the rim, "
-        text += f"but roller and clearances limit it to {limit:.4g}; use lock_radius_mm = 0, a "
-        refuse_size(
-            limit <= least, "lock_radius_mm", text + "smaller roller, or no wheel_radius_mm"
-        )
+        limit, least = arm - w - allowed.lock_clearance_mm, larger(L - rim, 0.0)
+        text = "the locking disc does not fit: it must be above {least:.4g} mm to reach the rim, "
+        text += "but roller and clearances limit it to {limit:.4g}; use lock_radius_mm = 0, a "
+        text += "smaller roller, or no wheel_radius_mm"
+        wrong = (limit <= least) & (size.lock_radius_mm != 0.0)  # as in some designs of a batch
+        refuse_size(wrong, "lock_radius_mm", text, least=least, limit=limit)
         # a horn that is cut back may have no thickness where its tip would be
-        spare = limit * SAME_LENGTH if size.horn_tip_mm else 0.0
+        spare = choose(size.horn_tip_mm > 0.0, limit * SAME_LENGTH, 0.0)
         lock = lock_between(size.lock_radius_mm, least, limit, r, spare)
-    relief = value_or(size.relief_clearance_mm, min(L / 200.0, depth / 4.0))
-    space = (lock or rim) / arm * (L - math.sqrt(max(rim * rim - r * r, 0.0))) if outside else 0.0
+    relief = value_or(size.relief_clearance_mm, smaller(L / 200.0, depth / 4.0))
+    inner = library(rim, r).sqrt(larger(rim * rim - r * r, 0.0))
+    space = choose(lock > 0.0, lock, rim) / arm * (L - inner) if outside else 0.0
     if apart:  # gears between rollers widen the relief
         floor = arc_floor(assembly, lock)
-        space = min(space, floor) if floor else math.inf
-    within = min(space, depth - relief)
+        space = choose(floor > 0.0, smaller(space, floor), math.inf)
+    within = smaller(space, depth - relief)
     bore = _crank_bore(full, within, L) if spec.drive.LOCKS else 0.0
     wall = wall_min(size, L)
-    axle = rules.wheel_bore(full, end, wall, L) if outside or size.wheel_bore_mm else 0.0
-    pin = 0.5 * value_or(size.pin_mm, rounded_below(r))
+    open_ = not outside and size.wheel_bore_mm is None
+    axle = 0.0 if open_ else rules.wheel_bore(full, end, wall, L)
+    pin, near = rules.pin_radius(size, r), reduce(smaller, reaches)
     armed = 0.0
-    if full.drive.ONE_ARM and pin:  # without pins there is no arm
-        armed = rules.arm_bore(full, bore, L, min(reaches) - rules.hole_radius(size, pin))
-    outer = 0.0 if outside else value_or(size.wheel_outer_radius_mm, end + max(r, L / 20.0))
-    recess = lock + allowed.lock_clearance_mm if lock else 0.0
+    if full.drive.ONE_ARM:  # without pins there is no arm
+        armed = rules.arm_bore(full, bore, L, near - rules.hole_radius(size, pin))
+        armed = choose(pin > 0.0, armed, 0.0)
+    outer = 0.0 if outside else value_or(size.wheel_outer_radius_mm, end + larger(r, L / 20.0))
+    recess = choose(lock > 0.0, lock + allowed.lock_clearance_mm, 0.0)
     # in the order of ``Sizes``
-    slots = r, w, rim, outer, bottom, end, arm, (min(reaches), max(reaches))
+    slots = r, w, rim, outer, bottom, end, arm, (near, reduce(larger, reaches))
     locks = lock, recess, relief, wall, size.mouth_radius_mm, size.horn_tip_mm
     on_axle = axle, *rules.reach_and_hub(size, "wheel", axle, wall, end)
     on_crank = bore, *rules.reach_and_hub(size, "crank", bore, wall), pin, armed
@@ -246,9 +278,9 @@ def _crank_bore(spec: Spec, space: float, L: float) -> float:
     shaft = spec.shaft.crank_diameter_mm if shaft is None else shaft
     if shaft is not None:
         # a larger bore leaves no space for its default hub, of 1.5 bores
-        return 0.5 * shaft if 0.5 * shaft <= 0.6 * space else 0.0
-    within = rules.within_hub(size, "crank")
-    return bore_radius(min(0.45 * space, within)) if 0.45 * space >= L / 40.0 else 0.0
+        return choose(0.5 * shaft <= 0.6 * space, 0.5 * shaft, 0.0)
+    most = bore_radius(smaller(0.45 * space, rules.within_hub(size, "crank")))
+    return choose(0.45 * space >= L / 40.0, most, 0.0)
 
 
 def lock_between(
@@ -260,10 +292,11 @@ def lock_between(
     radius. Raises GenevaError where the spec's lock does not reach the rim, or leaves no horn.
     """
     if own_mm is None:
-        return max(limit - min(roller, limit / 5.0), 0.5 * (limit + least))
-    text = f"it must be above {least:.6g} to reach the rim, and below {limit + spare:.6g} to leave "
-    wrong = not least < own_mm < limit + spare
-    refuse_size(wrong, "lock_radius_mm", f"{text}a horn; 0 means no lock", own_mm)
+        return larger(limit - smaller(roller, limit / 5.0), 0.5 * (limit + least))
+    text = "it must be above {least:.6g} to reach the rim, and below {most:.6g} to leave a horn; "
+    text, most = f"{text}0 means no lock", limit + spare
+    wrong = ((own_mm <= least) | (own_mm >= most)) & (own_mm != 0.0)  # as in some of a batch
+    refuse_size(wrong, "lock_radius_mm", text, own_mm, least=least, most=most)
     return own_mm
 
 
@@ -271,39 +304,40 @@ def _refuse(assembly: Assembly, sizes: Sizes) -> None:
     """Raise GenevaError for sizes that leave no wheel or no lock, and for keys of no such part."""
     size, outside, L = assembly.mechanism.spec.size, assembly.sign > 0.0, assembly.L
     lock, end, bored = sizes.lock, sizes.slot_end, 2.0 * sizes.crank_bore
-    text = "the rim lies beyond the locking disc's reach; it must be below "
-    wrong = lock and not abs(L - sizes.rim) < sizes.recess
-    refuse_size(wrong, "wheel_radius_mm", f"{text}{L + sizes.recess:.6g}", sizes.rim)
+    most, has_lock = L + sizes.recess, lock > 0.0
+    text = "the rim lies beyond the locking disc's reach; it must be below {most:.6g}"
+    wrong = has_lock & (abs(L - sizes.rim) >= sizes.recess)
+    refuse_size(wrong, "wheel_radius_mm", text, sizes.rim, most=most)
     text = "the slots meet in the wheel's centre: reduce roller_radius_mm, slot_clearance_mm and "
-    text += f"slot_bottom_clearance_mm together by more than {-end:.4g} mm"
-    refuse_size(outside and end <= 0.0, "roller_radius_mm", text)
-    text = f"the slots reach down to {end:.6g} mm; it must be below {2.0 * end:.6g}"
-    wrong = outside and sizes.wheel_bore >= end
-    refuse_size(wrong, "wheel_bore_mm", text, 2.0 * sizes.wheel_bore)
-    own = size.arm_bore_mm  # of one shaft with the crank's bore; 0 ends it in the arm
-    one = assembly.full.spec.drive.ONE_ARM and own and bored
-    text = f"the shaft runs through the arm and on, so crank_bore_mm = {bored:g} must be equal, "
-    stepped = one and own and abs(own - bored) > 2.0 * SAME_LENGTH * L
-    refuse_size(stepped, "arm_bore_mm", f"{text}or 0 to end it in the arm", own)
-    text = f"it must be below the locking disc's {2.0 * lock:.6g}"
-    refuse_size(lock and sizes.crank_bore >= lock, "crank_bore_mm", text, bored)
-    thin = min(sizes.wheel_thickness, sizes.lock_thickness, sizes.arm_thickness)
+    text += "slot_bottom_clearance_mm together by more than {lost:.4g} mm"
+    refuse_size((end <= 0.0) & outside, "roller_radius_mm", text, lost=-end)
+    text = "the slots reach down to {end:.6g} mm; it must be below {most:.6g}"
+    axle, wrong = 2.0 * sizes.wheel_bore, (sizes.wheel_bore >= end) & outside
+    refuse_size(wrong, "wheel_bore_mm", text, axle, end=end, most=2.0 * end)
+    own = value_or(size.arm_bore_mm, 0.0)  # of one shaft with the crank's bore
+    text = "the shaft runs through the arm and on, so crank_bore_mm = {bored:g} must be equal, or "
+    stepped = (own > 0.0) & (bored > 0.0) & (abs(own - bored) > 2.0 * SAME_LENGTH * L)
+    stepped &= assembly.full.spec.drive.ONE_ARM
+    refuse_size(stepped, "arm_bore_mm", f"{text}0 to end it in the arm", own, bored=bored)
+    text, wrong = "it must be below the locking disc's {most:.6g}", sizes.crank_bore >= lock
+    refuse_size(wrong & has_lock, "crank_bore_mm", text, bored, most=2.0 * lock)
+    thin = reduce(smaller, (sizes.wheel_thickness, sizes.lock_thickness, sizes.arm_thickness))
     rules.refuse_pin_and_edges(size, sizes.pin, sizes.roller, thin)
-    key = "mouth_radius_mm" if sizes.mouth_radius else "horn_tip_mm"
-    text = f"{key} is for straight slots, each of which a roller enters and leaves: remove it"
-    shaped = sizes.mouth_radius or sizes.horn_tip
-    wrong = shaped and any(kind.slot.curved or kind.apart for kind in assembly.kinds)
-    refuse_size(wrong, key, text)
+    unlike = any(kind.slot.curved or kind.apart for kind in assembly.kinds)
+    for key, shaped in (("mouth_radius_mm", sizes.mouth_radius), ("horn_tip_mm", sizes.horn_tip)):
+        text = f"{key} is for straight slots, each of which a roller enters and leaves: remove it"
+        refuse_size((shaped > 0.0) & unlike, key, text)
     text = "horn_tip_mm blunts the horns between slots and recesses, and without a locking disc "
-    refuse_size(sizes.horn_tip and not lock, "horn_tip_mm", f"{text}there are none: remove it")
-    text = f"it must be larger: the slots reach {end:.6g} mm"
-    wrong = not outside and sizes.outer <= max(end, L + sizes.recess)
-    refuse_size(wrong, "wheel_outer_radius_mm", text, sizes.outer)
+    wrong = (sizes.horn_tip > 0.0) & (lock <= 0.0)
+    refuse_size(wrong, "horn_tip_mm", f"{text}there are none: remove it")
+    text, wrong = "it must be larger: the slots reach {end:.6g} mm", sizes.outer <= end
+    wrong = (wrong | (sizes.outer <= most)) & (not outside)
+    refuse_size(wrong, "wheel_outer_radius_mm", text, sizes.outer, end=end)
     text = "wheel_outer_radius_mm is for internal wheels only; here set wheel_radius_mm"
     wrong = outside and size.wheel_outer_radius_mm is not None
     refuse_size(wrong, "wheel_outer_radius_mm", text)
-    for key in OF_AXLE if sizes.outer else ():
+    for key in () if outside else OF_AXLE:
         text = f"{key}: an internal wheel is open in the middle; remove it"
-        refuse_size(vars(size)[key], key, text)
+        refuse_size(value_or(vars(size)[key], 0.0) != 0.0, key, text)
     rules.refuse_bored_hub("wheel", sizes.wheel_hub, sizes.wheel_reach, sizes.wheel_bore)
     rules.refuse_bored_hub("crank", sizes.crank_hub, sizes.crank_reach, sizes.crank_bore)

@@ -323,8 +323,8 @@ def _bored(case: Sizing, part: str, keyed: bool = True) -> Sizes:
         # a third of the wheel up to its slots is left as a wall
         space = smaller(sizes.slot_end * 2.0 / 3.0, sizes.slot_end - sizes.wall_min)
     else:
-        fixed = not (size.arm_bore_mm is spec.shaft.crank_diameter_mm is None)
-        fixed = fixed or (own is not None and np.max(own) > 0.0)
+        free = size.arm_bore_mm is spec.shaft.crank_diameter_mm is None
+        fixed = not free or np.max(value_or(own, 0.0)) > 0.0
         space = 0.6 * case.space  # a larger bore leaves no space for its default hub, of 1.5 bores
     if np.max(through) > 0.0:
         most = smaller(space, rules.within_hub(size, part))

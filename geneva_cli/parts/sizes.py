@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
+from functools import reduce
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
@@ -154,45 +155,48 @@ def refuse_pin_and_edges(size: Size, pin: float, roller: float, thin: float) -> 
     The pin's hole is in a roller with its least radius; the thinnest plate is ``thin`` mm thick.
     """
     loose, key = size.allowances.shaft_fit_mm, "edge_fillet_mm"
-    text = f"it must be below {2.0 * roller - loose:.6g}, the roller's least diameter less "
-    wide = pin and 2.0 * pin + loose >= 2.0 * roller
-    refuse_size(wide, "pin_mm", f"{text}shaft_fit_mm", 2.0 * pin)
+    text = "it must be below {least:.6g}, the roller's least diameter less shaft_fit_mm"
+    wide = (pin > 0.0) & (2.0 * pin + loose >= 2.0 * roller)
+    refuse_size(wide, "pin_mm", text, 2.0 * pin, least=2.0 * roller - loose)
     chamfer = size.edge_chamfer_mm is not None
     text = f"{key}: edges are either chamfered or rounded; remove one of edge_chamfer_mm and {key}"
     refuse_size(chamfer and size.edge_fillet_mm is not None, key, text)
-    text = f"it must be below {0.5 * thin:.6g}, half of the thinnest plate"
+    text = "it must be below {half:.6g}, half of the thinnest plate"
     key = "edge_chamfer_mm" if chamfer else key
-    refuse_size(2.0 * size.edge_mm >= thin, key, text, size.edge_mm)
+    refuse_size(2.0 * size.edge_mm >= thin, key, text, size.edge_mm, half=0.5 * thin)
 
 
 def arm_bore(spec: Spec, disc: float, L: float, space: float) -> float:
     """Return the radius of the arm's bore: of the spec, the ``disc``, or within a ``space``."""
-    diameter = spec.size.arm_bore_mm or 2.0 * disc or spec.shaft.crank_diameter_mm
-    return half_or(diameter, bore_radius(min(L / 20.0, 0.35 * space)))
+    usual = bore_radius(smaller(L / 20.0, 0.35 * space))
+    usual = choose(disc > 0.0, disc, half_or(spec.shaft.crank_diameter_mm, usual))
+    return half_or(spec.size.arm_bore_mm, usual)
 
 
 def within_hub(size: Size, part: str) -> float:
     """Return the largest default bore in the hub of a part, infinite without a hub."""
-    hub_mm = value_or(vars(size)[f"{part}_hub_mm"], 0.0)
+    hub_mm: float | None = vars(size)[f"{part}_hub_mm"]
     # a keyway is up to 0.39 of the bore's radius deep, and a hexagon's corner less
-    fraction = (0.5 / 1.6) if has_shape(size, part) else 0.4
-    return choose(hub_mm > 0.0, fraction * hub_mm, math.inf)
+    most = ((0.5 / 1.6) if has_shape(size, part) else 0.4) * value_or(hub_mm, 0.0)
+    return choose(most > 0.0, most, math.inf)
 
 
 def wheel_bore(spec: Spec, end: float, wall: float, L: float) -> float:
     """Return the radius of the wheel's bore, by default with a wall to the slots' ends."""
     size, shaft = spec.size, spec.shaft.wheel_diameter_mm
-    if size.wheel_bore_mm is None and shaft is not None and 0.5 * shaft <= end - wall:
-        return 0.5 * shaft
-    usual = bore_radius(min(L / 12.0, 0.4 * end, end - wall, within_hub(size, "wheel")))
+    most = L / 12.0, 0.4 * end, end - wall, within_hub(size, "wheel")
+    usual = bore_radius(reduce(smaller, most))
+    if shaft is not None:
+        usual = choose(0.5 * shaft <= end - wall, 0.5 * shaft, usual)
     return half_or(size.wheel_bore_mm, usual)
 
 
 def refuse_bored_hub(part: str, hub: float, bored: float, bore: float) -> None:
     """Raise GenevaError for a hub that its bore, which reaches to ``bored``, cuts through."""
-    text = f"it must be above {2.0 * bored:.6g}, the diameter over bore and keyway; a smaller "
+    text = "it must be above {over:.6g}, the diameter over bore and keyway; a smaller "
     text += f"{part}_bore_mm leaves more of it"
-    refuse_size(bore < hub <= bored, f"{part}_hub_mm", text, 2.0 * hub)
+    wrong = (bore < hub) & (hub <= bored)
+    refuse_size(wrong, f"{part}_hub_mm", text, 2.0 * hub, over=2.0 * bored)
 
 
 def reach_and_hub(size: Size, part: str, bore: float, wall: float, end: float = 0.0) -> Span:

@@ -37,8 +37,9 @@ STOUT = 0.5  # thickness at the mouth over the recess's radius, beyond which a h
 
 
 # The fraction of the greatest stress in any horn below which a horn's search ends: after samples a
-# sixtieth of a half motion apart, after samples 16 and 256 times as close, and at last.
-BELOW = (0.5, 0.95, 0.998, 1.0)
+# sixtieth of a half motion apart, after samples 8, 64 and 512 times as close, and at last. Where
+# walls are curved or tips flat, places side by side differ more: after samples 16 and 256 times so.
+BELOW = {8: (0.5, 0.9, 0.99, 0.999, 1.0), 16: (0.5, 0.95, 0.998, 1.0)}
 
 
 class HornStress(NamedTuple):
@@ -210,14 +211,16 @@ def _greatest(sides: Sides, mechanism: Mechanism, sizes: Sizes) -> HornStress:
     # fractions of a half motion, of places and of sections: (2, n, k) of the n designs left
     samples = [np.linspace(1.0, NEAR_CUSP, 61) + np.zeros((2, 1, 1))] * len(searches)
     each, left = np.full((len(searches), 4, m), np.nan), np.ones((len(searches), m), dtype=bool)
-    for below in BELOW:
+    smooth = horns[0].at.whole.slot.walls_flat and not np.any(mechanism.spec.size.horn_tip_mm)
+    steps = 8 if smooth else 16
+    for below in BELOW[steps]:
         for i, (k, start) in enumerate(searches):
             which, some, side = np.flatnonzero(left[i]), mechanism, horns[k]
             if 0 < len(which) < m:
                 some, own = taken((mechanism, sizes), which)
                 side = sides(some, *own)[k]
             if len(which):
-                rows, samples[i] = _sampled(some, side, start, samples[i])
+                rows, samples[i] = _sampled(some, side, start, samples[i], steps)
                 each[i][:, which] = np.where(rows[0] > 0.0, rows, each[i][:, which])
         lower = np.nan_to_num(each[:, 0]) < below * np.fmax.reduce(each[:, 0])
         for i, rows in enumerate(samples):
@@ -236,11 +239,13 @@ def _greatest(sides: Sides, mechanism: Mechanism, sizes: Sizes) -> HornStress:
 _single_stress = lru_cache(maxsize=64)(_greatest)
 
 
-def _sampled(mechanism: Mechanism, side: Horn, start: float, samples: Array) -> tuple[Array, Array]:
+def _sampled(
+    mechanism: Mechanism, side: Horn, start: float, samples: Array, steps: int
+) -> tuple[Array, Array]:
     """The greatest stress of n designs at samples, as rows of ``HornStress`` (4, n).
 
     The roller comes from the entry, ``start`` being -1, or from the exit, being 1. Then the samples
-    (2, n, 33) between those beside that one.
+    (2, n, 2 steps + 1) between those beside that one.
     """
     m, slot = mechanism.designs, side.at.engagement
     all_places = (slot.entry_deg if start < 0.0 else slot.exit_deg) * samples[0]
@@ -269,7 +274,7 @@ def _sampled(mechanism: Mechanism, side: Horn, start: float, samples: Array) -> 
     beside = np.stack((own[i], j))[..., None] + np.array([-1, 1])
     every = np.broadcast_to(samples, (2, m, samples.shape[2]))
     ends = np.take_along_axis(every, np.clip(beside, 0, samples.shape[2] - 1), axis=2)
-    return rows, ends[..., :1] + np.diff(ends) * np.linspace(0.0, 1.0, 33)
+    return rows, ends[..., :1] + np.diff(ends) * np.linspace(0.0, 1.0, 2 * steps + 1)
 
 
 def _most_stressed(side: Horn, roller: Points, sections: Points) -> Array:

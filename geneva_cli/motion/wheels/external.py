@@ -74,14 +74,14 @@ class External(Gearing):
         return (Dimension("slots' axes offset from the wheel's", self.offset_mm, "mm"),)
 
     def place(self, step: HalfStep, center_distance_mm: float) -> RollerPlace:
-        e = self.offset_mm / center_distance_mm
-        if isinstance(e, float) and not e:
+        if isinstance(self.offset_mm, float) and not self.offset_mm:
             return super().place(step, center_distance_mm)
 
         from geneva_cli.motion.wheels.offset_slot import skew
 
         # cos² b - |e| is positive if there is such a slot. b + |d| < 90 degrees means |e| < 1 - l;
         # at the limit e = cos b sin d, d = 90 deg - b. The double angle is exact for 3, 4, 6 slots.
+        e = self.offset_mm / center_distance_mm
         spare = 0.5 + 0.5 * sin_cos_pi(2 * step.p, step.q)[1] - abs(e)
         limit = step.sin_cos[1] ** 2 * center_distance_mm
         text = "offset_mm = {e_mm:g}: the roller cannot enter this slot without shock: its size "

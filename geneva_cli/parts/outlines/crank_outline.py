@@ -19,7 +19,7 @@ from geneva_cli.errors import GenevaError, refuse_size
 from geneva_cli.geometry import shapes
 from geneva_cli.geometry.shapes import ORIGIN, Arc, Contour, Line, Segment, Shape
 from geneva_cli.motion.engagement import Engagement
-from geneva_cli.numerics.arrays import Array, within_half_turn
+from geneva_cli.numerics.arrays import Array, choose, larger, within_half_turn
 from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.shafts.bores import bore_of
@@ -71,14 +71,15 @@ def arc_floor(assembly: Assembly, lock: float) -> float:
     They meet the disc at right angles. If gears widen the reliefs, they must leave a bore.
     """
     half = 0.0
-    for start, end, _ in reliefs(assembly):
+    for start, end, _ in reliefs(assembly._replace(L=1.0)):  # directions
         half = max(half, 0.5 * (end - start))
     if half > 0.5 * math.pi - SAME_ANGLE:
         return 0.0
     floor = lock * math.tan(0.25 * math.pi - 0.5 * half)
     # L/18 about the axis is enough for a bore
     narrow = floor < (1.0 / 18.0) * assembly.L
-    return 0.0 if narrow and any(map(attrgetter("apart"), assembly.kinds)) else max(floor, 0.0)
+    wide = any(map(attrgetter("apart"), assembly.kinds))
+    return choose(narrow & wide, 0.0, larger(floor, 0.0))
 
 
 def widened(assembly: Assembly, sizes: Sizes, mouths: Mouths) -> list[Relief]:

@@ -16,6 +16,7 @@ from geneva_cli.errors import refuse_size
 from geneva_cli.geometry import shapes
 from geneva_cli.geometry.shapes import Arc, Contour, Line, Point, Segment
 from geneva_cli.motion.engagement import Engagement
+from geneva_cli.numerics.arrays import larger, library
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.turn.stops import Lengths
 
@@ -29,13 +30,13 @@ def roller_paths(assembly: Assembly) -> tuple[list[float], float, list[float]]:
     greatest. Then the least distance of rollers and adjacent slots from the crank's axis, and that
     of each kind of roller at its mid-motion.
     """
-    L, ends, near = assembly.L, [], []
+    L, assembly, ends, near = assembly.L, assembly._replace(L=1.0), [], []
     for slot in assembly.kinds:
         kind = slot.through
         x, y = kind.slot(np.linspace(kind.entry_deg, kind.exit_deg, TURN_SAMPLES + 1), 0)
-        points = L * np.column_stack((x.c[0], y.c[0] + 0.0 * x.c[0]))
+        points = np.column_stack((x.c[0], y.c[0] + 0.0 * x.c[0]))
         reach = np.hypot(*points.T)
-        ends.append(float(reach.min() if assembly.sign > 0.0 else reach.max()))
+        ends.append(L * float(reach.min() if assembly.sign > 0.0 else reach.max()))
         for end in (-1.0, 1.0):  # adjacent slots while the wheel rests
             axis = rest(assembly, kind, end)
             near.append(float(np.hypot(*(points - axis).T).min()))
@@ -45,10 +46,10 @@ def roller_paths(assembly: Assembly) -> tuple[list[float], float, list[float]]:
     turn = np.linspace(0.0, assembly.turn_deg, TURN_SAMPLES, endpoint=False)
     for i, (engagement, mid) in enumerate(assembly.rollers):
         if engagement not in reaches:  # others follow their leaders
-            near.append(float(np.hypot(*(assembly.pin(i, turn) - (L, 0.0)).T).min()))
+            near.append(float(np.hypot(*(assembly.pin(i, turn) - (1.0, 0.0)).T).min()))
         x, y = assembly.pin(i, np.array([mid]))[0]
-        reaches[engagement] = math.hypot(x - L, y)
-    return ends, min(near), list(reaches.values())
+        reaches[engagement] = L * math.hypot(x - 1.0, y)
+    return ends, L * min(near), list(reaches.values())
 
 
 def mouth(assembly: Assembly, engagement: Engagement, r: float) -> float:
@@ -59,18 +60,21 @@ def mouth(assembly: Assembly, engagement: Engagement, r: float) -> float:
     """
     if not engagement.slot.offset:
         nearest = min if assembly.sign > 0.0 else max
+        ends = engagement.reach(engagement.entry_deg), engagement.reach(engagement.exit_deg)
+        away = assembly.L * float(nearest(*ends))
         if engagement.built is not None:
-            return math.hypot(*_mouth(assembly, engagement, 1.0), r)
-        entry, exit_ = engagement.reach(engagement.entry_deg), engagement.reach(engagement.exit_deg)
-        return math.hypot(assembly.L * nearest(float(entry), float(exit_)), r)
-    return max(math.hypot(*corner(assembly, engagement, end, r)) for end in (-1.0, 1.0))
+            away = math.hypot(*_mouth(assembly, engagement, 1.0))
+        return library(away, r).hypot(away, r)
+    entry, exit_ = (corner(assembly, engagement, end, r) for end in (-1.0, 1.0))
+    m = library(*entry)
+    return larger(m.hypot(*entry), m.hypot(*exit_))
 
 
 def corner(assembly: Assembly, engagement: Engagement, end: float, r: float) -> tuple[float, float]:
     """Return the mouth's corner on the crank axis' side at entry (-1) or exit (1), mm."""
     px, py = _mouth(assembly, engagement, end)
     cx, cy = rest(assembly, engagement, end)
-    ratio = r / math.dist((px, py), (cx, cy))
+    ratio = r / library(px, py).hypot(px - cx, py - cy)
     return px + ratio * (cx - px), py + ratio * (cy - py)
 
 

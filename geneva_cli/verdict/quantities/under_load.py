@@ -25,15 +25,15 @@ from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.registry import thing
 from geneva_cli.numerics.arrays import (
     Array,
-    Mask,
     Number,
     Record,
+    choose,
     library,
     mapped,
     parameter,
     record_of,
 )
-from geneva_cli.parts.machine_sizes import fits, sized, unloaded
+from geneva_cli.parts.machine_sizes import fits, of_batch, sized, unloaded, unloaded_alike
 from geneva_cli.parts.shafts.bores import has_shape
 from geneva_cli.parts.sized_by_load import Stressed, batch_sizes, dimensions, needs_lock, sizing
 from geneva_cli.parts.sizes import Sizes as PartSizes
@@ -83,7 +83,7 @@ class UnderLoad:
         return load_peaks(self.machine, [name])[name].max * self.loaded
 
     @cached_property
-    def _unloaded(self) -> list[Unloaded | None]:
+    def _each(self) -> list[Unloaded | None]:
         """The parts of each design, or of all, without loads; None for one without flat parts."""
         if self.designs.single:
             return [unloaded(self.machine) if sized(self.machine) else None]
@@ -99,10 +99,39 @@ class UnderLoad:
         return [*map(_bare, self.designs.each)]
 
     @cached_property
+    def _alike(self) -> bool:
+        """True if designs that are not built yet move alike, and differ in plain sizes at most."""
+        of = self.machine.spec
+        if self.designs.are_built or self._shaped:
+            return False
+        with marking():  # the values of the designs are checked
+            own = of.wheel, of.drive.replace(n_rpm=1.0), of.drive_before, of.motion
+        return designs_in((own, self.machine.engagements)) == 1 and of.is_flat
+
+    @cached_property
+    def _shaped(self) -> bool:
+        """True if sizes differ, and a bore is not merely round."""
+        size = self.machine.spec.size
+        return (has_shape(size, "wheel") or has_shape(size, "crank")) and designs_in(size) > 1
+
+    @cached_property
+    def _unloaded(self) -> Unloaded | None:
+        """The parts of the designs without loads, NaN for one without flat parts; None for none."""
+        if self._alike:
+            return _or_none(unloaded_alike, self.machine)
+        of = next(filter(None, self._each), None)
+        if of is None or len(self._each) == 1:
+            return of
+        rows = batched([one and (one.sizes, one.space) for one in self._each], as_numbers)
+        sizes, space = cast("tuple[PartSizes, float]", rows)
+        where = of_batch(of.assembly, self.machine)
+        return of._replace(assembly=where, sizes=sizes, space=space)
+
+    @cached_property
     def lock_sizes(self) -> tuple[float, Lock] | None:
         """Half the slot's width, and the lock in its narrowest sector, mm (m, 1)."""
         each = list[tuple[float, Lock] | None]()
-        for of in self._unloaded:
+        for of in self._each:
             each.append((of.sizes.half_width, of.cut_lock()) if of and of.sizes.lock else None)
         return batched(each, as_numbers) if len(each) > 1 else each[0]
 
@@ -113,10 +142,10 @@ class UnderLoad:
         of_kind = thing(self.machine.spec.wheel.NAME, "horn_sizes")
         if of_kind:
             return batched([of_kind(one) for one in self.designs.each], as_numbers)
-        each: list[Sizes | None] = []
-        for of in self._unloaded:
-            each.append((of.sizes.half_width, of.sizes.recess) if of and of.sizes.lock else None)
-        return batched(each, as_numbers) if len(each) > 1 else each[0]
+        sizes = self._unloaded and self._unloaded.sizes
+        if sizes is None or not np.max(np.nan_to_num(sizes.lock)) > 0.0:
+            return None
+        return choose(sizes.lock > 0.0, sizes.half_width, np.nan), sizes.recess
 
     @property
     def has_horns(self) -> bool:
@@ -159,42 +188,22 @@ class UnderLoad:
         if self.designs.single:
             one = sized(self.machine)
             return one and mapped(np.ravel, dimensions(sizing(*one)))
-        some, size, machine = [*filter(None, self._unloaded)], self.machine.spec.size, self.machine
-        if not some:
+        of, size, machine, kinds = self._unloaded, self.machine.spec.size, self.machine, set()
+        if of is None:
             return None
         # links, gears and a groove, which may be in the way of shafts
-        planes, shaped = sizing(some[0].assembly, some[0].sizes).planes, False
-        kinds = {sizing(of.assembly, of.sizes)[4:7] for of in some[: None if planes else 1]}
-        for part in ("wheel", "crank"):
-            shaped = shaped or (has_shape(size, part) and designs_in(size) > 1)
-        if self.designs.are_built or machine.first_wheel or len(kinds) > 1 or shaped:
+        if sizing(of.assembly, of.sizes).planes and not self._alike:
+            kinds = {sizing(one.assembly, one.sizes)[4:7] for one in filter(None, self._each)}
+        if self.designs.are_built or machine.first_wheel or len(kinds) > 1 or self._shaped:
             layouts = [*map(sized, self.designs.each)]
             return batched([one and dimensions(sizing(*one)) for one in layouts])
-        of = some[0]
-        if any(one is not of for one in some):
-            rows = [one and (one.assembly.L, one.sizes, one.space) for one in self._unloaded]
-            L, sizes, space = cast("tuple[float, PartSizes, float]", batched(rows, as_numbers))
-            of = of._replace(assembly=of.assembly._replace(L=L), sizes=sizes, space=space)
         locks, bent = self.lock_sizes if needs_lock(machine.spec) else None, None
         if locks and size.wheel_thickness_mm is size.face_width_mm is None:
             bent = lock.horn_MPa(machine, *locks, self._flat_horns)
         sizes = batch_sizes(of, locks and locks[1], machine, self.part_loads, bent)
         parts = dimensions(sizing(of.assembly, sizes)._replace(spec=machine.spec))
-        fit = np.where(self._fit(sizes), 1.0, np.nan)
+        fit = np.where(np.ravel(fits(of, sizes)), np.ones(machine.designs), np.nan)
         return mapped(lambda row: np.ravel(row) * fit, parts)
-
-    def _fit(self, sizes: PartSizes) -> Mask:
-        """Which designs the sizes under their loads fit, (m,)."""
-        rows = np.hstack(np.broadcast_arrays(*sizes[:7], *sizes[8:], self.loaded[:, None]))
-        each, known = self._unloaded, dict[object, bool]()
-        each = each if len(each) > 1 else each * len(rows)
-        fit = np.zeros(len(rows), dtype=bool)
-        for i, (of, row) in enumerate(zip(each, rows, strict=True)):
-            key = id(of), row.tobytes()
-            if of and key not in known:
-                known[key] = fits(of, taken(sizes, i))
-            fit[i] = known.get(key, False)
-        return fit
 
     @property
     def contact_mm(self) -> float | None:
