@@ -175,10 +175,10 @@ def arm_bore(spec: Spec, disc: float, L: float, space: float) -> float:
 
 def within_hub(size: Size, part: str) -> float:
     """Return the largest default bore in the hub of a part, infinite without a hub."""
-    hub_mm = value_or(vars(size)[f"{part}_hub_mm"], 0.0)
+    hub_mm: float | None = vars(size)[f"{part}_hub_mm"]
     # a keyway is up to 0.39 of the bore's radius deep, and a hexagon's corner less
-    fraction = (0.5 / 1.6) if has_shape(size, part) else 0.4
-    return choose(hub_mm > 0.0, fraction * hub_mm, math.inf)
+    most = ((0.5 / 1.6) if has_shape(size, part) else 0.4) * value_or(hub_mm, 0.0)
+    return choose(most > 0.0, most, math.inf)
 
 
 def wheel_bore(spec: Spec, end: float, wall: float, L: float) -> float:

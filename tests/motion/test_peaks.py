@@ -45,16 +45,6 @@ CONSTANTS = """
 12 0.258819045102520762348898837624 0.349198186208549876473623237046 0.267949192431122706472553658494 0.21539030917347247767064390193
 24 0.130526192220051591548406227895 0.150120901920355414479216410953 0.13165249758739585347152645741 0.0519971403629978130569371251439
 """  # noqa: E501
-# z, peak velocity l/(1+l), jerk at mid-motion; both jumps at entry are those of CONSTANTS
-INTERNAL = """
-3 0.464101615137754587054892683012 -0.0178566683621949443245902521392
-4 0.41421356237309504880168872421 -0.0416305603426158296287083115649
-5 0.370191908158750137702237641058 -0.0605294766956393790151542248867
-6 0.333333333333333333333333333333 -0.0740740740740740740740740740741
-8 0.276768653914155215717770973808 -0.0893674397500274864938060663807
-12 0.205604646759568224693193969093 -0.0961679962599035443141110175575
-24 0.115456141678356872441258327524 -0.0785438683215996993361105887342
-"""
 
 
 def every_other(A):
@@ -123,19 +113,6 @@ def test_table_external(machine, z):
     assert abs(found.jerk.at_deg) <= PLACE
     assert found.ends.acceleration_entry == near(entry, SIZE)
     assert found.ends.jerk_entry == near(jerk_entry, SIZE)
-
-
-@pytest.mark.parametrize("z", rows(INTERNAL))
-def test_table_internal(machine, z):
-    velocity, jerk_mid = rows(INTERNAL)[z]
-    _, _, entry, jerk_entry = rows(CONSTANTS)[z]
-    m = machine(z, "internal")
-    s = m.engagements[0]
-    found = peaks(s)
-    assert found.velocity == (near(velocity, SIZE), 0.0)
-    assert found.acceleration == (near(entry, SIZE), s.entry_deg)
-    assert found.ends.jerk_entry == near(jerk_entry, SIZE)
-    assert s.motion(0.0).derivatives()[3] == near(jerk_mid, SIZE)
 
 
 @pytest.mark.parametrize("gearing", ["external", "internal"])

@@ -156,10 +156,6 @@ def test_specs_of_one_kind_keep_their_own_loads_and_sizes():
     ((one, heavy, wide),) = numbers(batch_machines(specs), ["loads.pin_force_N.max"], 3)
     assert heavy == pytest.approx(3.0 * one, rel=1e-12)
     assert wide == pytest.approx(one / 3.0, rel=1e-12)
-    path, load_ = str(repo.DESIGNS / "epicyclic-soft-z6.toml"), ["load.inertia_kgm2=0.05"]
-    for key in ("size.crank_bore_mm=30,31", "size.crank_hub_mm=60,61"):
-        [[*rows]] = request(path, [key], load_, pick="life.pin_stress_MPa").blocks()
-        assert all(row[1] for row in rows)
 
 
 LISTS = {  # of a report's names those of tables and lists, which are no quantities
