@@ -142,6 +142,8 @@ def test_types_of_a_column_follow_from_all_blocks(tmp_path):
     ("arguments", "said"),
     [
         (["--vary", "drive.A=0.1", "--pick", "acceleration.mx"], "did you mean"),
+        (["--vary", "drive.A=0.1", "--pick", "peaks.jerk.max"], 'did you mean "jerk.max"'),
+        (["--vary", "drive.A=0.1", "--pick", "loads.pin_for"], '"loads.pin_force_N.max"?'),
         (["--vary", "drive.A=0.1", "-o", "rows.xlsx"], "it must end in .csv or .parquet"),
         (["--vary", "drive.A=0.1", "--resume", "--format", "json"], "--resume continues all"),
         (["--vary", "drive.A=0.1", "--seed", "1"], "--seed 1: it needs --random"),

@@ -93,7 +93,15 @@ def _ends(name: str) -> list[str]:
 def _nearest(typed: str) -> str:
     """A question `` (did you mean "..."?)`` with the nearest whole name or end of one."""
     known = group_of()
+    # a whole name behind an extra word, as peaks.velocity.max, or a key of the spec
+    whole = [name for name in known if typed.endswith(f".{name}")]
+    whole += [name for name in known if name.startswith(INPUTS) and name.endswith(f".{typed}")]
     own = [name for name in known if not name.startswith(INPUTS)]
+    own.sort(key=lambda name: name.startswith(CHECKS))  # a check gives way to a quantity
     counts = Counter(end for name in own for end in _ends(name))
     ends = [e for name in own for e in (name, *_ends(name)) if e in known or counts[e] == 1]
-    return nearest(typed, dict.fromkeys([*known, *ends]))
+    begun = [end for end in ends if end.startswith(typed)] if len(typed) > 2 else []
+    # the shortest name; of its values the first, which is the greatest
+    begun.sort(key=lambda end: len(end.partition(".")[0]))
+    best = [*sorted(whole, key=len, reverse=True), *begun][:1]
+    return nearest(best[0], best) if best else nearest(typed, dict.fromkeys([*known, *ends]))
