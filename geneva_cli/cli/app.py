@@ -159,6 +159,11 @@ def _bar(what: str, total: int) -> Any:
 def _usage(path: str, error: Any) -> str:
     """The message on wrong arguments of ``path``: the program and its command."""
     message = error.format_message().rstrip(".")
+    option = vars(error).get("option_name")  # of an unknown one
+    if option in ("--rpm", "--n-rpm", "--speed"):
+        has_n = any("--n" in param.opts for param in error.ctx.command.params)
+        speed = "--n" if has_n else "--set drive.n_rpm=RPM"
+        message = f"no such option: {option} (did you mean {speed}?)"
     if ". Did you mean " in message:
         message = message.replace(". Did you mean ", " (did you mean ") + ")"
     return f"{path}: {message[:1].lower()}{message[1:]}; see {path} -h"

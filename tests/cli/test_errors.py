@@ -238,6 +238,8 @@ def test_wrong_option(line, wants):
     [
         (["tabel"], ["'tabel'", "'table'"]),
         (["--nix"], ["geneva: no such option: --nix; see geneva -h"]),
+        (["table", "--rpm", "60"], ["--rpm (did you mean --n?)"]),
+        (["peaks", "spec.toml", "--rpm", "60"], ["(did you mean --set drive.n_rpm=RPM?)"]),
         (["peaks"], ["SPEC"]),
         (["new"], ["KIND"]),
         (["new", "externel"], ["KIND", "externel", '"external"']),
