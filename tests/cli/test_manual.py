@@ -181,7 +181,7 @@ def test_pages_begin_with_a_title_and_name_pages_that_exist() -> None:
 
 
 def test_help_prints_the_page_the_list_or_the_options_of_a_command() -> None:
-    assert invoke(["help", "symbols"]) == page("symbols")
+    assert invoke(["help", "symbols"]) == invoke(["help", "symbol"]) == page("symbols")
     contents = invoke(["help"])
     assert all(f"- {topic}: {about}\n" in contents for topic, about in TOPICS.items())
     assert [line[3:] for line in contents.splitlines() if line.startswith("## ")] == [*GROUPS]

@@ -25,6 +25,8 @@ def run(
 
     topic = " ".join(words)
     commands: Any = context.find_root().command
+    if f"{topic}s" in TOPICS and topic not in commands.list_commands(context):
+        topic = f"{topic}s"
     if not topic:
         show_markdown(contents())
     elif topic not in TOPICS and topic in commands.list_commands(context):
