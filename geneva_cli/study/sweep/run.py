@@ -18,7 +18,7 @@ from geneva_cli.errors import GenevaError, below, cut
 from geneva_cli.kept import KEPT
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.numerics.arrays import Array
+from geneva_cli.numerics.arrays import Array, keep_memory
 from geneva_cli.numerics.sobol import DIMENSIONS, sobol
 from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.specfile.columns import digest
@@ -144,14 +144,15 @@ class Sweep(NamedTuple):
 
     def blocks(self, done: int = 0) -> Iterator[Rows]:
         """The rows in blocks and in order; the first ``done`` rows are skipped."""
-        if self.is_batched:
-            size = BLOCK
+        if self.is_batched:  # larger ones take less time, and keep two processes busy if many
+            size = BLOCK if len(self.plan) < 32 * BLOCK else 2 * BLOCK
         elif not self._makes_parts:
             size = 64
         else:
             # Parts are slow: eight tasks keep several processes busy. Four designs or more share
             # the searches of their batch, which keeps the results of at most KEPT.
             size = min(KEPT, max(4, math.ceil(len(self.plan) / 8)))
+        keep_memory()  # that the rows of other processes arrive in
         starts = range(done, len(self.plan), size)
         count = min(len(starts), cores() if self.jobs is None else self.jobs)
         yield from mapped(partial(self._block, size), starts, count)
