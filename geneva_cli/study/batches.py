@@ -90,7 +90,7 @@ def batch_rows(
             if spec := first_spec(members):
                 own = rows.taken(members).columns
                 varied = {keys[k]: np.asarray(own[k]) for k in wide}
-                yield from _machine(spec, varied, members)
+                yield from built(spec, varied, members)
 
 
 def built(spec: Spec, varied: Mapping[str, Array], members: Whole) -> Iterator[Batch]:
@@ -100,12 +100,7 @@ def built(spec: Spec, varied: Mapping[str, Array], members: Whole) -> Iterator[B
     """
     same = {key for key, value in varied.items() if not (value != value[0]).any()}
     same -= {next(iter(varied))} if len(same) == len(varied) else set()
-    own = {key: v[0].item() if key in same else v for key, v in varied.items()}
-    yield from _machine(spec, own, members)
-
-
-def _machine(spec: Spec, varied: Mapping[str, object], members: Whole) -> Iterator[Batch]:
-    batch = many(spec, varied)
+    batch = many(spec, {key: v[0].item() if key in same else v for key, v in varied.items()})
     if batch.machine is not None:
         yield members[batch.which], batch.machine
 

@@ -58,13 +58,10 @@ class Rows:
 
     def replaced(self, which: Whole, rows: Sequence[Sequence[Cell]]) -> Rows:
         """The rows with those of these numbers replaced."""
-        columns: list[Column] = []
-        for column, cells in zip(self.columns, zip(*rows, strict=True), strict=True):
-            changed = [*cells_of(column)]
-            for i, cell in zip(which.tolist(), cells, strict=True):
-                changed[i] = cell
-            columns.append(column_of(changed))
-        return Rows(columns)
+        changed: list[Sequence[Cell]] = [*self]
+        for i, row in zip(which.tolist(), rows, strict=True):
+            changed[i] = row
+        return rows_of(changed)
 
 
 def rows_of(rows: Sequence[Sequence[Cell]]) -> Rows:
@@ -103,12 +100,6 @@ def cells_of(column: Column) -> list[Cell]:
     for i in np.flatnonzero(np.isinf(column)).tolist():
         cells[i] = None
     return cells
-
-
-def without_infinity(column: Column) -> Column:
-    """The column as a table has it: with None, not infinity, for no value."""
-    has_all = isinstance(column, list) or np.isfinite(column).all()
-    return column if has_all else cells_of(column)
 
 
 def values(parts: Parts, groups: Iterable[QuantityGroup]) -> dict[str, Cell]:
