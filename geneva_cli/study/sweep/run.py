@@ -132,8 +132,7 @@ class Sweep(NamedTuple):
         A word that names no file is listed too, which is harmless.
         """
         folder = os.path.dirname(self.files[0])
-        words = [word for a in self.plan.axes for word in a.words]
-        return (*self.files, *(below(folder, word) for word in words))
+        return (*self.files, *(below(folder, x) for a in self.plan.axes for x in a.words))
 
     @property
     def is_batched(self) -> bool:

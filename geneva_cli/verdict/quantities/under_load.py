@@ -82,9 +82,8 @@ class UnderLoad:
         if not self.designs.are_built:
             of = self.machine.spec
             with marking():  # the values of the designs are checked
-                drive, keys = of.drive.replace(n_rpm=1.0), (of.motion, of.size)
-                before = of.drive_before
-                bare = Spec(of.wheel, drive, *keys, shaft=of.shaft, drive_before=before)
+                own = of.wheel, of.drive.replace(n_rpm=1.0), of.motion, of.size
+                bare = Spec(*own, shaft=of.shaft, drive_before=of.drive_before)
             if designs_in(bare) == 1:  # designs that differ in speed and loads have the same
                 return [_bare(build(taken(bare, 0)))]
             return [_bare(taken(self.machine, i)) for i in range(self.machine.designs)]
