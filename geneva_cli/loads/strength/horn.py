@@ -154,8 +154,6 @@ class Horn(NamedTuple):
         stress -= y[..., None] * along[:, None]
         turn = contact[0] * y - contact[1] * x
         stress += turn[..., None] * np.where(known, bends, 0.0)[:, None]
-        if (sections[0].min(axis=1) > roller[0].max(axis=1)).all():
-            return stress
         return np.where(sections[0][:, None] > roller[0][..., None], stress, 0.0)
 
     @property
@@ -197,7 +195,7 @@ def greatest_stress(sides: Sides, mechanism: Mechanism, sizes: Sizes) -> HornStr
     """Greatest stress of m designs, of flat horns for 1 mm of contact; a single one's is kept."""
     if isinstance(mechanism.design, int):
         return _single_stress(sides, mechanism, sizes)
-    every = [taken((mechanism, sizes), some) for some in blocks(mechanism.designs, 1024)]
+    every = [taken((mechanism, sizes), some) for some in blocks(mechanism.designs, 128)]
     return joined([_greatest(sides, *some) for some in every])
 
 
@@ -265,34 +263,15 @@ def _sampled(
     points = side.points(np.hstack((places, side.at.mouth_deg * samples[1])))
     roller = np.stack(np.broadcast_arrays(*points[..., : len(own)], rub))
     sections = points[..., len(own) :]
-    stress = np.broadcast_to(force * _most_stressed(side, roller, sections), (m, len(own)))
-    most = stress.max(axis=1, keepdims=True)
-    i = np.argmax(stress >= most * (1.0 - TIE), axis=1)
-    unit = side.unit_stress(_picked(roller, i)[..., None], sections)[:, 0]
-    j = np.argmax(_picked(force, i)[:, None] * unit >= most * (1.0 - TIE), axis=1)
+    stress = force[..., None] * side.unit_stress(roller, sections)
+    each = np.broadcast_to(stress, (m, *stress.shape[1:])).reshape(m, -1)
+    most = each.max(axis=1, keepdims=True)
+    i, j = np.divmod(np.argmax(each >= most * (1.0 - TIE), axis=1), stress.shape[2])
     rows = np.stack((most[:, 0], _picked(places, i), *_picked(sections[:2], j)))
     beside = np.stack((own[i], j))[..., None] + np.array([-1, 1])
     every = np.broadcast_to(samples, (2, m, samples.shape[2]))
     ends = np.take_along_axis(every, np.clip(beside, 0, samples.shape[2] - 1), axis=2)
     return rows, ends[..., :1] + np.diff(ends) * np.linspace(0.0, 1.0, 2 * steps + 1)
-
-
-def _most_stressed(side: Horn, roller: Points, sections: Points) -> Array:
-    """The stress under 1 N of the most stressed section for each place (m, k), at least 0."""
-    _, m, k = roller.shape
-    most = np.zeros((max(m, sections.shape[1]), k))
-    for own in blocks(k, 16):
-        places = roller[..., own]
-        inner = np.flatnonzero((sections[0] > places[0].min(axis=1, keepdims=True)).any(axis=0))
-        if not len(inner):
-            continue
-        edges = sections[..., inner[0] :]
-        count = 1 + (1 << 14) // (places.shape[2] * edges.shape[2])
-        for some in blocks(len(most), count):  # whose stresses stay in the cache
-            at = places if m == 1 else places[:, some]
-            ends = edges if edges.shape[1] == 1 else edges[:, some]
-            most[some, own] = np.maximum(side.unit_stress(at, ends).max(axis=2), 0.0)
-    return most
 
 
 def _picked(rows: Array, k: Whole) -> Array:
