@@ -18,7 +18,7 @@ from geneva_cli.errors import GenevaError, below, cut
 from geneva_cli.kept import KEPT
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.numerics.arrays import Array, Mask, keep_memory
+from geneva_cli.numerics.arrays import Array, Mask
 from geneva_cli.numerics.sobol import DIMENSIONS, sobol
 from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.specfile.columns import digest
@@ -151,7 +151,7 @@ class Sweep(NamedTuple):
             # Parts are slow: eight tasks keep several processes busy. Four designs or more share
             # the searches of their batch, which keeps the results of at most KEPT.
             size = min(KEPT, max(4, math.ceil(len(self.plan) / 8)))
-        keep_memory()  # that the rows of other processes arrive in
+        np.empty(1 << 21)  # as in ``many``: memory is kept that rows of other processes arrive in
         starts = range(done, len(self.plan), size)
         count = min(len(starts), cores() if self.jobs is None else self.jobs)
         yield from mapped(partial(self._block, size), starts, count)
