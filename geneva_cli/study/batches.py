@@ -71,6 +71,9 @@ def batch_rows(
 
     def groups(members: Whole, wide: Sequence[int]) -> Iterator[Whole]:
         """The members in groups that are equal in all columns but these."""
+        if len(wide) == len(each):
+            yield members
+            return
         codes = np.zeros(len(members), dtype=np.intp)
         for k, column in enumerate(rows.taken(members).columns):
             if k not in wide:
@@ -87,7 +90,7 @@ def batch_rows(
                 with suppress(GenevaError):  # the key belongs to another kind of machine
                     wide += [k] if may_vary(spec, keys[k]) else []
         for members in groups(kind, wide) if wide else ():
-            if spec := first_spec(members):
+            if spec := spec if members is kind else first_spec(members):
                 own = rows.taken(members).columns
                 varied = {keys[k]: np.asarray(own[k]) for k in wide}
                 yield from built(spec, varied, members)

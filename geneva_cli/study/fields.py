@@ -51,7 +51,7 @@ class Rows:
     def taken(self, which: Mask | Whole) -> Rows:
         """Some of the rows, by a mask (n,) or by their numbers."""
         numbers = np.flatnonzero(which) if which.dtype == bool else which
-        each = numbers.tolist()
+        each = numbers.tolist() if any(isinstance(c, list) for c in self.columns) else []
         return Rows(
             [[c[i] for i in each] if isinstance(c, list) else c[numbers] for c in self.columns]
         )

@@ -18,7 +18,8 @@ from geneva_cli.errors import GenevaError, below, cut
 from geneva_cli.kept import KEPT
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.numerics.arrays import Array, Mask
+from geneva_cli.numerics.arrays import Array, Mask, keep_memory
+from geneva_cli.numerics.sobol import DIMENSIONS, sobol
 from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.specfile.columns import digest
 from geneva_cli.specfile.reader import Setting, Text, setting
@@ -55,13 +56,11 @@ class SweepPlan(NamedTuple):
     def columns(self, start: int, stop: int) -> list[Column]:
         """The values of each key in the designs ``start`` to ``stop - 1``."""
         if self.random:
-            from geneva_cli.numerics.sobol import Sobol
-
             # Points that fill the cube more evenly than random ones, drawn in whole blocks: equal
             # wherever a run begins.
             first = start - start % BLOCK
-            sequence = Sobol.scrambled(len(self.axes), self.seed)
-            points = np.hstack([sequence.points(k, BLOCK) for k in range(first, stop, BLOCK)])
+            dimensions, blocks = len(self.axes), range(first, stop, BLOCK)
+            points = np.hstack([sobol(dimensions, self.seed, k, BLOCK) for k in blocks])
             own = points[:, start - first : stop - first]
             return [a.between(x) for a, x in zip(self.axes, own, strict=True)]
         columns, numbers = list[Column](), np.arange(start, stop)
@@ -77,9 +76,8 @@ def plan(axes: Sequence[VariedKey], random: int | None, seed: int) -> SweepPlan:
         raise GenevaError("--vary is missing; say what varies, as --vary drive.A=0..0.9:0.1")
     if random is not None and not 1 <= random <= POINTS_MAX:
         raise GenevaError(f"--random {cut(random)}: it must be at least 1, at most {POINTS_MAX:,}")
-    keys_max = 32  # each is a dimension of the Sobol sequence
-    if random and len(axes) > keys_max:
-        raise GenevaError(f"--random: {len(axes)} keys vary; at most {keys_max} can")
+    if random and len(axes) > DIMENSIONS:
+        raise GenevaError(f"--random: {len(axes)} keys vary; at most {DIMENSIONS} can")
     if not 0 <= seed < 2**32:
         raise GenevaError(f"--seed {cut(seed)}: it must be at least 0 and below 2**32")
     size = math.prod(len(a.values) for a in axes)
@@ -145,14 +143,15 @@ class Sweep(NamedTuple):
 
     def blocks(self, done: int = 0) -> Iterator[Rows]:
         """The rows in blocks and in order; the first ``done`` rows are skipped."""
-        if self.is_batched:
-            size = BLOCK
+        if self.is_batched:  # larger ones take less time, and keep two processes busy if many
+            size = BLOCK if len(self.plan) < 32 * BLOCK else 2 * BLOCK
         elif not self._makes_parts:
             size = 64
         else:
             # Parts are slow: eight tasks keep several processes busy. Four designs or more share
             # the searches of their batch, which keeps the results of at most KEPT.
             size = min(KEPT, max(4, math.ceil(len(self.plan) / 8)))
+        keep_memory()  # that the rows of other processes arrive in
         starts = range(done, len(self.plan), size)
         count = min(len(starts), cores() if self.jobs is None else self.jobs)
         yield from mapped(partial(self._block, size), starts, count)
