@@ -194,10 +194,9 @@ class Sweep(NamedTuple):
         for start in range(0, len(designs), KEPT):
             part = np.arange(start, min(start + KEPT, len(designs)))
             last: Parts | None = None
-            some, own = designs.taken(part), known.taken(part)
-            for values, machine, (whole, *cells) in zip(
-                some, self._machines(some), own, strict=True
-            ):
+            some = designs.taken(part)
+            each = zip(some, self._machines(some), known.taken(part), strict=True)
+            for values, machine, (whole, *cells) in each:
                 if machine:
                     last = last.following(machine) if last else parts_of(machine)
                 yield self.row(values, last if machine else None, cells if whole else None)
