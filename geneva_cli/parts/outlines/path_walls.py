@@ -59,14 +59,6 @@ def walls(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> list[Wall
     middle = int(np.searchsorted(t, 0.0))
     for part in (t[: middle + 1], t[middle:]):
         outward = bool(part[-1] > 0.0)
-        if outward and engagement.mirrored:
-            # the roller runs back over the mirror image of its path, with the same wall on its left
-            for flank, side in zip([*flanks], (-w, w), strict=True):
-                curve = parallel(assembly, engagement, side, outward)
-                points, tangents = flank.points[::-1] * (1.0, -1.0), flank.tangents[::-1]
-                line = -flank.t[::-1], points, tangents * (-1.0, 1.0), flank.free[::-1]
-                flanks.append(Wall(curve, *line))
-            break
         for side in (-w, w):
             curve = parallel(assembly, engagement, side, outward)
             t = _unfolded(curve, part, pitch_at(engagement, part), L, side) if back else part
