@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -129,7 +130,7 @@ def pitch_lines(parts: FlatParts, engagement: Engagement) -> list[Contour]:
         fine = 1e-3 if parts.tolerance is None else parts.tolerance  # mm, as a drawing's
         pieces: list[Segment] = []
         for a, b in ((through.entry_deg, 0.0), (0.0, through.exit_deg)):
-            path = parallel(assembly, through, 0.0, b > 0.0)
+            path = partial(parallel, assembly.L, through, 0.0, b > 0.0)
             pieces += fit.KINDS[parts.curves](path, a, b, fine)
         line = Contour("PITCH", forms.joined(pieces), closed=False)
     return [forms.turned(line, -apart), forms.turned(line, apart)] if apart else [line]
