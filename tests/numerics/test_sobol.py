@@ -1,31 +1,25 @@
-"""Sobol's sequence against SciPy's, and what scrambling must keep."""
+"""Sobol's sequence: what scrambling must keep, and where a run may begin."""
 
 import numpy as np
 import pytest
-from scipy.stats import qmc
 
-from geneva_cli.numerics.sobol import DIGITS, DIRECTIONS, Sobol, _numbers
+from geneva_cli.numerics.sobol import DIMENSIONS, sobol
 
 COUNT = 1 << 10
-
-
-def test_without_scrambling_the_points_are_those_of_scipy():
-    """SciPy has them in another order (Gray's code), which is the same in each power of two."""
-    weights = 1 << np.arange(DIGITS - 1, -1, -1)
-    directions = np.array([weights * _numbers(*row) for row in DIRECTIONS])
-    sequence = Sobol(directions, np.zeros((len(DIRECTIONS), 1), dtype=np.int64))
-    theirs = qmc.Sobol(len(DIRECTIONS), scramble=False, bits=DIGITS)
-    for start in (0, COUNT):
-        ours = sequence.points(start, COUNT)
-        assert {*map(tuple, ours.T)} == {*map(tuple, theirs.random(COUNT))}
 
 
 @pytest.mark.parametrize("seed", range(3))
 def test_scrambled_points_are_a_net(seed):
     """Each of 2^10 intervals of a dimension holds one point, and each 32nd by 32nd of two."""
-    points = Sobol.scrambled(len(DIRECTIONS), seed).points(3 * COUNT, COUNT)
+    points = sobol(DIMENSIONS, seed, 3 * COUNT, COUNT)
     assert ((points >= 0.0) & (points < 1.0)).all()
     for row in points:
         assert sorted((row * COUNT).astype(int)) == list(range(COUNT))
     cells = (points[:2] * 32).astype(int)
     assert len({*zip(*cells, strict=True)}) == COUNT
+
+
+def test_a_run_may_begin_anywhere():
+    whole = sobol(4, 7, 0, 4 * COUNT)
+    assert np.array_equal(np.hstack([sobol(4, 7, k * COUNT, COUNT) for k in range(4)]), whole)
+    assert not np.array_equal(sobol(4, 8, 0, COUNT), whole[:, :COUNT])

@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -25,11 +25,11 @@ import numpy as np
 from geneva_cli.loads.contact import NEAR_CUSP, contact, contact_values
 from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.load_case import load_case
-from geneva_cli.motion.batch import taken
+from geneva_cli.motion.batch import designs_in, taken
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.path_and_slot import pitch
-from geneva_cli.numerics.arrays import Number, array, blocks, joined, parameter
+from geneva_cli.numerics.arrays import Number, Whole, array, blocks, joined, mapped, parameter
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.tolerances import TIE
 
@@ -195,7 +195,7 @@ def greatest_stress(sides: Sides, mechanism: Mechanism, sizes: Sizes) -> HornStr
     """Greatest stress of m designs, of flat horns for 1 mm of contact; a single one's is kept."""
     if isinstance(mechanism.design, int):
         return _single_stress(sides, mechanism, sizes)
-    every = [taken((mechanism, sizes), some) for some in blocks(mechanism.designs, 128)]
+    every = [taken((mechanism, sizes), some) for some in blocks(mechanism.designs, 1024)]
     return joined([_greatest(sides, *some) for some in every])
 
 
@@ -237,13 +237,20 @@ def _sampled(
     The roller comes from the entry, ``start`` being -1, or from the exit, being 1. Then the samples
     (2, n, 2 steps + 1) between those beside that one.
     """
-    m, slot = mechanism.designs, side.at.engagement
+    m, slot, case = mechanism.designs, side.at.engagement, load_case(mechanism)
+    first = row = np.arange(m)
+    if m > 1 and designs_in((side, case.friction, case.radius)) == 1:
+        # loads alone differ: horns under 1 N are computed once for designs with the same samples
+        first, row = _distinct(np.broadcast_to(samples, (2, m, samples.shape[2]))[..., [0, -1]])
+        samples = samples[:, first]
     all_places = (slot.entry_deg if start < 0.0 else slot.exit_deg) * samples[0]
-    case, x = load_case(mechanism), all_places - side.at.ahead_deg
+    x = all_places - side.at.ahead_deg
     x = x[0] if len(x) == 1 else x  # as (k,) in half the time
     at = contact_values(contact(side.at.whole, x, reactions=False))
+    at = at if len(first) == m else mapped(partial(_picked, row=row), at)
     with np.errstate(all="ignore"):
-        loads = Instant(case, at, None, None, 1.0)
+        # with signs of the horn that bears: elsewhere the force on it is 0
+        loads = Instant(case, at, -side.at.end, None, 1.0)
         bears = np.asarray(loads.wheel_torque_Nm) * side.at.end < 0.0  # or else the other horn
         force = np.where(bears & (loads.grip > 0.0), np.abs(loads.force_N), 0.0)
     force = np.atleast_2d(np.where(np.isfinite(force), force, 0.0))
@@ -251,17 +258,39 @@ def _sampled(
     own = own if len(own) else np.arange(1)
     # a mouth is away from the axis, but for internal wheels
     rub = case.friction * mechanism.spec.wheel.SIGN * loads.slides * at.touches
-    force, places, rub = force[:, own], all_places[:, own], np.atleast_2d(rub + 0.0 * x)[:, own]
+    rub = np.broadcast_to(rub, (m, x.shape[-1]))[first]
+    force, places, rub = force[:, own], all_places[:, own], rub[:, own]
     points = side.points(np.hstack((places, side.at.mouth_deg * samples[1])))
     roller = np.stack(np.broadcast_arrays(*points[..., : len(own)], rub))
     sections = points[..., len(own) :]
-    stress = force[..., None] * side.unit_stress(roller, sections)
-    each = np.broadcast_to(stress, (m, *stress.shape[1:])).reshape(m, -1)
-    most = each.max(axis=1, keepdims=True)
-    i, j = np.divmod(np.argmax(each >= most * (1.0 - TIE), axis=1), stress.shape[2])
-    every, inner = np.arange(m), np.broadcast_to(sections[:2], (2, m, sections.shape[2]))
-    rows = np.stack((most[:, 0], np.resize(places, (m, len(own)))[every, i], *inner[:, every, j]))
+    unit = side.unit_stress(roller, sections)
+    stress = np.broadcast_to(force * _picked(unit.max(axis=2), row), (m, len(own)))
+    most = stress.max(axis=1, keepdims=True)
+    i = np.argmax(stress >= most * (1.0 - TIE), axis=1)
+    unit = unit[0 if len(unit) == 1 else row, i]
+    load = _picked(force, np.arange(m), i)[:, None]
+    j = np.argmax(load * unit >= most * (1.0 - TIE), axis=1)
+    rows = np.stack((most[:, 0], _picked(places, row, i), *_picked(sections[:2], row, j)))
     beside = np.stack((own[i], j))[..., None] + np.array([-1, 1])
-    every = np.broadcast_to(samples, (2, m, samples.shape[2]))
+    every = np.broadcast_to(_picked(samples, row), (2, m, samples.shape[2]))
     ends = np.take_along_axis(every, np.clip(beside, 0, samples.shape[2] - 1), axis=2)
     return rows, ends[..., :1] + np.diff(ends) * np.linspace(0.0, 1.0, 2 * steps + 1)
+
+
+def _distinct(columns: Array) -> tuple[Whole, Whole]:
+    """The first of each kind of equal columns (..., n, r), and the kind of each."""
+    keys = np.moveaxis(columns, 1, -1).reshape(-1, columns.shape[1])
+    order = np.lexsort(keys)
+    begins = np.append(True, (np.diff(keys[:, order]) != 0.0).any(axis=0))
+    kind = np.empty(len(order), dtype=int)
+    kind[order] = np.cumsum(begins) - 1
+    return order[begins], kind
+
+
+def _picked(values: Array, row: Whole, k: Whole | None = None) -> Array:
+    """Values (..., m, k) of m designs, from the rows of each, or from one of all; or sample k."""
+    shared = np.ndim(values) < 2 or values.shape[-2] == 1
+    if k is None:
+        return values if shared else values.take(row, axis=-2)
+    picked: Array = values[..., 0 if shared else row, k]
+    return picked

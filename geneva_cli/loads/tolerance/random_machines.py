@@ -12,7 +12,7 @@ import numpy as np
 from geneva_cli.loads.tolerance.locking import CutLock, Deviations, deviations, slope_of
 from geneva_cli.loads.tolerance.motion_error import EntryJump, MotionError
 from geneva_cli.numerics.jet import Array, Jet, Number
-from geneva_cli.numerics.sobol import Sobol
+from geneva_cli.numerics.sobol import sobol
 from geneva_cli.progress import tracked
 
 # a motion's error, the input angle in degrees, and the side on which the roller bears
@@ -30,18 +30,18 @@ class Draws(NamedTuple):
     def blocks(self, samples: int, size: int) -> Iterator[Deviations]:
         """Deviations of ``samples`` machines, in blocks of ``size``, a power of two."""
         deviate = [i for i, size in enumerate(self.sizes) if size]
-        sequence = Sobol.scrambled(len(deviate), self.seed)
         for start in range(0, samples, size):
             count = min(size, samples - start)
-            quantiles = sequence.points(start, 1 << (count - 1).bit_length())[:, :count]
+            power = 1 << (count - 1).bit_length()
+            quantiles = sobol(len(deviate), self.seed, start, power)[:, :count]
             columns: list[Number] = [0.0] * len(self.sizes)
             for i, quantile in zip(deviate, quantiles, strict=True):
                 spread: Array = 2.0 * quantile - 1.0
                 if self.normal:
                     from scipy.special import ndtri
 
-                    # the plus or minus is three standard deviations; 0 would be infinite
-                    spread = ndtri(np.maximum(quantile, 2.0**-53)) / 3.0
+                    # the plus or minus is three standard deviations
+                    spread = ndtri(quantile) / 3.0
                 columns[i] = spread * self.sizes[i]
             yield deviations(columns)
 
