@@ -9,7 +9,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
-from geneva_cli.drives.transmission import LocalTransmission, PushedCrank, Transmission
+from geneva_cli.drives.pushed import PushedCrank
+from geneva_cli.drives.transmission import LocalTransmission, Transmission
 from geneva_cli.drives.whitworth import Whitworth, refuse_near_one
 from geneva_cli.motion.drive import Gears, Plan
 from geneva_cli.motion.engagement import Vector

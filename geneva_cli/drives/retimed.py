@@ -20,7 +20,8 @@ from geneva_cli.numerics.jet import Jet, Number, atan2, composed, piecewise, sin
 from geneva_cli.numerics.roots import boundary
 
 if TYPE_CHECKING:
-    from geneva_cli.drives.transmission import PushedCrank, Transmission
+    from geneva_cli.drives.pushed import PushedCrank
+    from geneva_cli.drives.transmission import Transmission
     from geneva_cli.motion.machine_spec import Spec
     from geneva_cli.numerics.jet_functions import Displacement, Path, Reactions
 

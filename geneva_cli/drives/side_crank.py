@@ -7,7 +7,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated, ClassVar
 
-from geneva_cli.drives.transmission import CirclingPush, PushedCrank, places
+from geneva_cli.drives.pushed import CirclingPush, PushedCrank
+from geneva_cli.drives.transmission import places
 from geneva_cli.drives.whitworth import Whitworth
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot, ShaftPlace

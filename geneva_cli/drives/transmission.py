@@ -1,28 +1,27 @@
 """Drives with a transmission between input shaft and crank: the roller runs on a circle.
 
-And the places of rollers on the crank, and the equilibrium of a crank that is turned by a push
-along a known line: a block, a tooth, a pin.
+And the places of rollers on the crank.
 """
 
 from __future__ import annotations
 
 import math
-from abc import ABC, abstractmethod
 from itertools import pairwise
-from typing import TYPE_CHECKING, ClassVar, NamedTuple, TypeAlias, cast
+from typing import TYPE_CHECKING, ClassVar, TypeAlias, cast
 
 from geneva_cli.errors import GenevaError, refuse_text
 from geneva_cli.motion import registry
 from geneva_cli.motion.drive import Drive, Plan
-from geneva_cli.motion.engagement import Anchor, Engagement, Held, Loads, Vector, cross
+from geneva_cli.motion.engagement import Anchor, Engagement
 from geneva_cli.motion.path_and_slot import AnchoredPath, StraightSlotMotion
 from geneva_cli.motion.wheels.classic import HalfStep, PinTravel, middle, refuse_jam, rollers_max
 from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import Batchable, larger, parameter
-from geneva_cli.numerics.jet import Array, Jet, Number, rotation, sin_cos, turning
+from geneva_cli.numerics.arrays import larger, parameter
+from geneva_cli.numerics.jet import Array, rotation
 
 if TYPE_CHECKING:
+    from geneva_cli.drives.pushed import PushedCrank
     from geneva_cli.motion.laws.law import Motion
     from geneva_cli.numerics.jet_functions import Displacement, Path
 
@@ -149,6 +148,8 @@ class Transmission(Drive, kw_only=True):
 
     def _behind(self, wheel: Gearing, own: Engagement, advance: Displacement, L: float) -> None:
         """Complete an engagement whose crank is behind the transmission: its rate and reactions."""
+        from geneva_cli.drives.pushed import CrankRate
+
         own.body = CrankRate(advance, cast(float, own.body))
         own.reactions = self.reactions(wheel, own.path, own.mid_deg, L) if wheel.FLAT else None
 
@@ -212,50 +213,3 @@ def _refuse_no_dwell(rollers: list[RollerPlace], key: tuple[str, str]) -> None:
     text = "the {count} motions together take {total:.6g} deg of a turn and leave no dwell: use "
     text += "fewer rollers, or a shorter pattern of steps"
     refuse_text(total >= 360.0, key, text, count=len(rollers), total=total)
-
-
-class CrankRate(NamedTuple):
-    """Rate of the crank about its roller's axis: a factor times that of its rotation."""
-
-    advance: Displacement
-    factor: float
-
-    def __call__(self, tau: Number, order: int) -> Jet:
-        sine, versine = self.advance(tau, order + 1)
-        rate: Jet = turning(1.0 - versine, sine) * self.factor
-        return rate
-
-
-class PushedCrank(Batchable, ABC):
-    """A crank held by its shaft and pushed round, without friction or mass."""
-
-    @abstractmethod
-    def line(self, input_deg: Number, order: int) -> tuple[Vector, Vector]:
-        """Point of the push from the crank's axis, over L, and a vector in its direction."""
-
-    def __call__(self, input_deg: Number, path: Vector, loads: Loads) -> Held:
-        """Reactions of the crank's shaft, and of the body that pushes the crank, to each load."""
-        x, y = (jet.lower for jet in path)
-        at, direction = self.line(input_deg, x.order)
-        lever, out = cross(at, direction), []
-        for force, moment in loads:
-            push = (cross((x - 1.0, y), force) + moment) / lever * -1.0
-            third = direction[0] * push, direction[1] * push
-            out.append(((force[0] + third[0], force[1] + third[1]), third))
-        return out
-
-
-class CirclingPush(PushedCrank):
-    """A pin or a block on a circle, which pushes across the line from the crank's axis to it.
-
-    It is at ((c ``k`` + ``x0``) ``scale``, s ``height``) from that axis, over L; c and s are cosine
-    and sine of its own crank's angle, which is ``mid`` radians at mid-motion.
-    """
-
-    def __init__(self, x0: float, k: float, scale: float, height: float, mid: float) -> None:
-        self.x0, self.k, self.scale, self.height, self.mid = x0, k, scale, height, mid
-
-    def line(self, input_deg: Number, order: int) -> tuple[Vector, Vector]:
-        s, c = sin_cos(Jet.variable(radians(input_deg) + self.mid, order))
-        x, y = (c * self.k + self.x0) * self.scale, s * self.height
-        return (x, y), (y * -1.0, x)

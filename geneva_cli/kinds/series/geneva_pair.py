@@ -11,12 +11,8 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
-from geneva_cli.drives.transmission import (
-    CirclingPush,
-    LocalTransmission,
-    PushedCrank,
-    Transmission,
-)
+from geneva_cli.drives.pushed import CirclingPush, PushedCrank
+from geneva_cli.drives.transmission import LocalTransmission, Transmission
 from geneva_cli.motion.compatible import Conflict, of_transmission, several_rollers
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.machine_spec import Spec
