@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from contextlib import suppress
 from operator import attrgetter
 from typing import TYPE_CHECKING, NoReturn, Self
 
@@ -23,7 +22,7 @@ from geneva_cli.numerics.arrays import Array, value_or
 from geneva_cli.parts.assembly import links_at
 from geneva_cli.parts.frame import framed
 from geneva_cli.parts.links.links import Links
-from geneva_cli.parts.machine_sizes import machine_sizes
+from geneva_cli.parts.machine_sizes import machine_sizes, refuse_unfit, unloaded
 from geneva_cli.parts.outlines.crank_outline import crank_bore, is_whole
 from geneva_cli.parts.outlines.cut_outlines import drawn, slot_walls, wheel_contour
 from geneva_cli.parts.outlines.outlines import Outlines, dial_circle, wheel_hub, wheel_plate
@@ -43,12 +42,24 @@ class FlatParts(EdgedParts):
 
     @cached_property
     def _shape(self) -> Outlines:
-        return drawn(*machine_sizes(self.mechanism))
+        of = unloaded(self.mechanism)  # no outline depends on a size that the load chooses
+        try:
+            refuse_unfit(of.assembly, of.sizes)
+        except GenevaError:  # unless the load chooses sizes that fit
+            return drawn(*machine_sizes(self.mechanism))
+        return drawn(of.assembly, of.sizes)
 
-    @property
+    @cached_property
     def outlines(self) -> Outlines:
         """The outlines of wheel and crank; raises GenevaError for a wheel that is not drawn."""
-        return self._shape
+        _, sizes = machine_sizes(self.mechanism)
+        return self._shape._replace(sizes=sizes)
+
+    @property
+    def built(self) -> Self:
+        """These parts. Raises GenevaError where the sizes leave no wheel or no crank."""
+        _ = self.outlines
+        return self
 
     @property
     def close(self) -> float:
@@ -58,11 +69,11 @@ class FlatParts(EdgedParts):
     @property
     def drawn(self) -> Outlines | None:
         """The outlines of wheel and crank; None for links and gears alone."""
-        return self._shape
+        return self.outlines
 
     def past_mouth(self, motion: int, at: Array) -> Array:
         """Return how far a motion's roller is in its slot, beyond the mouth's corners, mm, (n,)."""
-        own, sizes = self.outlines, self.outlines.sizes
+        own, sizes = self._shape, self._shape.sizes
         # the corners are on the rim, half a slot's width from the slot's middle
         level = math.sqrt(max(sizes.rim**2 - sizes.half_width**2, 0.0))
         lost = self._wall_lost if sizes.mouth_radius or sizes.horn_tip else 0.0
@@ -72,7 +83,7 @@ class FlatParts(EdgedParts):
     @cached_property
     def _wall_lost(self) -> float:
         """By how much the walls of slots end deeper than at sharp mouths, mm."""
-        own = self.outlines
+        own = self._shape
         each = [turned(own.slots[kind], turn) for kind, turn in own.assembly.slots]
         return max(wall_lost(walls, own.wheel) for walls in each)
 
@@ -89,19 +100,16 @@ class FlatParts(EdgedParts):
     def following(self, mechanism: Mechanism) -> Parts:
         """Return the parts of the next design, with this turn if it is the same.
 
-        It is if wheel, drive, motion and ``[size]`` are equal, but for the speed, and all sizes
-        that follow from the load.
+        It is if wheel, drive, motion and ``[size]`` are equal, but for the speed.
         """
         parts, computed = parts_of(mechanism), vars(self)
         own, other = self.mechanism.spec, mechanism.spec
         keys = attrgetter("wheel", "motion", "size")
         alike = own.drive.replace(n_rpm=1.0) == other.drive.replace(n_rpm=1.0)
-        alike &= "_shape" in computed and keys(own) == keys(other)
-        with suppress(GenevaError):  # where the sizes of the next leave no parts
-            if alike and machine_sizes(mechanism)[1] == self._shape.sizes:
-                assembly = self.assembly._replace(full=mechanism)
-                vars(parts)["_shape"] = self._shape._replace(assembly=assembly)
-                vars(parts).update({"turn": self.turn} if "turn" in computed else {})
+        if alike and "_shape" in computed and keys(own) == keys(other):
+            assembly = self.assembly._replace(full=mechanism)
+            vars(parts)["_shape"] = self._shape._replace(assembly=assembly)
+            vars(parts).update({"turn": self.turn} if "turn" in computed else {})
         return parts
 
     def walls(self, slot: Engagement) -> Contour:

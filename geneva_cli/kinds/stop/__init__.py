@@ -17,16 +17,16 @@ KINDS = (
                 makes_parts=True,
             ),
         ),
-        remedies={
-            "stop_turns": "lock_radius_mm? SMALLER",
-            "stop_overlap_mm": "lock_radius_mm? SMALLER",
-            "stop_stress_max_MPa": "lock_edge_mm*10 WIDER LARGER",
-        },
         scene="kinds.stop.scene:StopScene",
         parts_checks={
             "stop_turns": "kinds.stop.parts:standing",
             "stop_overlap_mm": "kinds.stop.parts:standing",
             "stop_stress_max_MPa": "kinds.stop.parts:standing",
+        },
+        remedies={
+            "stop_turns": "lock_radius_mm? SMALLER",
+            "stop_overlap_mm": "lock_radius_mm? SMALLER",
+            "stop_stress_max_MPa": "lock_edge_mm*10 WIDER LARGER",
         },
     ),
 )
