@@ -6,6 +6,7 @@ Also the names of the loads that a machine has.
 from __future__ import annotations
 
 import math
+from operator import attrgetter
 
 import numpy as np
 
@@ -41,7 +42,7 @@ def hertz_MPa(modulus_GPa: float, line_N_mm: N, radius_mm: float) -> N:
     return out
 
 
-# Tables of a spec on which loads depend, and keys of [size] on which none does.
+# All that the loads of a machine depend on: tables of its spec, and all sizes but these.
 _TABLES = (
     *("wheel", "drive", "drive_before", "motion", "load", "mass", "support", "motor", "shaft"),
     *("material_wheel", "material_roller", "tolerance"),
@@ -51,15 +52,9 @@ _FREE = (
     *("crank_hub_mm", "arm_bore_mm", "arm_hub_mm", "arm_eye_mm"),
 )
 _SIZES = sorted({*Size.__annotations__}.difference(_FREE))
-
-
-def load_key(mechanism: Mechanism) -> tuple[object, ...]:
-    """All that the loads of a machine depend on: machines with the same key have the same loads."""
-    tables = vars(mechanism.spec)
-    sizes = map(vars(mechanism.spec.size).get, _SIZES)
-    return (*mechanism[1:], *map(tables.get, _TABLES), *sizes)
-
-
+_PATHS = *map("spec.{}".format, _TABLES), *map("spec.size.{}".format, _SIZES)
+# Machines with the same key have the same loads.
+load_key = attrgetter(*Mechanism._fields[1:], *_PATHS)
 # The first known one of the machines that have the same loads.
 first_alike = Known[Mechanism, Mechanism](lambda mechanism: mechanism, load_key)
 
