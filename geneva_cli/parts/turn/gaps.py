@@ -150,7 +150,7 @@ class Gaps:
         reach = lock * (1.0 - 1e-7)  # a smaller overlap counts as touching
         # only points near the direction of the crank's axis can be within reach of it
         half = moves.half_span(reach, L)
-        step = max(1, (1 << 20) // len(points))  # 2^20 points at a time fit into the cache
+        step = max(1, (1 << 20) // len(points))  # 2^20 points at a time bound the memory
         xs, ys = [], []
         for begin in range(0, len(at), step):
             some = at[begin : begin + step]
