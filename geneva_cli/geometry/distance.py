@@ -11,7 +11,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from geneva_cli.geometry.shapes import Arc, Contour, Line
-from geneva_cli.numerics.arrays import Array, Mask, Number, Whole
+from geneva_cli.numerics.arrays import Array, Mask, Number, Whole, rising
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 
 BLOCK = 1 << 14  # distances in a block: they stay in the processor's cache
@@ -144,6 +144,33 @@ class Polyarc:
         along, i = fraction[flat], which[flat]
         x[flat], y[flat] = self.x0[i] + along * self.dx[i], self.y0[i] + along * self.dy[i]
         return np.column_stack((x, y))
+
+    def one_sector(self, pitch: float, near: float) -> Whole | None:
+        """The pieces of a sector that repeats after ``pitch`` radians within ``near`` mm, or None.
+
+        Of equal pieces, the first ones are taken.
+        """
+        count = round(math.tau / pitch)
+        if not len(self.x0) or len(self.x0) % count:
+            return None
+        sides = np.column_stack((self.x0 + 1j * self.y0, self.x1 + 1j * self.y1))
+        bend = self.sense * self.sin_half
+        turned = sides * np.exp(1j * pitch)
+        after = np.empty(len(turned), dtype=int)
+        block = max(1, (1 << 22) // len(turned))
+        for first in range(0, len(turned), block):
+            some = turned[first : first + block]
+            # each piece starts at another place, and squares take a tenth of the time of distances
+            x, y = some[:, :1].real - self.x0, some[:, :1].imag - self.y0
+            after[first : first + block] = np.argmin(x * x + y * y, axis=1)
+        moved = np.abs(turned - sides[after]).max()
+        if moved > near or np.abs(bend - bend[after]).max() > 1e-9:
+            return None
+        least = here = np.arange(len(turned))
+        for _ in range(count - 1):
+            here = after[here]
+            least = np.minimum(least, here)
+        return rising(least)
 
 
 def farthest(outline: Polyarc, x: Number, y: Number) -> Array:

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
 from itertools import chain, combinations, repeat, starmap
 from operator import lt, mul
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -41,6 +41,7 @@ class Plate(NamedTuple):
     holes: tuple[Contour | Circle, ...]
     low: float
     high: float
+    bore: Any = None  # of the parts on a shaft
 
     @property
     def thickness(self) -> float:

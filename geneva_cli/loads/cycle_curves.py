@@ -25,7 +25,8 @@ from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import ROUNDED, SAME_INPUT_DEG
 
 ASPECT = 5.0  # width of a panel over its height
-CHORD_ERROR = 4e-4  # of a panel's height: less than 0.1 px of a panel of 200 px
+CHORD_ERROR = 1e-4  # of a panel's height: less than 0.1 px of a panel of 200 px
+SAMPLES = 4097  # of a piece: between them a peak a hundredth as wide differs by that error
 MOTION_QUANTITIES = ("velocity", "acceleration", "jerk", "power")  # besides the output itself
 Ends: TypeAlias = tuple[float, float]
 Curves: TypeAlias = Callable[[Array], Array]  # x (n,) -> a row a curve (q, n)
@@ -48,27 +49,21 @@ def drawn(cycle: Cycle, names: Sequence[str], window: Ends) -> dict[str, Drawn]:
     column = machine.output.column
     moves = [n for n in names if n in (column, *MOTION_QUANTITIES)]
     loads = [n for n in names if n not in moves]
-    if moves:
-        stages = list(_motion_stages(machine, moves))
-        step = sum(2.0 * e.half_step for e in machine.engagements) * machine.output.per_radian
-        rise = [step if n == column else 0.0 for n in moves]
-        curves = _pieces(stages, machine.period_deg, window, rise)
-        for name, pieces in zip(moves, curves, strict=True):
-            peak = () if name == column else (_peak(machine, name, pieces, window),)
-            out[name] = pieces, peak, None
-    if loads:
-        ends = {name: cycle.extremes[name] for name in loads}
-        if "pin_force_N" in ends:  # drawn with the sign of the wall that bears
-            (wall,) = load_summaries(machine, ["wall_force_N"], means=False).values()
-            ends["pin_force_N"] = only(wall)
-        bounds = _bounds(cycle, ends)
-        stages = list(_load_stages(cycle, loads, bounds))
-        curves = _pieces(stages, machine.period_deg, window, [0.0] * len(loads))
-        for name, pieces in zip(loads, curves, strict=True):
-            own = bounds.get(name)
-            if own:
-                pieces = [part for piece in pieces for part in _within(piece, own)]
-            one, marks = ends[name], tuple[Mark, ...]()
+    ends = {name: cycle.extremes[name] for name in loads}
+    if "pin_force_N" in ends:  # drawn with the sign of the wall that bears
+        (wall,) = load_summaries(machine, ["wall_force_N"], means=False).values()
+        ends["pin_force_N"] = only(wall)
+    bounds = _bounds(cycle, ends)
+    stages = list(_stages(cycle, moves, loads, bounds))
+    step = sum(2.0 * e.half_step for e in machine.engagements) * machine.output.per_radian
+    rise = [step if n == column else 0.0 for n in (*moves, *loads)]
+    curves = _pieces(stages, machine.period_deg, window, rise)
+    for name, pieces in zip((*moves, *loads), curves, strict=True):
+        marks, own = tuple[Mark, ...](), bounds.get(name)
+        if own:
+            pieces = [part for piece in pieces for part in _within(piece, own)]
+        if name in ends:
+            one = ends[name]
             size = max(abs(one.max), abs(one.min))
             for word, value, at_deg, shown in (
                 ("max", one.max, one.max_at_deg, one.max > ROUNDED * size),
@@ -77,58 +72,53 @@ def drawn(cycle: Cycle, names: Sequence[str], window: Ends) -> dict[str, Drawn]:
                 if shown or math.isinf(value):
                     y = value if math.isfinite(value) else None
                     marks += (Mark(word, _placed(machine, at_deg, window), y),)
-            out[name] = pieces, marks, own
+        elif name != column:
+            marks = (_peak(machine, name, pieces, window),)
+        out[name] = pieces, marks, own
     return out
 
 
-def _motion_stages(mechanism: Mechanism, names: Sequence[str]) -> Iterator[Stage]:
-    """Stages of the output and of ``MOTION_QUANTITIES`` over a period from the first entry."""
+def _stages(
+    cycle: Cycle, moves: Sequence[str], loads: Sequence[str], bounds: Mapping[str, Ends]
+) -> Iterator[Stage]:
+    """Stages of a period from the first entry; loads with ``bounds`` are limited to them."""
+    mechanism = cycle.mechanism
     column, per_radian = mechanism.output.column, mechanism.output.per_radian
 
-    def moved(engagement: Engagement, inside: Ends, up: float, x: Array) -> Array:
-        wheel, v, a, j = engagement.motion.derivatives(np.clip(x - engagement.mid_deg, *inside))
+    def curves(
+        engagement: Engagement, stretch: Stretch, inside: Ends, clear: Ends, up: float, x: Array
+    ) -> Array:
+        x = x - engagement.mid_deg
+        wheel, v, a, j = engagement.motion.derivatives(np.clip(x, *inside))
         rows = (wheel + up) * per_radian, v, a, j, v * a
         known = dict(zip((column, *MOTION_QUANTITIES), rows, strict=True))
-        return np.array([known[name] for name in names])
+        if loads:
+            own = cycle.moving(engagement, np.clip(x, *clear), loads, stretch)
+            for name, row in zip(loads, own, strict=True):
+                known[name] = np.clip(row, *bounds.get(name, (None, None)))
+        return np.array([known[name] for name in (*moves, *loads)])
 
     base = -mechanism.engagements[0].half_step  # the wheel's angle before the step
     for i, engagement in enumerate(mechanism.engagements):
-        mid, motion, up = engagement.mid_deg, engagement.motion, base + engagement.half_step
-        # the ends of the smooth parts are clear of the breaks between them
-        both = zip(pairwise(motion.breaks_deg), spans(motion, 1), strict=True)
-        for (a, b), (start, end) in both:
-            inside = start.item(), end.item()
-            yield Stage(mid + a, mid + b, partial(moved, engagement, inside, up))
-        base += 2.0 * engagement.half_step
-        rest = [base * per_radian if n == column else 0.0 for n in names]
-        yield from _dwell(mechanism, i, rest)
-
-
-def _load_stages(cycle: Cycle, names: Sequence[str], bounds: Mapping[str, Ends]) -> Iterator[Stage]:
-    """Stages of loads over a period; those with ``bounds`` are limited to them."""
-
-    def loaded(engagement: Engagement, stretch: Stretch, inside: Ends, x: Array) -> Array:
-        rows = cycle.moving(engagement, np.clip(x - engagement.mid_deg, *inside), names, stretch)
-        each = zip(names, rows, strict=True)
-        return np.array([np.clip(row, *bounds.get(n, (None, None))) for n, row in each])
-
-    for i, engagement in enumerate(cycle.mechanism.engagements):
-        mid = engagement.mid_deg
+        mid, up = engagement.mid_deg, base + engagement.half_step
         for owner, stretch in cycle.stretches:
             if owner is not engagement:
                 continue
-            # clear of breaks; next to a cusp they end before values are rounding
+            # clear of breaks; loads next to a cusp end before values are rounding
             start, end = stretch[:2]
             for low, high in spans(engagement.motion, 1):
                 if low.item() < 0.5 * (stretch.start + stretch.end) < high.item():
                     start, end = max(start, low.item()), min(end, high.item())
+            inside = start, end
             if engagement.slot.curved:
                 before, after = NEAR_CUSP * engagement.entry_deg, NEAR_CUSP * engagement.exit_deg
                 start = after if abs(start) < after else start
                 end = before if abs(end) < -before else end
-            of = partial(loaded, engagement, stretch, (start, end))
+            of = partial(curves, engagement, stretch, inside, (start, end), up)
             yield Stage(mid + stretch.start, mid + stretch.end, of)
-        yield from _dwell(cycle.mechanism, i, [0.0] * len(names))
+        base += 2.0 * engagement.half_step
+        rest = [base * per_radian if n == column else 0.0 for n in (*moves, *loads)]
+        yield from _dwell(mechanism, i, rest)
 
 
 def _dwell(mechanism: Mechanism, i: int, values: Sequence[float]) -> Iterator[Stage]:
@@ -143,12 +133,8 @@ def _pieces(
 ) -> list[list[Piece]]:
     """The pieces of each curve over a window, with the period's stages repeated."""
     start, end = window
-    placed: list[tuple[Curves, bool, float, float]] = []
+    samples: list[tuple[Array, Array]] = []  # of each piece
     tiny, last, up = ROUNDED * period, -math.inf, np.array(rise)[:, None]
-
-    def shifted(stage: Stage, number: int, x: Array) -> Array:
-        return stage.of(x - number * period) + number * up
-
     first = math.floor((start - stages[-1].end) / period)
     for number in range(first, 2 + int((end - start) // period)):
         for stage in stages:
@@ -161,17 +147,14 @@ def _pieces(
                 continue
             else:
                 last = b
-            placed.append((partial(shifted, stage, number), stage.flat, a, b))
-    rough = [of(places(a, b) if b > a else np.array([a])) for of, _, a, b in placed]
-    heights = np.ptp(np.concatenate(rough, axis=1), axis=1)
+            x = places(a, b, 2 if stage.flat else SAMPLES) if b > a else np.array([a])
+            samples.append((x, stage.of(x - number * period) + number * up))
+    heights = np.ptp(np.concatenate([y for _, y in samples], axis=1), axis=1)
     heights[heights == 0.0] = 1.0
     out: list[list[Piece]] = [[] for _ in rise]
-    for of, is_flat, a, b in placed:
-        x = np.array([a, b] if b > a else [a])
-        if not is_flat and b > a:
-            x = refined(of, a, b, end - start, heights)
-        for curve, y, height in zip(out, of(x), heights, strict=True):
-            some = thinned(ASPECT / (end - start) * x, y / height, CHORD_ERROR / 4.0)
+    for x, rows in samples:
+        for curve, y, height in zip(out, rows, heights, strict=True):
+            some = thinned(ASPECT / (end - start) * x, y / height, CHORD_ERROR)
             curve.append((x[some].tolist(), (y[some] + 0.0).tolist()))
     return out
 
@@ -224,7 +207,9 @@ def rests(machines: Sequence[Mechanism], window: Ends) -> list[Ends]:
     """The stretches in which all machines rest."""
     common = [window]
     for machine in machines:
-        dwells = [(s.start, s.end) for s in _motion_stages(machine, []) if s.flat]
+        dwells = [
+            stage[:2] for i in range(len(machine.engagements)) for stage in _dwell(machine, i, ())
+        ]
         period = machine.period_deg
         turns = range(-1, 2 + int((window[1] - window[0]) // period))
         own = [(a + k * period, b + k * period) for k in turns for a, b in dwells]
@@ -233,39 +218,11 @@ def rests(machines: Sequence[Mechanism], window: Ends) -> list[Ends]:
     return common
 
 
-def places(start: float, end: float) -> Array:
-    """The first points between two x, both included, denser towards both ends."""
-    fraction = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, 33))
+def places(start: float, end: float, count: int) -> Array:
+    """Places between two x, both included, denser towards both ends."""
+    fraction = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, count))
     x: Array = start + (end - start) * fraction
     x[-1] = end
-    return x
-
-
-def refined(of: Curves, start: float, end: float, width: float, heights: Array) -> Array:
-    """Places (n,) at which to sample curves between two x, so that chords err by ``CHORD_ERROR``.
-
-    ``width`` and ``heights`` (q,) are the ranges of x and of each curve that a panel shows. A
-    chord's error is its distance from the curve in the panel, measured half-way.
-    """
-    x = places(start, end)
-    y = of(x)
-    scale = heights[:, None]
-    unmeasured = np.arange(len(x) - 1)  # numbers of chords
-    for _ in range(12):  # halvings: the shortest step is about 1e-5 of the piece
-        if not len(unmeasured) or len(x) > 3000:
-            break
-        middle = 0.5 * (x[unmeasured] + x[unmeasured + 1])
-        there = of(middle)
-        before, after = y[:, unmeasured], y[:, unmeasured + 1]
-        run = ASPECT / width * (x[unmeasured + 1] - x[unmeasured])
-        with np.errstate(invalid="ignore"):  # a curve without a bound has no chord
-            rise = (after - before) / scale
-            off = abs(there - 0.5 * (before + after)) / scale * run / np.hypot(run, rise)
-            far = (off > CHORD_ERROR).any(axis=0)
-        x = np.insert(x, unmeasured + 1, middle)
-        y = np.insert(y, unmeasured + 1, there, axis=1)
-        left = (unmeasured + np.arange(len(unmeasured)))[far]
-        unmeasured = np.sort(np.concatenate((left, left + 1)))
     return x
 
 

@@ -55,8 +55,8 @@ _SIZES = sorted({*Size.__annotations__}.difference(_FREE))
 _PATHS = *map("spec.{}".format, _TABLES), *map("spec.size.{}".format, _SIZES)
 # Machines with the same key have the same loads.
 load_key = attrgetter(*Mechanism._fields[1:], *_PATHS)
-# The first known one of the machines that have the same loads.
-first_alike = Known[Mechanism, Mechanism](lambda mechanism: mechanism, load_key)
+# A copy of the first known one of the machines that have the same loads.
+first_alike = Known[Mechanism, Mechanism](Mechanism._replace, load_key)
 
 
 def load_case(mechanism: Mechanism) -> LoadCase:

@@ -8,9 +8,10 @@ are lost to rounding: there the loads are known by themselves.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from itertools import pairwise
 from operator import attrgetter
+from typing import TypeAlias
 
 import numpy as np
 
@@ -22,8 +23,8 @@ from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.path_and_slot import retraces
 from geneva_cli.motion.peak_search import breaks, pole_deg, spans
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Mask, Which, all_true, array
-from geneva_cli.numerics.cuts import Asked, Held
+from geneva_cli.numerics.arrays import Mask, Which, Whole, all_true, array
+from geneva_cli.numerics.cuts import Asked, Held, gathered, spread
 from geneva_cli.numerics.extremes import Known, SearchResult, Stretches, cuts, search
 from geneva_cli.numerics.jet import Array, Jet, Number
 
@@ -38,6 +39,8 @@ SIGN_FUNCTIONS = {
     "along": attrgetter("at.along"),
 }
 MARGINS = ("grip", "edge")  # where one of them is not above 0, a quantity is unbounded
+# values at an instant, whose quantities are those of ``LoadFunctions``
+Integrands: TypeAlias = Callable[[Instant[Jet], Sequence["str | LoadQuantity"]], Sequence[Array]]
 
 
 class LoadFunctions:
@@ -129,6 +132,34 @@ class LoadFunctions:
             near = np.broadcast_to(np.ravel(NEAR_CUSP * end), self.n)[pieces.design]
             x = np.where(x == near, 0.0, x)
         return pieces._replace(x=x)
+
+    def integrals(self, pieces: Stretches, functions: Integrands, needed: Mask) -> Array:
+        """The integrals of functions by the angle in radians over stretches: (functions, m).
+
+        They may behave as a root at the ends of a stretch. ``needed`` (functions, n) selects those
+        of designs; of noise they are NaN.
+        """
+        from geneva_cli.numerics.quadrature import span_integrals  # a check has no integrals
+
+        # those of one span together: a motion of several is evaluated in one of them at a time
+        order = np.argsort(pieces.span, kind="stable")
+        design, (a, b) = pieces.design[order], pieces.x[:, order]
+        signs = np.where(pieces.positive, 1.0, -1.0)[:, order]
+        w = self.spread[design, 0]
+
+        def rows(u: Array, which: Whole) -> Array:
+            width = w[which, None]
+            x, rate = gathered(u, width), np.hypot(1.0, np.sinh(u / width))
+            x = np.clip(x, a[which, None], b[which, None])
+            instant, every, _ = self.at(x, design[which], 0, signs[:, which, None])
+            each = np.broadcast_arrays(*functions(instant, every), x)[:-1]
+            out = np.empty((len(each), *x.shape[::-1])).swapaxes(1, 2)
+            return np.multiply(each, rate, out=out)
+
+        ends, out = (spread(a, w), spread(b, w)), np.empty((len(needed), len(order)))
+        with np.errstate(all="ignore"):
+            out[:, order] = span_integrals(rows, ends, design, needed, ends=True)
+        return out * DEGREE
 
     def at(
         self, x: Array, which: Which, order: int = 0, held: Array | None = None

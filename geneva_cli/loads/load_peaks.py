@@ -17,8 +17,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.path_and_slot import retraces
 from geneva_cli.motion.peak_search import PeakArray, greater
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Which, Whole, array, matrix_product, parameter
-from geneva_cli.numerics.cuts import gathered, spread
+from geneva_cli.numerics.arrays import array, parameter
 from geneva_cli.numerics.extremes import SearchResult, bar
 from geneva_cli.numerics.jet import Array, Jet
 
@@ -242,48 +241,18 @@ def _sums_of(load: LoadFunctions, result: SearchResult) -> Array:
     """The integrals by the angle in radians of the squares of the quantities, and of them.
 
     They are over the stretches of a search, (names, n), and infinite for quantities without a
-    bound. Those searched by their squares behave as a root at the ends of their stretches.
+    bound.
     """
-    from geneva_cli.numerics.quadrature import span_integrals  # a check has no means
+    pieces, n = load.stretches(result), load.n
+    needed = np.tile(np.isfinite(result.most).reshape(2, -1, n).all(axis=0), (2, 1))
 
-    pieces, n = result.stretches, load.n
-    bounded = np.asarray(np.isfinite(result.most).reshape(2, -1, n).all(axis=0))
-    # pieces of one span together: a motion of several pieces is evaluated in one of them at a time
-    order = np.argsort(pieces.span, kind="stable")
-    design, (a, b) = pieces.design[order], pieces.x[:, order]
-    signs = np.where(pieces.positive, 1.0, -1.0)[:, order]
-    w = load.spread[design, 0]
+    def functions(here: Instant[Jet], every: Sequence[str | LoadQuantity]) -> list[Array]:
+        values = [array(here.quantity(of).value.c[0]) for of in every]
+        both = list(zip(load.names, values, strict=True))
+        squares = [value if name in contact.SQUARED else value * value for name, value in both]
+        return [*squares, *(contact.plain_values(value, name) for name, value in both)]
 
-    def rows(u: Array, which: Whole) -> Array:
-        width = w[which, None]
-        x, rate = gathered(u, width), np.hypot(1.0, np.sinh(u / width))
-        x = np.clip(x, a[which, None], b[which, None])
-        return _powers(load, x, design[which], signs[:, which, None]) * rate
-
-    rooted = any(name in contact.SQUARED for name in load.names)
-    needed = np.tile(bounded, (2, 1))
-    with np.errstate(all="ignore"):
-        each = span_integrals(rows, (spread(a, w), spread(b, w)), design, needed, rooted)
-        total: Array = np.array([np.bincount(design, row, n) for row in each])
-        if load.engagement.slot.curved:
-            # No stretch reaches mid-motion. The integral of a cubic from 0 to 1 follows from its
-            # values at 1, 2 and 3 (Adams and Bashforth).
-            places, weights = np.array([1.0, 2.0, 3.0]), np.array([23.0, -16.0, 5.0]) / 12.0
-            for end in (load.engagement.entry_deg, load.engagement.exit_deg):
-                near = np.broadcast_to(np.reshape(contact.NEAR_CUSP * end, (-1, 1)), (n, 1))
-                values = _powers(load, near * places, slice(0, n), None)
-                total = total + matrix_product(values, weights) * np.abs(near[:, 0])
+    each = load.integrals(pieces, functions, needed)
+    total: Array = np.array([np.bincount(pieces.design, row, n) for row in each])
     total[~needed] = np.inf
-    return total * DEGREE
-
-
-def _powers(load: LoadFunctions, x: Array, which: Which, signs: Array | None) -> Array:
-    """The squares of the quantities, and the quantities themselves after them."""
-    here, wanted, _ = load.at(x, which, 0, signs)
-    count = len(load.names)
-    out = np.empty((2 * count, *x.shape[::-1])).swapaxes(1, 2)
-    for i, name in enumerate(load.names):
-        value = array(here.quantity(wanted[i]).value.c[0])
-        out[i] = value if name in contact.SQUARED else value * value
-        out[count + i] = contact.plain_values(value, name)
-    return out
+    return total

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -19,9 +19,8 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import motion_peaks
 from geneva_cli.motion.timing import CamFactors, cam_factors
 from geneva_cli.numerics.angles import DEGREE, omega, radians
-from geneva_cli.numerics.arrays import Array, Mask, Number, Whole, choose_record, parameter
+from geneva_cli.numerics.arrays import Array, Mask, Number, array, choose_record, parameter
 from geneva_cli.numerics.jet import Jet
-from geneva_cli.numerics.quadrature import span_integrals
 
 if TYPE_CHECKING:
     from geneva_cli.loads.cycle import Cycle
@@ -245,23 +244,18 @@ def fluctuations(mechanism: Mechanism, mean: Array) -> tuple[Array, Array]:
 
 def _works(load: LoadFunctions, bounded: Mask) -> tuple[Array, Array]:
     """Works less the mean's, J, a row for each design padded with zeros, and returned squares."""
-    design, _, (a, b), positive = load.stretches()
-    signs, n = np.where(positive, 1.0, -1.0), len(bounded)
+    pieces, n = load.stretches(), len(bounded)
 
-    def rows(x: Array, which: Whole) -> Array:
-        here, (uneven,), _ = load.at(x, design[which], 0, signs[:, which, None])
-        back = 0.5 * (1.0 - here.feeds) * here.input_torque_Nm.c[0]
-        each = here.quantity(uneven).value.c[0], back * back
-        return np.stack(np.broadcast_arrays(*each))
+    def functions(here: Instant[Jet], every: Sequence[str | LoadQuantity]) -> tuple[Array, ...]:
+        back = array(0.5 * (1.0 - here.feeds) * here.input_torque_Nm.c[0])
+        return array(here.quantity(every[0]).value.c[0]), back * back
 
-    needed = np.stack((bounded, bounded))
-    with np.errstate(all="ignore"):
-        each = span_integrals(rows, (a, b), design, needed, ends=True) * DEGREE
-    number = np.arange(len(design)) - np.searchsorted(design, design)
+    work, back = load.integrals(pieces, functions, np.stack((bounded, bounded)))
+    number = np.arange(len(work)) - np.searchsorted(pieces.design, pieces.design)
     works = np.zeros((n, int(number.max()) + 1))
-    works[design, number] = each[0]
+    works[pieces.design, number] = work
     returned = np.zeros(n)
-    np.add.at(returned, design, each[1])
+    np.add.at(returned, pieces.design, back)
     return works, returned
 
 

@@ -13,13 +13,7 @@ from typing import TYPE_CHECKING, Any, Self, TypeAlias, cast
 
 import numpy as np
 
-from geneva_cli.numerics.arrays import (
-    Array,
-    Enclosed,
-    Number,
-    Truth,
-    Whole,
-)
+from geneva_cli.numerics.arrays import Array, Enclosed, Number, Truth, Whole
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Library

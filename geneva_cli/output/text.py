@@ -170,7 +170,8 @@ def refuse_nonsense(names: Iterable[str], columns: Iterable[Any], endless: bool 
         allowed = endless or name.rpartition(".")[2] in {"curvature_radius_mm", "value", "k"}
         wrong = False
         if isinstance(column, (list, tuple)):
-            for value in column if not plain.issuperset(map(type, column)) else ():
+            is_plain = column.count(None) == len(column) or plain.issuperset(map(type, column))
+            for value in () if is_plain else column:
                 if isinstance(value, float):
                     wrong = wrong or value != value or not (allowed or math.isfinite(value))
                 elif isinstance(value, Table):

@@ -29,15 +29,20 @@ from geneva_cli.spec.tables import Size
 
 # Not sizes of a part, or sizes whose mere presence makes one: a hub, a limit of `check`.
 LEFT_OUT = ("wheel_hub_mm", "crank_hub_mm", "wall_min_mm")
-# What people call the sizes that a load chooses, the first one that is to be looked at first.
+CRANK = "crank shaft {:g}", "{0.crank_N:.4g} N and {0.crank_Nm:.4g} N m on the crank's shaft"
+# What people call the sizes that a load chooses, the first one that is to be looked at first, and
+# what of the loads chooses them.
 NAMES = {
-    "size.crank_bore_mm": "crank shaft {:g}",
-    "size.arm_bore_mm": "crank shaft {:g}",
-    "size.wheel_bore_mm": "wheel shaft {:g}",
-    "size.pin_mm": "pin {:g}",
-    "size.arm_thickness_mm": "arm {:g} thick",
-    "size.wheel_thickness_mm": "wheel {:g} thick",
-    "size.link_thickness_mm": "links {:g} thick",
+    "size.crank_bore_mm": CRANK,
+    "size.arm_bore_mm": CRANK,
+    "size.wheel_bore_mm": (
+        "wheel shaft {:g}",
+        "{0.wheel_shaft_N:.4g} N and {0.wheel_Nm:.4g} N m on its shaft",
+    ),
+    "size.pin_mm": ("pin {:g}", "{0.pin_N:.4g} N on the pin"),
+    "size.arm_thickness_mm": ("arm {:g} thick", "{0.wheel_N:.4g} N on the arm"),
+    "size.wheel_thickness_mm": ("wheel {:g} thick", "{0.pin_N:.4g} N on the horns"),
+    "size.link_thickness_mm": ("links {:g} thick", "{0.crank_Nm:.4g} N m on the first wheel"),
 }
 
 Values = dict[str, float | str]
@@ -64,7 +69,7 @@ class ByLoad(NamedTuple):
         texts = dict[str, None]()  # once, in this order
         for key in filter(self.sizes.__contains__, NAMES):
             if value := self.sizes[key].value:
-                texts[NAMES[key].format(value)] = None
+                texts[NAMES[key][0].format(value)] = None
         return ", ".join(texts)
 
     @property
@@ -75,7 +80,8 @@ class ByLoad(NamedTuple):
             now, was = self.sizes[key].value, self.before[key].value
             # a bore of 0 ends the shaft in the arm, whose bore is a key of its own
             if now and was and now != was:
-                texts[NAMES[key].format(was).replace(f"{was:g}", f"{was:g} → {now:g} mm")] = None
+                text = NAMES[key][0].format(was)
+                texts[text.replace(f"{was:g}", f"{was:g} → {now:g} mm")] = None
         return ", ".join(texts)
 
     @property
@@ -132,21 +138,12 @@ def by_load(mechanism: Mechanism) -> dict[str, Chosen]:
     from geneva_cli.loads.strength.part_loads import single_loads
 
     loads = single_loads(mechanism)
-    crank = f"{loads.crank_N:.4g} N and {loads.crank_Nm:.4g} N m on the crank's shaft"
-    whys = {
-        "crank_bore_mm": crank,
-        "arm_bore_mm": crank,
-        "wheel_bore_mm": f"{loads.wheel_shaft_N:.4g} N and {loads.wheel_Nm:.4g} N m on its shaft",
-        "pin_mm": f"{loads.pin_N:.4g} N on the pin",
-        "arm_thickness_mm": f"{loads.wheel_N:.4g} N on the arm",
-        "wheel_thickness_mm": f"{loads.pin_N:.4g} N on the horns",
-        "link_thickness_mm": f"{loads.crank_Nm:.4g} N m on the first wheel",
-    }
     armed = "arm_bore_mm" in values
     for key in keys:
         drawn = key in values and (armed or key != "arm_thickness_mm")
         if drawn and _is_written(mechanism, key, values):
-            out[f"size.{key}"] = Chosen(values[key], f"by load: {whys[key]}")
+            why = NAMES[f"size.{key}"][1].format(loads)
+            out[f"size.{key}"] = Chosen(values[key], f"by load: {why}")
     return out
 
 
@@ -210,6 +207,6 @@ def _flat_details(parts: Outlines) -> Values:
         if gear.screws.holes:
             out["gear_bolt_mm"] = 2.0 * gear.screws.hole
             out["gear_bolt_circle_mm"] = 2.0 * gear.screws.radius
-    if links.sizes and any(links.plates):
+    if links.plates:
         out |= {"link_pin_mm": 2.0 * links.sizes.pin, "link_width_mm": 2.0 * links.sizes.eye}
     return out

@@ -64,7 +64,6 @@ def first_pair(mechanism: Mechanism, outlines: Outlines | None) -> Mechanism:
     bore = 0.0 if bars.one_piece(own, L) else bars.shaft(own, L)
     alone = first_spec(mechanism)
     link, shaft = bars.sizes, bars.shaft(own, L)
-    assert link is not None  # the first crank is one
     radii = {"crank_bore": bore, "wheel_bore": bars.shaft(second, L), "arm_bore": shaft}
     radii |= {"arm_hub": link.hub(round_bore(spec.size, shaft)), "arm_eye": link.roller_eye}
     known = {f"{name}_mm": 2.0 * r for name, r in {**radii, "pin": link.roller_stands}.items()}

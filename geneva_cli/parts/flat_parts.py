@@ -14,7 +14,7 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Group, Member, Plate
-from geneva_cli.geometry.shapes import Contour, turned
+from geneva_cli.geometry.shapes import Contour
 from geneva_cli.kept import cached_property
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
@@ -30,7 +30,7 @@ from geneva_cli.parts.parts import EdgedParts, FrameAndShafts, NamedBuilds, Part
 from geneva_cli.parts.shafts.arm_and_shafts import CrankArm, bolts, crank_arm, crank_hub, rollers
 from geneva_cli.parts.shafts.bores import Screws
 from geneva_cli.parts.sizes import drawn_thicknesses, pin_radius
-from geneva_cli.parts.slots.roller_paths import roller_centres, wall_lost
+from geneva_cli.parts.slots.roller_paths import roller_centres
 
 if TYPE_CHECKING:
     from geneva_cli.parts.projection import NamedParts
@@ -41,8 +41,12 @@ class FlatParts(EdgedParts):
     """The parts of a flat machine in the wheel's frame."""
 
     @cached_property
-    def _shape(self) -> Outlines:
-        of = unloaded(self.mechanism)  # no outline depends on a size that the load chooses
+    def shape(self) -> Outlines:
+        """Wheel and crank as they are turned. Raises GenevaError where the sizes leave none.
+
+        No outline depends on a size that the load chooses.
+        """
+        of = unloaded(self.mechanism)
         try:
             refuse_unfit(of.assembly, of.sizes)
         except GenevaError:  # unless the load chooses sizes that fit
@@ -53,7 +57,7 @@ class FlatParts(EdgedParts):
     def outlines(self) -> Outlines:
         """The outlines of wheel and crank; raises GenevaError for a wheel that is not drawn."""
         _, sizes = machine_sizes(self.mechanism)
-        return self._shape._replace(sizes=sizes)
+        return self.shape._replace(sizes=sizes)
 
     @property
     def built(self) -> Self:
@@ -64,7 +68,7 @@ class FlatParts(EdgedParts):
     @property
     def close(self) -> float:
         """The overlap, mm, that counts as rounding or as the walls' tolerance."""
-        return self._shape.close
+        return self.shape.close
 
     @property
     def drawn(self) -> Outlines | None:
@@ -73,19 +77,21 @@ class FlatParts(EdgedParts):
 
     def past_mouth(self, motion: int, at: Array) -> Array:
         """Return how far a motion's roller is in its slot, beyond the mouth's corners, mm, (n,)."""
-        own, sizes = self._shape, self._shape.sizes
+        own, sizes = self.shape, self.shape.sizes
         # the corners are on the rim, half a slot's width from the slot's middle
         level = math.sqrt(max(sizes.rim**2 - sizes.half_width**2, 0.0))
-        lost = self._wall_lost if sizes.mouth_radius or sizes.horn_tip else 0.0
+        lost = self.wall_lost if sizes.mouth_radius or sizes.horn_tip else 0.0
         far = np.hypot(*own.assembly.pin(motion, at, drives=True).T)
         return own.assembly.sign * (level - far) - lost
 
     @cached_property
-    def _wall_lost(self) -> float:
-        """By how much the walls of slots end deeper than at sharp mouths, mm."""
-        own = self._shape
-        each = [turned(own.slots[kind], turn) for kind, turn in own.assembly.slots]
-        return max(wall_lost(walls, own.wheel) for walls in each)
+    def wall_lost(self) -> float:
+        """By how much the walls of straight slots end deeper than at sharp mouths, mm."""
+        own, lost = self.shape, 0.0
+        for (kind, _), cut in zip(own.assembly.slots, own.cut, strict=True):
+            for sharp, piece in zip(own.slots[kind].segments, cut.segments, strict=True):
+                lost = max(lost, math.dist(*sharp[:2]) - math.dist(*piece[:2]))
+        return lost
 
     def pairs(self, target: float) -> FlatPairs:
         """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""
@@ -106,9 +112,9 @@ class FlatParts(EdgedParts):
         own, other = self.mechanism.spec, mechanism.spec
         keys = attrgetter("wheel", "motion", "size")
         alike = own.drive.replace(n_rpm=1.0) == other.drive.replace(n_rpm=1.0)
-        if alike and "_shape" in computed and keys(own) == keys(other):
+        if alike and "shape" in computed and keys(own) == keys(other):
             assembly = self.assembly._replace(full=mechanism)
-            vars(parts)["_shape"] = self._shape._replace(assembly=assembly)
+            vars(parts)["shape"] = self.shape._replace(assembly=assembly)
             vars(parts).update({"turn": self.turn} if "turn" in computed else {})
         return parts
 
@@ -127,7 +133,7 @@ class FlatParts(EdgedParts):
         if self.tolerance is not None:
             walls = {slot: self.walls(slot) for slot in parts.slots}
             if walls != parts.slots:
-                contour = wheel_contour(where, sizes, walls, where.full.spec.wheel.stopped)
+                contour, _ = wheel_contour(where, sizes, walls, where.full.spec.wheel.stopped)
         turn, plate = float(where.wheel(np.zeros(1))[0]), wheel_plate(where, sizes, contour)
         hub = wheel_hub(where, sizes)
         return Member(Group(plate.name, (Member(plate), Member(hub))) if hub else plate, turn=turn)
@@ -236,7 +242,6 @@ class FlatParts(EdgedParts):
         if not self.in_front:
             return ()
         first, L = self.front.outlines, self.mechanism.center_distance_mm
-        assert self.links.sizes is not None  # the first crank is a link
         # the first wheel lies two planes below the wheel
         low, high = self.links.sizes.span(2)
         # at mid-motion the first slot of the first wheel's frame points at the first crank

@@ -13,17 +13,10 @@ from itertools import product
 
 import numpy as np
 
+from geneva_cli.geometry import shapes
 from geneva_cli.geometry.distance import Polyarc, farthest
 from geneva_cli.geometry.plates import Member, Plate
-from geneva_cli.geometry.shapes import (
-    ORIGIN,
-    Circle,
-    Point,
-    as_contour,
-    bounds_of,
-    convex_hull,
-    placed,
-)
+from geneva_cli.geometry.shapes import ORIGIN, Circle, Point, convex_hull
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Joint
 from geneva_cli.numerics.arrays import half_or
@@ -31,9 +24,9 @@ from geneva_cli.numerics.tolerances import SAME_LENGTH, bore_radius, rounded_rad
 from geneva_cli.parts.assembly import is_bridged, links_at, same, turn_deg
 from geneva_cli.parts.links.links import Links, placed_holes
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.parts import FRAME, FrameAndShafts
+from geneva_cli.parts.parts import FrameAndShafts
 from geneva_cli.parts.shafts.arm_and_shafts import Shaft, crank_arm, shaft_ends, shafts
-from geneva_cli.parts.shafts.bores import SCREWS, around, bolt_radius, circles, screw_radius, tapped
+from geneva_cli.parts.shafts.bores import SCREWS, bolt_radius, circles, screw_radius, tapped
 from geneva_cli.parts.sizes import HUB, bridge_low
 from geneva_cli.spec.defaults import wall_min
 from geneva_cli.spec.tables import Size
@@ -51,6 +44,7 @@ def framed(
     size = mechanism.spec.size
     top = low - size.washer_mm
     bridge, unborne, axles = None, list[tuple[str, str]](), list[Member]()
+    mounts: tuple[Circle, ...] = ()
     for shaft in _all_shafts(outlines, bars, top - thick, first):
         borne = not shaft.turns or shaft.low < top
         if not (borne or bridge) and same(shaft.at, mechanism.crank_shaft.at, L):
@@ -70,7 +64,7 @@ def framed(
         if isinstance(member.part, Plate) and member.part.name in bars.standing:
             fixed += [(hole, member.part) for hole in placed_holes(member)]
     for gear in bars.gears:
-        fixed += [(placed(hole, gear.at), gear.plate) for hole in gear.screws.holes]
+        fixed += [(shapes.placed(hole, gear.at), gear.plate) for hole in gear.screws.holes]
     for plate in filter(None, (base, bridge)):
         bored = placed_holes(Member(plate, (L, 0.0)))
         fixed += [(hole, plate) for hole in bored if not same(hole.centre, (L, 0.0), L)]
@@ -91,14 +85,14 @@ def framed(
     else:
         # a frame contains every axis, drilled or not
         within = [*holes, *circles("BORE", (ORIGIN, *standing), 0.0)]
-        plate = mounted_plate(holes, within, eye, (top - thick, top))
-    if bars.sizes:
+        plate, mounts = mounted_plate(holes, within, eye, (top - thick, top))
+    if bars.axes:
         from geneva_cli.parts.links.link_shafts import outside_links
 
         axles = [*outside_links(axles, bars, L)]
     bridges = (Member(bridge, (L, 0.0)),) if bridge else ()
     on_it = tuple(spacers), tuple(screwed), bridges
-    return FrameAndShafts(plate, tuple(axles), *on_it, tuple(unborne))
+    return FrameAndShafts(plate, tuple(axles), *on_it, tuple(unborne), mounts)
 
 
 def _standing(mechanism: Mechanism, bars: Links) -> dict[Point, float | None]:
@@ -136,7 +130,7 @@ def _bridge(parts: Outlines, bars: Links, shaft: Shaft) -> Plate | None:
     links = {link.name: link for link in links_at(mechanism, turn_deg(mechanism))}
     for plate in bars.plates:
         if plate.name in links:  # a block stays in its link
-            reach = float(farthest(Polyarc([as_contour(plate.outline)]), 0.0, 0.0).max())
+            reach = float(farthest(Polyarc([shapes.as_contour(plate.outline)]), 0.0, 0.0).max())
             far.append(float(np.abs(places(links[plate.name])[0] - L).max()) + reach)
     wall = wall_min(size, L)
     bore = shaft.bore.around + 0.5 * size.allowances.shaft_fit_mm
@@ -156,7 +150,7 @@ def _all_shafts(parts: Outlines, bars: Links, low: float, first: Sequence[Member
     """Return all shafts and pivots, as ``framed``; ``low`` is the frame's lower face."""
     mechanism, own, L = parts.assembly.full, parts.sizes, parts.assembly.L
     stop, out = None, list[Shaft]()
-    if bars.sizes:
+    if bars.axes:
         from geneva_cli.parts.links.link_shafts import crank_stop
 
         stop = crank_stop(parts, bars)
@@ -226,13 +220,16 @@ def _link_shafts(
 
 def mounted_plate(
     holes: Sequence[Circle], within: Iterable[Circle], eye: float, span: tuple[float, float]
-) -> Plate:
-    """Return a frame around circles, its corners of the radius ``eye``, from and up to ``span``."""
-    box, away = bounds_of(within), 3.0 * eye
+) -> tuple[Plate, tuple[Circle, ...]]:
+    """Return a frame around circles, its corners of the radius ``eye``, from and up to ``span``.
+
+    With it go its mounting holes, about the corners.
+    """
+    box, away = shapes.bounds_of(within), 3.0 * eye
     places = [*product((box.x0 - away, box.x1 + away), (box.y0 - away, box.y1 + away))]
     outline, screw = convex_hull("FRAME", circles("FRAME", places, eye)), screw_radius(0.8 * eye)
-    mounts = circles("BORE", places if screw else (), screw)
-    return Plate(FRAME, "FRAME", outline, (*holes, *mounts), *span)
+    mounts = tuple(circles("BORE", places if screw else (), screw))
+    return Plate("frame", "FRAME", outline, (*holes, *mounts), *span), mounts
 
 
 def shaft_holes(size: Size, axles: Iterable[Member], top: float) -> list[Circle]:
@@ -241,7 +238,7 @@ def shaft_holes(size: Size, axles: Iterable[Member], top: float) -> list[Circle]
     for axle in axles:
         assert isinstance(axle.part, Plate)
         if axle.part.low < top:
-            radius = around(axle.part.outline) + 0.5 * size.allowances.shaft_fit_mm
+            radius = axle.part.bore.around + 0.5 * size.allowances.shaft_fit_mm
             holes.append(Circle("BORE", axle.at, radius))
     return holes
 

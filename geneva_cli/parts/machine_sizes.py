@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from contextlib import suppress
 from functools import cache, lru_cache, partial, reduce
+from operator import attrgetter
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
@@ -211,7 +212,7 @@ def wheel_body(mechanism: Mechanism) -> plates.MassProperties | None:
         if own := thing(spec.wheel.NAME, "wheel_body"):
             return own(mechanism)
         where, sizes = machine_sizes(mechanism)
-        contour = wheel_contour(where, sizes, turned_walls(where, sizes), spec.wheel.stopped)
+        contour, _ = wheel_contour(where, sizes, turned_walls(where, sizes), spec.wheel.stopped)
         hub, density = wheel_hub(where, sizes), wheel_material(spec).density_kgm3
         body = plates.mass_properties(wheel_plate(where, sizes, contour), density)
         return plates.added(body, plates.mass_properties(hub, density)) if hub else body
@@ -334,7 +335,8 @@ def refuse_unfit(assembly: Assembly, sizes: Sizes) -> None:
     refuse_size(wrong & has_lock, "crank_bore_mm", text, bored, most=2.0 * lock)
     thin = reduce(smaller, (sizes.wheel_thickness, sizes.lock_thickness, sizes.arm_thickness))
     rules.refuse_pin_and_edges(size, sizes.pin, sizes.roller, thin)
-    unlike = any(kind.slot.curved or kind.apart for kind in assembly.kinds)
+    unlike = any(map(attrgetter("slot.curved"), assembly.kinds))
+    unlike |= any(map(attrgetter("apart"), assembly.kinds))
     for key, shaped in (("mouth_radius_mm", sizes.mouth_radius), ("horn_tip_mm", sizes.horn_tip)):
         text = f"{key} is for straight slots, each of which a roller enters and leaves: remove it"
         refuse_size((shaped > 0.0) & unlike, key, text)

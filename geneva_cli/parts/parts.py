@@ -5,14 +5,13 @@ A kind names its own in its record. What builds them is imported at its first us
 
 from __future__ import annotations
 
-import math
 from abc import abstractmethod
 from collections import Counter
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, ClassVar, NamedTuple, Self, TypeAlias
 
 from geneva_cli.geometry.plates import Member, Plate
-from geneva_cli.geometry.shapes import Arc, Circle, Contour
+from geneva_cli.geometry.shapes import Circle
 from geneva_cli.kept import cached_property, load_named
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.registry import FRONT, named, thing
@@ -25,7 +24,6 @@ if TYPE_CHECKING:
     from geneva_cli.parts.projection import NamedParts
     from geneva_cli.parts.turn.full_turn import FullTurn
 
-FRAME = "frame"  # name of the plate with the holes of the shafts
 NamedBuilds: TypeAlias = "list[tuple[str, Callable[[], Parts]]]"
 
 
@@ -77,7 +75,7 @@ class Parts(TurnedParts):
     @property
     def built(self) -> Self:
         """These parts. Raises GenevaError where the sizes leave no wheel or no crank."""
-        _ = self._shape
+        _ = self.shape
         return self
 
     @cached_property
@@ -101,8 +99,8 @@ class Parts(TurnedParts):
     def within(self, tolerance: float, curves: str) -> Self:
         """Return these parts with curves of a kind within a tolerance, mm."""
         finer = type(self)(self.mechanism, tolerance, curves)
-        if "_shape" in vars(self):
-            vars(finer)["_shape"] = self._shape
+        if "shape" in vars(self):
+            vars(finer)["shape"] = self.shape
         return finer
 
     @property
@@ -129,6 +127,7 @@ class FrameAndShafts(NamedTuple):
     screwed: tuple[tuple[Circle, str], ...] = ()  # clearance holes of screws, and what they fix
     bridge: tuple[Member, ...] = ()  # one that bears the crank's shaft from above, or none
     unborne: tuple[tuple[str, str], ...] = ()  # shafts that do not reach it, and why
+    mounts: tuple[Circle, ...] = ()  # holes about its corners
 
     @property
     def on_it(self) -> tuple[Member, ...]:
@@ -145,19 +144,9 @@ class FrameAndShafts(NamedTuple):
         """The screws that fix parts to the frame, and those of its mounting holes."""
         kinds = Counter((part, hole.radius) for hole, part in self.screwed)
         fixed = [Screws(part, n, 2.0 * r, "the frame") for (part, r), n in kinds.items()]
-        if mounts := mounts_of(self.plate):
-            fixed.append(Screws("frame", len(mounts), 2.0 * mounts[0].radius, "its base"))
+        if self.mounts:
+            fixed.append(Screws("frame", len(self.mounts), 2.0 * self.mounts[0].radius, "its base"))
         return tuple(fixed)
-
-
-def mounts_of(frame: Plate) -> list[Circle]:
-    """Return the mounting holes of a frame: those about its corners; none of a carrier."""
-    if frame.name != FRAME or not isinstance(frame.outline, Contour):
-        return []
-    corners = [piece.centre for piece in frame.outline.segments if isinstance(piece, Arc)]
-    round_ = (hole for hole in frame.holes if isinstance(hole, Circle))
-    # 1e-9 mm: rounding
-    return [one for one in round_ if any(math.dist(one.centre, at) <= 1e-9 for at in corners)]
 
 
 class EdgedParts(Parts):

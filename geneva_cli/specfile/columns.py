@@ -42,8 +42,7 @@ class Columns(NamedTuple):
 
         Raises GenevaError if the column has no number at all.
         """
-        i = self.names.index(name)
-        numbers = [_number(row[i]) for row in self.rows]
+        numbers = [_number(row[self.names.index(name)]) for row in self.rows]
         if any(value is not None for value in numbers):
             return numbers
         fault = f"no numbers in this column of {cut(self.path, 300)}"

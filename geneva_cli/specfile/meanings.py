@@ -79,10 +79,8 @@ def related(word: str) -> list[tuple[str, str, str]]:
 
     The word may be a group, such as ``checks``. Names and headings come before texts.
     """
-    plain = word.casefold()
     everything = [*listed(), *(("key", key.name, key.meaning) for key in all_keys())]
-    group = {**GROUPS, "keys": "key"}.get(plain)
-    if group:
+    if group := {**GROUPS, "keys": "key"}.get(word.casefold()):
         return [one for one in everything if one[0] == group]
     wanted = _words(word.replace("_", " "))
     texts = {one: (heading(one[1]), f"{one[1]} {one[2]}".casefold()) for one in everything}

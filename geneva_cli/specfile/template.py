@@ -82,8 +82,7 @@ def template(kind: str, schema: bool = True, whole: bool = True) -> str:
     # any law may be set: a template shows the keys of all
     law_keys = [key for name in registry.LAWS for key in fields(registry.law(name))]
     before = registry.drive(str(own[BEFORE]["kind"])) if BEFORE in own else None
-    keys = keys_of(gearing, drive, law_keys, before)
-    for name, table in keys.items():
+    for name, table in keys_of(gearing, drive, law_keys, before).items():
         values = own.get(name, {})
         # An empty table of a list would be one more body, without any of its keys.
         head = f"# [[{name}]]" if name in LISTS else f"[{name}]"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from types import MappingProxyType
-from typing import Any, NamedTuple
+from typing import Any
 
 from geneva_cli.motion.drive import Drive
 from geneva_cli.motion.laws.law import Motion
@@ -103,21 +103,14 @@ def _letter(letter: str) -> str:
     return f"\\U{ord(letter):08X}" if letter > "\uffff" else f"\\u{ord(letter):04X}"
 
 
-class Written(NamedTuple):
-    """A value to write, and the comment behind it; none where it is empty."""
-
-    value: Any
-    note: str = ""
-
-
-def inserted(text: str, table: str, keys: Mapping[str, Written]) -> str | None:
-    """Return a spec's text with these keys in one table.
+def inserted(text: str, table: str, keys: Mapping[str, tuple[Any, str]]) -> str | None:
+    """Return a spec's text with these keys in one table, each with the comment behind it or "".
 
     A key that the table has gets the value, and keeps its line and its comment. Others stand behind
     the table's last key, or in a table at the end of the text. Returns None for a text in which the
     table has no line of its own, as in ``size = {pin_mm = 6}``, or a value takes several lines.
 
-    >>> print(inserted("[size]\\nface_width_mm = 18", "size", {"pin_mm": Written(6.0, "rule")}))
+    >>> print(inserted("[size]\\nface_width_mm = 18", "size", {"pin_mm": (6.0, "rule")}))
     [size]
     face_width_mm = 18
     pin_mm = 6.0  # rule
@@ -136,14 +129,14 @@ def inserted(text: str, table: str, keys: Mapping[str, Written]) -> str | None:
     for i in range(start + 1, end):
         name = lines[i].partition("=")[0].strip()
         if name in left:
-            lines[i] = _with_value(lines[i], left.pop(name).value)
+            lines[i] = _with_value(lines[i], left.pop(name)[0])
     last = max(i for i in range(start, end) if lines[i].strip()[:1] not in ("", "#"))
-    more = noted([(f"{key} = {quoted(one.value)}", one.note) for key, one in left.items()])
-    lines[last + 1 : last + 1] = more
+    more = [(f"{key} = {quoted(value)}", note) for key, (value, note) in left.items()]
+    lines[last + 1 : last + 1] = noted(more)
     tree = node = tomli.loads(text)
     for name in table.split("."):
         node = node.setdefault(name, {})
-    node.update({key: one.value for key, one in keys.items()})
+    node.update({key: value for key, (value, _) in keys.items()})
     out = "\n".join(lines) + "\n"
     try:
         return out if tomli.loads(out) == tree else None

@@ -17,7 +17,7 @@ from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.spec.schema import fields
 from geneva_cli.study.fields import Cell, Rows, cells_of
 from geneva_cli.verdict.quantities.batch_designs import Designs
-from geneva_cli.verdict.quantities.quantity_names import group_of, in_batch
+from geneva_cli.verdict.quantities.quantity_names import group_of
 
 Batch: TypeAlias = tuple[Whole, Mechanism]  # the numbers of some designs, and their machine
 
@@ -29,8 +29,7 @@ def numbers(batches: Iterable[Batch], names: Sequence[str], count: int) -> Array
     """
     out = np.full((len(names), count), np.nan)
     for members, machine in batches if names else ():
-        if values := columns(machine, names, len(members)):
-            out[:, members] = values
+        out[:, members] = columns(machine, names, len(members))
     return out
 
 
@@ -72,6 +71,9 @@ def batch_rows(
 
     def groups(members: Whole, wide: Sequence[int]) -> Iterator[Whole]:
         """The members in groups that are equal in all columns but these."""
+        if len(wide) == len(each):
+            yield members
+            return
         codes = np.zeros(len(members), dtype=np.intp)
         for k, column in enumerate(rows.taken(members).columns):
             if k not in wide:
@@ -88,10 +90,10 @@ def batch_rows(
                 with suppress(GenevaError):  # the key belongs to another kind of machine
                     wide += [k] if may_vary(spec, keys[k]) else []
         for members in groups(kind, wide) if wide else ():
-            if spec := first_spec(members):
+            if spec := spec if members is kind else first_spec(members):
                 own = rows.taken(members).columns
                 varied = {keys[k]: np.asarray(own[k]) for k in wide}
-                yield from _machine(spec, varied, members)
+                yield from built(spec, varied, members)
 
 
 def built(spec: Spec, varied: Mapping[str, Array], members: Whole) -> Iterator[Batch]:
@@ -101,12 +103,7 @@ def built(spec: Spec, varied: Mapping[str, Array], members: Whole) -> Iterator[B
     """
     same = {key for key, value in varied.items() if not (value != value[0]).any()}
     same -= {next(iter(varied))} if len(same) == len(varied) else set()
-    own = {key: v[0].item() if key in same else v for key, v in varied.items()}
-    yield from _machine(spec, own, members)
-
-
-def _machine(spec: Spec, varied: Mapping[str, object], members: Whole) -> Iterator[Batch]:
-    batch = many(spec, varied)
+    batch = many(spec, {key: v[0].item() if key in same else v for key, v in varied.items()})
     if batch.machine is not None:
         yield members[batch.which], batch.machine
 
@@ -145,19 +142,15 @@ def split(specs: Sequence[Spec]) -> list[tuple[Any, dict[str, float]]]:
     return each
 
 
-def columns(machine: Mechanism, names: Sequence[str], count: int) -> list[Array] | None:
+def columns(machine: Mechanism, names: Sequence[str], count: int) -> list[Array]:
     """Quantities of ``count`` designs in one batch machine, (count,) each.
 
-    A value is infinite where it is undefined, and NaN where the design must be computed alone.
-    Returns None if one of the quantities cannot be computed for a batch.
+    All can be computed for a batch. A value is infinite where it is undefined, and NaN where the
+    design must be computed alone.
     """
     designs, out = Designs(machine, names), list[Array]()
     for name in names:
         group = group_of()[name]
-        own = group.columns(designs) if in_batch([name]) else {}
-        short = name.removeprefix(f"{group.table}.")
-        if short not in own:
-            return None
-        value = own[short]
+        value = group.columns(designs)[name.removeprefix(f"{group.table}.")]
         out.append(np.broadcast_to(np.reshape(np.inf if value is None else value, -1), (count,)))
     return out

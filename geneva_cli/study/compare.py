@@ -22,7 +22,7 @@ from geneva_cli.study.fields import Cell, pick, values
 from geneva_cli.study.sweep.constraints import is_number
 from geneva_cli.study.sweep.values import axis, refuse_twice
 from geneva_cli.table import Reading, Table, rows_table
-from geneva_cli.verdict.quantities.groups import INPUTS, MACHINE
+from geneva_cli.verdict.quantities.groups import INPUTS, MACHINE, REPORT
 from geneva_cli.verdict.quantities.quantity_names import group_of
 
 DESIGNS_MAX = 100  # in one comparison
@@ -55,7 +55,8 @@ def compare(
             for row in values_of(spec, table) if table not in PLAIN else ():
                 shape = {f"{table}.{key.key}": row[key.key] for key in keys}
                 own |= {k: x for k, x in shape.items() if isinstance(x, (str, float, int))}
-        each.append({**own, **values(parts_of(machine))})
+        groups = (MACHINE, *(group for group in REPORT if not group.makes_parts))
+        each.append({**own, **values(parts_of(machine), groups)})
     rows = []
     for quantity in dict.fromkeys(name for own in each for name in own):
         if quantity.startswith(INPUTS) and not picks:  # the spec or the columns' names show these

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from itertools import chain
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -16,8 +17,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array, Mask, Whole
 from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.table import Table
-from geneva_cli.verdict.quantities.groups import MACHINE, REPORT, QuantityGroup
-from geneva_cli.verdict.quantities.groups import values as values_of
+from geneva_cli.verdict.quantities.groups import QuantityGroup
 from geneva_cli.verdict.quantities.quantity_names import group_of, in_batch, whole_name
 
 Cell: TypeAlias = float | int | str | bool | None
@@ -51,20 +51,17 @@ class Rows:
     def taken(self, which: Mask | Whole) -> Rows:
         """Some of the rows, by a mask (n,) or by their numbers."""
         numbers = np.flatnonzero(which) if which.dtype == bool else which
-        each = numbers.tolist()
+        each = numbers.tolist() if any(isinstance(c, list) for c in self.columns) else []
         return Rows(
             [[c[i] for i in each] if isinstance(c, list) else c[numbers] for c in self.columns]
         )
 
     def replaced(self, which: Whole, rows: Sequence[Sequence[Cell]]) -> Rows:
         """The rows with those of these numbers replaced."""
-        columns: list[Column] = []
-        for column, cells in zip(self.columns, zip(*rows, strict=True), strict=True):
-            changed = [*cells_of(column)]
-            for i, cell in zip(which.tolist(), cells, strict=True):
-                changed[i] = cell
-            columns.append(column_of(changed))
-        return Rows(columns)
+        changed: list[Sequence[Cell]] = [*self]
+        for i, row in zip(which.tolist(), rows, strict=True):
+            changed[i] = row
+        return rows_of(changed)
 
 
 def rows_of(rows: Sequence[Sequence[Cell]]) -> Rows:
@@ -105,22 +102,13 @@ def cells_of(column: Column) -> list[Cell]:
     return cells
 
 
-def without_infinity(column: Column) -> Column:
-    """The column as a table has it: with None, not infinity, for no value."""
-    has_all = isinstance(column, list) or np.isfinite(column).all()
-    return column if has_all else cells_of(column)
-
-
-def values(parts: Parts, groups: Iterable[QuantityGroup] | None = None) -> dict[str, Cell]:
+def values(parts: Parts, groups: Iterable[QuantityGroup]) -> dict[str, Cell]:
     """The quantities of some groups, without tables and multi-line texts.
 
-    Without ``groups`` they are all that need no parts. An unbounded quantity is None, as in the
-    report's json.
+    An unbounded quantity is None, as in the report's json.
     """
-    if groups is None:
-        groups = (MACHINE, *(group for group in REPORT if not group.makes_parts))
     out: dict[str, Cell] = {}
-    for name, value in values_of(groups, parts).items():
+    for name, value in chain.from_iterable(group.values(parts).items() for group in groups):
         if not isinstance(value, (tuple, Table)):
             is_unbounded = isinstance(value, float) and math.isinf(value)
             out[name] = None if is_unbounded else value

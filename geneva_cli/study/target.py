@@ -98,9 +98,8 @@ class Target(NamedTuple):
 
         Returned unchanged if those ranges allow any motion.
         """
-        has_cycle = self.frame is not None or "cycle" in self.spans
         # bounds on times restrict the motion angle if the cycle is known
-        times = ("motion_s", "dwell_s") if has_cycle else ()
+        times = ("motion_s", "dwell_s") if self.frame or "cycle" in self.spans else ()
         names = {f"timing.{x}": x for x in ("tau", "k", "motion_deg", "dwell_deg", *times)}
         spans = dict(self.spans)
         for bound in self.bounds:

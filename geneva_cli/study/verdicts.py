@@ -142,15 +142,9 @@ def of_checks(verdicts: Sequence[Verdict], page: bool, as_json: bool) -> Answer:
             details.append(Summary(v.path, own))
         heads.append(Summary(f"{v.path}: {text}", tuple(lines) if is_single else (), state=state))
     if not is_single:
-        many, judged = len(verdicts), len(heads)
-        unread = many - judged
+        judged, unread = len(heads), len(verdicts) - len(heads)
         failed, warned = (sum(head.state == state for head in heads) for state in (FAILS, WARNS))
-        passed = many - failed - unread
-        text = f"all {many} specs pass"
-        if failed:
-            text = f"{failed} of {many} specs fail{'s' * (failed == 1)}"
-        elif unread:
-            text = f"{passed} of {many} specs pass{'es' * (passed == 1)}"
+        text = _counted("specs", len(verdicts), failed, unread)
         text += f", {unread} cannot be read" if unread else ""
         text += f", {warned} with warnings" if warned else ""
         state = FAILS if failed or unread else WARNS if warned else PASSES
@@ -169,13 +163,8 @@ def headline(checks: Sequence[Check], warnings: Sequence[Notice]) -> tuple[str, 
     ('fails', '1 of 1 checks fails')
     """
     states = [*map(attrgetter("passes"), checks)]
-    many, failed, not_proved = len(states), states.count(False), states.count(None)
-    text = f"all {many} checks pass"
-    if failed:
-        text = f"{failed} of {many} checks fail{'s' * (failed == 1)}"
-    elif not_proved:
-        passed = many - not_proved
-        text = f"{passed} of {many} checks pass{'es' * (passed == 1)}"
+    failed, not_proved = states.count(False), states.count(None)
+    text = _counted("checks", len(states), failed, not_proved)
     text += f", {not_proved} not proved" if not_proved else ""
     for check in checks:
         if check.name == "driven_fraction" and check.passes and check.value and check.value < 1.0:
@@ -186,6 +175,14 @@ def headline(checks: Sequence[Check], warnings: Sequence[Notice]) -> tuple[str, 
         text += f", {count} warning{'s' * (count != 1)}{end}" if count else ""
     state = FAILS if failed else WARNS if not_proved or left else PASSES
     return state, text
+
+
+def _counted(what: str, many: int, failed: int, unknown: int) -> str:
+    """The number that fails, or else that passes, in words."""
+    if not (failed or unknown):
+        return f"all {many} {what} pass"
+    count, verb, end = (failed, "fail", "s") if failed else (many - unknown, "pass", "es")
+    return f"{count} of {many} {what} {verb}{end * (count == 1)}"
 
 
 def chosen_lines(by_load: ByLoad, path: str | None = None) -> Iterator[SummaryLine]:

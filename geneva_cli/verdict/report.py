@@ -15,7 +15,6 @@ from geneva_cli.verdict.checks import Check, all_pass
 from geneva_cli.verdict.failures import sentence
 from geneva_cli.verdict.quantities.batch_designs import Values
 from geneva_cli.verdict.quantities.groups import REPORT
-from geneva_cli.verdict.quantities.groups import values as values_of
 
 
 class Report(NamedTuple):
@@ -39,7 +38,8 @@ def report(
         "checks_failed": tuple(sentence(c) for c in rows if c.passes is False),
         "not_proved": tuple(f"{c.name}: {c.why}" for c in rows if c.passes is None),
     }
-    values |= values_of(REPORT, parts)
+    for group in REPORT:
+        values |= group.values(parts)
     ends = {"chosen": by_load.record, "warnings": tuple(warnings)}
     return Report(record_table({**values, **ends}, title, words(mechanism)), passes)
 

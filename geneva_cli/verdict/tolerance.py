@@ -17,14 +17,8 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError, Notice, cut
 from geneva_cli.loads.impacts.entry import arm_mm
-from geneva_cli.loads.tolerance import locking, motion_error
-from geneva_cli.loads.tolerance.random_machines import (
-    Draws,
-    Spread,
-    likely_place,
-    random_machines,
-    spread,
-)
+from geneva_cli.loads.tolerance import locking, motion_error, random_machines
+from geneva_cli.loads.tolerance.random_machines import Spread, spread
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.registry import thing
 from geneva_cli.parts.outlines.cut_outlines import cut_arcs
@@ -177,9 +171,9 @@ def tolerance_table(
     ends, motions = locking.corners(sizes), motion_error.motion_errors(mechanism)
     each = motion_error.entry_jumps(mechanism)
     jumps = max(each, key=lambda one: float(np.max(one(ends)[0])), default=None)
-    machines = Draws(tuple(sizes), spec.tolerance.distribution == "normal", seed)
-    likely = likely_place(machines, samples, motions) if motions else None
-    drawn = random_machines(machines, samples, loosest and loosest[0], likely, jumps)
+    draws = random_machines.Draws(tuple(sizes), spec.tolerance.distribution == "normal", seed)
+    likely = random_machines.likely_place(draws, samples, motions) if motions else None
+    drawn = random_machines.random_machines(draws, samples, loosest and loosest[0], likely, jumps)
     angles = dict[str, Spread | None].fromkeys(("dwell_position", "motion_play"))
     at_deg, jump = None, list[float | None]([None] * 4)
     if loosest:

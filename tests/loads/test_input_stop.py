@@ -19,7 +19,8 @@ from geneva_cli import (
 )
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.sizing import sizing
-from geneva_cli.verdict.quantities.groups import REPORT, values
+from geneva_cli.study.fields import values
+from geneva_cli.verdict.quantities.groups import REPORT
 
 STOPPED = Crank(n_rpm=60.0, stop_s=0.8, start_s=0.2, brake_s=0.1)
 LOAD = Load(inertia_kgm2=0.4, torque_Nm=15.0)
@@ -91,7 +92,7 @@ def test_what_the_brake_takes_by_hand() -> None:
     """0.002 kg m² behind 20 : 1 are 0.8 at the input, which turns at 2 pi rad/s."""
     motor = Motor(gear_ratio=20.0, inertia_kgm2=0.002)
     design = Design(External(6), STOPPED, load=LOAD, motor=motor)
-    found = values([group for group in REPORT if group.table == "input_stop"], design.parts)
+    found = values(design.parts, [group for group in REPORT if group.table == "input_stop"])
     energy = 0.5 * 0.8 * OMEGA**2
     by_hand = {
         "stands_s": 0.8 - 0.15,
@@ -105,7 +106,7 @@ def test_what_the_brake_takes_by_hand() -> None:
     }
     assert found == pytest.approx({f"input_stop.{k}": v for k, v in by_hand.items()}, rel=1e-13)
     runs = Design(External(6), Crank(), load=LOAD, motor=motor)
-    none = values([group for group in REPORT if group.table == "input_stop"], runs.parts)
+    none = values(runs.parts, [group for group in REPORT if group.table == "input_stop"])
     assert set(none.values()) == {None}
 
 

@@ -65,7 +65,7 @@ def test_the_arm_is_the_hull_of_hub_and_eyes():
     assert (*pin.centre, pin.radius) == pytest.approx((50.0, 0.0, 3.0))
     on_sheet = {"R 8", "R 13", "2× R 3", "50", "Ø 6 P7 (-0.008/-0.02)"}
     on_sheet |= {"Ø 12 H7 (+0.018/0)", "2× Ø 2.05, tapped M2.5 on Ø 30"}
-    assert dimensions(draw_arm, design.mechanism, arm) == on_sheet
+    assert dimensions(draw_arm, design.parts, arm) == on_sheet
 
 
 def test_a_guide_is_as_long_as_its_block_needs():

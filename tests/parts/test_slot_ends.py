@@ -16,7 +16,6 @@ from geneva_cli.geometry.shapes import Arc, Line
 from geneva_cli.loads.impacts.entry import RestingAxis, mouth_contacts
 from geneva_cli.loads.strength.horn import greatest_stress, horns
 from geneva_cli.motion.wheels.gearing import Gearing
-from geneva_cli.parts.slots.roller_paths import wall_lost
 from geneva_cli.verdict.checks import checks, single_check
 
 L, Z, R, W, CLEAR = 100.0, 6, 50.0, 5.05, 0.05
@@ -58,7 +57,8 @@ def test_the_wheel_is_that_of_polygons(lock: float, tip: float) -> None:
 @pytest.mark.parametrize(("own", "sign"), [(External(Z), 1), (Internal(Z), -1)])
 def test_a_flat_is_as_long_as_the_tip_and_square_to_its_slot(own: Gearing, sign: int) -> None:
     tip, lock = 6.0, 40.0
-    outlines = wheel(own, horn_tip_mm=tip, lock_radius_mm=lock).parts.outlines
+    parts = wheel(own, horn_tip_mm=tip, lock_radius_mm=lock).parts
+    outlines = parts.outlines
     x = wall_end(lock, tip, sign)
     flats = [
         piece
@@ -71,8 +71,7 @@ def test_a_flat_is_as_long_as_the_tip_and_square_to_its_slot(own: Gearing, sign:
     for flat in flats:
         assert sorted((abs(flat.start[1]), abs(flat.end[1]))) == pytest.approx([W, W + tip])
     mouth = math.sqrt(math.hypot(L * math.cos(math.pi / Z), 5.0) ** 2 - W**2)
-    [walls] = outlines.slots.values()
-    assert wall_lost(walls, outlines.wheel) == pytest.approx(sign * (mouth - x), abs=1e-9)
+    assert parts.wall_lost == pytest.approx(sign * (mouth - x), abs=1e-9)
 
 
 @pytest.mark.parametrize("own", [External(Z), Internal(Z), External(Z, offset_mm=9.0)])

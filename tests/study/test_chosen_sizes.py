@@ -12,8 +12,8 @@ from typer.testing import CliRunner
 
 from geneva_cli import Design, load
 from geneva_cli.cli.app import app
-from geneva_cli.specfile.writer import Written, inserted
-from geneva_cli.study.chosen_sizes import KEPT, sized_text
+from geneva_cli.specfile.writer import inserted
+from geneva_cli.study.export import NOT_KEPT, sized_text
 
 DESIGNS = sorted(path.stem for path in repo.DESIGNS.glob("*.toml"))
 # Checks of parts whose keys the spec has: default arms and links always pass.
@@ -193,7 +193,7 @@ def test_the_table_and_the_file(turret):
 def test_a_text_without_lines_of_its_tables_is_written_anew(turret):
     repo.put("flat.toml", "wheel = {z = 6}\nsize = {center_distance_mm = 80}\n")
     again = run("size", "flat.toml", "-o", "again.toml")
-    assert again.stderr == f"again.toml: note: {KEPT}\n"
+    assert again.stderr == f"again.toml: note: {NOT_KEPT}\n"
     assert load("again.toml").chosen == {}
     assert run("size", "turret.toml", "--set", "title=two words", "-o", "-").stdout.startswith(
         'title = "two words"\n'
@@ -232,7 +232,7 @@ def test_exported_specs_have_the_sizes_of_the_parts_beside_them(turret):
     ],
 )
 def test_keys_are_inserted_or_refused(text, out):
-    found = inserted(text, "size", {"pin_mm": Written(6.0, "why")})
+    found = inserted(text, "size", {"pin_mm": (6.0, "why")})
     assert found == out
     if found:
         assert tomli.loads(found)["size"]["pin_mm"] == 6.0

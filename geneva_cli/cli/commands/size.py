@@ -29,7 +29,7 @@ def run(
     """
     from geneva_cli.design import load
     from geneva_cli.output import FORMATS, chosen, require_spec, show_answer, show_text
-    from geneva_cli.study.chosen_sizes import of_sizes, sized_text
+    from geneva_cli.study.export import of_sizes, sized_text
 
     design = load(spec, settings)
     extension = os.path.splitext(output)[1].lower().removeprefix(".")

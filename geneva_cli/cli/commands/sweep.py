@@ -55,7 +55,7 @@ def run(
     """
     options = locals()
     from geneva_cli.output import chosen, require_spec, show, show_text
-    from geneva_cli.study.fields import joined, without_infinity
+    from geneva_cli.study.fields import cells_of, joined
     from geneva_cli.study.sweep.request import OPTIONS, Outcome, request
     from geneva_cli.table import Table
 
@@ -78,7 +78,7 @@ def run(
         names = plan.names
         blocks = [*outcome.rows(_tracked(plan, 0))]
         columns = joined(blocks).columns if blocks else [[] for _ in names]
-        table = Table(names, [without_infinity(column) for column in columns])
+        table = Table(names, [cells_of(column) for column in columns])
         show(table, output, format, plan.inputs)
     for note in outcome.notes():
         tell(f"{spec}: {note}")

@@ -10,8 +10,8 @@ from geneva_cli.drawings.sheet.packing import Block
 from geneva_cli.drawings.sheet.paper import table
 from geneva_cli.drawings.sheet.sized import Fits
 from geneva_cli.drawings.sheet.view import View, grouped, times
-from geneva_cli.drawings.sheet.wheel_views import bolted, bored, circle_of, draw_hub, holes_of
-from geneva_cli.geometry.plates import Member, Plate, plates
+from geneva_cli.drawings.sheet.wheel_views import bolted, bored, circle_of, draw_hub
+from geneva_cli.geometry.plates import Member, Plate
 from geneva_cli.geometry.shapes import ORIGIN, Arc, Circle, Contour, Point, at, legs
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
@@ -19,9 +19,8 @@ from geneva_cli.parts.assembly import same
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.links.links import Links, placed_holes, roller_pins
 from geneva_cli.parts.machine_sizes import drawn_pin_radius
-from geneva_cli.parts.outlines.crank_outline import is_whole
-from geneva_cli.parts.shafts.arm_and_shafts import CrankArm
-from geneva_cli.parts.shafts.bores import radius_of
+from geneva_cli.parts.outlines.crank_outline import crank_bore, is_whole
+from geneva_cli.parts.shafts.arm_and_shafts import CrankArm, bolts, crank_hub
 from geneva_cli.spec.written import degrees, length
 
 UP = 0.5 * math.pi
@@ -31,16 +30,15 @@ def draw_disc(view: View, parts: FlatParts) -> View:
     """Draw the locking disc, or its sectors, about the crank's axis."""
     outlines, mechanism = parts.outlines, parts.mechanism
     assembly, sizes = outlines.assembly, outlines.sizes
-    own = plates(parts.crank.part)
-    discs, hubs = ([plate for plate in own if plate.layer == layer] for layer in ("CRANK", "HUB"))
-    bores, screwed = holes_of(discs)
-    contours = [disc.outline for disc in discs if isinstance(disc.outline, Contour)]
-    view.draw_all((*contours, *screwed, *bores, *(hub.outline for hub in hubs)))
+    contours, screwed, hub = outlines.crank, bolts(outlines), crank_hub(outlines)
+    whole = is_whole(assembly, sizes)
+    bores = crank_bore(assembly, sizes) if whole else ()
+    view.draw_all((*contours, *screwed, *bores, *((hub.outline,) if hub else ())))
     circle_of(view, screwed)
-    view.cross(ORIGIN, sizes.lock if is_whole(assembly, sizes) else 0.2 * sizes.lock)
-    for hub in hubs:
+    view.cross(ORIGIN, sizes.lock if whole else 0.2 * sizes.lock)
+    if hub:
         draw_hub(view, hub)
-    bored(view, bores, mechanism.spec.size, "crank")
+    bored(view, bores, mechanism.spec.size, "crank", sizes.crank_bore if whole else 0.0)
     locking, reliefs = list[Arc](), dict[tuple[str, str], list[Arc]]()
     for arc in (s for contour in contours for s in contour.segments if isinstance(s, Arc)):
         if max(math.hypot(*arc.centre), abs(arc.radius - sizes.lock)) < SAME_ON_SHEET:
@@ -78,8 +76,9 @@ def _gaps(view: View, lock: float, locking: list[Arc]) -> None:
         view.angular(pairs, lock, lock, text)
 
 
-def draw_arm(view: View, mechanism: Mechanism, arm: CrankArm) -> View:
+def draw_arm(view: View, parts: FlatParts, arm: CrankArm) -> View:
     """Draw the crank arm with its holes."""
+    mechanism, radius = parts.mechanism, parts.outlines.sizes.arm_bore
     view.draw_all((arm.outline, arm.bore, *arm.pins, *arm.bolts))
     view.cross(ORIGIN, arm.hub)
     for pin in arm.pins:
@@ -93,7 +92,7 @@ def draw_arm(view: View, mechanism: Mechanism, arm: CrankArm) -> View:
     reach = max(math.hypot(*p.centre) for p in arm.pins) + arm.eye
     # the rest of a turn, and a straight line, need no dimension
     view.steps(angles, reach, most=math.pi - SAME_ON_SHEET)
-    bored(view, [arm.bore], mechanism.spec.size, "crank")
+    bored(view, [arm.bore], mechanism.spec.size, "crank", radius)
     hole = sized.made(view.fits, mechanism, "pin hole", arm.pins[0].radius)
     view.diameter(arm.pins, times(len(arm.pins), hole))
     view.radii(arm.outline.segments)
@@ -150,8 +149,10 @@ def draw_link(view: View, member: Member, bars: Links, mechanism: Mechanism) -> 
     for text, some in grouped(zip(texts, holes, strict=True)):
         view.diameter(some, text)
     if shaped:
-        view.cross(ORIGIN, 2.0 * radius_of(shaped[0]))
-        bored(view, shaped, mechanism.spec.size, "crank")  # no other shaft of links has a shape
+        L = mechanism.center_distance_mm  # no shaft of links but the crank's has a shape
+        radius = bars.shaft((L, 0.0), L)
+        view.cross(ORIGIN, 2.0 * radius + mechanism.spec.size.allowances.shaft_fit_mm)
+        bored(view, shaped, mechanism.spec.size, "crank", radius)
     if plate.name in bars.blocks:
         half, end = eyes[0].radius, abs(eyes[0].centre[0]) + eyes[0].radius
         view.linear((0.0, -half), (0.0, half), UP, sized.fitted(view.fits, 2.0 * half, "", "g6"))

@@ -123,7 +123,7 @@ def _views(rows: list[dict[str, Any]], parts: FlatParts, scale: float) -> Iterat
             names = ("locking disc", "locking sector", "crank's hub")
             yield crank_views.draw_disc(begin(*(f"{front}{name}" for name in names)), of)
     if parts.arm:
-        yield crank_views.draw_arm(begin("arm"), mechanism, parts.arm)
+        yield crank_views.draw_arm(begin("arm"), parts, parts.arm)
     yield crank_views.draw_roller(begin("roller", "pin"), mechanism)
     for member in {one.part: one for one in bars.cut}.values():
         yield crank_views.draw_link(begin(member.part.name), member, bars, mechanism)
@@ -133,9 +133,10 @@ def _views(rows: list[dict[str, Any]], parts: FlatParts, scale: float) -> Iterat
         _, *through = (hole for hole in plate.holes if isinstance(hole, shapes.Circle))
         screws = {hole: sized.screw_hole(hole.radius) for hole in through}
         yield draw_frame(begin(plate.name), plate, screws, "the crank's axis")
-    threads = {h: sized.screw_hole(h.radius, tapped=True) for h in parts.framed.threads}
+    screws = {h: sized.screw_hole(h.radius) for h in parts.framed.mounts}
+    screws |= {h: sized.screw_hole(h.radius, tapped=True) for h in parts.framed.threads}
     (frame,) = plates(parts.frame.part)
-    yield draw_frame(begin(frame.name), frame, threads)
+    yield draw_frame(begin(frame.name), frame, screws)
 
 
 def cut_faces(members: Iterable[Member], scale: float) -> list[Face]:

@@ -75,9 +75,9 @@ class View:
         levels = list(self._levels(turn, ends if near else ()))
         self._put(marks.linear(ends, turn, levels, text, value), f"{text} {where}".rstrip())
 
-    def radial(self, p: Point, text: str, where: str = "") -> None:
+    def radial(self, p: Point, text: str) -> None:
         """Draw the distance of a point from the origin, inside the part's outline."""
-        self.linear((0.0, 0.0), p, math.atan2(p[1], p[0]), text, where, near=True)
+        self.linear((0.0, 0.0), p, math.atan2(p[1], p[0]), text, near=True)
 
     def places(
         self, centres: Iterable[Point], base: Point, notes: tuple[str, str] = ("", "")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
 from geneva_cli.drawings.part_drawings import pitch_lines
 from geneva_cli.drawings.sheet import sized
@@ -14,11 +14,9 @@ from geneva_cli.geometry.sheet import CENTRE, HIDDEN, OUTLINE
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.parts import mounts_of
+from geneva_cli.parts.outlines.outlines import Outlines, dial_circle, wheel_holes
 from geneva_cli.parts.projection import outlines_of
-from geneva_cli.parts.shafts.bores import Bore, around, bore_of, radius_of, section_note
-from geneva_cli.parts.slots.roller_paths import cut_walls
+from geneva_cli.parts.shafts.bores import bore_of
 from geneva_cli.spec.tables import Size
 from geneva_cli.spec.written import degrees, length
 
@@ -34,10 +32,9 @@ def draw_wheel(view: View, parts: FlatParts) -> View:
     contour = next(s for s in edges if s.layer == wheel.layer)
     reach = sizes.outer or max(math.hypot(*s.start) for s in contour.segments)
     view.cross(shapes.ORIGIN, reach)
-    for i, (engagement, direction) in enumerate(assembly.slots):
+    for i, ((engagement, _), walls) in enumerate(zip(assembly.slots, outlines.cut, strict=True)):
         if not engagement.slot.curved:
-            walls = shapes.turned(outlines.slots[engagement], direction)
-            for end, mouth in _ends(cut_walls(walls, outlines.wheel)):
+            for end, mouth in _ends(walls):
                 view.centre_line(*((end, mouth) if assembly.sign > 0.0 else (mouth, end)))
         elif i == 0:
             for line in pitch_lines(parts, engagement):
@@ -49,7 +46,7 @@ def draw_wheel(view: View, parts: FlatParts) -> View:
     if sizes.recess:
         view.cross(at_rest, 0.0)
     arcs = [s for s in contour.segments if isinstance(s, shapes.Arc)]
-    bores, screwed = holes_of([wheel])
+    screwed = dial_circle(assembly, sizes).holes
     circle_of(view, screwed)
     if sizes.recess:
         about = [arc for arc in arcs if abs(math.hypot(*arc.centre) - L) < SAME_ON_SHEET]
@@ -84,7 +81,8 @@ def draw_wheel(view: View, parts: FlatParts) -> View:
         )
     for hub in hubs:
         draw_hub(view, hub)
-    bored(view, bores, assembly.mechanism.spec.size, "wheel")
+    size, holes = assembly.mechanism.spec.size, wheel_holes(assembly, sizes)
+    bored(view, holes, size, "wheel", sizes.wheel_bore)
     bolted(view, screwed)
     return view
 
@@ -111,7 +109,8 @@ def _axis(
 
 def _slot(view: View, parts: Outlines, engagement: Engagement, count: int) -> None:
     directions = [d for one, d in parts.assembly.slots if one is engagement]
-    walls = cut_walls(shapes.turned(parts.slots[engagement], directions[0]), parts.wheel)
+    pairs = zip(parts.assembly.slots, parts.cut, strict=True)
+    walls = next(cut for (one, _), cut in pairs if one is engagement)
     ends = _ends(walls)
     end, mouth = ends[0]
     turn = math.atan2(mouth[1] - end[1], mouth[0] - end[0])
@@ -187,7 +186,6 @@ def draw_frame(
     view.linear(corner, (box.x1, box.y0), 0.0, length(box.x1 - box.x0), "wide")
     view.linear(corner, (box.x0, box.y1), up, length(box.y1 - box.y0), "high")
     texts_of = {hole: sized.bore(view.fits, hole.radius) for hole in holes}
-    texts_of |= {hole: sized.screw_hole(hole.radius) for hole in mounts_of(plate)}
     texts_of |= screws
     for text, some in grouped((texts_of[hole], hole) for hole in holes):
         places = ", ".join(f"({length(x)}, {length(y)})" for _, (x, y), _ in some)
@@ -199,47 +197,31 @@ def draw_frame(
 
 def draw_hub(view: View, hub: Plate) -> None:
     """Draw the diameter of a hub that is already drawn."""
-    radius = around(hub.outline)
-    whole = shapes.Circle(hub.layer, shapes.ORIGIN, radius)
-    view.diameter([whole], f"{hub.name} {sized.plain(2.0 * radius, 'Ø ')}")
+    assert isinstance(hub.outline, shapes.Circle)
+    view.diameter([hub.outline], f"{hub.name} {sized.plain(2.0 * hub.outline.radius, 'Ø ')}")
 
 
 def draw_shaft(view: View, shaft: Plate) -> View:
     """Draw a shaft from the side; a hexagon has no fit, as its corners are free."""
-    long, radius = shaft.thickness, around(shaft.outline)
+    long, bore = shaft.thickness, shaft.bore
+    radius = bore.around
     corners = [(0.0, -radius), (long, -radius), (long, radius), (0.0, radius)]
     view.draw(shapes.polygon("", corners), OUTLINE)
     view.centre_line((0.0, 0.0), (long, 0.0))
     view.linear((0.0, -radius), (long, -radius), 0.0, length(long))
-    has_corners = radius > radius_of(shaft.outline) + SAME_ON_SHEET
+    has_corners = bore.form == "hex"
     size = sized.plain(2.0 * radius, "Ø ") if has_corners else sized.shaft(view.fits, radius)
     view.linear((0.0, -radius), (0.0, radius), 0.5 * math.pi, size)
-    note = section_note(shaft.outline)
-    if note:
+    if note := bore.shaft_note:
         view.notes.append(note if view.fits.turned.is_iso else note.replace(" P9", ""))
     return view
 
 
-def holes_of(plates: Iterable[Plate]) -> tuple[list[shapes.Shape], list[shapes.Circle]]:
-    """Return the bores of plates on one axis, and their other round holes, such as bolts."""
-    bores, bolts = dict[shapes.Shape, None](), dict[shapes.Circle, None]()
-    for hole in (hole for plate in plates for hole in plate.holes if hole.layer == "BORE"):
-        if isinstance(hole, shapes.Circle) and math.hypot(*hole.centre) != 0.0:
-            bolts[hole] = None
-        else:
-            bores[hole] = None
-    return list(bores), list(bolts)
-
-
-def bored(view: View, bores: Sequence[shapes.Shape], size: Size, part: str) -> None:
-    """Draw the diameter of a part's bore, and what else its shape needs; a note has its angle."""
-    if not bores:
+def bored(view: View, holes: Sequence[shapes.Shape], size: Size, part: str, radius: float) -> None:
+    """Draw the first of a part's holes, its bore for a shaft; a note has the angle of its shape."""
+    if not radius:
         return
-    shape = bores[0]
-    form = Bore(radius_of(shape))
-    if isinstance(shape, shapes.Contour):
-        # without the rounding errors of the sum, which would choose another key
-        form = bore_of(size, part, round(form.radius - 0.5 * size.allowances.shaft_fit_mm, 9))
+    shape, form = holes[0], bore_of(size, part, radius)
     if form.form != "hex":
         cut = form.radius + form.loose
         view.diameter([shapes.Circle("", shapes.ORIGIN, cut)], sized.bore(view.fits, cut))

@@ -19,7 +19,6 @@ from geneva_cli.geometry.loops import shown
 from geneva_cli.geometry.shapes import at
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.parts.parts import parts_of
-from geneva_cli.parts.turn.free_ranges import one_sector
 from geneva_cli.spec.defaults import wall_min
 from geneva_cli.verdict.checks import Check, compared
 from geneva_cli.verdict.checks.motion_checks import entry_velocity_limit
@@ -196,7 +195,7 @@ def _walls(machine: DrawnMachine) -> Iterator[Check]:
     spec, place = machine.assembly.mechanism.spec, machine.assembly
     if spec.outline.wheel is None or (place.sign < 0.0 and len(machine.wheel) == 1):
         return
-    sector = one_sector(Polyarc(machine.wheel), math.tau / spec.wheel.z, machine.free.slack)
+    sector = Polyarc(machine.wheel).one_sector(math.tau / spec.wheel.z, machine.free.slack)
     if wall := smallest_wall(machine.wheel, sector):
         row = compared("wall_mm", wall[0], "at least", wall_min(spec.size, place.L))
         start, end = (shown((z.real, z.imag)) for z in wall[1:])

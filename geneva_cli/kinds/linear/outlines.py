@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc
@@ -14,6 +12,7 @@ from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.turn.gaps import Gaps
 from geneva_cli.parts.turn.stops import Branches, Pose, Stops, cut, inset_ends, masked
+from geneva_cli.parts.turn.turned_parts import TurnedShape
 
 
 class SlidingStops(Stops):
@@ -110,20 +109,11 @@ class RackGaps(Gaps):
         self.stops = SlidingStops(self.one, self.pitch, self.stops.crank, radius, sizes.roller)
 
 
-class RackOutlines(NamedTuple):
-    """Rack and crank, and the gaps between them."""
-
-    assembly: Assembly
-    sizes: RackSizes
-    crank: list[Contour]
-    gaps: RackGaps
-
-
-def turned_rack(assembly: Assembly, sizes: RackSizes) -> RackOutlines:
+def turned_rack(assembly: Assembly, sizes: RackSizes) -> TurnedShape:
     """Return rack and crank of known sizes."""
     sector = locking_sector(sizes)
     crank, rack = [sector] if sector else [], rack_contour(sizes, 5)
-    return RackOutlines(assembly, sizes, crank, RackGaps(assembly, sizes, rack, crank))
+    return TurnedShape(assembly, sizes, crank, RackGaps(assembly, sizes, rack, crank))
 
 
 def rotated(points: Array, angle: Array) -> tuple[Array, Array]:

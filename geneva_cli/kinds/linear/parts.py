@@ -17,7 +17,7 @@ from geneva_cli.geometry.shapes import Circle
 from geneva_cli.geometry.sheet import rectangle
 from geneva_cli.kept import cached_property
 from geneva_cli.kinds.linear import rack
-from geneva_cli.kinds.linear.outlines import RackOutlines, turned_rack
+from geneva_cli.kinds.linear.outlines import turned_rack
 from geneva_cli.loads.strength.pin_arm_key import NO_ARM, NO_KEY, ArmDimensions
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array, value_or
@@ -30,6 +30,7 @@ from geneva_cli.parts.shafts.arm_and_shafts import Shaft, rollers, shaft_ends
 from geneva_cli.parts.shafts.bores import Screws, bolt_radius, bore_of, reach_or_bore, tapped
 from geneva_cli.parts.sized_by_load import ShaftSize, Stressed, key_of, shaft_of
 from geneva_cli.parts.turn.turn_certificate import FlatPairs
+from geneva_cli.parts.turn.turned_parts import TurnedShape
 from geneva_cli.spec.defaults import wall_min
 
 
@@ -37,7 +38,8 @@ class RackParts(EdgedParts):
     """The parts of a machine, in its frame."""
 
     @cached_property
-    def _shape(self) -> RackOutlines:
+    def shape(self) -> TurnedShape:
+        """Rack and crank as they are turned."""
         return turned_rack(assembly(self.mechanism, flat=False), self.sizes)
 
     @cached_property
@@ -62,7 +64,7 @@ class RackParts(EdgedParts):
 
     def pairs(self, target: float) -> FlatPairs:
         """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""
-        return FlatPairs(self._shape.gaps, self._shape.crank, target, self.sizes.rim)
+        return FlatPairs(self.shape.gaps, self.shape.crank, target, self.sizes.rim)
 
     @cached_property
     def _bar_bolts(self) -> tuple[Circle, ...]:
@@ -165,8 +167,9 @@ class RackParts(EdgedParts):
         within = [*bored, *(tapped(hole) for hole, _ in screwed)]
         holes = [one for one in within if one.radius]
         eye = max(L / 20.0, 3.0 * wall_min(size, L))  # it leaves walls around mounting holes
-        frame = mounted_plate(holes, within, eye, (plain, top))
-        return FrameAndShafts(frame, axles, screwed=screwed if _bolt(sizes) else ())
+        frame, mounts = mounted_plate(holes, within, eye, (plain, top))
+        screwed = screwed if _bolt(sizes) else ()
+        return FrameAndShafts(frame, axles, screwed=screwed, mounts=mounts)
 
     def _require_built(self) -> None:
         """Raise GenevaError where the crank's shaft has no bearing in the frame."""

@@ -9,13 +9,14 @@ from typing import NamedTuple
 
 import numpy as np
 
+from geneva_cli.geometry import shapes
 from geneva_cli.geometry.plates import Plate, plates
 from geneva_cli.geometry.sphere import POLE
 from geneva_cli.geometry.sphere_arcs import RoundHole
 from geneva_cli.kinds.spherical.parts import SphereParts
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.parts.shafts.bores import around, reach_or_bore
+from geneva_cli.parts.shafts.bores import reach_or_bore
 from geneva_cli.parts.sizes import refuse_bored_hub
 from geneva_cli.spec.defaults import wall_min
 from geneva_cli.verdict.checks import Check, compared, measured
@@ -33,7 +34,7 @@ def standing(names: Collection[str], parts: SphereParts) -> Iterator[Check]:
         corners = math.sin(ball.rim) * math.sin(ball.half_step - ball.corner)
         wall = min(wall, 2.0 * math.asin(corners))
     yield compared("wall_between_slots_mm", wall * ball.radius_mm, "at least", least)
-    if parts.shells.crank:  # between a slot and the recess of the locking sectors
+    if parts.shape.crank:  # between a slot and the recess of the locking sectors
         yield compared("horn_mm", parts.sizes.horn, "at least", least)
     yield from measured("wheel_bore_wall_mm", least, lambda: _bore_wall(parts))
     arm = [*measured("arm_wall_mm", least, lambda: parts.arm.wall if parts.arm else None)]
@@ -73,7 +74,7 @@ class _Sweep(NamedTuple):
 
 def _shaft_gaps(parts: SphereParts) -> Iterator[float]:
     """Yield the gaps of hubs and shafts to parts about the other axis, mm along a sphere."""
-    ball, arm, sectors = parts.ball, parts.arm, parts.shells.crank
+    ball, arm, sectors = parts.ball, parts.arm, parts.shape.crank
     wheel, crank = ([p for p in plates(m.part) if p.layer != "ROLLER"] for m in parts.members[:2])
     for shaft in parts.shafts:
         (wheel if shaft.frame is None else crank).extend(plates(shaft.part))
@@ -103,7 +104,7 @@ def _shaft_gaps(parts: SphereParts) -> Iterator[float]:
 
 def _round(plate: Plate) -> Iterator[_Sweep]:
     """Yield the region that a round plate sweeps on each side of the centre: the plate itself."""
-    wide = around(plate.outline)
+    wide = plate.bore.around if plate.bore else shapes.bounds(plate.outline).x1
     for back, low, high in ((False, plate.low, plate.high), (True, -plate.high, -plate.low)):
         if high > 0.0:
             yield _Sweep(back, 0.0, 0.0, max(low, 0.0), math.hypot(high, wide), wide)

@@ -186,7 +186,7 @@ def wheel_flat(parts: SphereParts) -> list[shapes.Shape]:
 def crank_flat(parts: SphereParts) -> list[shapes.Shape]:
     """Return locking sectors, rollers and the rollers' circle on the crank's flat cone."""
     ball, cone = parts.ball, cone_of(parts, "crank")
-    locking = zip(parts.shells.crank, locked(ball), strict=True)
+    locking = zip(parts.shape.crank, locked(ball), strict=True)
     drawn: list[shapes.Shape] = [
         cone.region("CRANK", one, 0.5 * (a + b)) for one, (a, b) in locking
     ]
@@ -215,7 +215,7 @@ def _dimensions(parts: SphereParts) -> Iterator[Dimension | Missing]:
         yield _angle("lock, from the crank's axis", ball.lock)
         yield _angle("recess, from the crank's axis", ball.recess)
         yield Dimension("locking sectors' inner radius", ball.lock_span_mm[0], "mm")
-    for k, region in enumerate(parts.shells.crank, 1):
+    for k, region in enumerate(parts.shape.crank, 1):
         rim, _, low, _ = region.boundary
         yield _angle(f"locking sector {k}: inner edge", math.pi - low.angle)
         start = math.atan2(rim.start[1], rim.start[0]) % math.tau

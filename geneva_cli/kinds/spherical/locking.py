@@ -81,8 +81,8 @@ class SphereLock(NamedTuple):
 def sphere_locks(parts: Parts, sizes: Mapping[str, float]) -> Locks:
     """A recess with each locking sector of a spherical crank, and the clearance that they need."""
     assert isinstance(parts, SphereParts)
-    ball, L = parts.shells.ball, parts.shells.ball.radius_mm
-    edges = [region.boundary[0] for region in parts.shells.crank]  # the locking edges
+    ball, L = parts.ball, parts.ball.radius_mm
+    edges = [region.boundary[0] for region in parts.shape.crank]  # the locking edges
     halves = {round(edge.sweep / SAME): 0.5 * edge.sweep for edge in edges}
     angles = L, ball.axes, ball.lock, ball.recess, ball.rim
     locks = [SphereLock(*angles, half) for half in halves.values()]

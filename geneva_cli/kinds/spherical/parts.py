@@ -15,7 +15,7 @@ from geneva_cli.errors import refuse_size
 from geneva_cli.geometry import plates
 from geneva_cli.geometry.plates import Group, MassProperties, Member, Plate, Shell
 from geneva_cli.geometry.shapes import ORIGIN, Circle
-from geneva_cli.geometry.sphere import POLE, Cap, Region, axis_frame, place
+from geneva_cli.geometry.sphere import POLE, Cap, axis_frame, place
 from geneva_cli.geometry.sphere_arcs import RoundHole
 from geneva_cli.kept import cached_property
 from geneva_cli.kinds.spherical import regions
@@ -24,12 +24,13 @@ from geneva_cli.kinds.spherical.gaps import BallGaps, SpherePairs
 from geneva_cli.kinds.spherical.sizes import ball
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.parts.assembly import Assembly, assembly
+from geneva_cli.parts.assembly import assembly
 from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.projection import NamedParts
 from geneva_cli.parts.shafts.arm_and_shafts import Shaft, shaft_ends
 from geneva_cli.parts.shafts.bores import Bore, bore_of, has_shape
 from geneva_cli.parts.sizes import refuse_bored_hub
+from geneva_cli.parts.turn.turned_parts import TurnedShape
 from geneva_cli.spec.defaults import wheel_material
 from geneva_cli.spec.tables import Size
 
@@ -44,38 +45,25 @@ class BallLengths(NamedTuple):
     horn: float
 
 
-class Shells(NamedTuple):
-    """Wheel and crank on a sphere, and the gaps between them."""
-
-    assembly: Assembly
-    ball: Ball
-    sizes: BallLengths
-    crank: list[Region]
-    gaps: BallGaps
-
-
 class SphereParts(Parts):
     """The parts of a machine in the wheel's frame."""
 
     LAID_FLAT: ClassVar[tuple[str, ...]] = ("wheel", "crank")
 
     @cached_property
-    def _shape(self) -> Shells:
+    def shape(self) -> TurnedShape:
+        """Wheel and crank as they are turned. Raises GenevaError where the sizes leave none."""
         own, where = ball(self.mechanism), assembly(self.mechanism, flat=False)
         L, locks = own.radius_mm, regions.sectors(own)
         rim, arm = L * math.sin(own.rim), L * math.sin(own.arm)
         lengths = BallLengths(L * own.roller, L * own.half_width, rim, arm, L * own.horn)
-        return Shells(where, own, lengths, locks, BallGaps(where, own, locks))
-
-    @property
-    def shells(self) -> Shells:
-        """Wheel and crank as they are turned. Raises GenevaError where the sizes leave none."""
-        return self._shape
+        return TurnedShape(where, lengths, locks, BallGaps(where, own, locks))
 
     @property
     def ball(self) -> Ball:
         """The sizes, as angles on the sphere and radii."""
-        return self._shape.ball
+        ball: Ball = self.shape.gaps.ball
+        return ball
 
     @property
     def outside_mm(self) -> float | None:
@@ -84,11 +72,11 @@ class SphereParts(Parts):
 
     def pairs(self, target: float) -> SpherePairs:
         """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""
-        return SpherePairs(self.shells.gaps, self.shells.crank, target)
+        return SpherePairs(self.shape.gaps, self.shape.crank, target)
 
     def past_mouth(self, motion: int, at: Array) -> Array:
         """Return how far a motion's roller is in its slot, beyond the mouth's corners, mm, (n,)."""
-        height = self.shells.gaps.pose(at).pins[:, motion, 2]  # the same in the wheel's frame
+        height = self.shape.gaps.pose(at).pins[:, motion, 2]  # the same in the wheel's frame
         return self.ball.radius_mm * (self.ball.mouth - np.arccos(np.clip(height, -1.0, 1.0)))
 
     @cached_property
@@ -103,13 +91,13 @@ class SphereParts(Parts):
         """The crank arm; None without pins for the rollers."""
         if not self.ball.arm_bore_mm:
             return None
-        return regions.crank_arm(self.ball, self.shells.crank, self.mechanism.spec.size)
+        return regions.crank_arm(self.ball, self.shape.crank, self.mechanism.spec.size)
 
     @cached_property
     def crank(self) -> Member:
         """The crank: locking sectors, arm, rollers on their pins."""
         ball, size, arm = self.ball, self.mechanism.spec.size, self.arm
-        sectors, members = self.shells.crank, []
+        sectors, members = self.shape.crank, []
         each = len(arm.bolts) // len(sectors) if arm and sectors else 0
         for k, region in enumerate(sectors):
             bolts = arm.bolts[k * each : (k + 1) * each] if arm else ()
@@ -203,7 +191,7 @@ def shell_body(mechanism: Mechanism) -> MassProperties:
 def screw_sizes(mechanism: Mechanism) -> dict[str, float]:
     """Return the screws of locking sectors by keys of ``[size]``: their number, and holes, mm."""
     parts = SphereParts(mechanism)
-    arm, sectors = parts.arm, len(parts.shells.crank)
+    arm, sectors = parts.arm, len(parts.shape.crank)
     if not (arm and sectors):
         return {}
     holes = {"lock_bolt_mm": 2.0 * arm.bolts[0].radius} if arm.bolts else {}

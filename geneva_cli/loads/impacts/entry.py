@@ -18,17 +18,7 @@ from geneva_cli.motion.batch import taken
 from geneva_cli.motion.engagement import Anchor, Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE, radians
-from geneva_cli.numerics.arrays import (
-    Array,
-    Mask,
-    N,
-    Number,
-    Whole,
-    all_true,
-    choose,
-    library,
-    parameter,
-)
+from geneva_cli.numerics.arrays import Array, Mask, N, Number, Whole, choose, library, parameter
 from geneva_cli.numerics.jet import Jet, sqrt
 from geneva_cli.numerics.roots import find_roots
 
@@ -250,7 +240,7 @@ def _errors(mechanism: Mechanism, axis: RestingAxis) -> Iterator[tuple[float, fl
     center = spec.tolerance.center_distance_mm / L if spec.wheel.FLAT else 0.0
     between = axis.hub_offset * (axis.hub_offset + axis.engagement.through.slot.offset) < 0.0
     center = choose(between, -center, center)
-    if not all_true((crank == 0.0) & (center == 0.0)):
+    if np.any(crank) or np.any(center):
         yield crank, -center
         yield -crank, center
 

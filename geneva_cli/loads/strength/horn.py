@@ -154,8 +154,6 @@ class Horn(NamedTuple):
         stress -= y[..., None] * along[:, None]
         turn = contact[0] * y - contact[1] * x
         stress += turn[..., None] * np.where(known, bends, 0.0)[:, None]
-        if (sections[0].min(axis=1) > roller[0].max(axis=1)).all():
-            return stress
         return np.where(sections[0][:, None] > roller[0][..., None], stress, 0.0)
 
     @property
@@ -273,11 +271,11 @@ def _sampled(
     points = side.points(np.hstack((places, side.at.mouth_deg * samples[1])))
     roller = np.stack(np.broadcast_arrays(*points[..., : len(own)], rub))
     sections = points[..., len(own) :]
-    stress = force * _picked(_most_stressed(side, roller, sections), row)
-    stress = np.broadcast_to(stress, (m, len(own)))
+    unit = side.unit_stress(roller, sections)
+    stress = np.broadcast_to(force * _picked(unit.max(axis=2), row), (m, len(own)))
     most = stress.max(axis=1, keepdims=True)
     i = np.argmax(stress >= most * (1.0 - TIE), axis=1)
-    unit = side.unit_stress(_picked(roller, row, i)[..., None], _picked(sections, row))[:, 0]
+    unit = unit[0 if len(unit) == 1 else row, i]
     load = _picked(force, np.arange(m), i)[:, None]
     j = np.argmax(load * unit >= most * (1.0 - TIE), axis=1)
     rows = np.stack((most[:, 0], _picked(places, row, i), *_picked(sections[:2], row, j)))
@@ -295,24 +293,6 @@ def _distinct(columns: Array) -> tuple[Whole, Whole]:
     kind = np.empty(len(order), dtype=int)
     kind[order] = np.cumsum(begins) - 1
     return order[begins], kind
-
-
-def _most_stressed(side: Horn, roller: Points, sections: Points) -> Array:
-    """The stress under 1 N of the most stressed section for each place (m, k), at least 0."""
-    _, m, k = roller.shape
-    most = np.zeros((max(m, sections.shape[1]), k))
-    for own in blocks(k, 16):
-        places = roller[..., own]
-        inner = np.flatnonzero((sections[0] > places[0].min(axis=1, keepdims=True)).any(axis=0))
-        if not len(inner):
-            continue
-        edges = sections[..., inner[0] :]
-        count = 1 + (1 << 14) // (places.shape[2] * edges.shape[2])
-        for some in blocks(len(most), count):  # whose stresses stay in the cache
-            at = places if m == 1 else places[:, some]
-            ends = edges if edges.shape[1] == 1 else edges[:, some]
-            most[some, own] = np.maximum(side.unit_stress(at, ends).max(axis=2), 0.0)
-    return most
 
 
 def _picked(values: Array, row: Whole, k: Whole | None = None) -> Array:

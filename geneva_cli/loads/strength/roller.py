@@ -16,16 +16,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.loads.contact import LoadCase, contact
+from geneva_cli.loads.contact import LoadCase
 from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_functions import LoadFunctions, refuse_noise
-from geneva_cli.motion.batch import taken
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Array, Whole, array, parameter
-from geneva_cli.numerics.quadrature import span_integrals
+from geneva_cli.numerics.arrays import Array, array, parameter
+from geneva_cli.numerics.extremes import Stretches
+from geneva_cli.numerics.jet import Jet
 
 LIFE_EXPONENT = 10.0 / 3.0  # p, of line contact
 
@@ -49,35 +48,27 @@ def passage(engagement: Engagement, case: LoadCase, half: float = 0.0) -> SlotPa
     load, n = LoadFunctions(engagement, case, ("pin_force_N",), more=more), np.size(case.design)
     result = load.search()
     bounded = np.isfinite(result.most[0])  # the integrals are, where the force is
-    design, _, (a, b), positive = load.stretches(result)
-    own = np.flatnonzero(half * (a + b) >= 0.0)
-    design, a, b, positive = design[own], a[own], b[own], positive[:, own]
-    signs = dict(zip(load.kinds, np.where(positive, 1.0, -1.0)[..., None], strict=True))
+    pieces = load.stretches(result)
+    own = half * pieces.x.sum(axis=0) >= 0.0
+    pieces = Stretches._make(row[..., own] for row in pieces)
 
-    def rows(x: Array, which: Whole) -> Array:
+    def functions(here: Instant[Jet], _: object) -> tuple[Array, ...]:
         """Speed along the slot with its sign, |v_s|, N |v_s| and N^p |v_s|."""
-        some, of = taken((engagement, case), design[which])
-        drives, slides = (
-            signs[kind][which] if kind in signs else 1.0 for kind in ("drives", "slides")
-        )
-        here = Instant(of, contact(some, x, reactions=False), drives, slides, 1.0)
-        touches, rubs = here.at.touches.c[0], abs(here.slip.arrays()[0]) * of.L
+        L, touches = here.case.L, array(here.at.touches.c[0])
+        rubs = abs(here.slip.arrays()[0]) * L
         # near the torque's change of sign the force may be slightly negative by rounding
         force = np.maximum(here.force_N.c[0], 0.0)
         force = np.where(here.grip.c[0] > 0.0, force, np.inf) * touches
         # nothing presses on a wall if nothing must be turned
         force = np.where(here.wheel_torque_Nm.c[0] == 0.0, 0.0, force)
-        along = here.at.along.arrays()[0] * of.L * touches
-        each = along, rubs, force * rubs, force**LIFE_EXPONENT * rubs
-        return np.stack(np.broadcast_arrays(*each))
+        along = here.at.along.arrays()[0] * L * touches
+        return along, rubs, force * rubs, force**LIFE_EXPONENT * rubs
 
     every_one = np.full(n, True)
-    requested = np.stack((every_one, every_one, bounded, bounded))
-    with np.errstate(all="ignore"):
-        each = span_integrals(rows, (a, b), design, requested, ends=True)
-        moved, *others = each * DEGREE
-    total = [np.bincount(design, row, n) for row in (abs(moved), *others)]
-    return SlotPassage(*map(parameter, np.where(requested, total, np.inf)))
+    needed = np.stack((every_one, every_one, bounded, bounded))
+    moved, *others = load.integrals(pieces, functions, needed)
+    total = [np.bincount(pieces.design, row, n) for row in (abs(moved), *others)]
+    return SlotPassage(*map(parameter, np.where(needed, total, np.inf)))
 
 
 def passages(mechanism: Mechanism, by_roller: bool = False) -> list[SlotPassage]:

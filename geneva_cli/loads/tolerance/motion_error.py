@@ -15,14 +15,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.loads.impacts.entry import RestingAxis, arm_mm, first_contacts
-from geneva_cli.loads.tolerance.locking import (
-    Deviations,
-    corners,
-    deviations,
-    slope_of,
-    tolerances,
-    without_effect,
-)
+from geneva_cli.loads.tolerance import locking
 from geneva_cli.motion.batch import taken
 from geneva_cli.motion.drive import Drive
 from geneva_cli.motion.engagement import AsBuilt, Engagement
@@ -44,7 +37,7 @@ class MotionError(NamedTuple):
     arm: float  # R; without effect if no crank's arm carries the roller
     clearance: float  # roller to slot, per side
 
-    def __call__(self, by: Deviations, input_deg: Number, side: Number) -> Jet:
+    def __call__(self, by: locking.Deviations, input_deg: Number, side: Number) -> Jet:
         """Wheel angle minus its true one, radians; ``side`` (1, -1) is the wall that bears."""
         x, y = (self.L * z.c[0] for z in self.engagement.path(input_deg, 0))
         offset = self.L * self.engagement.slot.offset
@@ -60,7 +53,7 @@ class MotionError(NamedTuple):
         out: Jet = turned + (tilt - true) + by.slot_angle_deg
         return out
 
-    def play_mm(self, by: Deviations) -> Jet:
+    def play_mm(self, by: locking.Deviations) -> Jet:
         """Clearance per side, mm; negative if the roller does not fit into the slot."""
         return (by.slot_width_mm - by.roller_diameter_mm) * 0.5 + self.clearance
 
@@ -79,13 +72,13 @@ class MotionError(NamedTuple):
         margin = np.minimum((nearest - self.clearance) / times - play, self.arm / times)
         return arrays.parameter(margin if margin.size > 1 else float(margin[0, 0]))
 
-    def greatest(self, by: Deviations) -> arrays.Array:
+    def greatest(self, by: locking.Deviations) -> arrays.Array:
         """Greatest error of any of the machines, the first axis of ``by``, of n designs: (3, n).
 
         The rows are the error in radians, the input angle, and the side.
         """
         values = [np.atleast_1d(jet.c[0]) for jet in by]
-        each = deviations([np.reshape(z, (len(z), -1, 1)) for z in values])
+        each = locking.deviations([np.reshape(z, (len(z), -1, 1)) for z in values])
 
         def worst(at: arrays.Array, side: float) -> arrays.Array:
             return np.asarray((arrays.array(self(each, at, side).c[0]) * side).max(axis=0))
@@ -97,14 +90,15 @@ class MotionError(NamedTuple):
 
         It is at its greatest, with the rows of ``greatest``.
         """
-        none, which = deviations([0.0] * len(sizes)), [i for i, x in enumerate(sizes) if np.any(x)]
+        which = [i for i, size in enumerate(sizes) if np.any(size)]
 
         def root(at: arrays.Array, side: float) -> arrays.Array:
             squares = 0.0 * at
             for i in which:
-                slope = arrays.array(self(slope_of(i), at, side).c[1]) * sizes[i]
+                slope = arrays.array(self(locking.slope_of(i), at, side).c[1]) * sizes[i]
                 squares = squares + slope * slope
-            return np.asarray(abs(arrays.array(self(none, at, side).c[0])) + np.sqrt(squares))
+            nominal = abs(arrays.array(self(locking.AS_DRAWN, at, side).c[0]))
+            return np.asarray(nominal + np.sqrt(squares))
 
         return self._greatest(root)
 
@@ -149,7 +143,9 @@ class MotionPlays(NamedTuple):
 
 def used(mechanism: Mechanism) -> dict[str, float]:
     """Plus or minus of each dimension, 0 if it has no effect; (m, 1) for m designs."""
-    return tolerances(mechanism.spec) | dict.fromkeys(without_effect(mechanism.spec), 0.0)
+    return locking.tolerances(mechanism.spec) | dict.fromkeys(
+        locking.without_effect(mechanism.spec), 0.0
+    )
 
 
 def motion_plays(mechanism: Mechanism) -> MotionPlays | None:
@@ -171,7 +167,7 @@ def _plays(mechanism: Mechanism, n: int) -> MotionPlays:
     known = sum(sizes) > np.zeros((n, 1))
     both = use["center_distance_mm"] + use["crank_radius_mm"]
     for engagement, error in zip(mechanism.engagements, motion_errors(mechanism), strict=True):
-        worst, place, _ = (np.resize(row, n) for row in error.greatest(corners(sizes)))
+        worst, place, _ = (np.resize(row, n) for row in error.greatest(locking.corners(sizes)))
         at_deg = mechanism.shown_deg(arrays.parameter(engagement.mid_deg + place[:, None]))
         shown = np.where(worst > best, np.ravel(at_deg), shown)
         best, rss = np.maximum(best, worst), np.maximum(rss, error.greatest_rss(sizes)[0])
@@ -191,7 +187,7 @@ class TrueJump(NamedTuple):
     # lever to the roller as imaginary part: one search interpolates both.
     branches: tuple[tuple[float, arrays.Array, arrays.Complex], ...]
 
-    def __call__(self, by: Deviations) -> tuple[arrays.Array, arrays.Mask]:
+    def __call__(self, by: locking.Deviations) -> tuple[arrays.Array, arrays.Mask]:
         """Sizes of the jumps, over the input's speed, and a mask of machines that miss the axis."""
         crank, center = by.crank_radius_mm.c[0] / self.arm, by.center_distance_mm.c[0] / self.L
         offset = np.atleast_1d(self.axis.offset(arrays.array(crank), arrays.array(center)))
@@ -218,7 +214,7 @@ class BuiltJump(NamedTuple):
     drive: Drive
     at_deg: float
 
-    def __call__(self, by: Deviations) -> tuple[arrays.Array, arrays.Mask]:
+    def __call__(self, by: locking.Deviations) -> tuple[arrays.Array, arrays.Mask]:
         """Sizes of the jumps, over the input's speed, and a mask of machines that miss the axis."""
         L = np.atleast_1d(arrays.array(by.center_distance_mm.c[0] + self.L))
         l = (by.crank_radius_mm.c[0] + self.R) / L
@@ -279,7 +275,7 @@ def entry_jumps_worst(mechanism: Mechanism, use: Mapping[str, float]) -> arrays.
     """Greatest jump at entry for any of the deviations, over the input's speed: (m,)."""
     if built := _built_jumps(mechanism):
         sizes = [use["center_distance_mm"], use["crank_radius_mm"], *[0.0] * 5]
-        jumps = [one(corners(sizes))[0].reshape(-1, mechanism.designs) for one in built]
+        jumps = [one(locking.corners(sizes))[0].reshape(-1, mechanism.designs) for one in built]
         return np.asarray(np.concatenate(jumps).max(axis=0))
     worst: list[arrays.Array] = []
     for axis in RestingAxis.each(mechanism):

@@ -21,17 +21,8 @@ from geneva_cli.motion.batch import selection
 from geneva_cli.motion.engagement import WheelMotion
 from geneva_cli.motion.laws.law import Law
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import (
-    Array,
-    Complex,
-    Mask,
-    Number,
-    Whole,
-    joined,
-    matrix_product,
-    read_only,
-    record_taken,
-)
+from geneva_cli.numerics.arrays import Complex, Mask, Whole, joined, matrix_product, read_only
+from geneva_cli.numerics.jet import Array, Number
 from geneva_cli.numerics.quadrature import rule
 
 # Places u (p, k) of the motions (p,) -> Taylor coefficients 0 to 2 of s by a variable, and du over
@@ -172,6 +163,10 @@ class Oscillator(NamedTuple):
     ratio: Array
     damping: Array
 
+    def of(self, which: Whole) -> Oscillator:
+        """Some of them."""
+        return Oscillator(self.ratio[which], self.damping[which])
+
     @property
     def p(self) -> Complex:
         """Complex rate p of each, by the motion's time."""
@@ -195,7 +190,7 @@ def residual_swing(panels: Panels, motion: Whole, swing: Oscillator) -> Complex:
         every = np.flatnonzero(order == k)
         for start in range(0, len(every), together):
             at = every[start : start + together]
-            some = record_taken(swing, at)
+            some = swing.of(at)
             p = some.p
             # By parts: one more derivative, if it vanishes at both ends, gains a factor p.
             out[at] = -_integral(panels, k, motion[at], some) * p ** (2 - k) / p.imag
@@ -212,7 +207,7 @@ def _integral(panels: Panels, order: int, motion: Whole, swing: Oscillator) -> C
     for here, whole in ((~large, False), (large, True)):
         if not here.any():
             continue
-        some, c = record_taken(swing, of[here]), series[here]
+        some, c = swing.of(of[here]), series[here]
         after, q = _after(some, 1.0 - right[here]), (p * h)[here]
         if whole:
             before = _after(some, 1.0 - left[here])

@@ -106,12 +106,13 @@ def acceleration_peaks(w: SideCrankWheels) -> tuple[Array, Array]:
                 if close.all():
                     break
             size, at = acceleration(near, x)
-            known = close & (low <= x) & (x <= high)
+            size = np.where(close & (low <= x) & (x <= high), size, np.nan)
+        new = np.flatnonzero(~(size <= best[0][of]))
         # a design may have several: the greatest, or what is not known, is written last
-        order = np.argsort(np.where(known, size, np.inf))
-        order = order[(size > best[0][of])[order] | ~known[order]]
-        for values, new in zip(best, (size, at), strict=True):
-            values[of[order]] = np.where(known, new, np.nan)[order]
+        if np.bincount(design).max(initial=0) > 1:
+            new = new[np.argsort(size[new])]
+        for values, own in zip(best, (size, at), strict=True):
+            values[of[new]] = own[new]
     return best[0], best[1] / -DEGREE
 
 

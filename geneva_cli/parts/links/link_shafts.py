@@ -80,8 +80,6 @@ def planes(
 
     The second gap is that of the crank's shaft to its bearings, None where it is free.
     """
-    if bars.sizes is None:
-        return None, None
     mechanism, L = parts.assembly.full, parts.assembly.L
     turn = turn_deg(mechanism)  # the error of a gap is quadratic in their distance
     every = links_at(mechanism, turn)
@@ -114,7 +112,7 @@ def crank_stop(parts: Outlines, bars: Links) -> float | None:
     mechanism = parts.assembly.full
     turn = turn_deg(mechanism)
     links = [link for link in links_at(mechanism, turn) if not link.radius_mm]
-    if not links or bars.sizes is None:
+    if not links:
         return None
     carries, shaft = _crank_shaft(parts, links, bars)
     if _blocked(bars, links, carries, shaft, turn) is None:
@@ -125,7 +123,6 @@ def crank_stop(parts: Outlines, bars: Links) -> float | None:
 def _crank_shaft(parts: Outlines, links: list[Link], bars: Links) -> tuple[set[int], Round]:
     """Return the planes in which the crank's shaft carries something, 0 for the wheel's; it."""
     L, sizes, machine = parts.assembly.L, bars.sizes, parts.assembly.full
-    assert sizes is not None
     carries = {1} if parts.has_arm else set[int]()
     for link in links:
         on_axis = np.abs(places(link)[0] - L).max() < SAME_LENGTH * L
@@ -151,7 +148,7 @@ def _blocked(
 
 def _gears(parts: Outlines, bars: Links, gears: list[Link], turn: Array) -> Iterator[Meeting]:
     """Yield the gaps of gears to the wheel's hub and shaft, which pass through their plane."""
-    if parts.assembly.full.first_wheel or bars.sizes is None:
+    if parts.assembly.full.first_wheel:
         return
     for gear, link in zip(bars.gears, gears, strict=True):
         away = np.abs(places(link)[0])

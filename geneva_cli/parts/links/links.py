@@ -75,6 +75,9 @@ class LinkSizes(NamedTuple):
         return plane_span(plane, self.gap, self.arm, self.thickness, self.washer)
 
 
+NO_SIZES = LinkSizes(*[0.0] * len(LinkSizes._fields))  # of a machine without links
+
+
 class LinkAxis(NamedTuple):
     """An axis that links turn about: their names and joints, and its position at input angle 0."""
 
@@ -115,7 +118,7 @@ class Links(NamedTuple):
     ``gears`` the gears as blanks.
     """
 
-    sizes: LinkSizes | None = None  # None without links
+    sizes: LinkSizes = NO_SIZES
     cut: tuple[Member, ...] = ()
     joined: tuple[Member, ...] = ()
     gears: tuple[Gear, ...] = ()

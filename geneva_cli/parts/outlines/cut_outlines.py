@@ -51,44 +51,35 @@ def _drawn(assembly: Assembly, sizes: Sizes) -> Outlines:
     """
     walls, curved = turned_walls(assembly, sizes), map(attrgetter("slot.curved"), assembly.kinds)
     close = (CURVED if any(curved) else SAME_LENGTH) * assembly.L
-    wheel = wheel_contour(assembly, sizes, walls)
+    wheel, cut = wheel_contour(assembly, sizes, walls)
     bare = Gaps(assembly, sizes, wheel, [])
     if assembly.full.spec.wheel.stopped:
-        wheel = wheel_contour(assembly, sizes, walls, convex=True)
-    unlocked = Outlines(assembly, sizes, walls, wheel, [], "none", bare, close)
+        wheel, cut = wheel_contour(assembly, sizes, walls, convex=True)
+    unlocked = Outlines(assembly, sizes, walls, wheel, cut, [], "none", bare, close)
     if not sizes.lock:
         return unlocked
     requested = assembly.mechanism.spec.size.relief
+    last, whole, spare = requested or "sector", crank_outline.is_whole(assembly, sizes), 0.0
+    takes_arcs = not requested and crank_outline.takes_arcs(assembly, sizes)
     swept = cache(lambda i: bare.swept(i, SWEPT_DEG))
-    if not requested and crank_outline.takes_arcs(assembly, sizes):
-        crank = crank_outline.crank_contours(assembly, sizes, "arc", swept)
-        gaps = bare.with_crank(crank)
-        if _overlap(gaps, close) <= close:
-            return unlocked._replace(crank=crank, relief="arc", gaps=gaps)
-    relief, whole, spare = requested or "sector", crank_outline.is_whole(assembly, sizes), 0.0
-    for _ in range(6):
+    for relief in (*(("arc",) if takes_arcs else ()), *[last] * 6):
         crank = crank_outline.crank_contours(assembly, sizes, relief, swept, spare)
-        gaps = bare.with_crank(crank)
-        if whole:
+        gaps, least = bare.with_crank(crank), 0.0
+        if whole and relief == last:
             break
-        overlap = _overlap(gaps, close)
-        if overlap <= close:
+        # the greatest overlap of crank and wheel in all motions
+        for engagement, mid in assembly.motions:
+            count = 2 + int(engagement.motion_deg / SWEPT_DEG)
+            at = np.linspace(engagement.entry_deg, engagement.exit_deg, count)
+            at = mid + at + 0.3 * SWEPT_DEG
+            # without the rollers, which lock nothing
+            pose = Pose(assembly.wheel(at), assembly.crank(at), np.empty((len(at), 0, 2)))
+            least = min(least, float(gaps.locking(pose, near=close).min()))
+        if -least <= close:
             break
         # Between two of these positions the wheel comes nearer still: three times the overlap.
-        spare += 3.0 * overlap + 10.0 * close
+        spare += 10.0 * close - 3.0 * least
     return unlocked._replace(crank=crank, relief=relief, gaps=gaps)
-
-
-def _overlap(gaps: Gaps, close: float) -> float:
-    """Return the greatest overlap of crank and wheel in all motions, mm, 0 for none."""
-    least = 0.0
-    for engagement, mid in gaps.assembly.motions:
-        count = 2 + int(engagement.motion_deg / SWEPT_DEG)
-        at = mid + np.linspace(engagement.entry_deg, engagement.exit_deg, count) + 0.3 * SWEPT_DEG
-        # without the rollers, which lock nothing
-        pose = Pose(gaps.assembly.wheel(at), gaps.assembly.crank(at), np.empty((len(at), 0, 2)))
-        least = min(least, float(gaps.locking(pose, near=close).min()))
-    return -least
 
 
 def cut_lock(assembly: Assembly, sizes: Sizes) -> Lock:
@@ -193,8 +184,10 @@ def slot_walls(
 
 def wheel_contour(
     assembly: Assembly, sizes: Sizes, slots: dict[Engagement, Contour], convex: bool = False
-) -> Contour:
+) -> tuple[Contour, tuple[Contour, ...]]:
     """Return the wheel's contour, counterclockwise; an internal wheel's is its opening.
+
+    With it go the walls of each slot in their places, as they are cut.
 
     With ``convex`` the recess opposite the first slot is a convex face at the rim, which stops the
     crank at both ends. ``slots`` has the walls of each kind of slot, in the wheel's frame, with
@@ -222,7 +215,9 @@ def wheel_contour(
             wall, back = [*shapes.mirrored(after[:1])], [*shapes.mirrored(rim)]
             _round_mouth(assembly, sizes, wall, back)
             after[:1], rim[:] = shapes.mirrored(wall), shapes.mirrored(back)
-    return shapes.closed("WHEEL", chain.from_iterable(chain(*zip(walls, rims, strict=True))))
+    cut = tuple(map(partial(Contour, "WHEEL", closed=False), map(tuple, walls)))
+    pieces = chain.from_iterable(chain(*zip(walls, rims, strict=True)))
+    return shapes.closed("WHEEL", pieces), cut
 
 
 def _round_mouth(assembly: Assembly, sizes: Sizes, wall: list[Segment], rim: list[Segment]) -> None:

@@ -21,7 +21,8 @@ from geneva_cli.spec.tables import Size
 class Outlines(NamedTuple):
     """The outlines of wheel and crank, with the sizes and the positions that they are cut for.
 
-    ``slots`` has the walls of each kind of slot. ``close`` is the overlap, mm, that counts as
+    ``slots`` has the walls of each kind of slot, and ``cut`` those of each slot in its place, as
+    roundings and flats leave them. ``close`` is the overlap, mm, that counts as
     rounding or as the walls' tolerance. ``gaps`` has all recesses of a wheel, also that which a
     stop leaves convex.
     """
@@ -30,6 +31,7 @@ class Outlines(NamedTuple):
     sizes: Sizes
     slots: dict[Engagement, Contour]
     wheel: Contour
+    cut: tuple[Contour, ...]
     crank: list[Contour]
     relief: str
     gaps: Gaps

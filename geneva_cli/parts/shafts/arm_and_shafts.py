@@ -24,15 +24,8 @@ from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import assembly, links_at, same
 from geneva_cli.parts.outlines import crank_outline as disc
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.shafts.bores import (
-    Bore,
-    bolt_radius,
-    bore_of,
-    circles,
-    has_shape,
-    round_bore,
-    tapped,
-)
+from geneva_cli.parts.shafts import bores
+from geneva_cli.parts.shafts.bores import Bore, bore_of, circles, has_shape, tapped
 from geneva_cli.parts.sizes import hub_and_eye, lock_bolt_directions, pin_hole
 from geneva_cli.parts.slots.roller_paths import roller_centres
 from geneva_cli.spec.defaults import eye_about
@@ -59,7 +52,7 @@ class Shaft(NamedTuple):
         text += f"mm (0 is the wheel's lower face); reduce {key} or increase {self.part}_shaft_high"
         refuse_size(not self.low < self.high, key, f"{text}_mm")
         section = self.bore.shape("SHAFT", self.bore.direction, shaft=True)
-        plate = Plate(self.name, "SHAFT", section, (), self.low, self.high)
+        plate = Plate(self.name, "SHAFT", section, (), self.low, self.high, self.bore)
         return Member(plate, self.at, self.turn)
 
 
@@ -128,7 +121,7 @@ def bore_at(mechanism: Mechanism, at: Point, radius: float) -> Bore:
     size, L = mechanism.spec.size, mechanism.center_distance_mm
     part = "crank" if same(at, (L, 0.0), L) else "wheel" if same(at, ORIGIN, L) else ""
     if not (part and has_shape(size, part)):
-        return round_bore(size, radius)
+        return bores.round_bore(size, radius)
     own, still = assembly(mechanism, flat=False), np.zeros(1)
     if part == "wheel":
         direction, turn = own.rests[0], own.wheel(still)
@@ -229,7 +222,7 @@ def _bolts(parts: Outlines, count: int) -> list[Circle]:
         half = min(half, max(0.0, float(nearest[best])))
         for turn in turns:
             places.append(polar(ORIGIN, float(radii[best]), turn))
-    r = bolt_radius(size.lock_bolt_mm, parts.assembly.L, half, "lock_bolt", size.lock_bolts)
+    r = bores.bolt_radius(size.lock_bolt_mm, parts.assembly.L, half, "lock_bolt", size.lock_bolts)
     return circles("BORE", places, r) if r else []
 
 

@@ -66,6 +66,19 @@ class Bore(NamedTuple):
             return f"hexagon {length(2.0 * cut)} across flats"
         return f"flat, {length(2.0 * cut - self.flat)} to the far side" if self.flat else ""
 
+    @property
+    def shaft_note(self) -> str:
+        """What a drawing of the shaft says besides the diameter.
+
+        >>> Bore(20.0, form="hex").shaft_note, Bore(20.0, 0.1, "D", 4.0).shaft_note
+        ('hexagon 40 across flats', 'flat, 36 to the far side')
+        >>> bore_of(Size(crank_keyway="DIN 6885-1"), "crank", 20.0).shaft_note
+        'keyway 12 P9, 5 deep'
+        """
+        if self.key:
+            return f"keyway {length(self.key.width)} P9, {length(self.key.in_shaft)} deep"
+        return self._replace(loose=0.0).note
+
     def shape(self, layer: shapes.Layer, direction: float, shaft: bool = False) -> Shape:
         """Return the bore about the origin, with its feature in a direction, radians.
 
@@ -150,48 +163,6 @@ def reach_or_bore(size: Size, part: str, bore: float) -> float:
             return (radius,)
 
     return of_each(reach, bore)[0]
-
-
-def radius_of(shape: Shape) -> float:
-    """Return the radius of a bore from its shape."""
-    if isinstance(shape, Circle):
-        return shape.radius
-    arcs = [piece for piece in shape.segments if not isinstance(piece, Line)]
-    if arcs:
-        return math.hypot(*arcs[0].start)
-    (x, y), (u, v) = shape.segments[0].start, shape.segments[0].end
-    return math.hypot(0.5 * (x + u), 0.5 * (y + v))
-
-
-def section_note(section: Shape) -> str:
-    """Return what a drawing of a shaft says of its section besides the diameter.
-
-    >>> section_note(Bore(20.0, form="hex").shape("SHAFT", 0.3, shaft=True))
-    'hexagon 40 across flats'
-    >>> section_note(Bore(20.0, 0.0, "D", 4.0).shape("SHAFT", 0.3, shaft=True))
-    'flat, 36 to the far side'
-    >>> keyed = bore_of(Size(crank_keyway="DIN 6885-1"), "crank", 20.0)
-    >>> section_note(keyed.shape("SHAFT", 0.3, shaft=True))
-    'keyway 12 P9, 5 deep'
-    """
-    if isinstance(section, Circle):
-        return ""
-    lines = [piece for piece in section.segments if isinstance(piece, Line)]
-    radius = radius_of(section)
-    if len(lines) == len(section.segments):
-        return Bore(radius, form="hex").note
-    # the flat, or the keyway's bottom, is nearer to the axis than the keyway's sides
-    far, bottom = min((math.hypot(*shapes.at(line, 0.5)), line) for line in lines)
-    if len(lines) == 1:
-        return Bore(radius, 0.0, "D", radius - far).note
-    return f"keyway {length(math.dist(bottom.start, bottom.end))} P9, {length(radius - far)} deep"
-
-
-def around(section: Shape) -> float:
-    """Return the radius of the circle around a shaft's section."""
-    if isinstance(section, Circle):
-        return section.radius
-    return max(math.hypot(*piece.start) for piece in section.segments)
 
 
 def _turned(x: float, y: float, direction: float) -> shapes.Point:

@@ -148,7 +148,6 @@ def groove_base(parts: Outlines, bars: Links) -> Plate:
     """
     sizes, full = parts.sizes, parts.assembly.full
     guide = _groove_of(full)
-    assert bars.sizes is not None  # the crank is a link
     L, wall = parts.assembly.L, sizes.wall_min
     # farthest where a flank is normal to the ray; 3601 angles of a turn: the error is quadratic
     at, _ = groove_curve(guide, L, 0.0)(np.linspace(0.0, 360.0, 3601))
@@ -175,7 +174,6 @@ def groove_base(parts: Outlines, bars: Links) -> Plate:
 
 def groove_stack(base: Plate, bars: Links, flanks: Iterable[Contour]) -> tuple[Plate, ...]:
     """Return base, ring and island; ``flanks`` are those of the groove."""
-    assert bars.sizes is not None
     inner, outer = sorted(flanks, key=lambda one: max(math.hypot(*p.start) for p in one.segments))
     low, high = bars.sizes.span(BELOW)
     bore = tuple(one for one in base.holes if isinstance(one, Circle) and one.centre == ORIGIN)

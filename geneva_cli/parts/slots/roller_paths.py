@@ -14,7 +14,7 @@ import numpy as np
 
 from geneva_cli.errors import refuse_size
 from geneva_cli.geometry import shapes
-from geneva_cli.geometry.shapes import Arc, Contour, Line, Point, Segment
+from geneva_cli.geometry.shapes import Arc, Line, Point, Segment
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.arrays import larger, library
 from geneva_cli.parts.assembly import Assembly
@@ -211,18 +211,3 @@ def arc_about(axis: Point, start: Point, end: Point, sense: float) -> Arc:
     a = math.atan2(start[1] - axis[1], start[0] - axis[0])
     b = math.atan2(end[1] - axis[1], end[0] - axis[0])
     return Arc(start, end, math.tan(0.25 * (sense * (sense * (b - a) % math.tau))))
-
-
-def cut_walls(walls: Contour, wheel: Contour) -> Contour:
-    """Return the walls of a straight slot at its place as the contour of the wheel has them."""
-    first, *inner, last = walls.segments
-    lines = [piece for piece in wheel.segments if isinstance(piece, Line)]
-    inwards = next((line for line in lines if line.end == first.end), first)
-    outwards = next((line for line in lines if line.start == last.start), last)
-    return walls._replace(segments=(inwards, *inner, outwards))
-
-
-def wall_lost(walls: Contour, wheel: Contour) -> float:
-    """Return by how much the walls of a straight slot end deeper than at sharp mouths, mm."""
-    pairs = zip(walls.segments, cut_walls(walls, wheel).segments, strict=True)
-    return max(math.dist(*own[:2]) - math.dist(*cut[:2]) for own, cut in pairs)

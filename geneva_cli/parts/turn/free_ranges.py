@@ -49,7 +49,7 @@ class FreeRanges:
         low, high = levels(crank)
         crank = crank.subset(np.flatnonzero(L - high <= levels(wheel)[1].max(initial=0.0)))
         self.crank, self.L, self.sense, self.slack = crank, L, sense, slack
-        which = one_sector(wheel, pitch, slack)
+        which = wheel.one_sector(pitch, slack)
         self.period = math.tau if which is None else pitch
         sector = wheel if which is None else wheel.subset(which)
         # one sector stands for all, so that rounded numbers of a drawing make no difference
@@ -145,28 +145,3 @@ def levels(outline: Polyarc) -> tuple[Array, Array]:
     arc = outline.arc
     most = np.where(arc, np.minimum(high, most), np.maximum(*ends))
     return np.where(arc, np.maximum(low, least), low), most
-
-
-def one_sector(outline: Polyarc, pitch: float, near: float) -> Whole | None:
-    """Return the pieces of a sector that repeats within ``near`` mm; None if none does."""
-    count = round(math.tau / pitch)
-    if len(outline) % count or not len(outline):
-        return None
-    sides = np.column_stack((outline.x0 + 1j * outline.y0, outline.x1 + 1j * outline.y1))
-    bend = outline.sense * outline.sin_half
-    turned = sides * np.exp(1j * pitch)
-    after = np.empty(len(outline), dtype=int)
-    block = max(1, (1 << 22) // len(outline))
-    for first in range(0, len(outline), block):
-        some = turned[first : first + block]
-        # each piece starts at another place, and squares take a tenth of the time of distances
-        x, y = some[:, :1].real - outline.x0, some[:, :1].imag - outline.y0
-        after[first : first + block] = np.argmin(x * x + y * y, axis=1)
-    moved = np.abs(turned - sides[after]).max()
-    if moved > near or np.abs(bend - bend[after]).max() > 1e-9:
-        return None
-    least = here = np.arange(len(outline))
-    for _ in range(count - 1):
-        here = after[here]
-        least = np.minimum(least, here)
-    return np.unique(least)

@@ -39,20 +39,14 @@ class Gaps:
         self.crank = Polyarc(crank) if crank else None
         # a wheel whose slots are all equal is reduced to one slot, and to it and its neighbours
         self.pitch, self.one, self.around = 0.0, self.wheel, self.wheel
-        count, outline = len(assembly.slots), self.wheel
-        each, rest = divmod(len(outline.x0), count)
-        corners = np.column_stack((outline.x0, outline.y0))
-        # the outline of an internal wheel runs clockwise
-        angle = np.full(len(corners), math.tau / count * assembly.sign)
-        off = turned_points(np.roll(corners, each, axis=0), angle) - corners
-        bends = np.column_stack((outline.sense, outline.cos_half))
-        other = np.abs(np.roll(bends, each, axis=0) - bends).max()
-        if not rest and np.abs(off).max() < SAME_LENGTH * assembly.L and other < SAME_LENGTH:
-            self.pitch = math.tau / count
+        outline, pitch = self.wheel, math.tau / len(assembly.slots)
+        which = outline.one_sector(pitch, SAME_LENGTH * assembly.L)
+        if which is not None:
+            self.pitch = pitch
             middle = np.arctan2(outline.y0 + outline.y1, outline.x0 + outline.x1)
             reach = math.asin(min(1.0, (self.near + sizes.roller) / sizes.rim))
             keep = np.flatnonzero(np.abs(middle) <= 1.5 * self.pitch + 2.0 * reach)
-            self.one, self.around = outline.subset(np.arange(each)), outline.subset(keep)
+            self.one, self.around = outline.subset(which), outline.subset(keep)
         cranks = [] if self.crank is None else [self.crank]
         self.stops = Stops(self.one, self.pitch or math.tau, cranks, assembly.L, sizes.roller)
 

@@ -26,7 +26,8 @@ CONCENTRIC = 1e-9  # of the radius: an arc about the axis has one level
 
 # What turns on a plane or on a sphere, whose own classes are those of a kind:
 Outline: TypeAlias = Any  # Polyarc or SphereArcs
-Shape: TypeAlias = Any  # wheel and crank with their sizes and gaps: Outlines or Shells
+Region: TypeAlias = Any  # Contour, or a region of a sphere
+Shape: TypeAlias = Any  # wheel and crank with their sizes and gaps: Outlines or TurnedShape
 Lengths: TypeAlias = Any  # their sizes, mm; on a sphere arc lengths, except ``rim``
 Clearances: TypeAlias = Any  # Gaps or BallGaps
 Pairs: TypeAlias = Any  # FlatPairs or SpherePairs

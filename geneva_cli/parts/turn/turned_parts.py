@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -19,7 +20,7 @@ from geneva_cli.numerics.tolerances import SAME_INPUT_DEG, SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
 
 if TYPE_CHECKING:
-    from geneva_cli.parts.turn.stops import Clearances, Lengths, Pairs, Pose, Shape
+    from geneva_cli.parts.turn.stops import Clearances, Lengths, Pairs, Pose, Region, Shape
 
 # Of the centre distance, 0.2 um in 100 mm: parts that overlap by less count as touching. No cutter
 # and no roller is more accurate, nor are curved walls.
@@ -54,6 +55,15 @@ class Intervals(NamedTuple):
     at_end: Pose
 
 
+class TurnedShape(NamedTuple):
+    """Wheel and crank as they are turned."""
+
+    assembly: Assembly
+    sizes: Lengths
+    crank: Sequence[Region]
+    gaps: Clearances
+
+
 class TurnedParts(ABC):
     """Wheel, crank and rollers of one machine, which a full turn checks.
 
@@ -68,28 +78,28 @@ class TurnedParts(ABC):
 
     @property
     @abstractmethod
-    def _shape(self) -> Shape:
+    def shape(self) -> Shape:
         """Wheel and crank as they are turned. Raises GenevaError where the sizes leave none."""
 
     @property
     def assembly(self) -> Assembly:
         """The positions of the parts at any input angle."""
-        return self._shape.assembly
+        return self.shape.assembly
 
     @property
     def sizes(self) -> Lengths:
         """The lengths of the parts."""
-        return self._shape.sizes
+        return self.shape.sizes
 
     @property
     def gaps(self) -> Clearances:
         """The clearances between the parts."""
-        return self._shape.gaps
+        return self.shape.gaps
 
     @property
     def locked(self) -> bool:
         """True if the crank has locking surfaces."""
-        return len(self._shape.crank) > 0
+        return len(self.shape.crank) > 0
 
     @property
     def close(self) -> float:

@@ -6,7 +6,7 @@ import cmath
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
-from itertools import pairwise
+from itertools import pairwise, zip_longest
 from typing import TypeAlias
 
 import numpy as np
@@ -49,7 +49,7 @@ class MachineTurn:
             return lambda x: (0.0 * x + value, 0.0 * x)
 
         pieces = [(self.start, self.start + behind, resting(turned - first))]
-        for one, after in zip(self.passages, (*self.passages[1:], None), strict=True):
+        for one, after in zip_longest(self.passages, self.passages[1:]):
             motion = one.engagement.motion
             mid = one.mid + behind
             for a, b in _cut(motion.entry_deg, motion.exit_deg, motion.breaks_deg):

@@ -176,8 +176,7 @@ def _states(design: Design, turn: MachineTurn) -> Iterator[page.Phase]:
             )
         return
     cranks = len(design.mechanism.crank_places)
-    following = (*turn.passages[1:], None)
-    for i, (one, after) in enumerate(zip(turn.passages, following, strict=True)):
+    for i, (one, after) in enumerate(itertools.zip_longest(turn.passages, turn.passages[1:])):
         which = f"roller {i + 1}" if len(turn.passages) > 1 else "the roller"
         if cranks > 1:
             which = f"crank {turn.on_crank(i).number}"

@@ -165,8 +165,7 @@ def of_tolerance(design: Design, record: Table) -> Answer:
 def _error_lines(values: dict[str, Any]) -> Iterator[SummaryLine]:
     yield _angle("dwell", "place of the wheel", "dwell_position", values)
     yield _angle("motion", "play of the wheel", "motion_play", values)
-    rows = values["contributions"]
-    most = max(rows, key=lambda row: row["share"] or 0.0, default=None)
+    most = max(values["contributions"], key=lambda row: row["share"] or 0.0, default=None)
     if most and most["share"]:
         words, _ = spoken(most["dimension"])
         percent = value_text(100.0 * most["share"], "%", 3)

@@ -18,13 +18,13 @@ from geneva_cli.errors import GenevaError, below, cut
 from geneva_cli.kept import KEPT
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.numerics.arrays import Array
+from geneva_cli.numerics.arrays import Array, Mask, keep_memory
 from geneva_cli.numerics.sobol import DIMENSIONS, sobol
 from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.specfile.columns import digest
 from geneva_cli.specfile.reader import Setting, Text, setting
 from geneva_cli.study.batches import Batch, batch_rows, numbers
-from geneva_cli.study.fields import Cell, Column, Pick, Rows, joined, pick, rows_of
+from geneva_cli.study.fields import Cell, Column, Pick, Rows, joined, pick
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.sweep.constraints import Constraint, Objective, front
 from geneva_cli.study.sweep.values import POINTS_MAX, VariedKey
@@ -130,8 +130,7 @@ class Sweep(NamedTuple):
         A word that names no file is listed too, which is harmless.
         """
         folder = os.path.dirname(self.files[0])
-        words = [word for a in self.plan.axes for word in a.words]
-        return (*self.files, *(below(folder, word) for word in words))
+        return (*self.files, *(below(folder, x) for a in self.plan.axes for x in a.words))
 
     @property
     def is_batched(self) -> bool:
@@ -144,14 +143,15 @@ class Sweep(NamedTuple):
 
     def blocks(self, done: int = 0) -> Iterator[Rows]:
         """The rows in blocks and in order; the first ``done`` rows are skipped."""
-        if self.is_batched:
-            size = BLOCK
+        if self.is_batched:  # larger ones take less time, and keep two processes busy if many
+            size = BLOCK if len(self.plan) < 32 * BLOCK else 2 * BLOCK
         elif not self._makes_parts:
             size = 64
         else:
             # Parts are slow: eight tasks keep several processes busy. Four designs or more share
             # the searches of their batch, which keeps the results of at most KEPT.
             size = min(KEPT, max(4, math.ceil(len(self.plan) / 8)))
+        keep_memory()  # that the rows of other processes arrive in
         starts = range(done, len(self.plan), size)
         count = min(len(starts), cores() if self.jobs is None else self.jobs)
         yield from mapped(partial(self._block, size), starts, count)
@@ -161,13 +161,17 @@ class Sweep(NamedTuple):
 
     def rows_of(self, keys: Sequence[Column]) -> Rows:
         """The rows of designs from the columns of their keys."""
-        designs, values = Rows(keys), self.known(keys)
-        if not self.is_batched:
-            return rows_of(self._rows_alone(designs, values))
-        rows = Rows([*keys, *values, [None] * len(designs)])
-        left = np.flatnonzero(np.isnan(values).any(axis=0))
-        alone = [self.row(designs.row(i)) for i in left.tolist()]
-        return rows.replaced(left, alone) if alone else rows
+        designs, known = Rows(keys), self.known(keys)
+        columns: dict[str, Column] = dict(zip(self.pick.batched, known, strict=True))
+        none: Column = [None] * len(designs)
+        rows = Rows([*keys, *(columns.get(name, none) for name in self.pick.names), none])
+        whole: Mask = np.logical_not(np.isnan(known).any(axis=0))
+        left: Mask = ~whole if self.is_batched else np.full(len(designs), True)
+        for bound in () if self.goal else self.bounds:  # a search needs all to come nearer
+            if bound.name in columns:  # nobody needs the others of a design that breaks it
+                left &= bound.kept_by(rows.numbers(self.names.index(bound.name))) | ~whole
+        alone = self._rows_alone(designs.taken(left), Rows([whole[left].tolist(), *known[:, left]]))
+        return rows.replaced(np.flatnonzero(left), [*alone]) if left.any() else rows
 
     def known(self, keys: Sequence[Column]) -> Array:
         """The quantities of ``pick.batched`` (q, n) of designs, NaN where a batch lacks them."""
@@ -179,25 +183,21 @@ class Sweep(NamedTuple):
 
         return batch_rows(designs, self.keys, spec)
 
-    def _rows_alone(self, designs: Rows, values: Array) -> list[list[Cell]]:
-        """The rows of designs with quantities that are computed for each; ``values`` are known."""
-        keys, known = [*designs], dict[int, list[Cell]]()
-        if len(values):
-            whole = np.flatnonzero(~np.isnan(values).any(axis=0))
-            known = dict(zip(whole.tolist(), Rows([*values[:, whole]]), strict=True))
-        out: dict[int, list[Cell]] = {}
-        for i, own in known.items():
-            if not self._keeps(by_name := dict(zip(self.pick.batched, own, strict=True))):
-                out[i] = [*keys[i], *map(by_name.get, self.pick.names), None]
-        left = [i for i in range(len(keys)) if i not in out]
-        for start in range(0, len(left), KEPT):
-            part = left[start : start + KEPT]
+    def _rows_alone(self, designs: Rows, known: Rows) -> Iterator[list[Cell]]:
+        """The rows of designs, each computed alone.
+
+        ``known`` says whether a batch knows all its quantities of a design, and these.
+        """
+        for start in range(0, len(designs), KEPT):
+            part = np.arange(start, min(start + KEPT, len(designs)))
             last: Parts | None = None
-            for i, machine in zip(part, self._machines(designs.taken(np.array(part))), strict=True):
+            some, own = designs.taken(part), known.taken(part)
+            for values, machine, (whole, *cells) in zip(
+                some, self._machines(some), own, strict=True
+            ):
                 if machine:
                     last = last.following(machine) if last else parts_of(machine)
-                out[i] = self.row(keys[i], last if machine else None, known.get(i))
-        return [out[i] for i in range(len(keys))]
+                yield self.row(values, last if machine else None, cells if whole else None)
 
     def _keeps(self, cells: Mapping[str, Cell]) -> bool:
         """Return False for a design whose parts nobody needs, as it breaks a bound."""
@@ -245,26 +245,18 @@ class Sweep(NamedTuple):
         """The rows that keep all bounds and, of these, the Pareto front."""
         bounds = [(self.names.index(c.name), c) for c in self.bounds]
         signed = [(self.names.index(o.name), o.sign) for o in self.objectives]
-        best, size, count = list[Rows](), 0, 0  # the front so far, its size; all rows since then
-
-        def foremost() -> Rows:
-            rows = joined(best)
-            return rows.taken(front(np.column_stack([s * rows.numbers(i) for i, s in signed])))
-
+        best = list[Rows]()  # the front so far
         for rows in row_blocks:
             for i, c in bounds:
                 rows = rows.taken(c.kept_by(rows.numbers(i)))
-            if not signed:
-                if len(rows):
-                    yield rows
-                continue
-            best.append(rows)  # a row that the front dominates never returns
-            count += len(rows)
-            if count >= 2 * size:  # not for a few rows more, if the front is long
-                best = [foremost()]
-                size = count = len(best[0])
-        if best and len(rows := foremost()):
-            yield rows
+            if signed:
+                rows = joined([*best, rows])  # a row that the front dominates never returns
+                costs = np.column_stack([s * rows.numbers(i) for i, s in signed])
+                best = [rows.taken(front(costs))]
+            elif len(rows):
+                yield rows
+        if best and len(best[0]):
+            yield best[0]
 
 
 def sweep(text: Text, plan: SweepPlan, picks: Sequence[str] = DEFAULT) -> Sweep:

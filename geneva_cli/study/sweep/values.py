@@ -55,8 +55,7 @@ def axis(text: str, random: bool = False) -> VariedKey:
 
     With ``random`` values are drawn, and LOW..HIGH of a key that takes fractions is a span.
     """
-    form = "KEY=VALUES, as in --vary drive.A=0..0.9:0.1"
-    option, key, values = parted(text, "--vary", form)
+    option, key, values = parted(text, "--vary", "KEY=VALUES, as in --vary drive.A=0..0.9:0.1")
     return _axis(key, values.strip('"'), option, random)
 
 

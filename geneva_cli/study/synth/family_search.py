@@ -210,10 +210,10 @@ class FamilyCosts:
     """
 
     def __init__(self, families: Sequence[Family], target: Target) -> None:
-        self.families, self.peak = families, target.peak
+        self.families = families
         sort = target.sort if target.sort and in_batch([target.sort.name]) else None
         self.is_nearest = target.any_motion and not sort
-        self.goal = sort or Objective(1.0, self.peak)
+        self.goal = sort or Objective(1.0, target.peak)
         self.bounds = [b for b in target.bounds if in_batch([b.name])]
         self.soft = [*target.soft_bounds.values()]
         self.names = [self.goal.name, *(b.name for b in (*self.bounds, *self.soft))]
@@ -265,13 +265,5 @@ class FamilyCosts:
             if able.any():
                 which, varied = which[able], {key: value[able] for key, value in varied.items()}
                 for members, machine in built(self.families[of[which[0]]].spec, varied, which):
-                    out[members] = self._columns(machine, len(members))
+                    out[members] = np.column_stack(columns(machine, self.names, len(members)))
         return out
-
-    def _columns(self, machine: Any, count: int) -> Array:
-        values = columns(machine, self.names, count)
-        if values is None and (peak := columns(machine, [self.peak], count)):
-            # what no batch computes is computed later: it keeps its bounds so far
-            bounds = (*self.bounds, *self.soft)
-            values = [*peak, *(np.full(count, b.bound) for b in bounds)]
-        return np.column_stack(values) if values else np.full((count, len(self.names)), math.nan)

@@ -70,9 +70,7 @@ def rows(target: Target, specs: Sequence[Spec]) -> list[MachineRow]:
     for members, machine in batch_machines(specs):
         own, n, m = [specs[i] for i in members.tolist()], len(members), machine.spec.drive.rollers
         costs = columns(machine, [*QUANTITIES.values()], n)
-        if costs is None:
-            continue
-        held = columns(machine, names, n) or np.full((len(names), n), np.nan)
+        held = columns(machine, names, n)
         radii, why = np.full(n, math.nan), [""] * n
         if any(spec.is_flat for spec in own):
             radii, why = suiting(machine, np.full(n, m))

@@ -148,7 +148,7 @@ def _links_gap(name: str, parts: FlatParts) -> Iterator[Check]:
     """The gap in a whole turn between links and hub, shaft and pins through their planes."""
     mechanism = parts.mechanism
     try:
-        if parts.links.sizes is None:
+        if not parts.links.axes:
             return
         from geneva_cli.parts.links.link_shafts import planes
 

@@ -108,7 +108,5 @@ def only(column: Number | None) -> float | None:
     return value if value is not None and math.isfinite(value) else None
 
 
-@Known
-def single(mechanism: Mechanism) -> Designs:
-    """A machine as a batch of one, cached for its checks, advice and report."""
-    return Designs(mechanism)
+# a machine as a batch of one, cached for its checks, advice and report
+single: Known[Mechanism, Designs] = Known(Designs)

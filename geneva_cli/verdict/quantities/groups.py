@@ -6,7 +6,7 @@ A new quantity is a name in one group here, and a value of the group's function.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.kept import load_named
@@ -94,15 +94,9 @@ class QuantityGroup(NamedTuple):
         return every | {self._whole(name): value for name, value in computed.items()}
 
     def columns(self, of: Designs) -> Columns:
-        """The values of a batch by the names without the table; None for values that no design has.
-
-        A name is left out if the batch cannot compute it, and each design must be built alone.
-        """
-        if not self._is_of(of.spec):
-            return dict.fromkeys(self.own)
-        compute: Callable[[Designs], Columns] = load_named(self.batch)
-        columns = of.columns(compute)
-        return columns if self.alone else {**dict.fromkeys(self.own), **columns}
+        """The values of a batch by the names without the table; None where no design has one."""
+        none: Columns = dict.fromkeys(self.own)
+        return {**none, **of.columns(load_named(self.batch))} if self._is_of(of.spec) else none
 
     def _is_of(self, spec: Spec) -> bool:
         """Return True if the quantities belong to a machine of the spec's kinds."""
@@ -120,14 +114,6 @@ def own_names(table: str) -> tuple[str, ...]:
     ('diameter_mm', 'bending_MPa')
     """
     return tuple(name for group in GROUPS if group.table == table for name in group.own)
-
-
-def values(groups: Iterable[QuantityGroup], parts: Parts) -> Values:
-    """The values of several groups of a single design, in order."""
-    out: Values = {}
-    for group in groups:
-        out |= group.values(parts)
-    return out
 
 
 def _words(names: str) -> tuple[str, ...]:

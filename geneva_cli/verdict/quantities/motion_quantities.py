@@ -97,8 +97,12 @@ def peaks(of: Designs) -> Columns:
                 i = abs(jumps).argmax(axis=0)[None]
                 ends.append(np.take_along_axis(jumps, i, axis=0)[0])
         order = {"acceleration": 2, "jerk": 3}.get(name, 0)  # derivatives of the wheel's angle
-        for end in ("entry_deg", "exit_deg") if order else ():
-            at = [one.motion(getattr(one.motion, end), order).arrays() for one in engagements]
+        for end in ENDS if order else ():
+            if not any(one.startswith(end) for one in requested[name]):
+                ends.append(np.full(1, np.nan))
+                continue
+            motions = [one.motion for one in engagements]
+            at = [one(getattr(one, f"{end}_deg"), order).arrays() for one in motions]
             sizes = [np.ravel(abs(derivatives[order])) for derivatives in at]
             ends.append(np.max(np.broadcast_arrays(*sizes), axis=0))
         out |= peak_values(name, output, w, found.get(name, unknown), ends)

@@ -83,8 +83,6 @@ def horn(of: Designs) -> Columns:
     if width is None or not load.has_horns:
         return out
     force = load.force_N
-    if not np.isfinite(force).any():
-        return out | dict.fromkeys(("stress_MPa", "at_deg", "inwards_mm", "thickness_mm"), force)
     for name, row in load.horn_stress(width)._asdict().items():
         column = np.where(np.isfinite(force), _known(row), force)
         out[name] = column
@@ -197,8 +195,6 @@ def _key(of: Designs, part: str) -> Columns:
     if parts is None:
         return {}
     key = getattr(parts, f"{part}_key")
-    if np.isnan(key.shaft).all():
-        return {}
     most = getattr(of.once(UnderLoad).part_loads, f"{part}_Nm") * of.loaded
     most = most * np.ravel(of.spec.shaft.torsion_factor)
     sides = np.ravel(wheel_material(of.spec).allowed_MPa)

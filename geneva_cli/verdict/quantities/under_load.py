@@ -23,16 +23,8 @@ from geneva_cli.motion.batch import designs_in, taken
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.registry import thing
-from geneva_cli.numerics.arrays import (
-    Array,
-    Number,
-    Record,
-    choose,
-    library,
-    mapped,
-    parameter,
-    record_of,
-)
+from geneva_cli.numerics import arrays
+from geneva_cli.numerics.arrays import Array, Number, Record, mapped, parameter
 from geneva_cli.parts.machine_sizes import fits, of_batch, sized, unloaded, unloaded_alike
 from geneva_cli.parts.shafts.bores import has_shape
 from geneva_cli.parts.sized_by_load import Stressed, batch_sizes, dimensions, needs_lock, sizing
@@ -60,7 +52,7 @@ class UnderLoad:
         self.sides: Sides = thing(of.spec.wheel.NAME, "horns") or horns
         # the force on a roller over that along the wall's normal, (m, 1)
         friction = load_case(of.machine).friction
-        self.rubbed = parameter(library(friction).hypot(1.0, friction))
+        self.rubbed = parameter(arrays.library(friction).hypot(1.0, friction))
 
     @cached_property
     def force_N(self) -> Array:
@@ -90,9 +82,8 @@ class UnderLoad:
         if not self.designs.are_built:
             of = self.machine.spec
             with marking():  # the values of the designs are checked
-                drive, keys = of.drive.replace(n_rpm=1.0), (of.motion, of.size)
-                before = of.drive_before
-                bare = Spec(of.wheel, drive, *keys, shaft=of.shaft, drive_before=before)
+                own = of.wheel, of.drive.replace(n_rpm=1.0), of.motion, of.size
+                bare = Spec(*own, shaft=of.shaft, drive_before=of.drive_before)
             if designs_in(bare) == 1:  # designs that differ in speed and loads have the same
                 return [_bare(build(taken(bare, 0)))]
             return [_bare(taken(self.machine, i)) for i in range(self.machine.designs)]
@@ -145,7 +136,7 @@ class UnderLoad:
         sizes = self._unloaded and self._unloaded.sizes
         if sizes is None or not np.max(np.nan_to_num(sizes.lock)) > 0.0:
             return None
-        return choose(sizes.lock > 0.0, sizes.half_width, np.nan), sizes.recess
+        return arrays.choose(sizes.lock > 0.0, sizes.half_width, np.nan), sizes.recess
 
     @property
     def has_horns(self) -> bool:
@@ -273,7 +264,7 @@ def batched(
             fields.append(batched(cast("Sequence[tuple[object, ...] | None]", each), column))
         else:
             fields.append(column(np.array(each, dtype=float)))  # None is NaN
-    return record_of(like, fields)
+    return arrays.record_of(like, fields)
 
 
 def as_numbers(values: Array) -> float:

@@ -57,7 +57,7 @@ def spoilt(parts, **larger_mm):
     """The parts, of which some angles are larger by lengths on the sphere."""
     L, ball = parts.ball.radius_mm, parts.ball
     ball = ball._replace(**{k: getattr(ball, k) + v / L for k, v in larger_mm.items()})
-    return with_shape(parts, ball=ball, gaps=BallGaps(parts.assembly, ball, parts.shells.crank))
+    return with_shape(parts, gaps=BallGaps(parts.assembly, ball, parts.shape.crank))
 
 
 @pytest.mark.sampled(2)

@@ -70,7 +70,7 @@ def test_gaps_are_those_of_sampled_edges(axes, z):
 def test_a_sector_is_narrower_where_the_wheel_sweeps_over_its_ends():
     """Shafts at 140 degrees and 16 slots: not all of the way between two rollers is free."""
     design = Design(Spherical(16, axes_deg=140), size=Size(100.0, 5.0))
-    (sector,) = parts_of(design.mechanism).shells.crank
+    (sector,) = parts_of(design.mechanism).shape.crank
     whole = math.radians(360.0 - design.timing.motion_deg)
     assert 0.5 * whole < sector.boundary[0].sweep < 0.95 * whole
     rows = {c.name: c for c in checks(design.mechanism)}

@@ -186,8 +186,7 @@ def _ratio(at: Array) -> dict[str, Array]:
 def driven(target: Target, wheel: Gearing) -> Iterator[Family]:
     """Changes of the plain crank's motion by a drive in front of it."""
     natural = natural_deg(wheel)
-    has_one = target.rollers in (None, 1)
-    motion = target.free_motions(1, natural) if has_one else None
+    motion = target.free_motions(1, natural) if target.rollers in (None, 1) else None
     if motion is None or (motion.exact and motion.allows(natural)):
         return
     known = 0.0 if motion.allows(natural) else math.nan
