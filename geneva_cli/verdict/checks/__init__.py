@@ -1,8 +1,8 @@
 """The checks of a design: each has a value, a limit, and says whether the value keeps it.
 
-A check is a name in a row here, in the order shown, with the function that yields it. The
-function gets the names that are asked for, and what it checks. It yields no check that does not
-apply. Its module is imported when the first of its checks is asked for.
+A check is a name in a row here, in the order shown, with the function that yields it and the keys
+that move it. The function gets the names that are asked for, and what it checks. It yields no check
+that does not apply. Its module is imported when the first of its checks is asked for.
 """
 
 from __future__ import annotations
@@ -334,8 +334,8 @@ def single_check(mechanism: Mechanism, name: str, machine: Parts | None = None) 
         else:
             if name == "parts":
                 _ = machine.built.assembly
-            if not mechanism.spec.no_parts:
-                table, of = own_checks(mechanism)[1], [machine.built]
+            table = Checks() if mechanism.spec.no_parts else own_checks(mechanism)[1]
+            of = [machine.built] if name in table else []
     rows = applicable({name: table[name]} if name in table else {}, *of, reasons=False)
     return next((check for check in rows if check.name == name), None)
 
