@@ -11,6 +11,7 @@ from words import load
 
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.spec.schema import fields
+from geneva_cli.spec.tables import PLAIN
 from geneva_cli.specfile.keys import tables_with
 from geneva_cli.specfile.writer import keys_of
 from geneva_cli.verdict import advice
@@ -190,6 +191,13 @@ def test_each_word_of_a_check_names_a_key() -> None:
             whole = re.split(r"[*:=?]", word)[0]
             table, _, key = whole.rpartition(".")
             assert (table or "size") in tables_with(key), (name, word)
+
+
+def test_no_kind_has_a_key_of_a_plain_table() -> None:
+    """A line of advice looks for the first table with its key in these alone."""
+    for table, kind in PLAIN.items():
+        for field in fields(kind):
+            assert {*tables_with(field.key)} <= {*PLAIN}, (table, field.key)
 
 
 def test_a_size_that_the_machine_cannot_have_is_left_out() -> None:
