@@ -175,8 +175,8 @@ class CouplerPath(LinkPath):
         k, by_D = half + turning, (0.5j * by_N * spread / root - turning) / D
         if velocity is None:
             velocity = 1j * A + (d * by_D * (2.0 * g * A.imag) - 1j * A * k) * arm
-        out = velocity, A * k * arm - A, d * arm
-        sizes = A.imag, A.real, D, 2.0 * g, spread, root, by_u, by_N, p, q
+        out = velocity, A * k * arm - A, A * arm, d * arm
+        sizes = 2.0 * g * A.imag, 2.0 * g * A.real, D, spread, root, by_u, by_N
         return CouplerDisplacement(*sizes, *(x for z in out for x in (z.real, z.imag)))
 
 
@@ -187,22 +187,21 @@ class CouplerDisplacement(NamedTuple):
     the point is much slower than its links.
     """
 
-    s: float  # a sin phi
-    t: float  # a cos phi
+    s: float  # 2 g a sin phi
+    t: float  # 2 g a cos phi
     D0: float  # d²
-    span: float  # 2 g
     spread: float  # slope of N² by D
     root: float  # size of N
     by_u: float  # factor of 1 / D in the real part of k
     by_N: float  # factor of N / D in its imaginary part
-    P: float  # the point's coordinates on the coupler
-    Q: float
     vx: float  # velocity of the point
     vy: float
     wx: float  # factor of 1 - cos d
     wy: float
-    hx: float  # d turned and stretched as the coupler's point
-    hy: float
+    ax: float  # the crank, turned and stretched by the point's coordinates on the coupler
+    ay: float
+    dx: float  # d, turned and stretched likewise
+    dy: float
 
     @property
     def velocity(self) -> Complex:
@@ -212,9 +211,8 @@ class CouplerDisplacement(NamedTuple):
     def __call__(self, sine: Jet, versine: Jet) -> tuple[Jet, Jet]:
         """Displacement from sin d and 1 - cos d of the crank's rotation d since then."""
         numbers = enclosed(sine.c[0], self)
-        s, t, D0, span, spread, root, by_u, by_N, P, Q, vx, vy, wx, wy, hx, hy = numbers
-        first, second = sine * (span * s), versine * (span * t)
-        x, y = sine * -s - versine * t, sine * t - versine * s
+        s, t, D0, spread, root, by_u, by_N, vx, vy, wx, wy, ax, ay, dx, dy = numbers
+        first, second = sine * s, versine * t
         D = first + second
         square = D * D
         grown = D * spread - square
@@ -222,12 +220,12 @@ class CouplerDisplacement(NamedTuple):
         du, dN = D / ((D + D0) * -D0), grown * share
         both = du * dN
         k, n = du * by_u, (dN / D0 + both + du * root) * by_N
-        # what k changes by beyond its linear part
-        duu = (D * du + second / D0) / -D0
+        # what k changes by beyond its linear part, but for its factors
+        kk = (D * du + second / D0) / -D0
         dNN = (second * spread - square - first * dN * (0.5 * spread / root)) * share
-        kk, nn = duu * by_u, (dNN / D0 + both + duu * root) * by_N
-        zx, zy = x * k - y * n, x * n + y * k
+        nn = dNN / D0 + both + kk * root
+        x, y = sine * ay + versine * ax, sine * ax - versine * ay
         return (
-            sine * vx + versine * wx + kk * hx - nn * hy - zx * P + zy * Q,
-            sine * vy + versine * wy + kk * hy + nn * hx - zx * Q - zy * P,
+            sine * vx + versine * wx + kk * (by_u * dx) - nn * (by_N * dy) + x * k + y * n,
+            sine * vy + versine * wy + kk * (by_u * dy) + nn * (by_N * dx) + x * n - y * k,
         )
