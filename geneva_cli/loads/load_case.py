@@ -47,11 +47,11 @@ _TABLES = (
     *("wheel", "drive", "drive_before", "motion", "load", "mass", "support", "motor", "shaft"),
     *("material_wheel", "material_roller", "tolerance"),
 )
-_FREE = (
+FREE = (
     *("lock_radius_mm", "lock_clearance_mm", "wheel_bore_mm", "wheel_hub_mm", "crank_bore_mm"),
-    *("crank_hub_mm", "arm_bore_mm", "arm_hub_mm", "arm_eye_mm"),
+    *("crank_hub_mm", "arm_bore_mm"),
 )
-_SIZES = sorted({*Size.__annotations__}.difference(_FREE))
+_SIZES = sorted({*Size.__annotations__}.difference(FREE))
 _PATHS = *map("spec.{}".format, _TABLES), *map("spec.size.{}".format, _SIZES)
 # Machines with the same key have the same loads.
 load_key = attrgetter(*Mechanism._fields[1:], *_PATHS)

@@ -5,20 +5,35 @@ import math
 
 import mpmath
 import pytest
+from repo import DESIGNS
+from words import load
 
 from geneva_cli import External, Mass, Support
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.load_case import (
+    FREE,
     inertia_kgm2,
     load_case,
+    load_key,
     mass_inertia_kgm2,
     resisting_torques_Nm,
     weight_kg,
 )
+from geneva_cli.loads.strength.part_loads import part_loads
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.spec.tables import Load, Size
+
+
+@pytest.mark.parametrize("key", FREE)
+@pytest.mark.parametrize("name", ["linear", "press-curved", "spherical-z6"])
+def test_loads_are_those_of_any_machine_with_the_same_key(name, key):
+    """A key of [size] that a load depends on must not be left out of it, as the arm's eye was."""
+    machine = load(DESIGNS / f"{name}.toml")
+    other = build(machine.spec.with_(f"size.{key}", 3.0), machine)
+    assert load_key(other) == load_key(machine)
+    assert part_loads(other) == part_loads(machine)
 
 
 def test_the_published_turret():
