@@ -148,16 +148,14 @@ def _engagement(
 ) -> tuple[Engagement, float]:
     """Engagement from crank angles at entry and exit (2, n), radians, and the centre distance."""
 
-    def plain(x: Array) -> float:
-        return parameter(x.item() if single else x[:, None])
+    def plain(x: Array | Complex) -> float:
+        return cast("float", x.item() if single else x[:, None])
 
-    # The roller may be much slower than its links. Its velocities in 80 bits, where there are such
-    # numbers, and its displacement from one place have a double's digits then.
+    # The roller may be much slower than its links: displacements from one place keep its digits.
     flat, middle, index = path.of((slice(None), 0)), ends.mean(axis=0), np.ravel(step.b)
-    flat.numbers = tuple(cast("float", np.asarray(x, np.longdouble)) for x in flat.numbers)
-    ends, crank = ends - middle, np.exp(1j * np.asarray(middle, np.longdouble))
-    move, since = flat.about(crank), Jet.variable(np.asarray(ends, np.longdouble), 2)
-    at = tangents.complex_of(*move(*sine_versine(since)))
+    ends, crank = ends - middle, np.exp(1j * middle)
+    move = flat.about(crank)
+    at = tangents.complex_of(*move(*sine_versine(Jet.variable(ends, 2))))
     rest = tangents.residual(at, np.exp(2j * sense * index))
     last = np.where(rest.double, 0.0, rest.step)
     ends, at[:2] = ends + last, at[:2] + last * at[1:]
@@ -174,7 +172,7 @@ def _engagement(
         (0.0, turn, 0.0 * middle, move.velocity, -centre),
         (1.0, step.b, ends[1], at[1, 1], rays[1]),
     ):
-        moved = path.about(*(plain(np.asarray(z, complex)) for z in (crank * np.exp(1j * tau), v)))
+        moved = path.about(plain(crank * np.exp(1j * tau)), plain(v))
         ux, uy, input_deg = plain(ray.real), plain(ray.imag), 0.0 - late / DEGREE
         if end:  # the ray is the pin's velocity, so that none of it is across the ray
             input_deg = end * half / DEGREE
