@@ -127,7 +127,8 @@ def growing(
                 writer = parquet.Writer(file, rows.blocks, texts)
                 at_end.callback(writer.close)
                 rows.encode, rows.put = parquet.block_of, writer.append
-                writer.rewrite()
+                if resume:  # else pyarrow is imported while the first rows are computed
+                    writer.rewrite()
             else:
                 file.writelines(chain([one_line(names).encode()], rows.blocks()))
             if resume:

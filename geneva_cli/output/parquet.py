@@ -57,27 +57,21 @@ class Writer:
 
     def append(self, block: bytes) -> None:
         """Write a block, the last one of ``blocks``."""
-        if self._changes(block):
-            self.rewrite()
-        else:
+        if self._out and self._schema([block]) == self._out.schema:
             self._write(block)
+        else:
+            self.rewrite()
 
     def rewrite(self) -> None:
         """Write all blocks, from the beginning of the file."""
-        import pyarrow as pa
         from pyarrow import parquet
 
-        for block in self.blocks():
-            self._changes(block)
+        schema = self._schema(self.blocks())
         self.close()
         self.target.seek(0)
         self.target.truncate()
-        types = {
-            name: pa.string() if name in self.texts else _common(own)
-            for name, own in self._types.items()
-        }
-        words = [name for name, own in types.items() if own == pa.string()]
-        self._out = parquet.ParquetWriter(self.target, pa.schema(types), use_dictionary=words)
+        words = [field.name for field in schema if str(field.type) == "string"]
+        self._out = parquet.ParquetWriter(self.target, schema, use_dictionary=words)
         for block in self.blocks():
             self._write(block)
 
@@ -87,14 +81,16 @@ class Writer:
         if self._out:
             self._out.close()
 
-    def _changes(self, block: bytes) -> bool:
-        """Return True if a column of the block has a type that none had before."""
+    def _schema(self, blocks: Iterable[bytes]) -> pa.Schema:
+        """The columns of the file with these blocks too."""
         import pyarrow as pa
 
-        before = sum(map(len, self._types.values()))
-        for field in pa.ipc.open_stream(block).schema:
+        for field in (field for block in blocks for field in pa.ipc.open_stream(block).schema):
             self._types.setdefault(field.name, set()).add(field.type)
-        return sum(map(len, self._types.values())) > before
+        types = self._types.items()
+        return pa.schema(
+            [(name, pa.string() if name in self.texts else _common(own)) for name, own in types]
+        )
 
     def _write(self, block: bytes) -> None:
         import pyarrow as pa

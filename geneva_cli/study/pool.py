@@ -37,14 +37,16 @@ def mapped(work: Callable[[T], R], items: Iterable[T], workers: int) -> Iterator
         for item in items:
             waiting.append(pool.submit(work, item))
             if len(waiting) > 4 * workers:  # so that memory stays bounded
-                yield waiting.popleft().result()
+                yield waiting[0].result()
+                waiting.popleft()
         while waiting:
-            yield waiting.popleft().result()
+            yield waiting[0].result()
+            waiting.popleft()
     except BrokenProcessPool:
         text = "a process that computed some designs was stopped from outside, or ran out of "
         raise GenevaError(f"{text}memory; try fewer designs at a time") from None
     finally:  # a run that is stopped waits for no design
-        pool.shutdown(wait=False, cancel_futures=True)
+        pool.shutdown(wait=all(one.done() for one in waiting), cancel_futures=True)
 
 
 def cores() -> int:
