@@ -16,7 +16,7 @@ from geneva_cli.motion.engagement import WheelMotion
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import AxisPlace, Link, turned_points
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.output.scene import Bar, CarriedShapes, Place, Push, Track
+from geneva_cli.output.scene import Bar, CarriedShapes, Place, Push, Track, cubic
 from geneva_cli.parts.assembly import Passage, assembly, links_at
 
 # value and slope by the input in degrees, at input angles in degrees
@@ -260,17 +260,9 @@ def _knots(a: float, b: float, moving: Moving, error: float) -> tuple[Array, Arr
         off = np.zeros(len(h))
         for u in (0.2, 0.5, 0.8):  # places in a step
             there = moving(knots[:-1] + u * h)[0]
-            off = np.maximum(off, np.abs(_hermite(u, h, v, s) - there))
+            between = cubic(u, h, (v[:-1], v[1:]), (s[:-1], s[1:]))
+            off = np.maximum(off, np.abs(between - there))
         wide = (off > error) & (h > 1e-3)  # degrees: knots are no nearer to each other
         if not wide.any():
             return knots, v, s
         knots = np.sort(np.concatenate((knots, (knots[:-1] + 0.5 * h)[wide])))
-
-
-def _hermite(u: float, h: Array, v: Array, s: Array) -> Array:
-    w = 1.0 - u
-    return (
-        w * w * (1.0 + 2.0 * u) * v[:-1]
-        + u * u * (1.0 + 2.0 * w) * v[1:]
-        + u * w * h * (w * s[:-1] - u * s[1:])
-    )
