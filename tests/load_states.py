@@ -64,6 +64,6 @@ def integrals(cycle, *of):
 
         one, needed = np.zeros(len(pieces), dtype=int), np.full(total.shape, True)
         with np.errstate(all="ignore"):
-            each = span_integrals(rows, (start, end), one, needed, ends=True)
+            each = span_integrals(rows, (start, end), one, needed)
             total += each.sum(axis=1, keepdims=True)
     return [float(x) for x in np.radians(total[:, 0])]

@@ -39,6 +39,7 @@ class SideCrank(Whitworth, kw_only=True):
     EXAMPLE: ClassVar[Example] = Example(
         "a side-crank drive: a slower, softer index", {"drive": {"A": 0.6}}
     )
+    length_key: ClassVar[str] = "input_crank_mm"
     A: Annotated[float, Range(-1.0, 1.0, "()"), "side-crank: base offset / crank; > 0 is slower"]
     input_crank_mm: Annotated[
         float | None, POSITIVE, "input crank length r, for its forces (parts use R by default)"
@@ -46,10 +47,6 @@ class SideCrank(Whitworth, kw_only=True):
 
     def as_built(self, wheel: Gearing, place: RollerPlace, L: float) -> Plan:
         return self.straight(wheel, places(wheel, self, L, place), L)
-
-    @property
-    def missing_length(self) -> str:
-        return "input_crank_mm" if self.input_crank_mm is None else ""
 
     def input_shaft(self, plan: Plan, sign: float, sense: float) -> ShaftPlace:
         return ShaftPlace(self._axis_mm(plan, sign), sense)

@@ -17,8 +17,8 @@ from geneva_cli.motion.path_and_slot import AnchoredPath, StraightSlotMotion
 from geneva_cli.motion.wheels.classic import HalfStep, PinTravel, middle, refuse_jam, rollers_max
 from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import Array, larger, parameter
-from geneva_cli.numerics.jet import rotation
+from geneva_cli.numerics.arrays import larger, parameter
+from geneva_cli.numerics.jet import Array, rotation
 
 if TYPE_CHECKING:
     from geneva_cli.drives.pushed import PushedCrank
@@ -38,6 +38,9 @@ class Transmission(Drive, kw_only=True):
     """A drive in front of the crank; a kind defines ``about``, and more only if it needs more."""
 
     ONE_ARM: ClassVar[bool] = True
+    # greatest crank angle from mid-motion at which the crank may move the wheel, degrees
+    reach_deg: ClassVar[float] = 180.0
+    side_crank: ClassVar[float | None] = None  # A of the side-crank whose ratio it has
 
     def about(self, crank_deg: float) -> LocalTransmission:
         """The transmission about a crank angle in degrees, which is 0 at mid-motion."""
@@ -47,16 +50,6 @@ class Transmission(Drive, kw_only=True):
     def crank(self) -> Drive:
         plain, angles = registry.drive("crank"), self.roller_angles_deg
         return plain(n_rpm=self.n_rpm, rollers=self.rollers, roller_angles_deg=angles)
-
-    @property
-    def reach_deg(self) -> float:
-        """Greatest crank angle from mid-motion at which the crank may move the wheel, degrees."""
-        return 180.0
-
-    @property
-    def side_crank(self) -> float | None:
-        """A of the side-crank whose ratio it has; None for another ratio."""
-        return None
 
     def crank_rate(self, crank_deg: Array) -> Array | float:
         return self.about(parameter(crank_deg))[1](0.0, 1)[0].c[1]

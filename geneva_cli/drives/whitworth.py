@@ -23,10 +23,7 @@ class Whitworth(Transmission, kw_only=True):
     def __post_init__(self) -> None:
         super().__post_init__()
         refuse_near_one("A", self.A)
-
-    @property
-    def side_crank(self) -> float:
-        return self.A
+        vars(self)["side_crank"] = self.A
 
     def about(self, crank_deg: float) -> LocalTransmission:
         A = self.A

@@ -17,7 +17,7 @@ import numpy as np
 from geneva_cli.errors import Notice
 from geneva_cli.kept import cached_property
 from geneva_cli.loads import load_functions
-from geneva_cli.loads.contact import LoadCase, contact, contact_values, plain_values
+from geneva_cli.loads.contact import NEGLIGIBLE, LoadCase, contact, contact_values, plain_values
 from geneva_cli.loads.impacts.reversal import arrival
 from geneva_cli.loads.instant import Instant, bounded
 from geneva_cli.loads.load_case import load_case, sources, weight_kg
@@ -73,34 +73,33 @@ class Cycle:
     ) -> Array:
         """Known quantities, (names, n), at input angles x of an engagement from its mid-motion.
 
-        The pin's force has the sign of the wall that bears. In a ``stretch`` its signs hold.
+        The pin's force has the sign of the wall that bears. The signs are those of a ``stretch``,
+        or of the stretch in which each angle is.
         """
-        case = self.case
         with np.errstate(all="ignore"):
             at = contact_values(contact(engagement, x))
-            here = Instant(case, at, *(stretch[2:] if stretch else ()))
-            none = np.flatnonzero(~case.is_loaded(engagement, here.wheel_torque_Nm))
-            if stretch is None and len(none):
-                # where the torque is 0, its sign is that before, or at entry that after
-                free, step = x[none], 1e-6 * engagement.motion_deg
-                near = np.where(free - step < engagement.entry_deg, free + step, free - step)
-                beside = contact(engagement, near, reactions=False)
-                drives = np.broadcast_to(here.drives, x.shape).copy()
-                drives[none] = Instant(case, beside, None, None, 1.0).drives
-                here = Instant(case, at, drives)
+            here = Instant(self.case, at, *(stretch[2:] if stretch else self._signs(engagement, x)))
             each = [self.sources.get(name, (name, 1.0)) for name in names]  # or of a pinion
             sought = ["wall_force_N" if source == "pin_force_N" else source for source, _ in each]
             rows = [bounded(here, source) for source in sought]
             # the limits where the pin crosses the slot without a torque
             middle = np.flatnonzero(x == 0.0)
             crosses = engagement.slot.curved and not retraces(engagement)
-            if stretch is None and len(middle) and crosses:
-                for i, _, limit in load_functions.at_mid_motion(engagement, case, sought, 1):
+            if len(middle) and crosses:
+                for i, _, limit in load_functions.at_mid_motion(engagement, self.case, sought, 1):
                     if np.isfinite(limit[0]) and not np.isfinite(rows[i][middle[0]]):
                         rows[i][middle] = limit
         both = zip(rows, each, strict=True)
         values = [plain_values(row, source) * ratio for row, (source, ratio) in both]
         return np.array(np.broadcast_arrays(*values, x)[:-1])
+
+    def _signs(self, engagement: Engagement, x: Array) -> Array:
+        """The signs (3, n) at input angles x: at a change of sign those before it."""
+        own = [stretch for owner, stretch in self.stretches if owner is engagement]
+        rounding = NEGLIGIBLE * engagement.motion_deg
+        number = np.searchsorted([stretch.end for stretch in own[:-1]], x - rounding)
+        signs: Array = np.array(own)[number, 2:].T
+        return signs
 
     @cached_property
     def extremes(self) -> Mapping[str, LoadSummary[float]]:

@@ -158,7 +158,7 @@ class LoadFunctions:
 
         ends, out = (spread(a, w), spread(b, w)), np.empty((len(needed), len(order)))
         with np.errstate(all="ignore"):
-            out[:, order] = span_integrals(rows, ends, design, needed, ends=True)
+            out[:, order] = span_integrals(rows, ends, design, needed)
         return out * DEGREE
 
     def at(

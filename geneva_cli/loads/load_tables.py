@@ -117,9 +117,10 @@ def missing(cycle: Cycle) -> list[Notice]:
     wide = cycle.case.hertz is not None
     out = [] if wide else [f"{name}: needs face_width_mm in [size]" for name in PRESSED]
     spec, guide = cycle.mechanism.spec, "guide_force_N"
-    missing = spec.drive.missing_length
-    if missing and spec.wheel.FLAT and guide not in cycle.sources:
-        needs = f"needs {missing} in [drive]"
+    key = spec.drive.length_key
+    unset = key and vars(spec.drive)[key] is None
+    if unset and spec.wheel.FLAT and guide not in cycle.sources:
+        needs = f"needs {key} in [drive]"
         out.append(f"{guide}, and the share of it in the crank's bearings: {needs}")
     unknown: dict[str, list[str]] = {}
     for name, (_, factor, needs) in multiples(cycle.mechanism).items():

@@ -259,13 +259,10 @@ def _works(load: LoadFunctions, bounded: Mask) -> tuple[Array, Array]:
     return works, returned
 
 
-def kinetic_power_W(mechanism: Mechanism, power_invariant: float) -> float:
-    """Peak power that the inertia takes from the input, W: I epsilon omega / eta."""
-    spec, w = mechanism.spec, omega(mechanism.spec.drive.n_rpm)
-    if not mechanism.frame:
-        return inertia_kgm2(spec) * power_invariant * w**3 / spec.load.efficiency
+def kinetic_power_W(mechanism: Mechanism) -> Array:
+    """Peak power that the inertia takes from the input, W, without friction: (m,)."""
     case = load_case(mechanism)._replace(resists_Nm=0.0, efficiency=1.0, guide=None)
     case = case.with_friction(0.0)
     torque = load_peaks(mechanism, ("input_torque_Nm",), case=case)["input_torque_Nm"].max
-    one = isinstance(power_invariant, float)
-    return (float(torque[0]) if one else parameter(torque[:, None])) * w / spec.load.efficiency
+    spec = mechanism.spec
+    return torque * np.ravel(omega(spec.drive.n_rpm) / spec.load.efficiency)

@@ -59,6 +59,7 @@ class Drive(SpecTable, kw_only=True):
     direct: ClassVar[bool] = False
     # names of its links that are gears with pitch circles
     round_gears: ClassVar[tuple[str, ...]] = ()
+    length_key: ClassVar[str] = ""  # the optional key of a length that its reactions need, if any
     # A kind whose keys decide these sets them as it is made:
     turns: ClassVar[int] = 1  # input turns in one turn of the crank
     wheels_on_carrier: ClassVar[int] = 0  # that orbit on it, as the input turns it; 0 without one
@@ -114,11 +115,6 @@ class Drive(SpecTable, kw_only=True):
     def gears(self) -> Gears | None:
         """Noncircular gears between input and crank; None for a drive without."""
         return None
-
-    @property
-    def missing_length(self) -> str:
-        """Key of ``[drive]`` that its link reactions need and that is not set; empty if none."""
-        return ""
 
     def first_wheel(self, L: float) -> tuple[int, float] | None:
         """Slots and centre distance of an external wheel that turns the crank; None without.

@@ -44,23 +44,21 @@ def span_integrals(
     spans: tuple[Array, Array],
     design: Whole,
     needed: Mask,
-    ends: bool = False,
 ) -> Array:
     """The integral of each function over each span: (functions, spans).
 
     ``functions(x, which)`` returns the functions (functions, m, k) of the spans ``which``, numbers
-    (m,), at places (m, k). With ``ends`` they may behave as the root of the distance from a span's
-    ends. ``design`` (spans,) is the design of each span. ``needed`` (functions, n) selects the
-    integrals that are needed; others, such as unbounded ones, are meaningless. The functions may
-    clear elements of it while they are evaluated. Unbounded integrals are infinite. Those of noise
-    are NaN, since halving their spans does not help.
+    (m,), at places (m, k). They may behave as the root of the distance from a span's ends.
+    ``design`` (spans,) is the design of each span. ``needed`` (functions, n) selects the integrals
+    that are needed; others, such as unbounded ones, are meaningless. Unbounded integrals are
+    infinite. Those of noise are NaN, since halving their spans does not help.
     """
     n, count = needed.shape[1], len(design)
     total, size = np.zeros((len(needed), count)), np.zeros(needed.shape)
     unbounded, of = total != 0.0, np.arange(count)
     low, high = np.zeros(count), np.ones(count)
     for halved in range(40):  # the narrowest spans are 1e-12 of their design's
-        whole, last, sizes = _parts(functions, spans, ends, of, np.stack((low, high)))
+        whole, last, sizes = _parts(functions, spans, of, np.stack((low, high)))
         lost = ~np.isfinite(sizes)  # spans of an unbounded function are not halved further
         for row, endless, marks in zip(needed, lost, unbounded, strict=True):
             row[design[of[endless]]] = False
@@ -86,11 +84,11 @@ def span_integrals(
 
 
 def _parts(
-    functions: Integrands, spans: tuple[Array, Array], ends: bool, of: Whole, fractions: Array
+    functions: Integrands, spans: tuple[Array, Array], of: Whole, fractions: Array
 ) -> tuple[Array, Array, Array]:
     """Integrals between two fractions of spans, their last terms, and integrals of the sizes.
 
-    With ``ends`` places are at the fraction t² (3 - 2 t) of the span.
+    Places are at the fraction t² (3 - 2 t) of the span, so that a root at its ends is smooth.
     """
     (a, b), (node, terms, at_ends), rows = spans, _rule(), []
     for here in blocks(len(of), 1024):  # whose nodes fit in the processor's cache
@@ -102,10 +100,8 @@ def _parts(
         inner = np.stack((low > 0.0, high < 1.0), axis=-1)
         t[:, NODES:] = np.where(inner, t[:, NODES:], t[:, [NODES - 1, 0]])
         width = (b - a)[own, None]
-        rate = width * half
-        if ends:
-            rate = rate * (6.0 * t * (1.0 - t))
-            t = t * t * (3.0 - 2.0 * t)
+        rate = width * half * (6.0 * t * (1.0 - t))
+        t = t * t * (3.0 - 2.0 * t)
         every = functions(a[own, None] + width * t, own) * rate
         value, apart = every[..., :NODES], every[..., NODES:]
         sums = matrix_product(value, terms)

@@ -47,6 +47,20 @@ def test_a_turret_of_eight_stations():
     assert (round(torque.min, 2), torque.min_at_deg) == (0.28, 67.5)
 
 
+@pytest.mark.parametrize("path", DESIGNS, ids=lambda path: path.stem)
+def test_the_first_row_is_the_limit_of_those_after_it(path):
+    """A roller that begins to slide from rest has friction of the sense in which it slides."""
+    spec, heavy = load(path).spec, Load(0.3, 2.0, friction=0.2)
+    spec = spec.replace(load=spec.load.replace(friction=0.2) if spec.load.mass_kg else heavy)
+    cycle, names = Cycle(build(spec)), ("pin_force_N", "sliding_m_s", "input_torque_Nm")
+    first = cycle.mechanism.engagements[0]
+    begin = first.mid_deg + first.entry_deg
+    at, after = cycle.states(np.array([begin, begin + 1e-9 * first.motion_deg]), names).T
+    # a billionth of a motion later, of the greatest of all
+    greatest = [abs(cycle.extremes[name].max) for name in names]
+    assert (abs(after - at) <= 1e-6 * np.array(greatest)).all()
+
+
 def test_a_load_that_changes_walls():
     """Without friction: reversal, greatest force, friction's work per unit of it, roller turns.
 

@@ -30,7 +30,7 @@ def test_roots_at_the_ends_cost_no_more_than_what_is_smooth(name):
         return f(x)[None]
 
     ends, one = (np.array([2.0]), np.array([5.0])), np.zeros(1, dtype=int)
-    (found,) = span_integrals(rows, ends, one, np.full((1, 1), True), True)[0]
+    (found,) = span_integrals(rows, ends, one, np.full((1, 1), True))[0]
     # beside an end x itself is rounded, to 4e-16 of 5: a root of that over so short a way is lost
     assert found == pytest.approx(exact, rel=1e-14)
     assert len(calls) <= 4, "an end is halved time and again"
@@ -40,7 +40,7 @@ def test_roots_at_the_ends_cost_no_more_than_what_is_smooth(name):
 def test_a_kink_beside_an_end_is_found(kink):
     """|x - kink| over 2..5, between an end, or the middle, and the nearest place of a rule."""
     ends, one = (np.array([2.0]), np.array([5.0])), np.zeros(1, dtype=int)
-    found = span_integrals(lambda x, _: abs(x - kink)[None], ends, one, np.full((1, 1), True), True)
+    found = span_integrals(lambda x, _: abs(x - kink)[None], ends, one, np.full((1, 1), True))
     exact = 0.5 * ((kink - 2.0) ** 2 + (5.0 - kink) ** 2)
     assert found[0, 0] == pytest.approx(exact, rel=1e-12)  # what its last terms may leave
 
@@ -64,7 +64,7 @@ def test_sine_over_its_angle_and_its_derivatives(x):
         assert found == pytest.approx(float(true), rel=1e-15, abs=4e-17)
 
 
-def summed(f, n=1, ends=False):
+def summed(f, n=1):
     """The integral over [0, 1] of n functions (n, k) of a place, and how many places it took."""
     places = []
 
@@ -73,7 +73,7 @@ def summed(f, n=1, ends=False):
         return f(x, which)[None]
 
     a, every = np.zeros(n), np.arange(n)
-    found = span_integrals(functions, (a, a + 1.0), every, np.full((1, n), True), ends)
+    found = span_integrals(functions, (a, a + 1.0), every, np.full((1, n), True))
     return found[0], sum(places)
 
 
@@ -86,11 +86,10 @@ def test_what_is_left_is_told_by_the_series(pole, monkeypatch):
         assert found == pytest.approx(math.log1p(1.0 / pole), rel=left + 4e-15)
 
 
-@pytest.mark.parametrize("ends", [False, True])
-def test_designs_that_need_more_are_halved(ends):
+def test_designs_that_need_more_are_halved():
     """∫ dx/(x² + s²) over [0, 1] is atan(1/s)/s: of a narrow peak the rule sees nothing."""
     s = np.array([1.0, 1e-4])
-    found, _ = summed(lambda x, which: 1.0 / (x * x + s[which, None] ** 2), 2, ends)
+    found, _ = summed(lambda x, which: 1.0 / (x * x + s[which, None] ** 2), 2)
     assert found == pytest.approx(np.arctan(1.0 / s) / s, rel=4e-15)
 
 

@@ -184,7 +184,7 @@ def least_slack_mm(result: Turned) -> float | None:
 class Struck(NamedTuple):
     """An impact, and the angles of crank and wheel at it, radians."""
 
-    impact: Impact
+    impact: Impact[float]
     crank: float
     wheel: float
 

@@ -130,40 +130,28 @@ def _points(mechanism: Mechanism, count: int, tolerance_deg: float) -> tuple[Arr
     Rows are master and slave in degrees, velocity, and acceleration a degree. A point has one
     velocity and one acceleration: a jump becomes a ramp over 0.01 degrees after it.
     """
-    first, error_deg, last = _period_points(mechanism, tolerance_deg, None)
-    # a period after another may begin with a jump
-    later, error, last = _period_points(mechanism, tolerance_deg, last)
-    error_deg = max(error_deg, error if count > 1 else 0.0)
+    own = [(stretch, *_halved(stretch, tolerance_deg)) for stretch in stretches(mechanism)]
+    error_deg = max(float(errors.max()) for *_, errors in own)
     step = np.array([[mechanism.period_deg], [_step_deg(mechanism)], [0.0], [0.0]])
-    whole = [first, *(later + k * step for k in range(1, count))]
-    end = np.append(mechanism.period_deg, last)[:, None] + (count - 1) * step
-    return np.concatenate([*whole, end], axis=1), error_deg
-
-
-def _period_points(
-    mechanism: Mechanism, tolerance_deg: float, before: Array | None
-) -> tuple[Array, float, Array]:
-    """Points (4, k) of a period without its end, their error, and the state (3,) at its end."""
     points: list[Array] = []
-    error_deg = 0.0
-    for stretch in stretches(mechanism):
-        nodes, (begin, end), errors = _halved(stretch, tolerance_deg)
-        error_deg = max(error_deg, float(errors.max()))
-        if before is not None and np.abs(begin[1:, 0] - before[1:]).max() > 1e-9:
-            start = nodes[0]
-            nodes[0] += min(0.01, 0.25 * (nodes[1] - start))
-            after = stretch.states(nodes[:1], 1)
-            ramp = np.append(begin[0, 0], before[1:])[:, None]
-            begin[:, :1] = after
-            points.append(np.vstack([[[start]], ramp]))
-            places = np.append(start, nodes[:2])
-            states = np.hstack([ramp, after]), np.hstack([after, end[:, :1]])
-            powers = _quintic(np.diff(places), *states)
-            error_deg = max(error_deg, float(_errors(stretch, places, powers).max()))
-        points.append(np.vstack([nodes[:-1], begin]))
-        before = end[:, -1]
+    before: Array | None = None
+    for k in range(count):
+        for stretch, nodes, (begin, end), _ in own:
+            here = np.vstack([nodes[:-1], begin])
+            # a period after another may begin with a jump
+            if before is not None and np.abs(begin[1:, 0] - before[1:]).max() > 1e-9:
+                places = np.insert(nodes[:2], 1, nodes[0] + min(0.01, 0.25 * (nodes[1] - nodes[0])))
+                after = stretch.states(places[1:2], 1)
+                ramp = np.append(begin[0, 0], before[1:])[:, None]
+                both = np.vstack([places[:2], np.hstack([ramp, after])])
+                here = np.hstack([both, here[:, 1:]])
+                powers = _quintic(np.diff(places), both[1:], np.hstack([after, end[:, :1]]))
+                error_deg = max(error_deg, float(_errors(stretch, places, powers).max()))
+            points.append(here + k * step)
+            before = end[:, -1]
     assert before is not None  # a period has a motion
-    return np.concatenate(points, axis=1), error_deg, before
+    last = np.append(mechanism.period_deg, before)[:, None] + (count - 1) * step
+    return np.concatenate([*points, last], axis=1), error_deg
 
 
 def _step_deg(mechanism: Mechanism) -> float:

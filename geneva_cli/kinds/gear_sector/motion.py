@@ -57,7 +57,12 @@ class GearSector(Drive, kw_only=True):
         place = wheel.place(classic.HalfStep.of_deg(library(b).degrees(b)), L)
         crank = cast("Transmission", registry.drive("crank")())
         (inner,) = crank.straight(wheel, [place], L).engagements
-        return self.planned(SectorEngagement(inner, self.sector_deg, u), library(b).sin(b), L)
+        turned = _SectorMotion(inner.motion, self.sector_deg, u)
+        path, slot = _SectorPath(inner.path, turned), _SectorSlot(inner.slot, turned)
+        half = turned.half_sector
+        pair = (inner, half), (inner, -half)  # of the starting roller and the stopping one: D apart
+        own = Engagement(0.0, path, slot, turned, inner.body, pair=pair)
+        return self.planned(own, library(b).sin(b), L)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
         """Dimensions of slot and gears, and angles between rollers and between slots."""
@@ -168,19 +173,3 @@ class _SectorSlot(_SectorPath, Slot):
     def touches(self, input_deg: Number) -> Number:
         slot = size(input_deg) >= self.motion.half_sector
         return float(slot) if isinstance(slot, bool) else slot.astype(float)
-
-
-class SectorEngagement(Engagement):
-    """The engagement of slot, gears and slot: the passages of two rollers as one."""
-
-    def __init__(self, inner: Engagement, sector_deg: float, u: float) -> None:
-        motion = _SectorMotion(inner.motion, sector_deg, u)
-        path, slot = _SectorPath(inner.path, motion), _SectorSlot(inner.slot, motion)
-        half = motion.half_sector
-        pair = (inner, half), (inner, -half)  # of the starting roller and the stopping one: D apart
-        super().__init__(0.0, path, slot, motion, pair=pair)
-        self._inner, self._sector = inner, motion
-
-    def carrier(self, input_deg: Number, order: int = 0) -> Jet:
-        """Rate of the plain wheel's crank, on which the roller sits."""
-        return self._inner.carrier(self._sector.slot_deg(input_deg), order)

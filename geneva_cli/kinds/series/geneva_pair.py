@@ -44,6 +44,7 @@ class GenevaPair(Transmission, kw_only=True):
         "two wheels in series: one index in many turns",
         {"wheel": {"z": 4}, "drive": {"first_z": 4}},
     )
+    length_key: ClassVar[str] = "first_distance_mm"
     first_z: Annotated[int, Range(3, Z_MAX), "number of slots of the first, external wheel"]
     first_distance_mm: Annotated[
         float | None, POSITIVE, "first centre distance, for its forces (parts use L by default)"
@@ -52,16 +53,7 @@ class GenevaPair(Transmission, kw_only=True):
     def __post_init__(self) -> None:
         super().__post_init__()
         vars(self)["turns"] = self.first_z
-
-    @property
-    def reach_deg(self) -> float:
-        """Greatest angle of the second crank from mid-step while it moves its wheel, degrees."""
-        return 180.0 / self.first_z
-
-    @property
-    def missing_length(self) -> str:
-        """The first centre distance, where it is not set."""
-        return "first_distance_mm" if self.first_distance_mm is None else ""
+        vars(self)["reach_deg"] = 180.0 / self.first_z  # the first wheel's half step
 
     def input_shaft(self, plan: Plan, sign: float, sense: float) -> ShaftPlace:
         """The shaft of the first crank, which turns against its wheel."""

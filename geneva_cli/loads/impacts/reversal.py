@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from functools import reduce
+from typing import cast
 
 import numpy as np
 
@@ -181,7 +182,7 @@ def reversal_impacts(mechanism: Mechanism, pin: PinSize | None = None) -> Impact
     if case.hertz is None:
         return hit
     with np.errstate(divide="ignore"):  # a wall as sharp as the roller
-        square = hit.force_N * np.ravel(case.hertz) / np.maximum(edge, 0.0)
+        square = cast("Array", hit.force_N) * np.ravel(case.hertz) / np.maximum(edge, 0.0)
     return hit._replace(contact_stress_MPa=np.sqrt(square))
 
 

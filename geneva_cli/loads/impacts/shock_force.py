@@ -10,7 +10,7 @@ proportional to the 0.9th power of the materials' softness.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Generic, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -27,30 +27,29 @@ from geneva_cli.spec.workshops import Stock
 POWER, WIDTH = 0.9, 0.8
 
 
-class Impact(NamedTuple):
-    """A jump of the wheel's velocity over the input's, and what it causes; None if unknown."""
-
-    at_deg: float
-    jump: float
-    force_N: float | None
-    moment_Nms: float | None
-    contact_stress_MPa: float | None = None
+S = TypeVar("S", float, Array)  # of one design, of a batch
 
 
-class Impacts(NamedTuple):
-    """Impacts of m designs, (m,) each; NaN if there is none, or if it is not known."""
+class Impact(NamedTuple, Generic[S]):
+    """A jump of the wheel's velocity over the input's, and what it causes.
 
-    at_deg: Array
-    jump: Array
-    force_N: Array
-    moment_Nms: Array
-    contact_stress_MPa: Array
+    Of m designs (m,) each; NaN if there is none, or if it is not known. Of one design None.
+    """
+
+    at_deg: S
+    jump: S
+    force_N: S | None
+    moment_Nms: S | None
+    contact_stress_MPa: S | None
 
     @property
-    def only(self) -> Impact | None:
+    def only(self) -> Impact[float] | None:
         """Impact of a single design, or None."""
         at_deg, jump, *force = only_of(self)
         return None if at_deg is None or jump is None else Impact(at_deg, jump, *force)
+
+
+Impacts: TypeAlias = Impact[Array]
 
 
 def shown(mechanism: Mechanism, engagement: Engagement, at_deg: Array, *others: Array) -> Array:

@@ -200,33 +200,25 @@ def greatest_stress(sides: Sides, mechanism: Mechanism, sizes: Sizes) -> HornStr
 
 
 def _greatest(sides: Sides, mechanism: Mechanism, sizes: Sizes) -> HornStress:
-    m, horns, searches = mechanism.designs, sides(mechanism, *sizes), list[tuple[int, float]]()
-    for k, side in enumerate(horns):
+    m, horns, searches = mechanism.designs, sides(mechanism, *sizes), list[tuple[Any, float]]()
+    for side in horns:
         # the roller runs along this horn's wall from its own end; in a straight slot from both
         for start in (-1.0, 1.0):
             if side.at.whole.slot.walls_flat or start == side.at.end:
-                searches.append((k, start))
-    # fractions of a half motion, of places and of sections: (2, n, k) of the n designs left
+                searches.append((side, start))
+    # fractions of a half motion, of places and of sections: (2, m, k)
     samples = [np.linspace(1.0, NEAR_CUSP, 61) + np.zeros((2, 1, 1))] * len(searches)
-    each, left = np.full((len(searches), 4, m), np.nan), np.ones((len(searches), m), dtype=bool)
+    each, lower = np.full((len(searches), 4, m), np.nan), np.full((len(searches), m), False)
     smooth = horns[0].at.whole.slot.walls_flat and not np.any(mechanism.spec.size.horn_tip_mm)
     steps = 8 if smooth else 16
     for below in BELOW[steps]:
-        for i, (k, start) in enumerate(searches):
-            which, some, side = np.flatnonzero(left[i]), mechanism, horns[k]
-            if 0 < len(which) < m:
-                some, own = taken((mechanism, sizes), which)
-                side = sides(some, *own)[k]
-            if len(which):
-                rows, samples[i] = _sampled(some, side, start, samples[i], steps)
-                each[i][:, which] = np.where(rows[0] > 0.0, rows, each[i][:, which])
+        for i in np.flatnonzero(~lower.all(axis=1)):
+            rows, samples[i] = _sampled(mechanism, *searches[i], samples[i], steps)
+            each[i] = np.where(rows[0] > 0.0, rows, each[i])
         lower = np.nan_to_num(each[:, 0]) < below * np.fmax.reduce(each[:, 0])
-        for i, rows in enumerate(samples):
-            samples[i] = rows[:, ~lower[i, left[i]]]
-        left &= ~lower
     greatest = np.full((4, m), np.nan)
-    for (k, _), best in zip(searches, each, strict=True):
-        at = horns[k].at
+    for (side, _), best in zip(searches, each, strict=True):
+        at = side.at
         best[1] += np.ravel(at.whole.mid_deg - at.ahead_deg)
         better = ~(best[0] <= greatest[0] * (1.0 + TIE)) & ~np.isnan(best[0])
         greatest = np.where(better, best, greatest)

@@ -15,14 +15,8 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.loads.load_case import inertia_kgm2
-from geneva_cli.loads.vibration.swing import (
-    Oscillator,
-    greatest_accelerations,
-    law_shape,
-    local_maxima,
-    motion_shapes,
-    residual_swing,
-)
+from geneva_cli.loads.vibration import swing as swings
+from geneva_cli.loads.vibration.swing import Oscillator
 from geneva_cli.motion.batch import taken
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.motion_table import check_samples
@@ -105,9 +99,9 @@ class Oscillators:
         self.panels, self.scale, steps = [], [], []
         for engagement in mechanism.engagements:
             if law and (alike or isinstance(mechanism.design, int)):
-                self.panels.append(law_shape(law))
+                self.panels.append(swings.law_shape(law))
             else:
-                self.panels.append(motion_shapes(engagement.motion, m))
+                self.panels.append(swings.motion_shapes(engagement.motion, m))
             # its time over that of the machine's first motion
             first = mechanism.engagements[0].motion_deg
             self.scale.append(np.ravel(engagement.motion_deg / first))
@@ -122,7 +116,7 @@ class Oscillators:
     def residuals(self, swing: Oscillator, motion: Whole) -> Complex:
         """Residual vibrations (stations, k) of k oscillators, as ``residual_swing`` has them."""
         rows = [
-            residual_swing(panels, motion, Oscillator(swing.ratio * scale, swing.damping))
+            swings.residual_swing(panels, motion, Oscillator(swing.ratio * scale, swing.damping))
             for panels, scale in zip(self.panels, self.scale, strict=True)
         ]
         return np.array(rows)
@@ -144,7 +138,7 @@ def vibrations(
         windup = np.maximum(windup, most * whole * whole / unit * own.bent_deg[i])
         if "dynamic_factor" in requested:
             swing = Oscillator(own.ratio[i], own.swing.damping)
-            most = greatest_accelerations(own.panels[i], own.motion, swing)
+            most = swings.greatest_accelerations(own.panels[i], own.motion, swing)
             swung = np.maximum(swung, most * own.bent_deg[i])
     rows = (
         own.swing.ratio,
@@ -207,7 +201,7 @@ def speeds_to_avoid(own: Oscillators) -> list[tuple[float, float, float, float]]
         high = min(own_ratio / SLOWER, float(omega.min()) / (2.0 * math.pi) / scale)
         if low >= high:
             continue
-        ratios = local_maxima(shares, k, low, high)
+        ratios = swings.local_maxima(shares, k, low, high)
         every = shares(ratios)
         # a maximum within 1e-12 of the greatest residual is equal to it
         kept = (every[k] >= AVOIDED_SHARE) & (every[k] >= every.max(axis=0) * (1.0 - 1e-12))

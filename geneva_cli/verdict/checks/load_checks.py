@@ -103,7 +103,7 @@ def _pin(mechanism: Mechanism) -> PinSize | None:
 
 
 def _force_check(
-    name: str, mechanism: Mechanism, impact: Impact, reason: Callable[[], str] | None = None
+    name: str, mechanism: Mechanism, impact: Impact[float], reason: Callable[[], str] | None = None
 ) -> Check:
     """The impact's force, compared with the limit of the pin force if there is one."""
     spec, limit = mechanism.spec, mechanism.spec.limits.pin_force_max_N

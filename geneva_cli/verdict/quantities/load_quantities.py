@@ -10,8 +10,7 @@ from geneva_cli.loads.impacts.reversal import lasting_drag_Nm, reversal_impacts
 from geneva_cli.loads.impacts.shock_force import Impacts
 from geneva_cli.loads.load_case import inertia_kgm2, load_case, sources
 from geneva_cli.loads.positive_drive import positive_drives
-from geneva_cli.motion.many import worst_peaks
-from geneva_cli.numerics.arrays import Array, Number, parameter
+from geneva_cli.numerics.arrays import Array, Number
 from geneva_cli.verdict.quantities.batch_designs import Columns, Designs
 from geneva_cli.verdict.quantities.under_load import drawn_pin
 
@@ -32,8 +31,7 @@ def greatest(of: Designs) -> Columns:
     if "kinetic_power_W" in requested:
         from geneva_cli.loads.sizing import kinetic_power_W
 
-        power = worst_peaks(of.machine, ["power"])["power"].max
-        kinetic = np.ravel(kinetic_power_W(of.machine, parameter(power[:, None])))
+        kinetic = kinetic_power_W(of.machine)
         moved = np.ravel(load_case(of.machine).inertia_Nm) > 0.0
         out["kinetic_power_W"] = np.where(moved, kinetic, np.nan) * of.loaded
     return out
