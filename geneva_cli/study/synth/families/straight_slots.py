@@ -159,11 +159,8 @@ def planets(target: Target, wheel: Gearing) -> Iterator[Family]:
         c = 1.0 + teeth if fixed == "sun" else 1.0 - teeth
         least = -l / (1.0 + c if c > 0.0 else teeth) * (1.0 - 1e-6)
         most = l / (c * c - 1.0) * (1.0 - 1e-9)
-        yield Family(planet(fixed, most), _ratio, least, most, known=0.0)
-
-
-def _ratio(at: Array) -> dict[str, Array]:
-    return {"drive.planet_ratio": at}
+        spec = planet(fixed, most)
+        yield Family(spec, lambda at: {"drive.planet_ratio": at}, least, most, known=0.0)
 
 
 def driven(target: Target, wheel: Gearing) -> Iterator[Family]:
