@@ -18,6 +18,7 @@ from geneva_cli.motion.pivots import AxisPlace, Link, turned_points
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.output.scene import Bar, CarriedShapes, Place, Push, Track, cubic
 from geneva_cli.parts.assembly import Passage, assembly, links_at
+from geneva_cli.parts.slots.slot_profile import pitch_at
 
 # value and slope by the input in degrees, at input angles in degrees
 Moving: TypeAlias = "Callable[[Array], tuple[Array, Array]]"
@@ -206,12 +207,8 @@ def _normals(one: Passage, local: Array, turn: MachineTurn, pin: Array) -> Array
         return np.column_stack((0.0 * local, 1.0 + 0.0 * local))
     direction = pin
     if turn.mechanism.spec.wheel.FLAT:
-        x, y = one.engagement.slot(local, 2)
-        direction = np.column_stack((x.c[1] + 0.0 * local, y.c[1] + 0.0 * local))
-        bend = np.column_stack((x.c[2] + 0.0 * local, y.c[2] + 0.0 * local))
-        # at a cusp the roller turns back, in the direction of its second derivative
-        slow = np.hypot(*direction.T) < 1e-6
-        direction[slow] = bend[slow]
+        at = pitch_at(one.engagement, local)
+        direction = np.column_stack((at.tangent_x + 0.0 * local, at.tangent_y + 0.0 * local))
         # each slot of a pair is offset from the middle between them
         psi = one.engagement.motion(local, 0).c[0] - np.sign(local) * one.engagement.apart
         direction = turned_points(direction, psi)
