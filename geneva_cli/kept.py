@@ -37,6 +37,8 @@ KEPT = 16  # designs whose results are kept: those that a sweep computes togethe
 class Known(Generic[K, T]):
     """A function of a design that keeps its last results, and may take them from a batch.
 
+    Designs of one ``key`` have the same result.
+
     >>> square = Known(lambda x: x * x)
     >>> square.put(3, lambda: 9.0), square.put(4, lambda: None)
     (None, None)
@@ -44,27 +46,28 @@ class Known(Generic[K, T]):
     (9.0, 16)
     """
 
-    def __init__(self, compute: Callable[[K], T]) -> None:
-        self.compute = compute
-        self._later: dict[K, Callable[[], T | None]] = {}
-        self._kept: dict[K, T] = {}  # the last used one stands last
+    def __init__(self, compute: Callable[[K], T], key: Callable[[K], Any] | None = None) -> None:
+        self.compute, self.key = compute, key
+        self._later: dict[Any, Callable[[], T | None]] = {}
+        self._kept: dict[Any, T] = {}  # the last used one stands last
 
     def __call__(self, of: K) -> T:
         """The result of the function, computed at the first call."""
-        result = self._kept.pop(of, None)
+        key = self.key(of) if self.key else of
+        result = self._kept.pop(key, None)
         if result is None:
-            later = self._later.pop(of, None)
+            later = self._later.pop(key, None)
             result = later() if later else None
         if result is None:
             result = self.compute(of)
-        self._kept[of] = result
+        self._kept[key] = result
         for old in [*self._kept][:-KEPT]:  # another thread may have removed it
             self._kept.pop(old, None)
         return result
 
     def put(self, of: K, later: Callable[[], T | None]) -> None:
         """Let ``later`` compute the result of a design; if it returns None, the function does."""
-        self._later[of] = later
+        self._later[self.key(of) if self.key else of] = later
         for old in [*self._later][:-KEPT]:
             self._later.pop(old, None)
 

@@ -6,9 +6,11 @@ Also the names of the loads that a machine has.
 from __future__ import annotations
 
 import math
+from operator import attrgetter
 
 import numpy as np
 
+from geneva_cli.kept import Known
 from geneva_cli.loads.contact import LoadCase
 from geneva_cli.loads.strength.pin_arm_key import pin_diameter_mm
 from geneva_cli.motion.machine_spec import Spec
@@ -17,7 +19,7 @@ from geneva_cli.motion.registry import thing
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import Array, N, all_true, choose, library
 from geneva_cli.spec.defaults import roller_material, wheel_material
-from geneva_cli.spec.tables import Mass
+from geneva_cli.spec.tables import Mass, Size
 from geneva_cli.spec.workshops import Stock
 
 G = 9.80665  # standard gravity, m/s²
@@ -38,6 +40,23 @@ def hertz_MPa(modulus_GPa: float, line_N_mm: N, radius_mm: float) -> N:
     modulus = modulus_GPa * 1e3
     out: N = library(line_N_mm, radius_mm).sqrt(line_N_mm * modulus / (math.pi * radius_mm))
     return out
+
+
+# All that the loads of a machine depend on: tables of its spec, and all sizes but these.
+_TABLES = (
+    *("wheel", "drive", "drive_before", "motion", "load", "mass", "support", "motor", "shaft"),
+    *("material_wheel", "material_roller", "tolerance"),
+)
+_FREE = (
+    *("lock_radius_mm", "lock_clearance_mm", "wheel_bore_mm", "wheel_hub_mm", "crank_bore_mm"),
+    *("crank_hub_mm", "arm_bore_mm", "arm_hub_mm", "arm_eye_mm"),
+)
+_SIZES = sorted({*Size.__annotations__}.difference(_FREE))
+_PATHS = *map("spec.{}".format, _TABLES), *map("spec.size.{}".format, _SIZES)
+# Machines with the same key have the same loads.
+load_key = attrgetter(*Mechanism._fields[1:], *_PATHS)
+# A copy of the first known one of the machines that have the same loads.
+first_alike = Known[Mechanism, Mechanism](Mechanism._replace, load_key)
 
 
 def load_case(mechanism: Mechanism) -> LoadCase:

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from contextlib import suppress
 from operator import attrgetter
 from typing import TYPE_CHECKING, NoReturn, Self
 
@@ -23,7 +22,7 @@ from geneva_cli.numerics.arrays import Array, value_or
 from geneva_cli.parts.assembly import links_at
 from geneva_cli.parts.frame import framed
 from geneva_cli.parts.links.links import Links
-from geneva_cli.parts.machine_sizes import machine_sizes
+from geneva_cli.parts.machine_sizes import machine_sizes, refuse_unfit, unloaded
 from geneva_cli.parts.outlines.crank_outline import crank_bore, is_whole
 from geneva_cli.parts.outlines.cut_outlines import drawn, slot_walls, wheel_contour
 from geneva_cli.parts.outlines.outlines import Outlines, dial_circle, wheel_hub, wheel_plate
@@ -43,13 +42,28 @@ class FlatParts(EdgedParts):
 
     @cached_property
     def shape(self) -> Outlines:
-        """Wheel and crank as they are turned. Raises GenevaError where the sizes leave none."""
-        return drawn(*machine_sizes(self.mechanism))
+        """Wheel and crank as they are turned. Raises GenevaError where the sizes leave none.
 
-    @property
+        No outline depends on a size that the load chooses.
+        """
+        of = unloaded(self.mechanism)
+        try:
+            refuse_unfit(of.assembly, of.sizes)
+        except GenevaError:  # unless the load chooses sizes that fit
+            return drawn(*machine_sizes(self.mechanism))
+        return drawn(of.assembly, of.sizes)
+
+    @cached_property
     def outlines(self) -> Outlines:
         """The outlines of wheel and crank; raises GenevaError for a wheel that is not drawn."""
-        return self.shape
+        _, sizes = machine_sizes(self.mechanism)
+        return self.shape._replace(sizes=sizes)
+
+    @property
+    def built(self) -> Self:
+        """These parts. Raises GenevaError where the sizes leave no wheel or no crank."""
+        _ = self.outlines
+        return self
 
     @property
     def close(self) -> float:
@@ -59,11 +73,11 @@ class FlatParts(EdgedParts):
     @property
     def drawn(self) -> Outlines | None:
         """The outlines of wheel and crank; None for links and gears alone."""
-        return self.shape
+        return self.outlines
 
     def past_mouth(self, motion: int, at: Array) -> Array:
         """Return how far a motion's roller is in its slot, beyond the mouth's corners, mm, (n,)."""
-        own, sizes = self.outlines, self.outlines.sizes
+        own, sizes = self.shape, self.shape.sizes
         # the corners are on the rim, half a slot's width from the slot's middle
         level = math.sqrt(max(sizes.rim**2 - sizes.half_width**2, 0.0))
         lost = self.wall_lost if sizes.mouth_radius or sizes.horn_tip else 0.0
@@ -73,7 +87,7 @@ class FlatParts(EdgedParts):
     @cached_property
     def wall_lost(self) -> float:
         """By how much the walls of straight slots end deeper than at sharp mouths, mm."""
-        own, lost = self.outlines, 0.0
+        own, lost = self.shape, 0.0
         for (kind, _), cut in zip(own.assembly.slots, own.cut, strict=True):
             for sharp, piece in zip(own.slots[kind].segments, cut.segments, strict=True):
                 lost = max(lost, math.dist(*sharp[:2]) - math.dist(*piece[:2]))
@@ -92,19 +106,16 @@ class FlatParts(EdgedParts):
     def following(self, mechanism: Mechanism) -> Parts:
         """Return the parts of the next design, with this turn if it is the same.
 
-        It is if wheel, drive, motion and ``[size]`` are equal, but for the speed, and all sizes
-        that follow from the load.
+        It is if wheel, drive, motion and ``[size]`` are equal, but for the speed.
         """
         parts, computed = parts_of(mechanism), vars(self)
         own, other = self.mechanism.spec, mechanism.spec
         keys = attrgetter("wheel", "motion", "size")
         alike = own.drive.replace(n_rpm=1.0) == other.drive.replace(n_rpm=1.0)
-        alike &= "shape" in computed and keys(own) == keys(other)
-        with suppress(GenevaError):  # where the sizes of the next leave no parts
-            if alike and machine_sizes(mechanism)[1] == self.shape.sizes:
-                assembly = self.assembly._replace(full=mechanism)
-                vars(parts)["shape"] = self.shape._replace(assembly=assembly)
-                vars(parts).update({"turn": self.turn} if "turn" in computed else {})
+        if alike and "shape" in computed and keys(own) == keys(other):
+            assembly = self.assembly._replace(full=mechanism)
+            vars(parts)["shape"] = self.shape._replace(assembly=assembly)
+            vars(parts).update({"turn": self.turn} if "turn" in computed else {})
         return parts
 
     def walls(self, slot: Engagement) -> Contour:

@@ -50,16 +50,27 @@ def sized(mechanism: Mechanism) -> Layout | None:
     return None
 
 
-@lru_cache(maxsize=16)
 def machine_sizes(mechanism: Mechanism) -> Layout:
-    """Return a machine's assembly and sizes."""
-    of = unloaded(mechanism)
-    if not mechanism.spec.is_loaded:
-        _refuse(of.assembly, of.sizes)
-        return of.assembly, of.sizes
-    from geneva_cli.loads.strength.part_loads import single_loads
+    """Return a machine's assembly and sizes. Raises GenevaError where they leave no parts."""
+    out = _machine_sizes(mechanism)
+    if isinstance(out, GenevaError):
+        raise out
+    return out
 
-    return of.assembly, loaded(of, mechanism, single_loads(mechanism))
+
+@lru_cache(maxsize=16)
+def _machine_sizes(mechanism: Mechanism) -> Layout | GenevaError:
+    """Return a machine's assembly and sizes, or the error, which is asked for many times too."""
+    try:
+        of = unloaded(mechanism)
+        if not mechanism.spec.is_loaded:
+            refuse_unfit(of.assembly, of.sizes)
+            return of.assembly, of.sizes
+        from geneva_cli.loads.strength.part_loads import single_loads
+
+        return of.assembly, loaded(of, mechanism, single_loads(mechanism))
+    except GenevaError as error:
+        return error
 
 
 @lru_cache(maxsize=16)
@@ -89,7 +100,7 @@ def loaded(of: Unloaded, mechanism: Mechanism, loads: PartLoads) -> Sizes:
     out = load_sizes(of, by, mechanism, loads, link=link)
     out = mapped(np.ndarray.item, mapped(np.asarray, out))
     out = out._replace(first_pin=pin, first_shaft=shaft)
-    _refuse(of.assembly, out)
+    refuse_unfit(of.assembly, out)
     return out
 
 
@@ -120,7 +131,7 @@ def fits(of: Unloaded, sizes: Sizes) -> Mask:
     fit = np.atleast_2d(np.isfinite(sizes.rim))  # not that of a design without parts
     with marking() as marks:
         try:
-            _refuse(of.assembly, sizes)
+            refuse_unfit(of.assembly, sizes)
         except GenevaError:  # the check of the parts reports the error
             return fit & False
     return fit & ~reduce(np.logical_or, marks, ~fit)
@@ -294,7 +305,7 @@ def lock_between(
     return own_mm
 
 
-def _refuse(assembly: Assembly, sizes: Sizes) -> None:
+def refuse_unfit(assembly: Assembly, sizes: Sizes) -> None:
     """Raise GenevaError for sizes that leave no wheel or no lock, and for keys of no such part."""
     size, outside, L = assembly.mechanism.spec.size, assembly.sign > 0.0, assembly.L
     lock, end, bored = sizes.lock, sizes.slot_end, 2.0 * sizes.crank_bore

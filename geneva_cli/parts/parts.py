@@ -60,7 +60,10 @@ class Parts(TurnedParts):
 
     @cached_property
     def turn(self) -> FullTurn:
-        """The full turn; raises GenevaError where it takes too many positions."""
+        """The full turn; raises GenevaError where it takes too many positions.
+
+        The sizes that a load chooses do not change it, and may leave no parts: see ``built``.
+        """
         from geneva_cli.parts.turn.full_turn import full_turn
 
         return full_turn(self)

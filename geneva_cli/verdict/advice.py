@@ -11,18 +11,25 @@ import math
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
-from functools import cache
 from typing import Any, NamedTuple, TypeAlias
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.motion.registry import KINDS
 from geneva_cli.parts.chosen import ByLoad, by_load
 from geneva_cli.parts.machine_sizes import built
 from geneva_cli.parts.parts import Parts, parts_of
-from geneva_cli.spec.tables import Size
+from geneva_cli.spec.schema import fields
+from geneva_cli.spec.tables import PLAIN, Size
 from geneva_cli.specfile.keys import tables_with
-from geneva_cli.verdict.checks import QUICK, SIZELESS, TURNED, Check, every_check, single_check
+from geneva_cli.verdict.checks import (
+    KEYS,
+    QUICK,
+    SIZELESS,
+    TURNED,
+    Check,
+    every_check,
+    single_check,
+)
 
 # The reason why a failing check has no advice.
 NONE = "no single change that was tried passes all checks"
@@ -33,79 +40,25 @@ TRIALS = 80  # machines that are built for all searches of a design
 PLACES = (1.0, 1.0 / 12.0, 1.0 / 3.0, 2.0 / 3.0, 1.0 / 6.0)
 # Requirements on the machine's size, process and walls, which no advice reduces.
 REQUIRED = ("center_distance_mm", "crank_radius_mm", "face_width_mm", "process", "wall_min_mm")
-# The words of each check, the likeliest first. A word is a key, by default of [size], and what
-# becomes of its present value: key*2 is up to the double, key:5 towards 5, key=5 only 5, key= none,
-# key? towards the default or anywhere. Words in capitals stand for their own lines; "drives" are
-# [drive] and [drive.before]. The centre distance is changed for its own limits only, where the spec
-# gives it. Sizes that the spec sets are tried behind the words. The speed is a requirement: it is
-# changed where a limit forbids it, and for a part's strength only where no size of it helps.
-_TABLE = """
-LARGER: center_distance_mm*20
-SLOWER: drive.n_rpm*0.001
-FASTER: drive.n_rpm*30
-WIDER: face_width_mm*10
-TIGHTER: slot_clearance_mm:0
-SMALLER: roller_radius_mm*0.2
-LONGER: motion.alpha0_deg:-180 motion.alpha0_deg:180
-MILDER: drives.A:0.99 drives.A:-0.99 drives.eccentricity:0.99 drives.eccentricity:0 LONGER
-  wheel.z:24
-velocity_max acceleration_max acceleration_entry_max jerk_max: MILDER
-entry_velocity_max: crank_radius_mm= wheel_radius_mm?
-turns strike_velocity: crank_radius_mm=
-pin_force_max_N: SLOWER LARGER MILDER
-input_torque_max_Nm product_acceleration_max_m_s2 product_slip: SLOWER MILDER
-contact_stress_max_MPa: SLOWER WIDER LARGER MILDER
-stopping_torque_Nm: FASTER
-cycle_max_s: drive.stop_s*0.1 FASTER
-motion_max_s: FASTER MILDER
-dwell_min_s: drive.stop_s*10 SLOWER MILDER
-index_play_max_deg: TIGHTER
-dwell_play_max_deg: lock_clearance_mm:0
-dwell_position_max_deg: lock_clearance_mm:0 tolerance.lock_radius_mm:0
-  tolerance.recess_radius_mm:0 tolerance.center_distance_mm:0 tolerance.slot_angle_deg:0
-entry_shock_N: tolerance.crank_radius_mm:0 tolerance.center_distance_mm:0 SLOWER
-reversal_shock_N: TIGHTER SLOWER
-reversal_stress_MPa: TIGHTER SLOWER WIDER LARGER
-pv_max_W_m2: SLOWER WIDER LARGER
-roller_life_min_h: material.roller.dynamic_capacity_N*10 SLOWER LARGER
-pin_stress_MPa: pin_mm*1.9 roller_radius_mm*3 pin_held=fixed pin_mm= TIGHTER LARGER SLOWER
-horn_stress_MPa lock_horn_stress_MPa: WIDER lock_radius_mm*0.5 LARGER SLOWER
-lock_stress_max_MPa: lock_edge_mm*10 WIDER LARGER
-lock_deflection_max_deg: lock_clearance_mm*0.1 WIDER LARGER
-wheel_shaft_stress_MPa: shaft.wheel_diameter_mm*5 shaft.wheel_overhang_mm*0.1 wheel_bore_mm*5
-  wheel_bore_mm= LARGER SLOWER
-crank_shaft_stress_MPa: shaft.crank_diameter_mm*5 shaft.crank_overhang_mm*0.1 arm_bore_mm*5
-  arm_bore_mm= crank_bore_mm= LARGER SLOWER
-arm_stress_MPa: arm_thickness_mm*10 arm_eye_mm*3 arm_hub_mm*3 arm_thickness_mm= LARGER SLOWER
-first_pin_stress_MPa: roller_radius_mm*3 pin_mm*1.9 LARGER
-first_horn_stress_MPa first_arm_stress_MPa: link_thickness_mm*10 LARGER
-first_crank_shaft_stress_MPa: link_bore_mm*5 LARGER
-wheel_key_pressure_MPa: wheel_thickness_mm*10 wheel_bore_mm*5 LARGER
-crank_key_pressure_MPa: arm_thickness_mm*10 arm_bore_mm*5 LARGER
-pressure_angle_deg: motion.ratio=matched LONGER wheel.z:24
-driven_fraction: FASTER LONGER
-undercut_mm: SMALLER LONGER
-velocity_min: motion.lambda=0.125 motion.lambda=-0.125
-dwell_deg: drive.rollers:1 LONGER
-driver_gear_convexity driven_gear_convexity: drive.eccentricity:0 drive.A:0 wheel.z:24
-dwell_hold: lock_radius_mm= wheel.held_by=detent
-tolerance_slot_mm: slot_clearance_mm:5
-tolerance_lock_mm: lock_clearance_mm:5
-beside_shafts_mm arm_wall_mm arm_to_hub_mm link_wall_mm dial_wall_mm outer_wall_mm:
-cut_plate_mm cut_slot_mm: wheel_thickness_mm? face_width_mm? lock_thickness_mm? arm_thickness_mm?
-wall_between_slots_mm: SMALLER TIGHTER
-horn_mm: lock_radius_mm? SMALLER lock_clearance_mm:0 TIGHTER
-wheels_apart_mm: SMALLER LARGER drive.wheels:1
-rollers_apart_mm: SMALLER drive.sector_deg:180
-crank_shaft_mm crank_hub_mm crank_bore_wall_mm: crank_hub_mm? crank_bore_mm*0.2 crank_bore_mm=0
-wheel_shaft_mm wheel_bore_wall_mm: wheel_hub_mm? wheel_bore_mm*0.2 wheel_bore_mm=0
-gear_gap_mm: drives.gear_distance_mm*0.3 drives.eccentricity*0.3 drives.A*0.3 wheel_hub_mm=0
-  arm_bore_mm*0.3
-link_gap_mm: link_width_mm? link_pin_mm? crank_shaft_low_mm= drive.before.input_crank_mm*0.2
-  wheel_hub_mm*0.5 wheel_hub_mm=0
-branches_apart_mm branches_crossed_mm: roller_radius_mm*3 LONGER
-OTHERS: lock_clearance_mm:0 TIGHTER roller_radius_mm*0.4 wheel.offset_mm:0
-"""
+# Words, the likeliest first, as each check has them in its row. A word is a key, by default of
+# [size], and what becomes of its present value: key*2 is up to the double, key:5 towards 5, key=5
+# only 5, key= none, key? towards the default or anywhere. Those in capitals stand for these;
+# "drives" are [drive] and [drive.before]. The centre distance is changed for its own limits only,
+# where the spec gives it. Sizes that the spec sets are tried behind the words. The speed is a
+# requirement: it is changed where a limit forbids it, and for a part's strength only where no size
+# of it helps.
+WORDS = {
+    "LARGER": "center_distance_mm*20",
+    "SLOWER": "drive.n_rpm*0.001",
+    "FASTER": "drive.n_rpm*30",
+    "WIDER": "face_width_mm*10",
+    "TIGHTER": "slot_clearance_mm:0",
+    "SMALLER": "roller_radius_mm*0.2",
+    "LONGER": "motion.alpha0_deg:-180 motion.alpha0_deg:180",
+    "MILDER": "drives.A:0.99 drives.A:-0.99 drives.eccentricity:0.99 drives.eccentricity:0 LONGER "
+    "wheel.z:24",
+    "OTHERS": "lock_clearance_mm:0 TIGHTER roller_radius_mm*0.4 wheel.offset_mm:0",
+}
 Change: TypeAlias = tuple[str, Any]  # a key with its table, and a value; None leaves it out
 
 
@@ -144,16 +97,12 @@ def short(value: float, spare: float) -> float:
     return next((number for number in rounded if abs(number - value) <= spare), value)
 
 
-@cache
-def words_of_checks() -> dict[str, str]:
-    """The words of each check, with those in capitals spelled out."""
-    out: dict[str, str] = {}
-    rows = [row.partition(":")[::2] for row in _TABLE.strip().replace("\n  ", " ").splitlines()]
-    for names, words in (*rows, *(row for kind in KINDS for row in kind.remedies.items())):
-        spelled = " ".join(out.get(word, word) for word in words.split())
-        both = re.sub(r"drives(\S+)", r"drive\1 drive.before\1", spelled)
-        out |= dict.fromkeys(names.split(), both)
-    return out
+def words_of(name: str) -> str:
+    """The words of a check, with those in capitals spelled out."""
+    words = KEYS.get(name, "OTHERS")
+    while capitals := re.search("[A-Z]{5,}", words):
+        words = words.replace(capitals[0], WORDS[capitals[0]])
+    return re.sub(r"drives(\S+)", r"drive\1 drive.before\1", words)
 
 
 def remedies(check: Check, mechanism: Mechanism) -> Iterator[Remedy]:
@@ -161,14 +110,14 @@ def remedies(check: Check, mechanism: Mechanism) -> Iterator[Remedy]:
     spec, size = mechanism.spec, mechanism.spec.size.as_dict()
     usual = {} if check.name in SIZELESS else Size().as_dict()
     own = [key for key in usual if size[key] != usual[key] and key not in REQUIRED]
-    known, how = words_of_checks(), "=" if "remove it" in check.why else "?"
+    how = "=" if "remove it" in check.why else "?"
     # first a size that the reason names, such as "wheel_bore_mm = 30: it must be below 20"
     first, last = [key + how for key in own if key in check.why], [f"{key}?" for key in own]
-    text = " ".join((*first, known.get(check.name, known["OTHERS"]), *last))
+    text = " ".join((*first, words_of(check.name), *last))
     if given := [key for key in REQUIRED[:2] if size[key]]:
         limited = len(given) == 1 and spec.limits.as_dict().get(check.name) is not None
-        larger = known["LARGER"].replace(REQUIRED[0], given[0]) if limited else ""
-        text = text.replace(known["LARGER"], larger)
+        larger = WORDS["LARGER"].replace(REQUIRED[0], given[0]) if limited else ""
+        text = text.replace(WORDS["LARGER"], larger)
     for table, key, how, end in re.findall(r"(?:([\w.]+)\.)?(\w+)([*:=?])(\S*)", text):
         whole, keys = f"{table or 'size'}.{key}", spec.table(table or "size")
         now = _now(mechanism, whole) if key in keys else None
@@ -230,7 +179,9 @@ def advised(mechanism: Mechanism, rows: list[Check]) -> list[Check]:
 def line(whole: str, value: Any) -> str:
     """A change as a line of the spec; a key that an earlier table has too stands with its table."""
     table, _, key = whole.rpartition(".")
-    if table != next(iter(tables_with(key))):
+    # no kind has a key of these tables, and to ask all kinds takes a twentieth of a run
+    plain = [name for name, of in PLAIN.items() if key in [field.key for field in fields(of)]]
+    if table != next(iter(plain or tables_with(key))):
         key = whole
     if value is None:
         return f"leaving out {key}"

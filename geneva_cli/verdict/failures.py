@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 from geneva_cli.errors import is_warning
 from geneva_cli.table import Table, in_digits, record_table
-from geneva_cli.verdict.checks import JAMS
 
 if TYPE_CHECKING:
     from geneva_cli.parts.parts import Parts
@@ -67,7 +66,8 @@ def failures(rows: list[Check], parts: Parts) -> tuple[str, list[str]]:
             refused.append(c.why)
         elif c.name == "parts":  # the reason why there are none
             warned.append(c.why)
-        elif c.name in JAMS or (
+        # a roller that does not find its slot, or meets the rim next to it, jams
+        elif c.name.startswith("hand_over_") or (
             # Links and gears lie below the wheel's plane, so the wheel can be cut all the same.
             c.name not in ("link_wall_mm", "link_gap_mm", "gear_gap_mm")
             and c.must_be == "at least"

@@ -17,14 +17,8 @@ from geneva_cli.spec.workshops import WORKSHOPS, closest_mm, loosest_mm
 SHOWN_UNDERCUT = 0.005  # mm: a wall cut back by less is within a shop's tolerance
 
 
-def motion_warnings(mechanism: Mechanism) -> list[Notice]:
+def motion_warnings(mechanism: Mechanism) -> Iterator[Notice]:
     """The warnings about a machine that need neither its loads nor its parts."""
-    of_law = _of_law(mechanism, mechanism.law) if mechanism.law else ()
-    return [*_of_sizes(mechanism), *_fits(mechanism), *of_law]
-
-
-def _of_sizes(mechanism: Mechanism) -> Iterator[Notice]:
-    """Warnings about slots, a lock that is missing, the rim, a stop, and a crank as built."""
     spec, L, engagement = mechanism.spec, mechanism.center_distance_mm, mechanism.engagements[0]
     z, size, drive = spec.wheel.z, spec.size, spec.drive
     if z > Z_USUAL and mechanism.output.turns:  # a rack only becomes longer
@@ -61,6 +55,9 @@ def _of_sizes(mechanism: Mechanism) -> Iterator[Notice]:
             f"R/L = {mechanism.ratio:.6g}, but the slots need {needed:.6g}: taken as built, "
             "with an impact that the loads leave out (the check entry_velocity_max)",
         )
+    yield from _fits(mechanism)
+    if mechanism.law:
+        yield from _of_law(mechanism, mechanism.law)
 
 
 def _fits(mechanism: Mechanism) -> Iterator[Notice]:

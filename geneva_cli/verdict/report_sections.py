@@ -227,7 +227,7 @@ def turned(parts: Parts) -> Values:
     if parts.mechanism.no_turn:
         return {"none": parts.mechanism.no_turn}
     try:
-        turn, output = parts.turn, parts.mechanism.output
+        turn, output = parts.built.turn, parts.mechanism.output
     except GenevaError as error:
         return {"none": str(error)}
     gap = turn.smallest

@@ -207,7 +207,7 @@ def turn_warnings(parts: Parts) -> Iterator[Notice]:
     if not parts.mechanism.spec.is_turned or parts.mechanism.no_turn:
         return
     try:
-        turn = parts.turn
+        turn = parts.built.turn
     except GenevaError:
         return
     most = slips_deg(parts.assembly.full.spec.load.friction)

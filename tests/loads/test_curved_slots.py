@@ -47,10 +47,12 @@ def test_straight_slots_always_drive():
 
 
 def test_the_warning_names_the_cam():
-    said = motion_warnings(build(PRESS.replace(motion=Motion("cycloidal", ratio=0.5), load=MIXED)))
+    said = [
+        *motion_warnings(build(PRESS.replace(motion=Motion("cycloidal", ratio=0.5), load=MIXED)))
+    ]
     assert any("not positively driven" in text and '"cam"' in text for text in said)
     cam = PRESS.replace(drive=Drive("cam"), motion=Motion("cycloidal"), load=MIXED)
-    assert not motion_warnings(build(cam))
+    assert not [*motion_warnings(build(cam))]
 
 
 def test_the_warning_s_gap_lies_where_it_says():

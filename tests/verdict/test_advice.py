@@ -11,11 +11,12 @@ from words import load
 
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.spec.schema import fields
+from geneva_cli.spec.tables import PLAIN
 from geneva_cli.specfile.keys import tables_with
 from geneva_cli.specfile.writer import keys_of
 from geneva_cli.verdict import advice
-from geneva_cli.verdict.advice import NONE, STOPPED, remedies, words_of_checks
-from geneva_cli.verdict.checks import Check, all_pass, checks
+from geneva_cli.verdict.advice import NONE, STOPPED, remedies, words_of
+from geneva_cli.verdict.checks import BEFORE_TURN, OF_TURN, PUSHED, Check, all_pass, checks
 
 DESIGNS = repo.DESIGNS
 
@@ -185,11 +186,18 @@ def test_the_key_that_a_reason_names_is_tried_first(tmp_path: Path) -> None:
 
 def test_each_word_of_a_check_names_a_key() -> None:
     """A word in capitals without a line of its own was a fault of the program, of stops."""
-    for name, words in words_of_checks().items():
-        for word in words.split():
+    for name in (*BEFORE_TURN, *OF_TURN, *PUSHED):
+        for word in words_of(name).split():
             whole = re.split(r"[*:=?]", word)[0]
             table, _, key = whole.rpartition(".")
             assert (table or "size") in tables_with(key), (name, word)
+
+
+def test_no_kind_has_a_key_of_a_plain_table() -> None:
+    """A line of advice looks for the first table with its key in these alone."""
+    for table, kind in PLAIN.items():
+        for field in fields(kind):
+            assert {*tables_with(field.key)} <= {*PLAIN}, (table, field.key)
 
 
 def test_a_size_that_the_machine_cannot_have_is_left_out() -> None:

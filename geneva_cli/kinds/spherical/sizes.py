@@ -12,6 +12,7 @@ from functools import lru_cache
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinds.spherical.ball import Ball, flat_radius, hub_about, usual_ball
 from geneva_cli.kinds.spherical.horn import sphere_horns
+from geneva_cli.loads.load_case import first_alike
 from geneva_cli.loads.strength.horn import greatest_stress
 from geneva_cli.loads.strength.lock import dwell_torque_Nm
 from geneva_cli.loads.strength.part_loads import shaft_squares, single_loads
@@ -134,7 +135,7 @@ def _wheel_bored(mechanism: Mechanism, ball: Ball) -> Ball:
         if trial.hub_mm > widest:
             break
         ball, parts = trial, sphere_stressed(spec, trial)
-        moment = max(_moment_Nm(mechanism, "wheel", parts.wheel_shaft.overhang), held)
+        moment = max(_moment_Nm(first_alike(mechanism), "wheel", parts.wheel_shaft.overhang), held)
         if load.shaft_and_key_hold(spec, "wheel", parts, moment, single_loads(mechanism).wheel_Nm):
             break
     return ball
@@ -171,7 +172,7 @@ def _crank_bored(mechanism: Mechanism, ball: Ball, keyed: bool) -> Ball:
         if not fits(trial):
             break
         sizes, parts = trial, sphere_stressed(spec, trial)
-        moment = _moment_Nm(mechanism, "crank", parts.crank_shaft.overhang)
+        moment = _moment_Nm(first_alike(mechanism), "crank", parts.crank_shaft.overhang)
         torque = single_loads(mechanism).crank_Nm
         if load.shaft_and_key_hold(spec, "crank", parts, moment, torque, keyed):
             break

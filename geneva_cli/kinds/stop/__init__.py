@@ -12,16 +12,16 @@ KINDS = (
             "parts": "alone kinds.stop.parts:stop stop "
             "turns first_deg last_deg overlap_mm lever_mm force_N contact_stress_MPa"
         },
-        remedies={
-            "stop_turns": "lock_radius_mm? SMALLER",
-            "stop_overlap_mm": "lock_radius_mm? SMALLER",
-            "stop_stress_max_MPa": "lock_edge_mm*10 WIDER LARGER",
-        },
         scene="kinds.stop.scene:StopScene",
         parts_checks={
             "stop_turns": "kinds.stop.parts:standing",
             "stop_overlap_mm": "kinds.stop.parts:standing",
             "stop_stress_max_MPa": "kinds.stop.parts:standing",
+        },
+        remedies={
+            "stop_turns": "lock_radius_mm? SMALLER",
+            "stop_overlap_mm": "lock_radius_mm? SMALLER",
+            "stop_stress_max_MPa": "lock_edge_mm*10 WIDER LARGER",
         },
     ),
 )

@@ -24,7 +24,7 @@ import numpy as np
 
 from geneva_cli.loads.contact import NEAR_CUSP, contact, contact_values
 from geneva_cli.loads.instant import Instant
-from geneva_cli.loads.load_case import load_case
+from geneva_cli.loads.load_case import first_alike, load_case
 from geneva_cli.motion.batch import designs_in, taken
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
@@ -194,7 +194,7 @@ def horns(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> list[
 def greatest_stress(sides: Sides, mechanism: Mechanism, sizes: Sizes) -> HornStress:
     """Greatest stress of m designs, of flat horns for 1 mm of contact; a single one's is kept."""
     if isinstance(mechanism.design, int):
-        return _single_stress(sides, mechanism, sizes)
+        return _single_stress(sides, first_alike(mechanism), sizes)
     every = [taken((mechanism, sizes), some) for some in blocks(mechanism.designs, 1024)]
     return joined([_greatest(sides, *some) for some in every])
 

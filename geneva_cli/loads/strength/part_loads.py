@@ -29,7 +29,7 @@ from geneva_cli.kept import Known
 from geneva_cli.loads.contact import QuantityValue
 from geneva_cli.loads.impacts.reversal import reversal_impacts
 from geneva_cli.loads.instant import Instant, LoadQuantity
-from geneva_cli.loads.load_case import centrifugal_N
+from geneva_cli.loads.load_case import centrifugal_N, load_key
 from geneva_cli.loads.load_peaks import load_peaks
 from geneva_cli.loads.strength.lock import dwell_torque_Nm
 from geneva_cli.motion.mechanism import Mechanism
@@ -162,4 +162,4 @@ def part_loads(mechanism: Mechanism) -> PartLoads:
 
 
 # The loads for which a machine is sized, cached for its sizes and their checks.
-single_loads = Known(part_loads)
+single_loads = Known(part_loads, load_key)

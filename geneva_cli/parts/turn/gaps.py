@@ -17,7 +17,7 @@ import numpy as np
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.shapes import Contour, backwards
 from geneva_cli.motion.pivots import turned_points
-from geneva_cli.numerics.arrays import Array, Whole
+from geneva_cli.numerics.arrays import Array, Whole, blocks
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.turn.stops import Lengths, Pose, Stops
@@ -103,24 +103,26 @@ class Gaps:
         out = np.full(len(pose.wheel), near)
         if self.crank is None:
             return out
-        turn = pose.wheel + lead
-        # Points of the wheel against the crank ...
-        moves, reach = self.plane_motion, self.sizes.lock + near
-        axis = moves.into(np.tile((self.assembly.L, 0.0), (len(turn), 1)), turn)
+        turns, moves, reach = pose.wheel + lead, self.plane_motion, self.sizes.lock + near
         half = moves.half_span(reach + float(self.wheel.size.max()), self.assembly.L)
-        nearby = _places_within(self.places, moves.PERIOD, -turn, half)
-        angle = pose.crank - moves.TURNS * turn
-        owner, points = _candidates(self.wheel, nearby, self.crank, (axis, angle), reach)
-        seen = turned_points(points - axis[owner], -angle[owner])
-        np.minimum.at(out, owner, self.crank.signed(seen))
-        # ... and corners of the crank against the wheel.
-        x, y = self.crank.x0, self.crank.y0
-        c, s = np.cos(angle)[:, None], np.sin(angle)[:, None]
-        corners = np.stack((axis[:, :1] + x * c - y * s, axis[:, 1:] + x * s + y * c), axis=-1)
-        inward = self.assembly.sign * (moves.level(corners) - self.sizes.rim)
-        owner, which = np.nonzero(inward < near)
-        if len(owner):
-            np.minimum.at(out, owner, self.to_wheel(corners[owner, which]))
+        # pieces at so many positions at a time stay in the processor's cache
+        for some in blocks(len(turns), max(1, (1 << 17) // len(self.wheel))):
+            turn, gaps = turns[some], out[some]
+            # Points of the wheel against the crank ...
+            axis = moves.into(np.tile((self.assembly.L, 0.0), (len(turn), 1)), turn)
+            nearby = _places_within(self.places, moves.PERIOD, -turn, half)
+            angle = pose.crank[some] - moves.TURNS * turn
+            owner, points = _candidates(self.wheel, nearby, self.crank, (axis, angle), reach)
+            seen = turned_points(points - axis[owner], -angle[owner])
+            np.minimum.at(gaps, owner, self.crank.signed(seen))
+            # ... and corners of the crank against the wheel.
+            x, y = self.crank.x0, self.crank.y0
+            c, s = np.cos(angle)[:, None], np.sin(angle)[:, None]
+            corners = np.stack((axis[:, :1] + x * c - y * s, axis[:, 1:] + x * s + y * c), axis=-1)
+            inward = self.assembly.sign * (moves.level(corners) - self.sizes.rim)
+            owner, which = np.nonzero(inward < near)
+            if len(owner):
+                np.minimum.at(gaps, owner, self.to_wheel(corners[owner, which]))
         return out
 
     def swept(self, number: int, step_deg: float) -> tuple[Array, Array]:
@@ -142,7 +144,7 @@ class Gaps:
         reach = lock * (1.0 - 1e-7)  # a smaller overlap counts as touching
         # only points near the direction of the crank's axis can be within reach of it
         half = moves.half_span(reach, L)
-        step = max(1, (1 << 19) // len(points))  # 2^19 points at a time fit into the cache
+        step = max(1, (1 << 20) // len(points))  # 2^20 points at a time bound the memory
         xs, ys = [], []
         for begin in range(0, len(at), step):
             some = at[begin : begin + step]

@@ -1,8 +1,8 @@
 """The checks of a design: each has a value, a limit, and says whether the value keeps it.
 
-A check is a name in a row here, in the order shown, with the function that yields it. The
-function gets the names that are asked for, and what it checks. It yields no check that does not
-apply. Its module is imported when the first of its checks is asked for.
+A check is a name in a row here, in the order shown, with the function that yields it and the keys
+that move it. The function gets the names that are asked for, and what it checks. It yields no check
+that does not apply. Its module is imported when the first of its checks is asked for.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from operator import attrgetter
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.kept import load_extra, load_named
+from geneva_cli.kept import load_named
 from geneva_cli.motion.compatible import concerns
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.registry import KINDS, of_wheel
@@ -26,62 +26,121 @@ if TYPE_CHECKING:
 Checks: TypeAlias = dict[str, str]  # name -> module:function
 
 FIRST = "first_"  # of the first of two wheels in series, and of its crank
-# Checks that fail where a roller does not find its slot, or meets the rim next to it, and jams.
-JAMS = ("hand_over_play_deg", "hand_over_play_mm", "hand_over_pressure_deg", "hand_over_offset_mm")
-# Plays that the spec limits; a machine whose parts cannot be turned has no value of them. Then the
-# clearances of all the machines within the tolerances.
+# Plays that the spec limits; a machine whose parts cannot be turned has no value of them.
 PLAYS = ("index_play_max_deg", "dwell_play_max_deg", "dwell_position_max_deg")
-TOLERANCES = ("tolerance_slot_mm", "tolerance_lock_mm")
 # The checks of the motion, if they apply; of limits that the spec sets; of flat parts at rest, and
-# those shown behind what a kind adds; of plates or shells in a whole turn; and of flat parts at
-# every angle of the turn, made for a design's own answer. Each row: table, function, names.
+# those shown behind what a kind adds; of plates or shells in a whole turn; of machines as built, by
+# what touches; and of flat parts at every angle of the turn, made for a design's own answer. Below
+# each table and function: names, and the keys that move them, as words of ``verdict.advice``.
 _ROWS = """
-MOTION motion_checks:motion dwell_deg driver_gear_convexity driven_gear_convexity velocity_min
-  groove_pressure_deg pressure_angle_deg driven_fraction undercut_mm
-MOTION load_checks:shocks entry_shock_N reversal_shock_N reversal_stress_MPa stopping_torque_Nm
-LIMITS motion_checks:limits velocity_max acceleration_max acceleration_entry_max jerk_max
-  entry_velocity_max dwell_min_s motion_max_s cycle_max_s pin_force_max_N input_torque_max_Nm
-  contact_stress_max_MPa
-LIMITS load_checks:strength_limits pv_max_W_m2 roller_life_min_h pin_stress_MPa horn_stress_MPa
-  lock_horn_stress_MPa lock_stress_max_MPa lock_deflection_max_deg wheel_shaft_stress_MPa
-  crank_shaft_stress_MPa arm_stress_MPa wheel_key_pressure_MPa crank_key_pressure_MPa
-LIMITS load_checks:product product_acceleration_max_m_s2 product_slip
-STATIC part_checks:walls wall_between_slots_mm horn_mm rollers_apart_mm wheel_bore_wall_mm
-  outer_wall_mm dial_wall_mm crank_bore_wall_mm
-STATIC part_checks:clearances crank_shaft_mm crank_hub_mm wheel_shaft_mm beside_shafts_mm
-  gear_gap_mm arm_wall_mm arm_to_hub_mm link_wall_mm link_gap_mm
-STATIC load_checks:first_stresses first_pin_stress_MPa first_horn_stress_MPa
-  first_crank_shaft_stress_MPa first_arm_stress_MPa
-STATIC part_checks:places branches_apart_mm branches_crossed_mm wheels_apart_mm cranks_apart_mm
-PROCESS part_checks:process cut_plate_mm cut_slot_mm
-PROCESS part_checks:built parts
-TURNING motion_checks:turning dwell_hold gap_mm idle_roller_mm dwell_play_deg dwell_play_mm
-  hand_over_play_deg hand_over_play_mm hand_over_pressure_deg hand_over_offset_mm motion_play_deg
-  motion_play_mm
-TURNING motion_checks:within_tolerances index_play_max_deg dwell_play_max_deg
-  dwell_position_max_deg tolerance_slot_mm tolerance_lock_mm
-PROOFS motion_checks:proof gap_proved_mm
+MOTION motion_checks:motion
+  dwell_deg: drive.rollers:1 LONGER
+  driver_gear_convexity driven_gear_convexity: drive.eccentricity:0 drive.A:0 wheel.z:24
+  velocity_min: motion.lambda=0.125 motion.lambda=-0.125
+  groove_pressure_deg
+  pressure_angle_deg: motion.ratio=matched LONGER wheel.z:24
+  driven_fraction: FASTER LONGER
+  undercut_mm: SMALLER LONGER
+MOTION load_checks:shocks
+  entry_shock_N: tolerance.crank_radius_mm:0 tolerance.center_distance_mm:0 SLOWER
+  reversal_shock_N: TIGHTER SLOWER
+  reversal_stress_MPa: TIGHTER SLOWER WIDER LARGER
+  stopping_torque_Nm: FASTER
+LIMITS motion_checks:limits
+  velocity_max acceleration_max acceleration_entry_max jerk_max: MILDER
+  entry_velocity_max: crank_radius_mm= wheel_radius_mm?
+  dwell_min_s: drive.stop_s*10 SLOWER MILDER
+  motion_max_s: FASTER MILDER
+  cycle_max_s: drive.stop_s*0.1 FASTER
+  pin_force_max_N: SLOWER LARGER MILDER
+  input_torque_max_Nm: SLOWER MILDER
+  contact_stress_max_MPa: SLOWER WIDER LARGER MILDER
+LIMITS load_checks:strength_limits
+  pv_max_W_m2: SLOWER WIDER LARGER
+  roller_life_min_h: material.roller.dynamic_capacity_N*10 SLOWER LARGER
+  pin_stress_MPa: pin_mm*1.9 roller_radius_mm*3 pin_held=fixed pin_mm= TIGHTER LARGER SLOWER
+  horn_stress_MPa lock_horn_stress_MPa: WIDER lock_radius_mm*0.5 LARGER SLOWER
+  lock_stress_max_MPa: lock_edge_mm*10 WIDER LARGER
+  lock_deflection_max_deg: lock_clearance_mm*0.1 WIDER LARGER
+  wheel_shaft_stress_MPa: shaft.wheel_diameter_mm*5 shaft.wheel_overhang_mm*0.1 wheel_bore_mm*5
+    wheel_bore_mm= LARGER SLOWER
+  crank_shaft_stress_MPa: shaft.crank_diameter_mm*5 shaft.crank_overhang_mm*0.1 arm_bore_mm*5
+    arm_bore_mm= crank_bore_mm= LARGER SLOWER
+  arm_stress_MPa: arm_thickness_mm*10 arm_eye_mm*3 arm_hub_mm*3 arm_thickness_mm= LARGER SLOWER
+  wheel_key_pressure_MPa: wheel_thickness_mm*10 wheel_bore_mm*5 LARGER
+  crank_key_pressure_MPa: arm_thickness_mm*10 arm_bore_mm*5 LARGER
+LIMITS load_checks:product
+  product_acceleration_max_m_s2 product_slip: SLOWER MILDER
+STATIC part_checks:walls
+  wall_between_slots_mm: SMALLER TIGHTER
+  horn_mm: lock_radius_mm? SMALLER lock_clearance_mm:0 TIGHTER
+  rollers_apart_mm: SMALLER drive.sector_deg:180
+  wheel_bore_wall_mm: wheel_hub_mm? wheel_bore_mm*0.2 wheel_bore_mm=0
+  outer_wall_mm dial_wall_mm:
+  crank_bore_wall_mm: crank_hub_mm? crank_bore_mm*0.2 crank_bore_mm=0
+STATIC part_checks:clearances
+  crank_shaft_mm crank_hub_mm: crank_hub_mm? crank_bore_mm*0.2 crank_bore_mm=0
+  wheel_shaft_mm: wheel_hub_mm? wheel_bore_mm*0.2 wheel_bore_mm=0
+  beside_shafts_mm:
+  gear_gap_mm: drives.gear_distance_mm*0.3 drives.eccentricity*0.3 drives.A*0.3 wheel_hub_mm=0
+    arm_bore_mm*0.3
+  arm_wall_mm arm_to_hub_mm link_wall_mm:
+  link_gap_mm: link_width_mm? link_pin_mm? crank_shaft_low_mm= drive.before.input_crank_mm*0.2
+    wheel_hub_mm*0.5 wheel_hub_mm=0
+STATIC load_checks:first_stresses
+  first_pin_stress_MPa: roller_radius_mm*3 pin_mm*1.9 LARGER
+  first_horn_stress_MPa: link_thickness_mm*10 LARGER
+  first_crank_shaft_stress_MPa: link_bore_mm*5 LARGER
+  first_arm_stress_MPa: link_thickness_mm*10 LARGER
+STATIC part_checks:places
+  branches_apart_mm branches_crossed_mm: roller_radius_mm*3 LONGER
+  wheels_apart_mm: SMALLER LARGER drive.wheels:1
+  cranks_apart_mm
+PROCESS part_checks:process
+  cut_plate_mm cut_slot_mm: wheel_thickness_mm? face_width_mm? lock_thickness_mm?
+    arm_thickness_mm?
+PROCESS part_checks:built
+  parts
+TURNING motion_checks:turning
+  dwell_hold: lock_radius_mm= wheel.held_by=detent
+  gap_mm idle_roller_mm dwell_play_deg dwell_play_mm hand_over_play_deg hand_over_play_mm
+    hand_over_pressure_deg hand_over_offset_mm motion_play_deg motion_play_mm
+TURNING motion_checks:within_tolerances
+  index_play_max_deg: TIGHTER
+  dwell_play_max_deg: lock_clearance_mm:0
+  dwell_position_max_deg: lock_clearance_mm:0 tolerance.lock_radius_mm:0
+    tolerance.recess_radius_mm:0 tolerance.center_distance_mm:0 tolerance.slot_angle_deg:0
+  tolerance_slot_mm: slot_clearance_mm:5
+  tolerance_lock_mm: lock_clearance_mm:5
+PUSHED motion_checks:pushed_round
+  turns strike_velocity: crank_radius_mm=
+PROOFS motion_checks:proof
+  gap_proved_mm:
 """
-_TABLES: dict[str, Checks] = {}
-for _row in _ROWS.strip().replace("\n  ", " ").splitlines():
-    _table, _function, *_names = _row.split()
-    _TABLES.setdefault(_table, {}).update(dict.fromkeys(_names, f"verdict.checks.{_function}"))
-MOTION, LIMITS, STATIC, PROCESS, TURNING, PROOFS = _TABLES.values()
+_TABLES, KEYS = dict[str, Checks](), dict[str, str]()
+for _row in _ROWS.strip().replace("\n    ", " ").splitlines():
+    if _row[0] != " ":
+        _table, _function = _row.split()
+        continue
+    _names, _colon, _words = _row.partition(":")
+    _own = dict.fromkeys(_names.split(), f"verdict.checks.{_function}")
+    _TABLES.setdefault(_table, {}).update(_own)
+    KEYS |= dict.fromkeys(_own if _colon else (), _words)
+MOTION, LIMITS, STATIC, PROCESS, TURNING, PUSHED, PROOFS = _TABLES.values()
 # All checks of parts at rest, of whatever kind.
 STANDING: Checks = {**STATIC}
 for _kind in KINDS:
     MOTION |= _kind.motion_checks
     STANDING |= _kind.parts_checks
+    KEYS |= _kind.remedies
 STANDING |= PROCESS
-# Of machines as built, by what touches.
-PUSHED = ("turns", "strike_velocity")
 # The names of all checks but those of the whole turn; ``parts``: they can be built.
 BEFORE_TURN = tuple(dict.fromkeys((*MOTION, *LIMITS, "parts", *STANDING)))
 # The names of those of the whole turn; ``full_turn``: the parts can be turned.
 OF_TURN = ("full_turn", *TURNING)
 # For an adviser: checks without parts, checks that turn them, and checks of no drawn size.
 QUICK, TURNED = (*MOTION, *LIMITS), (*OF_TURN, *PUSHED, "parts")
-SIZELESS = (*QUICK, *TOLERANCES, *PUSHED)
+SIZELESS = (*QUICK, *PUSHED, "tolerance_slot_mm", "tolerance_lock_mm")
 
 
 class Check(NamedTuple):
@@ -238,12 +297,12 @@ def every_check(
         machine = machine or parts_of(mechanism)
         try:
             rows = unbuilt or [*applicable(standing, machine.built)]
-            _ = machine.assembly
+            _ = machine.built.assembly
         except GenevaError as error:
             rows, turned = [refused("parts", error)], False
         yield from rows
         if turned and mechanism.no_turn:
-            yield from pushed_round(mechanism)
+            yield from applicable(PUSHED, mechanism, reasons=False)
         elif turned:
             try:
                 turn = machine.turn
@@ -263,33 +322,22 @@ def checks(
 
 def single_check(mechanism: Mechanism, name: str, machine: Parts | None = None) -> Check | None:
     """The check with this name, without the others; None if there is no such check."""
-    rows: Iterable[Check] = ()
-    if path := MOTION.get(name) or LIMITS.get(name):
-        rows = load_named(path)([name], mechanism)
-    elif mechanism.spec.is_turned:
+    table, of = Checks(MOTION | LIMITS), list[object]([mechanism])
+    if name not in table and mechanism.spec.is_turned:
         from geneva_cli.parts.parts import parts_of
 
         machine = machine or parts_of(mechanism)
-        if name in PUSHED and mechanism.no_turn:
-            rows = pushed_round(mechanism)
-        elif name in OF_TURN:
-            turn = machine.turn
-            rows = load_named(TURNING[name])([name], machine, turn) if name in TURNING else ()
+        if name in OF_TURN:
+            table, of = TURNING, [machine, machine.turn]
+        elif mechanism.no_turn and name in PUSHED:
+            table = PUSHED
         else:
             if name == "parts":
-                _ = machine.assembly
-            path = None if mechanism.spec.no_parts else own_checks(mechanism)[1].get(name)
-            rows = load_named(path)([name], machine.built) if path else ()
+                _ = machine.built.assembly
+            table = Checks() if mechanism.spec.no_parts else own_checks(mechanism)[1]
+            of = [machine.built] if name in table else []
+    rows = applicable({name: table[name]} if name in table else {}, *of, reasons=False)
     return next((check for check in rows if check.name == name), None)
-
-
-def pushed_round(mechanism: Mechanism) -> list[Check]:
-    """Whether parts turn that do not follow the formulas, and how hard they are struck."""
-    try:
-        rows: list[Check] = load_extra("outline", "as_built")(mechanism)
-    except GenevaError:
-        return [unknown("full_turn", mechanism.no_turn)]
-    return rows
 
 
 def proofs(parts: Parts, to_mm: float | None = None) -> list[Check]:

@@ -7,6 +7,7 @@ from collections.abc import Collection, Iterator
 from operator import attrgetter
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.kept import load_extra
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import value_or
 from geneva_cli.numerics.tolerances import keeps
@@ -231,13 +232,22 @@ def within_tolerances(names: Collection[str], parts: Parts, turn: FullTurn) -> I
             yield compared("tolerance_lock_mm", own.lock_clearance_mm, "at least", lock_mm)
 
 
+def pushed_round(names: Collection[str], mechanism: Mechanism) -> list[Check]:
+    """Whether parts turn that do not follow the formulas, and how hard they are struck."""
+    try:
+        rows: list[Check] = load_extra("outline", "as_built")(mechanism)
+    except GenevaError:
+        return [unknown("full_turn", mechanism.no_turn)]
+    return rows
+
+
 def proof(names: Collection[str], parts: Parts, to_mm: float | None) -> Iterator[Check]:
     """The proved lower bound of the gap, mm; none where parts are known to overlap.
 
     ``to_mm`` is how far below the smallest gap the bound may be: by default 1 um, or twice the
     overlap that counts as touching, if that is more.
     """
-    gap, name = parts.turn.smallest.mm, "gap_proved_mm"
+    gap, name = parts.built.turn.smallest.mm, "gap_proved_mm"
     if gap < -parts.contact:
         return
     to_mm = to_mm or max(1e-3, 2.0 * parts.contact)

@@ -105,7 +105,7 @@ class UnderLoad:
     @cached_property
     def _unloaded(self) -> Unloaded | None:
         """The parts of the designs without loads, NaN for one without flat parts; None for none."""
-        if self._alike:
+        if not self.designs.single and self._alike:
             return _or_none(unloaded_alike, self.machine)
         of = next(filter(None, self._each), None)
         if of is None or len(self._each) == 1:
