@@ -11,8 +11,11 @@ from bisect import bisect_right
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from geneva_cli.figure import Figure
     from geneva_cli.geometry.shapes import Shape
+    from geneva_cli.numerics.arrays import N
 
 
 class Track(NamedTuple):
@@ -41,12 +44,14 @@ def value_at(track: Track, t: float) -> float:
     if not h > 0.0:
         return track.value[i + 1]
     u = min(1.0, max(0.0, (t - track.at[i]) / h))
+    return cubic(u, h, track.value[i : i + 2], track.slope[i : i + 2])
+
+
+def cubic(u: float, h: N, ends: Sequence[N], slopes: Sequence[N]) -> N:
+    """A cubic at a fraction of its step h, from its values and slopes at both ends."""
     w = 1.0 - u
-    return (
-        w * w * (1.0 + 2.0 * u) * track.value[i]
-        + u * u * (1.0 + 2.0 * w) * track.value[i + 1]
-        + u * w * h * (w * track.slope[i] - u * track.slope[i + 1])
-    )
+    at_ends = w * w * (1.0 + 2.0 * u) * ends[0] + u * u * (1.0 + 2.0 * w) * ends[1]
+    return at_ends + u * w * h * (w * slopes[0] - u * slopes[1])
 
 
 Place: TypeAlias = tuple[Track, Track]

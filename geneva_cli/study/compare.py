@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 import os
 from collections.abc import Mapping, Sequence
-from itertools import pairwise
+from itertools import groupby, pairwise, product
+from typing import Any
 
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError, cut, few
@@ -113,7 +113,7 @@ def designs_of(
     if vary:
         text = read(paths[0], settings)
         refuse_twice(axes, text.set_keys)
-        for one in itertools.product(*[a.values for a in axes]):
+        for one in product(*[a.values for a in axes]):
             words = [f"{a.key}={v}" for a, v in zip(axes, one, strict=True)]
             changes = tuple(setting(s, "--vary") for s in words)
             texts[" ".join(words)] = text._replace(set_keys=(*text.set_keys, *changes))
@@ -169,14 +169,12 @@ def of_table(path: str, x: str, ys: Sequence[str]) -> Figure:
         style = LINE if len(places) > POINTS_MARKED else JOINED
     panels = []
     for y in ys:
-        pieces: list[tuple[list[float], list[float]]] = [([], [])]
-        for place, value in zip(at, table.numbers(y, "--y"), strict=True):
-            if place is not None and value is not None:
-                pieces[-1][0].append(place)
-                pieces[-1][1].append(value)
-            elif ascends:
-                pieces.append(([], []))
-        curve = Curve(0, "", tuple(piece for piece in pieces if piece[0]), style=style)
+        points = [*zip(at, table.numbers(y, "--y"), strict=True)]
+        if not ascends:
+            points = [point for point in points if None not in point]
+        runs = groupby(points, lambda point: None not in point)
+        pieces: Any = [(*map(list, zip(*run, strict=True)),) for known, run in runs if known]
+        curve = Curve(0, "", tuple(pieces), style=style)
         if not curve.pieces:
             raise GenevaError(f"--y {cut(y)}: no row of {cut(path, 300)} has both it and {x}")
         panels.append(Panel(Axis(y, y), (curve,), None, from_zero=False))

@@ -24,7 +24,7 @@ from geneva_cli.motion.laws.law import Motion
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.motion.wheels.gearing import Gearing
-from geneva_cli.numerics.arrays import Array
+from geneva_cli.numerics.arrays import Array, Number
 from geneva_cli.numerics.tolerances import ROUNDED
 from geneva_cli.spec.tables import LIMITED
 from geneva_cli.study.sweep.constraints import Constraint, Objective
@@ -170,11 +170,11 @@ class Target(NamedTuple):
         high = motion.high if motion.high < whole else (1.0 - OPEN_END) * whole
         return motion if motion.exact else AllowedSpan(min(low, high), high)
 
-    def speeds(self, m: float, motion_deg: Sequence[float]) -> dict[str, Array]:
+    def speeds(self, m: float, motion_deg: Number | list[float]) -> dict[str, Array]:
         """The key of the input speeds for m motions of these angles in a turn, if they matter."""
         if not self.timed:
             return {}
-        return {"drive.n_rpm": np.array([self.n_rpm(m, x) for x in motion_deg])}
+        return {"drive.n_rpm": np.array([self.n_rpm(m, x) for x in np.ravel(motion_deg).tolist()])}
 
     def machine(
         self, wheel: Gearing, drive: Drive, motion_deg: float, motion: Motion | None = None

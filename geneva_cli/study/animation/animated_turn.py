@@ -16,8 +16,9 @@ from geneva_cli.motion.engagement import WheelMotion
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import AxisPlace, Link, turned_points
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.output.scene import Bar, CarriedShapes, Place, Push, Track
+from geneva_cli.output.scene import Bar, CarriedShapes, Place, Push, Track, cubic
 from geneva_cli.parts.assembly import Passage, assembly, links_at
+from geneva_cli.parts.slots.slot_profile import pitch_at
 
 # value and slope by the input in degrees, at input angles in degrees
 Moving: TypeAlias = "Callable[[Array], tuple[Array, Array]]"
@@ -206,12 +207,8 @@ def _normals(one: Passage, local: Array, turn: MachineTurn, pin: Array) -> Array
         return np.column_stack((0.0 * local, 1.0 + 0.0 * local))
     direction = pin
     if turn.mechanism.spec.wheel.FLAT:
-        x, y = one.engagement.slot(local, 2)
-        direction = np.column_stack((x.c[1] + 0.0 * local, y.c[1] + 0.0 * local))
-        bend = np.column_stack((x.c[2] + 0.0 * local, y.c[2] + 0.0 * local))
-        # at a cusp the roller turns back, in the direction of its second derivative
-        slow = np.hypot(*direction.T) < 1e-6
-        direction[slow] = bend[slow]
+        at = pitch_at(one.engagement, local)
+        direction = np.column_stack((at.tangent_x + 0.0 * local, at.tangent_y + 0.0 * local))
         # each slot of a pair is offset from the middle between them
         psi = one.engagement.motion(local, 0).c[0] - np.sign(local) * one.engagement.apart
         direction = turned_points(direction, psi)
@@ -260,17 +257,9 @@ def _knots(a: float, b: float, moving: Moving, error: float) -> tuple[Array, Arr
         off = np.zeros(len(h))
         for u in (0.2, 0.5, 0.8):  # places in a step
             there = moving(knots[:-1] + u * h)[0]
-            off = np.maximum(off, np.abs(_hermite(u, h, v, s) - there))
+            between = cubic(u, h, (v[:-1], v[1:]), (s[:-1], s[1:]))
+            off = np.maximum(off, np.abs(between - there))
         wide = (off > error) & (h > 1e-3)  # degrees: knots are no nearer to each other
         if not wide.any():
             return knots, v, s
         knots = np.sort(np.concatenate((knots, (knots[:-1] + 0.5 * h)[wide])))
-
-
-def _hermite(u: float, h: Array, v: Array, s: Array) -> Array:
-    w = 1.0 - u
-    return (
-        w * w * (1.0 + 2.0 * u) * v[:-1]
-        + u * u * (1.0 + 2.0 * w) * v[1:]
-        + u * w * h * (w * s[:-1] - u * s[1:])
-    )

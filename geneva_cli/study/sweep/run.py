@@ -64,11 +64,9 @@ class SweepPlan(NamedTuple):
             points = np.hstack([sobol(dimensions, self.seed, k, BLOCK) for k in blocks])
             own = points[:, start - first : stop - first]
             return [a.between(x) for a, x in zip(self.axes, own, strict=True)]
-        columns, numbers = list[Column](), np.arange(start, stop)
-        for a in reversed(self.axes):
-            numbers, at = np.divmod(numbers, len(a.values))
-            columns.append(a.column(at))
-        return columns[::-1]
+        counts = [len(a.values) for a in self.axes]
+        each = np.unravel_index(np.arange(start, stop), counts)
+        return [a.column(at) for a, at in zip(self.axes, each, strict=True)]
 
 
 def plan(axes: Sequence[VariedKey], random: int | None, seed: int) -> SweepPlan:

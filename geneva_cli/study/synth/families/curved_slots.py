@@ -126,9 +126,8 @@ def _buildable(lines: Sequence[_LawLine], motions: Array) -> Mask:
 
 
 def _keys(target: Target, natural: float, m: int, at: Array) -> dict[str, Array]:
-    motions = at.tolist()
-    alpha0 = np.array([_alpha0(natural, motion) for motion in motions])
-    return {"motion.alpha0_deg": alpha0, **target.speeds(m, motions)}
+    alpha0 = np.array([_alpha0(natural, motion) for motion in at.tolist()])
+    return {"motion.alpha0_deg": alpha0, **target.speeds(m, at)}
 
 
 def _alpha0(natural: float, motion: float) -> float:

@@ -22,7 +22,7 @@ class Family(NamedTuple):
     ``spec`` is one of them. ``keys`` returns the values (n,) of its keys at numbers (n,) between
     ``low`` and ``high``; NaN where there is no machine. At ``plain`` a machine moves as the plain
     crank does. At ``known`` it is a machine of another family. At ``best`` it is the best, which is
-    ``spec``. Those are NaN if there is none. All can be passed to another process.
+    ``spec``. Those are NaN if there is none.
     """
 
     spec: Spec

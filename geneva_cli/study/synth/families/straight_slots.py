@@ -22,7 +22,8 @@ from geneva_cli.drives.crank import Crank
 from geneva_cli.drives.epicyclic import Epicyclic
 from geneva_cli.drives.gears import EllipticalGears
 from geneva_cli.drives.side_crank import SideCrank
-from geneva_cli.motion.drive import Drive
+from geneva_cli.drives.transmission import Transmission
+from geneva_cli.errors import marking
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.registry import families_of_kinds
 from geneva_cli.motion.wheels.classic import half_motion_deg, rollers_max
@@ -47,11 +48,6 @@ def side_crank(natural_deg: float, motion_deg: float) -> float:
     return math.sin(turn) / math.sin(0.5 * natural_deg * DEGREE)
 
 
-def side_crank_motion(natural_deg: float, A: float) -> float:
-    """The motion that a side-crank makes: phi_1 = phi_2 + 2 asin(A sin(phi_2/2))."""
-    return natural_deg + 2.0 * math.asin(A * math.sin(0.5 * natural_deg * DEGREE)) / DEGREE
-
-
 def axes(z: int, motion_deg: float) -> float:
     """Angle between a spherical wheel's shafts, degrees: cos S = cot b cot(phi_1/2).
 
@@ -67,12 +63,6 @@ def axes(z: int, motion_deg: float) -> float:
     return math.atan2(math.sqrt(square), math.cos(a) * cos_b) / DEGREE
 
 
-def axes_motion(z: int, axes_deg: float) -> float:
-    """The motion of a spherical wheel: cos(phi_1/2) = cos S sin b / sqrt(1 - (sin S sin b)²)."""
-    (sin_b, cos_b), S = sin_cos_pi(1, z), axes_deg * DEGREE
-    return 2.0 * math.atan2(cos_b, math.cos(S) * sin_b) / DEGREE
-
-
 def eccentricity(natural_deg: float, motion_deg: float) -> float:
     """Eccentricity of equal ellipses: tan(phi_1/4) = (1+e)/(1-e) tan(phi_2/4).
 
@@ -85,29 +75,22 @@ def eccentricity(natural_deg: float, motion_deg: float) -> float:
     )
 
 
-def gears_motion(natural_deg: float, e: float) -> float:
-    """The motion that equal ellipses make, degrees."""
-    tangent = (1.0 + e) / (1.0 - e) * math.tan(0.25 * natural_deg * DEGREE)
-    return 4.0 * math.atan(tangent) / DEGREE
-
-
 class _InFront(NamedTuple):
-    """A drive before the crank: its key, and its parameter and its motion by each other."""
+    """A drive before the crank: its key, and its parameter by the plain motion and a motion."""
 
-    drive: Drive
+    drive: Transmission
     key: str
     parameter: Callable[[float, float], float]
-    motion: Callable[[float, float], float]
     low: float = -MOST
     high: float = MOST
 
 
 SLOW, QUICK = (EllipticalGears(eccentricity=0.1, phase=phase) for phase in ("slow", "quick"))
 IN_FRONT = (
-    _InFront(SideCrank(A=0.0), "drive.A", side_crank, side_crank_motion),
+    _InFront(SideCrank(A=0.0), "drive.A", side_crank),
     # of gears the sign of the eccentricity is the phase
-    _InFront(SLOW, "drive.eccentricity", eccentricity, gears_motion, low=0.0),
-    _InFront(QUICK, "drive.eccentricity", eccentricity, gears_motion, high=0.0),
+    _InFront(SLOW, "drive.eccentricity", eccentricity, low=0.0),
+    _InFront(QUICK, "drive.eccentricity", eccentricity, high=0.0),
 )
 
 
@@ -176,11 +159,8 @@ def planets(target: Target, wheel: Gearing) -> Iterator[Family]:
         c = 1.0 + teeth if fixed == "sun" else 1.0 - teeth
         least = -l / (1.0 + c if c > 0.0 else teeth) * (1.0 - 1e-6)
         most = l / (c * c - 1.0) * (1.0 - 1e-9)
-        yield Family(planet(fixed, most), _ratio, least, most, known=0.0)
-
-
-def _ratio(at: Array) -> dict[str, Array]:
-    return {"drive.planet_ratio": at}
+        spec = planet(fixed, most)
+        yield Family(spec, lambda at: {"drive.planet_ratio": at}, least, most, known=0.0)
 
 
 def driven(target: Target, wheel: Gearing) -> Iterator[Family]:
@@ -202,9 +182,10 @@ def driven(target: Target, wheel: Gearing) -> Iterator[Family]:
 
 
 def _in_front(target: Target, natural: float, one: _InFront, at: Array) -> dict[str, Array]:
-    motions = [one.motion(natural, x) for x in at.tolist()]
     size = at if one.low * one.high else abs(at)
-    return {one.key: size, **target.speeds(1, motions)}
+    with marking():  # all are in range
+        drive = one.drive.with_keys({one.key.removeprefix("drive."): size[:, None]})
+    return {one.key: size, **target.speeds(1, 2.0 * drive.about(0.5 * natural)[0])}
 
 
 def inclined(target: Target, wheel: Gearing) -> Iterator[Family]:
@@ -218,10 +199,11 @@ def inclined(target: Target, wheel: Gearing) -> Iterator[Family]:
         span = AllowedSpan(*(axes(z, x) for x in free)).within(AXES)
         if not span.empty:
             known = 90.0 if free.allows(180.0) else math.nan
-            keys = partial(_on_axes, target, z, m)
+            keys = partial(_on_axes, target, wheel, m)
             yield Family(plain(target, wheel, m), keys, *span, 90.0, known)
 
 
-def _on_axes(target: Target, z: int, m: int, at: Array) -> dict[str, Array]:
-    motions = [axes_motion(z, x) for x in at.tolist()]
-    return {"wheel.axes_deg": at, **target.speeds(m, motions)}
+def _on_axes(target: Target, wheel: Gearing, m: int, at: Array) -> dict[str, Array]:
+    with marking():  # all are in range
+        motion_deg = natural_deg(wheel.replace(axes_deg=at[:, None]))
+    return {"wheel.axes_deg": at, **target.speeds(m, motion_deg)}
