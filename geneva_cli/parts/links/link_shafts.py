@@ -69,7 +69,7 @@ class Round(NamedTuple):
 
     name: str
     plane: int
-    path: Array  # complex positions, one at each input angle
+    path: Array  # complex positions, one at each input angle, or one for all
     radius: float
 
 
@@ -85,14 +85,11 @@ def planes(
     every = links_at(mechanism, turn)
     met = list(_gears(parts, bars, [link for link in every if link.radius_mm], turn))
     links = [link for link in every if not link.radius_mm]
-    if not links:
-        return min(met, default=None), None
     carries, shaft = _crank_shaft(parts, links, bars)
     low = mechanism.spec.size.crank_shaft_low_mm
     ends = math.inf if low is None else low + SAME_LENGTH * L
     reached = {link.plane for link in links if bars.sizes.span(link.plane)[1] > ends}
-    rounds = [*_on_wheel(parts, links, bars.sizes, 0.0 * turn)]
-    rounds += _posts(parts, bars, spacers, turn)
+    rounds = [*_on_wheel(parts, links, bars.sizes), *_posts(parts, bars, spacers)]
     for path, both in joined(links, SAME_LENGTH * L):  # spacers on pins
         name = f"the pin of {' and '.join(link.name for link in both)}"
         own = [link.plane for link in both]
@@ -112,8 +109,6 @@ def crank_stop(parts: Outlines, bars: Links) -> float | None:
     mechanism = parts.assembly.full
     turn = turn_deg(mechanism)
     links = [link for link in links_at(mechanism, turn) if not link.radius_mm]
-    if not links:
-        return None
     carries, shaft = _crank_shaft(parts, links, bars)
     if _blocked(bars, links, carries, shaft, turn) is None:
         return None
@@ -134,7 +129,7 @@ def _crank_shaft(parts: Outlines, links: list[Link], bars: Links) -> tuple[set[i
         carries.add(0)
     radius = sizes.crank_shaft or bars.shaft((L, 0.0), L)
     wide = bore_at(machine, (L, 0.0), radius).around
-    return carries, Round("the crank's shaft", 0, places(links[0])[0] * 0.0 + L, wide)
+    return carries, Round("the crank's shaft", 0, np.array(complex(L)), wide)
 
 
 def _blocked(
@@ -156,7 +151,7 @@ def _gears(parts: Outlines, bars: Links, gears: list[Link], turn: Array) -> Iter
         # a shaft fills the gear's bore, a hub does not
         own = gear.bore
         wide = own._replace(radius=own.radius + own.loose).around
-        for one in _on_wheel(parts, [link], bars.sizes, 0.0 * turn):
+        for one in _on_wheel(parts, [link], bars.sizes):
             if on_shaft and one.radius <= wide:
                 continue
             gaps = away + (wide - one.radius) if on_shaft else away - gear.outer - one.radius
@@ -164,7 +159,7 @@ def _gears(parts: Outlines, bars: Links, gears: list[Link], turn: Array) -> Iter
             yield Meeting(float(gaps[least]), float(turn[least]), gear.plate.name, one.name)
 
 
-def _posts(parts: Outlines, bars: Links, spacers: Iterable[Member], turn: Array) -> Iterator[Round]:
+def _posts(parts: Outlines, bars: Links, spacers: Iterable[Member]) -> Iterator[Round]:
     """Yield the pivots and spacers between the frame and links, in the planes of a drive below."""
     mechanism, L = parts.assembly.full, parts.assembly.L
     lowest, links = gear_plane(mechanism), links_at(mechanism, np.zeros(1))
@@ -179,10 +174,10 @@ def _posts(parts: Outlines, bars: Links, spacers: Iterable[Member], turn: Array)
         rounds.append((f"the {one.part.name}", one.at, one.part.outline.radius))
     for name, at, radius in rounds:
         for plane in sorted({link.plane for link in links if link.plane >= lowest}):
-            yield Round(name, plane, np.full(turn.shape, complex(*at)), radius)
+            yield Round(name, plane, np.array(complex(*at)), radius)
 
 
-def _on_wheel(parts: Outlines, links: list[Link], sizes: LinkSizes, axis: Array) -> Iterator[Round]:
+def _on_wheel(parts: Outlines, links: list[Link], sizes: LinkSizes) -> Iterator[Round]:
     """Yield the wheel's hub in the planes that it reaches, and its shaft in those below."""
     if parts.assembly.sign < 0.0:
         return
@@ -194,9 +189,9 @@ def _on_wheel(parts: Outlines, links: list[Link], sizes: LinkSizes, axis: Array)
     for plane in sorted({link.plane for link in links}):
         high = sizes.span(plane)[1]
         if hub and reach < high - SAME_LENGTH * parts.assembly.L:
-            yield Round("the wheel's hub", plane, axis, hub)
+            yield Round("the wheel's hub", plane, np.array(0j), hub)
         elif shaft and low < high - SAME_LENGTH * parts.assembly.L:
-            yield Round("the wheel's shaft", plane, axis, shaft)
+            yield Round("the wheel's shaft", plane, np.array(0j), shaft)
 
 
 def _meeting(bars: Links, link: Link, one: Round, turn: Array) -> Meeting:
