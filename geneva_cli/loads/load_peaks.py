@@ -239,6 +239,4 @@ def _sums_of(load: LoadFunctions, result: SearchResult) -> Array:
         return [*squares, *(contact.plain_values(value, name) for name, value in both)]
 
     each = load.integrals(pieces, functions, needed)
-    total: Array = np.array([np.bincount(pieces.design, row, n) for row in each])
-    total[~needed] = np.inf
-    return total
+    return np.array([np.bincount(pieces.design, row, n) for row in each])
