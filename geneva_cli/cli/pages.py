@@ -29,7 +29,7 @@ def page(topic: str) -> str:
 
 def commands_page() -> str:
     """The help of every command, under the headings of ``geneva --help``."""
-    import click
+    from typer import Context
     from typer.main import get_command
 
     from geneva_cli.cli.app import COMMANDS, GROUPS, app
@@ -43,10 +43,10 @@ def commands_page() -> str:
         parts.append(f"| {title.lower()} | |\n| --- | --- |\n{rows}\n")
     group: Any = get_command(app)
     settings = {**group.context_settings, "terminal_width": WIDTH}
-    root = click.Context(group, info_name="geneva", **settings)
+    root = Context(group, info_name="geneva", **settings)
     for name in COMMANDS:
         _, command, _ = group.resolve_command(root, [name])
-        shown = command.get_help(click.Context(command, parent=root, info_name=name))
+        shown = command.get_help(Context(command, parent=root, info_name=name))
         lines = "\n".join(line.rstrip() for line in shown.strip().splitlines())
         parts.append(f"## {name}\n\n```text\n{lines}\n```\n")
     return "\n".join(parts)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -21,7 +22,7 @@ from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.links.links import places
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.parts import EdgedParts
-from geneva_cli.parts.projection import drawing_of, once, outlines_of, shapes, titled, uncovered
+from geneva_cli.parts.projection import drawing_of, once, outlines_of, shapes, titled, with_frame
 from geneva_cli.parts.shafts.arm_and_shafts import crank_arm
 from geneva_cli.parts.slots.roller_paths import roller_paths
 
@@ -44,7 +45,7 @@ def arm(parts: FlatParts) -> Drawing:
     if solid is None:
         crank_arm(parts.outlines)  # whose error says why there is none
     assert solid is not None
-    return Drawing(titled(parts.mechanism, "arm"), (solid.outline, *solid.holes), solid=solid)
+    return drawing_of(parts.mechanism, "arm", solid)
 
 
 def slot(parts: FlatParts) -> Drawing:
@@ -129,7 +130,7 @@ def pitch_lines(parts: FlatParts, engagement: Engagement) -> list[Contour]:
         fine = 1e-3 if parts.tolerance is None else parts.tolerance  # mm, as a drawing's
         pieces: list[Segment] = []
         for a, b in ((through.entry_deg, 0.0), (0.0, through.exit_deg)):
-            path = parallel(assembly, through, 0.0, b > 0.0)
+            path = partial(parallel, assembly.L, through, 0.0, b > 0.0)
             pieces += fit.KINDS[parts.curves](path, a, b, fine)
         line = Contour("PITCH", forms.joined(pieces), closed=False)
     return [forms.turned(line, -apart), forms.turned(line, apart)] if apart else [line]
@@ -152,10 +153,7 @@ def machine(parts: FlatParts) -> Drawing:
     drawn += [shape._replace(layer="LINK") for shape in blanks if shape.layer != "PITCH"]
     drawn += outlines_of(Group("", parts.gear_pair))
     drawn += shapes(parts.first)
-    drawn += [
-        shape._replace(layer="FRAME") if isinstance(shape, Circle) else shape
-        for shape in uncovered(parts.standing, drawn)
-    ]
+    drawn = [*with_frame(drawn, parts.standing)]
     # the line of centres, and the rollers' paths on their circles and in their slots
     axes = [place.at for place in assembly.full.crank_places]
     drawn += [Contour("PITCH", (Line((0.0, 0.0), axis),), closed=False) for axis in axes]

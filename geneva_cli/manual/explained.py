@@ -6,10 +6,11 @@ label have the fields: ``- Formula: ...``. An entry without ``See`` has the link
 whose name begins with the same word.
 """
 
-import os
 import re
 from functools import cache
 from typing import NamedTuple
+
+from geneva_cli.manual import read
 
 GROUPS = {  # a page each, and what one of its entries is
     "checks": "check",
@@ -66,9 +67,7 @@ def head(page: str) -> str:
 
 def text(page: str) -> str:
     """Text of a page without pictures; that of quantities is printed as a table."""
-    name = "quantities.txt" if page == "quantities" else os.path.join("reference", f"{page}.md")
-    with open(os.path.join(os.path.dirname(__file__), name), encoding="utf-8") as file:
-        return re.sub(r"<img [^>]*>", "", file.read())
+    return read("quantities.txt") if page == "quantities" else read("reference", f"{page}.md")
 
 
 def _read(page: str) -> list[Entry]:

@@ -183,15 +183,16 @@ class LawMotion(WheelMotion):
         return Peak(size * step / radians(whole) ** times, at_deg)
 
     def __call__(self, input_deg: Number, order: int = 3) -> Jet:
-        whole, step = self.exit_deg - self.entry_deg, 2.0 * self.half_step
-        middle = 0.5 * (self.entry_deg + self.exit_deg)
+        ends = self.entry_deg, self.exit_deg
+        # their difference may round, which an enclosure then counts
+        entry, exit_ = arrays.enclosed(input_deg, ends)
+        whole, step, middle = exit_ - entry, 2.0 * self.half_step, 0.5 * sum(ends)
 
         def first(x: Number) -> Jet:
-            fraction = (x - self.entry_deg) / whole
-            return self.law.first(fraction, order) * step - self.half_step
+            return self.law.first((x - entry) / whole, order) * step - self.half_step
 
         def second(x: Number) -> Jet:
-            rest = self.law.second((self.exit_deg - x) / whole, order)
+            rest = self.law.second((exit_ - x) / whole, order)
             return remaining(rest * step, self.half_step)
 
         s = piecewise(input_deg, (middle,), (first, second))

@@ -9,17 +9,6 @@ from typing import NamedTuple
 _NONE: Mapping[str, str] = MappingProxyType({})
 
 
-class Quantities(NamedTuple):
-    """Quantities of a kind that are computed together, as a group of the verdict."""
-
-    table: str  # beginning of the whole names
-    names: str  # own names, as words of a text
-    after: str  # table of the report behind which they are shown
-    alone: str = ""  # function that computes them for a single design
-    batch: str = ""  # function that computes them for a batch of designs
-    makes_parts: bool = False
-
-
 class Kind(NamedTuple):
     """One kind: a wheel, a drive, or an addition to one of them."""
 
@@ -48,7 +37,9 @@ class Kind(NamedTuple):
     parts_checks: Mapping[str, str] = _NONE  # of parts at rest, all or those that it adds
     remedies: Mapping[str, str] = _NONE  # of its checks, in words of ``verdict.advice``
     load_case: str = ""  # function that completes the load case of a mechanism
-    quantities: tuple[Quantities, ...] = ()  # of the report
+    # of the report, by the tables behind which they are shown: "batch", or "alone" for those that
+    # make the parts of a single design, the function, their table, and their names
+    quantities: Mapping[str, str] = _NONE
     # sizes of a mechanism's horns: half the slot's width, the recess (0 without a lock), and more
     horn_sizes: str = ""
     horns: str = ""  # function of a mechanism and them that returns horns of another shape

@@ -28,11 +28,9 @@ except ImportError:  # in a browser and on Windows
 POSIX = fcntl is not None
 # The byte that is locked on Windows, where nobody else can read a locked one: past any file's end.
 FAR = 1 << 40
-# How a file is opened that somebody may have replaced by a link or a pipe. Windows lacks both.
-CAREFUL = sum(getattr(os, name, 0) for name in ("O_NOFOLLOW", "O_NONBLOCK"))
 # Windows has no SIGHUP, and only Windows has SIGBREAK: Ctrl-Break, and a closed console.
-NAMES = ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK")
-SIGNALS = [getattr(signal, name) for name in NAMES if hasattr(signal, name)]
+ENDING = ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK")
+SIGNALS = [one for one in signal.Signals if one.name in ENDING]
 # What Windows refuses in a name, and why; a hidden stream follows a colon, and the names of devices
 # are reserved whatever the extension.
 DEVICES = r"con|prn|aux|nul|conin\$|conout\$|(?:com|lpt)[1-9¹²³]"
@@ -55,8 +53,7 @@ def write(path: str, chunks: Iterable[str] | Iterable[bytes], inputs: Iterable[s
 def _stop(number: int, frame: FrameType | None) -> None:
     """Raise SystemExit, which cleans up; a second signal does not interrupt that."""
     for other in SIGNALS:
-        if signal.getsignal(other) is _stop:
-            signal.signal(other, signal.SIG_IGN)
+        signal.signal(other, signal.SIG_IGN)
     sys.exit(128 + number)
 
 
@@ -108,12 +105,12 @@ def open_locked(path: str, shown: str) -> BinaryIO:
     """Open a file that this run alone writes. Raises GenevaError if another run has it."""
     if os.path.lexists(path) and not stat.S_ISREG(os.lstat(path).st_mode):
         raise GenevaError(f"{cut(path, 300)}: not a file; rename it, or give -o another name")
-    file = os.fdopen(os.open(path, os.O_RDWR | os.O_CREAT | CAREFUL, 0o666), "r+b")
-    is_ours = _lock(file) and os.path.exists(path)
-    if not is_ours or not os.path.samefile(path, file.fileno()):  # just removed or renamed
-        file.close()
-        raise GenevaError(f"{cut(shown, 300)}: another run is writing this; wait until it ends")
-    return file
+    file = os.fdopen(os.open(path, os.O_RDWR | os.O_CREAT, 0o666), "r+b")
+    with suppress(FileNotFoundError):  # just removed or renamed
+        if _lock(file) and os.path.samestat(os.lstat(path), os.fstat(file.fileno())):
+            return file
+    file.close()
+    raise GenevaError(f"{cut(shown, 300)}: another run is writing this; wait until it ends")
 
 
 def _lock(file: BinaryIO) -> bool:

@@ -12,7 +12,7 @@ import os
 import shutil
 import signal
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, below, cut, few
@@ -51,30 +51,27 @@ def filling_folder(
     real = files.real_path(path)
     if os.path.lexists(real) and not os.path.isdir(real):
         raise GenevaError(f"{cut(path, 300)}: this is a file; give -o the name of a folder")
-    new, is_new = os.path.join(real, TEMPORARY), not os.path.isdir(real)
-    kept: list[str] = []
-    with files.write_errors(path), files.answering():
-        if is_new:
+    new, kept = os.path.join(real, TEMPORARY), list[str]()
+    with files.write_errors(path), files.answering(), ExitStack() as at_end:
+        if not os.path.isdir(real):
             os.mkdir(real)
-        try:
-            with files.replacing(below(path, LIST)) as listing:  # it keeps other runs out
-                _require_own(path, entries, inputs, force)  # before the work
-                try:
-                    shutil.rmtree(new, ignore_errors=True)
-                    os.mkdir(new)
-                    yield new, kept
-                    # a person may have changed a file meanwhile
-                    _require_own(path, entries, inputs, force)
-                    rows = [one._replace(sha256=_digest(below(new, one.file))) for one in entries]
-                    with files.answering(signal.SIG_IGN):  # not half of them
-                        kept += _replace(real, new, rows)
-                        listing.writelines(_lines(rows))
-                finally:
-                    shutil.rmtree(new, ignore_errors=True)
-        finally:
-            with suppress(OSError):  # it has files now
-                if is_new:
-                    os.rmdir(real)
+            at_end.callback(_remove_empty, real)
+        listing = at_end.enter_context(files.replacing(below(path, LIST)))  # keeps other runs out
+        _require_own(path, entries, inputs, force)  # before the work
+        shutil.rmtree(new, ignore_errors=True)
+        at_end.callback(shutil.rmtree, new, ignore_errors=True)
+        os.mkdir(new)
+        yield new, kept
+        _require_own(path, entries, inputs, force)  # a person may have changed a file meanwhile
+        rows = [one._replace(sha256=_digest(below(new, one.file))) for one in entries]
+        with files.answering(signal.SIG_IGN):  # not half of them
+            kept += _replace(real, new, rows)
+            listing.writelines(_lines(rows))
+
+
+def _remove_empty(folder: str) -> None:
+    with suppress(OSError):  # it has files
+        os.rmdir(folder)
 
 
 def _require_own(path: str, entries: Sequence[Row], inputs: Sequence[str], force: bool) -> None:

@@ -1,8 +1,8 @@
 """A table that grows for hours: a stopped run keeps its rows, and can be continued.
 
-The rows of ``FILE`` go to the state file ``FILE.geneva``; ``FILE`` is replaced at the end, in one
-step. The state's first line names the program and the request. Each block of rows follows a line
-with the numbers of its rows and its bytes, and their checksum.
+The rows of ``FILE`` go to the file that will replace it, and to the state ``FILE.geneva``, from
+which a later run takes them. The state's first line names the request. Each block of rows follows
+a line with the numbers of its rows and its bytes, and their checksum.
 """
 
 from __future__ import annotations
@@ -11,8 +11,8 @@ import os
 import re
 import sys
 import zlib
-from collections.abc import Collection, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Collection, Iterator, Sequence
+from contextlib import ExitStack, contextmanager
 from itertools import chain
 from typing import Any
 
@@ -31,12 +31,14 @@ LINE_MAX = 1000  # bytes of a line of ours; a foreign file may have one of gigab
 class GrowingTable:
     """The destination of the rows of ``names``, ``done`` of which exist already.
 
-    Without ``state``, an open file, rows are printed. ``message`` says where a run continues.
+    Each block of rows, as ``encode`` makes it, goes to ``state``, an open file, and to ``put``.
+    Without a state rows are printed. ``message`` says where a run continues.
     """
 
-    def __init__(self, names: Sequence[str], output: str, state: Any = None) -> None:
-        self.names, self.output, self.state = names, output, state
-        self.done, self.start, self.end, self.message = 0, 0, 0, ""
+    def __init__(self, names: Sequence[str], put: Callable[[bytes], object], state: Any) -> None:
+        self.names, self.put, self.state, self.name = names, put, state, ""
+        self.encode: Callable[..., bytes] = lambda _, columns: text_of(columns, "").encode()
+        self.done, self.message = 0, ""
 
     def append(self, columns: Sequence[Any]) -> None:
         """Add rows as columns, arrays where infinity is no value, or lists of cells.
@@ -44,59 +46,45 @@ class GrowingTable:
         Raises ArithmeticError for NaN.
         """
         refuse_nonsense(self.names, columns, endless=True)
-        if self.output.endswith(".parquet"):
-            data = parquet.block_of(self.names, columns)
-        else:
-            data = text_of(columns, infinity="").encode()
-        if not self.state:
-            sys.stdout.write(data.decode())
-            return
-        self.write(b"block %d %d %d\n%s" % (len(columns[0]), len(data), zlib.crc32(data), data))
-        self.done += len(columns[0])
-
-    def write(self, data: bytes) -> None:
-        """Write after what is whole, and hand it to the system."""
-        with write_errors(self.output):
-            self.state.seek(self.end)
-            self.state.truncate()
-            self.state.write(data)
+        data, count = self.encode(self.names, columns), len(columns[0])
+        if self.state:
+            self.state.write(b"block %d %d %d\n%s" % (count, len(data), zlib.crc32(data), data))
             self.state.flush()
-            self.end = self.state.tell()
+        done = self.done = self.done + count
+        self.put(data)  # this may read all blocks again, and count them
+        if self.done != done:
+            raise GenevaError(
+                f"{self.name}: changed or damaged while the run wrote it; run again with --resume"
+            )
 
     def blocks(self) -> Iterator[bytes]:
-        """Yield the bytes of each block up to the first damaged one, and count the rows."""
-        self.done, self.end = 0, self.start
+        """Yield the bytes of each block, and count the rows; cut off the first damaged block."""
+        self.state.seek(0)
+        self.done, end = 0, len(self.state.readline(LINE_MAX))
         size = os.fstat(self.state.fileno()).st_size
-        self.state.seek(self.end)
         while line := HEAD.fullmatch(self.state.readline(LINE_MAX)):
             rows, length, checksum = map(int, line.groups())
             data = self.state.read(min(length, size))
             if zlib.crc32(data) != checksum:
-                return
-            self.done, self.end = self.done + rows, self.state.tell()
+                break
+            self.done, end = self.done + rows, self.state.tell()
             yield data
+        self.state.seek(end)
+        self.state.truncate()
 
-    def begin(self, key: str, resume: bool, name: str) -> None:
-        """Begin or continue the rows of ``key`` in the state, a file of this name."""
+    def begin(self, key: str, resume: bool) -> None:
+        """Begin or continue the rows of ``key`` in the state."""
         first, known = TITLE + key.encode() + b"\n", self.state.readline(LINE_MAX)
         if known and not (known.startswith(TITLE) and known.endswith(b"\n")):
-            raise GenevaError(
-                f"{name}: not the state of a sweep, which has this name; rename it, or give -o "
-                "another name"
-            )
+            why = "not the state of a sweep, which has this name"
+            raise GenevaError(f"{self.name}: {why}; rename it, or give -o another name")
         if resume and known not in (b"", first):
-            raise GenevaError(
-                f"--resume: {name} has the rows of another run "
-                "(another spec, other options or another version); start without --resume"
-            )
-        self.start = len(first)
-        for _ in self.blocks() if resume else ():
-            pass  # counts them
-        if not self.done:
-            self.end = 0
-            self.write(first)
-        if resume:
-            self.message = f"--resume: {name}: continues after row {self.done}"
+            why = "another spec, other options or another version); start without --resume"
+            raise GenevaError(f"--resume: {self.name} has the rows of another run ({why}")
+        if not (resume and known):
+            self.state.seek(0)
+            self.state.truncate()
+            self.state.write(first)
 
 
 @contextmanager
@@ -120,7 +108,7 @@ def growing(
             raise GenevaError("--resume continues a file: give -o FILE")
         use_utf8()
         sys.stdout.write(one_line(names))
-        yield GrowingTable(names, output)
+        yield GrowingTable(names, lambda data: sys.stdout.write(data.decode()), None)
         return
     if not output.endswith((".csv", ".parquet")):
         raise GenevaError(f'-o "{cut(output, 300)}": it must end in .csv or .parquet')
@@ -131,19 +119,20 @@ def growing(
         path = place(output, inputs)[0] + ".geneva"
         state = open_locked(path, output)
     with state:
-        rows = GrowingTable(names, output, state)
-        rows.begin(key, resume, cut(os.path.basename(path)))
-        yield rows
-        with replacing(output, inputs) as file:
-            if is_parquet and not rows.done:
-                rows.append([[] for _ in names])  # the names of the columns are in each block
-            done = rows.done
+        with replacing(output, inputs) as file, ExitStack() as at_end:
+            rows = GrowingTable(names, file.write, state)
+            rows.name = cut(os.path.basename(path))
+            rows.begin(key, resume)
             if is_parquet:
-                parquet.write_blocks(rows.blocks, file, texts)
+                writer = parquet.Writer(file, rows.blocks, texts)
+                at_end.callback(writer.close)
+                rows.encode, rows.put = parquet.block_of, writer.append
+                writer.rewrite()
             else:
                 file.writelines(chain([one_line(names).encode()], rows.blocks()))
-            if rows.done != done:
-                raise GenevaError(
-                    f"{path}: changed or damaged while the run wrote it; run again with --resume"
-                )
+            if resume:
+                rows.message = f"--resume: {rows.name}: continues after row {rows.done}"
+            yield rows
+            if is_parquet and not rows.done:
+                rows.append([[] for _ in names])  # the names of the columns are in each block
         remove(state, path)

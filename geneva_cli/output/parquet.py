@@ -36,34 +36,79 @@ def block_of(names: Sequence[str], columns: Sequence[Any]) -> bytes:
     return sink.getvalue().to_pybytes()
 
 
-def write_blocks(
-    blocks: Callable[[], Iterable[bytes]], target: BinaryIO, texts: Collection[str] = ()
-) -> None:
-    """Write blocks of rows, at least one, as parquet: numbers, truth values or texts.
+class Writer:
+    """A parquet file of numbers, truth values or texts, from blocks of rows.
 
-    They are read twice: the type of a column follows from all its rows. Columns named in ``texts``
-    are texts even if all their rows are empty.
+    The type of a column follows from all its rows: where a block changes it, the file is written
+    again, from all that ``blocks`` yields. Columns named in ``texts`` are texts even if all their
+    rows are empty.
     """
-    import pyarrow as pa
-    from pyarrow import parquet
 
-    types: dict[str, set[pa.DataType]] = {}
-    for block in blocks():
+    def __init__(
+        self,
+        target: BinaryIO,
+        blocks: Callable[[], Iterable[bytes]],
+        texts: Collection[str] = (),
+    ) -> None:
+        self.target, self.blocks, self.texts = target, blocks, texts
+        self._types: dict[str, set[pa.DataType]] = {}
+        self._group: list[pa.Table] = []  # of rows that are not written yet
+        self._out: Any = None
+
+    def append(self, block: bytes) -> None:
+        """Write a block, the last one of ``blocks``."""
+        if self._changes(block):
+            self.rewrite()
+        else:
+            self._write(block)
+
+    def rewrite(self) -> None:
+        """Write all blocks, from the beginning of the file."""
+        import pyarrow as pa
+        from pyarrow import parquet
+
+        for block in self.blocks():
+            self._changes(block)
+        self.close()
+        self.target.seek(0)
+        self.target.truncate()
+        types = {
+            name: pa.string() if name in self.texts else _common(own)
+            for name, own in self._types.items()
+        }
+        words = [name for name, own in types.items() if own == pa.string()]
+        self._out = parquet.ParquetWriter(self.target, pa.schema(types), use_dictionary=words)
+        for block in self.blocks():
+            self._write(block)
+
+    def close(self) -> None:
+        """Write what is left, and the end of the file."""
+        self._flush()
+        if self._out:
+            self._out.close()
+
+    def _changes(self, block: bytes) -> bool:
+        """Return True if a column of the block has a type that none had before."""
+        import pyarrow as pa
+
+        before = sum(map(len, self._types.values()))
         for field in pa.ipc.open_stream(block).schema:
-            types.setdefault(field.name, set()).add(field.type)
-    schema = pa.schema(
-        [(name, pa.string() if name in texts else _common(own)) for name, own in types.items()]
-    )
-    words = [field.name for field in schema if field.type == pa.string()]
-    with parquet.ParquetWriter(target, schema, use_dictionary=words) as out:
-        group: list[pa.Table] = []
-        for block in blocks():
-            group.append(_cast(pa.ipc.open_stream(block).read_all(), schema))
-            if sum(map(len, group)) >= ROWS:
-                out.write_table(pa.concat_tables(group))
-                group = []
-        if group:
-            out.write_table(pa.concat_tables(group))
+            self._types.setdefault(field.name, set()).add(field.type)
+        return sum(map(len, self._types.values())) > before
+
+    def _write(self, block: bytes) -> None:
+        import pyarrow as pa
+
+        self._group.append(_cast(pa.ipc.open_stream(block).read_all(), self._out.schema))
+        if sum(map(len, self._group)) >= ROWS:
+            self._flush()
+
+    def _flush(self) -> None:
+        import pyarrow as pa
+
+        if self._group:
+            self._out.write_table(pa.concat_tables(self._group))
+            self._group = []
 
 
 def _array(column: Any) -> pa.Array:

@@ -46,8 +46,6 @@ NAMES = {
 }
 
 Values = dict[str, float | str]
-# Tables of quantities that depend on the sizes of the parts.
-OF_SIZES = ("parts", "strength", "life", "checks", "tolerance")
 
 
 class Chosen(NamedTuple):

@@ -200,12 +200,10 @@ class FlatParts(EdgedParts):
 
     def about_wheel(self, crank: Member) -> tuple[Member, ...]:
         """Return the first crank, or a part of it, and its copies on all cranks about the wheel."""
-        first, *others = self.mechanism.crank_places
-        before = np.array([-place.behind_deg for place in (first, *others)])
-        _, *turns = self.outlines.assembly.crank(before) - self.outlines.assembly.crank(np.zeros(1))
-        out = [crank]
-        for place, turn in zip(others, turns, strict=True):
-            out.append(crank._replace(at=place.at, turn=crank.turn + place.turn + float(turn)))
+        out = []
+        for place in self.mechanism.crank_places:
+            turn = float(self.outlines.assembly.crank(np.array([-place.behind_deg]))[0])
+            out.append(crank._replace(at=place.at, turn=place.turn + turn))
         return tuple(out)
 
     @cached_property

@@ -157,20 +157,7 @@ def _all_shafts(parts: Outlines, bars: Links, low: float, first: Sequence[Member
     known: list[Point] = []  # axes whose shafts carry wheel or crank
     known += [(L, 0.0)] if (own.arm_bore if parts.has_arm else own.crank_bore) else []
     known += [ORIGIN] if own.wheel_bore else []
-    half = mechanism.engagements[0].half_step
-    for one in shafts(parts, low, stop):
-        out.append(one)
-        if same(one.at, ORIGIN, L):
-            for place in mechanism.wheel_places[1:]:
-                turn = one.turn + place.turn - half
-                out.append(one._replace(at=place.at, turn=turn))
-            continue
-        for place in mechanism.crank_places[1:]:
-            turn = 0.0
-            if not one.bore.is_plain:  # a plain one has no direction
-                crank = parts.assembly.crank(np.array([-place.behind_deg, 0.0]))
-                turn = one.turn + place.turn + float(crank[0] - crank[1])
-            out.append(one._replace(at=place.at, turn=turn))
+    out += shafts(parts, low, stop)
     if bars.axes:
         out += _link_shafts(parts, bars, (low, stop), known, first)
     if mechanism.spec.gears:

@@ -184,13 +184,6 @@ def keys_by_load(mechanism: Mechanism, locked: bool) -> tuple[str, ...]:
     return tuple(filter(chosen.get, chosen))
 
 
-def drawn_pin_radius(mechanism: Mechanism) -> float:
-    """Return the radius of a roller's pin as its machine has it, 0 for none."""
-    if flat := sized(mechanism):
-        return flat[1].pin
-    return rules.pin_radius(mechanism.spec.size, mechanism.roller_radius_mm)
-
-
 @lru_cache(maxsize=16)
 def wheel_body(mechanism: Mechanism) -> plates.MassProperties | None:
     """Return mass and inertia of wheel and hub; None without a thickness or parts."""

@@ -98,17 +98,17 @@ def shapes(members: Iterable[Member]) -> Iterator[Shape]:
         yield from (plate.outline, *plate.holes)
 
 
-def with_frame(moving: Iterable[Member], standing: Iterable[Member]) -> tuple[Shape, ...]:
-    """Return the outlines of moving parts, and of the frame what these do not cover."""
-    drawn = list(shapes(moving))
-    fixed = [shape._replace(layer="FRAME") for shape in uncovered(standing, drawn)]
-    return tuple(once([*drawn, *fixed]))
+def with_frame(moving: Iterable[Shape], standing: Iterable[Member]) -> tuple[Shape, ...]:
+    """Return shapes of moving parts, and of the frame what they do not cover, each once.
 
-
-def uncovered(standing: Iterable[Member], drawn: Iterable[Shape]) -> Iterator[Shape]:
-    """Yield the outlines of parts that stand, without holes where a circle is drawn already."""
+    A hole of the frame is left out where a circle is drawn already.
+    """
+    drawn = list(moving)
     seen = {_key(shape) for shape in drawn if isinstance(shape, Circle)}
-    yield from (shape for shape in shapes(standing) if _key(shape) not in seen)
+    for shape in shapes(standing):
+        if _key(shape) not in seen:
+            drawn.append(shape._replace(layer="FRAME") if isinstance(shape, Circle) else shape)
+    return tuple(once(drawn))
 
 
 def once(shapes: Iterable[Shape]) -> Iterator[Shape]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from functools import cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.names import SHORT_UNITS, unit_of
@@ -34,13 +34,6 @@ NUMBER = (
     r"[+-]?(?:(?:\d{1,9}[ -])?\d{1,9}/\d{1,9}(?![\d.])"
     r"|(?:\d{1,40}(?:\.\d{0,40})?|\.\d{1,40})(?:[eE][+-]?\d{1,3})?)(?!\d)"
 )
-
-
-class Unit(NamedTuple):
-    """A unit: its powers of metre, kilogram, second and turn, and its size in them."""
-
-    powers: tuple[int, ...]
-    size: Fraction
 
 
 def unit_key(key: str) -> str | None:
@@ -76,26 +69,29 @@ def in_unit_of(key: str, text: str) -> float:
     if own is None or not parts or not parts[2].strip() or parts[2][0] == ",":
         hint = f'; with a unit it is a text such as "10 {own}", with a point' if own else ""
         raise GenevaError(f'{key} must be a number, not "{cut(text)}"{hint}')
-    wanted = _unit(own)
-    others = [name for name in UNITS.get(wanted.powers, {}) if name != own][:5]
+    own_powers, own_size = _unit(own)
+    others = [name for name in UNITS.get(own_powers, {}) if name != own][:5]
     like = f"{own} or {', '.join(others)}" if others else f"{own}, or units of that kind"
     try:
-        unit = _unit(parts[2])
+        powers, size = _unit(parts[2])
     except GenevaError as error:
         raise GenevaError(f'{key} = "{cut(text)}": {error}; use {like}') from None
-    if unit.powers != wanted.powers or not re.fullmatch(pattern(), text):
+    if powers != own_powers or not re.fullmatch(pattern(), text):
         raise GenevaError(f'{key} = "{cut(text)}" must be in {like}')
     # a decimal number, a fraction, or a whole number and a fraction
     bare = parts[1].lstrip("+-")
     try:
         number = sum(map(Fraction, re.split("[ -]", bare) if "/" in bare else [bare]), Fraction(0))
-        return float((-number if parts[1][0] == "-" else number) * unit.size / wanted.size)
+        return float((-number if parts[1][0] == "-" else number) * size / own_size)
     except (OverflowError, ZeroDivisionError):
         raise GenevaError(f'{key} = "{cut(text)}" is too large a number') from None
 
 
-def _unit(text: str) -> Unit:
-    """A unit, or a product of units; everything behind a slash divides."""
+def _unit(text: str) -> tuple[tuple[int, ...], Fraction]:
+    """Powers of metre, kilogram, second and turn in a unit or a product of units, and its size.
+
+    Everything behind a slash divides.
+    """
     from fractions import Fraction
 
     known = {name: (powers, one) for powers, ones in UNITS.items() for name, one in ones.items()}
@@ -117,4 +113,4 @@ def _unit(text: str) -> Unit:
             own, one_size = known[name]
             powers = tuple(a + power * b for a, b in zip(powers, own, strict=True))
             size *= Fraction(one_size) ** power
-    return Unit(powers, size)
+    return powers, size

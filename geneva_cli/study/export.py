@@ -1,6 +1,6 @@
-"""All files of a design that a shop needs: drawings, solids, sheet, list of parts, report, spec.
+"""All files of a design that a shop needs, and its spec with every size that was chosen.
 
-And the spec of a design alone, with every size that a rule or its load chose.
+The files are drawings, solids, a sheet, the list of parts, the report and that spec.
 """
 
 from __future__ import annotations

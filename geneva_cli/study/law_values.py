@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion import registry
 from geneva_cli.motion.given_motion import LawMotion
-from geneva_cli.motion.laws.law import Law
+from geneva_cli.motion.laws.law import QUANTITIES, Law
 from geneva_cli.motion.timing import CamFactors
 from geneva_cli.spec.schema import REQUIRED, fields
 from geneva_cli.table import Reading, Table, rows_table
@@ -16,22 +15,16 @@ from geneva_cli.table import Reading, Table, rows_table
 LAW_COLUMNS = ("law", "C_v", "C_a", "C_j", "C_p", *CamFactors._fields, "about")
 
 
-class Characteristic(NamedTuple):
-    """Greatest sizes of ds/du, d²s/du², d³s/du³ and ds/du times d²s/du²."""
+def characteristic(law: Law) -> dict[str, float]:
+    """The characteristic values of one law, from the search for a machine's peaks.
 
-    velocity: float
-    acceleration: float
-    jerk: float
-    power: float
-
-
-def characteristic(law: Law) -> Characteristic:
-    """The characteristic values of one law, from the search for a machine's peaks."""
+    They are the greatest sizes of ds/du, d²s/du², d³s/du³, and of ds/du times d²s/du².
+    """
     # A step of 1 in a motion of 1 radian: the invariants are then the law's own derivatives.
     half = math.degrees(0.5)
     motion = LawMotion(-half, half, 0.5, law)
-    found = [motion.closed_peak(name) for name in Characteristic._fields]
-    return Characteristic(*[peak.max for peak in found if peak])  # a single law has all peaks
+    # a single law has all peaks
+    return {name: peak.max for name in QUANTITIES if (peak := motion.closed_peak(name))}
 
 
 def laws_table(shape: float) -> Table:
@@ -46,9 +39,8 @@ def laws_table(shape: float) -> Table:
             rows.append((name, *[None] * (len(LAW_COLUMNS) - 2), kind.ABOUT))
             continue
         arguments = {key.attribute: shape for key in keys if key.key == "lambda"}
-        values = characteristic(kind(**arguments))
+        v, a, j, p = characteristic(kind(**arguments)).values()
         # Am, Vm and Qm, as a law's own step and time are 1
-        factors = values.acceleration, values.velocity, values.power / values.acceleration
-        rows.append((name, *values, *factors, kind.ABOUT))
+        rows.append((name, v, a, j, p, a, v, p / a, kind.ABOUT))
     # a narrow window keeps these columns first; the others follow in order
     return rows_table(LAW_COLUMNS, rows).replaced(reading=Reading(("law", "about")))

@@ -31,18 +31,20 @@ def mapped(work: Callable[[T], R], items: Iterable[T], workers: int) -> Iterator
     methods = multiprocessing.get_all_start_methods()
     context = multiprocessing.get_context("fork" if "fork" in methods else None)
     most = 61 if sys.platform == "win32" else workers  # it waits for 61 at most
-    with ProcessPoolExecutor(min(workers, most), context, _attend) as pool:
-        waiting: deque[Future[R]] = deque()
-        try:
-            for item in items:
-                waiting.append(pool.submit(work, item))
-                if len(waiting) > 4 * workers:  # so that memory stays bounded
-                    yield waiting.popleft().result()
-            while waiting:
+    pool = ProcessPoolExecutor(min(workers, most), context, _attend)
+    waiting: deque[Future[R]] = deque()
+    try:
+        for item in items:
+            waiting.append(pool.submit(work, item))
+            if len(waiting) > 4 * workers:  # so that memory stays bounded
                 yield waiting.popleft().result()
-        except BrokenProcessPool:
-            text = "a process that computed some designs was stopped from outside, or ran out of "
-            raise GenevaError(f"{text}memory; try fewer designs at a time") from None
+        while waiting:
+            yield waiting.popleft().result()
+    except BrokenProcessPool:
+        text = "a process that computed some designs was stopped from outside, or ran out of "
+        raise GenevaError(f"{text}memory; try fewer designs at a time") from None
+    finally:  # a run that is stopped waits for no design
+        pool.shutdown(wait=False, cancel_futures=True)
 
 
 def cores() -> int:

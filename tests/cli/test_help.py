@@ -2,6 +2,7 @@
 
 import importlib
 import shutil
+import sys
 
 import pytest
 import repo
@@ -50,6 +51,12 @@ def test_help_of_a_command_ends_with_its_examples(name):
     said = geneva(name, "-h")
     shown = said.partition("\nExamples:\n")[2].replace(" \\\n      ", " ").splitlines()
     assert [line.strip() for line in shown] == [e for n, e in EXAMPLES if n == name] != []
+
+
+def test_the_page_of_all_commands_needs_no_click(monkeypatch):
+    """An install without the tools of development has no Click: Typer brings its own."""
+    monkeypatch.setitem(sys.modules, "click", None)
+    assert "## check\n" in geneva("help", "commands")
 
 
 def test_help_names_the_formats_of_a_table():

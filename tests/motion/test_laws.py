@@ -97,7 +97,7 @@ def test_constants(machine, name):
         zip(("velocity", "acceleration", "jerk"), CONSTANTS[name], strict=True)
     ):
         # 1e-14 relative: eight units in the last place of each of the witness's constants
-        assert getattr(found, quantity) == near(constant, 1e-14)
+        assert found[quantity] == near(constant, 1e-14)
         # the same law in a machine of 6 slots and 120 degrees: (2 pi/z) C/phi_l^k
         got = getattr(of_machine, quantity).max * rate ** (k + 1) / (2.0 * s.half_step)
         assert got == near(constant, 1e-14)

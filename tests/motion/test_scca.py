@@ -85,7 +85,7 @@ def test_peaks_are_the_closed_forms(shares):
     found = characteristic(scca(*shares))
     a = 4 * pi**2 / ((pi**2 - 8) * (b**2 - d**2) - 2 * pi * (pi - 2) * b + pi**2)
     # 1e-14: the closed form's own rounding, some of its terms being differences
-    assert found.acceleration == pytest.approx(a, rel=1e-14)
-    assert found.velocity == pytest.approx(a * ((b + d) / pi + c / 2), rel=1e-14)
+    assert found["acceleration"] == pytest.approx(a, rel=1e-14)
+    assert found["velocity"] == pytest.approx(a * ((b + d) / pi + c / 2), rel=1e-14)
     jerk = a * pi / min((x for x in (b, d) if x), default=math.inf)
-    assert found.jerk == pytest.approx(jerk, rel=1e-14, abs=0.0)
+    assert found["jerk"] == pytest.approx(jerk, rel=1e-14, abs=0.0)

@@ -20,7 +20,7 @@ ROOT = os.path.dirname(str(repo.TESTS))
 # What is written of machines whose curves, laws or gears come from systems of equations, and loads
 # and vibration, whose integrals are sums of products
 WORK = """
-import hashlib, io, sys
+import functools, hashlib, io, sys
 import numpy as np
 from geneva_cli import design
 from geneva_cli.motion.motion_table import motion_table
@@ -34,7 +34,7 @@ def tell(what):
     print(hashlib.sha256(repr(what).encode()).hexdigest())
 cam = load("designs/cam-geneva.toml").engagements[0]
 for side in (1.0, 0.0):
-    curve = groove_curve(cam.groove, 441.89, 20.0 * side)
+    curve = functools.partial(groove_curve, cam.groove, 441.89, 20.0 * side)
     for a, b in ((cam.entry_deg, cam.exit_deg), (cam.exit_deg, cam.entry_deg + 360.0)):
         tell(fit.KINDS["arcs"](curve, a, b, 0.001))
 curved = load("designs/modified-sine-matched.toml")

@@ -74,12 +74,20 @@ def test_a_damaged_run_is_continued_from_its_last_whole_block(path, old, new, ke
 
 
 def test_a_state_that_is_damaged_meanwhile_does_not_become_the_file(path):
-    refused = pytest.raises(GenevaError, match="changed or damaged while the run wrote it")
-    with refused, growing(NAMES, KEY, path) as rows:
+    """It is read only where a column of a parquet file gets another type."""
+    with growing(NAMES, KEY, path) as rows:
         for block in BLOCKS:
             rows.append(block)
         change(path, b"7,8\n", b"7,")
-    assert os.listdir(os.path.dirname(path)) == ["rows.csv.geneva"]
+    assert read(path) == WHOLE
+    os.remove(path)
+    path = path.replace("csv", "parquet")
+    refused = pytest.raises(GenevaError, match="changed or damaged while the run wrote it")
+    with refused, growing(NAMES, KEY, path) as rows:
+        rows.append(BLOCKS[0])
+        change(path, b"\0", b"\1")
+        rows.append([["word"], [6]])
+    assert os.listdir(os.path.dirname(path)) == ["rows.parquet.geneva"]
 
 
 FOREIGN = {
@@ -134,3 +142,18 @@ def test_what_is_refused(path):
     refused = pytest.raises(GenevaError, match="is an input")
     with refused, growing(NAMES, KEY, path, False, [path]):
         pass
+
+
+@pytest.mark.parametrize("stopped", [1, 2])
+def test_a_column_of_numbers_gets_words_after_a_stop(path, stopped):
+    """A parquet file that is continued has the bytes of one run."""
+    blocks = [*BLOCKS, [["word"], [None]]]
+    files = []
+    for name, kept in (("whole.parquet", 0), ("rows.parquet", stopped)):
+        file = path.replace("rows.csv", name)
+        if kept:
+            run(file, blocks[:kept], ends=False)
+        assert run(file, blocks[kept:], resume=True)[0] == sum(len(b[0]) for b in blocks[:kept])
+        with open(file, "rb") as whole:
+            files.append(whole.read())
+    assert files[0] == files[1]

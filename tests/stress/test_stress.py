@@ -5,11 +5,8 @@ import math
 import pytest
 import stress_many
 from design_arrays import MACHINES
-from exact.cases import HARD
-from exact.machines import compare_machine, read
-from exact.table import DIGITS, LIMIT, Table
+from exact.table import LIMIT, Table
 from stress import fill, missing, parts
-from witness import mp
 
 PARTS = parts(sample=True)
 
@@ -23,16 +20,6 @@ def test_sample(name):
     assert table.count > 10
     over = {row: w for row, w in table.rows.items() if not w.share <= LIMIT}
     assert not over
-
-
-@pytest.mark.long
-def test_a_point_much_slower_than_its_links():
-    """Its links' rounding is 17 times its own: the manual's page accuracy."""
-    for text in HARD:
-        table = Table()
-        with mp.workdps(DIGITS // 2):
-            compare_machine(table, "four-bar", text, read(text), sample=True)
-        assert max(w.share for w in table.rows.values()) <= 2.5 * LIMIT
 
 
 def test_every_kind_has_a_witness():

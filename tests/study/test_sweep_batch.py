@@ -158,6 +158,13 @@ def test_specs_of_one_kind_keep_their_own_loads_and_sizes():
     assert wide == pytest.approx(one / 3.0, rel=1e-12)
 
 
+def test_what_a_batch_lacks_takes_no_other_quantity_with_it():
+    """Without the tolerance each design is worked out alone, from loads that the batch shares."""
+    picks = ["velocity.max", "tolerance.motion_play.worst_deg"]
+    together, alone, _ = rows("noncircular-gears.toml", ["shaft.bending_factor=1.5,1.56"], picks)
+    assert together == alone and together[0][1:] == [pytest.approx(0.625, rel=1e-12), None, None]
+
+
 LISTS = {  # of a report's names those of tables and lists, which are no quantities
     *("stations", "loads.reversals_deg", "vibration.speeds_to_avoid_rpm", "strength.needs"),
     *("tolerance.warnings", "wheels", "cranks"),

@@ -18,7 +18,6 @@ from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.assembly import same
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.links.links import Links, placed_holes, roller_pins
-from geneva_cli.parts.machine_sizes import drawn_pin_radius
 from geneva_cli.parts.outlines.crank_outline import crank_bore, is_whole
 from geneva_cli.parts.shafts.arm_and_shafts import CrankArm, bolts, crank_hub
 from geneva_cli.spec.written import degrees, length
@@ -100,9 +99,10 @@ def draw_arm(view: View, parts: FlatParts, arm: CrankArm) -> View:
     return view
 
 
-def draw_roller(view: View, mechanism: Mechanism) -> View:
+def draw_roller(view: View, parts: FlatParts) -> View:
     """Draw a roller about its pin."""
-    pin, roller = drawn_pin_radius(mechanism), mechanism.roller_radius_mm
+    mechanism, pin = parts.mechanism, parts.outlines.sizes.pin
+    roller = mechanism.roller_radius_mm
     hole = pin + 0.5 * mechanism.spec.size.allowances.shaft_fit_mm
     circles = [Circle("", ORIGIN, roller)] + ([Circle("", ORIGIN, hole)] if pin else [])
     view.draw_all(circles)

@@ -124,7 +124,7 @@ def _views(rows: list[dict[str, Any]], parts: FlatParts, scale: float) -> Iterat
             yield crank_views.draw_disc(begin(*(f"{front}{name}" for name in names)), of)
     if parts.arm:
         yield crank_views.draw_arm(begin("arm"), parts, parts.arm)
-    yield crank_views.draw_roller(begin("roller", "pin"), mechanism)
+    yield crank_views.draw_roller(begin("roller", "pin"), parts)
     for member in {one.part: one for one in bars.cut}.values():
         yield crank_views.draw_link(begin(member.part.name), member, bars, mechanism)
     for shaft in dict.fromkeys(plate for one in parts.shafts for plate in plates(one.part)):

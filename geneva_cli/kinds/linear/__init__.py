@@ -1,6 +1,6 @@
 """The linear Geneva: a rack of slots."""
 
-from geneva_cli.motion.kind import Kind, Quantities
+from geneva_cli.motion.kind import Kind
 
 _STANDING = "guide_locks beside_shafts_mm gear_gap_mm cut_plate_mm cut_slot_mm"
 KINDS = (
@@ -27,14 +27,10 @@ KINDS = (
         refuses="kinds.linear.motion:refuses",
         no_parts="kinds.linear.motion:no_parts",
         keys=("load.mass_kg", "load.force_N", "load.guide_friction"),
-        quantities=(
-            Quantities(
-                "guide",
-                "length_mm locks_at_friction force_N at_deg",
-                after="parts",
-                batch="kinds.linear.checks:guide",
-            ),
-        ),
+        quantities={
+            "parts": "batch kinds.linear.checks:guide guide "
+            "length_mm locks_at_friction force_N at_deg"
+        },
         horn_sizes="kinds.linear.parts:horn_sizes",
         load_case="kinds.linear.guide:with_guide",
         scene="kinds.linear.drawings:RackScene",

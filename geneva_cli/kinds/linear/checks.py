@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Collection, Iterator
+from functools import partial
 
 import numpy as np
 
@@ -96,7 +97,7 @@ def guide(of: Designs) -> Columns:
         lever = max(far - mu * (R - r), mu * (R + r) - far, mu * place.half)
         force = at_deg = math.inf
         if machine.spec.is_loaded:
-            ends = {str(side): _end_force(side) for side in (1.0, -1.0)}
+            ends = {str(side): partial(_end_force, side) for side in (1.0, -1.0)}
             first, second = load_peaks(machine, tuple(ends), ends).values()
             most = first if first.max.item() >= second.max.item() else second
             force, at_deg = math.sqrt(most.max.item()), most.at_deg.item()
@@ -105,15 +106,11 @@ def guide(of: Designs) -> Columns:
     return dict(zip(names, np.array(rows).T, strict=True))
 
 
-def _end_force(side: float) -> Callable[[Instant[Jet]], QuantityValue[Jet]]:
+def _end_force(side: float, i: Instant[Jet]) -> QuantityValue[Jet]:
     """The squared force at one end of a guide, 1 or -1, as a quantity of ``load_peaks``."""
-
-    def squared(i: Instant[Jet]) -> QuantityValue[Jet]:
-        guide = i.case.guide
-        assert isinstance(guide, RackGuide)
-        lever = guide.lever(i.case, i.at, i.drives, i.slides) * i.drives
-        rub = i.slides * i.case.friction
-        force = i.force_N * (lever * (0.5 * side / guide.half) + 0.5 * rub)
-        return QuantityValue(force * force, i.grip)
-
-    return squared
+    guide = i.case.guide
+    assert isinstance(guide, RackGuide)
+    lever = guide.lever(i.case, i.at, i.drives, i.slides) * i.drives
+    rub = i.slides * i.case.friction
+    force = i.force_N * (lever * (0.5 * side / guide.half) + 0.5 * rub)
+    return QuantityValue(force * force, i.grip)

@@ -42,7 +42,8 @@ def assembly(parts: RackParts) -> Drawing:
     """Return the machine at input angle 0: the roller is at the origin, the axis at (R, 0)."""
     gears = () if parts.mechanism.spec.no_parts else parts.gear_pair
     moving = parts.wheel, parts.crank, parts.bar, *gears
-    title, drawn = projection.titled(parts.mechanism), projection.with_frame(moving, parts.standing)
+    title = projection.titled(parts.mechanism)
+    drawn = projection.with_frame(projection.shapes(moving), parts.standing)
     look = Annotations((LevelDistance((0.0, 0.0), (parts.sizes.arm, 0.0), "R"),))
     return Drawing(title, drawn, look, Group(title, parts.members))
 

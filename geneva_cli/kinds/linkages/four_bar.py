@@ -7,14 +7,14 @@ at an angle from the line AB. The wheel's centre is solved for.
 
 from collections.abc import Mapping
 from functools import reduce
-from typing import Annotated, Any, ClassVar, NamedTuple, Self
+from typing import Annotated, Any, ClassVar, NamedTuple, Self, cast
 
 from geneva_cli.errors import refuse_text
 from geneva_cli.kinds.linkages.link_path import Displacement, LinkPath
 from geneva_cli.kinds.linkages.linkage import Linkage, Moving
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link
-from geneva_cli.numerics.arrays import Array, enclosed, larger, library, parameter, smaller
+from geneva_cli.numerics.arrays import Array, Complex, enclosed, larger, library, size, smaller
 from geneva_cli.numerics.jet import Jet, sqrt, turned_at
 from geneva_cli.spec.rules import POSITIVE, OneOf, Range
 from geneva_cli.spec.schema import Example
@@ -160,49 +160,74 @@ class CouplerPath(LinkPath):
         ex, ey = self.link(sine, cosine)
         return b, ((cosine * a + ex * b - g) / c, (sine * a + ey * b) / c)
 
-    def about(self, phi: float) -> Displacement:
-        """Displacement since a crank angle."""
+    def about(self, crank: Any, velocity: Any = None) -> Displacement:
+        """Displacement since a direction of the crank."""
         a, g, b, c, p, q = self.numbers
-        m = library(phi, a, g)
-        sine, cosine = m.sin(phi), m.cos(phi)
-        x, y = g - cosine * a, sine * -a
+        A, arm = a * crank, p + 1j * q
+        d = g - A
+        D = d.real**2 + d.imag**2
         # by Grashof's condition sums of positive terms: (b + c)² - D and D - (b - c)²
-        above = (b + c - g - a) * (b + c + g + a) + 4.0 * g * a * m.cos(0.5 * phi) ** 2
-        below = (g - a - b + c) * (g - a + b - c) + 4.0 * g * a * m.sin(0.5 * phi) ** 2
-        root = parameter(library(above).sqrt(above * below))
-        sizes = a * sine, a * cosine, x, x * x + y * y, 2.0 * g, above, below, root
-        half = 0.5 / b
-        return CouplerDisplacement(*sizes, half, (b - c) * (b + c) * half, self.side * half, p, q)
+        above = (b + c - g - a) * (b + c + g + a) + g * a * size(crank + 1.0) ** 2
+        below = (g - a - b + c) * (g - a + b - c) + g * a * size(crank - 1.0) ** 2
+        root, spread, half = library(above).sqrt(above * below), above - below, 0.5 / b
+        by_u, by_N = (b - c) * (b + c) * half, self.side * half
+        turning = (by_u + 1j * by_N * root) / D
+        k, by_D = half + turning, (0.5j * by_N * spread / root - turning) / D
+        if velocity is None:
+            velocity = 1j * A + (d * by_D * (2.0 * g * A.imag) - 1j * A * k) * arm
+        out = velocity, A * k * arm - A, d * arm
+        sizes = A.imag, A.real, D, 2.0 * g, spread, root, by_u, by_N, p, q
+        return CouplerDisplacement(*sizes, *(x for z in out for x in (z.real, z.imag)))
 
 
 class CouplerDisplacement(NamedTuple):
-    """Displacement of the coupler's point, from its numbers at one crank angle."""
+    """Displacement of the coupler's point, from its numbers at one crank angle.
+
+    It is the velocity there times sin d, and terms of second order: so it has all its digits where
+    the point is much slower than its links.
+    """
 
     s: float  # a sin phi
     t: float  # a cos phi
-    x0: float  # g - a cos phi: d is (x0, -s)
     D0: float  # d²
     span: float  # 2 g
-    high: float  # (b + c)² - D
-    low: float  # D - (b - c)²
+    spread: float  # slope of N² by D
     root: float  # size of N
-    half: float  # 1 / (2 b)
     by_u: float  # factor of 1 / D in the real part of k
     by_N: float  # factor of N / D in its imaginary part
     P: float  # the point's coordinates on the coupler
     Q: float
+    vx: float  # velocity of the point
+    vy: float
+    wx: float  # factor of 1 - cos d
+    wy: float
+    hx: float  # d turned and stretched as the coupler's point
+    hy: float
+
+    @property
+    def velocity(self) -> Complex:
+        """Complex velocity at that angle."""
+        return cast("Complex", self.vx + 1j * self.vy)
 
     def __call__(self, sine: Jet, versine: Jet) -> tuple[Jet, Jet]:
         """Displacement from sin d and 1 - cos d of the crank's rotation d since then."""
-        s, t, x0, D0, span, high, low, root, half, by_u, by_N, P, Q = enclosed(sine.c[0], self)
+        numbers = enclosed(sine.c[0], self)
+        s, t, D0, span, spread, root, by_u, by_N, P, Q, vx, vy, wx, wy, hx, hy = numbers
+        first, second = sine * (span * s), versine * (span * t)
         x, y = sine * -s - versine * t, sine * t - versine * s
-        D = x * -span
-        u = 1.0 / (D + D0)
-        du = D * u / -D0
-        now = sqrt((high - D) * (D + low))
-        N = D * (high - low - D) / (now + root)
-        k, n = du * by_u, (N * u + du * root) * by_N
-        kk, nn = k + (by_u / D0 + half), n + root * by_N / D0
-        ex = y * nn - x * kk + k * x0 + n * s
-        ey = n * x0 - x * nn - y * kk - k * s
-        return x + ex * P - ey * Q, y + ey * P + ex * Q
+        D = first + second
+        square = D * D
+        grown = D * spread - square
+        share = 1.0 / (sqrt(grown + root * root) + root)
+        du, dN = D / ((D + D0) * -D0), grown * share
+        both = du * dN
+        k, n = du * by_u, (dN / D0 + both + du * root) * by_N
+        # what k changes by beyond its linear part
+        duu = (D * du + second / D0) / -D0
+        dNN = (second * spread - square - first * dN * (0.5 * spread / root)) * share
+        kk, nn = duu * by_u, (dNN / D0 + both + duu * root) * by_N
+        zx, zy = x * k - y * n, x * n + y * k
+        return (
+            sine * vx + versine * wx + kk * hx - nn * hy - zx * P + zy * Q,
+            sine * vy + versine * wy + kk * hy + nn * hx - zx * Q - zy * P,
+        )

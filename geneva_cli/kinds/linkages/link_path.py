@@ -8,13 +8,17 @@ from typing import Any, NamedTuple, Protocol, Self, cast
 
 from geneva_cli.motion.engagement import Held, Loads, Vector, cross
 from geneva_cli.numerics.angles import radians, sin_cos_deg
-from geneva_cli.numerics.arrays import Array, Batchable, Which
+from geneva_cli.numerics.arrays import Array, Batchable, Complex, Which
 from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
 from geneva_cli.spec.rules import is_array
 
 
 class Displacement(Protocol):
     """The pin's displacement since a moment, by the crank's rotation d since then."""
+
+    @property
+    def velocity(self) -> Complex:
+        """Complex velocity at that moment."""
 
     def __call__(self, sine: Jet, versine: Jet) -> Vector:
         """Displacement (x, y), from sin d and 1 - cos d."""
@@ -57,8 +61,11 @@ class LinkPath(Batchable, ABC):
         """Distance along the link from A to the other joint B, and the line of the force at B."""
 
     @abstractmethod
-    def about(self, phi: float) -> Displacement:
-        """The point's displacement since a crank angle (radians); exactly 0 for no rotation."""
+    def about(self, crank: Any, velocity: Any = None) -> Displacement:
+        """The point's displacement since a direction of the crank; exactly 0 for no rotation.
+
+        The direction is a complex unit vector, and so is the velocity, if it is known.
+        """
 
     def place(self, sine: Jet, cosine: Jet) -> tuple[Jet, Jet]:
         """Point (x, y) for a crank direction."""

@@ -7,7 +7,7 @@ and be farther away on the way back. Shorter excursions than samples show are le
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import NamedTuple, cast
 
 import numpy as np
 
@@ -151,41 +151,38 @@ def _engagement(
     def plain(x: Array) -> float:
         return parameter(x.item() if single else x[:, None])
 
-    # A slow roller's place has few digits at a crank angle, and so has the angle in a short motion.
-    # The displacement from the place in the middle of the motion has them all.
-    flat, middle = path.of((slice(None), 0)), ends.mean(axis=0)
-    ends, index = ends - middle, np.exp(2j * sense * np.ravel(step.b))
-    move = flat.about(parameter(middle))
-    for _ in range(2):
-        rest = tangents.residual(
-            tangents.complex_of(*move(*sine_versine(Jet.variable(ends, 2)))), index
-        )
-        ends = ends + np.where(rest.double, 0.0, rest.step)
-    moved = middle + ends.mean(axis=0)
-    middle, ends = moved, ends - (moved - middle)
+    # The roller may be much slower than its links. Its velocities in 80 bits, where there are such
+    # numbers, and its displacement from one place have a double's digits then.
+    flat, middle, index = path.of((slice(None), 0)), ends.mean(axis=0), np.ravel(step.b)
+    flat.numbers = tuple(cast("float", np.asarray(x, np.longdouble)) for x in flat.numbers)
+    ends, crank = ends - middle, np.exp(1j * np.asarray(middle, np.longdouble))
+    move, since = flat.about(crank), Jet.variable(np.asarray(ends, np.longdouble), 2)
+    at = tangents.complex_of(*move(*sine_versine(since)))
+    rest = tangents.residual(at, np.exp(2j * sense * index))
+    last = np.where(rest.double, 0.0, rest.step)
+    ends, at[:2] = ends + last, at[:2] + last * at[1:]
     half, late = (plain(0.5 * (ends[1] + k * ends[0])) for k in (-1.0, 1.0))
     # from the roller's place in the middle: the roller at both ends, and the centre
-    at = tangents.complex_of(*flat.about(parameter(middle))(*sine_versine(Jet.variable(ends, 2))))
     centre, _ = _centre(at)
     axis = -(tangents.points_at(flat, middle)[0] + centre)  # from the wheel's to the crank's
     L, s, rays = plain(np.abs(axis)), plain(sense), at[0] - centre
     half_way = (rays / np.abs(rays)).sum(axis=0)
     turn, ahead = (plain(sense * np.angle(line.conj() * -centre)) for line in (half_way, axis))
     anchors = []
-    for end, wheel, angle, ray in (
-        (-1.0, -step.b, middle + ends[0], rays[0]),
-        (0.0, turn, middle, -centre),
-        (1.0, step.b, middle + ends[1], rays[1]),
+    for end, wheel, tau, v, ray in (
+        (-1.0, -step.b, ends[0], at[1, 0], rays[0]),
+        (0.0, turn, 0.0 * middle, move.velocity, -centre),
+        (1.0, step.b, ends[1], at[1, 1], rays[1]),
     ):
-        move, input_deg = path.about(plain(angle)), 0.0 - late / DEGREE
-        ux, uy = plain(ray.real), plain(ray.imag)
+        moved = path.about(*(plain(np.asarray(z, complex)) for z in (crank * np.exp(1j * tau), v)))
+        ux, uy, input_deg = plain(ray.real), plain(ray.imag), 0.0 - late / DEGREE
         if end:  # the ray is the pin's velocity, so that none of it is across the ray
             input_deg = end * half / DEGREE
-            ux, uy = (end * parameter(v.c[1]) for v in move(*sine_versine(Jet.variable(0.0, 1))))
-        along_ray = _AlongRay(move, ux, uy, 1.0 / (library(ux).hypot(ux, uy) * L), s)
+            ux, uy = (end * parameter(v.c[1]) for v in moved(*sine_versine(Jet.variable(0.0, 1))))
+        along_ray = _AlongRay(moved, ux, uy, 1.0 / (library(ux).hypot(ux, uy) * L), s)
         anchors.append(Anchor(input_deg, wheel, plain(np.abs(ray)) / L, along_ray))
     anchored = AnchoredPath(tuple(anchors), ahead)
-    body = LinkRate(path, plain(middle), s)
+    body = LinkRate(path, plain(middle) + late, s)
     reactions = LinkReactions(*body, L, plain(axis.real) / L, plain(axis.imag) / L)
     motion = StraightSlotMotion(anchored, step.b, mirrored=False)
     return Engagement(0.0, anchored, RadialSlot(anchored), motion, body, reactions, -s), L

@@ -1,6 +1,6 @@
 """Geneva stops: a closed recess that blocks the crank."""
 
-from geneva_cli.motion.kind import Kind, Quantities
+from geneva_cli.motion.kind import Kind
 
 KINDS = (
     Kind(
@@ -8,15 +8,10 @@ KINDS = (
         adds_to="external",
         refuses="kinds.stop.refuses:refuses",
         keys=("wheel.stop", "load.winding_torque_Nm", "limits.stop_stress_max_MPa"),
-        quantities=(
-            Quantities(
-                "stop",
-                "turns first_deg last_deg overlap_mm lever_mm force_N contact_stress_MPa",
-                after="parts",
-                alone="kinds.stop.parts:stop",
-                makes_parts=True,
-            ),
-        ),
+        quantities={
+            "parts": "alone kinds.stop.parts:stop stop "
+            "turns first_deg last_deg overlap_mm lever_mm force_N contact_stress_MPa"
+        },
         remedies={
             "stop_turns": "lock_radius_mm? SMALLER",
             "stop_overlap_mm": "lock_radius_mm? SMALLER",

@@ -7,11 +7,13 @@ import math
 import re
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
-from typing import NamedTuple
 from xml.etree import ElementTree
+
+import numpy as np
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.geometry.shapes import Arc, Line
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.output.foreign.drawn import Drawn, bezier_pieces, ellipse_pieces
 
 # millimetres in a unit of a length; a CSS pixel is 1/96 inch
@@ -63,8 +65,8 @@ def _numbers(text: str) -> list[float]:
 
 
 def _shapes(
-    element: ElementTree.Element, frame: _Affine
-) -> Iterator[tuple[ElementTree.Element, _Affine]]:
+    element: ElementTree.Element, frame: Array
+) -> Iterator[tuple[ElementTree.Element, Array]]:
     """Yield the shapes that are shown, with the transforms of their groups."""
     style = element.get("style", "").replace(" ", "") + ";"
     hidden = element.get("display") == "none" or "display:none" in style
@@ -74,7 +76,7 @@ def _shapes(
     text = element.get("transform", "")
     for function, values in re.findall(r"(\w+)\s*\(([^)]*)\)", text):
         try:
-            frame = frame.after(_transform(function, _numbers(values)))
+            frame = frame @ _transform(function, _numbers(values))
         except (IndexError, TypeError):
             raise GenevaError(f'transform="{cut(text, 100)}" cannot be read') from None
     yield element, frame
@@ -83,16 +85,17 @@ def _shapes(
             yield from _shapes(child, frame)
 
 
-def _transform(name: str, v: list[float]) -> _Affine:
+def _transform(name: str, v: list[float]) -> Array:
     if name == "matrix" and len(v) == 6:
         return _matrix(*v)
     if name == "translate":
-        return _Affine(shift=complex(v[0], v[1] if len(v) > 1 else 0.0))
+        return _matrix(1.0, 0.0, 0.0, 1.0, v[0], v[1] if len(v) > 1 else 0.0)
     if name == "scale":
         return _matrix(v[0], 0.0, 0.0, v[1] if len(v) > 1 else v[0])
     if name == "rotate":
-        turn, centre = cmath.exp(1j * math.radians(v[0])), complex(*v[1:3])
-        return _Affine(turn, 0j, centre - turn * centre)
+        c, s = math.cos(math.radians(v[0])), math.sin(math.radians(v[0]))
+        x, y = (*v[1:3], 0.0, 0.0)[:2]
+        return _matrix(c, s, -s, c, x - c * x + s * y, y - s * x - c * y)
     raise GenevaError(f"transform {cut(name, 20)}() is not known")
 
 
@@ -131,32 +134,9 @@ def _trace(element: ElementTree.Element, out: _Traced) -> None:
         raise GenevaError(f"<{name}> is no outline: convert it to a path")
 
 
-class _Affine(NamedTuple):
-    """A transform of points z: ``turn`` z + ``flip`` conj(z) + ``shift``."""
-
-    turn: complex = 1 + 0j
-    flip: complex = 0j
-    shift: complex = 0j
-
-    def __call__(self, z: complex) -> complex:
-        """The image of a point."""
-        return self.turned(z) + self.shift
-
-    def turned(self, z: complex) -> complex:
-        """The image of a direction."""
-        return self.turn * z + self.flip * z.conjugate()
-
-    def after(self, other: _Affine) -> _Affine:
-        """This one after another."""
-        turn = self.turn * other.turn + self.flip * other.flip.conjugate()
-        flip = self.turn * other.flip + self.flip * other.turn.conjugate()
-        return _Affine(turn, flip, self(other.shift))
-
-
-def _matrix(a: float, b: float, c: float, d: float, e: float = 0.0, f: float = 0.0) -> _Affine:
+def _matrix(a: float, b: float, c: float, d: float, e: float = 0.0, f: float = 0.0) -> Array:
     """The transform x' = a x + c y + e, y' = b x + d y + f."""
-    turn, flip = complex(a + d, b - c), complex(a - d, b + c)
-    return _Affine(0.5 * turn, 0.5 * flip, complex(e, f))
+    return np.array([[a, c, e], [b, d, f], [0.0, 0.0, 1.0]])
 
 
 class _Traced:
@@ -165,26 +145,31 @@ class _Traced:
     def __init__(self) -> None:
         self.pieces: list[Line | Arc] = []
         self.is_exact = True
-        self.frame = _Affine()
+        self.frame = np.eye(3)
+
+    def placed(self, z: complex, shift: float = 1.0) -> complex:
+        """The image of a point, or without a shift of a direction."""
+        x, y, _ = self.frame @ (z.real, z.imag, shift)
+        return complex(x, y)
 
     def line(self, p: complex, q: complex) -> None:
         """Add a line."""
-        p, q = self.frame(p), self.frame(q)
+        p, q = self.placed(p), self.placed(q)
         self.pieces.append(Line((p.real, p.imag), (q.real, q.imag)))
 
     def curve(self, poles: Sequence[complex]) -> None:
         """Add a quadratic or cubic Bézier curve, as arcs."""
-        self.pieces += bezier_pieces([self.frame(z) for z in poles])
+        self.pieces += bezier_pieces([*map(self.placed, poles)])
         self.is_exact = False
 
     def ellipse(
         self, centre: complex, major: complex, minor: complex, start: float, sweep: float
     ) -> None:
         """Add a part of an ellipse from its half axes, as arcs; angles are parameters, radians."""
-        p, q = self.frame.turned(major), self.frame.turned(minor)
+        p, q = self.placed(major, 0.0), self.placed(minor, 0.0)
         if abs((p.conjugate() * q).imag) <= 1e-9 * max(abs(p), abs(q)) ** 2:
             raise GenevaError("a circle or ellipse has no width: remove it")
-        self.pieces += ellipse_pieces(self.frame(centre), (p, q), (start, sweep))
+        self.pieces += ellipse_pieces(self.placed(centre), (p, q), (start, sweep))
 
 
 def _trace_path(data: str, out: _Traced) -> None:

@@ -13,60 +13,43 @@ from geneva_cli.output.terminal import layout
 from geneva_cli.output.terminal.layout import BOLD, PLAIN, ShownColumn, Window
 from geneva_cli.output.text import WIDTH
 
-FENCE = "```"
 INDENT = "  "  # before code
 PROSE = 20  # letters to which a column of prose is narrowed before a table becomes a list
 LINK = re.compile(r"\[([^]]+)\]\([^)]*\)")
 CODE = re.compile(r"`([^`]+)`|\*\*([^*]+)\*\*")
-START = re.compile(r"(?=[-*] |#|\||```)")  # of a block, with or without an empty line before it
+START = r"[-*] |#|\||```"  # of a block, with or without an empty line before it
+BLOCK = re.compile(
+    r"(?:```.*\n(?P<code>(?:(?!```).*\n)*)(?:```.*)?"
+    r"|(?P<table>\|.*(?:\n\|.*)*)"
+    r"|(?P<head>#.*)"
+    rf"|(?P<text>.+(?:\n(?!{START}).+)*)|(?=\n))\n?"  # or an empty line
+)
 RULE = re.compile(r"\|[-:| ]+")  # the line below the headings of a table
 
 
 def chunks(text: str, window: Window) -> Iterator[str]:
     """The page, line by line."""
-    return (f"{line}\n" for line in _lines(text, window))
+    for block in BLOCK.finditer(text):
+        for line in _shown(block.lastgroup, block[block.lastgroup or 0].strip("\n"), window):
+            yield f"{line}\n"
 
 
-def _lines(text: str, window: Window) -> Iterator[str]:
-    block: list[str] = []
-    for line in text.splitlines():
-        first = block[0] if block else ""
-        if first.startswith(FENCE):
-            if line.startswith(FENCE):
-                yield from _shown(block, window)
-                block = []
-            else:
-                block.append(line)
-            continue
-        is_row = line.startswith("|") and first.startswith("|")
-        if block and not is_row and (not line or START.match(line) or first.startswith("#")):
-            yield from _shown(block, window)
-            block = []
-        if line:
-            block.append(line)
-        else:
-            yield ""
-    if block:
-        yield from _shown(block, window)
-
-
-def _shown(block: list[str], window: Window) -> Iterator[str]:
+def _shown(kind: str | None, text: str, window: Window) -> Iterator[str]:
     """The lines of a heading, a paragraph, an item, a table or a block of code."""
-    first = block[0]
-    if first.startswith(FENCE):
-        for line in block[1:]:
+    if kind == "code":
+        for line in text.splitlines():
             yield from (INDENT + part for part in _broken(line, window.columns - len(INDENT)))
-    elif first.startswith(4 * " "):  # code without fences
-        for line in block:
+    elif text.startswith(4 * " "):  # code without fences
+        for line in text.splitlines():
             yield from _broken(line, window.columns)
-    elif first.startswith("|"):
-        yield from _table(block, window)
-    elif first.startswith("#") and window.styled:
-        for line in layout.wrapped(_bare(first.lstrip("# ")), window.columns):
+    elif kind == "table":
+        yield from _table(text.splitlines(), window)
+    elif kind == "head" and window.styled:
+        for line in layout.wrapped(_bare(text.lstrip("# ")), window.columns):
             yield f"{BOLD}{line}{PLAIN}"
     else:
-        indent = INDENT * first.startswith(("- ", "* "))
-        text = LINK.sub(r"\1", " ".join(line.strip() for line in block))
+        indent = INDENT * text.startswith(("- ", "* "))
+        text = LINK.sub(r"\1", " ".join(line.strip() for line in text.splitlines()))
         text = f"\n{indent}".join(layout.wrapped(text, min(window.columns, WIDTH) - len(indent)))
         if window.styled:  # code and bold words in bold, also across lines
             text = CODE.sub(

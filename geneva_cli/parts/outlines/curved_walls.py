@@ -92,22 +92,13 @@ def curved_walls(
 def _fitted(slot: _CurvedSlot) -> Contour:
     assembly, engagement, (tolerance, curves) = slot.assembly, slot.engagement, slot.form
     half = 0.5 * tolerance
-    runs: list[list[Segment]] = []
     larger = slot.sizes._replace(half_width=slot.sizes.half_width + half)
     pieces = chain(assembly, larger, walls(assembly, larger, engagement))
-    for i, piece in enumerate(pieces):
-        other = len(pieces) - 1 - i
-        if other < i and engagement.mirrored:
-            # walls count as mirror images in the slot's axis within 1e-10 of the centre distance
-            (one, a, b), (two, c, d) = pieces[other], piece
-            there = points_at(one, a, b, 0.5 * (a + b))
-            back = points_at(two, d, c, 0.5 * (c + d))
-            pairs = zip(there, back, strict=True)
-            if all(math.hypot(v - x, w + y) <= 1e-10 * assembly.L for (x, y), (v, w) in pairs):
-                runs.append([*mirrored(runs[other])])
-                continue
-        runs.append(_segments(piece, half, curves))
-    return Contour("WHEEL", joined(itertools.chain(*runs)), closed=False)
+    own = pieces[: (len(pieces) + 1) // 2] if engagement.mirrored else pieces
+    runs = [_segments(piece, half, curves) for piece in own]
+    # of a mirrored slot, the second half is the image of the first in the slot's axis
+    back = [mirrored(run) for run in runs[: len(pieces) - len(own)]][::-1]
+    return Contour("WHEEL", joined(itertools.chain(*runs, *back)), closed=False)
 
 
 def chain(assembly: Assembly, sizes: Sizes, around: list[Wall]) -> list[WallPiece]:

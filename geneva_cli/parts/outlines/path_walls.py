@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import partial
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -59,16 +60,8 @@ def walls(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> list[Wall
     middle = int(np.searchsorted(t, 0.0))
     for part in (t[: middle + 1], t[middle:]):
         outward = bool(part[-1] > 0.0)
-        if outward and engagement.mirrored:
-            # the roller runs back over the mirror image of its path, with the same wall on its left
-            for flank, side in zip([*flanks], (-w, w), strict=True):
-                curve = parallel(assembly, engagement, side, outward)
-                points, tangents = flank.points[::-1] * (1.0, -1.0), flank.tangents[::-1]
-                line = -flank.t[::-1], points, tangents * (-1.0, 1.0), flank.free[::-1]
-                flanks.append(Wall(curve, *line))
-            break
         for side in (-w, w):
-            curve = parallel(assembly, engagement, side, outward)
+            curve = partial(parallel, L, engagement, side, outward)
             t = _unfolded(curve, part, pitch_at(engagement, part), L, side) if back else part
             points, tangents = curve(t)
             flanks.append(Wall(curve, t, points, tangents, _free(points, path, near)))
@@ -121,19 +114,16 @@ def _arc(path: Array, near: float, centre: Point, radius: float, angles: Array) 
     return Wall(curve, angles, points, tangents, _free(points, path, near), centre, radius)
 
 
-def parallel(assembly: Assembly, engagement: Engagement, side: float, outward: bool) -> Curve:
-    """Return the curve ``side`` mm to the left of the roller's path in, or out."""
-    back, L = retraces(engagement), assembly.L
-
-    def curve(t: Array) -> tuple[Array, Array]:
-        at = pitch_at(engagement, t)
-        tangent = np.column_stack((at.tangent_x, at.tangent_y))
-        if back and outward:  # at mid-motion the tangent is the limit from the entry
-            tangent[t == 0.0] *= -1.0
-        x, y = L * at.x - side * tangent[:, 1], L * at.y + side * tangent[:, 0]
-        return np.column_stack((x, y)), tangent
-
-    return curve
+def parallel(
+    L: float, engagement: Engagement, side: float, outward: bool, t: Array
+) -> tuple[Array, Array]:
+    """Return points, ``side`` mm to the left of the roller's path in, or out, and unit tangents."""
+    at = pitch_at(engagement, t)
+    tangent = np.column_stack((at.tangent_x, at.tangent_y))
+    if outward and retraces(engagement):  # at mid-motion the tangent is the limit from the entry
+        tangent[t == 0.0] *= -1.0
+    x, y = L * at.x - side * tangent[:, 1], L * at.y + side * tangent[:, 0]
+    return np.column_stack((x, y)), tangent
 
 
 def _unfolded(curve: Curve, t: Array, at: Pitch, L: float, side: float) -> Array:

@@ -84,14 +84,18 @@ def crank_hub(parts: Outlines) -> Plate | None:
 
 
 def shafts(parts: Outlines, lowest: float, stop: float | None) -> Iterator[Shaft]:
-    """Yield the shafts of wheel and crank, from ``lowest`` up, or the crank's from ``stop``."""
-    assembly, sizes, still = parts.assembly, parts.sizes, np.zeros(1)
+    """Yield the shafts of wheels and cranks, from ``lowest`` up, or the cranks' from ``stop``."""
+    assembly, sizes, machine = parts.assembly, parts.sizes, parts.assembly.full
     size = assembly.mechanism.spec.size
     if sizes.wheel_bore:
         bore = bore_of(size, "wheel", sizes.wheel_bore)._replace(direction=assembly.rests[0])
         ends = wheel_shaft_ends(parts, lowest)
-        turn = 0.0 if bore.is_plain else float(assembly.wheel(still)[0])
-        yield Shaft("wheel's shaft", "wheel", bore, *ends, ORIGIN, turn)
+        turn = 0.0 if bore.is_plain else float(assembly.wheel(np.zeros(1))[0])
+        first = Shaft("wheel's shaft", "wheel", bore, *ends, ORIGIN, turn)
+        yield first
+        for place in machine.wheel_places[1:]:
+            turn = first.turn + place.turn - machine.engagements[0].half_step
+            yield first._replace(at=place.at, turn=turn)
     radius = sizes.arm_bore if parts.has_arm else sizes.crank_bore
     if radius:
         bore = bore_of(size, "crank", radius)._replace(direction=disc.keyway_direction(assembly))
@@ -101,8 +105,10 @@ def shafts(parts: Outlines, lowest: float, stop: float | None) -> Iterator[Shaft
             on_disc = crank_hub(parts)
             top = on_disc.high if on_disc else top + sizes.lock_thickness
         ends = shaft_ends(size, "crank", lowest if stop is None else stop, top)
-        turn = 0.0 if bore.is_plain else float(assembly.crank(still)[0])
-        yield Shaft("crank's shaft", "crank", bore, *ends, (assembly.L, 0.0), turn)
+        for place in machine.crank_places:
+            turn = place.turn + float(assembly.crank(np.array([-place.behind_deg]))[0])
+            turn = 0.0 if bore.is_plain else turn  # a plain one has no direction
+            yield Shaft("crank's shaft", "crank", bore, *ends, place.at, turn)
 
 
 def wheel_shaft_ends(parts: Outlines, lowest: float) -> tuple[float, float]:

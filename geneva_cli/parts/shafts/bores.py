@@ -152,8 +152,7 @@ def has_shape(size: Size, part: str) -> bool:
 
 def reach_or_bore(size: Size, part: str, bore: float) -> float:
     """Return how far bores reach with their shape; the radius where one cannot be made."""
-    own = vars(size)
-    if own[f"{part}_bore"] == "round" and own[f"{part}_keyway"] is None:
+    if not has_shape(size, part):
         return bore + 0.5 * size.allowances.shaft_fit_mm
 
     def reach(radius: float) -> tuple[float]:

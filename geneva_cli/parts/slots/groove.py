@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
+from functools import partial
 from itertools import chain, pairwise
 from typing import TYPE_CHECKING
 
@@ -33,23 +34,17 @@ BELOW = 2  # planes below the wheel: that of the groove, below the crank
 MOUNTS = 4
 
 
-def groove_curve(
-    groove: SolvedPath, L: float, offset: float
-) -> Callable[[Array], tuple[Array, Array]]:
-    """Return the groove, or a flank ``offset`` mm to its left, as points in mm and unit tangents.
+def groove_curve(groove: SolvedPath, L: float, offset: float, t: Array) -> tuple[Array, Array]:
+    """Return points, mm, and unit tangents of the groove, or a flank ``offset`` mm to its left.
 
-    They are functions of the input angle, degrees, over a whole turn.
+    They are at input angles ``t`` of a whole turn, degrees.
     """
-
-    def curve(t: Array) -> tuple[Array, Array]:
-        R, slope, _ = distances(groove, t)
-        c, s = -groove.sign * np.cos(np.radians(t)), np.sin(np.radians(t))
-        x1, y1 = slope * c + groove.sign * R * s, slope * s - groove.sign * R * c
-        tangents = np.column_stack((x1, y1)) / np.hypot(x1, y1)[:, None]
-        normals = np.column_stack((-tangents[:, 1], tangents[:, 0]))
-        return L * np.column_stack((R * c, R * s)) + offset * normals, tangents
-
-    return curve
+    R, slope, _ = distances(groove, t)
+    c, s = -groove.sign * np.cos(np.radians(t)), np.sin(np.radians(t))
+    x1, y1 = slope * c + groove.sign * R * s, slope * s - groove.sign * R * c
+    tangents = np.column_stack((x1, y1)) / np.hypot(x1, y1)[:, None]
+    normals = np.column_stack((-tangents[:, 1], tangents[:, 0]))
+    return L * np.column_stack((R * c, R * s)) + offset * normals, tangents
 
 
 def sampled_extremes(groove: SolvedPath, input_deg: Array) -> tuple[Array, Array]:
@@ -99,7 +94,7 @@ def groove_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None)
     groove = _groove_of(mechanism)
     clearance = mechanism.spec.size.allowances.slot_clearance_mm
     L, offset = mechanism.center_distance_mm, mechanism.roller_radius_mm + clearance
-    lines = [groove_curve(groove, L, side) for side in (0.0, offset, -offset)]
+    lines = [partial(groove_curve, groove, L, side) for side in (0.0, offset, -offset)]
     ends = groove.motion.entry_deg, 0.0, groove.motion.exit_deg
     if samples is None:
         x = chords.nodes(lambda at: [line(at)[0] for line in lines], ends, tolerance_mm)
@@ -134,7 +129,7 @@ def groove_lines(parts: Outlines, tolerance: float | None, curves: str) -> tuple
     ends = (motion.entry_deg, motion.exit_deg, motion.entry_deg + 360.0)
 
     def line(layer: Layer, side: float) -> Contour:
-        curve = groove_curve(guide, parts.assembly.L, side * parts.sizes.half_width)
+        curve = partial(groove_curve, guide, parts.assembly.L, side * parts.sizes.half_width)
         runs = [fit.KINDS[curves](curve, a, b, fine) for a, b in pairwise(ends)]
         return closed(layer, chain(*runs))
 
@@ -150,7 +145,7 @@ def groove_base(parts: Outlines, bars: Links) -> Plate:
     guide = _groove_of(full)
     L, wall = parts.assembly.L, sizes.wall_min
     # farthest where a flank is normal to the ray; 3601 angles of a turn: the error is quadratic
-    at, _ = groove_curve(guide, L, 0.0)(np.linspace(0.0, 360.0, 3601))
+    at, _ = groove_curve(guide, L, 0.0, np.linspace(0.0, 360.0, 3601))
     far = float(np.hypot(*at.T).max()) + sizes.half_width
     space = L - max(sizes.wheel_bore, sizes.wheel_hub) - wall - far
     # where it fits, the rim around the groove is 1.5 roller radii wide

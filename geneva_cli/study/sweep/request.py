@@ -9,7 +9,6 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.motion.mechanism import build
-from geneva_cli.parts.chosen import OF_SIZES, ByLoad, by_load
 from geneva_cli.specfile.reader import read
 from geneva_cli.study.fields import Cell, Pick, Rows, cells_of
 from geneva_cli.study.fields import pick as pick_of
@@ -18,6 +17,8 @@ from geneva_cli.study.sweep.run import DEFAULT, Sweep, plan, sweep, with_values
 from geneva_cli.study.sweep.values import axis, refuse_twice
 from geneva_cli.table import Table, rows_table
 
+# tables of quantities that depend on the sizes of the parts
+OF_SIZES = ("parts", "strength", "life", "checks", "tolerance")
 # options of ``geneva sweep`` that ``request`` takes by their names
 OPTIONS = ("pick", "random", "seed", "check", "subject_to", "pareto", "best", "jobs")
 
@@ -110,8 +111,10 @@ class Outcome:
         for rows in row_blocks:
             errors = cells_of(rows.columns[-1])
             self.all += len(rows)
-            self.failed += len(errors) - errors.count(None)
-            self._first = self._first or next((str(e) for e in errors if e is not None), "")
+            failed = len(errors) - errors.count(None)
+            self.failed += failed
+            if failed and not self._first:
+                self._first = next(str(error) for error in errors if error is not None)
             self.nearness.add(rows.numbers)
             for i in list(self._unknown):
                 if np.isfinite(rows.numbers(i)).any():
@@ -132,6 +135,8 @@ class Outcome:
             reasons = dict.fromkeys([*unknown, *self.nearness.phrases()])
             yield f"none of {self.all:,} rows is left: {'; '.join(reasons)}"
         if any(group.table.startswith(OF_SIZES) for group in sweep.pick.groups):
+            from geneva_cli.parts.chosen import ByLoad, by_load
+
             with suppress(GenevaError):  # the spec may lack a varied key
                 if words := ByLoad(by_load(build(sweep.text.spec())), {}).words:
                     name = {"<stdin>": "-"}.get(sweep.text.name, sweep.text.name)

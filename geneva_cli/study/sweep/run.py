@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import partial
 from itertools import chain
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -18,9 +18,8 @@ from geneva_cli.errors import GenevaError, below, cut
 from geneva_cli.kept import KEPT
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.numerics.arrays import Array, Mask, keep_memory
+from geneva_cli.numerics.arrays import Array, Mask
 from geneva_cli.numerics.sobol import DIMENSIONS, sobol
-from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.specfile.columns import digest
 from geneva_cli.specfile.reader import Setting, Text, setting
 from geneva_cli.study.batches import Batch, batch_rows, numbers
@@ -28,7 +27,9 @@ from geneva_cli.study.fields import Cell, Column, Pick, Rows, joined, pick
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.sweep.constraints import Constraint, Objective, front
 from geneva_cli.study.sweep.values import POINTS_MAX, VariedKey
-from geneva_cli.verdict.quantities.batch_members import share
+
+if TYPE_CHECKING:
+    from geneva_cli.parts.parts import Parts
 
 DEFAULT = ("timing.motion_deg", "timing.dwell_s", "velocity.max", "acceleration.max", "jerk.max")
 ERROR = "error"  # the column that says why a design cannot be built
@@ -151,7 +152,7 @@ class Sweep(NamedTuple):
             # Parts are slow: eight tasks keep several processes busy. Four designs or more share
             # the searches of their batch, which keeps the results of at most KEPT.
             size = min(KEPT, max(4, math.ceil(len(self.plan) / 8)))
-        keep_memory()  # that the rows of other processes arrive in
+        np.empty(1 << 21)  # as in ``many``: memory is kept that rows of other processes arrive in
         starts = range(done, len(self.plan), size)
         count = min(len(starts), cores() if self.jobs is None else self.jobs)
         yield from mapped(partial(self._block, size), starts, count)
@@ -188,13 +189,14 @@ class Sweep(NamedTuple):
 
         ``known`` says whether a batch knows all its quantities of a design, and these.
         """
+        from geneva_cli.parts.parts import parts_of  # most sweeps of a batch need no parts
+
         for start in range(0, len(designs), KEPT):
             part = np.arange(start, min(start + KEPT, len(designs)))
             last: Parts | None = None
-            some, own = designs.taken(part), known.taken(part)
-            for values, machine, (whole, *cells) in zip(
-                some, self._machines(some), own, strict=True
-            ):
+            some = designs.taken(part)
+            each = zip(some, self._machines(some), known.taken(part), strict=True)
+            for values, machine, (whole, *cells) in each:
                 if machine:
                     last = last.following(machine) if last else parts_of(machine)
                 yield self.row(values, last if machine else None, cells if whole else None)
@@ -214,6 +216,8 @@ class Sweep(NamedTuple):
         for members, batch in self._batches(designs) if self._makes_parts else ():
             own = [one for i in members.tolist() if (one := machines[i])]
             if len(own) == len(members) > 1:
+                from geneva_cli.verdict.quantities.batch_members import share
+
                 share(batch, own)
         return machines
 
@@ -228,6 +232,8 @@ class Sweep(NamedTuple):
         ``parts`` are those of its machine, if they are made, and ``known`` the quantities of
         ``pick.batched`` from a batch.
         """
+        from geneva_cli.parts.parts import parts_of
+
         try:
             parts = parts or parts_of(self.machine(values))
             return [*values, *self.pick.of_parts(parts, known, self._keeps), None]

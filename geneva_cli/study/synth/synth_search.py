@@ -66,28 +66,27 @@ class MachineRow(NamedTuple):
 def rows(target: Target, specs: Sequence[Spec]) -> list[MachineRow]:
     """The rows of machines that can be built and have the required motion."""
     limits, out = target.soft_bounds, dict[int, MachineRow]()
-    names = [bound.name for bound in limits.values()]
+    names = [*QUANTITIES.values(), *(bound.name for bound in limits.values())]
     for members, machine in batch_machines(specs):
         own, n, m = [specs[i] for i in members.tolist()], len(members), machine.spec.drive.rollers
-        costs = columns(machine, [*QUANTITIES.values()], n)
-        held = columns(machine, names, n)
         radii, why = np.full(n, math.nan), [""] * n
         if any(spec.is_flat for spec in own):
             radii, why = suiting(machine, np.full(n, m))
-        each = np.column_stack(np.broadcast_arrays(*costs, np.ravel(machine.ratio), *held))
+        values = columns(machine, names, n)
+        each = np.column_stack(np.broadcast_arrays(*values, np.ravel(machine.ratio)))
         suited = zip(radii.tolist(), why, strict=True)
         for i, spec, roller, row in zip(members, own, suited, each.tolist(), strict=True):
-            values = dict(zip((*QUANTITIES, "ratio", *limits), row, strict=True))
-            motion_deg = values["motion_deg"]
+            known = dict(zip((*QUANTITIES, *limits, "ratio"), row, strict=True))
+            motion_deg = known["motion_deg"]
             allowed = target.motions(m / spec.drive.turns, motion_deg)
-            if not (math.isfinite(values["acceleration_max"]) and allowed.allows(motion_deg)):
+            if not (math.isfinite(known["acceleration_max"]) and allowed.allows(motion_deg)):
                 continue
             radius, obstacle = roller if spec.is_flat else _roller(spec)
-            over = [k for k, b in limits.items() if not (math.isnan(x := values[k]) or b.kept(x))]
+            over = [k for k, b in limits.items() if not (math.isnan(x := known[k]) or b.kept(x))]
             parts = MAYBE if spec.is_turned else None
             if obstacle or (over and parts):
                 parts = f"no: {obstacle or ', '.join(over)}"
-            out[int(i)] = MachineRow(with_roller(spec, radius), _cells(target, spec, values, parts))
+            out[int(i)] = MachineRow(with_roller(spec, radius), _cells(target, spec, known, parts))
     return [out[i] for i in sorted(out)]
 
 

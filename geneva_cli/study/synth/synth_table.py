@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_left
-from collections.abc import Collection, Sequence
+from collections.abc import Collection
 from functools import partial
 from typing import Any
 
@@ -13,7 +13,6 @@ import numpy as np
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
-from geneva_cli.parts.parts import parts_of
 from geneva_cli.progress import tracked
 from geneva_cli.spec.defaults import wall_min
 from geneva_cli.spec.tables import LIMITED
@@ -25,6 +24,7 @@ from geneva_cli.study.synth.synth_search import CELLS, COSTS, MAYBE, YES, Machin
 from geneva_cli.study.target import Target
 from geneva_cli.table import Reading, Table, rows_table
 from geneva_cli.verdict import checks as judged
+from geneva_cli.verdict.advice import Adviser, Change
 
 TURNED = 20  # rows whose parts are turned by default
 # keys of [limits] and what they bound
@@ -111,19 +111,21 @@ def built(spec: Spec, fixed: Collection[str] = ()) -> tuple[Spec, str]:
     keys of its [size] that must not change. If no sizes pass, the spec is unchanged.
     """
     machine = build(spec)
-    failing = [check.name for check in judged.checks(machine, parts=False) if check.passes is False]
-    if not {*failing} & UNSIZED:
-        failing = [check.name for check in judged.checks(machine) if check.passes is False]
-    trouble = {*failing}
+    failing = [check for check in judged.checks(machine, parts=False) if check.passes is False]
+    if not {check.name for check in failing} & UNSIZED:
+        failing = [check for check in judged.checks(machine) if check.passes is False]
+    names = [check.name for check in failing]
+    own, reasons, trouble = spec, ", ".join(names), {*names}
     if not trouble or trouble & UNSIZED:
-        return spec, ", ".join(failing)
-    own = spec
+        return spec, reasons
+    adviser, ended = Adviser(machine, failing), list[Change]()
     if "crank_bore_mm" not in fixed and trouble & SHAFT:
-        own = spec.with_("size.crank_bore_mm", 0.0)  # the shaft ends in the arm
-        if judged.all_pass(judged.every_check(build(own), quick=True)):
+        ended = [("size.crank_bore_mm", 0.0)]  # the shaft ends in the arm
+        own = spec.with_keys(dict(ended))
+        if adviser.trial(ended, names, True).passes:
             return own, ""
     if trouble <= SHAFT or "roller_radius_mm" in fixed:
-        return spec, ", ".join(failing)
+        return spec, reasons
     L = machine.center_distance_mm
     least = SPARE * float(slot_paths(machine).least[0]) if spec.is_flat else 0.0
     if spec.drive.LOCKS and spec.size.lock_radius_mm is None:
@@ -131,22 +133,13 @@ def built(spec: Spec, fixed: Collection[str] = ()) -> tuple[Spec, str]:
     most = machine.roller_radius_mm * (1.0 - 1e-9)
     radii = [r for r in 0.01 * L * np.array(USUAL) if least <= r < most]
     each = [with_roller(own, radius) for radius in radii]
-    first = bisect_left(each, True, key=lambda other: _passes(other, failing))
-    return (each[first], "") if first < len(each) else (spec, ", ".join(failing))
 
+    def passes(other: Spec) -> bool:
+        roller = ("size.roller_radius_mm", other.size.roller_radius_mm)
+        return adviser.trial([*ended, roller], names, True).passes
 
-def _passes(spec: Spec, failing: Sequence[str]) -> bool:
-    """Whether a machine passes every check, of which ``failing`` are those most likely to fail."""
-    machine = build(spec)
-    parts = parts_of(machine)
-    standing = [name for name in failing if name in judged.STANDING]
-    try:  # before a whole turn
-        first = [judged.single_check(machine, name, parts) for name in standing]
-    except GenevaError:
-        return False
-    if not judged.all_pass(filter(None, first)):
-        return False
-    return judged.all_pass(judged.every_check(machine, parts, quick=True))
+    first = bisect_left(each, True, key=passes)
+    return (each[first], "") if first < len(each) else (spec, reasons)
 
 
 def chosen(target: Target, rows: list[MachineRow], number: int) -> tuple[MachineRow, str]:

@@ -126,16 +126,16 @@ def product(names: Collection[str], mechanism: Mechanism) -> Iterator[Check]:
     friction = spec.product.friction if spec.support.axis == "vertical" else None
     if limit is None and friction is None:
         return
-    from geneva_cli.verdict.quantities.batch_designs import single
-    from geneva_cli.verdict.quantities.motion_quantities import product_motion_of
+    from geneva_cli.verdict.quantities.batch_designs import number_of, single
+    from geneva_cli.verdict.quantities.motion_quantities import product as motion_of
 
-    motion = single(mechanism).once(product_motion_of)
-    assert motion is not None  # the spec refuses limit and friction without the product's place
-    most, at_deg = motion.acceleration_m_s2[0].item(), motion.acceleration_m_s2[1].item()
+    # the spec refuses limit and friction without the product's place
+    motion = single(mechanism).columns(motion_of)
+    most, at_deg = (number_of(motion[f"acceleration_m_s2.{end}"], 0) for end in ("max", "at_deg"))
     if limit is not None:
         yield compared("product_acceleration_max_m_s2", most, "at most", limit, at_deg)
     if friction is not None:
-        needed = motion.friction_needed.item()
+        needed = number_of(motion["friction_needed"], 0)
         yield compared("product_slip", needed, "at most", friction, at_deg)
 
 

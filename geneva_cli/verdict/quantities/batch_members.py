@@ -25,7 +25,7 @@ class BatchMember(Designs):
     def columns(self, compute: Callable[[Designs], Columns]) -> Columns:
         """The values of this design, from the batch or computed alone."""
         try:
-            every = self.batch.columns(compute)
+            every = self.batch.requesting(self.names).columns(compute)
         except GenevaError:  # of another design, or of this one, which then raises it again
             return super().columns(compute)
         own = {

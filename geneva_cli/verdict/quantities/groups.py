@@ -238,13 +238,11 @@ def _with_kinds() -> Iterator[QuantityGroup]:
     last = {group.table: group for group in core}
     for group in core:
         yield group
-        for kind in KINDS:
-            for own in kind.quantities:
-                if last[own.after] is group:
-                    names, parts = _words(own.names), own.makes_parts
-                    yield QuantityGroup(
-                        own.table, names, own.alone, own.batch, (), parts, kind.name
-                    )
+        for kind in KINDS if last[group.table] is group else ():
+            if row := kind.quantities.get(group.table):
+                way, path, table, names = row.split(maxsplit=3)
+                alone, batch = (path, "") if way == "alone" else ("", path)
+                yield QuantityGroup(table, _words(names), alone, batch, (), bool(alone), kind.name)
 
 
 REPORT = (*_with_kinds(),)

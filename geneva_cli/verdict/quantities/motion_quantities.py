@@ -7,7 +7,7 @@ from typing import cast
 
 import numpy as np
 
-from geneva_cli.loads.product import ProductMotion, product_motion
+from geneva_cli.loads.product import product_motion
 from geneva_cli.motion.many import worst_peaks
 from geneva_cli.motion.peak_search import QUANTITIES, PeakArray
 from geneva_cli.motion.timing import timings
@@ -143,14 +143,9 @@ def index_gained(of: Designs) -> Columns:
     return {"index_gained_deg": np.where(np.isnan(gained), np.inf, gained)}
 
 
-def product_motion_of(of: Designs) -> ProductMotion | None:
-    """The motion of the products; None if their place is not known."""
-    return product_motion(of.machine)
-
-
 def product(of: Designs) -> Columns:
     """The product's motion; None without its place. Infinite where a design has no value."""
-    motion = of.once(product_motion_of)
+    motion = product_motion(of.machine)
     if motion is None:
         return {}
     out: dict[str, Number | None] = {}

@@ -195,6 +195,8 @@ def _key(of: Designs, part: str) -> Columns:
     if parts is None:
         return {}
     key = getattr(parts, f"{part}_key")
+    if np.isnan(key.shaft).all():
+        return {}
     most = getattr(of.once(UnderLoad).part_loads, f"{part}_Nm") * of.loaded
     most = most * np.ravel(of.spec.shaft.torsion_factor)
     sides = np.ravel(wheel_material(of.spec).allowed_MPa)

@@ -9,7 +9,6 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError, marking
 from geneva_cli.kept import cached_property
-from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.impacts.reversal import reversal_impacts
 from geneva_cli.loads.impacts.shock_force import forces_N
 from geneva_cli.loads.load_case import load_case
@@ -64,8 +63,6 @@ class UnderLoad:
     @cached_property
     def pv_W_m2(self) -> Array:
         """The greatest contact pressure times sliding speed; it needs a face width."""
-        if self.designs.single and not np.isnan(self.loaded[0]):
-            return np.array([cycle_of(self.machine).ends["pv_W_m2"].max])
         return self._peak("pv_W_m2")
 
     def _peak(self, name: str) -> Array:

@@ -8,7 +8,7 @@ import numpy as np
 from witness import mp, to_radians
 from words import load
 
-from exact.cases import HARD, MACHINES, NEAR_PLACES
+from exact.cases import MACHINES, NEAR_PLACES
 from exact.table import strictly, ulps, unit
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.drive import Drive
@@ -67,7 +67,7 @@ def varied_specs(spec):
 def compare_machine(table, name, text, mechanism, sample):
     where = " ".join(text.split())
     specs = [mechanism.spec, *varied_specs(mechanism.spec)]
-    near = {**NEAR_PLACES, **HARD}.get(text)
+    near = NEAR_PLACES.get(text)
     witnesses = [
         [machine_witness.on_path(s, *near)] if near else machine_witness.motions(s) for s in specs
     ]
