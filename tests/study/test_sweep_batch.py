@@ -72,6 +72,7 @@ def test_together_as_alone(spec, vary):
         ("offset-slots.toml", "size.center_distance_mm=80..120:20"),
         ("internal-z6.toml", "size.roller_radius_mm=3..6:1"),
         ("wandering-hours.toml", "load.torque_Nm=1..3"),
+        ("press-345.toml", "drive.n_rpm=30,60"),  # each bears most at a place of its own
     ],
 )
 def test_strengths_of_designs_that_move_alike_are_those_of_each(spec, vary):

@@ -241,8 +241,9 @@ def _sampled(
     first = row = np.arange(m)
     if m > 1 and designs_in((side, case.friction, case.radius)) == 1:
         # loads alone differ: horns under 1 N are computed once for designs with the same samples
-        first, row = _distinct(np.broadcast_to(samples, (2, m, samples.shape[2]))[..., [0, -1]])
-        samples = samples[:, first]
+        kinds = _distinct(np.broadcast_to(samples, (2, m, samples.shape[2]))[..., [0, -1]])
+        if len(kinds[0]) < m:  # or else each is one of its own, in its own order
+            (first, row), samples = kinds, samples[:, kinds[0]]
     all_places = (slot.entry_deg if start < 0.0 else slot.exit_deg) * samples[0]
     x = all_places - side.at.ahead_deg
     x = x[0] if len(x) == 1 else x  # as (k,) in half the time
