@@ -63,27 +63,13 @@ def load_peaks(
     """The greatest sizes of quantities, and the first input angles that have them: (m,)."""
     mechanism = mechanism.under_load
     case, best = case or load_case(mechanism), dict[str, PeakArray]()
-    # the square of the stress on a flat wall is proportional to the force
-    by_force = "contact_stress_MPa" in names and case.hertz is not None
     for engagement in mechanism.engagements:
-        by_force = by_force and engagement.slot.walls_flat
-    sought = list(dict.fromkeys((*names, "pin_force_N") if by_force else names))
-    if by_force:
-        sought.remove("contact_stress_MPa")
-    for engagement in mechanism.engagements:
-        result = LoadFunctions(engagement, case, sought, own).search(sized=True)
+        result = LoadFunctions(engagement, case, names, own).search(sized=True)
         at_deg = shown_deg(mechanism, engagement, result.x)
-        for name, *row in zip(sought, result.most, at_deg, strict=True):
-            here = PeakArray(*row)
+        for name, most, *places in zip(names, result.most, at_deg, strict=True):
+            here = PeakArray(np.sqrt(most) if name in contact.SQUARED else most, *places)
             best[name] = greater(best[name], here) if name in best else here
-    if by_force and case.hertz is not None:
-        force = best["pin_force_N"]
-        best["contact_stress_MPa"] = force._replace(max=force.max * np.ravel(case.hertz))
-    out = {}
-    for name in names:
-        one = best[name]
-        out[name] = one._replace(max=np.sqrt(one.max)) if name in contact.SQUARED else one
-    return out
+    return best
 
 
 def _slope_squared(i: Instant[Jet]) -> contact.QuantityValue[Jet]:
@@ -253,6 +239,4 @@ def _sums_of(load: LoadFunctions, result: SearchResult) -> Array:
         return [*squares, *(contact.plain_values(value, name) for name, value in both)]
 
     each = load.integrals(pieces, functions, needed)
-    total: Array = np.array([np.bincount(pieces.design, row, n) for row in each])
-    total[~needed] = np.inf
-    return total
+    return np.array([np.bincount(pieces.design, row, n) for row in each])

@@ -253,7 +253,7 @@ def _works(load: LoadFunctions, bounded: Mask) -> tuple[Array, Array]:
     work, back = load.integrals(pieces, functions, np.stack((bounded, bounded)))
     number = np.arange(len(work)) - np.searchsorted(pieces.design, pieces.design)
     works = np.zeros((n, int(number.max()) + 1))
-    works[pieces.design, number] = work
+    works[pieces.design, number] = np.where(bounded[pieces.design], work, 0.0)
     returned = np.zeros(n)
     np.add.at(returned, pieces.design, back)
     return works, returned

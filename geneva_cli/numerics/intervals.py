@@ -94,8 +94,9 @@ class Interval(Enclosed):
         return np.where(np.any(inside, axis=0), math.nan, number)
 
     def rising(self, f: Callable[[Number], Number]) -> Number:
-        low, high = (_ends(cast("float", f(_number(x, x)))) for x in (self.low, self.high))
-        return _number(low[0], high[1])
+        ends = (cast("float", Interval(x, x)) for x in (self.low, self.high))
+        low, high = (_ends(cast("float", f(x))) for x in ends)
+        return cast("float", Interval(low[0], high[1]))
 
     def __neg__(self) -> Interval:
         return Interval(-self.high, -self.low)
@@ -166,11 +167,6 @@ def _decided(yes: Truth, no: Truth) -> bool:
 
 def _ends(x: Interval | float) -> tuple[Bound, Bound]:
     return (x.low, x.high) if isinstance(x, Interval) else (x, x)
-
-
-def _number(low: Bound, high: Bound) -> float:
-    """Intervals as the float that they are to the type checker."""
-    return cast("float", Interval(low, high))
 
 
 def _outwards(low: Bound, high: Bound, units: int = 1) -> Interval:

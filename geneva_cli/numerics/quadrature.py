@@ -50,19 +50,17 @@ def span_integrals(
     ``functions(x, which)`` returns the functions (functions, m, k) of the spans ``which``, numbers
     (m,), at places (m, k). They may behave as the root of the distance from a span's ends.
     ``design`` (spans,) is the design of each span. ``needed`` (functions, n) selects the integrals
-    that are needed; others, such as unbounded ones, are meaningless. Unbounded integrals are
-    infinite. Those of noise are NaN, since halving their spans does not help.
+    that are needed; it loses those that are unbounded. Others are infinite. Those of noise are NaN,
+    since halving their spans does not help.
     """
     n, count = needed.shape[1], len(design)
     total, size = np.zeros((len(needed), count)), np.zeros(needed.shape)
-    unbounded, of = total != 0.0, np.arange(count)
-    low, high = np.zeros(count), np.ones(count)
+    of, low, high = np.arange(count), np.zeros(count), np.ones(count)
     for halved in range(40):  # the narrowest spans are 1e-12 of their design's
         whole, last, sizes = _parts(functions, spans, of, np.stack((low, high)))
         lost = ~np.isfinite(sizes)  # spans of an unbounded function are not halved further
-        for row, endless, marks in zip(needed, lost, unbounded, strict=True):
+        for row, endless in zip(needed, lost, strict=True):
             row[design[of[endless]]] = False
-            marks[of[endless]] = True
         if not halved:
             for own, row in zip(size, sizes, strict=True):
                 own += np.bincount(design[of], row, n)
@@ -75,12 +73,12 @@ def span_integrals(
         total[:, of[open_ & lost_in_noise]] = np.nan
         open_ &= ~lost_in_noise
         if not open_.any():
-            return np.where(unbounded, np.inf, total)
+            return np.where(needed[:, design], total, np.inf)
         middle = 0.5 * (low + high)[open_]
         low, high = np.concatenate((low[open_], middle)), np.concatenate((middle, high[open_]))
         of = np.concatenate((of[open_], of[open_]))
     total[:, of] = np.inf
-    return np.where(unbounded, np.inf, total)
+    return np.where(needed[:, design], total, np.inf)
 
 
 def _parts(

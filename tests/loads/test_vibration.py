@@ -7,11 +7,10 @@ are 0/0 where k is the swing's own rate, and there the rate is moved by 1e-30, w
 import mpmath
 import numpy as np
 import pytest
-from test_vibration_machines import shares
+from test_vibration_machines import of_law, shares
 from words import law
 
 from geneva_cli import External
-from geneva_cli.loads.vibration.swing import law_shape
 from geneva_cli.loads.vibration.swing import motion_shapes as shape
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
@@ -121,8 +120,8 @@ LARGE = [1e3, 1234.567, 9999.3, 1e4]
 
 def of(name):
     if name.startswith("tilted"):
-        return law_shape(law("sine-group", 0.1))
-    return law_shape(law(name))
+        return of_law(law("sine-group", 0.1))
+    return of_law(law(name))
 
 
 def amplitudes(form, ratios, damping=0.0):

@@ -13,16 +13,21 @@ from geneva_cli import Design, External, Shaft
 from geneva_cli.loads.vibration.swing import (
     Oscillator,
     greatest_accelerations,
-    law_shape,
     local_maxima,
     residual_swing,
 )
 from geneva_cli.loads.vibration.swing import motion_shapes as shape
 from geneva_cli.loads.vibration.vibration import Oscillators, speeds_to_avoid
+from geneva_cli.motion.given_motion import LawMotion
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 
 DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
+
+
+def of_law(law):
+    """The panels of a law's own motion."""
+    return shape(LawMotion(-60.0, 60.0, 0.5, law))
 
 
 def swing(ratios, damping):
@@ -87,7 +92,7 @@ def test_every_machine(path):
     ],
 )
 def test_dynamic_factor_of_the_harmonic(ratio, factor):
-    found = greatest_acceleration(law_shape(load_law("harmonic")), ratio, 0.0) / (math.pi**2 / 2.0)
+    found = greatest_acceleration(of_law(load_law("harmonic")), ratio, 0.0) / (math.pi**2 / 2.0)
     assert found == pytest.approx(factor, rel=1e-13)
 
 
@@ -118,7 +123,7 @@ def test_dynamic_factor_against_a_solver(kind, ratio, damping):
 
 def test_a_maximum_is_where_the_slope_of_the_closed_form_vanishes():
     """Of |sin pi l|/(pi l (l² - 1)): pi l cot pi l = 1 + 2 l²/(l² - 1), between two integers."""
-    form = law_shape(load_law("cycloidal"))
+    form = of_law(load_law("cycloidal"))
     l = local_maxima(lambda ratio: shares(form, ratio, 0.0)[None], 0, 0.6, 12.0)
     assert np.floor(l).tolist() == list(range(2, 12))
     slope = math.pi * l / np.tan(math.pi * l) - 1.0 - 2.0 * l * l / (l * l - 1.0)

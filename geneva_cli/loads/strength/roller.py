@@ -68,7 +68,7 @@ def passage(engagement: Engagement, case: LoadCase, half: float = 0.0) -> SlotPa
     needed = np.stack((every_one, every_one, bounded, bounded))
     moved, *others = load.integrals(pieces, functions, needed)
     total = [np.bincount(pieces.design, row, n) for row in (abs(moved), *others)]
-    return SlotPassage(*map(parameter, np.where(needed, total, np.inf)))
+    return SlotPassage(*map(parameter, np.array(total)))
 
 
 def passages(mechanism: Mechanism, by_roller: bool = False) -> list[SlotPassage]:

@@ -11,23 +11,19 @@ panel's ends by a recurrence (Filon's method); otherwise Gauss's rule has them.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from functools import lru_cache
+from collections.abc import Callable
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
 from geneva_cli.motion.batch import selection
 from geneva_cli.motion.engagement import WheelMotion
-from geneva_cli.motion.laws.law import Law
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Complex, Mask, Whole, joined, matrix_product, read_only
-from geneva_cli.numerics.jet import Array, Number
+from geneva_cli.numerics.arrays import Complex, Mask, Whole, joined, matrix_product
+from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.quadrature import rule
 
-# Places u (p, k) of the motions (p,) -> Taylor coefficients 0 to 2 of s by a variable, and du over
-# that variable.
-Taylor: TypeAlias = Callable[[Array, Whole], tuple[Sequence[Number], Number]]
+Rates: TypeAlias = Callable[[Array, Whole], Array]
 
 legendre, chebyshev = np.polynomial.legendre, np.polynomial.chebyshev
 NODES = 32  # of Gauss's rule on a panel
@@ -75,52 +71,44 @@ class Panels(NamedTuple):
         return of, np.arange(len(of)) + np.repeat(ends[motion] - first, count), first
 
 
-@lru_cache(maxsize=64)
-def law_shape(law: Law) -> Panels:
-    """The panels of a motion law."""
-    cuts = np.array([sorted({0.0, *law.knots, 0.5, 1.0})])
-    return read_only(_panels(lambda u, _: (law(u, 2).c, 1.0), cuts))
-
-
 def motion_shapes(motion: WheelMotion, m: int = 1) -> Panels:
-    """The panels of the motions of m designs."""
+    """The panels of the motions of m designs, whose derivatives may jump at the knots."""
     of_designs = selection(motion)
 
-    def taylor(u: Array, which: Whole) -> tuple[Sequence[Number], Number]:
+    def rates(u: Array, which: Whole) -> Array:
+        """s' and s'' at places u (p, k) of the motions ``which`` (p,): (2, p, k)."""
         some: WheelMotion = of_designs(which)
-        whole, step = some.exit_deg - some.entry_deg, 2.0 * some.half_step
-        angle = some(some.entry_deg + u * whole, 2)
-        return [v / step for v in angle.c], whole * DEGREE
+        whole = some.exit_deg - some.entry_deg
+        speed, bend = some.rate(some.entry_deg + u * whole, 1).derivatives()
+        per_radian, step = whole * DEGREE, 2.0 * some.half_step
+        rows = speed * (per_radian / step), bend * (per_radian * (per_radian / step))
+        return np.stack(np.broadcast_arrays(*rows))
 
-    every = np.hstack([np.broadcast_to(np.asarray(x), (m, 1)) for x in motion.knots_deg])
-    return _panels(taylor, (every - every[:, :1]) / (every[:, -1:] - every[:, :1]))
-
-
-def _panels(taylor: Taylor, breaks: Array) -> Panels:
-    """Panels of m motions, whose derivatives may jump at the ``breaks`` (m, k) of each."""
-    motion, edges, values = _refined(taylor, breaks)
-    in_order = np.lexsort((edges[0], motion))
-    motion, (left, right), values = motion[in_order], edges[:, in_order], values[:, in_order]
+    places = np.hstack([np.broadcast_to(np.asarray(x), (m, 1)) for x in motion.knots_deg])
+    breaks = (places - places[:, :1]) / (places[:, -1:] - places[:, :1])
+    number, edges, values = _refined(rates, breaks)
+    in_order = np.lexsort((edges[0], number))
+    number, (left, right), values = number[in_order], edges[:, in_order], values[:, in_order]
     series = matrix_product(values, SERIES.T)
     # values at the ends of panels, and jumps between them
     first, last = (series * (-1.0) ** np.arange(NODES)).sum(axis=2), series.sum(axis=2)
-    begins = np.append(True, motion[1:] != motion[:-1])
+    begins = np.append(True, number[1:] != number[:-1])
     jump = np.abs(first - np.where(begins, 0.0, np.roll(last, 1, axis=1)))
     stop = np.where(np.append(begins[1:], True), np.abs(last), 0.0)
     through = np.concatenate((first[:, :, None], values, last[:, :, None]), axis=2)
     rises = jump + stop + np.abs(np.diff(through)).sum(axis=2)
     greatest, jumps, variation = np.zeros((3, 2, len(breaks)))
     for k in range(2):
-        np.maximum.at(greatest[k], motion, np.abs(values[k]).max(axis=1))
-        np.maximum.at(jumps[k], motion, np.maximum(jump[k], stop[k]))
-        np.add.at(variation[k], motion, rises[k])
+        np.maximum.at(greatest[k], number, np.abs(values[k]).max(axis=1))
+        np.maximum.at(jumps[k], number, np.maximum(jump[k], stop[k]))
+        np.add.at(variation[k], number, rises[k])
     # A jump of 1e-12 of the greatest value is rounding. Only a crank as built starts and stops the
     # wheel with a jump of velocity.
     jumps_there: Mask = jumps[0] > 1e-12 * greatest[0]
-    return Panels(motion, left, right, series[..., :TERMS], jumps_there, greatest, variation)
+    return Panels(number, left, right, series[..., :TERMS], jumps_there, greatest, variation)
 
 
-def _refined(taylor: Taylor, breaks: Array) -> tuple[Whole, Array, Array]:
+def _refined(of: Rates, breaks: Array) -> tuple[Whole, Array, Array]:
     """Panels: their motions (p,), ends (2, p), and s' and s'' at their nodes (2, p, NODES)."""
     m, closed = len(breaks), []
     open_, motion = np.stack((breaks[:, :-1].ravel(), breaks[:, 1:].ravel())), np.arange(m)
@@ -132,8 +120,7 @@ def _refined(taylor: Taylor, breaks: Array) -> tuple[Whole, Array, Array]:
     while len(motion):
         np.add.at(count, motion, 1)
         width = open_[1] - open_[0]
-        c, rate = taylor(open_[0, :, None] + width[:, None] * (0.5 * (1.0 + X)), motion)
-        rates = np.stack(np.broadcast_arrays(c[1] * rate, 2.0 * c[2] * rate**2))
+        rates = of(open_[0, :, None] + width[:, None] * (0.5 * (1.0 + X)), motion)
         for row, values in zip(greatest, np.abs(rates).max(axis=2), strict=True):
             np.maximum.at(row, motion, values)
         # the last six terms show whether the series has ended

@@ -17,7 +17,7 @@ from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.loads.load_case import inertia_kgm2
 from geneva_cli.loads.vibration import swing as swings
 from geneva_cli.loads.vibration.swing import Oscillator
-from geneva_cli.motion.batch import taken
+from geneva_cli.motion.batch import designs_in, taken
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.motion_table import check_samples
 from geneva_cli.motion.peak_search import motion_peaks
@@ -91,17 +91,13 @@ class Oscillators:
 
     def __init__(self, mechanism: Mechanism, swing: Oscillator) -> None:
         self.mechanism, self.swing = mechanism, swing
-        m, n = mechanism.designs, len(swing.ratio)
-        law = None if mechanism.spec.drive_before else mechanism.law
-        # a law without numbers that vary has one shape in all designs
-        alike = law is not None and taken(law, slice(0)) is law
-        self.motion = np.arange(n) if m > 1 and not alike else np.zeros(n, dtype=np.intp)
+        # one shape stands for designs whose motions are alike
+        m = designs_in([engagement.motion for engagement in mechanism.engagements])
+        n = len(swing.ratio)
+        self.motion = np.arange(n) if m > 1 else np.zeros(n, dtype=np.intp)
         self.panels, self.scale, steps = [], [], []
         for engagement in mechanism.engagements:
-            if law and (alike or isinstance(mechanism.design, int)):
-                self.panels.append(swings.law_shape(law))
-            else:
-                self.panels.append(swings.motion_shapes(engagement.motion, m))
+            self.panels.append(swings.motion_shapes(engagement.motion, m))
             # its time over that of the machine's first motion
             first = mechanism.engagements[0].motion_deg
             self.scale.append(np.ravel(engagement.motion_deg / first))
