@@ -247,7 +247,7 @@ def _sampled(
     x = all_places - side.at.ahead_deg
     x = x[0] if len(x) == 1 else x  # as (k,) in half the time
     at = contact_values(contact(side.at.whole, x, reactions=False))
-    at = at if len(first) == m else mapped(partial(_picked, row=row), at)
+    at = at if row is first else mapped(partial(_picked, row=row), at)
     with np.errstate(all="ignore"):
         # with signs of the horn that bears: elsewhere the force on it is 0
         loads = Instant(case, at, -side.at.end, None, 1.0)
