@@ -73,8 +73,7 @@ def test_together_as_alone(spec, vary):
         ("internal-z6.toml", "size.roller_radius_mm=3..6:1"),
         ("wandering-hours.toml", "load.torque_Nm=1..3"),
         # places of the greatest stress in any order
-        ("press-345.toml", "drive.n_rpm=30,60,20,90"),
-        ("turret.toml", "load.torque_Nm=40,1,9,2,30"),
+        ("press-345.toml", "drive.n_rpm=30,60"),
     ],
 )
 def test_strengths_of_designs_that_move_alike_are_those_of_each(spec, vary):
