@@ -104,7 +104,7 @@ def quantities() -> set[str]:
     """The fields and columns of all commands, as whole as the program has them."""
     model = load(str(repo.DESIGNS / "turret.toml")).parts
     quick = [group for group in groups.GROUPS if not group.makes_parts]
-    out = {*groups.values(quick, model)}
+    out = {*chain.from_iterable(group.values(model) for group in quick)}
     parts = [group for group in groups.GROUPS if group.makes_parts and group.table != "checks"]
     out |= {*chain.from_iterable(group.names for group in parts), "tolerance.warnings"}
     out |= {f"parts_list.{kind}" for kind in parts_list.KINDS} | {"checks.passes", "checks.failed"}

@@ -10,7 +10,6 @@ from repo import get as read
 from repo import posix, put
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.output import parquet
 from geneva_cli.output.growing import growing
 
 NAMES, KEY = ["a", "b"], "request"
@@ -158,14 +157,3 @@ def test_a_column_of_numbers_gets_words_after_a_stop(path, stopped):
         with open(file, "rb") as whole:
             files.append(whole.read())
     assert files[0] == files[1]
-
-
-def test_a_first_error_writes_no_rows_again(path, monkeypatch):
-    """Columns of texts, and numbers where there was none before, keep the type of their column."""
-    written = []
-    usual = parquet.Writer.rewrite
-    monkeypatch.setattr(parquet.Writer, "rewrite", lambda own: written.append(usual(own)))
-    with growing(["a", "error"], KEY, path.replace("csv", "parquet"), texts=["error"]) as rows:
-        for block in ([[None], [None]], [[0.5], [None]], [[None], ["too wide"]]):
-            rows.append(block)
-    assert len(written) == 1
