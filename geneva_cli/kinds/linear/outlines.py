@@ -69,13 +69,11 @@ class SlidingStops(Stops):
         parts.append(masked(~across, *line, zero, 0.5 * np.abs(rise)))
         return np.concatenate(parts, axis=1)
 
-    def place(self, branch: Branches, level: Array) -> Array:
-        """Return the places of branches at levels."""
+    def away(self, branch: Branches, level: Array) -> Array:
+        """Return how far places of branches are from those of their centres, at levels inside."""
         off = level - branch.excess
         bow = np.sqrt(np.maximum((branch.size - off) * (branch.size + off), 0.0)) / self.L
-        away = np.where(branch.size > 0.0, bow, (level - branch.low) * branch.excess)
-        away = np.where(level <= branch.low, branch.at_low, away)
-        return branch.ahead + branch.sign * np.where(level >= branch.high, branch.at_high, away)
+        return np.where(branch.size > 0.0, bow, (level - branch.low) * branch.excess)
 
     def tangents(self, one: Branches, two: Branches) -> tuple[Array, Array]:
         """Return the levels at which branches may be tangent."""

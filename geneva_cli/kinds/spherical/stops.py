@@ -74,14 +74,12 @@ class SphereStops(Stops):
         parts = cut(~same, (start, start + sweep), levels, _extremes(far, size), cap)
         return np.concatenate((masked(same, *round_), *parts), axis=1)
 
-    def place(self, branch: Branches, level: Array) -> Array:
-        """Return the places of branches at levels: azimuths."""
+    def away(self, branch: Branches, level: Array) -> Array:
+        """Return how far azimuths of branches are from those of their caps, at levels inside."""
         size, far = branch.size, branch.excess
         sine = np.sin(0.5 * (size - level + far)) * np.sin(0.5 * (size + level - far))
         cosine = np.sin(0.5 * (level + far - size)) * np.sin(0.5 * (level + far + size))
-        angle = 2.0 * np.arctan2(np.sqrt(np.maximum(sine, 0.0)), np.sqrt(np.maximum(cosine, 0.0)))
-        angle = np.where(level <= branch.low, branch.at_low, angle)
-        return branch.ahead + branch.sign * np.where(level >= branch.high, branch.at_high, angle)
+        return 2.0 * np.arctan2(np.sqrt(np.maximum(sine, 0.0)), np.sqrt(np.maximum(cosine, 0.0)))
 
     def tangents(self, one: Branches, two: Branches) -> tuple[Array, Array]:
         """Return the levels at which branches may be tangent."""

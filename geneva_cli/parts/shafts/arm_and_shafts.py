@@ -208,10 +208,8 @@ def bolts(parts: Outlines) -> list[Circle]:
 def _bolts(parts: Outlines, count: int) -> list[Circle]:
     """Return the holes of so many equal bolts in each sector, where the disc's walls are widest."""
     size, sizes = parts.assembly.mechanism.spec.size, parts.sizes
-    spans: list[tuple[float, float]] = []
-    for start, end in disc.sectors(disc.reliefs(parts.assembly)) if parts.crank and count else ():
-        spans.append((start, end - start))
-    directions = lock_bolt_directions(spans, count)
+    locking = disc.sectors(disc.reliefs(parts.assembly)) if parts.crank and count else []
+    directions = lock_bolt_directions([(start, end - start) for start, end in locking], count)
     if not directions:
         return []
     # 400 radii: their spacing is far below a wall

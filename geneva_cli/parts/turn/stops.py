@@ -229,14 +229,17 @@ class Stops:
 
     def place(self, branch: Branches, level: Array) -> Array:
         """Return the places of branches at levels."""
+        away = np.where(level <= branch.low, branch.at_low, self.away(branch, level))
+        # near its nearest or farthest point a piece's level tells little of its place
+        return branch.ahead + branch.sign * np.where(level >= branch.high, branch.at_high, away)
+
+    def away(self, branch: Branches, level: Array) -> Array:
+        """Return how far places of branches are from those of their centres, at levels inside."""
         bend, excess = branch.size, branch.excess
         twice = 2.0 + bend * excess
         sine = (twice - bend * level) * (level - excess)
         cosine = (twice + bend * level) * (level + excess)
-        angle = 2.0 * np.arctan2(np.sqrt(np.maximum(sine, 0.0)), np.sqrt(np.maximum(cosine, 0.0)))
-        # near its nearest or farthest point a piece's level tells little of its place
-        angle = np.where(level <= branch.low, branch.at_low, angle)
-        return branch.ahead + branch.sign * np.where(level >= branch.high, branch.at_high, angle)
+        return 2.0 * np.arctan2(np.sqrt(np.maximum(sine, 0.0)), np.sqrt(np.maximum(cosine, 0.0)))
 
     def tangents(self, one: Branches, two: Branches) -> tuple[Array, Array]:
         """Return the levels at which branches may be tangent."""
