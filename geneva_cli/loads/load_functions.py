@@ -133,11 +133,14 @@ class LoadFunctions:
             x = np.where(x == near, 0.0, x)
         return pieces._replace(x=x)
 
-    def integrals(self, pieces: Stretches, functions: Integrands, needed: Mask) -> Array:
+    def integrals(
+        self, pieces: Stretches, functions: Integrands, needed: Mask, poles: bool = False
+    ) -> Array:
         """The integrals of functions by the angle in radians over stretches: (functions, m).
 
         They may behave as a root at the ends of a stretch. ``needed`` (functions, n) selects those
-        of designs; of noise they are NaN.
+        of designs; of noise they are NaN. ``poles`` spreads the samples of each design about
+        mid-motion. It costs digits where nearly all happens at the ends of the motion.
         """
         from geneva_cli.numerics.quadrature import span_integrals  # a check has no integrals
 
@@ -148,15 +151,18 @@ class LoadFunctions:
         w = self.spread[design, 0]
 
         def rows(u: Array, which: Whole) -> Array:
-            width = w[which, None]
-            x, rate = gathered(u, width), np.hypot(1.0, np.sinh(u / width))
+            x, rate = u, np.ones(1)
+            if poles:
+                width = w[which, None]
+                x, rate = gathered(u, width), np.hypot(1.0, np.sinh(u / width))
             x = np.clip(x, a[which, None], b[which, None])
             instant, every, _ = self.at(x, design[which], 0, signs[:, which, None])
             each = np.broadcast_arrays(*functions(instant, every), x)[:-1]
             out = np.empty((len(each), *x.shape[::-1])).swapaxes(1, 2)
             return np.multiply(each, rate, out=out)
 
-        ends, out = (spread(a, w), spread(b, w)), np.empty((len(needed), len(order)))
+        ends = (spread(a, w), spread(b, w)) if poles else (a, b)
+        out = np.empty((len(needed), len(order)))
         with np.errstate(all="ignore"):
             out[:, order] = span_integrals(rows, ends, design, needed)
         return out * DEGREE

@@ -169,14 +169,16 @@ class CouplerPath(LinkPath):
         # by Grashof's condition sums of positive terms: (b + c)² - D and D - (b - c)²
         above = (b + c - g - a) * (b + c + g + a) + g * a * size(crank + 1.0) ** 2
         below = (g - a - b + c) * (g - a + b - c) + g * a * size(crank - 1.0) ** 2
-        root, spread, half = library(above).sqrt(above * below), above - below, 0.5 / b
-        by_u, by_N = (b - c) * (b + c) * half, self.side * half
-        turning = (by_u + 1j * by_N * root) / D
-        k, by_D = half + turning, (0.5j * by_N * spread / root - turning) / D
+        half, square = 0.5 / b, above * below
+        # k is half + real + i imag, and the last two change by D alone
+        real, imag = (b - c) * (b + c) * half / D, self.side * half * library(D).sqrt(square) / D
+        s, t = (2.0 * g / D * x for x in (A.imag, A.real))
+        by_D, k = D * (above - below) / square, half + real + 1j * imag
         if velocity is None:
-            velocity = 1j * A + (d * by_D * (2.0 * g * A.imag) - 1j * A * k) * arm
+            slope = 0.5j * imag * by_D - real - 1j * imag
+            velocity = 1j * A + (d * slope * s - 1j * A * k) * arm
         out = velocity, A * k * arm - A, A * arm, d * arm
-        sizes = 2.0 * g * A.imag, 2.0 * g * A.real, D, spread, root, by_u, by_N
+        sizes = s, t, by_D, D * D / square, real, imag
         return CouplerDisplacement(*sizes, *(x for z in out for x in (z.real, z.imag)))
 
 
@@ -187,13 +189,12 @@ class CouplerDisplacement(NamedTuple):
     the point is much slower than its links.
     """
 
-    s: float  # 2 g a sin phi
-    t: float  # 2 g a cos phi
-    D0: float  # d²
-    spread: float  # slope of N² by D
-    root: float  # size of N
-    by_u: float  # factor of 1 / D in the real part of k
-    by_N: float  # factor of N / D in its imaginary part
+    s: float  # 2 g a sin phi / D: D changes by this fraction for sin d
+    t: float  # and by 2 g a cos phi / D for 1 - cos d
+    by_D: float  # N² changes by this fraction for the fraction of D
+    by_square: float  # less this one, for the square
+    real: float  # parts of k, in proportion to 1 / D
+    imag: float  # and N / D
     vx: float  # velocity of the point
     vy: float
     wx: float  # factor of 1 - cos d
@@ -211,21 +212,22 @@ class CouplerDisplacement(NamedTuple):
     def __call__(self, sine: Jet, versine: Jet) -> tuple[Jet, Jet]:
         """Displacement from sin d and 1 - cos d of the crank's rotation d since then."""
         numbers = enclosed(sine.c[0], self)
-        s, t, D0, spread, root, by_u, by_N, vx, vy, wx, wy, ax, ay, dx, dy = numbers
-        first, second = sine * s, versine * t
-        D = first + second
-        square = D * D
-        grown = D * spread - square
-        share = 1.0 / (sqrt(grown + root * root) + root)
-        du, dN = D / ((D + D0) * -D0), grown * share
-        both = du * dN
-        k, n = du * by_u, (dN / D0 + both + du * root) * by_N
-        # what k changes by beyond its linear part, but for its factors
-        kk = (D * du + second / D0) / -D0
-        dNN = (second * spread - square - first * dN * (0.5 * spread / root)) * share
-        nn = dNN / D0 + both + kk * root
+        s, t, by_D, by_square, real, imag, vx, vy, wx, wy, ax, ay, dx, dy = numbers
+        # fractions of D, of 1 / D, of N² and of N
+        second = versine * t
+        D = sine * s + second
+        u, square = D / (D + 1.0) * -1.0, D * D * by_square
+        grown = D * by_D - square
+        share = 1.0 / (sqrt(grown + 1.0) + 1.0)
+        N = grown * share
+        both = u * N
+        k, n = u * real, (N + u + both) * imag
+        # what they change by beyond their linear parts
+        uu = (D * u + second) * -1.0
+        NN = (second * by_D - square - sine * N * (0.5 * s * by_D)) * share
+        nn = NN + both + uu
         x, y = sine * ay + versine * ax, sine * ax - versine * ay
         return (
-            sine * vx + versine * wx + kk * (by_u * dx) - nn * (by_N * dy) + x * k + y * n,
-            sine * vy + versine * wy + kk * (by_u * dy) + nn * (by_N * dx) + x * n - y * k,
+            sine * vx + versine * wx + uu * (real * dx) - nn * (imag * dy) + x * k + y * n,
+            sine * vy + versine * wy + uu * (real * dy) + nn * (imag * dx) + x * n - y * k,
         )
