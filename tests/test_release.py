@@ -3,10 +3,8 @@
 import re
 
 from repo import ROOT
-from typer.main import get_command
 
 import geneva_cli
-from geneva_cli.cli.app import app
 
 
 def test_the_citation_and_the_changes_name_this_version():
@@ -15,12 +13,6 @@ def test_the_citation_and_the_changes_name_this_version():
     changes = (ROOT / ".github/CHANGELOG.md").read_text(encoding="utf-8")
     assert f"\nversion: {version}\n" in citation
     assert re.search(r"^## (\S+?),? ", changes, re.M)[1] == version
-
-
-def test_the_changes_name_every_command():
-    changes = (ROOT / ".github/CHANGELOG.md").read_text(encoding="utf-8")
-    commands = set(get_command(app).commands)
-    assert {name for name in commands if f"`{name}`" not in changes} == set()
 
 
 def test_files_that_contributing_names_are_there() -> None:

@@ -89,13 +89,10 @@ def test_a_warning_is_told_with_its_name(capsys):
     assert (copied, copied.name) == ("text", "undercut")
 
 
-def test_every_kind_and_law_has_an_entry_and_no_entry_names_none():
+def test_every_kind_law_and_part_has_an_entry_and_no_entry_names_none():
     kinds = {*registry.GEARINGS, *registry.DRIVES}
     assert kinds <= explained("kind") <= {*kinds, *EXAMPLES, *DESIGNS}
     assert explained("law") == set(registry.LAWS)
-
-
-def test_every_part_has_an_entry_and_no_entry_names_none():
     assert explained("part") == set(PARTS)
 
 
@@ -182,6 +179,8 @@ CHECKED = [e for e in entries() if e.group == "check" and e.names[0] not in WITH
 
 
 def test_an_entry_is_whole():
+    named = {(e.group, e.names[0]) for e in entries()}
+    assert {(group, name) for group, some in PROOFS.items() for name in some} == named
     for entry in entries():
         for name in entry.names:
             assert re.fullmatch(r"\.?[\w.-]+", name), name
@@ -201,11 +200,6 @@ def test_an_entry_is_whole():
             path, _, test = proof.partition("::")
             text = (repo.ROOT / path).read_text(encoding="utf-8")
             assert path.startswith("tests/") and f"\ndef {test}(" in text, proof
-
-
-def test_no_proof_is_of_nothing():
-    named = {(e.group, e.names[0]) for e in entries()}
-    assert {(group, name) for group, some in PROOFS.items() for name in some} == named
 
 
 @pytest.mark.parametrize(("group", "entries"), [("check", CHECKED), ("warning", WARNINGS)])
