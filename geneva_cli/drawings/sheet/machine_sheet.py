@@ -81,7 +81,7 @@ def sheet(parts: FlatParts) -> Sheet:
         view = View(f"A-A ({scale_name(scale)})", scale)
         _draw_section(view, faces, (0.0, L))
         tips = defaultdict[int, list[shapes.Point]](list)  # the middles of the faces' sides
-        for face in sorted(faces, key=lambda f: f.left - f.right):
+        for face in sorted(faces, key=lambda f: round(f.left - f.right, 6)):  # as above
             low, high = face.plate.low, face.plate.high
             x, z = 0.5 * (face.left + face.right), 0.5 * (low + high)
             tips[items[face.plate]] += [(x, high), (x, low), (face.right, z), (face.left, z)]
