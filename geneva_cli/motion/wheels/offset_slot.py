@@ -40,7 +40,7 @@ class OffsetSlotMotion(StraightSlotMotion):
     """Motion of a wheel whose offset slot follows the pin."""
 
     def __init__(self, path: AnchoredPath, half_step: float, skew: Skew) -> None:
-        super().__init__(path, half_step)
+        super().__init__(path, half_step, mirrored=False)
         self.skew = skew
 
     def __call__(self, input_deg: Number, order: int = 3, angle: bool = True) -> Jet:
