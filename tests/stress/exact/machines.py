@@ -75,8 +75,9 @@ def compare_machine(table, name, text, mechanism, sample):
         place = where if len(mechanism.engagements) == 1 else f"{where} engagement {j + 1}"
         w, *moved = [m[j] for m in witnesses]
         x = angles(engagement)[:: 3 if sample else 1]
-        joints = joints_of(w)  # a jump is read off on one side of them
-        x = x[[all(abs(to_radians(v) - joint) > 1e-11 for joint in joints) for v in x]]
+        joints, apart = joints_of(w), 1e-11 * (w.exit - w.entry)
+        # a jump is read off on one side of them
+        x = x[[all(abs(to_radians(v) - joint) > apart for joint in joints) for v in x]]
         exact = [w.derivatives(v) for v in x]
         by = [[m.derivatives(v) for v in x] for m in moved]
         turned = max(
