@@ -24,7 +24,7 @@ from geneva_cli.motion.batch import taken
 from geneva_cli.motion.machine_spec import BEFORE, Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.peak_search import QUANTITIES, PeakArray, greater, motion_peaks
-from geneva_cli.numerics.arrays import Array, Mask, Number, Whole, parameter
+from geneva_cli.numerics.arrays import Array, Mask, Number, Whole, keep_memory, parameter
 from geneva_cli.spec.rules import is_array
 from geneva_cli.spec.schema import unknown
 
@@ -68,9 +68,7 @@ def many(spec: Spec, varied: Mapping[str, object]) -> Many:
     if wrong:
         raise ValueError(f"{', '.join(wrong)}: cannot vary within a machine")
     (n,) = lengths
-    # Linux takes freed memory back and returns it page by page: up to two fifths of the time of a
-    # batch's peaks. Once 16 MB were freed, which are never written, the program keeps up to 32 MB.
-    np.empty(1 << 21)
+    keep_memory()
     columns = {**varied, **{key: values[:, None] for key, values in arrays.items()}}
     with np.errstate(all="ignore"), marking() as marks:
         try:

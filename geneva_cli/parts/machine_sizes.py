@@ -54,7 +54,7 @@ def machine_sizes(mechanism: Mechanism) -> Layout:
     """Return a machine's assembly and sizes. Raises GenevaError where they leave no parts."""
     out = _machine_sizes(mechanism)
     if isinstance(out, GenevaError):
-        raise out
+        raise out.with_traceback(None)  # or else it grows with each time
     return out
 
 

@@ -18,8 +18,7 @@ from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.parts.chosen import ByLoad, by_load
 from geneva_cli.parts.machine_sizes import built
 from geneva_cli.parts.parts import Parts, parts_of
-from geneva_cli.spec.schema import fields
-from geneva_cli.spec.tables import PLAIN, Size
+from geneva_cli.spec.tables import Size
 from geneva_cli.specfile.keys import tables_with
 from geneva_cli.verdict.checks import (
     KEYS,
@@ -179,9 +178,7 @@ def advised(mechanism: Mechanism, rows: list[Check]) -> list[Check]:
 def line(whole: str, value: Any) -> str:
     """A change as a line of the spec; a key that an earlier table has too stands with its table."""
     table, _, key = whole.rpartition(".")
-    # no kind has a key of these tables, and to ask all kinds takes a twentieth of a run
-    plain = [name for name, of in PLAIN.items() if key in [field.key for field in fields(of)]]
-    if table != next(iter(plain or tables_with(key))):
+    if table != next(iter(tables_with(key))):
         key = whole
     if value is None:
         return f"leaving out {key}"

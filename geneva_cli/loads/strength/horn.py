@@ -241,7 +241,8 @@ def _sampled(
     first = row = np.arange(m)
     if m > 1 and designs_in((side, case.friction, case.radius)) == 1:
         # loads alone differ: horns under 1 N are computed once for designs with the same samples
-        first, row = _distinct(np.broadcast_to(samples, (2, m, samples.shape[2]))[..., [0, -1]])
+        ends = np.broadcast_to(samples, (2, m, samples.shape[2]))[..., [0, -1]]
+        _, first, row = np.unique(ends, axis=1, return_index=True, return_inverse=True)
         samples = samples[:, first]
     all_places = (slot.entry_deg if start < 0.0 else slot.exit_deg) * samples[0]
     x = all_places - side.at.ahead_deg
@@ -275,16 +276,6 @@ def _sampled(
     every = np.broadcast_to(_picked(samples, row), (2, m, samples.shape[2]))
     ends = np.take_along_axis(every, np.clip(beside, 0, samples.shape[2] - 1), axis=2)
     return rows, ends[..., :1] + np.diff(ends) * np.linspace(0.0, 1.0, 2 * steps + 1)
-
-
-def _distinct(columns: Array) -> tuple[Whole, Whole]:
-    """The first of each kind of equal columns (..., n, r), and the kind of each."""
-    keys = np.moveaxis(columns, 1, -1).reshape(-1, columns.shape[1])
-    order = np.lexsort(keys)
-    begins = np.append(True, (np.diff(keys[:, order]) != 0.0).any(axis=0))
-    kind = np.empty(len(order), dtype=int)
-    kind[order] = np.cumsum(begins) - 1
-    return order[begins], kind
 
 
 def _picked(values: Array, row: Whole, k: Whole | None = None) -> Array:

@@ -18,7 +18,7 @@ from geneva_cli.errors import GenevaError, below, cut
 from geneva_cli.kept import KEPT
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.numerics.arrays import Array, Mask
+from geneva_cli.numerics.arrays import Array, Mask, keep_memory
 from geneva_cli.numerics.sobol import DIMENSIONS, sobol
 from geneva_cli.specfile.columns import digest
 from geneva_cli.specfile.reader import Setting, Text, setting
@@ -150,7 +150,7 @@ class Sweep(NamedTuple):
             # Parts are slow: eight tasks keep several processes busy. Four designs or more share
             # the searches of their batch, which keeps the results of at most KEPT.
             size = min(KEPT, max(4, math.ceil(len(self.plan) / 8)))
-        np.empty(1 << 21)  # as in ``many``: memory is kept that rows of other processes arrive in
+        keep_memory()  # that the rows of other processes arrive in
         starts = range(done, len(self.plan), size)
         count = min(len(starts), cores() if self.jobs is None else self.jobs)
         yield from mapped(partial(self._block, size), starts, count)
@@ -249,18 +249,26 @@ class Sweep(NamedTuple):
         """The rows that keep all bounds and, of these, the Pareto front."""
         bounds = [(self.names.index(c.name), c) for c in self.bounds]
         signed = [(self.names.index(o.name), o.sign) for o in self.objectives]
-        best = list[Rows]()  # the front so far
+        best, size, count = list[Rows](), 0, 0  # the front so far, its size; all rows since then
+
+        def foremost() -> Rows:
+            rows = joined(best)
+            return rows.taken(front(np.column_stack([s * rows.numbers(i) for i, s in signed])))
+
         for rows in row_blocks:
             for i, c in bounds:
                 rows = rows.taken(c.kept_by(rows.numbers(i)))
-            if signed:
-                rows = joined([*best, rows])  # a row that the front dominates never returns
-                costs = np.column_stack([s * rows.numbers(i) for i, s in signed])
-                best = [rows.taken(front(costs))]
-            elif len(rows):
-                yield rows
-        if best and len(best[0]):
-            yield best[0]
+            if not signed:
+                if len(rows):
+                    yield rows
+                continue
+            best.append(rows)  # a row that the front dominates never returns
+            count += len(rows)
+            if count >= 2 * size:  # not for a few rows more, if the front is long
+                best = [foremost()]
+                size = count = len(best[0])
+        if best and len(rows := foremost()):
+            yield rows
 
 
 def sweep(text: Text, plan: SweepPlan, picks: Sequence[str] = DEFAULT) -> Sweep:
