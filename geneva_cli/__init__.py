@@ -6,8 +6,6 @@ Each name is loaded at its first use. The examples in docstrings assume that the
 imported.
 """
 
-from __future__ import annotations
-
 import importlib
 from typing import TYPE_CHECKING
 

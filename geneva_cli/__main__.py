@@ -3,8 +3,6 @@
 Loading the rest takes most of a short run, so Ctrl-C is answered before anything else is imported.
 """
 
-from __future__ import annotations
-
 import gc
 import os
 import signal

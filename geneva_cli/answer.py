@@ -1,7 +1,5 @@
 """The answer of a command: summaries for people above a table, and the data for programs."""
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple, TypeAlias
 

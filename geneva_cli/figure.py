@@ -1,7 +1,5 @@
 """The figure: curves that a command hands to the output."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple, TypeAlias
 

@@ -1,7 +1,5 @@
 """What an object computes once, and what is imported by its name at its first use."""
 
-from __future__ import annotations
-
 import importlib
 from collections.abc import Callable
 from functools import cached_property as cached_property  # exported

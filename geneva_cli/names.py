@@ -3,8 +3,6 @@
 Headings and sentences have short words (``spoken``), documents longer ones (``described``).
 """
 
-from __future__ import annotations
-
 # Units by the ending of a name, of which the longest counts.
 UNITS = {
     "_kgm2": "kg m²",

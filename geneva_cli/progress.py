@@ -3,8 +3,6 @@
 Nothing is shown by default: only the command line sets ``maker``.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any, TypeVar
 

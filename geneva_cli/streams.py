@@ -3,8 +3,6 @@
 Write errors are handled in the streams themselves, whoever writes and whenever a buffer is flushed.
 """
 
-from __future__ import annotations
-
 import errno
 import io
 import os

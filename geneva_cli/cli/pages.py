@@ -1,7 +1,5 @@
 """Pages of the manual: files, and those that the code itself prints; the search in all of them."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any, NamedTuple

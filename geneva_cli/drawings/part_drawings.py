@@ -1,7 +1,5 @@
 """The drawings of parts to cut, and of the whole machine."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from functools import partial

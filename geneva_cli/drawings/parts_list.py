@@ -8,8 +8,6 @@ link's first joint. The centroid is measured from there too, in the part's own f
 is along the axis from the wheel's lower face, or on a sphere inwards from the wheel's outer face.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress

@@ -1,7 +1,5 @@
 """Cam-Geneva: a fixed groove guides the roller along the crank, and the slots stay straight."""
 
-from __future__ import annotations
-
 import math
 from typing import ClassVar
 

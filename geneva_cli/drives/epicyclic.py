@@ -5,8 +5,6 @@ ring, u = fixed teeth / planet teeth. It enters without shock at an extreme, whe
 line: u = 2z/(z-2), R0 - rp = L sin b. The jump is (R0 - c² rp)/(L cos b).
 """
 
-from __future__ import annotations
-
 from typing import Annotated, ClassVar, NamedTuple, cast
 
 from geneva_cli.errors import refuse_text

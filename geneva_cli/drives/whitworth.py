@@ -4,8 +4,6 @@ With the input crank, of length 1 and at the offset A, at phi, the coulisse is a
 (A + cos phi, sin phi).
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 from geneva_cli.drives.transmission import LocalTransmission, Transmission

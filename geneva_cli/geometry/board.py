@@ -3,8 +3,6 @@
 Chords are complex numbers, (n, 2): their starts and ends.
 """
 
-from __future__ import annotations
-
 import cmath
 import math
 from collections.abc import Iterable, Sequence

@@ -1,7 +1,5 @@
 """Places on curves, as few as possible, whose chords keep a tolerance; several may share them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from itertools import pairwise
 from typing import TypeAlias

@@ -3,8 +3,6 @@
 Nesting tells plates from holes. Ends within ``JOINED_MM`` of each other are joined.
 """
 
-from __future__ import annotations
-
 import math
 from collections import defaultdict
 from collections.abc import Iterator, Sequence

@@ -3,8 +3,6 @@
 All lengths are in millimetres on paper, except ``value``, which is that of the part.
 """
 
-from __future__ import annotations
-
 import cmath
 import math
 from collections.abc import Iterable, Iterator

@@ -4,8 +4,6 @@ The path is the true offset, of lines and arcs as the outline is, with arcs abou
 milling cutter reaches all of an outline if the offset by its radius keeps that distance.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 

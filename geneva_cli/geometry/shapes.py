@@ -4,8 +4,6 @@ Also their hull, bounds and lengths, places on them, and shapes that are moved, 
 Points are (x, y). Nothing is measured from an arc's centre, which may be far away.
 """
 
-from __future__ import annotations
-
 import cmath
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence

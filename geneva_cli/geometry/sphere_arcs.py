@@ -1,7 +1,5 @@
 """Arcs of circles on a unit sphere as arrays: distances of points as angles, and facing points."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Sequence
 from itertools import combinations, pairwise

@@ -4,8 +4,6 @@ The cycle is a period of the machine from the first entry; with several wheels o
 at the entry of the next wheel. All loads are 0 in a dwell.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from functools import lru_cache

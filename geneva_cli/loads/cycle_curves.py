@@ -3,8 +3,6 @@
 Each smooth piece is sampled with both ends from inside, so that a jump has both its values.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial

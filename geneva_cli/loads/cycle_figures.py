@@ -1,7 +1,5 @@
 """The curves of one or more machines over a cycle: motion and loads by the input angle."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from typing import TypeAlias

@@ -3,8 +3,6 @@
 Also the names of the loads that a machine has.
 """
 
-from __future__ import annotations
-
 import math
 from operator import attrgetter
 

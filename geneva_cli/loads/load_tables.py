@@ -1,7 +1,5 @@
 """The loads as they are printed: a table of the cycle, its summary, and the standard motor."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from functools import lru_cache

@@ -4,8 +4,6 @@ The roller passes each radius of the wheel twice. Unless both tracks are equal, 
 branches, and each keeps only its outer wall.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

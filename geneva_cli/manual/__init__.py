@@ -4,8 +4,6 @@ A new page is a file, and a line in contents.txt. ``cli.pages`` prints those of 
 no file.
 """
 
-from __future__ import annotations
-
 import os
 import re
 

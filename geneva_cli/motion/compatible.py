@@ -4,8 +4,6 @@ Each kind names its own rules; here are those of the core's drives, and those of
 tolerances, whatever the kind.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from functools import partial, reduce

@@ -1,7 +1,5 @@
 """The records of kinds of machines and of extras: things by name, as ``module:name``."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from types import MappingProxyType
 from typing import NamedTuple

@@ -3,8 +3,6 @@
 And the tables of its file whose keys depend on the kind of wheel, drive or law.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import field
 from operator import attrgetter

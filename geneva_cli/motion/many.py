@@ -12,8 +12,6 @@ so are the results; at k input angles they are (m, k). Words, lists and the numb
 one value in all designs. Build a refused design by itself to get the reason.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """Position, velocity, acceleration and jerk of one design's wheel over whole periods."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 from itertools import pairwise

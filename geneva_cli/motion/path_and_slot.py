@@ -3,8 +3,6 @@
 And the pitch curve of any slot: its tangent, curvature and pressure angle, in jets of any numbers.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise

@@ -3,8 +3,6 @@
 A peak is a root of the next derivative, an end or a break, refined to the last bit.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import TypeAlias
 

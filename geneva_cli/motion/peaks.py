@@ -1,7 +1,5 @@
 """Peak velocity, acceleration, jerk and power, as invariants; closed forms need no NumPy."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from typing import NamedTuple, cast

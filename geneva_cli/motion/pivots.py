@@ -1,7 +1,5 @@
 """Pivots and dimensions that a machine can be rebuilt from, and the motion of a body in a plane."""
 
-from __future__ import annotations
-
 import math
 from enum import Enum
 from typing import NamedTuple, TypeAlias

@@ -3,8 +3,6 @@
 Their classes, and those of laws, are imported by name at their first use.
 """
 
-from __future__ import annotations
-
 from functools import cache, partial
 from itertools import chain
 from operator import attrgetter

@@ -4,8 +4,6 @@ Each branch of a curved slot keeps its outer wall only, away from the other bran
 where its centre of curvature is on its side of the pitch curve, nearer than the roller's radius.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Angles and speeds: degrees for people, radians for formulas, and exact fractions of pi."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 from functools import lru_cache

@@ -7,8 +7,6 @@ shrink with the distance: small values keep their digits too. Where an interval 
 function itself is evaluated.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from functools import cache
 

@@ -4,8 +4,6 @@ The last of the n terms from n nodes bound the rule's error, which has the size 
 between an end and the node next to it shows as a difference from the series at that end.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import cache
 from typing import TypeAlias

@@ -1,7 +1,5 @@
 """Roots, minima and boundaries in one variable, to the last bit."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 

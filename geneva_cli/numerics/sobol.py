@@ -1,7 +1,5 @@
 """Sobol's sequence, scrambled: points that fill a cube more evenly than random ones."""
 
-from __future__ import annotations
-
 from geneva_cli.numerics.arrays import Array
 
 DIGITS = 32  # of a coordinate: SciPy cannot begin later in a sequence of more

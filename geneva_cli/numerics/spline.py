@@ -3,8 +3,6 @@
 In plain arithmetic, for the same bytes on every processor.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from decimal import Decimal

@@ -5,8 +5,6 @@ by 1e-11. Drawings and tables show 1e-6. Tolerances of equality lie between. Def
 rounded numbers, or bores of standard bearings.
 """
 
-from __future__ import annotations
-
 import math
 from bisect import bisect_right
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """CSV with every digit: reading a number back gives the number that was written."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby, repeat
 from typing import Any

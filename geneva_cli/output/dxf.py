@@ -6,8 +6,6 @@ reader shows it as the other formats do. Each scale has a style, with which a CA
 measures again gets the part's own size.
 """
 
-from __future__ import annotations
-
 import io
 import math
 from collections.abc import Callable, Iterator

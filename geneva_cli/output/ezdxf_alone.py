@@ -5,8 +5,6 @@ searches the system's fonts to write a cache of them into the user's home. Drawi
 settings and no widths of texts, so an empty cache lies in the folder of this file.
 """
 
-from __future__ import annotations
-
 import os
 from configparser import ConfigParser
 

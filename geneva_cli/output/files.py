@@ -3,8 +3,6 @@
 Two runs cannot hold one lock. Windows renames and removes no open file.
 """
 
-from __future__ import annotations
-
 import errno
 import ntpath
 import os

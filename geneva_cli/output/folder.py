@@ -4,8 +4,6 @@ A list in the folder has a digest of each file that was written. A file that is 
 another digest, is a person's, and is never replaced or removed unless that is forced.
 """
 
-from __future__ import annotations
-
 import csv
 import hashlib
 import os

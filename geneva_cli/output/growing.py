@@ -5,8 +5,6 @@ which a later run takes them. The state's first line names the request. Each blo
 a line with the numbers of its rows and its bytes, and their checksum.
 """
 
-from __future__ import annotations
-
 import os
 import re
 import sys

@@ -1,7 +1,5 @@
 """Colours of layers, legible on white and on black."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 

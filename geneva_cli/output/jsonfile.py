@@ -1,7 +1,5 @@
 """JSON: ``{"rows": [...]}`` for tables, one nested object for records; never NaN or Infinity."""
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Iterator

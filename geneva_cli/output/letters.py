@@ -1,7 +1,5 @@
 """Widths of letters in unknown fonts, and replacements for letters that some fonts lack."""
 
-from __future__ import annotations
-
 import re
 import unicodedata
 

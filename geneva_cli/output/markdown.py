@@ -1,7 +1,5 @@
 """Markdown tables, for reports and issues."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Sequence
 
 from geneva_cli.output.text import cell

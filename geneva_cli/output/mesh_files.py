@@ -5,8 +5,6 @@ archive of XML. It is not compressed and has the archive's first date, so that i
 on every run and with every zlib.
 """
 
-from __future__ import annotations
-
 import io
 from collections.abc import Iterator
 from html import escape

@@ -3,8 +3,6 @@
 Each format writes it with its own pen.
 """
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

@@ -5,8 +5,6 @@ western ones, which would be question marks, so ``western`` in output/letters.py
 output is plain ASCII, and equal on every run. Lengths are in millimetres, y up.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 from itertools import chain

@@ -1,7 +1,5 @@
 """The part that a drawing shows and its contours, for formats of solids."""
 
-from __future__ import annotations
-
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Part, Plate, Shell
 from geneva_cli.geometry.shapes import Circle, Contour

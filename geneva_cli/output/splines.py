@@ -6,8 +6,6 @@ the curve is the same. A short arc next to a cubic, such as at the end of a wall
 becomes a cubic, within rounding, so that no sliver of a face is left for it.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable
 from itertools import accumulate

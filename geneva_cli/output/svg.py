@@ -4,8 +4,6 @@ Drawings to cut have hairlines only. Drawings to view have lines in proportion t
 plates, and notes. A sheet is black on white, or white on black in dark mode.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from html import escape

@@ -4,8 +4,6 @@ Also, for every format, the choice of columns, and the last check: no NaN is wri
 only where it has a meaning.
 """
 
-from __future__ import annotations
-
 import math
 import textwrap
 import unicodedata

@@ -4,8 +4,6 @@
 details, which a load changes only through wheel and crank.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from contextlib import suppress

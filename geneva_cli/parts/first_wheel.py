@@ -4,8 +4,6 @@ It is fixed on the second's crank shaft, whose greatest torque it bears, in the 
 crank arm. Its crank is a link.
 """
 
-from __future__ import annotations
-
 import math
 
 from geneva_cli.drives.crank import Crank

@@ -5,8 +5,6 @@ the frame has its bearing elsewhere; that of a side-crank, whose input crank tur
 axis, in a bridge over the crank, on two posts beside all that turns.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import product

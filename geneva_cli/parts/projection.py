@@ -1,7 +1,5 @@
 """Lists of parts: which are alike, which cannot be built, and what a drawing shows of them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator
 from typing import NamedTuple, TypeAlias, TypeVar
 

@@ -6,8 +6,6 @@ tolerance class 1, which lasers keep. Turned parts have the fits of ISO 286: H7 
 h6 for shafts. A pin is h6: parts on it are P7 if pressed, F7 if they turn.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """Lengths and angles as texts on a drawing sheet."""
 
-from __future__ import annotations
-
 import math
 
 from geneva_cli.table import in_decimals

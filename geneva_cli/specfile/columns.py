@@ -3,8 +3,6 @@
 Errors name the file and the line. A sweep that resumes compares a digest of its files.
 """
 
-from __future__ import annotations
-
 import csv
 import re
 from collections.abc import Iterable

@@ -4,8 +4,6 @@ Both come from the reader's own definitions. The schema leaves some rules to `ge
 that need others, whole numbers written 6.0, nan, and the kind and range of a value with a unit.
 """
 
-from __future__ import annotations
-
 import math
 import sys
 from collections.abc import Sequence

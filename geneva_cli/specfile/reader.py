@@ -1,7 +1,5 @@
 """Reader of spec files and of ``--set KEY=VALUE``; errors name the file and, if known, the line."""
 
-from __future__ import annotations
-
 import os
 import re
 import sys

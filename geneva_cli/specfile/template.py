@@ -1,7 +1,5 @@
 """Specs to start from: commented ones with the keys that the reader knows, and whole designs."""
 
-from __future__ import annotations
-
 import os
 from typing import Any
 

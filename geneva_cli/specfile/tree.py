@@ -1,7 +1,5 @@
 """Conversion of the tables of a parsed TOML file to a spec."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager

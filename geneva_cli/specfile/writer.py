@@ -1,7 +1,5 @@
 """The text of a spec: its tables in the order of a file, and keys written into a text."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from types import MappingProxyType

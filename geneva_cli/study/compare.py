@@ -1,7 +1,5 @@
 """Designs side by side, as a table or a figure; and a figure of the columns of a CSV file."""
 
-from __future__ import annotations
-
 import math
 import os
 from collections.abc import Mapping, Sequence

@@ -1,7 +1,5 @@
 """A design as a document: its verdict, and then everything about it, in a fixed order."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any

@@ -3,8 +3,6 @@
 The files are drawings, solids, a sheet, the list of parts, the report and that spec.
 """
 
-from __future__ import annotations
-
 import re
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping

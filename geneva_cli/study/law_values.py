@@ -1,7 +1,5 @@
 """The characteristic values C_v, C_a, C_j and C_p of motion laws, and their factors Am, Vm, Qm."""
 
-from __future__ import annotations
-
 import math
 
 from geneva_cli.errors import GenevaError

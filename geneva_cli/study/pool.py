@@ -1,7 +1,5 @@
 """Work spread over processes, with results in order."""
 
-from __future__ import annotations
-
 import gc
 import os
 import signal

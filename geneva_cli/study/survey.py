@@ -1,7 +1,5 @@
 """The table of wheels: timing and peaks for each number of slots."""
 
-from __future__ import annotations
-
 from typing import TypeAlias
 
 from geneva_cli.errors import GenevaError, cut

@@ -1,7 +1,5 @@
 """Checks of many specs, spread over the processor's cores, as tables and summaries."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from functools import partial

@@ -1,7 +1,5 @@
 """Warnings about a machine's motion and slots: the problem, its place, and a remedy."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from functools import lru_cache

@@ -1,7 +1,5 @@
 """A report on a design for people: words, timing, peaks, loads, sizes, warnings."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import NamedTuple
 

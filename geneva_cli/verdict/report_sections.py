@@ -1,7 +1,5 @@
 """Sections of a report that a batch does not compute, and the words above it."""
 
-from __future__ import annotations
-
 import math
 from contextlib import suppress
 

@@ -5,8 +5,6 @@ is a safe bound. So the least gap in a whole turn is the distance between ring a
 which swing, are checked in their planes (``planes``). The frame has holes for the shafts.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Iterator
 from itertools import product

@@ -7,8 +7,6 @@ by the least play of its lock; the slot's clearance must take the rest. The devi
 distance reduces the lock's clearance. These sums are exact if the roller enters along the slot.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, TypeAlias

@@ -1,7 +1,5 @@
 """The input stopped in each dwell: times, means and heat by hand, and what the brake takes."""
 
-from __future__ import annotations
-
 import math
 
 import mpmath as mp

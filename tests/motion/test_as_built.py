@@ -4,8 +4,6 @@ The witness draws the machine anew: a pin on a circle, a slot as a straight line
 wheel. Its crossings are roots by mpmath at 50 digits, and its velocities differences of angles.
 """
 
-from __future__ import annotations
-
 import math
 
 import mpmath as mp

@@ -1,7 +1,5 @@
 """A machine that is given by its crank radius is the one with the centre distance that follows."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Rows of ``motion``: over a period, at chosen input angles, and the rates at the spec's speed."""
 
-from __future__ import annotations
-
 import math
 
 import mpmath as mp

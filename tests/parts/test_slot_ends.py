@@ -1,7 +1,5 @@
 """Rounded mouths and blunt horns against closed forms and polygons of their own."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

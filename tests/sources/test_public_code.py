@@ -3,8 +3,6 @@
 The machine has six slots, L = 100 mm, and a roller of 10 mm, the default of that distance.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Accepted warnings: shown with their reason, and no obstacle to ``--strict``."""
 
-from __future__ import annotations
-
 import json
 import re
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Requirements that gate: times, plays and the position in the dwell, as limits of a spec."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

@@ -1,7 +1,5 @@
 """The views of locking disc, arm, roller with pin, links, and of the assembled machine."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 

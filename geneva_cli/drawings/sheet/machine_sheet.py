@@ -1,7 +1,5 @@
 """The drawing sheet of a flat machine: dimensioned parts, the list of items and a title block."""
 
-from __future__ import annotations
-
 import math
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator

@@ -4,8 +4,6 @@ The views have one scale: the largest standard scale at which everything fits on
 most. The sheet is the smallest that fits. Above 1:1 the largest part is no wider than a hand.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 

@@ -1,7 +1,5 @@
 """A view: one part at a scale, and its dimensions around it."""
 
-from __future__ import annotations
-
 import cmath
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence

@@ -1,7 +1,5 @@
 """The views of wheel, frame, hubs and shafts, and dimensions of bores and bolts."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 

@@ -10,8 +10,6 @@ on it, or if its size is convex there: then its ends decide. The third case is a
 interval Newton closes on the one zero of the derivative. Else the interval is halved.
 """
 
-from __future__ import annotations
-
 import heapq
 import math
 from collections.abc import Callable, Iterable, Sequence

@@ -1,7 +1,5 @@
 """The checks of a drawn machine, with what its turn gives in words."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from contextlib import suppress

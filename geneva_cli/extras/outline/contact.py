@@ -4,8 +4,6 @@ Two points keep their distance, or a point and an edge. So the wheel's angle is 
 crank's, whose derivatives jets carry.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A machine whose wheel or crank somebody else drew: its outlines, ready to be turned."""
 
-from __future__ import annotations
-
 import math
 import os
 from collections.abc import Sequence

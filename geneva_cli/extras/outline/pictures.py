@@ -1,7 +1,5 @@
 """Pictures of drawn outlines: turning on a page with their contact, and over the computed ones."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Iterator
 

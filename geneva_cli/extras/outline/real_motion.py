@@ -4,8 +4,6 @@ It is at rest, or pushed by one contact after the other. At the beginning of a p
 leap: that is an impact, at which the acceleration has no bound.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 

@@ -1,7 +1,5 @@
 """Whether the wheel of a drawn machine turns, in both senses, and what strikes it."""
 
-from __future__ import annotations
-
 import math
 from functools import lru_cache
 from operator import itemgetter

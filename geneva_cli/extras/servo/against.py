@@ -6,8 +6,6 @@ the seven segments of ``s-curve``, drives the dial through the motor's reducer, 
 own rotor, too.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from itertools import pairwise

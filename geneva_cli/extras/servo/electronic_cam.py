@@ -7,8 +7,6 @@ a piece. One is the middle, where a smooth error of one sign is greatest or near
 Source: CODESYS SoftMotion, library SM3_Basic, MC_CAM_REF and SMC_CAMXYVA.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from decimal import ROUND_CEILING, Context

@@ -5,8 +5,6 @@ of a plain crank: path, slot, motion and clearances are the same. With the carri
 stands at c + psi(c) from the ground. An internal wheel turns against the carrier: c - psi(c).
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Annotated, ClassVar
 

@@ -1,7 +1,5 @@
 """Quantities of wheels on a carrier: their motion from the ground, and their space."""
 
-from __future__ import annotations
-
 from contextlib import suppress
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Gear sectors between two slots that turn an external wheel, with a longer motion."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 from functools import partial

@@ -1,7 +1,5 @@
 """Checks of a rack, its horns, guide, shafts and gears, and the guide's quantities."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Collection, Iterator
 from functools import partial

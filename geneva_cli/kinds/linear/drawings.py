@@ -1,7 +1,5 @@
 """Drawings of the parts of a linear Geneva and of the whole machine, and its animated scene."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from geneva_cli.geometry.plates import Group

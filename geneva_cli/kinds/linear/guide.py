@@ -13,8 +13,6 @@ T/R + D. Where D is F, no force moves the rack: the guide locks from nu = h over
 R - x0 - mu (R - r), mu (R + r) - (R - x0) and mu h.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 from geneva_cli.kinds.linear.motion import guided

@@ -5,8 +5,6 @@ axis is at (R, 0). A bar under the rack's back slides between a rail, on which t
 wall with a cover, beyond the sweep of the crank's arm. They are screwed to the frame.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from typing import Self

@@ -5,8 +5,6 @@ by default x = R, passes through the crank's axis. So no disc can lock the rack:
 way round, opposite the roller. The recesses have the radius rho, and are R from the slots.
 """
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

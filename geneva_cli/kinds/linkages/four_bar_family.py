@@ -4,8 +4,6 @@ The crank turns fully (Grashof), no joint is farther from its axis than allowed,
 usual size passes the wheel on its way back.
 """
 
-from __future__ import annotations
-
 import cmath
 import math
 from collections.abc import Iterator, Sequence

@@ -1,7 +1,5 @@
 """The base of the linkages: a roller on a closed path, and the wheel that the path can drive."""
 
-from __future__ import annotations
-
 from abc import abstractmethod
 from collections.abc import Mapping
 from functools import reduce

@@ -11,8 +11,6 @@ samples. Where two arcs may cross, Newton's method leads to a pair.
 Arrays have designs, samples or pairs along their last axis; paths have numbers (n,).
 """
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """First wheels that turn the crank of an external wheel, in a cycle of several turns."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from geneva_cli.kinds.series.geneva_pair import GenevaPair

@@ -5,8 +5,6 @@ and the clearances are arcs on the sphere of radius ``center_distance_mm``; radi
 are distances from their axes. Below the wheel on a plane is outside the wheel here.
 """
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

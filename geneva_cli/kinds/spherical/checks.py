@@ -1,7 +1,5 @@
 """Checks of walls, arm and shafts of a spherical machine, mm along the sphere."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Collection, Iterator
 from itertools import product

@@ -11,8 +11,6 @@ If the recess reaches farther round, an end of the sector, at q, meets it: then 
 minus the azimuth of the end.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from typing import NamedTuple

@@ -3,8 +3,6 @@
 The sphere's centre is the origin and the wheel's axis is z. The crank's parts are in its frame.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from typing import ClassVar, NamedTuple

@@ -11,8 +11,6 @@ sectors on its inner face, and an eye about each pin and bolt, which point at th
 has flat faces and the bore; it sits in a round hole about the crank's axis.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from functools import cache

@@ -3,8 +3,6 @@
 They follow one another as on a plane (``load_sizes``).
 """
 
-from __future__ import annotations
-
 import math
 from contextlib import suppress
 from functools import lru_cache

@@ -9,8 +9,6 @@ the face at a = c - gamma past mid-motion, and mirrored on the way back. So from
 crank turns by 360° (z - 1) + 2 (c - gamma).
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Collection, Iterator
 from contextlib import suppress

@@ -1,7 +1,5 @@
 """What a stop refuses, and which keys are a stop's only."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from geneva_cli.motion.compatible import Conflict

@@ -1,7 +1,5 @@
 """The stops of a crank on a page."""
 
-from __future__ import annotations
-
 from geneva_cli.kinds.stop.parts import wheel_stop
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.study.animation.animated_turn import MachineTurn

@@ -5,8 +5,6 @@ it at their difference in speed. Speeds are in units of the input's, wheel angle
 angles in degrees from the engagement's own mid-motion.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from functools import reduce

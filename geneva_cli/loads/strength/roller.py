@@ -8,8 +8,6 @@ the speed at which it would slide. By ISO 281 (roller bearings) the life is that
 Between changes of sign and breaks of the motion the integrals are exact to the last digits.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from typing import NamedTuple

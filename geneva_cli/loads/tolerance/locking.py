@@ -10,8 +10,6 @@ First the deviations themselves, in mm and radians. They are jets: of order 0 th
 machines, of order 1 the slope by one dimension.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from functools import partial

@@ -1,7 +1,5 @@
 """Machines with random deviations, block by block; worst case, RSS and Monte Carlo of an angle."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator, Sequence
 from itertools import product

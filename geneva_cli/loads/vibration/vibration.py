@@ -5,8 +5,6 @@ period ratio is the motion's time over 2 pi / wn. A residual is the amplitude af
 began at rest; its share is the fraction of the wheel's step.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Collection
 from typing import Any

@@ -4,8 +4,6 @@ s is the fraction of the step by the fraction u of the motion's time. The second
 the remainder 1 - s by the time w = 1 - u left: both ends are exact.
 """
 
-from __future__ import annotations
-
 from abc import abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache

@@ -4,8 +4,6 @@ R. L. Norton, Cam Design and Manufacturing Handbook, "The SCCA family": these ta
 c and d of the time in which a law accelerates. A middle fraction v may have constant velocity.
 """
 
-from __future__ import annotations
-
 import math
 from itertools import pairwise
 

@@ -11,8 +11,6 @@ slots are tangent to the crank's circle at the end farther from the line of cent
 sin(angle) = l + e; the other end, a step away, has the whole jump.
 """
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

@@ -5,8 +5,6 @@ The jumps are l / cos(b - d) at entry, l / cos(b + d) at exit. What is small nea
 cos² b is a product with the distance to it, which is computed once.
 """
 
-from __future__ import annotations
-
 from functools import partial
 
 from geneva_cli.motion.engagement import Anchor, Slot, SlotAxis

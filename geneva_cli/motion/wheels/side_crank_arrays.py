@@ -13,8 +13,6 @@ and for A >= 0 the acceleration is greatest in its jump at the ends (a test has 
 the velocity is left to the general search.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A document as Markdown: headings, tables, and descriptions of its pictures."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 
 from geneva_cli.output.document import blocks

@@ -1,7 +1,5 @@
 """A document as one self-contained page of HTML: no script, no network, no font."""
 
-from __future__ import annotations
-
 import base64
 import os
 from collections.abc import Iterable, Iterator

@@ -1,7 +1,5 @@
 """Readers of drawings that others made: DXF and SVG as lines and arcs in millimetres."""
 
-from __future__ import annotations
-
 import math
 import os
 

@@ -1,7 +1,5 @@
 """A drawing as it was read, and the pieces of its curves."""
 
-from __future__ import annotations
-
 import cmath
 import math
 from collections.abc import Sequence

@@ -1,7 +1,5 @@
 """The lines and arcs of a DXF file, of any version, in millimetres."""
 
-from __future__ import annotations
-
 import math
 import os
 import tempfile

@@ -3,8 +3,6 @@
 Lengths are in px of a page 820 px wide, y downwards.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Literal, NamedTuple, Protocol, TypeAlias

@@ -1,7 +1,5 @@
 """A figure as PDF: a page of its own, or panels on the pages of a document."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from typing import ClassVar
 

@@ -3,8 +3,6 @@
 In SVG texts remain texts, and colours follow the reader's light or dark mode.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from html import escape
 

@@ -3,8 +3,6 @@
 The output is equal on every run: its time stamp is empty, for a design has no date.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 

@@ -7,8 +7,6 @@ the centre, over an arc of one region only; common arcs of two regions are edges
 Round holes are cylinders, whose axis goes through the centre of a shell.
 """
 
-from __future__ import annotations
-
 import math
 from itertools import pairwise
 

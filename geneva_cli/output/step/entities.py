@@ -1,7 +1,5 @@
 """Instances of a STEP file (ISO 10303-21): numbers, texts, points, placements, edges and faces."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import TypeAlias
 

@@ -1,7 +1,5 @@
 """A progress bar on standard error, with the remaining time."""
 
-from __future__ import annotations
-
 import sys
 import time
 

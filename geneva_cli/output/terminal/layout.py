@@ -3,8 +3,6 @@
 Nothing is cut: a number keeps its width, and text is broken between words only.
 """
 
-from __future__ import annotations
-
 import os
 import re
 import shutil

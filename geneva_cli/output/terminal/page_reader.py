@@ -4,8 +4,6 @@ It supports the Markdown of the pages: headings, paragraphs, lists, tables and b
 within lines code, bold words and links.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 

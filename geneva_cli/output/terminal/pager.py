@@ -1,7 +1,5 @@
 """Output longer than the window goes through a pager, as git's does."""
 
-from __future__ import annotations
-
 import os
 import re
 import shutil

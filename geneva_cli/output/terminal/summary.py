@@ -1,7 +1,5 @@
 """Summaries for people: a headline with a sign, then lines that fit the window."""
 
-from __future__ import annotations
-
 import re
 import sys
 import textwrap

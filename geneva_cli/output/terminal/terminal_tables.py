@@ -1,7 +1,5 @@
 """Tables on a terminal: within the window's width, with a note on omitted columns."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator, Sequence
 from itertools import chain

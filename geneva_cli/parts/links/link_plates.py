@@ -6,8 +6,6 @@ plates up to their pitch circles: whole, in sectors about a hub, or as a ring. A
 gear's within a few percent. A gear that stands still is screwed to the frame.
 """
 
-from __future__ import annotations
-
 import cmath
 import math
 from collections.abc import Iterable, Iterator

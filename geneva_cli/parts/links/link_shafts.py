@@ -5,8 +5,6 @@ spacers on pins that join links of distant planes, pivots and spacers on the fra
 drive is below, and the crank's shaft, which leaves the machine below all links, or above.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple

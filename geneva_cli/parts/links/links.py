@@ -4,8 +4,6 @@ Sizes are of the spec or by default with walls between holes. They are radii, in
 a key of the spec is a diameter or a width.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Iterator
 from itertools import combinations

@@ -4,8 +4,6 @@ Its axis is the origin, and x is through the first roller at mid-motion. If the 
 the crank's axis, as internal ones do, only locking sectors are left.
 """
 
-from __future__ import annotations
-
 import math
 from bisect import bisect_left
 from collections.abc import Callable, Mapping, Sequence

@@ -4,8 +4,6 @@ Of the walls of the roller's path only those stretches remain that no other posi
 these the chain from one corner of the mouth round the bottom to the other.
 """
 
-from __future__ import annotations
-
 import itertools
 import math
 from collections.abc import Iterator

@@ -5,8 +5,6 @@ either side of its middle. A roller leaves the first on an epicycloid, which swe
 towards the other slot. So each keeps the wall on its recess's side, with an arc between the two.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Iterator
 from contextlib import suppress

@@ -1,7 +1,5 @@
 """The outlines of wheel and crank of one machine, and the wheel as a plate with holes and hub."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

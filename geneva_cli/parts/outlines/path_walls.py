@@ -4,8 +4,6 @@ Before and after the path in and out there is the roller's circle while the whee
 roller turns back, its own outline is a wall too.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from functools import partial

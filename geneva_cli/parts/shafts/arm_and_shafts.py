@@ -6,8 +6,6 @@ outline is the convex hull of a hub about the crank's shaft, and of eyes about p
 internal wheel's shaft ends in the arm, whose hub carries the locking sectors.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple

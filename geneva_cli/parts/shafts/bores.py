@@ -5,8 +5,6 @@ fit. Its direction is that of the keyway, of the flat, or of one side of the hex
 the part that it fixes, and its thread is in the part below.
 """
 
-from __future__ import annotations
-
 import math
 from bisect import bisect_right
 from collections.abc import Iterable

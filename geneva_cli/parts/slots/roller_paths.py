@@ -5,8 +5,6 @@ recess's centre at the depth d below it, k its radius and t the tip, the flat is
 s = sqrt(k² - (d - t)²) before the centre. With ``mouth_radius_mm`` an arc rounds the corner.
 """
 
-from __future__ import annotations
-
 import math
 from functools import lru_cache, partial
 

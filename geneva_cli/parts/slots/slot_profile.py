@@ -1,7 +1,5 @@
 """The slot's profile, its pitch curve and both flanks at input angles, and tables of it."""
 
-from __future__ import annotations
-
 from functools import partial
 
 import numpy as np

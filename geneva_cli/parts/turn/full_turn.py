@@ -4,8 +4,6 @@ From its place in the ideal motion the wheel is pushed back and on until slot or
 is its play. If it is off by that as the roller arrives, the roller must push it into line.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from functools import partial

@@ -3,8 +3,6 @@
 It keeps its angle until a part overlaps it, and then goes with the nearer end of what is blocked.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from functools import partial

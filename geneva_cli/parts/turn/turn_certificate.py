@@ -5,8 +5,6 @@ A gap is at least that in the middle of an interval, less how far the parts move
 their rounding.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 from functools import lru_cache, partial

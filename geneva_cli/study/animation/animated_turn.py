@@ -1,7 +1,5 @@
 """Motion of wheel, crank, rollers and links over a whole turn, and the forces of the rollers."""
 
-from __future__ import annotations
-
 import cmath
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence

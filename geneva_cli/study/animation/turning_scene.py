@@ -1,7 +1,5 @@
 """The scene of a design: bodies, links, forces and states over one turn."""
 
-from __future__ import annotations
-
 import cmath
 import itertools
 import math

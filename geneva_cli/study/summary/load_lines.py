@@ -1,7 +1,5 @@
 """Summary of ``geneva loads``: the motor first, then input, pin, impact, wheel and flywheel."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any

@@ -1,7 +1,5 @@
 """The best design of a sweep: a scan of all designs, then a local refinement."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Bounds such as ``dwell_s >= 0.8``, objectives such as ``min:acceleration.max``, Pareto fronts."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence

@@ -1,7 +1,5 @@
 """A request for a sweep, read from options; its rows, counted, and those that a terminal shows."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 

@@ -1,7 +1,5 @@
 """Values of a varied key: ``4,6,8``, ``3..12``, ``0..0.9:0.01``, words, or a span."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Iterable, Sequence

@@ -1,7 +1,5 @@
 """A requirement read from the options of the command line, with contradictions refused."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from itertools import compress

@@ -1,7 +1,5 @@
 """The search for machines that meet a requirement, with their costs, the best first."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial

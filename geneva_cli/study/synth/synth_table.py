@@ -1,7 +1,5 @@
 """The rows that a search found as a table, the first of them turned, and a row as a spec."""
 
-from __future__ import annotations
-
 import math
 from bisect import bisect_left
 from collections.abc import Collection

@@ -1,7 +1,5 @@
 """Checks of a machine's motion, and of its parts in a whole turn."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Collection, Iterator
 from operator import attrgetter

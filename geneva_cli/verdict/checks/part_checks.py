@@ -1,7 +1,5 @@
 """Parts at rest: walls, gaps at shafts, hubs, arm and links, and what the process can cut."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Collection, Iterator
 from itertools import combinations, product

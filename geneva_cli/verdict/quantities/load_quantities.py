@@ -1,7 +1,5 @@
 """Loads of designs, sizing, vibration, impacts, and the effects of tolerances."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from geneva_cli.loads import load_peaks

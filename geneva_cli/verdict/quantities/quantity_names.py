@@ -1,7 +1,5 @@
 """Names of a design's quantities, and the resolution of a typed name."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from functools import cache

@@ -3,8 +3,6 @@
 Both take as many rollers as the plain wheel, and more as long as their parts can be built.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 from functools import partial

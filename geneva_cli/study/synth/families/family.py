@@ -1,7 +1,5 @@
 """A family: machines of one kind that differ in free numbers, or a single machine."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 from itertools import pairwise
