@@ -8,7 +8,7 @@ radian of input. The push of the drive before follows from that and its own leve
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, ClassVar, NamedTuple, cast
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 from geneva_cli.motion import engagement as base
 from geneva_cli.motion.drive import Drive, Plan
@@ -76,7 +76,7 @@ class _Path(Batchable):
 class _Motion(base.WheelMotion):
     """The wheel's angle by the machine's input angle."""
 
-    BREAKS_TO: ClassVar[float] = 2e-14  # roundings of angles of the own shaft, which may be slower
+    breaks_to = 2e-14  # roundings of angles of the own shaft, which may be slower
 
     def __init__(self, own: base.WheelMotion, timing: Timing) -> None:
         super().__init__(timing.at_deg[0], timing.at_deg[-1], own.half_step)

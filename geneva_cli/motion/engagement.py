@@ -11,7 +11,7 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, ClassVar, Generic, NamedTuple, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeAlias, TypeVar
 
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Batchable, Truth, all_true, array, blocks, choose, library
@@ -106,7 +106,7 @@ class WheelMotion(Batchable, ABC):
     # Pin at entry, about which its path is written if the slot follows the pin
     entry: Anchor | None = None
     # Greatest error of the breaks within, as a fraction of the motion; 0 for exact ones.
-    BREAKS_TO: ClassVar[float] = 0.0
+    breaks_to = 0.0
 
     def __init__(self, entry_deg: float, exit_deg: float, half_step: float) -> None:
         self.entry_deg = entry_deg  # from mid-motion, negative
