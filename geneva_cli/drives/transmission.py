@@ -18,12 +18,11 @@ from geneva_cli.motion.wheels.classic import HalfStep, PinTravel, middle, refuse
 from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import larger, parameter
-from geneva_cli.numerics.jet import Array, rotation
+from geneva_cli.numerics.jet import Array, Displacement, rotation
 
 if TYPE_CHECKING:
     from geneva_cli.drives.pushed import PushedCrank
     from geneva_cli.motion.laws.law import Motion
-    from geneva_cli.numerics.jet_functions import Displacement, Path
 
 
 ANGLES_KEY = ("drive", "roller_angles_deg")
@@ -104,10 +103,13 @@ class Transmission(Drive, kw_only=True):
         most = rollers_max(2.0 * rollers[0].half_motion_deg)
         return Plan(tuple(engagements), period, rollers[0].ratio, most, L)
 
-    def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> PushedCrank | None:
+    def reactions(
+        self, wheel: Gearing, advance: Displacement, mid_deg: float, L: float
+    ) -> PushedCrank | None:
         """Reactions on crank and transmission; None if a length is not known.
 
-        ``mid_deg`` is the input angle at which the roller crosses the line of centres.
+        ``advance`` is the crank's rotation since the roller was on the line of centres, at
+        ``mid_deg`` of the input.
         """
         return None
 
@@ -151,7 +153,7 @@ class Transmission(Drive, kw_only=True):
         from geneva_cli.drives.pushed import CrankRate
 
         own.body = CrankRate(advance, cast(float, own.body))
-        own.reactions = self.reactions(wheel, own.path, own.mid_deg, L) if wheel.FLAT else None
+        own.reactions = self.reactions(wheel, advance, own.mid_deg, L) if wheel.FLAT else None
 
     def _refuse_reach(self, wheel: Gearing, farthest_deg: float) -> None:
         """Raise GenevaError if the transmission does not cover the whole motion."""

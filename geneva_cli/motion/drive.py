@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from geneva_cli.motion.laws.law import Motion
     from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
     from geneva_cli.numerics.arrays import Array
-    from geneva_cli.numerics.jet_functions import Displacement
+    from geneva_cli.numerics.jet import Displacement
 
 
 class Plan(NamedTuple):

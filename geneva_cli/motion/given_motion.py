@@ -13,7 +13,7 @@ from functools import lru_cache, partial
 
 from geneva_cli.errors import refuse_text
 from geneva_cli.kept import cached_property
-from geneva_cli.motion.engagement import Anchor, Peak, Slot, SlotAxis, WheelMotion
+from geneva_cli.motion.engagement import Anchor, Peak, Slot, WheelMotion
 from geneva_cli.motion.laws.law import Law, remaining
 from geneva_cli.numerics import arrays
 from geneva_cli.numerics.angles import radians
@@ -102,13 +102,8 @@ class SolvedPathSlot(Slot):
     def seams_deg(self) -> tuple[float, ...]:
         return self.path.seams_deg
 
-    def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
-        rho, _ = self.path.distances(input_deg, order)
-        return rho, rho * 0.0
-
-    def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
-        rho, _ = self.path.distances(input_deg, order + 1)
-        return rho.lower, rho.derivative()
+    def place(self, input_deg: Number, order: int) -> Jet:
+        return self.path.distances(input_deg, order)[0]
 
 
 def _sinc(x: Jet) -> Jet:
