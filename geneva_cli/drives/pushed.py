@@ -3,20 +3,13 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.numerics.arrays import Batchable, Number
-from geneva_cli.numerics.jet import (
-    Displacement,
-    Held,
-    Jet,
-    Loads,
-    Vector,
-    composed,
-    cross,
-    sin_cos,
-    turning,
-)
+from geneva_cli.numerics.jet import Jet, Vector, composed, cross, sin_cos, turning
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Displacement, Held, Loads
 
 
 class CrankRate(NamedTuple):
