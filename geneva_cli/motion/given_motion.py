@@ -207,14 +207,18 @@ def greatest(law: Law) -> dict[str, Peak[float]]:
     return {name: Peak(size.item(), at_deg.item()) for name, (size, at_deg) in peaks.items()}
 
 
-def refuse_alpha0(alpha0_deg: float, natural_deg: float) -> None:
-    """Raise GenevaError if the extra dwell leaves no motion angle, or no dwell at all."""
+def shortened(alpha0_deg: float, natural_deg: float) -> float:
+    """The motion angle that an extra dwell leaves of a natural one, degrees.
+
+    Raises GenevaError if it leaves no motion, or no dwell at all.
+    """
     low, high = natural_deg - 360.0 + MOTION_MIN, natural_deg - MOTION_MIN
     text = "alpha0_deg = {angle:.12g} leaves no motion angle between 0 and 360 degrees; it must be "
     text += "above {low:.12g} and below {high:.12g}"
     outside = (alpha0_deg <= low) | (alpha0_deg >= high)
     key = ("motion", "alpha0_deg")
     refuse_text(outside, key, text, angle=alpha0_deg, low=low, high=high)
+    return natural_deg - alpha0_deg
 
 
 class Backwards(Law):

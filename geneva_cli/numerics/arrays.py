@@ -300,15 +300,11 @@ def array(x: Number) -> Array:
     return numpy.asarray(x)
 
 
-def read_only(record: Record) -> Record:
-    """A cached record of arrays, or of such records, as views that cannot be written through."""
-
-    def view(column: Array) -> Array:
-        out = column.view()
-        out.flags.writeable = False
-        return out
-
-    return mapped(view, record)
+def read_only(*arrays: Array) -> tuple[Array, ...]:
+    """Arrays that are cached, and cannot be written to from now on."""
+    for one in arrays:
+        one.flags.writeable = False
+    return arrays
 
 
 def only_of(rows: Iterable[Number | None]) -> list[float | None]:
