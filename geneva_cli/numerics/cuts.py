@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
 import numpy as np
 
 from geneva_cli.numerics.arrays import Array, Mask, Which, Whole, blocks, joined, record_taken
-from geneva_cli.numerics.series import GRID, POINTS, SERIES, at, on_grid, product, remainder, root
+from geneva_cli.numerics.series import GRID, POINTS, SERIES, on_grid, product, remainder, root
 
 BLOCK = 1024  # rows sampled at a time: that many fit in the processor's cache
 AT_END = 1e-9  # fraction of a row: a zero this near to an end, such as a motion's, is the end's own
@@ -134,59 +134,46 @@ class Cutter:
         return which
 
     def pieces(self, rows: Rows) -> Pieces:
-        """Pieces of rows, cut where a sign changes; parts with unknown zeros are sampled again."""
-        f, count = self.f, len(rows.design)
-        which = rows.design
+        """The part about the middle of each row on which no sign changes.
+
+        The other parts are sampled again, and so are parts with unknown zeros.
+        """
+        f = self.f
         _, x = rows.places(POINTS[:, None], self.w)
         x[0], x[-1] = rows.x
-        own, part = np.arange(count), np.array([[-1.0], [1.0]]).repeat(count, axis=1)
-        sign = np.ones((f.signs, count))
+        part = np.array([[-1.0], [1.0]]).repeat(len(rows.design), axis=1)
+        sign = np.ones((f.signs, len(rows.design)))
         if f.signs:
-            middle = f(x[len(x) // 2, :, None], which, 0, None, ())[0][..., 0]
+            middle = f(x[len(x) // 2, :, None], rows.design, 0, None, ())[0][..., 0]
             sign = np.where(middle, 1.0, -1.0)
-        value = f(x.T, which, 0, sign[..., None], self.requested)[1][0].swapaxes(1, 2)
+        value = f(x.T, rows.design, 0, sign[..., None], self.requested)[1][0].swapaxes(1, 2)
         for kind in range(f.signs):
             # a pole is multiplied by the distance from it
-            q = value[kind] * np.abs(x.take(own, axis=1)) if kind in f.poled else value[kind]
-            here = record_taken(rows, own)
-            unsure, cut, t = self._zeros(kind, here, sign, part, q)
+            q = value[kind] * np.abs(x) if kind in f.poled else value[kind]
+            unsure, cut, t = self._zeros(kind, rows, part, q * sign[kind])
             if len(cut):
-                t = self._refined(kind, record_taken(here, cut), sign[:, cut], t)
-                inside = (t > part[0, cut]) & (t < part[1, cut])
-                cut, t = cut[inside], t[inside]
-            if unsure.any():
-                unsure = self.again(here.part(part, self.w), part, unsure)
-            if len(cut) or unsure.any():
-                # the parts between the cuts, by the numbers of the original parts
-                number = np.concatenate((np.arange(part.shape[1]), cut))
-                begin, end = np.concatenate((part[0], t)), np.concatenate((part[1], t))
-                one, two = np.lexsort((begin, number)), np.lexsort((end, number))
-                number, part = number[one], np.stack((begin[one], end[two]))
-                kept = np.flatnonzero(~unsure[number] & (part[1] > part[0]))
-                number, part = number[kept], part.take(kept, axis=1)
-                own, q = own[number], q.take(number, axis=1)
-                sign, value = sign.take(number, axis=1), value.take(number, axis=2)
-            # parts in whose middle the function does not have the sign of their row
-            some = np.flatnonzero(part[1] - part[0] != 2.0)
-            terms, t = product(SERIES, q.take(some, axis=1)), 0.5 * part.sum(axis=0)[some]
-            middles = np.where(at(terms, t) > 0.0, 1.0, -1.0)
-            flip = some[middles != sign[kind, some]]
-            if len(flip):
-                sign[kind, flip] *= -1.0
-                there, held = x.take(own[flip], axis=1).T, sign.take(flip, axis=1)[..., None]
-                values = f(there, rows.design[own[flip]], 0, held, self.requested)[1][0]
-                value[..., flip] = values.swapaxes(1, 2)
-        cut_rows = record_taken(rows, own).part(part, self.w)
-        return Pieces(cut_rows, sign, part, x.take(own, axis=1), value[f.signs :])
+                t = self._refined(kind, record_taken(rows, cut), sign[:, cut], t)
+                (low, high), first, last = part.copy(), t < AT_END, t > -AT_END
+                np.maximum.at(low, cut[first], t[first])
+                np.minimum.at(high, cut[last], t[last])
+                for ends in (np.stack((part[0], low)), np.stack((high, part[1]))):
+                    wide = np.flatnonzero(ends[1] > ends[0])
+                    self.todo.append(record_taken(rows, wide).part(ends[:, wide], self.w))
+                part = np.stack((low, high))
+            again = self.again(rows.part(part, self.w), part, unsure) | (part[1] <= part[0])
+            if again.any():
+                kept = np.flatnonzero(~again)
+                rows, part, sign, x, value = record_taken((rows, part, sign, x, value), kept)
+        return Pieces(rows.part(part, self.w), sign, part, x, value[f.signs :])
 
-    def _zeros(
-        self, kind: int, rows: Rows, sign: Array, part: Array, value: Array
-    ) -> tuple[Mask, Whole, Array]:
-        """A mask of parts with unknown zeros, and the zeros of the others' series."""
+    def _zeros(self, kind: int, rows: Rows, part: Array, q: Array) -> tuple[Mask, Whole, Array]:
+        """A mask of parts with unknown zeros, and the zeros of the others' series.
+
+        The samples ``q`` are positive in the middle.
+        """
         unsure, none = np.full(len(rows.design), False), (np.arange(0), np.zeros(0))
-        size, left = np.abs(value).max(axis=0), remainder(value)
+        size, left = np.abs(q).max(axis=0), remainder(q)
         np.fmax.at(self.size[kind], rows.design, np.where(np.isfinite(size), size, 0.0))
-        q = value * sign[kind]
         # where a point is below a twentieth of the size, the function may be 0 next to it
         some = np.flatnonzero(~(q.min(axis=0) >= 0.05 * size + LATER_TERMS * left))
         if not len(some):
