@@ -140,7 +140,7 @@ class WheelMotion(Batchable, ABC):
 
     def end_rates(self, input_deg: float) -> tuple[float, float]:
         """Sizes of acceleration and jerk at entry or exit, from inside the motion."""
-        _, _, acceleration, jerk = self(input_deg).scalars()
+        _, _, acceleration, jerk = self(input_deg).derivatives()
         return abs(acceleration), abs(jerk)
 
     def derivatives(self, input_deg: Array, orders: Sequence[int] = (0, 1, 2, 3)) -> list[Array]:

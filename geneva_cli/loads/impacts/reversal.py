@@ -100,7 +100,7 @@ def _coasts(
         parts = zip(inner[:-1], inner[1:], halves, strict=True)
         t = np.hstack([0.5 * (a + b) + half * nodes for a, b, half in parts])
         weight = np.hstack([half * (DEGREE * weights) for half in halves])
-        torque = (motion(t, 2).arrays()[2] + drags[live]) * weight
+        torque = (motion(t, 2).derivatives()[2] + drags[live]) * weight
         torque = np.where(weight > 0.0, torque, 0.0)
         return -(torque * ((end - t) * DEGREE)).sum(axis=1), -torque.sum(axis=1)
 
@@ -116,7 +116,7 @@ def _coasts(
         def faster(x: Array, live: arrays.Whole) -> tuple[Array, Array]:
             of = slows[live]
             place = start[of] + x[:, None] / DEGREE
-            torque = (taken(motions, of)(place, 2).arrays()[2] + drags[of])[:, 0]
+            torque = (taken(motions, of)(place, 2).derivatives()[2] + drags[of])[:, 0]
             return sense[of] * gained(x, of)[1], -sense[of] * torque
 
         most = span.copy()  # where it is farthest from the wall that it left
@@ -192,7 +192,7 @@ def _reversal(
     of, x = at = changes(engagement, drag)
     if not len(x):
         return out
-    lever = abs(contact(taken(engagement, of), x[:, None]).lever.arrays()[0][:, 0])
+    lever = abs(contact(taken(engagement, of), x[:, None]).lever.derivatives()[0][:, 0])
     least = 1e-6  # of the centre distance: where the slot lies across the path, play is unbounded
     sine = play_mm[of, 0] / (np.maximum(lever, least) * L[of, 0])
     play = np.where(lever > least, engagement.slot.play(np.minimum(sine, 1.0)), 0.0)
@@ -204,8 +204,8 @@ def _reversal(
     out[1, which] = speed[order][first]
     wall = contact(taken(engagement, which), places[:, None])
     # the torque that the wheel then needs is that of the wall which strikes it
-    bears = np.copysign(1.0, wall.acceleration.arrays()[0] + drag[which])
-    out[2, which] = (1.0 - wall.curvature.arrays()[0] * bears * radius[which])[:, 0]
+    bears = np.copysign(1.0, wall.acceleration.derivatives()[0] + drag[which])
+    out[2, which] = (1.0 - wall.curvature.derivatives()[0] * bears * radius[which])[:, 0]
     return out
 
 
@@ -223,8 +223,8 @@ def arrival(mechanism: Mechanism) -> tuple[float, float] | None:
         return None
     w, motion = omega(spec.drive.n_rpm), engagement.motion
     begin, exit_deg = motion.breaks_deg[-2], engagement.exit_deg
-    start, u = motion(begin, 1).scalars()[:2]
-    end, _, last = motion(exit_deg, 2).scalars()[:3]
+    start, u = motion(begin, 1).derivatives()[:2]
+    end, _, last = motion(exit_deg, 2).derivatives()[:3]
     span = (exit_deg - begin) * DEGREE
     late = 2.0 * (u * span - (end - start)) / (span * span)
     most = inertia_kgm2(spec) * w * w * max(0.0, min(-last, late))

@@ -262,12 +262,12 @@ def _branch(axis: RestingAxis, sense: float) -> tuple[float, arrays.Array, array
     # two places, interpolation has a relative error of 1e-6 at most.
     span = 0.5 * axis.engagement.through.motion_deg * DEGREE
     along, across = axis.anchor.displacement(sense * span * np.geomspace(1e-7, 1.0, 8193), 1)
-    off, slope = across.arrays()
+    off, slope = across.derivatives()
     root = np.sqrt(abs(off))
     first = int(np.argmax(root > 3e-8))  # the root of a distance that is not rounding
     leaves = np.append(np.diff(root[first:]) > 0.0, False)
     part = slice(first, first + int(np.argmin(leaves)) + 1)  # as far as it leaves the axis
-    root, lever = root[part], axis.anchor.along + along.arrays()[0][part]
+    root, lever = root[part], axis.anchor.along + along.derivatives()[0][part]
     return float(np.sign(off[first])), root, abs(slope)[part] / root + 1j * lever
 
 
