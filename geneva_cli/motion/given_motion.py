@@ -244,9 +244,6 @@ class Backwards(Law):
     def symmetric(self) -> arrays.Truth:
         return self.of.symmetric
 
-    def may_vary(self, table: str, key: str) -> bool:
-        return self.of.may_vary(table, key)
-
     def doubt(self) -> tuple[int, float] | None:
         return self.of.doubt()
 

@@ -164,8 +164,9 @@ class _Extremes:
         (a, b), x, design, value = pieces.rows.x, pieces.x, pieces.rows.design, pieces.value
         sided = np.abs(value)[None] if self.sized else np.stack((value, -value))
         outside = (x < a) | (x > b)
-        # from its begin on, where a margin changes its sign
-        endless = ((sided == np.inf) | outside).all(axis=2) & (sided == np.inf).any(axis=2)
+        # from its begin on, where a margin changes its sign, and rounding decides at the end itself
+        known = (sided == np.inf) | outside
+        endless = known[:, :, 1:-1].all(axis=2) & (sided == np.inf).any(axis=2)
         sided = np.where(outside, -np.inf, sided)
         best = sided.argmax(axis=2)
         top = np.take_along_axis(sided, best[:, :, None], axis=2)[:, :, 0]
@@ -311,8 +312,8 @@ class _Extremes:
             x[live] += step
             # after a step of 1e-8 of the search range, a maximum's place is exact
             live = live[np.abs(step) > 1e-8 * near[live]]
-        # on the way to a flat end a step only halves the distance; and 1e-16 is rounding
-        reached = 1e-16 * some.near
+        # on the way to a flat end a step only halves the distance; and 1e-14 is rounding
+        reached = 1e-14 * some.near
         reached[live] = 0.02 * some.near[live]
         for end in some.ends:
             x = np.where(np.abs(x - end) <= reached, end, x)

@@ -42,10 +42,6 @@ class Law(SpecTable):
         """Values of u inside 0..1 at which any derivative jumps; the law is analytic between."""
         return self.breaks
 
-    def may_vary(self, table: str, key: str) -> bool:
-        """True if a number of a table may be an array along a design axis with this law."""
-        return True
-
     def doubt(self) -> tuple[int, float] | None:
         """Decimals of a law of points, and the effect of their rounding on d³s/du³; else None."""
         return None

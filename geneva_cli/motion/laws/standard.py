@@ -78,6 +78,7 @@ class SineConstantCosine(_ScaledLaw):
 
     NAME: ClassVar[str] = "scca"
     ABOUT: ClassVar[str] = "your own: fractions b of sine, c of constant, d of cosine acceleration"
+    SHARED: ClassVar[tuple[str, ...]] = ("b", "c", "d")  # they decide the pieces
     b: Annotated[float, Range(0.0, 1.0), "scca: time fraction of the sine (rising acceleration)"]
     c: Annotated[float, Range(0.0, 1.0), "scca: time fraction of constant acceleration"]
     d: Annotated[float, Range(0.0, 1.0), "scca: time fraction of the cosine; b + c + d = 1"]
@@ -99,9 +100,6 @@ class SineConstantCosine(_ScaledLaw):
         d = self.d / whole
         b = self.b / whole if self.c else 1.0 - d
         vars(self)["FRACTIONS"] = b, d, 0.0
-
-    def may_vary(self, table: str, key: str) -> bool:
-        return table != "motion" or key not in self.as_dict()
 
 
 class ModifiedTrapezoid(_ScaledLaw):
