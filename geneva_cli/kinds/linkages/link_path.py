@@ -6,10 +6,10 @@ import copy
 from abc import ABC, abstractmethod
 from typing import Any, NamedTuple, Protocol, Self, cast
 
-from geneva_cli.motion.engagement import Held, Loads, Vector, cross
-from geneva_cli.numerics.angles import radians, sin_cos_deg
+from geneva_cli.drives.pushed import pushed
+from geneva_cli.numerics.angles import sin_cos_deg
 from geneva_cli.numerics.arrays import Array, Batchable, Complex, Which
-from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
+from geneva_cli.numerics.jet import Held, Jet, Loads, Number, Vector, cross, sin_cos, turning
 from geneva_cli.spec.rules import is_array
 
 
@@ -97,24 +97,16 @@ class LinkReactions(NamedTuple):
     x: float  # direction of the line of centres from the wheel's axis, on the path's axes
     y: float
 
-    def __call__(self, input_deg: Number, path: Vector, loads: Loads) -> Held:
+    def __call__(self, turn: Jet, path: Vector, loads: Loads) -> Held:
         """Reactions of the crank's shaft, equal to those at A, and of the third body."""
-        tau = Jet.variable(radians(input_deg) + self.middle, path[0].order - 1)
-        sine, cosine = sin_cos(tau)
+        sine, cosine = sin_cos(turn + self.middle)
         known = self.path.link, self.path.place, self.path.joint
         (ex, ey), (px, py), (ax, ay) = (f(sine, cosine) for f in known)
         arm, h = self.path.hold(sine, cosine)
-        place, lever = (px - ax, py - ay), cross((ex * arm, ey * arm), h)
-        out = []
-        for force, moment in loads:
-            across = force[1] * self.sense
-            F = (force[0] * self.x - across * self.y, force[0] * self.y + across * self.x)
-            push = (cross(place, F) + moment * (self.sense * self.L)) / lever * -1.0  # about A
-            x, y = h[0] * push, h[1] * push
-            # from the path's axes to the machine's
-            shaft, third = (
-                (u * self.x + v * self.y, (v * self.x - u * self.y) * self.sense)
-                for u, v in ((F[0] + x, F[1] + y), (x, y))
-            )
-            out.append((shaft, third))
-        return out
+        # from A, over L, and from the path's axes to the machine's
+        ends = (px - ax, py - ay), (ex * arm, ey * arm), (h[0] * self.L, h[1] * self.L)
+        place, held, direction = (
+            ((x * self.x + y * self.y) / self.L, (y * self.x - x * self.y) * (self.sense / self.L))
+            for x, y in ends
+        )
+        return pushed(loads, place, direction, cross(held, direction))

@@ -14,12 +14,12 @@ import numpy as np
 from geneva_cli.errors import refuse_text
 from geneva_cli.kinds.linkages import tangent_pairs as tangents
 from geneva_cli.kinds.linkages.link_path import Displacement, LinkPath, LinkRate, LinkReactions
-from geneva_cli.motion.engagement import Anchor, Engagement, Vector
+from geneva_cli.motion.engagement import Anchor, Engagement
 from geneva_cli.motion.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
 from geneva_cli.motion.wheels.classic import HalfStep
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Array, Complex, blocks, library, parameter, record_taken
-from geneva_cli.numerics.jet import Jet, Number, sine_versine
+from geneva_cli.numerics.jet import Jet, Number, Vector, sine_versine
 
 SAME_PEAK = 1e-8  # fraction by which two wheels' peak velocities may differ and count as equal
 EVEN = 96  # samples of a motion, and twice as many of the way back
