@@ -690,9 +690,9 @@ class Design:
         >>> first.name, first.value, first.must_be, first.limit, first.passes
         ('dwell_deg', 240.0, 'at least', 0.0, True)
         """
-        from geneva_cli.verdict.checks import proofs
+        from geneva_cli.verdict.checks import PROOFS, applicable
 
-        return self._judged if self.is_drawn else [*self._judged, *proofs(self.parts)]
+        return [*self._judged, *([] if self.is_drawn else applicable(PROOFS, self.parts, None))]
 
     def _of_drawing(self, answer: str, *values: object) -> Any:
         """An answer about the drawings that replace the outlines."""
@@ -720,11 +720,11 @@ class Design:
         'collision-free, proved to 0.2 µm (608 intervals)'
         """
         from geneva_cli.spec.rules import Range, require_mm
-        from geneva_cli.verdict.checks import proofs
+        from geneva_cli.verdict.checks import PROOFS, applicable
 
         allowed = Range(0.0, self.mechanism.roller_radius_mm, "(]")
         require_mm("--certify", to_mm, allowed, "the roller's radius")
-        return self._judged if self.is_drawn else [*self._judged, *proofs(self.parts, to_mm)]
+        return [*self._judged, *([] if self.is_drawn else applicable(PROOFS, self.parts, to_mm))]
 
     @answer
     def _judged(self) -> list[Check]:

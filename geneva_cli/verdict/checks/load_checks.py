@@ -12,14 +12,15 @@ from geneva_cli.numerics.tolerances import to_digits
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.spec.tables import LIMITED
 from geneva_cli.verdict.checks import FIRST, Check, compared, unknown
+from geneva_cli.verdict.quantities.batch_designs import single
 
 if TYPE_CHECKING:  # a spec without limits or loads is checked without NumPy
     from geneva_cli.loads.impacts.shock_force import Impact
     from geneva_cli.loads.strength.pin_arm_key import PinSize
     from geneva_cli.verdict.strength import Strength
 
-# Each limited quantity of strength and life: the key that limits it, its whole name, and the loaded
-# part whose default steel limits it if the spec does not.
+# Each limited quantity of strength and life: the key that limits it, its whole name, but for the
+# greatest stress of the lock, and the loaded part whose default steel limits it without that key.
 _DEFLECTION = "limits.lock_deflection_max_deg"
 _WHEEL, _SHAFT = "material.wheel.stress_max_MPa", "shaft.shear_stress_max_MPa"
 BOUNDS = {
@@ -28,7 +29,7 @@ BOUNDS = {
     "pin_stress_MPa": ("material.roller.stress_max_MPa", "strength.pin.stress_MPa", "pin"),
     "horn_stress_MPa": (_WHEEL, "strength.horn.stress_MPa", "horn"),
     "lock_horn_stress_MPa": (_WHEEL, "strength.lock.horn_stress_MPa", "horn"),
-    "lock_stress_max_MPa": ("limits.lock_stress_max_MPa", "strength.lock.greatest_MPa", ""),
+    "lock_stress_max_MPa": ("limits.lock_stress_max_MPa", "", ""),
     "lock_deflection_max_deg": (_DEFLECTION, "strength.lock.deflection_deg", ""),
     "wheel_shaft_stress_MPa": (_SHAFT, "strength.wheel_shaft.stress_MPa", "wheel_shaft"),
     "crank_shaft_stress_MPa": (_SHAFT, "strength.crank_shaft.stress_MPa", "crank_shaft"),
@@ -96,10 +97,9 @@ def _drag(mechanism: Mechanism) -> str:
 
 
 def _pin(mechanism: Mechanism) -> PinSize | None:
-    from geneva_cli.verdict.quantities.batch_designs import single
-    from geneva_cli.verdict.quantities.under_load import drawn_pin
+    from geneva_cli.verdict.quantities.under_load import UnderLoad
 
-    return drawn_pin(single(mechanism))
+    return single(mechanism).once(UnderLoad).pin
 
 
 def _force_check(
@@ -120,25 +120,6 @@ def _force_check(
     return Check(name, impact.force_N, "at most", limit, None, why, impact.at_deg)
 
 
-def product(names: Collection[str], mechanism: Mechanism) -> Iterator[Check]:
-    """The product's greatest acceleration, and the friction that holds it, where bounded."""
-    spec, limit = mechanism.spec, mechanism.spec.limits.product_acceleration_max_m_s2
-    friction = spec.product.friction if spec.support.axis == "vertical" else None
-    if limit is None and friction is None:
-        return
-    from geneva_cli.verdict.quantities.batch_designs import number_of, single
-    from geneva_cli.verdict.quantities.motion_quantities import product as motion_of
-
-    # the spec refuses limit and friction without the product's place
-    motion = single(mechanism).columns(motion_of)
-    most, at_deg = (number_of(motion[f"acceleration_m_s2.{end}"], 0) for end in ("max", "at_deg"))
-    if limit is not None:
-        yield compared("product_acceleration_max_m_s2", most, "at most", limit, at_deg)
-    if friction is not None:
-        needed = number_of(motion["friction_needed"], 0)
-        yield compared("product_slip", needed, "at most", friction, at_deg)
-
-
 def strength_limits(names: Collection[str], mechanism: Mechanism) -> Iterator[Check]:
     """Limited values of strength and life; none without a limit, or without the part."""
     for name in names:
@@ -153,7 +134,8 @@ def strength_limits(names: Collection[str], mechanism: Mechanism) -> Iterator[Ch
         # a key's allowable shear limits it, too
         if part and (own is None or part.endswith("_key")):
             limit = of[f"strength.{part}.allowed_MPa"]
-        value, must_be = of[quantity], "at least" if name == "roller_life_min_h" else "at most"
+        value = of[quantity] if quantity else of.lock_MPa
+        must_be = "at least" if name == "roller_life_min_h" else "at most"
         if value is not None and limit is not None:
             placed = name in ("horn_stress_MPa", "wheel_shaft_stress_MPa", "crank_shaft_stress_MPa")
             at_deg = of[f"strength.{part}.at_deg"] if placed else None
