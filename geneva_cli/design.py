@@ -24,8 +24,6 @@ from geneva_cli.motion.drive import Drive
 from geneva_cli.motion.laws.law import Motion
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.motion.peaks import Peaks, peaks_table, worst
-from geneva_cli.motion.timing import Timing, timings
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.spec import tables
 from geneva_cli.spec.rules import Range, plain, require_mm
@@ -39,6 +37,8 @@ if TYPE_CHECKING:
     from geneva_cli.geometry.sheet import Drawing, Sheet
     from geneva_cli.loads.cycle import Cycle
     from geneva_cli.loads.load_peaks import LoadSummary
+    from geneva_cli.motion.peaks import Peaks
+    from geneva_cli.motion.timing import Timing
     from geneva_cli.parts.chosen import ByLoad, Chosen
     from geneva_cli.parts.parts import Parts
     from geneva_cli.specfile.reader import Text
@@ -294,6 +294,8 @@ class Design:
         >>> [t.index_deg for t in Design(External(6, steps_deg=(72, 48))).timings]
         [72.0, 48.0]
         """
+        from geneva_cli.motion.timing import timings
+
         return timings(self.mechanism)
 
     @property
@@ -313,6 +315,8 @@ class Design:
         >>> round(peak.max, 12), round(peak.at_deg, 9)
         (1.349637275902, -22.903061866)
         """
+        from geneva_cli.motion.peaks import worst
+
         return worst(self.mechanism)
 
     @answer
@@ -322,6 +326,8 @@ class Design:
         >>> Design(External(6)).peaks_table.to_dict()["velocity.max"]
         1.0
         """
+        from geneva_cli.motion.peaks import peaks_table
+
         peaks: Table = self._of_drawing("peaks") if self.is_drawn else peaks_table(self.mechanism)
         return peaks
 

@@ -183,20 +183,24 @@ class Check(NamedTuple):
 
 def compared(
     name: str,
-    value: float,
+    value: float | None,
     must_be: str,
     limit: float,
     at_deg: float | None = None,
     noise: float = 0.0,
     reason: Callable[[], str] | None = None,
+    why: str = "",
 ) -> Check:
     """The check that a value is "at least", "at most" or "above" a limit, with why it fails.
 
-    ``noise`` is the rounding error of the value, if it is larger than the limit's.
+    ``noise`` is the rounding error of the value, if it is larger than the limit's. ``why`` says why
+    a value is not known.
 
     >>> compared("jerk_max", 31.4, "at most", 30.0).passes
     False
     """
+    if value is None:
+        return unknown(name, why, must_be, limit)
     passes = keeps(value, must_be, limit, noise)
     own = None if passes else reason
     return Check(name, value, must_be, limit, passes, at_deg=at_deg, reason=own)

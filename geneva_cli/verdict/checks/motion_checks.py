@@ -194,31 +194,23 @@ def turning(names: Collection[str], parts: Parts, turn: FullTurn) -> Iterator[Ch
 
 def within_tolerances(names: Collection[str], parts: Parts, turn: FullTurn) -> Iterator[Check]:
     """Plays that ``[limits]`` bounds, and the clearances per side that ``[tolerance]`` needs."""
-    machine = parts.assembly.full
-    limits, own = machine.spec.limits, machine.spec.size.allowances
+    machine, own = parts.assembly.full, parts.assembly.full.spec.size.allowances
+    limits = machine.spec.limits.as_dict()
     unlocked = "not computed, because no drawn locking disc holds the wheel at rest"
     for name, play in (("index_play_max_deg", turn.motion), ("dwell_play_max_deg", turn.dwell)):
-        limit = limits.as_dict()[name]
-        if limit is None:
-            continue
-        if parts.locked or name == "index_play_max_deg":
-            yield compared(name, play.deg, "at most", limit, play.at_deg if play.deg else None)
-        else:
-            yield unknown(name, unlocked, "at most", limit)
-    limit = limits.dwell_position_max_deg
-    if limit is not None and "dwell_position_max_deg" in names:
+        if (limit := limits[name]) is not None:
+            deg = play.deg if parts.locked or play is turn.motion else None
+            at_deg = play.at_deg if play.deg else None
+            yield compared(name, deg, "at most", limit, at_deg, why=unlocked)
+    name = "dwell_position_max_deg"
+    if (limit := limits[name]) is not None and name in names:
         from geneva_cli.verdict.tolerance import worst_dwell_deg
 
-        # the greatest error of the resting wheel
-        why = unlocked
-        try:
-            worst = worst_dwell_deg(machine, parts)
+        try:  # the greatest error of the resting wheel
+            worst, why = worst_dwell_deg(machine, parts), unlocked
         except GenevaError as error:
             worst, why = None, str(error)
-        if worst is None:
-            yield unknown("dwell_position_max_deg", why, "at most", limit)
-        else:
-            yield compared("dwell_position_max_deg", worst, "at most", limit)
+        yield compared(name, worst, "at most", limit, why=why)
     if machine.spec.tolerance.is_given and machine.output.turns:
         # a spec without tolerances is checked without their modules
         from geneva_cli.loads.tolerance.motion_error import used
