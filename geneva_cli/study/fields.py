@@ -10,18 +10,16 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import chain
 from operator import attrgetter
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array, Mask, Whole
+from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.table import Table
 from geneva_cli.verdict.quantities.groups import GROUP_OF, QuantityGroup
 from geneva_cli.verdict.quantities.quantity_names import in_batch, whole_name
-
-if TYPE_CHECKING:
-    from geneva_cli.parts.parts import Parts
 
 Cell: TypeAlias = float | int | str | bool | None
 # Numbers, where infinity is no value, or cells of all sorts.
@@ -138,8 +136,6 @@ class Pick(NamedTuple):
 
     def of(self, mechanism: Mechanism) -> list[Cell]:
         """The values of the quantities for a machine; None if one does not apply."""
-        from geneva_cli.parts.parts import parts_of
-
         return self.of_parts(parts_of(mechanism))
 
     def of_parts(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 import math
 from collections.abc import Callable, Collection, Mapping, Sequence
-from typing import TYPE_CHECKING, Self, TypeAlias, TypeVar
+from typing import Self, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -13,16 +13,14 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.kept import Known, cached_property
 from geneva_cli.motion.batch import taken
 from geneva_cli.motion.mechanism import Mechanism, build
+from geneva_cli.numerics.arrays import Array, Number
 from geneva_cli.spec.tables import LIMITED
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Number
-    from geneva_cli.table import Table
+from geneva_cli.table import Table
 
 T = TypeVar("T")
 # Values by the names of quantities, (m,) each, or one number for all designs. A design has none
 # where its number is NaN or infinite; no design has those that are None, or left out.
-Columns: TypeAlias = "Mapping[str, Number | None]"
+Columns: TypeAlias = Mapping[str, "Number | None"]
 Numbers: TypeAlias = dict[str, float | None]
 # Values of a single design; None is one that does not apply. All machines have the same names.
 Values: TypeAlias = "dict[str, float | str | tuple[str | float, ...] | Table | None]"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from functools import cache, partial
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any, cast
 
 import numpy as np
 
@@ -16,34 +16,22 @@ from geneva_cli.loads.impacts.shock_force import forces_N
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_peaks import load_peaks
 from geneva_cli.loads.strength import lock, pin_arm_key
-from geneva_cli.loads.strength.horn import greatest_stress, horns
+from geneva_cli.loads.strength.horn import HornStress, Sides, Sizes, greatest_stress, horns
 from geneva_cli.loads.strength.part_loads import PartLoads, part_loads, single_loads
 from geneva_cli.loads.strength.pin_arm_key import PinSize
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.motion.batch import designs_in, taken
-from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.mechanism import build
+from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.registry import thing
 from geneva_cli.numerics import arrays
 from geneva_cli.numerics.arrays import Array, Record, mapped, parameter
 from geneva_cli.parts.machine_sizes import fits, of_batch, sized, unloaded, unloaded_alike
 from geneva_cli.parts.shafts.bores import has_shape
-from geneva_cli.parts.sized_by_load import (
-    Stressed,
-    batch_sizes,
-    dimensions,
-    needs_lock,
-    sizing,
-)
+from geneva_cli.parts.sized_by_load import Stressed, batch_sizes, dimensions, needs_lock, sizing
 from geneva_cli.parts.sizes import Sizes as PartSizes
 from geneva_cli.parts.sizes import Unloaded
 from geneva_cli.spec.defaults import roller_material
 from geneva_cli.verdict.quantities.batch_designs import Designs, single
-
-if TYPE_CHECKING:
-    from geneva_cli.loads.strength.horn import HornStress, Sides, Sizes
-    from geneva_cli.loads.strength.lock import LockUnderTorque
-    from geneva_cli.motion.mechanism import Mechanism
 
 
 class UnderLoad:
@@ -79,27 +67,28 @@ class UnderLoad:
     @cached_property
     def _each(self) -> list[Unloaded | None]:
         """The parts of each design, or of all, without loads; None for one without flat parts."""
+        spec = self.machine.spec
         if self.designs.single:
             return [unloaded(self.machine) if sized(self.machine) else None]
-        if not self.designs.are_built:
-            of = self.machine.spec
-            with marking():  # the values of the designs are checked
-                own = of.wheel, of.drive.replace(n_rpm=1.0), of.motion, of.size
-                bare = Spec(*own, shaft=of.shaft, drive_before=of.drive_before)
-            if designs_in(bare) == 1:  # designs that differ in speed and loads have the same
-                return [_bare(build(taken(bare, 0)))]
-            return [_bare(taken(self.machine, i)) for i in range(self.machine.designs)]
-        return [*map(_bare, self.designs.each)]
+        if self.designs.are_built:
+            return [*map(_bare, self.designs.each)]
+        # designs that differ in speed and loads have the same
+        is_one = self._moves_alike and designs_in((spec.size, spec.shaft)) == 1
+        return [_bare(taken(self.machine, i)) for i in range(1 if is_one else self.machine.designs)]
 
     @cached_property
-    def _alike(self) -> bool:
-        """True if designs that are not built yet move alike, and differ in plain sizes at most."""
+    def _moves_alike(self) -> bool:
+        """True if the designs have one motion by the input's angle."""
         of = self.machine.spec
-        if self.designs.are_built or self._shaped:
-            return False
         with marking():  # the values of the designs are checked
             own = of.wheel, of.drive.replace(n_rpm=1.0), of.drive_before, of.motion
-        return designs_in((own, self.machine.engagements)) == 1 and of.is_flat
+        return designs_in((own, self.machine.engagements)) == 1
+
+    @property
+    def _alike(self) -> bool:
+        """True if designs that are not built yet move alike, and differ in plain sizes at most."""
+        is_plain = self.machine.spec.is_flat and not (self.designs.are_built or self._shaped)
+        return is_plain and self._moves_alike
 
     @cached_property
     def _shaped(self) -> bool:
@@ -163,7 +152,7 @@ class UnderLoad:
         return greatest_stress(horns, self.machine, self.horn_sizes)
 
     @cached_property
-    def lock(self) -> LockUnderTorque | None:
+    def lock(self) -> lock.LockUnderTorque | None:
         """The lock under the torque that it holds in the dwell; None if no design has one."""
         sizes, width = self.lock_sizes, self.contact_mm
         if sizes is None or width is None:
