@@ -125,7 +125,6 @@ class LazyGroup(PlainValues, TyperGroup):
             return name, stub, rest
         module = importlib.import_module(f"geneva_cli.cli.commands.{name}")
         command = as_command(name, module.run)
-        command.examples = module.EXAMPLES
         # these print no wide table
         if name not in {"animate", "explain", "export", "help", "new", "plot", "schema"}:
             command.params += as_command(name, table_options).params

@@ -4,8 +4,9 @@ Annotations are objects here and in the commands, for Typer.
 """
 
 import sys
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from functools import partial
+from inspect import cleandoc
 from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
@@ -77,7 +78,7 @@ def _help(ctx: Any) -> None:
 class Command(PlainValues, TyperCommand):
     """A command whose help ends with examples, and which refuses ineffective options."""
 
-    examples: tuple[str, ...] = ()
+    examples: Sequence[str] = ()
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         """Parse arguments, and refuse an option that would have no effect.
@@ -140,11 +141,12 @@ def _placeholder(argument: Any) -> str:
 
 
 def as_command(name: str, run: Any) -> Any:
-    """A function as a command."""
+    """A function as a command; its docstring is the help, and ends with examples."""
+    text, _, examples = cleandoc(run.__doc__).partition("\n\nExamples:\n")
     one = typer.Typer(add_completion=False, rich_markup_mode=None)
-    one.command(name, cls=Command, context_settings=HELP)(run)
+    one.command(name, cls=Command, context_settings=HELP, help=text)(run)
     command: Any = get_command(one)
-    command.kinds = run.__annotations__
+    command.kinds, command.examples = run.__annotations__, cleandoc(examples).splitlines()
     return command
 
 

@@ -9,14 +9,16 @@ import repo
 from typer.testing import CliRunner
 
 from geneva_cli.cli.app import COMMANDS, GROUPS, app
-from geneva_cli.cli.command import one_of
+from geneva_cli.cli.command import as_command, one_of
 from geneva_cli.manual import GROUPS as PAGES
 from geneva_cli.output import FORMATS
 
 EXAMPLES = [
     (name, example)
     for name in COMMANDS
-    for example in importlib.import_module(f"geneva_cli.cli.commands.{name}").EXAMPLES
+    for example in as_command(
+        name, importlib.import_module(f"geneva_cli.cli.commands.{name}").run
+    ).examples
 ]
 
 

@@ -4,12 +4,6 @@ import os
 
 from geneva_cli.cli.command import REVERSE, SETTINGS, SPEC, flag, output_option, say
 
-EXAMPLES = (
-    "geneva animate spec.toml -o machine.html",
-    "geneva animate spec.toml --reverse -o backwards.html",
-    "geneva animate spec.toml --open",
-)
-
 
 def run(
     spec: str = SPEC,
@@ -22,6 +16,11 @@ def run(
 
     It shows parts, gears, contact force and curves, and plays or follows a slider.
     --open also prints the page's path.
+
+    Examples:
+        geneva animate spec.toml -o machine.html
+        geneva animate spec.toml --reverse -o backwards.html
+        geneva animate spec.toml --open
     """
     from geneva_cli.design import load
     from geneva_cli.kept import load_extra

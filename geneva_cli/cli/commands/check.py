@@ -7,7 +7,6 @@ import typer
 from geneva_cli.cli.command import FORMAT, OUTPUT, REVERSE, SETTINGS, SPECS, flag, option, say, tell
 from geneva_cli.errors import open_warnings
 
-EXAMPLES = ("geneva check spec.toml", "geneva check spec.toml --set size.slot_clearance_mm=0.05")
 DRAWN = "A drawing from elsewhere"
 
 
@@ -31,6 +30,10 @@ def run(
     It checks the motion, the parts and the spec's own [limits]. With -v, or as csv, json or md,
     there is a row for each check. The exit status is 1 if a check fails. If one spec cannot be
     read, the others are still checked.
+
+    Examples:
+        geneva check spec.toml
+        geneva check spec.toml --set size.slot_clearance_mm=0.05
     """
     from geneva_cli.output import chosen, show_answer
     from geneva_cli.study.verdicts import of_checks, verdicts

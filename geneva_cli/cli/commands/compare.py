@@ -3,11 +3,6 @@
 from geneva_cli.cli import command
 from geneva_cli.errors import GenevaError
 
-EXAMPLES = (
-    "geneva compare spec.toml --vary wheel.z=4,6,8 --pick dwell_s,acceleration.max",
-    "geneva compare spec.toml --against cam,servo",
-)
-
 
 def run(
     specs: list[str] = command.SPECS,
@@ -28,6 +23,10 @@ def run(
     """Designs side by side: a column for each design, a row for each quantity.
 
     --against compares one spec with a cam indexer and a servo.
+
+    Examples:
+        geneva compare spec.toml --vary wheel.z=4,6,8 --pick dwell_s,acceleration.max
+        geneva compare spec.toml --against cam,servo
     """
     from geneva_cli.design import load
     from geneva_cli.output import show

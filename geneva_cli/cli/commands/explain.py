@@ -4,13 +4,6 @@ import typer
 
 from geneva_cli.cli.command import FORMAT, OUTPUT
 
-EXAMPLES = (
-    "geneva explain",
-    "geneva explain pin stress",
-    "geneva explain turns-back",
-    "geneva explain loads.pin_force_N.max --format json",
-)
-
 
 def run(
     words: list[str] = typer.Argument(
@@ -21,7 +14,14 @@ def run(
     output: str = OUTPUT,
     format: str = FORMAT,
 ) -> None:
-    """Explain a word of the output: meaning, formula, unit, source, what to do, manual page."""
+    """Explain a word of the output: meaning, formula, unit, source, what to do, manual page.
+
+    Examples:
+        geneva explain
+        geneva explain pin stress
+        geneva explain turns-back
+        geneva explain loads.pin_force_N.max --format json
+    """
     from geneva_cli.cli.pages import search
     from geneva_cli.output import is_for_people, show, show_markdown
     from geneva_cli.specfile import meanings

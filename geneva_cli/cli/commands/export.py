@@ -5,12 +5,6 @@ import os
 from geneva_cli.cli import command
 from geneva_cli.errors import GenevaError, below
 
-EXAMPLES = (
-    "geneva export spec.toml -o turret",
-    "geneva export spec.toml --set size.process=laser --for laser -o to-cut",
-    "geneva export spec.toml --set size.process=print --for print -o to-print",
-)
-
 
 def run(
     spec: str = command.SPEC,
@@ -29,6 +23,11 @@ def run(
     All files are written or none. In a folder that exists, this command replaces and removes only
     files that it wrote and nobody changed since; all others stay. For a machine that jams nothing
     is written, and the exit status is 1.
+
+    Examples:
+        geneva export spec.toml -o turret
+        geneva export spec.toml --set size.process=laser --for laser -o to-cut
+        geneva export spec.toml --set size.process=print --for print -o to-print
     """
     from geneva_cli.design import load
     from geneva_cli.output import show

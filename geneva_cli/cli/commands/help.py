@@ -6,8 +6,6 @@ import typer
 
 from geneva_cli.errors import GenevaError, cut, nearest
 
-EXAMPLES = ("geneva help", "geneva help cycle", "geneva help friction")
-
 
 def run(
     context: typer.Context,
@@ -17,7 +15,13 @@ def run(
         help="A page, a command, or words to search for; without one: all pages.",
     ),
 ) -> None:
-    """Show a page of the manual, the options of a command, or all places of a word."""
+    """Show a page of the manual, the options of a command, or all places of a word.
+
+    Examples:
+        geneva help
+        geneva help cycle
+        geneva help friction
+    """
     from geneva_cli.cli.pages import Hit, page, search
     from geneva_cli.manual import TOPICS, contents
     from geneva_cli.output import show, show_markdown, show_text

@@ -4,8 +4,6 @@ import typer
 
 from geneva_cli.cli.command import FORMAT, OUTPUT
 
-EXAMPLES = ("geneva keys drive", "geneva keys size.center_distance_mm")
-
 
 def run(
     word: str = typer.Argument(
@@ -14,7 +12,12 @@ def run(
     output: str = OUTPUT,
     format: str = FORMAT,
 ) -> None:
-    """List the keys of a spec: unit, allowed values, default, and the machines that have them."""
+    """List the keys of a spec: unit, allowed values, default, and the machines that have them.
+
+    Examples:
+        geneva keys drive
+        geneva keys size.center_distance_mm
+    """
     from geneva_cli.output import show
     from geneva_cli.specfile.keys import Key, about
     from geneva_cli.table import Reading, rows_table

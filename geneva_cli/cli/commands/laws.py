@@ -2,8 +2,6 @@
 
 from geneva_cli.cli.command import FORMAT, OUTPUT, option
 
-EXAMPLES = ("geneva laws", "geneva laws --lambda 0.1 --format csv")
-
 
 def run(
     shape: float = option(0.0, "X", "Shape of the sine group.", name="--lambda"),
@@ -14,6 +12,10 @@ def run(
 
     These are the greatest ds/du, d2s/du2 and d3s/du3, and the greatest product of the first two
     (power), with u and s from 0 to 1.
+
+    Examples:
+        geneva laws
+        geneva laws --lambda 0.1 --format csv
     """
     from geneva_cli.output import show
     from geneva_cli.study.law_values import laws_table

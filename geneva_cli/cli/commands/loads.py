@@ -5,14 +5,6 @@ from geneva_cli.errors import is_warning
 
 ROWS = 361
 
-EXAMPLES = (
-    "geneva loads spec.toml",
-    "geneva loads spec.toml -v",
-    "geneva loads spec.toml -o cycle.csv",
-    "geneva loads spec.toml --set load.inertia_kgm2=0.8 --format json",
-    "geneva loads spec.toml --certify",
-)
-
 
 def run(
     spec: str = SPEC,
@@ -43,6 +35,13 @@ def run(
 
     With --certify, the torques and the pin force are each proved to lie between two bounds, or
     called not proved. It needs geneva-cli[certify]. More: `geneva help accuracy`.
+
+    Examples:
+        geneva loads spec.toml
+        geneva loads spec.toml -v
+        geneva loads spec.toml -o cycle.csv
+        geneva loads spec.toml --set load.inertia_kgm2=0.8 --format json
+        geneva loads spec.toml --certify
     """
     from geneva_cli.design import load
     from geneva_cli.output import choice, chosen, is_for_people, show, show_answer

@@ -6,13 +6,6 @@ from geneva_cli.cli.command import OUTPUT, REVERSE, SETTINGS, SPEC, one_of, opti
 from geneva_cli.errors import GenevaError
 from geneva_cli.output import CAMS, CONTROLLERS, FORMATS
 
-EXAMPLES = (
-    "geneva motion spec.toml --samples 13",
-    "geneva motion spec.toml --at 30,45",
-    "geneva motion spec.toml -o motion.csv",
-    "geneva motion spec.toml --turns 8 -o revolution.csv",
-    "geneva motion spec.toml --format cam --for codesys -o cam.st",
-)
 CAM = "An electronic cam"
 
 
@@ -42,6 +35,13 @@ def run(
     --format cam writes an electronic cam: polynomials of degree five as csv, or CODESYS points
     (XYVA). Standard error has the number of rows and the greatest error. The exit status is 1 if
     that is more than a --tolerance that was given.
+
+    Examples:
+        geneva motion spec.toml --samples 13
+        geneva motion spec.toml --at 30,45
+        geneva motion spec.toml -o motion.csv
+        geneva motion spec.toml --turns 8 -o revolution.csv
+        geneva motion spec.toml --format cam --for codesys -o cam.st
     """
     from geneva_cli.design import load
     from geneva_cli.output import show, show_text

@@ -7,12 +7,6 @@ import typer
 from geneva_cli.cli.command import OUTPUT, flag, option
 from geneva_cli.errors import GenevaError, below
 
-EXAMPLES = (
-    "geneva new external -o wheel.toml",
-    "geneva new --list",
-    "geneva new --from-design turret -o turret.toml",
-)
-
 
 def run(
     kind: str = typer.Argument(
@@ -28,6 +22,11 @@ def run(
 
     `geneva check` judges it, and `geneva size` writes the sizes that it leaves out, so that they
     stay. An existing file is kept, unless --force is given. For editors: `geneva help spec`.
+
+    Examples:
+        geneva new external -o wheel.toml
+        geneva new --list
+        geneva new --from-design turret -o turret.toml
     """
     from geneva_cli.output import show
     from geneva_cli.specfile.keys import FILE

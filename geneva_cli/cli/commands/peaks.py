@@ -2,12 +2,6 @@
 
 from geneva_cli.cli.command import FORMAT, OUTPUT, REVERSE, SETTINGS, SPEC, flag, say
 
-EXAMPLES = (
-    "geneva peaks spec.toml",
-    "geneva peaks spec.toml --set wheel.z=5 --format json",
-    "geneva peaks spec.toml --certify",
-)
-
 
 def run(
     spec: str = SPEC,
@@ -24,6 +18,11 @@ def run(
 
     With --certify each peak is proved to lie between two bounds, or is called not proved. It needs
     the extra geneva-cli[certify]. More: `geneva help accuracy`.
+
+    Examples:
+        geneva peaks spec.toml
+        geneva peaks spec.toml --set wheel.z=5 --format json
+        geneva peaks spec.toml --certify
     """
     from geneva_cli.design import load
     from geneva_cli.output import is_for_people, show

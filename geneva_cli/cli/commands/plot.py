@@ -5,12 +5,6 @@ import typer
 from geneva_cli.cli.command import ALSO_REVERSE, OUTPUT, SETTINGS, option, say, words_in
 from geneva_cli.errors import GenevaError, cut
 
-EXAMPLES = (
-    "geneva plot spec.toml --pick velocity",
-    "geneva plot spec.toml -o motion.svg",
-    "geneva plot spec.toml --vary wheel.z=6,8,10 --pick acceleration -o several.svg",
-)
-
 
 def run(
     specs: list[str] = typer.Argument(
@@ -28,6 +22,11 @@ def run(
     """Plot curves over a cycle, exact at peaks and jumps; or columns of a csv, such as a sweep's.
 
     Without -o it prints points. png needs the extra geneva-cli[plot]. `geneva help plots`.
+
+    Examples:
+        geneva plot spec.toml --pick velocity
+        geneva plot spec.toml -o motion.svg
+        geneva plot spec.toml --vary wheel.z=6,8,10 --pick acceleration -o several.svg
     """
     from geneva_cli.output import FORMATS, PLOTTED, chosen, show_figure
     from geneva_cli.study.compare import designs_of, of_designs, of_table

@@ -6,12 +6,6 @@ from geneva_cli.drawings.catalogue import is_sheet, require_tolerance
 from geneva_cli.errors import GenevaError
 from geneva_cli.output import DRAWN, FORMATS, SHEETS, chosen, draw, draw_sheet, named, show, usual
 
-EXAMPLES = (
-    "geneva profile spec.toml --samples 9",
-    "geneva profile spec.toml --part wheel -o wheel.dxf",
-    "geneva profile spec.toml --part sheet -o machine.pdf",
-)
-
 WRITTEN = (*FORMATS, *DRAWN, "pdf")
 CUT = "To cut"
 DRAWING = "The drawing"
@@ -43,6 +37,11 @@ def run(
 
     A drawing is written only if its machine completes a whole turn. All parts, frames of
     reference and layers: `geneva help parts`.
+
+    Examples:
+        geneva profile spec.toml --samples 9
+        geneva profile spec.toml --part wheel -o wheel.dxf
+        geneva profile spec.toml --part sheet -o machine.pdf
     """
     from geneva_cli.design import form_of, load
 

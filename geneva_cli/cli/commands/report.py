@@ -5,12 +5,6 @@ import typer
 from geneva_cli.cli.command import OUTPUT, SETTINGS, SPEC, flag, one_of, option, say
 from geneva_cli.output import DOCUMENTS, FORMATS
 
-EXAMPLES = (
-    "geneva report spec.toml",
-    "geneva report spec.toml -o report.pdf",
-    "geneva report spec.toml --full -o report.html",
-    "geneva report spec.toml -o report.json",
-)
 WRITTEN = tuple(dict.fromkeys((*FORMATS, *DOCUMENTS)))
 
 
@@ -28,6 +22,12 @@ def run(
     would give it. As csv and json it has all values alone.
 
     The exit status is 1 if a check fails, as with `check`.
+
+    Examples:
+        geneva report spec.toml
+        geneva report spec.toml -o report.pdf
+        geneva report spec.toml --full -o report.html
+        geneva report spec.toml -o report.json
     """
     from geneva_cli.design import load
     from geneva_cli.output import choice, chosen, show_answer, show_document

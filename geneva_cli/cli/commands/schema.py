@@ -2,11 +2,13 @@
 
 from geneva_cli.cli.command import OUTPUT
 
-EXAMPLES = ("geneva schema -o geneva.schema.json",)
-
 
 def run(output: str = OUTPUT) -> None:
-    """Print a JSON Schema (draft-07) of specs, with which editors complete and check keys."""
+    """Print a JSON Schema (draft-07) of specs, with which editors complete and check keys.
+
+    Examples:
+        geneva schema -o geneva.schema.json
+    """
     import json
 
     from geneva_cli.output import show_text

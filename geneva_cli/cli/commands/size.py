@@ -4,12 +4,6 @@ import os
 
 from geneva_cli.cli.command import FORMAT, SETTINGS, SPEC, output_option, tell
 
-EXAMPLES = (
-    "geneva size spec.toml",
-    "geneva size spec.toml -o sized.toml",
-    "geneva size spec.toml --set drive.n_rpm=90 -o fast.toml",
-)
-
 
 def run(
     spec: str = SPEC,
@@ -26,6 +20,11 @@ def run(
     The written spec gives the same values as its origin, to the last digit, and has its comments.
     What needs a written thickness, as the wheel's own inertia, is known there besides. FILE as csv,
     json or md has the table instead.
+
+    Examples:
+        geneva size spec.toml
+        geneva size spec.toml -o sized.toml
+        geneva size spec.toml --set drive.n_rpm=90 -o fast.toml
     """
     from geneva_cli.design import load
     from geneva_cli.output import FORMATS, chosen, require_spec, show_answer, show_text

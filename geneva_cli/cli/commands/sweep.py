@@ -12,11 +12,6 @@ if TYPE_CHECKING:
     from geneva_cli.study.sweep.request import Outcome
     from geneva_cli.study.sweep.run import Sweep
 
-EXAMPLES = (
-    "geneva sweep spec.toml --vary wheel.z=4..12 --pick dwell_s,acceleration.max",
-    "geneva sweep spec.toml --vary size.roller_radius_mm=8..16:1 -o all.csv",
-    "geneva sweep spec.toml --vary wheel.z=4..12 --pareto min:jerk.max,max:dwell_s",
-)
 
 DESIGNS = "Designs"
 CHOICE = "Choice"
@@ -52,6 +47,11 @@ def run(
     VALUES are 4,6,8, 3..12, 0..0.9:0.1 or words. With --random and --best, LOW..HIGH is the
     whole range between.
     Long runs and the best of many: `geneva help search`.
+
+    Examples:
+        geneva sweep spec.toml --vary wheel.z=4..12 --pick dwell_s,acceleration.max
+        geneva sweep spec.toml --vary size.roller_radius_mm=8..16:1 -o all.csv
+        geneva sweep spec.toml --vary wheel.z=4..12 --pareto min:jerk.max,max:dwell_s
     """
     options = locals()
     from geneva_cli.output import chosen, require_spec, show, show_text

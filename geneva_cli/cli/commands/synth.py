@@ -8,11 +8,6 @@ from geneva_cli.errors import GenevaError, cut
 if TYPE_CHECKING:
     from geneva_cli.study.target import Target
 
-EXAMPLES = (
-    "geneva synth --motion-deg 180 --z 6 --check 0",
-    "geneva synth --dwell-s 0.8.. --cycle 1.5 --z 8 --check 0",
-)
-
 
 WANTED = "Wanted, a number or a range (0.2..0.3, 0.8.., ..180, 1/3)"
 MACHINES = "Machines that are tried"
@@ -49,6 +44,10 @@ def run(
 ) -> None:
     """Find the machines that meet all requirements; the lowest peak comes first.
     The machines tried, and the columns: `geneva help search`.
+
+    Examples:
+        geneva synth --motion-deg 180 --z 6 --check 0
+        geneva synth --dwell-s 0.8.. --cycle 1.5 --z 8 --check 0
     """
     options = locals()
     from geneva_cli.study.synth.reading import OPTIONS, read_frame, read_target

@@ -4,12 +4,6 @@ from geneva_cli.cli.command import FORMAT, OUTPUT, flag, option
 from geneva_cli.errors import GenevaError
 from geneva_cli.output import show
 
-EXAMPLES = (
-    "geneva table --z 3..12",
-    "geneva table --z 4,6 --internal --format csv",
-    "geneva table --z 6 --A 0.6 --n 90",
-)
-
 
 def run(
     z: str = option("3..12", "Z", "Slots: 6, 3..12 or 3,4,6."),
@@ -21,7 +15,13 @@ def run(
     output: str = OUTPUT,
     format: str = FORMAT,
 ) -> None:
-    """Timing and peaks of wheels, one row for each number of slots."""
+    """Timing and peaks of wheels, one row for each number of slots.
+
+    Examples:
+        geneva table --z 3..12
+        geneva table --z 4,6 --internal --format csv
+        geneva table --z 6 --A 0.6 --n 90
+    """
     from geneva_cli.study.survey import survey
 
     if internal and spherical:

@@ -2,8 +2,6 @@
 
 from geneva_cli.cli.command import FORMAT, OUTPUT, SETTINGS, SPEC, option, say
 
-EXAMPLES = ("geneva tolerance spec.toml --set tolerance.slot_angle_deg=0.01",)
-
 
 def run(
     spec: str = SPEC,
@@ -18,6 +16,9 @@ def run(
 
     Worst case, root sum of squares and Monte Carlo, in degrees and arc seconds. How much each
     dimension contributes, and the clearances with which every machine still turns.
+
+    Examples:
+        geneva tolerance spec.toml --set tolerance.slot_angle_deg=0.01
     """
     from geneva_cli.design import load
     from geneva_cli.output import is_for_people, show_answer

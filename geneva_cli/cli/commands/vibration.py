@@ -2,8 +2,6 @@
 
 from geneva_cli.cli.command import FORMAT, OUTPUT, REVERSE, SETTINGS, SPEC, option, say
 
-EXAMPLES = ("geneva vibration spec.toml --period-ratio 5.5 --damping 0.02",)
-
 
 def run(
     spec: str = SPEC,
@@ -22,6 +20,9 @@ def run(
     As csv the spectrum: the residual from half to twice the design's speed. At a
     speed to avoid the residual has a local maximum of at least 0.0001 of the step. `avoid` says
     how far it moves with a stiffness 20 % lower and higher.
+
+    Examples:
+        geneva vibration spec.toml --period-ratio 5.5 --damping 0.02
     """
     from geneva_cli.design import load
     from geneva_cli.output import chosen, show, show_answer
