@@ -17,7 +17,7 @@ from typer.core import TyperCommand, TyperGroup
 
 import geneva_cli.progress as progress  # ``from geneva_cli`` would load the lists of kinds
 from geneva_cli import __version__
-from geneva_cli.cli.command import HELP, USAGE, PlainValues, as_command, flag, table_options
+from geneva_cli.cli.command import HELP, USAGE, PlainValues, as_command, table_options
 from geneva_cli.errors import GenevaError, clean, cut
 from geneva_cli.streams import leave, open_streams
 
@@ -149,7 +149,9 @@ def geneva(
     version: bool = typer.Option(
         False, "--version", callback=_version, is_eager=True, help="Show the version."
     ),
-    no_pager: bool = flag(NO_PAGER, "Print long output on a terminal without a stop."),
+    no_pager: bool = typer.Option(
+        False, NO_PAGER, help="Print long output on a terminal without a stop."
+    ),
 ) -> None:
     """Design calculator for Geneva (Maltese-cross) mechanisms.
 

@@ -1,22 +1,15 @@
 """``geneva keys``."""
 
-import typer
 
-from geneva_cli.cli.command import FORMAT, OUTPUT
-
-
-def run(
-    word: str = typer.Argument(
-        "", metavar="[TABLE|KEY]", help="drive, drive.A or A; without one: all."
-    ),
-    output: str = OUTPUT,
-    format: str = FORMAT,
-) -> None:
+def run(word: str = "", output: str = "-", format: str = "") -> None:
     """List the keys of a spec: unit, allowed values, default, and the machines that have them.
 
+    Arguments:
+      [TABLE|KEY]  drive, drive.A or A; without one: all.
+
     Examples:
-        geneva keys drive
-        geneva keys size.center_distance_mm
+      geneva keys drive
+      geneva keys size.center_distance_mm
     """
     from geneva_cli.output import show
     from geneva_cli.specfile.keys import Key, about

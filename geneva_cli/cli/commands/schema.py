@@ -1,13 +1,11 @@
 """``geneva schema``."""
 
-from geneva_cli.cli.command import OUTPUT
 
-
-def run(output: str = OUTPUT) -> None:
+def run(output: str = "-") -> None:
     """Print a JSON Schema (draft-07) of specs, with which editors complete and check keys.
 
     Examples:
-        geneva schema -o geneva.schema.json
+      geneva schema -o geneva.schema.json
     """
     import json
 
