@@ -238,5 +238,5 @@ def _sums_of(load: LoadFunctions, result: SearchResult) -> Array:
         squares = [value if name in contact.SQUARED else value * value for name, value in both]
         return [*squares, *(contact.plain_values(value, name) for name, value in both)]
 
-    each = load.integrals(pieces, functions, needed, poles=True)
+    each = load.integrals(pieces, functions, needed)
     return np.array([np.bincount(pieces.design, row, n) for row in each])
