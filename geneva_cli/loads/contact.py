@@ -100,6 +100,11 @@ class LoadCase(NamedTuple):
             all_friction=friction + guide.friction if guide else friction,
         )
 
+    def lossless(self) -> LoadCase:
+        """The load case without friction and losses, and without a contact's stress."""
+        case = self._replace(hertz=None, efficiency=1.0, guide=None)
+        return case.with_friction(0.0)
+
 
 class QuantityValue(NamedTuple, Generic[V]):
     """A quantity, the margin that bounds it where above 0, and the sign of its infinity."""

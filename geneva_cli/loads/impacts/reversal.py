@@ -6,24 +6,23 @@ angles in degrees from the engagement's own mid-motion.
 """
 
 import math
-from collections.abc import Sequence
 from functools import reduce
 from typing import cast
 
 import numpy as np
 
-from geneva_cli.loads.contact import contact
+from geneva_cli.loads.contact import LoadCase, contact
 from geneva_cli.loads.impacts.shock_force import Impacts, harder, shown, with_force
 from geneva_cli.loads.load_case import inertia_kgm2, load_case, resisting_torques_Nm
+from geneva_cli.loads.load_functions import LoadFunctions
 from geneva_cli.loads.strength.pin_arm_key import PinSize
-from geneva_cli.motion.batch import selection, taken
+from geneva_cli.motion.batch import taken
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.peak_search import braking, spans
+from geneva_cli.motion.peak_search import braking
 from geneva_cli.numerics import arrays
 from geneva_cli.numerics.angles import DEGREE, omega
-from geneva_cli.numerics.extremes import Smooth, cuts
-from geneva_cli.numerics.jet import Array, Jet
+from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.roots import find_roots
 from geneva_cli.numerics.tolerances import ROUNDED
 from geneva_cli.spec.workshops import WORKSHOPS
@@ -31,23 +30,19 @@ from geneva_cli.spec.workshops import WORKSHOPS
 
 def changes(engagement: Engagement, drag: Array) -> tuple[arrays.Whole, Array]:
     """Designs and input angles (k,) at which the wheel's torque changes sign: psi2 = -drag."""
-    motion, m = engagement.motion, len(drag)
+    m = len(drag)
     if engagement.paired:  # gears hold the wheel until another roller stops it
-        begins = np.broadcast_to(np.ravel(motion.breaks_deg[-2]), m)
+        begins = np.broadcast_to(np.ravel(engagement.motion.breaks_deg[-2]), m)
         return np.arange(m), begins.astype(float)
-    some = selection(motion)
-
-    def torque(x: Array, which: arrays.Which, order: int, _: Sequence[int]) -> list[Jet]:
-        rate = some(which).rate(x, order + 1)
-        return [rate.derivative() + arrays.parameter(drag[which])]
-
-    f = Smooth(torque, 0, signs=1, unit=DEGREE)
-    which, _, (a, b), positive = cuts(f, spans(motion, m))
-    (middle,) = f(0.5 * (a + b)[:, None], which, 0)[1][0]
+    one = arrays.parameter(drag)
+    case = LoadCase(1.0, 1.0, one, 1.0, 0.0, 0.0, 1.0, None, design=np.arange(m)[:, None])
+    load = LoadFunctions(engagement, case, ())
+    which, _, (a, b), positive = load.stretches()
+    torque = load.at(0.5 * (a + b)[:, None], which)[0].wheel_torque_Nm.arrays()[0][:, 0]
     most = np.zeros(m)
-    np.maximum.at(most, which, abs(middle[:, 0]))
+    np.maximum.at(most, which, abs(torque))
     # a law may run at constant speed for a while
-    kept = abs(middle[:, 0]) > ROUNDED * most[which]
+    kept = abs(torque) > ROUNDED * most[which]
     which, a, b, above = which[kept], a[kept], b[kept], positive[0, kept]
     before = np.flatnonzero((above[1:] != above[:-1]) & (which[:-1] == which[1:]))
     x = 0.5 * (b[before] + a[before + 1])
