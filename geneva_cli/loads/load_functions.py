@@ -122,21 +122,15 @@ class LoadFunctions:
         """
         from geneva_cli.numerics.quadrature import span_integrals  # a check has no integrals
 
-        # those of one span together: a motion of several is evaluated in one of them at a time
-        order = np.argsort(pieces.span, kind="stable")
-        design, ends = pieces.design[order], pieces.x[:, order]
-        signs = np.where(pieces.positive, 1.0, -1.0)[:, order]
+        signs = np.where(pieces.positive, 1.0, -1.0)
 
         def rows(x: Array, which: Whole) -> Array:
-            instant, every, _ = self.at(x, design[which], 0, signs[:, which, None])
-            each = np.broadcast_arrays(*functions(instant, every), x)[:-1]
-            out = np.empty((len(each), *x.shape[::-1])).swapaxes(1, 2)
-            return np.stack(each, out=out)
+            instant, every, _ = self.at(x, pieces.design[which], 0, signs[:, which, None])
+            return np.stack(np.broadcast_arrays(*functions(instant, every), x)[:-1])
 
-        out = np.empty((len(needed), len(order)))
+        ends = pieces.x[0], pieces.x[1]
         with np.errstate(all="ignore"):
-            out[:, order] = span_integrals(rows, (ends[0], ends[1]), design, needed)
-        return out * DEGREE
+            return DEGREE * span_integrals(rows, ends, pieces.design, needed)
 
     def at(
         self, x: Array, which: Which, order: int = 0, held: Array | None = None
