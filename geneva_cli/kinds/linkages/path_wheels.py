@@ -13,7 +13,12 @@ import numpy as np
 
 from geneva_cli.errors import refuse_text
 from geneva_cli.kinds.linkages import tangent_pairs as tangents
-from geneva_cli.kinds.linkages.link_path import Displacement, LinkPath, LinkRate, LinkReactions
+from geneva_cli.kinds.linkages.link_path import (
+    LinkDisplacement,
+    LinkPath,
+    LinkRate,
+    LinkReactions,
+)
 from geneva_cli.motion.engagement import Anchor, Engagement, Vector
 from geneva_cli.motion.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
 from geneva_cli.motion.wheels.classic import HalfStep
@@ -189,7 +194,7 @@ def _engagement(
 class _AlongRay(NamedTuple):
     """The pin's displacement along a ray (x, y) and across it, positive with the wheel."""
 
-    displacement: Displacement
+    displacement: LinkDisplacement
     x: float
     y: float
     scale: float
