@@ -9,7 +9,7 @@ from typing import Any, NamedTuple, Self, cast
 from geneva_cli.motion.engagement import Held, Loads, Vector, cross
 from geneva_cli.numerics.angles import radians, sin_cos_deg
 from geneva_cli.numerics.arrays import Array, Batchable, Complex, Which, enclosed
-from geneva_cli.numerics.jet import Jet, Number, sin_cos, sqrt, turning
+from geneva_cli.numerics.jet import Jet, Number, rotation, sin_cos, sqrt, turning
 from geneva_cli.spec.rules import is_array
 
 
@@ -41,33 +41,43 @@ class LinkDisplacement(NamedTuple):
     side: float  # of 1 - cos t
     rate: float  # of the right-hand side by sin d, which is the link's rate of rotation
     fall: float  # and by -(1 - cos d)
-    vx: float  # velocity of the point
-    vy: float
-    ax: float  # crank pin A from its axis
-    ay: float
-    dx: float  # the point from A
-    dy: float
+    # the displacement (x, y) by sin d, by 1 - cos d, by what -sin t has beyond its linear part, and
+    # by 1 - cos t
+    velocity_x: float
+    velocity_y: float
+    pin_x: float
+    pin_y: float
+    bent_x: float
+    bent_y: float
+    fallen_x: float
+    fallen_y: float
 
     @property
     def velocity(self) -> Complex:
         """Complex velocity at that angle."""
-        return cast("Complex", self.vx + 1j * self.vy)
+        return cast("Complex", self.velocity_x + 1j * self.velocity_y)
 
-    def __call__(self, sine: Jet, versine: Jet) -> Vector:
-        """Displacement (x, y) from sin d and 1 - cos d of the crank's rotation d since then."""
-        numbers = enclosed(sine.c[0], self)
-        ahead, back, side, rate, fall, vx, vy, ax, ay, dx, dy = numbers
+    def along(self, x: float, y: float, scale: float, sense: float) -> LinkDisplacement:
+        """Return the displacement along a vector (x, y) and across it, times numbers."""
+        factors, out = self[5:], list[float]()
+        for u, v in zip(factors[::2], factors[1::2], strict=True):
+            out += [(u * x + v * y) * scale, (v * x - u * y) * (sense * scale)]
+        return LinkDisplacement(*self[:5], *out)
+
+    def __call__(self, tau: Number, order: int) -> Vector:
+        """Displacement (x, y) after a rotation d of the crank, ``tau`` radians."""
+        sine, versine = rotation(tau, order)
+        ahead, back, side, rate, fall, vx, vy, px, py, bx, by, fx, fy = enclosed(sine.c[0], self)
         more, low = sine * ahead + versine * back, versine * fall
         first, level, right = more + 1.0, side - sine * back + versine * ahead, sine * rate - low
         root = sqrt(first * first + right * (level * 2.0 - right))
         tangent = right / (first + root)
         turn = tangent * 2.0 / (tangent * tangent + 1.0)
         fallen = turn * tangent
-        # what sin t is beyond its linear part
-        bent = (low + level * fallen + more * turn) * -1.0
+        bent = low + level * fallen + more * turn
         return (
-            sine * vx - versine * ax - bent * dy - fallen * dx,
-            sine * vy - versine * ay + bent * dx - fallen * dy,
+            sine * vx + versine * px + bent * bx + fallen * fx,
+            sine * vy + versine * py + bent * by + fallen * fy,
         )
 
 
@@ -122,8 +132,8 @@ class LinkPath(Batchable, ABC):
         sizes = ahead.real / sine, -ahead.imag / sine, side, rate, fall
         if velocity is None:
             velocity = 1j * (pin + rate * arm)
-        out = velocity.real, velocity.imag, pin.real, pin.imag, arm.real, arm.imag
-        return LinkDisplacement(*sizes, *out)
+        factors = velocity, -pin, -1j * arm, -arm
+        return LinkDisplacement(*sizes, *(x for z in factors for x in (z.real, z.imag)))
 
     def place(self, sine: Jet, cosine: Jet) -> tuple[Jet, Jet]:
         """Point (x, y) for a crank direction."""
