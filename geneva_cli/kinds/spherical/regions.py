@@ -23,7 +23,7 @@ from geneva_cli.geometry import sphere
 from geneva_cli.geometry.sphere import POLE, Cap, Region, Rotation, SphereArc, opposite, place
 from geneva_cli.geometry.sphere_arcs import RoundHole, least_wall
 from geneva_cli.kinds.spherical.ball import Ball, refuse_above, refuse_wide
-from geneva_cli.kinds.spherical.stops import about
+from geneva_cli.motion.pivots import turned_points
 from geneva_cli.numerics.arrays import Array, within_half_turn
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.outlines.crank_outline import widest
@@ -94,7 +94,7 @@ def edge_points(ball: Ball, each: int = 200) -> Array:
     fractions = np.arange(each) / each
     one = np.concatenate([arc.at(arc.sweep * fractions)[0] for arc in edge(ball)])
     angle = 2.0 * ball.half_step * np.arange(ball.z)  # of each slot
-    return about(np.tile(one, (ball.z, 1)), np.repeat(angle, len(one)))
+    return turned_points(np.tile(one, (ball.z, 1)), np.repeat(angle, len(one)))
 
 
 def sectors(ball: Ball) -> list[Region]:

@@ -16,6 +16,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc
+from geneva_cli.motion.pivots import PlaneMotion
 from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.parts.turn.stops import Branches, Meetings, Stops
 
@@ -53,7 +54,7 @@ class FreeRanges:
         self.period = math.tau if which is None else pitch
         sector = wheel if which is None else wheel.subset(which)
         # one sector stands for all, so that rounded numbers of a drawing make no difference
-        self.stops = Stops(sector, self.period, [self.crank], L, 0.0)
+        self.stops = Stops(sector, self.period, crank, 0.0, PlaneMotion(L))
         self.own = self.stops.branches(sector, None, 0.0)
 
     def with_slack(self, slack: float) -> FreeRanges:
