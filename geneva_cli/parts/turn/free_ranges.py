@@ -137,12 +137,6 @@ def union(row: Whole, start: Array, end: Array) -> Intervals:
 
 
 def levels(outline: Polyarc) -> tuple[Array, Array]:
-    """Return bounds of the distance of the points of each piece from the origin, mm."""
-    middle, far = np.hypot(outline.ox, outline.oy), np.hypot(outline.cx, outline.cy)
-    low, high = np.maximum(middle - outline.size, 0.0), middle + outline.size
-    # of a whole circle
-    least, most = np.abs(far - outline.radius), far + outline.radius
-    ends = np.hypot(outline.x0, outline.y0), np.hypot(outline.x1, outline.y1)
-    arc = outline.arc
-    most = np.where(arc, np.minimum(high, most), np.maximum(*ends))
-    return np.where(arc, np.maximum(low, least), low), most
+    """Return the least and greatest distance of each piece from the origin, mm."""
+    origin = np.zeros((1, 2))
+    return outline.distances(*origin.T)[0], outline.farthest(origin)[0]
