@@ -12,7 +12,7 @@ from geneva_cli.geometry.loops import loops
 from geneva_cli.geometry.plates import moments
 from geneva_cli.geometry.shapes import Arc, Line, at
 from geneva_cli.output.foreign import read_drawing
-from geneva_cli.output.foreign.drawn import CURVE_MM, ellipse_pieces
+from geneva_cli.output.foreign.drawn import CURVE_MM, Ellipse, traced
 
 
 def dxf(folder, draw, units=4):
@@ -204,7 +204,7 @@ def test_svg_curves_and_their_smooth_continuations(tmp_path):
 
 def test_a_skewed_circle_is_the_ellipse_of_its_points():
     p, q = 8 + 0j, 4 * math.tan(math.radians(20.0)) - 4j
-    for piece in ellipse_pieces(0j, (p, q), (0.0, math.tau))[::5]:
+    for piece in traced(Ellipse(0j, p, q), lambda z: z)[::5]:
         z = complex(*piece.start)
         t = np.linalg.solve(np.array([[p.real, q.real], [p.imag, q.imag]]), (z.real, z.imag))
         assert np.hypot(*t) == pytest.approx(1.0, abs=1e-4)
