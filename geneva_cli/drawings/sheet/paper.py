@@ -59,15 +59,16 @@ def on_paper(
     spec: Spec,
     rows: list[dict[str, Any]],
     largest: float,
-    blocks: Callable[[float], tuple[list[Block], Callable[[], Iterable[list[Block]]]]],
     area: float,
+    views: Callable[[float], list[Block]],
+    rest: Callable[[float], Iterable[list[Block]]],
 ) -> sheet.Sheet:
     """Return the sheet with blocks at the largest scale at which all fit on it.
 
-    ``rows`` are its list of items. ``blocks`` returns what is always on it, and a function that
-    yields alternatives of the rest, the best first, for each size of paper. ``largest`` is the
-    greatest length that is drawn, mm. ``area``, mm², is the least area that some of it needs.
-    Raises GenevaError where no scale fits.
+    ``rows`` are its list of items. ``largest`` is the greatest length that is drawn, mm. ``area``,
+    mm², is the least area that some of it needs. ``views`` returns what is always on it at a scale.
+    ``rest`` yields alternatives of what is added, the best first. Raises GenevaError where no scale
+    fits.
     """
     items = _items(rows)
     for scale in SCALES:
@@ -75,12 +76,12 @@ def on_paper(
         most = 170.0 if scale > 1.0 else wide  # mm: an enlarged part is no wider than a hand
         if scale * largest > most or scale * scale * area > wide * high:
             continue
-        parts, alternatives = blocks(scale)
+        parts = views(scale)
         for paper in FORMATS:
             inside = LEFT, MARGIN, paper.width - MARGIN, paper.height - MARGIN
             if is_overfull(parts, inside):
                 continue
-            for one in alternatives():
+            for one in rest(scale):
                 every = [*parts, *one]
                 if is_overfull(every, inside):
                     continue
