@@ -148,12 +148,12 @@ class LazyGroup(PlainValues, TyperGroup):
 
 
 def _bar(what: str, total: int) -> Any:
-    """A progress bar, if standard error is a terminal."""
-    if not sys.stderr.isatty():
+    """A progress bar, if standard error is a terminal that can move its cursor."""
+    if not sys.stderr.isatty() or os.environ.get("TERM") == "dumb":
         return None
-    from geneva_cli.output.terminal.bar import TextBar
+    from geneva_cli.output.terminal.bar import Bar
 
-    return TextBar(what, total)
+    return Bar(what, total)
 
 
 def _usage(path: str, error: Any) -> str:
