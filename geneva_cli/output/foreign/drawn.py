@@ -40,34 +40,35 @@ class Ellipse(NamedTuple):
 
 # a part of an ellipse, or the poles of a line or a Bézier curve, as complex numbers
 Curve: TypeAlias = Ellipse | Sequence[complex]
+Traced: TypeAlias = tuple[list[Line | Arc], bool]
 Frame: TypeAlias = Callable[[complex], complex]  # where a point of a drawing is, mm
 
 
-def traced(curve: Curve, frame: Frame) -> list[Line | Arc]:
-    """Return a curve as lines and arcs within ``CURVE_MM``."""
+def traced(curve: Curve, frame: Frame) -> Traced:
+    """Return a curve as lines and arcs within ``CURVE_MM``, and whether they are the curve."""
     if not isinstance(curve, Ellipse):
-        return _bezier([*map(frame, curve)])
+        return _bezier([*map(frame, curve)]), len(curve) == 2
     major, minor = (frame(half) - frame(0j) for half in curve[1:3])
     if abs((major.conjugate() * minor).imag) <= 1e-9 * max(abs(major), abs(minor)) ** 2:
         raise GenevaError("a circle or ellipse has no width: remove it")
     return _ellipse(Ellipse(frame(curve.centre), major, minor, *curve[3:]))
 
 
-def _ellipse(own: Ellipse) -> list[Line | Arc]:
+def _ellipse(own: Ellipse) -> Traced:
     centre, major, minor, start, sweep = own
     way = math.copysign(1.0, (major.conjugate() * minor).imag)
     if abs(minor - way * 1j * major) <= 1e-9 * abs(major):  # a circle
         first, at = cmath.phase(major) + way * start, (centre.real, centre.imag)
         count = max(1, math.ceil(abs(sweep) / math.pi - 1e-12))  # parts of at most half a turn
         part = way * sweep / count
-        return [about(at, abs(major), first + part * i, part) for i in range(count)]
+        return [about(at, abs(major), first + part * i, part) for i in range(count)], True
 
     def curve(t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         points = centre + major * np.cos(t) + minor * np.sin(t)
         tangents = minor * np.cos(t) - major * np.sin(t)
         return _pairs(points), _pairs(math.copysign(1.0, sweep) * tangents / np.abs(tangents))
 
-    return list(arcs(curve, start, start + sweep, CURVE_MM))
+    return list(arcs(curve, start, start + sweep, CURVE_MM)), False
 
 
 def _bezier(poles: Sequence[complex]) -> list[Line | Arc]:

@@ -13,7 +13,7 @@ from geneva_cli.errors import GenevaError, cut
 from geneva_cli.geometry.fit import arcs
 from geneva_cli.geometry.shapes import Arc, Line
 from geneva_cli.output.ezdxf_alone import Document, readfile
-from geneva_cli.output.foreign.drawn import CURVE_MM, Drawn, Ellipse, traced
+from geneva_cli.output.foreign.drawn import CURVE_MM, Drawn, Ellipse, Traced, traced
 
 # $INSUNITS: millimetres in one unit
 UNITS = {
@@ -33,8 +33,6 @@ PASSED = {
 KNOWN = ("LINE", "ARC", "CIRCLE", "LWPOLYLINE", "POLYLINE", "ELLIPSE", "SPLINE")
 DEEPEST = 16  # blocks in blocks
 
-Pieces = list[Line | Arc]
-
 
 def read_dxf(data: bytes) -> Drawn:
     """Return the lines and arcs of a DXF file's model space.
@@ -49,8 +47,8 @@ def read_dxf(data: bytes) -> Drawn:
         raise GenevaError(
             f"$INSUNITS is {code}: it must be one of {', '.join(map(str, UNITS))}; 4 is millimetres"
         )
-    pieces: Pieces = []
-    exact, unit = True, UNITS.get(code, 1.0)
+    pieces: list[Line | Arc] = []
+    is_exact, unit = True, UNITS.get(code, 1.0)
     for entity in _entities(document, document.modelspace(), 0):
         kind = entity.dxftype()
         if kind not in KNOWN:
@@ -59,13 +57,14 @@ def read_dxf(data: bytes) -> Drawn:
                 f"one of {', '.join(KNOWN)}"
             )
         try:
-            pieces += _pieces(kind, entity, unit)
+            own, exact = _pieces(kind, entity, unit)
         except (ArithmeticError, ValueError, LookupError, AttributeError) as error:
             handle = entity.dxf.get("handle", "?")
             raise GenevaError(f"{kind} with the handle {handle} cannot be read: {error}") from None
-        exact &= kind not in ("ELLIPSE", "SPLINE")
+        pieces += own
+        is_exact &= exact
     notes = () if code else ("has no unit ($INSUNITS): its numbers are taken as millimetres",)
-    return Drawn(tuple(pieces), notes, exact)
+    return Drawn(tuple(pieces), notes, is_exact)
 
 
 def _document(data: bytes) -> Document:
@@ -105,12 +104,12 @@ def _entities(document: Document, entities: Iterable[Any], depth: int) -> Iterat
             yield from _entities(document, one.virtual_entities(), depth + 1)
 
 
-def _pieces(kind: str, entity: Any, unit: float) -> Pieces:
-    """Return an entity's pieces, mm; a unit of the drawing has ``unit`` mm."""
+def _pieces(kind: str, entity: Any, unit: float) -> Traced:
+    """Return an entity's pieces, mm, as ``traced``; a unit of the drawing has ``unit`` mm."""
     dxf, points = entity.dxf, list[tuple[float, ...]]()  # x, y, bulge
     is_flat, is_closed = kind in ("CIRCLE", "ARC"), False
     if kind == "SPLINE":
-        return _spline(entity.construction_tool(), unit)
+        return _spline(entity.construction_tool(), unit), False
     if kind == "LWPOLYLINE":
         points, is_flat, is_closed = [*entity.get_points("xyb")], True, entity.closed
     elif kind == "POLYLINE":
@@ -142,14 +141,14 @@ def _pieces(kind: str, entity: Any, unit: float) -> Pieces:
         return traced(Ellipse(*axes, math.radians(start), sweep), frame)
     ends = [(frame(_complex(p)), up * float(p[2])) for p in [*points, *points[: 1 * is_closed]]]
     pairs = (((p.real, p.imag), (q.real, q.imag), bulge) for (p, bulge), (q, _) in pairwise(ends))
-    return [Arc(p, q, bulge) if bulge else Line(p, q) for p, q, bulge in pairs]
+    return [Arc(p, q, bulge) if bulge else Line(p, q) for p, q, bulge in pairs], True
 
 
 def _complex(v: Any) -> complex:
     return complex(v[0], v[1])
 
 
-def _spline(tool: Any, unit: float) -> Pieces:
+def _spline(tool: Any, unit: float) -> list[Line | Arc]:
     knots, degree = list(tool.knots()), tool.degree
     if degree == 1:
         points = [(unit * v.x, unit * v.y) for v in tool.control_points]
@@ -166,7 +165,7 @@ def _spline(tool: Any, unit: float) -> Pieces:
     inner = sorted(set(knots[degree : len(knots) - degree]))
     corners = [k for k in inner[1:-1] if knots.count(k) >= degree]
     edge = 1e-12 * (inner[-1] - inner[0])
-    out: Pieces = []
+    out: list[Line | Arc] = []
     for a, b in pairwise([inner[0], *corners, inner[-1]]):
         low, high = a + (edge if a in corners else 0.0), b - (edge if b in corners else 0.0)
         out += arcs(curve, low, high, CURVE_MM)

@@ -53,8 +53,9 @@ def read_svg(data: bytes) -> Drawn:
     is_exact = True
     for element, frame in _shapes(root, lambda z: unit * z.conjugate()):  # its y axis points down
         for curve in _curves(element):
-            pieces += traced(curve, frame)
-            is_exact &= isinstance(curve, Ellipse) or len(curve) == 2
+            own, exact = traced(curve, frame)
+            pieces += own
+            is_exact &= exact
     return Drawn(tuple(pieces), notes, is_exact)
 
 
