@@ -56,21 +56,13 @@ def draw_disc(view: View, parts: FlatParts) -> View:
 
 
 def _gaps(view: View, lock: float, locking: list[Arc]) -> None:
-    """Draw the angles between the locking arcs; adjoining ones are one arc."""
-    joined: list[Arc] = []
-    for arc in locking:
-        if joined and joined[-1].end == arc.start:
-            sweep = joined[-1].sweep + arc.sweep
-            joined[-1] = Arc(joined[-1].start, arc.end, math.tan(0.25 * sweep))
-        else:
-            joined.append(arc)
-    ends = sorted(map(legs, joined))
-    named = []
+    """Draw the angles between the locking arcs that do not adjoin."""
+    ends, gaps = sorted(map(legs, locking)), []
     for (_, end), (start, _) in zip(ends, [*ends[1:], *ends[:1]], strict=True):
         wide = (start - end) % math.tau
-        if wide > SAME_ON_SHEET:
-            named.append((degrees(wide), (end, end + wide)))
-    for text, pairs in grouped(named):
+        if SAME_ON_SHEET < wide < math.tau - SAME_ON_SHEET:
+            gaps.append((degrees(wide), (end, end + wide)))
+    for text, pairs in grouped(gaps):
         view.angular(pairs, lock, lock, text)
 
 
