@@ -54,15 +54,6 @@ class GrowingTable:
         self.done += count
 
     def blocks(self) -> Iterator[bytes]:
-        """Yield the bytes of each block. Raises GenevaError if rows are no longer there."""
-        done = self.done
-        yield from self._read()
-        if self.done != done:
-            raise GenevaError(
-                f"{self.name}: changed or damaged while the run wrote it; run again with --resume"
-            )
-
-    def _read(self) -> Iterator[bytes]:
         """Yield the bytes of each block, and count the rows; cut off the first damaged block."""
         self.state.seek(0)
         self.done, end = 0, len(self.state.readline(LINE_MAX))
@@ -91,7 +82,7 @@ class GrowingTable:
             self.state.truncate()
             self.state.write(first)
         if resume:
-            deque(self._read(), maxlen=0)
+            deque(self.blocks(), maxlen=0)
             self.message = f"--resume: {self.name}: continues after row {self.done}"
 
 
@@ -133,10 +124,14 @@ def growing(
             if is_parquet:
                 rows.encode = parquet.block_of
             yield rows
-            if not is_parquet:
-                file.writelines(chain([one_line(names).encode()], rows.blocks()))
-            else:
-                if not rows.done:
-                    rows.append([[] for _ in names])  # the names of the columns are in each block
+            if is_parquet and not rows.done:
+                rows.append([[] for _ in names])  # the names of the columns are in each block
+            done = rows.done
+            if is_parquet:
                 parquet.write(file, rows.blocks, texts)
+            else:
+                file.writelines(chain([one_line(names).encode()], rows.blocks()))
+            if rows.done != done:
+                why = "changed or damaged while the run wrote it; run again with --resume"
+                raise GenevaError(f"{rows.name}: {why}")
         remove(state, path)

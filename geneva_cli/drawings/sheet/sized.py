@@ -106,10 +106,8 @@ def screw_hole(radius: float, tapped: bool = False) -> str:
     ('Ø 5.5 for M5', 'Ø 4.2, tapped M5', 'Ø 1')
     """
     hole = plain(2.0 * radius, "Ø ")
-    if tapped:
-        for one in SCREWS:
-            if abs(one.thread - one.pitch - 2.0 * radius) < SAME_ON_SHEET:
-                return f"{hole}, tapped M{one.thread:g}"
-        return hole
     screw = screw_through(2.0 * radius)
-    return f"{hole} for M{screw.thread:g}" if screw else hole
+    if tapped:
+        near = ((one, abs(one.thread - one.pitch - 2.0 * radius)) for one in SCREWS)
+        screw = next((one for one, off in near if off < SAME_ON_SHEET), None)
+    return f"{hole}{', tapped' if tapped else ' for'} M{screw.thread:g}" if screw else hole

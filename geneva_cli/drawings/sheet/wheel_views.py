@@ -25,8 +25,8 @@ def draw_wheel(view: View, parts: FlatParts) -> View:
     wheel, *hubs = plates(parts.wheel.part)
     for shape in outlines_of(parts.wheel.part):
         view.draw(HIDDEN if shape.layer == "HUB" else OUTLINE, shape)
-    edges = [s for s in (wheel.outline, *wheel.holes) if isinstance(s, shapes.Contour)]
-    contour = next(s for s in edges if s.layer == wheel.layer)
+    edges = (s for s in (wheel.outline, *wheel.holes) if s.layer == wheel.layer)
+    contour = next(s for s in edges if isinstance(s, shapes.Contour))
     reach = sizes.outer or max(math.hypot(*s.start) for s in contour.segments)
     view.cross(shapes.ORIGIN, reach)
     slots, angles = dict[Engagement, list[shapes.Contour]](), list[float]()
@@ -152,9 +152,8 @@ def draw_frame(
     """Draw the frame: its size, and diameter and position of each hole from the axis."""
     view.draw(OUTLINE, plate.outline, *plate.holes)
     holes = [hole for hole in plate.holes if isinstance(hole, shapes.Circle)]
-    # the axis may have no hole
-    first = [(shapes.ORIGIN, holes[0].radius)] if holes else []
-    for centre, radius in dict([*first, *((h.centre, h.radius) for h in holes)]).items():
+    crosses = {shapes.ORIGIN: holes[0].radius} if holes else {}  # the axis may have no hole
+    for centre, radius in (crosses | {hole.centre: hole.radius for hole in holes}).items():
         view.cross(centre, radius)
     box = shapes.bounds(plate.outline)
     up = 0.5 * math.pi
