@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 T = TypeVar("T")
 
 
-# Makes a bar, such as ``TextBar``, from the word for the items and their number; None if nobody
+# Makes a bar, such as ``Bar``, from the word for the items and their number; None if nobody
 # watches.
 maker: Callable[[str, int], Any] | None = None
 _shown: list[Any] = []  # at most one bar: work within other work is not shown

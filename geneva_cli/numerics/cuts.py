@@ -240,8 +240,3 @@ def spread(x: Array, w: Array) -> Array:
     Elliott, P. R. Johnston, Int. J. Numer. Meth. Engng 62 (2005).
     """
     return np.asarray(w * np.arcsinh(x / w))
-
-
-def gathered(u: Array, w: Array) -> Array:
-    """The places x at u."""
-    return np.asarray(w * np.sinh(u / w))

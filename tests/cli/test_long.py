@@ -6,6 +6,7 @@ import io
 import json
 import math
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -20,7 +21,7 @@ from words import load
 from geneva_cli import progress
 from geneva_cli.motion.motion_table import SAMPLES_MAX, motion_table
 from geneva_cli.output import show
-from geneva_cli.output.terminal.bar import TextBar
+from geneva_cli.output.terminal import bar
 from geneva_cli.table import WHOLE_ROWS, Table, record_table, rows_table
 
 
@@ -82,18 +83,23 @@ def test_memory_does_not_grow(command, text):
 
 
 def test_a_bar_shows_what_is_left_and_goes(capsys, monkeypatch):
-    """After a second, at most ten times a second, in one line that is overwritten."""
-    clock = iter([0.0, 0.5, 2.0, 2.05, 3.0])
-    monkeypatch.setattr("geneva_cli.output.terminal.bar.time.monotonic", lambda: next(clock))
-    monkeypatch.setattr("geneva_cli.output.terminal.bar.columns", lambda: 60)
-    monkeypatch.setattr(progress, "maker", TextBar)
-    # what is inside of other work shows nothing of its own
-    outer = (len([*progress.tracked("ab", "inner", 2)]) for _ in range(4))
-    assert [*progress.tracked(outer, "outer", 4)] == [2] * 4
-    _, first, second, *end = capsys.readouterr().err.split("\r")
-    assert first == f"[{'#' * 15}{'-' * 15}] 2 of 4 outer, 0:02 left"
-    assert second == f"[{'#' * 30}] 4 of 4 outer, 0:00 left"
-    assert all(not part.strip() for part in end)
+    """Work of a second shows none; longer work has one line, which is overwritten and removed."""
+    for name, value in {"FORCE_COLOR": "1", "TERM": "xterm", "COLUMNS": "60"}.items():
+        monkeypatch.setenv(name, value)
+    monkeypatch.setattr(progress, "maker", bar.Bar)
+    seen = []
+    for seconds in (1e9, 0.0):
+        monkeypatch.setattr(bar, "AFTER_S", seconds)
+        monkeypatch.setattr(bar, "EVERY_S", seconds)
+        # what is inside of other work shows nothing of its own
+        outer = (len([*progress.tracked("ab", "inner", 2)]) for _ in range(4))
+        assert [*progress.tracked(outer, "outer", 4)] == [2] * 4
+        seen.append(re.sub(r"\x1b\[[?\d;]*\w", "", capsys.readouterr().err).split("\r"))
+    none, lines = seen
+    assert none == [""]
+    assert [f"{done}/4 outer, " in lines[done] for done in range(5)] == [True] * 5
+    assert all(len(line.strip()) <= 60 and "inner" not in line for line in lines)
+    assert lines[-1] == ""
 
 
 # Numbers that are none

@@ -149,19 +149,13 @@ def no_parts(spec: Spec) -> str:
 
 
 class Sliding(PlaneMotion):
-    """The travel of a rack along y, by ``radius`` a radian."""
-
-    PERIOD = math.inf
-    TURNS = 0.0
-
-    def __init__(self, radius: float) -> None:
-        self.radius = radius
+    """The travel of a rack along y, by the crank's radius L a radian."""
 
     def into(self, points: Array, turn: Array) -> Array:
         """Return points, moved back along y."""
-        out = points.copy()
-        out[:, 1] -= self.radius * turn
-        return out
+        import numpy as np
+
+        return np.stack((points[..., 0] + 0.0 * turn, points[..., 1] - self.L * turn), axis=-1)
 
     def level(self, points: Array) -> Array:
         """Return the position across the rack, x."""
@@ -169,7 +163,7 @@ class Sliding(PlaneMotion):
 
     def place(self, points: Array) -> Array:
         """Return the position along the rack, over the radius."""
-        return points[..., 1] / self.radius
+        return points[..., 1] / self.L
 
     def outwards(self, points: Array) -> Array:
         """Return the x axis."""
@@ -177,11 +171,11 @@ class Sliding(PlaneMotion):
 
     def lever(self, level: N) -> N:
         """Return the radius, at any level."""
-        return 0.0 * level + self.radius
+        return 0.0 * level + self.L
 
     def half_span(self, reach: float, level: float) -> float:
         """Return the disc's radius over the rack's."""
-        return reach / self.radius
+        return reach / self.L
 
 
 def refuses(spec: Spec) -> Iterator[Conflict]:

@@ -177,7 +177,7 @@ class Gearing(SpecTable):
 
     def plane_motion(self, center_distance_mm: float) -> PlaneMotion:
         """How the wheel moves in its plane, for lengths in millimetres."""
-        return PlaneMotion()
+        return PlaneMotion(center_distance_mm)
 
     def matched_ratio(self, v: float) -> float:
         """R/L at which the pin crosses the line of centres as fast as its slot does; NaN if none.

@@ -1,87 +1,85 @@
-"""A page of the manual on a terminal: its Markdown, in the window's width.
+"""A page of the manual on a terminal: its Markdown, by Rich, in the window's width."""
 
-It supports the Markdown of the pages: headings, paragraphs, lists, tables and blocks of code, and
-within lines code, bold words and links.
-"""
-
+import io
 import re
 from collections.abc import Iterator
+from typing import ClassVar
+
+from rich.console import Console, ConsoleOptions, RenderResult
+from rich.default_styles import DEFAULT_STYLES
+from rich.markdown import CodeBlock, Heading, Markdown, TableElement
+from rich.text import Text
+from rich.theme import Theme
 
 from geneva_cli.output.terminal import layout
-from geneva_cli.output.terminal.layout import BOLD, PLAIN, ShownColumn, Window
-from geneva_cli.output.text import WIDTH
+from geneva_cli.output.terminal.layout import ShownColumn, Window
 
 INDENT = "  "  # before code
 PROSE = 20  # letters to which a column of prose is narrowed before a table becomes a list
+MOST = 100  # letters of a line of prose; longer ones are hard to read
 LINK = re.compile(r"\[([^]]+)\]\([^)]*\)")
-CODE = re.compile(r"`([^`]+)`|\*\*([^*]+)\*\*")
-START = r"[-*] |#|\||```"  # of a block, with or without an empty line before it
-BLOCK = re.compile(
-    r"(?:```.*\n(?P<code>(?:(?!```).*\n)*)(?:```.*)?"
-    r"|(?P<table>\|.*(?:\n\|.*)*)"
-    r"|(?P<head>#.*)"
-    rf"|(?P<text>.+(?:\n(?!{START}).+)*)|(?=\n))\n?"  # or an empty line
-)
-RULE = re.compile(r"\|[-:| ]+")  # the line below the headings of a table
+BOLD = re.compile(r"markdown\.(h\d|code|strong)")
+LOOK = Theme({name: "bold" if BOLD.fullmatch(name) else "none" for name in DEFAULT_STYLES})
+
+
+class _Heading(Heading):
+    LEVEL_ALIGN: ClassVar = {}  # all at the left
+
+
+class _Code(CodeBlock):
+    """Lines as they stand, indented; a longer one is broken between words, a rule is shortened."""
+
+    def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
+        width = options.max_width - len(INDENT)
+        for line in str(self.text).rstrip().split("\n"):
+            is_rule = not any(map(str.isalnum, line))
+            for part in [line[:width]] if is_rule else layout.wrapped(line, width):
+                yield Text(INDENT + part)
+
+
+class _Table(TableElement):
+    """Columns as in our tables, as Rich breaks words; in a narrow window a value a line."""
+
+    def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
+        assert self.header and self.header.row and self.body
+        lines = [self.header.row, *self.body.rows]
+        names, *rows = ([cell.content.plain for cell in line.cells] for line in lines)
+        columns = [
+            ShownColumn(n, n, "", cells, True) for n, *cells in zip(names, *rows, strict=True)
+        ]
+        sizes = layout.widths(columns, options.max_width, PROSE)
+        if sizes:
+            yield from (Text(line, "bold") for line in layout.heads(columns, sizes, False))
+        for row in rows:
+            if sizes:
+                yield from map(Text, layout.row(row, sizes, [True] * len(sizes)))
+                continue
+            for name, text in zip(names, row, strict=True):
+                text = f"{name}: {text}" if name else text
+                yield from map(Text, layout.wrapped(text, options.max_width))
+            yield Text()
+
+
+class _Page(Markdown):
+    elements: ClassVar = {
+        **Markdown.elements,
+        "heading_open": _Heading,
+        "fence": _Code,
+        "code_block": _Code,
+        "table_open": _Table,
+    }
 
 
 def chunks(text: str, window: Window) -> Iterator[str]:
     """The page, line by line."""
-    for block in BLOCK.finditer(text):
-        for line in _shown(block.lastgroup, block[block.lastgroup or 0].strip("\n"), window):
-            yield f"{line}\n"
-
-
-def _shown(kind: str | None, text: str, window: Window) -> Iterator[str]:
-    """The lines of a heading, a paragraph, an item, a table or a block of code."""
-    if kind == "code":
-        for line in text.splitlines():
-            yield from (INDENT + part for part in _broken(line, window.columns - len(INDENT)))
-    elif text.startswith(4 * " "):  # code without fences
-        for line in text.splitlines():
-            yield from _broken(line, window.columns)
-    elif kind == "table":
-        yield from _table(text.splitlines(), window)
-    elif kind == "head" and window.styled:
-        for line in layout.wrapped(_bare(text.lstrip("# ")), window.columns):
-            yield f"{BOLD}{line}{PLAIN}"
-    else:
-        indent = INDENT * text.startswith(("- ", "* "))
-        text = LINK.sub(r"\1", " ".join(line.strip() for line in text.splitlines()))
-        text = f"\n{indent}".join(layout.wrapped(text, min(window.columns, WIDTH) - len(indent)))
-        if window.styled:  # code and bold words in bold, also across lines
-            text = CODE.sub(
-                lambda m: BOLD + (m[1] or m[2]).replace("\n", f"{PLAIN}\n{BOLD}") + PLAIN, text
-            )
-        yield text
-
-
-def _broken(line: str, width: int) -> list[str]:
-    """A line of code, broken between words in a narrow window; a rule is shortened."""
-    if not any(map(str.isalnum, line)):
-        return [line[:width].rstrip()]
-    first, *more = layout.wrapped(line, width)
-    rest = layout.wrapped(" ".join(more), width - 2 * len(INDENT)) if more else []
-    return [first, *(2 * INDENT + part for part in rest)]
-
-
-def _table(block: list[str], window: Window) -> Iterator[str]:
-    lines = [line for line in block if not RULE.fullmatch(line)]
-    names, *rows = [[_bare(cell.strip()) for cell in line.strip("|").split("|")] for line in lines]
-    columns = [
-        ShownColumn(name, name, "", cells, True) for name, *cells in zip(names, *rows, strict=True)
-    ]
-    sizes = layout.widths(columns, window.columns, PROSE)
-    if sizes is not None:
-        yield from layout.heads(columns, sizes, window.styled)
-        for texts in rows:
-            yield from layout.row(texts, sizes, [True] * len(sizes))
-        return
-    for texts in rows:
-        for name, text in zip(names, texts, strict=True):
-            yield from layout.wrapped(f"{name}: {text}" if name else text, window.columns)
-        yield ""
-
-
-def _bare(text: str) -> str:
-    return CODE.sub(lambda match: match[1] or match[2], LINK.sub(r"\1", text))
+    shown = io.StringIO()
+    screen = Console(
+        file=shown,
+        width=min(window.columns, MOST),
+        force_terminal=window.styled,
+        color_system="standard" if window.styled else None,
+        theme=LOOK,
+        legacy_windows=False,
+    )
+    screen.print(_Page(LINK.sub(r"\1", text)))
+    yield from (f"{line.rstrip()}\n" for line in shown.getvalue().splitlines())
