@@ -24,6 +24,8 @@ class Law(SpecTable):
     ABOUT: ClassVar[str]
     # reason in the warning that the law turns the wheel back
     TURNS_BACK: ClassVar[str] = "the law's points must not fall"
+    # True if the second half mirrors the first, an array for a batch; set where keys decide it
+    symmetric: ClassVar[Truth] = True
     # True if analytic between the breaks; a spline is not
     ANALYTIC: ClassVar[bool] = True
 
@@ -31,11 +33,6 @@ class Law(SpecTable):
     def breaks(self) -> tuple[float, ...]:
         """Values of u inside 0..1 at which a derivative up to the fourth jumps, in order."""
         return ()
-
-    @property
-    def symmetric(self) -> Truth:
-        """True if the second half mirrors the first; an array for a batch."""
-        return True
 
     @property
     def knots(self) -> tuple[float, ...]:
