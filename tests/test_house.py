@@ -371,7 +371,8 @@ def test_few_rooms_touch_streams():
 WORDS = {
     "TABLE",  # of the file
     "NAME",  # in the file
-    "WORDS",  # the drive in a sentence
+    "TITLE",  # of a design without one
+    "WORDS",  # the drive or the wheel in a sentence
     "EXAMPLE",  # a spec
     "IN_FRONT",  # the drive in front of another, in a sentence
     "FIRST",  # the reason why no drive may stand before it

@@ -53,7 +53,7 @@ def words(mechanism: Mechanism) -> str:
     count *= each_step
     slots = f"pairs of {slots}" if each_step > 1 else slots
     rollers = "one roller" if count == 1 else f"{count} rollers"
-    named = wheel.words(slots)
+    named = wheel.WORDS.format(wheel, slots)
     behind = f", behind {spec.drive_before.IN_FRONT}," if spec.drive_before else ""
     article = "An" if named[0] in "aeiou" else "A"
     driven = f"{drive.WORDS}{behind} with {rollers} at {drive.n_rpm:g} rpm"

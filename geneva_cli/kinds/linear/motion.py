@@ -41,6 +41,8 @@ class Linear(Gearing):
     FLAT: ClassVar[bool] = False
     DISTANCE: ClassVar[str] = "crank radius"
     LOCK: ClassVar[str] = "locking ring"
+    TITLE: ClassVar[str] = "Geneva rack of {} slots"
+    WORDS: ClassVar[str] = "rack of {0.z} parallel slots"
 
     def output(self, center_distance_mm: float) -> Output:
         """The travel, in millimetres."""
@@ -57,11 +59,6 @@ class Linear(Gearing):
         units = "rack_mm", "mm", R, "m", radius_m
         return Output("rack", *units, f"{keys} in [load]", *named, turns=False)
 
-    @property
-    def title(self) -> str:
-        """The title of a design without one of its own."""
-        return f"Geneva rack of {self.z} slots"
-
     def axes(self, L: float) -> tuple[Pivot, ...]:
         """Axis of the crank."""
         return (Pivot("crank axis", L, 0.0),)
@@ -69,10 +66,6 @@ class Linear(Gearing):
     def plane_motion(self, center_distance_mm: float) -> PlaneMotion:
         """How the rack slides: by the crank's radius a radian."""
         return Sliding(center_distance_mm)
-
-    def words(self, slots: str) -> str:
-        """The rack in words, whose slots are parallel."""
-        return f"rack of {self.z} parallel slots"
 
     def index_deg(self, i: int) -> float:
         """Step of the pinion, two radians, in degrees."""

@@ -79,6 +79,9 @@ class Gearing(SpecTable):
     FLAT: ClassVar[bool] = True
     # meaning of center_distance_mm
     DISTANCE: ClassVar[str] = "centre distance"
+    # title of a design without one of its own, and the wheel in words, for a kind of slots
+    TITLE: ClassVar[str] = "Geneva wheel of {} slots"
+    WORDS: ClassVar[str] = "{0.NAME} wheel of {0.z} {1} slots"
     # what locks it in the dwell, on a crank
     LOCK: ClassVar[str] = "locking disc"
     # These are set as the wheel is made, where a kind decides them:
@@ -108,15 +111,11 @@ class Gearing(SpecTable):
     @property
     def title(self) -> str:
         """The title of a design without one of its own."""
-        return f"Geneva wheel of {self.z} slots"
+        return self.TITLE.format(self.z)
 
     def axes(self, L: float) -> tuple[Pivot, ...]:
         """Axes of wheel and crank in the plane of the parts, for a centre distance in mm."""
         return Pivot("wheel axis", 0.0, 0.0), Pivot("crank axis", L, 0.0)
-
-    def words(self, slots: str) -> str:
-        """The wheel in words; ``slots`` is the kind of its slots."""
-        return f"{self.NAME} wheel of {self.z} {slots} slots"
 
     def output(self, center_distance_mm: float) -> Output:
         """What the wheel gives out: its angle, in degrees."""
@@ -148,10 +147,6 @@ class Gearing(SpecTable):
         takes no other R/L. Raises GenevaError if the roller cannot pass the line of centres.
         """
         return None
-
-    def rest(self, ratio: float) -> float:
-        """Least distance of a pin on any circle from the wheel's axis: 1 - l, inside 1 + l."""
-        return 1.0 - self.SIGN * ratio
 
     def follow(
         self, path: AnchoredPath, place: RollerPlace, turn: Displacement
