@@ -10,12 +10,11 @@ from functools import reduce
 from typing import Annotated, Any, ClassVar, Self
 
 from geneva_cli.errors import refuse_text
-from geneva_cli.kinds.linkages.link_path import LinkPath, LinkPose
+from geneva_cli.kinds.linkages.link_path import Guide, LinkPath
 from geneva_cli.kinds.linkages.linkage import Linkage, Moving
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link
 from geneva_cli.numerics.arrays import larger, library, smaller
-from geneva_cli.numerics.jet import Jet, sqrt, turned_at
 from geneva_cli.spec.rules import POSITIVE, OneOf, Range
 from geneva_cli.spec.schema import Example
 
@@ -118,24 +117,13 @@ class CouplerPath(LinkPath):
 
     side = 1  # on which the coupler is of the crank's line, or -1
 
-    def link(self, sine: Jet, cosine: Jet) -> tuple[Jet, Jet]:
-        """Unit vector along the coupler, from A towards B."""
-        a, g, b, c, _, _ = self.numbers
-        order = sine.order
-        sine, cosine = (Jet(x.c[: max(order, 1)]) for x in (sine, cosine))
-        dx, dy = g - cosine.c[0] * a, sine.c[0] * -a
-        D = Jet((dx * dx + dy * dy, *(cosine * (-2.0 * g * a)).c[1:]))  # a² is constant
-        m, u = (b - c) * (b + c), 1.0 / D
-        # N² as a product (Heron)
-        N = sqrt(((b + c) ** 2 - D) * (D - (b - c) ** 2)) * self.side
-        along, across = (1.0 + u.c[0] * m) / (2.0 * b), N.c[0] * u.c[0] / (2.0 * b)
-        ex, ey = dx * along - dy * across, dy * along + dx * across
-        if not order:
-            return Jet((ex,)), Jet((ey,))
-        rate = (u * ((a - g) * (a + g)) + 1.0) / 2.0 - sine * (a * g) * (1.0 - u * m) / N
-        return turned_at(rate, ex, ey, order)
+    @property
+    def guide(self) -> Guide:
+        """The rocker, which pushes or pulls."""
+        _, g, b, c, _, _ = self.numbers
+        return Guide(b, 1.0 / c, g / c, 0.0)
 
-    def pose(self, crank: Any) -> LinkPose:
+    def pose(self, crank: Any) -> tuple[Any, Any]:
         """The coupler for directions of the crank, whose end B is on a circle."""
         a, g, b, c, _, _ = self.numbers
         x, y = g - a * crank.real, -a * crank.imag
@@ -144,10 +132,4 @@ class CouplerPath(LinkPath):
         N = library(D).sqrt(((b + c) ** 2 - D) * (D - (b - c) ** 2)) * self.side
         scale, level = 0.5 / (b * D), D + (b - c) * (b + c)
         along = scale * (x * level - y * N) + 1j * (scale * (y * level + x * N))
-        return LinkPose(along, b, N * (0.5 / (b * c)), 1.0 / c, (g / c, 0.0))
-
-    def hold(self, sine: Jet, cosine: Jet) -> tuple[float, tuple[Jet, Jet]]:
-        """Coupler length from A to B, and the rocker's direction, in which it pushes or pulls."""
-        a, g, b, c, _, _ = self.numbers
-        ex, ey = self.link(sine, cosine)
-        return b, ((cosine * a + ex * b - g) / c, (sine * a + ey * b) / c)
+        return along, N * (0.5 / (b * c))

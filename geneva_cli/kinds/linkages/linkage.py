@@ -91,7 +91,7 @@ class Linkage(Drive, kw_only=True):
             (array(x.c[0]), array(y.c[0]))
             for x, y in (f(*direction) for f in (at.path.joint, at.path.link, at.path.place))
         )
-        reach = at.path.hold(*direction)[0]
+        reach = at.path.guide.length
         end = pin[0] + reach * unit[0], pin[1] + reach * unit[1]
         origin = 0.0 * turn, 0.0 * turn
         own = (
