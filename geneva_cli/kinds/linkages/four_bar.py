@@ -11,9 +11,9 @@ from typing import Annotated, Any, ClassVar, Self
 
 from geneva_cli.errors import refuse_text
 from geneva_cli.kinds.linkages.link_path import Guide, LinkPath
-from geneva_cli.kinds.linkages.linkage import Linkage, Moving
+from geneva_cli.kinds.linkages.linkage import Linkage, PlaneLink
 from geneva_cli.motion.drive import Plan
-from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link
+from geneva_cli.motion.pivots import Dimension, Joint, Layout
 from geneva_cli.numerics.arrays import larger, library, smaller
 from geneva_cli.spec.rules import POSITIVE, OneOf, Range
 from geneva_cli.spec.schema import Example
@@ -86,13 +86,12 @@ class FourBar(Linkage, kw_only=True):
 
     def layout(self, plan: Plan, sign: float) -> Layout:
         """Joints at input 0, and lengths of the links."""
-        pivots = self.linked(plan, **{"rocker axis": (self.ground_mm, 0.0)})
+        pivots = self.linked(plan, **{"rocker axis": self.ground_mm})
         return (*pivots, Dimension("branch", self.branch))
 
-    def holder(self, end: Moving) -> Link:
+    def holder(self, end: Any) -> PlaneLink:
         """The rocker, on a pin in the frame."""
-        axis = 0.0 * end[0] + self.ground_mm, 0.0 * end[0]
-        return Link("rocker", (end, axis), (Joint.PIN, Joint.PIN), 3)
+        return "rocker", (end, self.ground_mm), (Joint.PIN, Joint.PIN), 3
 
     @property
     def roller_path(self) -> "CouplerPath":

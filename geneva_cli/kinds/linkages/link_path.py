@@ -156,11 +156,11 @@ class LinkPath(Batchable, ABC):
         factors = velocity, -pin, -1j * arm, -arm
         return LinkDisplacement(*turn, *(x for z in factors for x in (z.real, z.imag)))
 
-    def place(self, sine: Jet, cosine: Jet) -> tuple[Jet, Jet]:
-        """Point (x, y) for a crank direction."""
+    def joints(self, crank: Any) -> tuple[Any, Any, Any]:
+        """Crank pin A, the other joint B and the point, for directions of the crank; complex."""
         a, *_, p, q = self.numbers
-        x, y = self.link(sine, cosine)
-        return x * p - y * q + cosine * a, x * q + y * p + sine * a
+        pin, (along, _) = a * crank, self.pose(crank)
+        return pin, pin + self.guide.length * along, pin + along * (p + 1j * q)
 
 
 class LinkRate(NamedTuple):

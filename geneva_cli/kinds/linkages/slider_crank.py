@@ -10,9 +10,9 @@ from typing import Annotated, Any, ClassVar, Self
 
 from geneva_cli.errors import refuse_text
 from geneva_cli.kinds.linkages.link_path import Guide, LinkPath
-from geneva_cli.kinds.linkages.linkage import Linkage, Moving
+from geneva_cli.kinds.linkages.linkage import Linkage, PlaneLink
 from geneva_cli.motion.drive import Plan
-from geneva_cli.motion.pivots import Joint, Layout, Link
+from geneva_cli.motion.pivots import Joint, Layout
 from geneva_cli.numerics.arrays import library
 from geneva_cli.spec.rules import LENGTH, POSITIVE, Range
 from geneva_cli.spec.schema import Example
@@ -67,16 +67,15 @@ class SliderCrank(Linkage, kw_only=True):
 
     def layout(self, plan: Plan, sign: float) -> Layout:
         """Joints at input 0, two points of the slider's line, and lengths of the links."""
-        line = {"foot": (0.0, self.height_mm), "ahead": (self.rod_mm, self.height_mm)}
+        foot = 1j * self.height_mm
+        line = {"foot": foot, "ahead": self.rod_mm + foot}
         return self.linked(plan, **{f"slider's line, {end}": at for end, at in line.items()})
 
-    def holder(self, end: Moving) -> Link:
+    def holder(self, end: Any) -> PlaneLink:
         """The slider's fixed guide: its line as far as the slider can reach."""
-        still = 0.0 * end[0]
-        foot, ahead = still, still + (self.crank_mm + self.rod_mm)
-        line = still + self.height_mm
-        joints = ((foot, line), (ahead, line), end)
-        return Link("guide", joints, (Joint.NONE, Joint.NONE, Joint.SLIDE), 3)
+        foot = 1j * self.height_mm
+        ahead = self.crank_mm + self.rod_mm + foot
+        return "guide", (foot, ahead, end), (Joint.NONE, Joint.NONE, Joint.SLIDE), 3
 
     @property
     def roller_path(self) -> "SlidingRod":

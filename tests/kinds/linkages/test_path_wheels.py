@@ -43,7 +43,9 @@ def four_bars(n, seed):
 
 def pin(path, phi):
     """Place and velocity, as complex numbers."""
-    x, y = path.place(*sin_cos(Jet.variable(phi, 1)))
+    (*_, p, q), direction = path.numbers, sin_cos(Jet.variable(phi, 1))
+    (ax, ay), (ex, ey) = path.joint(*direction), path.link(*direction)
+    x, y = ax + ex * p - ey * q, ay + ex * q + ey * p
     return x.c[0] + 1j * y.c[0], x.c[1] + 1j * y.c[1]
 
 
