@@ -161,8 +161,8 @@ def four_bars_at(goal: Goal, of: Whole, at: Array, places: int = FINE) -> FourBa
 
 def _coupler(links: LinkPath, phi: Array, order: int) -> tuple[Complex, Complex]:
     """The crank's pin and the coupler's unit vector with their derivatives, (order + 1, ...)."""
-    direction = sin_cos(Jet.variable(phi, order))
-    return complex_of(*links.joint(*direction)), complex_of(*links.link(*direction))
+    angle = Jet.variable(phi, order)
+    return complex_of(*links.joint(*sin_cos(angle))), complex_of(*links.link(angle))
 
 
 def coupler_point(links: LinkPath, entry: Array, end: Array, b: Number, sense: Array) -> Complex:

@@ -6,10 +6,22 @@ import copy
 from abc import ABC, abstractmethod
 from typing import Any, NamedTuple, Self, TypeAlias, cast
 
-from geneva_cli.motion.engagement import Held, Loads, Vector, cross
-from geneva_cli.numerics.angles import radians, sin_cos_deg
-from geneva_cli.numerics.arrays import Array, Batchable, Complex, Which, enclosed
-from geneva_cli.numerics.jet import Jet, Number, rotation, sin_cos, sqrt, turning
+from geneva_cli.drives.pushed import pushed
+from geneva_cli.numerics.angles import sin_cos_deg
+from geneva_cli.numerics.arrays import Array, Batchable, Complex, Which, enclosed, library
+from geneva_cli.numerics.jet import (
+    Held,
+    Jet,
+    Loads,
+    Number,
+    Vector,
+    cross,
+    rotation,
+    sin_cos,
+    sine_versine,
+    sqrt,
+    turning,
+)
 from geneva_cli.spec.rules import is_array
 
 
@@ -113,13 +125,14 @@ class LinkPath(Batchable, ABC):
         a, *_ = self.numbers
         return cosine * a, sine * a
 
-    def link(self, sine: Jet, cosine: Jet) -> tuple[Jet, Jet]:
-        """Unit vector along the link, from A towards B, for a crank that turns evenly."""
-        along, _, turn = self._turn(cosine.c[0] + 1j * sine.c[0])
+    def link(self, angle: Jet) -> tuple[Jet, Jet]:
+        """Unit vector along the link, from A towards B, for the crank's angle in radians."""
+        m = library(angle.c[0])
+        along, _, turn = self._turn(m.cos(angle.c[0]) + 1j * m.sin(angle.c[0]))
         x, y = along.real, along.imag
-        if not sine.order:
+        if not angle.order:
             return Jet((x,)), Jet((y,))
-        s, v, _ = rotated(turn, *rotation(0.0, sine.order))
+        s, v, _ = rotated(turn, *sine_versine(Jet((0.0, *angle.c[1:]))))
         return v * -x - s * y + x, s * x - v * y + y
 
     def _turn(self, crank: Any) -> tuple[Any, Any, Turn]:
@@ -172,7 +185,7 @@ class LinkRate(NamedTuple):
 
     def __call__(self, tau: Number, order: int) -> Jet:
         """Rate in radians per input radian, positive with the wheel, ``tau`` after mid-motion."""
-        x, y = self.path.link(*sin_cos(Jet.variable(tau + self.middle, order + 1)))
+        x, y = self.path.link(Jet.variable(tau + self.middle, order + 1))
         return turning(x, y) * self.sense
 
 
@@ -186,24 +199,16 @@ class LinkReactions(NamedTuple):
     x: float  # direction of the line of centres from the wheel's axis, on the path's axes
     y: float
 
-    def __call__(self, input_deg: Number, path: Vector, loads: Loads) -> Held:
+    def __call__(self, turn: Jet, path: Vector, loads: Loads) -> Held:
         """Reactions of the crank's shaft, equal to those at A, and of the third body."""
-        tau = Jet.variable(radians(input_deg) + self.middle, path[0].order - 1)
-        (ax, ay), (ex, ey) = (f(*sin_cos(tau)) for f in (self.path.joint, self.path.link))
+        angle = turn + self.middle
+        (ax, ay), (ex, ey) = self.path.joint(*sin_cos(angle)), self.path.link(angle)
         (*_, p, q), (length, bend, nx, ny) = self.path.numbers, self.path.guide
-        arm, place = (ex * length, ey * length), (ex * p - ey * q, ex * q + ey * p)
-        h = (ax + arm[0]) * -bend + nx, (ay + arm[1]) * -bend + ny
-        lever = cross(arm, h)
-        out = []
-        for force, moment in loads:
-            across = force[1] * self.sense
-            F = (force[0] * self.x - across * self.y, force[0] * self.y + across * self.x)
-            push = (cross(place, F) + moment * (self.sense * self.L)) / lever * -1.0  # about A
-            x, y = h[0] * push, h[1] * push
-            # from the path's axes to the machine's
-            shaft, third = (
-                (u * self.x + v * self.y, (v * self.x - u * self.y) * self.sense)
-                for u, v in ((F[0] + x, F[1] + y), (x, y))
-            )
-            out.append((shaft, third))
-        return out
+        arm, point = (ex * length, ey * length), (ex * p - ey * q, ex * q + ey * p)
+        normal = (ax + arm[0]) * -bend + nx, (ay + arm[1]) * -bend + ny
+        # from A, over L, and from the path's axes to the machine's
+        place, held, direction = (
+            ((x * self.x + y * self.y) / self.L, (y * self.x - x * self.y) * (self.sense / self.L))
+            for x, y in (point, arm, (normal[0] * self.L, normal[1] * self.L))
+        )
+        return pushed(loads, place, direction, cross(held, direction))

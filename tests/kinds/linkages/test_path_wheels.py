@@ -43,8 +43,8 @@ def four_bars(n, seed):
 
 def pin(path, phi):
     """Place and velocity, as complex numbers."""
-    (*_, p, q), direction = path.numbers, sin_cos(Jet.variable(phi, 1))
-    (ax, ay), (ex, ey) = path.joint(*direction), path.link(*direction)
+    (*_, p, q), angle = path.numbers, Jet.variable(phi, 1)
+    (ax, ay), (ex, ey) = path.joint(*sin_cos(angle)), path.link(angle)
     x, y = ax + ex * p - ey * q, ay + ex * q + ey * p
     return x.c[0] + 1j * y.c[0], x.c[1] + 1j * y.c[1]
 
