@@ -106,12 +106,8 @@ class CouplerPath(LinkPath):
     """The path of a point of the coupler.
 
     d is the vector from A to the rocker's pivot, D = d² and N = sqrt(4 b² D - (b² + D - c²)²). The
-    unit vector from A towards B is e = d k, k = ((D + b² - c²) + i N) / (2 b D). It turns by
-
-        1/2 (1 + (a² - g²) / D) - a g sin phi (1 - (b² - c²) / D) / N
-
-    per radian of the crank, which is the sum of the rotations of d and k. Its numbers are crank,
-    ground, coupler, rocker, and the point's coordinates on the coupler: a, g, b, c, p, q.
+    unit vector from A towards B is e = d k, k = ((D + b² - c²) + i N) / (2 b D). Its numbers are
+    crank, ground, coupler, rocker, and the point's coordinates on the coupler: a, g, b, c, p, q.
     """
 
     side = 1  # on which the coupler is of the crank's line, or -1
