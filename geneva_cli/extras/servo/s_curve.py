@@ -27,6 +27,7 @@ class SCurve(Law):
 
     NAME: ClassVar[str] = "s-curve"
     ABOUT: ClassVar[str] = "seven segments of a servo: constant jerk in each"
+    SHARED: ClassVar[tuple[str, ...]] = ("cruise", "ramp")  # they decide the pieces
     cruise: Annotated[float, Range(0.0, 0.999), "s-curve: time fraction of constant velocity"] = (
         1.0 / 3.0
     )
@@ -35,10 +36,6 @@ class SCurve(Law):
         Range(0.0, 0.5),
         "s-curve: fraction of the acceleration in which it rises, and of its fall",
     ] = 0.25
-
-    def may_vary(self, table: str, key: str) -> bool:
-        """False for the fractions, which decide the pieces and so must be numbers."""
-        return table != "motion" or key not in self.as_dict()
 
     @cached_property
     def _segments(self) -> PiecewisePolynomial:

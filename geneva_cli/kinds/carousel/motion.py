@@ -34,6 +34,7 @@ class Carousel(Transmission, kw_only=True):
     NAME: ClassVar[str] = "carousel"
     WORDS: ClassVar[str] = "a carrier round a fixed finger"
     direct: ClassVar[bool] = True
+    SHARED: ClassVar[tuple[str, ...]] = ("rollers", "wheels")  # they decide when loads repeat
     EXAMPLE: ClassVar[Example] = Example(
         "wandering hours: wheels orbit on a carrier and index at a fixed finger",
         {"wheel": {"z": 4}, "drive": {"wheels": 3, "n_rpm": 1.0}},
@@ -44,10 +45,6 @@ class Carousel(Transmission, kw_only=True):
     def __post_init__(self) -> None:
         super().__post_init__()
         vars(self)["wheels_on_carrier"] = self.wheels
-
-    def may_vary(self, table: str, key: str) -> bool:
-        """False for the number of wheels, which decides over what period the loads repeat."""
-        return (table, key) != (self.TABLE, "wheels")
 
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
         """Plan of one wheel; the others do the same later. Only one of them moves at a time."""

@@ -48,7 +48,7 @@ def complex_of(x: Jet, y: Jet) -> Complex:
     """Derivatives of a point's place as complex numbers, (order + 1, ...)."""
     shape = np.broadcast_shapes(*(np.shape(c) for c in (*x.c, *y.c)))
     both = np.empty((len(x.c), *shape), dtype=complex)
-    for k, (p, q) in enumerate(zip(x.arrays(), y.arrays(), strict=True)):
+    for k, (p, q) in enumerate(zip(x.derivatives(), y.derivatives(), strict=True)):
         both[k].real, both[k].imag = p, q
     return both
 

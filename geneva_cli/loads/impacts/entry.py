@@ -73,7 +73,7 @@ class RestingAxis(NamedTuple):
 
     def distance(self, tau: Array) -> tuple[Array, Array]:
         """Distance of the true path from the axis ``tau`` radians after entry, and its slope."""
-        value, slope = self.anchor.displacement(tau, 1)[1].arrays()
+        value, slope = self.anchor.displacement(tau, 1)[1].derivatives()
         return value, slope
 
 
@@ -104,7 +104,7 @@ def first_contacts(axis: RestingAxis, crank: Number, center: Number = 0.0) -> Fi
     tau = _first_roots(less, sense * far, passed)
     along, across = axis.anchor.displacement(tau, 1)
     moved = (center - crank) / (1.0 + crank) * axis.along
-    jump = across.arrays()[1] / (along.arrays()[0] + axis.anchor.along + moved)
+    jump = across.derivatives()[1] / (along.derivatives()[0] + axis.anchor.along + moved)
     return FirstContacts(np.ravel(axis.engagement.entry_deg + tau / DEGREE), np.ravel(jump))
 
 
@@ -149,7 +149,7 @@ class _Corner(NamedTuple):
     def gap(self, tau: Array) -> tuple[Array, Array]:
         """Squared distance of centre and corner minus that at contact, and its slope."""
         x, y, z = (p - c for p, c in zip(self.roller(tau), self.place, strict=True))
-        value, slope = (x * x + y * y + z * z - self.reach**2).arrays()
+        value, slope = (x * x + y * y + z * z - self.reach**2).derivatives()
         return value, slope
 
     def contact(self, along: Number, top: Number) -> tuple[Array, Array]:
@@ -163,7 +163,9 @@ class _Corner(NamedTuple):
         span = 0.5 * engagement.motion_deg * DEGREE
         x, _, z = self.roller(np.atleast_2d(0.0 * span))
         # its distance outside, and its speed outwards
-        out, speed = (x - along if engagement.slot.height is None else x * top - z * along).arrays()
+        out, speed = (
+            x - along if engagement.slot.height is None else x * top - z * along
+        ).derivatives()
         places = -out / speed - span * OCTAVES[::-1]
         meets = self.gap(places)[0] <= -1e-16  # of L²: nearer to 0 it is rounding
         places = np.broadcast_to(places, meets.shape)
@@ -171,7 +173,7 @@ class _Corner(NamedTuple):
         supplied = turned = 0.0 * tau
         direction = -self.place[1], self.place[0], 0.0
         for p, c, w in zip(self.roller(tau), self.place, direction, strict=True):
-            value, rate = p.arrays()
+            value, rate = p.derivatives()
             supplied, turned = supplied + (value - c) * rate, turned + (value - c) * w
         return tau, supplied / turned
 

@@ -102,7 +102,7 @@ def peaks(of: Designs) -> Columns:
                 ends.append(np.full(1, np.nan))
                 continue
             motions = [one.motion for one in engagements]
-            at = [one(getattr(one, f"{end}_deg"), order).arrays() for one in motions]
+            at = [one(getattr(one, f"{end}_deg"), order).derivatives() for one in motions]
             sizes = [np.ravel(abs(derivatives[order])) for derivatives in at]
             ends.append(np.max(np.broadcast_arrays(*sizes), axis=0))
         out |= peak_values(name, output, w, found.get(name, unknown), ends)
