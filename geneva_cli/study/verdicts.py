@@ -44,15 +44,14 @@ def verdict(
         if design.spec.is_loaded and not design.is_drawn:
             from geneva_cli.loads.cycle import cycle_of
             from geneva_cli.loads.strength.part_loads import single_loads
-            from geneva_cli.verdict.quantities.batch_designs import single
-            from geneva_cli.verdict.quantities.part_strength import horn, lock, shafts
+            from geneva_cli.verdict.quantities.groups import value_of
 
             # loads, the parts that they size, their strength: what checks and warnings read
             with suppress(GenevaError):  # a check says why
                 single_loads(design.mechanism)
                 _ = cycle_of(design.mechanism).ends, design.parts.built.required
-                of = single(design.mechanism)
-                _ = of.columns(shafts), of.columns(horn), of.columns(lock)
+                for part in ("wheel_shaft", "horn", "lock"):
+                    value_of(design.mechanism, f"strength.{part}.margin")
         checks = design.checks if to_mm is None else design.proved_to(to_mm)
         return Verdict(
             path=design.spec.path,

@@ -12,9 +12,10 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.kept import load_named
-from geneva_cli.motion.machine_spec import Spec
+from geneva_cli.motion.compatible import concerns
+from geneva_cli.motion.kind import Kind
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.registry import KINDS, of_wheel
+from geneva_cli.motion.registry import KINDS
 from geneva_cli.parts.parts import Parts
 from geneva_cli.spec.schema import fields
 from geneva_cli.spec.tables import Limits, Load, RollerMaterial, Shaft, WheelMaterial
@@ -57,7 +58,7 @@ class QuantityGroup(NamedTuple):
     alone: str
     batch: str
     batched: tuple[str, ...]  # the names that ``batch`` computes
-    kind: str  # name of the kind to whose machines they belong; empty for all
+    kind: Kind | None  # that to whose machines they belong; None for all
     makes_parts: bool
 
     def values(self, parts: Parts) -> Values:
@@ -65,23 +66,19 @@ class QuantityGroup(NamedTuple):
         if not self.alone:
             columns = self.columns(single(parts.mechanism).requesting(self.names))
             return {name: only(column) for name, column in columns.items()}
-        own: Values = load_named(self.alone)(parts) if self._is_of(parts.mechanism.spec) else {}
+        is_of = self.kind is None or concerns(self.kind, parts.mechanism.spec)
+        own: Values = load_named(self.alone)(parts) if is_of else {}
         computed: Values = {f"{self.table}{name}": value for name, value in own.items()}
         return {**dict.fromkeys(self.names), **computed}
 
     def columns(self, of: Designs) -> Columns:
         """The values of a batch; None where no design has one."""
-        own = of.columns(load_named(self.batch)) if self._is_of(of.spec) else {}
+        is_of = self.kind is None or concerns(self.kind, of.spec)
+        own = of.columns(load_named(self.batch)) if is_of else {}
         return dict(zip(self.names, map(own.get, self.own), strict=True))
 
-    def _is_of(self, spec: Spec) -> bool:
-        """Return True if the quantities belong to a machine of the spec's kinds."""
-        if self.kind in ("", spec.drive.NAME):
-            return True
-        return self.kind in map(attrgetter("name"), of_wheel(spec.wheel.NAME))
 
-
-def _group(row: str, kind: str = "") -> QuantityGroup:
+def _group(row: str, kind: Kind | None = None) -> QuantityGroup:
     """The group of a row: its table, ``alone``, ``batch`` and its names; "-" stands for none.
 
     Each end in braces stands behind each prefix before them: ``a,b.{max min}`` are four names. Of
@@ -194,7 +191,7 @@ MACHINE, *STUDY = map(_group, _STUDY.replace(*_JOINED).strip().splitlines())
 for _kind in reversed(KINDS):
     for _table, _row in _kind.quantities.items():  # behind the table that it names
         _tables = [*map(attrgetter("table"), REPORT)]
-        REPORT.insert(len(_tables) - _tables[::-1].index(f"{_table}."), _group(_row, _kind.name))
+        REPORT.insert(len(_tables) - _tables[::-1].index(f"{_table}."), _group(_row, _kind))
 # All quantities; those that make parts come last.
 GROUPS = sorted((MACHINE, *REPORT, *STUDY), key=attrgetter("makes_parts"))
 GROUP_OF = dict[str, QuantityGroup]()  # the group of each quantity, by its whole name
@@ -205,10 +202,10 @@ for _one in GROUPS:
 def value_of(mechanism: Mechanism, name: str) -> float:
     """A quantity of a single design by its whole name: NaN if it has none, infinite if unbounded.
 
-    Of loads and peaks those are known that the spec limits.
-
     >>> value_of(Design(External(6)).mechanism, "timing.motion_deg")
     120.0
     """
-    value = GROUP_OF[name].columns(single(mechanism))[name]
+    of, group = single(mechanism), GROUP_OF[name]
+    of = of if name in of.names else of.requesting(group.names)
+    value = group.columns(of)[name]
     return math.nan if value is None else np.ravel(value).item()
