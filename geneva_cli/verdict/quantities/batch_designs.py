@@ -47,7 +47,8 @@ class Designs:
         if names is None:
             limits, names = vars(machine.spec.limits), list[str]()
             for key, name in LIMITED.items():
-                names += [name] if limits[key] is not None else []
+                if limits[key] is not None:
+                    names += [name, name.replace(".max", ".at_deg")]
         self.names = names
         self.single = isinstance(machine.design, int)  # its numbers are floats: m = 1
         self.are_built = self.single or bool(each)  # the machines of the single designs are
