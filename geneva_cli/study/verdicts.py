@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from functools import partial
+from itertools import filterfalse
 from operator import attrgetter
 from typing import NamedTuple
 
@@ -120,12 +121,9 @@ def of_checks(verdicts: Sequence[Verdict], page: bool, as_json: bool) -> Answer:
     data = table = checks_table(verdicts) if is_shown else Table((), ())
     if as_json:
         data = checks_record(verdicts)
-    is_single = len(verdicts) == 1
-    heads, details, sized = list[Summary](), list[Summary](), 0
-    for v in verdicts:
-        if v.error:
-            continue
-        sized += bool(v.chosen.sizes)
+    is_single, judged = len(verdicts) == 1, [*filterfalse(attrgetter("error"), verdicts)]
+    heads, details = list[Summary](), list[Summary]()
+    for v in judged:
         state, text = headline(v.checks, v.warnings)
         lines = [*failure_lines(v.checks), *warning_lines(v.checks, v.warnings, v.unused)]
         if is_single:
@@ -134,20 +132,21 @@ def of_checks(verdicts: Sequence[Verdict], page: bool, as_json: bool) -> Answer:
                 if check.passes and check.why:
                     label = "stop" if check.name == "stop_turns" else "turn"
                     lines.append(SummaryLine(label, check.why))
-            lines += (*tightest(v.checks), *chosen_lines(v.chosen, v.path))
-        elif own := (*lines, *chosen_lines(v.chosen)):
-            details.append(Summary(v.path, own))
+            lines += tightest(v.checks)
+        lines += chosen_lines(v.chosen, v.path if is_single else None)
+        if lines and not is_single:
+            details.append(Summary(v.path, tuple(lines)))
         heads.append(Summary(f"{v.path}: {text}", tuple(lines) if is_single else (), state=state))
     if not is_single:
-        judged, unread = len(heads), len(verdicts) - len(heads)
+        unread = len(verdicts) - len(judged)
         failed, warned = (sum(head.state == state for head in heads) for state in (FAILS, WARNS))
         text = _counted("specs", len(verdicts), failed, unread)
         text += f", {unread} cannot be read" if unread else ""
         text += f", {warned} with warnings" if warned else ""
         state = FAILS if failed or unread else WARNS if warned else PASSES
         heads.append(Summary(text, state=state))
-        if sized:
-            of = f"in {sized} of {judged} specs (geneva size SPEC writes them)"
+        if sized := sum(bool(v.chosen.sizes) for v in judged):
+            of = f"in {sized} of {len(judged)} specs (geneva size SPEC writes them)"
             heads.append(Summary(f"sizes chosen by load {of}"))
     return Answer((*heads, *details), table if page else None, data)
 
