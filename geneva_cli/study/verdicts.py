@@ -68,7 +68,7 @@ def verdict(
 
 
 def verdicts(
-    paths: list[str],
+    paths: Sequence[str],
     settings: Sequence[str] = (),
     to_mm: float | None = None,
     reverse: bool = False,

@@ -27,7 +27,7 @@ from geneva_cli.numerics import arrays
 from geneva_cli.numerics.arrays import Array, Record, mapped, parameter
 from geneva_cli.parts.machine_sizes import fits, of_batch, sized, unloaded, unloaded_alike
 from geneva_cli.parts.shafts.bores import has_shape
-from geneva_cli.parts.sized_by_load import Stressed, batch_sizes, dimensions, needs_lock, sizing
+from geneva_cli.parts.sized_by_load import Stressed, dimensions, load_sizes, needs_lock, sizing
 from geneva_cli.parts.sizes import Sizes as PartSizes
 from geneva_cli.parts.sizes import Unloaded
 from geneva_cli.spec.defaults import roller_material
@@ -174,13 +174,13 @@ class UnderLoad:
         # links, gears and a groove, which may be in the way of shafts
         if of and sizing(of.assembly, of.sizes).planes and not self._alike:
             each = filter(None, self._each)
-            is_own = len({sizing(one.assembly, one.sizes)[4:7] for one in each}) > 1
+            is_own = len({sizing(one.assembly, one.sizes)[3:5] for one in each}) > 1
         if is_own or of is None:
             return batched([*map(_stressed, self.designs.each)]) if is_own else None
         locks, bent = self.lock_sizes if needs_lock(machine.spec) else None, None
         if locks and size.wheel_thickness_mm is size.face_width_mm is None:
             bent = lock.horn_MPa(machine, *locks, self._flat_horns)
-        sizes = batch_sizes(of, locks and locks[1], machine, self.part_loads, bent)
+        sizes = load_sizes(of, locks and locks[1], machine, self.part_loads, bent)
         parts = dimensions(sizing(of.assembly, sizes)._replace(spec=machine.spec))
         fit = np.where(np.ravel(fits(of, sizes)), np.ones(machine.designs), np.nan)
         return mapped(lambda row: np.ravel(row) * fit, parts)
