@@ -22,9 +22,9 @@ from geneva_cli.numerics.tolerances import keeps
 
 if TYPE_CHECKING:
     from geneva_cli.parts.parts import Parts
-    from geneva_cli.verdict.quantities.batch_designs import Values
 
 Checks: TypeAlias = dict[str, str]  # name -> module:function
+Values: TypeAlias = dict[str, "float | str | None"]  # of checks by their names
 
 FIRST = "first_"  # of the first of two wheels in series, and of its crank
 # Plays that the spec limits; a machine whose parts cannot be turned has no value of them.
