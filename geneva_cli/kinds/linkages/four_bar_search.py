@@ -29,7 +29,7 @@ from geneva_cli.numerics.jet import Jet, atan2, sin_cos
 from geneva_cli.study.sweep.constraints import Constraint
 from geneva_cli.study.synth.family_search import Places, Zoom, sampled, zoom
 from geneva_cli.study.target import AllowedSpan, Target
-from geneva_cli.verdict.quantities.groups import RATES
+from geneva_cli.verdict.quantities.quantity_rows import RATES
 
 SAMPLES = (256, 2048)  # least and most four-bars that are sampled for one wheel
 SAMPLINGS = (14, 60)  # least and most closer samplings for one wheel
