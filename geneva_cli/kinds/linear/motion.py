@@ -21,7 +21,6 @@ from geneva_cli.motion.wheels.classic import HalfStep, PinPose, middle
 from geneva_cli.motion.wheels.gearing import Gearing, Output, RollerPlace
 from geneva_cli.numerics.arrays import Array, N
 from geneva_cli.numerics.jet import Jet, Number
-from geneva_cli.spec.schema import Example
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet_functions import Displacement
@@ -39,7 +38,6 @@ class Linear(Gearing):
     """
 
     NAME: ClassVar[str] = "linear"
-    EXAMPLE: ClassVar[Example] = Example("a rack of parallel slots: motion and dwell equal")
     USUAL_LOAD: ClassVar[dict[str, float]] = {"mass_kg": 4, "force_N": 30}
     FLAT: ClassVar[bool] = False
     DISTANCE: ClassVar[str] = "crank radius"
