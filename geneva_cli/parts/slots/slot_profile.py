@@ -25,7 +25,7 @@ def slot_columns(mechanism: Mechanism, input_deg: Array) -> list[Array]:
     output = array(engagement.motion(input_deg, 0).c[0]) * mechanism.output.per_radian
     with np.errstate(divide="ignore", invalid="ignore"):
         radius = L * side * np.divide(at.speed, at.turning)
-    straight = engagement.slot.axis(engagement.entry_deg) is not None
+    straight = not engagement.slot.curved
     radius = np.where(straight | (at.turning == 0.0), np.inf, radius)
     points = [axis for line in lines for axis in line.T]
     return [input_deg, output, *points, np.degrees(at.pressure), radius]
@@ -48,7 +48,7 @@ def _lines(
     retraced = retraces(engagement)
     input_deg = np.where((np.abs(input_deg) < SAME_INPUT_DEG) & retraced, 0.0, input_deg)
     at, back = pitch_at(engagement, input_deg), retraced & (input_deg > 0.0)
-    if engagement.slot.axis(engagement.entry_deg) is not None:
+    if not engagement.slot.curved:
         first = pitch(engagement, engagement.entry_deg)
         ahead = array(at.tangent_x * first.tangent_x + at.tangent_y * first.tangent_y)
         back = ahead < 0.0
