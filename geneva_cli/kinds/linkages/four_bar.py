@@ -16,7 +16,6 @@ from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.pivots import Dimension, Joint, Layout
 from geneva_cli.numerics.arrays import larger, library, smaller
 from geneva_cli.spec.rules import POSITIVE, OneOf, Range
-from geneva_cli.spec.schema import Example
 
 
 class FourBar(Linkage, kw_only=True):
@@ -44,22 +43,6 @@ class FourBar(Linkage, kw_only=True):
         "rocker c": "rocker_mm",
         "roller from A": "point_mm",
     }
-    EXAMPLE: ClassVar[Example] = Example(
-        "the roller on a four-bar's coupler",
-        {
-            "wheel": {"z": 4, "held_by": "detent"},
-            "drive": {
-                "crank_mm": 40.0,
-                "ground_mm": 90.0,
-                "coupler_mm": 100.0,
-                "rocker_mm": 100.0,
-                "point_mm": 161.51903573811165,
-                "point_deg": -36.13836508095113,
-                "entry_deg": 123.3,
-            },
-            "size": {"roller_radius_mm": 2.0, "wheel_hub_mm": 0.0},
-        },
-    )
     crank_mm: Annotated[float, POSITIVE, "length of crank a"]
     ground_mm: Annotated[float, POSITIVE, "distance g between the fixed pivots"]
     coupler_mm: Annotated[float, POSITIVE, "length of coupler b, from crank pin A to rocker pin B"]

@@ -15,7 +15,6 @@ from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.pivots import Joint, Layout
 from geneva_cli.numerics.arrays import library
 from geneva_cli.spec.rules import LENGTH, POSITIVE, Range
-from geneva_cli.spec.schema import Example
 
 
 class SliderCrank(Linkage, kw_only=True):
@@ -39,14 +38,6 @@ class SliderCrank(Linkage, kw_only=True):
         "slider's line from the crank's axis h": "height_mm",
         "roller from A": "point_mm",
     }
-    EXAMPLE: ClassVar[Example] = Example(
-        "the roller on a slider-crank's rod",
-        {
-            "wheel": {"z": 8, "held_by": "detent"},
-            "drive": {"crank_mm": 40.0, "rod_mm": 100.0, "point_mm": 80.0, "point_deg": 90.0},
-            "size": {"roller_radius_mm": 6.0},
-        },
-    )
     crank_mm: Annotated[float, POSITIVE, "length of crank a"]
     rod_mm: Annotated[float, POSITIVE, "length of connecting rod b, from crank pin A to slider B"]
     point_mm: Annotated[float, POSITIVE, "distance of roller C from crank pin A"]
