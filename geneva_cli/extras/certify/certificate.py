@@ -176,16 +176,15 @@ def certificate(mechanism: Mechanism, quantity: str, limit: int = LIMIT) -> Cert
         slack = 0.0 if start == span.start else 2.0**-42
         return Place(start - slack, span.end + (start - span.start) + slack)
 
-    if found.open:
-        below = found.open.high if math.isfinite(found.open.high) else None
-        left = Open(*shown(found.open), below)
-        return Certificate(quantity, found.low, None, (), False, found.intervals, left)
-    first, last = found.places[0], found.places[-1]
-    symmetric = len(found.places) == 2 and first.motion == last.motion
-    symmetric = symmetric and each[first.motion].motion.symmetric
-    mirrored = symmetric and abs(first.start + last.end) < NARROW_DEG
-    places = tuple(sorted(map(shown, found.places)))
-    return Certificate(quantity, found.low, found.high, places, mirrored, found.intervals, None)
+    low, high, spans, intervals, left = found
+    if left:
+        open_ = Open(*shown(left), left.high if math.isfinite(left.high) else None)
+        return Certificate(quantity, low, None, (), False, intervals, open_)
+    first, last = spans[0], spans[-1]
+    alike = len(spans) == 2 and first.motion == last.motion and each[first.motion].motion.symmetric
+    mirrored = alike and abs(first.start + last.end) < NARROW_DEG
+    places = tuple(sorted(map(shown, spans)))
+    return Certificate(quantity, low, high, places, mirrored, intervals, None)
 
 
 def _invariant(_: Mechanism, engagement: Engagement, quantity: str) -> Formula:
