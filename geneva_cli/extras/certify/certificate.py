@@ -19,8 +19,8 @@ from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.peaks import QUANTITIES
-from geneva_cli.numerics.arrays import enclosed
+from geneva_cli.motion.peak_search import QUANTITIES, curves
+from geneva_cli.numerics.arrays import Array, enclosed
 from geneva_cli.numerics.intervals import Undecided
 from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.numerics.tolerances import TIE
@@ -32,7 +32,6 @@ if TYPE_CHECKING:
 LIMIT = 2000  # intervals a motion: 12 times what any design here takes, some seconds
 DIGITS = 15  # that are printed: as many as every double keeps
 NARROW_DEG = 1e-6  # a narrower place is one angle for people
-DERIVED = {"velocity": 0, "acceleration": 1, "jerk": 2}  # derivatives of the velocity
 COLUMNS = ("quantity", "low", "high", "at_deg", "places", "proved", "intervals", "open")
 LOADS = ("wheel_torque_Nm", "pin_force_N", "input_torque_Nm")
 
@@ -189,15 +188,8 @@ def certificate(mechanism: Mechanism, quantity: str, limit: int = LIMIT) -> Cert
 
 def _invariant(_: Mechanism, engagement: Engagement, quantity: str) -> Formula:
     """An invariant of the motion as a jet by the input angle, at degrees from mid-motion."""
-    derived = DERIVED.get(quantity, 1)
-
-    def formula(x: Number, order: int) -> Jet:
-        jet = rate = engagement.motion.rate(x, order + derived)
-        for _ in range(derived):
-            jet = jet.derivative()
-        return rate.lower * jet if quantity == "power" else jet
-
-    return formula
+    jets = curves(engagement.motion, [quantity]).jets
+    return lambda x, order: jets(cast("Array", x), slice(None), order, [0])[0]
 
 
 def _load(mechanism: Mechanism, engagement: Engagement, quantity: str) -> Formula:
