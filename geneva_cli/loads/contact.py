@@ -11,7 +11,8 @@ from typing import Any, Generic, NamedTuple
 
 import numpy as np
 
-from geneva_cli.motion.engagement import Engagement, Vector
+from geneva_cli.motion.engagement import Engagement
+from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import (
     Mask,
     Truth,
@@ -22,7 +23,7 @@ from geneva_cli.numerics.arrays import (
     choose_record,
     library,
 )
-from geneva_cli.numerics.jet import Array, Jet, Number, V, sqrt
+from geneva_cli.numerics.jet import Array, Jet, Number, V, Vector, sqrt
 
 PRESSED = ("contact_stress_MPa", "pv_W_m2")  # known only with a face width
 # Searched by their squares: a root has no slope where it is 0, nor has the size of a vector.
@@ -139,9 +140,9 @@ def contact(
     rates = engagement.motion.rate(x, order + 1)
     velocity, acceleration = rates.lower, rates.derivative()
     constant = Jet((velocity.c[0] * 0.0, *[0.0] * order))
-    straight_axis = slot.axis(x, order)
-    if straight_axis:
-        lever, along = straight_axis
+    if not slot.curved:
+        lever, place = slot.axis(x, order + 1)
+        lever, along = lever.lower, place.derivative()
         offset, curvature = constant + slot.offset, constant
     elif all_true(x != 0.0):
         lever, offset, along, curvature = _curved(engagement, x, order, rates)
@@ -151,7 +152,7 @@ def contact(
     upright, touches = slot.upright(x, order), constant + slot.touches(x)
     body = engagement.carrier(x, order)
     spin = (body - velocity * upright) * touches
-    crank = constant + (body if engagement.on_arm else engagement.shaft_rate(x, order))
+    crank = constant + (body if engagement.on_arm else engagement.shaft(x, order + 1).derivative())
     arm = (constant + upright) * touches
     joints = _reactions(engagement, x, lever, offset) if reactions else None
     wall = lever, offset, along, curvature
@@ -222,7 +223,7 @@ def _reactions(
     none = px * 0.0
     normal, tangent = (ty * -1.0, tx), (tx, ty)
     loads = (normal, none), (tangent, none), ((none, none), none + 1.0)
-    return tuple(engagement.reactions(x, path, loads))
+    return tuple(engagement.reactions(Jet.variable(radians(x), lever.order), path, loads))
 
 
 def _to_order(jet: Jet, order: int) -> Jet:

@@ -52,13 +52,13 @@ def breaks(motion: WheelMotion, m: int) -> list[Array]:
 def spans(motion: WheelMotion, m: int) -> list[tuple[Array, Array]]:
     """Ends of the smooth parts of m motions, (m, 1) each, clear of the breaks between them.
 
-    A function may jump at the breaks. They are known to a fraction ``BREAKS_TO`` of the motion, but
+    A function may jump at the breaks. They are known to a fraction ``breaks_to`` of the motion, but
     0 is exact. The value at a break itself belongs to the part before it, so that the part after it
     begins at least one double later.
     """
     places = breaks(motion, m)
     begin, last = places[0], places[-1]
-    blur, out = motion.BREAKS_TO * (last - begin), []
+    blur, out = motion.breaks_to * (last - begin), []
     for x in places[1:-1]:
         clear = np.where(x == 0.0, 0.0, blur)
         out.append((np.minimum(begin, last), np.maximum(begin, x - clear)))

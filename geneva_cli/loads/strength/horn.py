@@ -169,8 +169,7 @@ def horns(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> list[
     moving = mechanism.spec.wheel.plane_motion(parameter(np.ravel(L)))
     for at in slot_ends(mechanism):
         turn = np.ravel(at.end * at.engagement.half_step)  # of the wheel at rest
-        places = np.column_stack(np.broadcast_arrays(np.ravel(L), 0.0, turn))
-        centre = moving.into(places[:, :2], places[:, 2])
+        centre = moving.into(moving.crank_axis, turn)
         outwards = moving.outwards(centre).T[:, :, None]  # at the recess's centre, between horns
         centre = centre.T[:, :, None]
         mouth = pitch(at.engagement, at.mouth_deg)
