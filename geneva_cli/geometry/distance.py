@@ -11,7 +11,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from geneva_cli.geometry.shapes import Arc, Contour, Line
-from geneva_cli.numerics.arrays import Array, Mask, Number, Whole, rising
+from geneva_cli.numerics.arrays import Array, Mask, Whole, rising
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 
 BLOCK = 1 << 14  # distances in a block: they stay in the processor's cache
@@ -49,6 +49,9 @@ class Polyarc:
         length = np.sqrt(square)
         right = np.where(sense < 0.0, -1.0, 1.0) / length
         size = np.where(cos_half < 0.0, 2.0 * radius, 0.5 * length)
+        # the centre of a line is far away, on its normal
+        far = 1e12 * length.max()
+        cx, cy = np.where(sense == 0.0, (far * dy * right, -far * dx * right), (cx, cy))
         arcs = (cx, cy, radius, sense, dy * right, -dx * right, sin_half, cos_half)
         chords = (dx, dy, square, length, 0.5 * (x0 + x1), 0.5 * (y0 + y1), size)
         self._name(np.array((x0, y0, x1, y1, *arcs, *chords, *turned)))
@@ -57,7 +60,7 @@ class Polyarc:
         """Set the numbers of the pieces, one row of ``columns`` each."""
         self._columns = columns
         self.x0, self.y0, self.x1, self.y1, *rest = columns
-        # For arcs: centre, radius, left (1) or right (-1); 0 for lines. Then the direction from the
+        # Centre; for arcs radius, left (1) or right (-1); 0 for lines. Then the direction from the
         # centre to the middle, for lines to the right, and sine and cosine of half the sweep.
         self.cx, self.cy, self.radius, self.sense, self.mx, self.my, *rest = rest
         self.sin_half, self.cos_half, *rest = rest
@@ -66,6 +69,9 @@ class Polyarc:
         # A circle about the middle of each piece's chord that holds the piece. Then the turn of the
         # outline at each piece's start and end, radians: above 0 to the left, 0 for none.
         self.ox, self.oy, self.size, self.turn_start, self.turn_end = rest
+        self.starts, self.centres, self.middles = columns[:2].T, columns[4:6].T, columns[-5:-3].T
+        # if an outline lies in another one, so do some of these points
+        self.probes = self.starts
 
     def __len__(self) -> int:
         return len(self.x0)
@@ -123,6 +129,45 @@ class Polyarc:
         distance = np.where(facing, np.abs(side), np.sqrt(square + beyond * beyond))
         return distance, np.where(self.sense < 0.0, -side, side), facing, along
 
+    def farthest(self, points: Array) -> Array:
+        """Return the distance from points (n, 2) to the farthest point of each piece, (n, k)."""
+        x, y = points.T[..., None]
+        vx, vy = self.cx - x, self.cy - y
+        away = np.hypot(vx, vy)
+        opposite = self.arc & (vx * self.mx + vy * self.my >= away * self.cos_half)
+        start, end = np.hypot(self.x0 - x, self.y0 - y), np.hypot(self.x1 - x, self.y1 - y)
+        return np.where(opposite, away + self.radius, np.maximum(start, end))
+
+    def touching(self, which: Whole, centres: Array) -> tuple[Whole, Array]:
+        """Return the points of some pieces (m,) where others may touch, after their indices.
+
+        They are their starts, and points in the directions of centres (m, j, 2), or opposite.
+        """
+        some = self.subset(which[:, None])
+        # Coordinates are from each arc's centre, along its chord and outwards, over its radius.
+        # They are computed from the chord's middle: a centre may be too far away.
+        x, y = centres[..., 0] - some.ox, centres[..., 1] - some.oy
+        along, out = some.mx * y - some.my * x, some.mx * x + some.my * y
+        half, cosine = 0.5 * some.length, some.cos_half
+        bend = some.sin_half / half
+        ahead = bend * out + cosine
+        size = np.maximum(np.hypot(bend * along, ahead), 1e-300)
+        rows, points = [np.arange(len(which))], [self.probes[which]]
+        for side in (1.0, -1.0):
+            place, height = side * along / size, side * ahead / size
+            within = some.sin_half * height >= cosine * np.abs(bend * place)
+            on_line = (side > 0.0) & (np.abs(place) < half)
+            on = np.nonzero(np.where(some.arc, within, on_line))
+            row, at = on[0], place[on][:, None]
+            # the arc's height above its chord there: its middle's, less that by which it falls off
+            falls = at * at / (1.0 + height[on][:, None])
+            up = bend[row] * (half[row] ** 2 / (1.0 + cosine[row]) - falls)
+            out_x, out_y = some.mx[row], some.my[row]
+            rows.append(row)
+            xy = some.ox[row] + up * out_x - at * out_y, some.oy[row] + up * out_y + at * out_x
+            points.append(np.column_stack(xy))
+        return np.concatenate(rows), np.concatenate(points)
+
     def samples(self, sagitta: float, longest: float) -> Array:
         """Points of the boundary, (n, 2): all corners, and points at the requested spacing."""
         arc, radius = self.arc, np.where(self.arc, self.radius, 1.0)
@@ -171,15 +216,6 @@ class Polyarc:
             here = after[here]
             least = np.minimum(least, here)
         return rising(least)
-
-
-def farthest(outline: Polyarc, x: Number, y: Number) -> Array:
-    """Return the distance from points to the farthest point of each piece; both broadcast."""
-    vx, vy = outline.cx - x, outline.cy - y
-    away = np.hypot(vx, vy)
-    opposite = outline.arc & (vx * outline.mx + vy * outline.my >= away * outline.cos_half)
-    start, end = np.hypot(outline.x0 - x, outline.y0 - y), np.hypot(outline.x1 - x, outline.y1 - y)
-    return np.where(opposite, away + outline.radius, np.maximum(start, end))
 
 
 def from_segments(outline: Polyarc, start: Array, end: Array, reach: float) -> Array:

@@ -177,7 +177,7 @@ def moments(shape: Shape) -> Moments:
     return total(rows)
 
 
-def total(rows: Iterable[tuple[float, float, float, float]]) -> Moments:
+def total(rows: Iterable[Iterable[float]]) -> Moments:
     """Sum of the moments of several shapes."""
     return Moments(*map(math.fsum, zip((0.0, 0.0, 0.0, 0.0), *rows, strict=True)))
 
@@ -212,9 +212,11 @@ def added(one: MassProperties, other: MassProperties) -> MassProperties:
 
 def face(plate: Plate) -> Moments:
     """Area, first moments and polar moment of a plate's face about the origin."""
-    rows = [*map(moments, (plate.outline, *plate.holes))]
-    signs = [(1.0 if k == 0 else -1.0) * math.copysign(1.0, row.area) for k, row in enumerate(rows)]
-    return Moments(*(math.fsum(map(mul, signs, column)) for column in zip(*rows, strict=True)))
+    rows, sign = [], 1.0
+    for row in map(moments, (plate.outline, *plate.holes)):
+        rows.append(map(mul, row, repeat(math.copysign(sign, sign * row.area))))
+        sign = -1.0  # of the holes
+    return total(rows)
 
 
 def least_wall(holes: Sequence[Shape], outline: Sequence[Contour] = ()) -> float:

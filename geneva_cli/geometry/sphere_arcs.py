@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.geometry.sphere import Region, SphereArc, Vector, dot
+from geneva_cli.geometry.sphere import Region, SphereArc, Vector, dot, opposite
 from geneva_cli.numerics.arrays import Array, Whole, within_half_turn
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 
@@ -22,30 +22,47 @@ def _distances(off: Array, across: Array, beyond: Array) -> Array:
     return 2.0 * np.arcsin(np.sqrt(np.minimum(square, 1.0)))
 
 
-class SphereArcs:
-    """A boundary of arcs, each from the end of the one before; its region is to its left.
+# Fractions of an arc at which it is sampled: its start and middle, and points next to its corners.
+# A corner itself may lie on an edge where all else overlaps.
+ARC_SAMPLES = (0.0, 1e-6, 0.5, 1.0 - 1e-6)
 
-    If it is not closed, it is a part of a boundary and continues smoothly at its ends.
+
+class SphereArcs:
+    """Boundaries of arcs, each from the end of the one before; the region is to their left.
+
+    Lengths are arcs on a sphere of a ``radius``. A boundary that is not closed is a part of one,
+    and continues smoothly at its ends.
     """
 
-    def __init__(self, arcs: Sequence[SphereArc], closed: bool = True) -> None:
-        self.axis = np.array([arc.axis for arc in arcs])
+    def __init__(
+        self, *boundaries: Sequence[SphereArc], radius: float = 1.0, closed: bool = True
+    ) -> None:
+        arcs, after = list[SphereArc](), list[int]()
+        for boundary in boundaries:
+            after += [*range(len(arcs) + 1, len(arcs) + len(boundary)), len(arcs)]
+            arcs += boundary
+        self.radius, self.axis = radius, np.array([arc.axis for arc in arcs])
         self.x = np.array([arc.ahead for arc in arcs])
         self.y = np.cross(self.axis, self.x)
         self.angle = np.array([arc.angle for arc in arcs])
         self.sweep = np.array([arc.sweep for arc in arcs])
-        self.start = np.array([arc.start for arc in arcs])
-        self.middle = self.at(np.arange(len(arcs)), 0.5 * self.sweep)
+        self.starts = np.array([arc.start for arc in arcs])
+        every = np.arange(len(arcs))
+        self.middles = self.at(every, 0.5 * self.sweep)
+        # if a boundary lies in another one, so do some of these points
+        self.probes = np.concatenate([self.at(every, part * self.sweep) for part in ARC_SAMPLES])
+        axes = {max(axis, opposite(axis)) for axis in (arc.axis for arc in arcs)}
+        self.centres = np.array(sorted(axes))  # opposite ones once
         half = np.sin(self.angle) * np.sin(0.25 * self.sweep)
-        self.size = 2.0 * np.arcsin(np.minimum(half, 1.0))  # angle from its middle to its ends
-        back = np.roll([arc.travel(arc.end) for arc in arcs], 1, axis=0)
-        on = np.array([arc.travel(arc.start) for arc in arcs])
-        sideways = (np.cross(back, on) * self.start).sum(axis=1)
-        # left turn of the boundary before each arc,
-        self.first = np.arctan2(sideways, (back * on).sum(axis=1))
-        if not closed:
-            self.first[0] = 0.0
-        self.last = np.roll(self.first, -1)  # and after it
+        self.size = 2.0 * radius * np.arcsin(np.minimum(half, 1.0))  # from its middle to its ends
+        # left turn of the boundary after each arc, and before it; 0 for none
+        end = self.starts[after]
+        back, on = np.cross(self.axis, end), np.cross(self.axis[after], end)
+        turn = np.arctan2((np.cross(back, on) * end).sum(axis=1), (back * on).sum(axis=1))
+        self.turn_end = np.where(np.abs(turn) > SAME_ANGLE, turn, 0.0)
+        self.turn_end[-1] *= closed
+        self.turn_start = np.empty(len(arcs))
+        self.turn_start[after] = self.turn_end
 
     def __len__(self) -> int:
         return len(self.angle)
@@ -58,18 +75,22 @@ class SphereArcs:
         return np.cos(self.angle[which])[:, None] * self.axis[which] + flat * ahead
 
     def signed(self, points: Array) -> Array:
-        """Distances of points (n, 3) from the boundary, radians, negative inside."""
+        """Distances of points (n, 3) from the boundary, negative inside."""
         off, past, short, away = self._nearest(points)
         near, row = np.argmin(away, axis=1), np.arange(len(points))
         past, short, away = (each[row, near] for each in (past, short, away))
-        corner = np.where(short < past, self.first[near], self.last[near])
-        corner = np.where((past > 0.0) & (np.abs(corner) > SAME_ANGLE), corner, 0.0)
-        outside = np.where(corner != 0.0, corner > 0.0, off[row, near] > 0.0)
-        return np.where(outside, away, -away)
+        corner = np.where(short < past, self.turn_start[near], self.turn_end[near])
+        is_corner = (past > 0.0) & (corner != 0.0)
+        outside = np.where(is_corner, corner > 0.0, off[row, near] > 0.0)
+        return self.radius * np.where(outside, away, -away)
 
-    def distances(self, points: Array) -> Array:
+    def angles(self, points: Array) -> Array:
         """Distances of points (n, 3) from each arc, radians, (n, k)."""
         return self._nearest(points)[-1]
+
+    def farthest(self, points: Array) -> Array:
+        """Distances of points (n, 3) from the farthest point of each arc, (n, k)."""
+        return self.radius * (math.pi - self.angles(-points))
 
     def _nearest(self, points: Array) -> tuple[Array, Array, Array, Array]:
         """Angles off circles, past the arcs' ends, short of their starts; distances."""
@@ -81,17 +102,23 @@ class SphereArcs:
         beyond = np.where(past <= 0.0, 0.0, np.minimum(past, short))
         return off, past, short, _distances(off, np.sin(self.angle) * across, beyond)
 
+    def touching(self, which: Whole, towards: Array) -> tuple[Whole, Array]:
+        """Return the points of some arcs (m,) where others may touch, after their indices.
+
+        They are samples, and points that face directions (m, j, 3), or away from them.
+        """
+        row, facing = self.facing(which, towards)
+        points = [self.at(which, share * self.sweep[which]) for share in ARC_SAMPLES]
+        rows = np.tile(np.arange(len(which)), len(points))
+        return np.concatenate((rows, row)), np.concatenate((*points, facing))
+
     def facing(self, which: Whole, towards: Array) -> tuple[Whole, Array]:
-        """Points of some arcs that face directions (n, 3), or away; the direction's index first."""
-        along = (towards * self.x[which]).sum(axis=1)
-        turn = np.arctan2((towards * self.y[which]).sum(axis=1), along)
-        owner, points = [], []
-        for opposite in (0.0, np.pi):
-            at = np.remainder(turn + opposite, 2.0 * np.pi)
-            on = np.flatnonzero(at <= self.sweep[which])
-            owner.append(on)
-            points.append(self.at(which[on], at[on]))
-        return np.concatenate(owner), np.concatenate(points)
+        """Return the points of some arcs (m,) that face directions (m, j, 3), or away."""
+        along, sideways = ((towards * v[which, None]).sum(axis=-1) for v in (self.x, self.y))
+        turn = np.arctan2(sideways, along) + np.array((0.0, np.pi))[:, None, None]
+        turn = np.remainder(turn, 2.0 * np.pi)
+        on = np.nonzero(turn <= self.sweep[which, None])
+        return on[1], self.at(which[on[1]], turn[on])
 
 
 class Circle(NamedTuple):
@@ -115,30 +142,25 @@ class Circle(NamedTuple):
         return math.cos(self.angle) * self.axis + flat * (c * self.x + s * self.y)
 
 
-def farthest(boundary: SphereArcs, points: Array) -> Array:
-    """Return the distance from each point, (n, 3), to the farthest point of each arc, (n, k)."""
-    return math.pi - boundary.distances(-points)
-
-
 def from_circle(boundary: SphereArcs, circle: Circle, middle: Array, half: Array) -> Array:
-    """Return the distances of arcs of a circle from a boundary that they do not cross, (n,).
+    """Return the angles of arcs of a circle from a boundary that they do not cross, (n,).
 
     They are from azimuths ``middle - half`` to ``middle + half``.
     """
     # two circles are nearest to each other on the great circle through both axes
     every = np.arange(len(boundary))
-    _, facing = boundary.facing(every, np.tile(circle.axis, (len(every), 1)))
-    polar, azimuth = circle.seen(np.concatenate((boundary.start, facing)))
+    _, facing = boundary.facing(every, np.tile(circle.axis, (len(every), 1, 1)))
+    polar, azimuth = circle.seen(np.concatenate((boundary.starts, facing)))
     away = within_half_turn(azimuth - middle[:, None])
     beyond = np.maximum(np.abs(away) - half[:, None], 0.0)
     across = math.sin(circle.angle) * np.sin(polar)
     from_points = _distances(polar - circle.angle, across, beyond).min(axis=1)
     ends = [circle.at(end) for end in (middle - half, middle + half)]
-    from_ends = [boundary.distances(end).min(axis=1) for end in ends]
+    from_ends = [boundary.angles(end).min(axis=1) for end in ends]
     return np.minimum.reduce((from_points, *from_ends))
 
 
-def short_arcs(regions: Iterable[Region], step: float) -> SphereArcs:
+def short_arcs(regions: Iterable[Region], step: float, radius: float) -> SphereArcs:
     """Return the boundaries of regions, cut into arcs that turn by at most ``step`` radians."""
     pieces = []
     for arc in (arc for region in regions for arc in region.boundary):
@@ -146,7 +168,7 @@ def short_arcs(regions: Iterable[Region], step: float) -> SphereArcs:
         points, _ = arc.at(arc.sweep * np.arange(1, count) / count)
         ends = [arc.start, *[(x, y, z) for x, y, z in points.tolist()], arc.end]
         pieces += [SphereArc(arc.axis, arc.angle, *pair) for pair in pairwise(ends)]
-    return SphereArcs(pieces)
+    return SphereArcs(pieces, radius=radius)
 
 
 class RoundHole(NamedTuple):

@@ -102,25 +102,28 @@ class PlaneMotion:
 
     It changes one of two coordinates of a point, the place (radians; of a rack over its pinion's
     radius), and leaves the other, the level: distance from the axis, or position across the rack.
-    Arrays of points are (n, 2).
+    The crank turns about (L, 0). Arrays of points are (..., 2), and angles have one axis less.
+    A unit of coordinates is ``scale`` mm.
     """
 
-    # change of the place after which a body meets itself, radians; infinite for a rack
-    PERIOD = math.tau
-    # rate at which the body's x axis turns; 0 for a rack
-    TURNS = 1.0
+    scale = 1.0
+
+    def __init__(self, L: float) -> None:
+        import numpy as np
+
+        self.L, self.crank_axis = L, np.column_stack((L, 0.0 * L))  # (1, 2), in the fixed frame
 
     def into(self, points: Array, turn: Array) -> Array:
-        """Return points in the frame of the body, which has moved by n angles."""
+        """Return points in the frame of the body, which has moved by angles."""
         return turned_points(points, -turn)
 
     def level(self, points: Array) -> Array:
-        """Return the coordinate of points that the motion leaves as it is, (n,)."""
+        """Return the coordinate of points that the motion leaves as it is."""
         x, y = points[..., 0], points[..., 1]
         return library(points).hypot(x, y)
 
     def place(self, points: Array) -> Array:
-        """Return the coordinate of points that the motion changes, radians (n,)."""
+        """Return the coordinate of points that the motion changes, radians."""
         x, y = points[..., 0], points[..., 1]
         return library(points).atan2(y, x)
 
@@ -136,12 +139,20 @@ class PlaneMotion:
         """Return half of the range of places that a disc of radius ``reach`` covers."""
         return math.asin(reach / level) if reach < level else math.pi
 
+    def from_crank(self, points: Array, angle: Array) -> Array:
+        """Return points (k, 2) of the crank in the fixed frame, at n angles: (n, k, 2)."""
+        return turned_points(points, angle[..., None]) + self.crank_axis
+
+    def in_crank(self, points: Array, angle: Array) -> Array:
+        """Return points of the fixed frame in that of the crank, at angles."""
+        return turned_points(points - self.crank_axis, -angle)
+
 
 def turned_points(points: Array, angle: Array) -> Array:
-    """Return points (n, 2), each turned about the origin by its own angle, radians."""
+    """Return points (..., 2), or (..., 3), each turned about the z axis by its own angle."""
     import numpy as np
 
-    c, s = np.cos(angle), np.sin(angle)
-    return np.column_stack(
-        (points[:, 0] * c - points[:, 1] * s, points[:, 0] * s + points[:, 1] * c)
-    )
+    c, s, (x, y, *_) = np.cos(angle), np.sin(angle), np.moveaxis(points, -1, 0)
+    out = np.empty((*np.broadcast_shapes(x.shape, c.shape), points.shape[-1]))
+    out[..., 0], out[..., 1], out[..., 2:] = x * c - y * s, x * s + y * c, points[..., 2:]
+    return out

@@ -95,12 +95,11 @@ class FlatParts(EdgedParts):
 
     def pairs(self, target: float) -> FlatPairs:
         """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""
-        from geneva_cli.geometry.distance import farthest
         from geneva_cli.parts.turn.turn_certificate import FlatPairs
 
         gaps, axis = self.outlines.gaps, np.zeros((1, 2))
         outside = self.assembly.sign > 0.0
-        rim = float(farthest(gaps.wheel, 0.0, 0.0).max() if outside else gaps.wheel.signed(axis)[0])
+        rim = float(gaps.wheel.farthest(axis).max() if outside else gaps.wheel.signed(axis)[0])
         return FlatPairs(gaps, self.outlines.crank, target, rim)
 
     def following(self, mechanism: Mechanism) -> Parts:

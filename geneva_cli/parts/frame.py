@@ -12,7 +12,7 @@ from itertools import product
 import numpy as np
 
 from geneva_cli.geometry import shapes
-from geneva_cli.geometry.distance import Polyarc, farthest
+from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.plates import Member, Plate
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Point, convex_hull
 from geneva_cli.motion.mechanism import Mechanism
@@ -128,7 +128,9 @@ def _bridge(parts: Outlines, bars: Links, shaft: Shaft) -> Plate | None:
     links = {link.name: link for link in links_at(mechanism, turn_deg(mechanism))}
     for plate in bars.plates:
         if plate.name in links:  # a block stays in its link
-            reach = float(farthest(Polyarc([shapes.as_contour(plate.outline)]), 0.0, 0.0).max())
+            reach = float(
+                Polyarc([shapes.as_contour(plate.outline)]).farthest(np.zeros((1, 2))).max()
+            )
             far.append(float(np.abs(places(links[plate.name])[0] - L).max()) + reach)
     wall = wall_min(size, L)
     bore = shaft.bore.around + 0.5 * size.allowances.shaft_fit_mm

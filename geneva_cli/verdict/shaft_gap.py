@@ -12,7 +12,7 @@ from typing import NamedTuple, TypeVar
 
 import numpy as np
 
-from geneva_cli.geometry.distance import Polyarc, farthest
+from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.plates import Member, in_place, oriented
 from geneva_cli.geometry.shapes import Layer, Point
 from geneva_cli.motion.mechanism import Mechanism
@@ -88,6 +88,6 @@ def rings_of(members: Iterable[Member]) -> list[Ring]:
         for _, plate in in_place([Member(member.part)]):
             contours = oriented(plate.outline, plate.holes)
             inner = max(0.0, float(Polyarc(contours).signed(np.zeros((1, 2)))[0]))
-            outer = float(farthest(Polyarc(contours[:1]), 0.0, 0.0).max())
+            outer = float(Polyarc(contours[:1]).farthest(np.zeros((1, 2))).max())
             rings.append(Ring(plate.layer, member.at, inner, outer, plate.low, plate.high))
     return rings

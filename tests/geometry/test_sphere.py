@@ -135,7 +135,7 @@ def test_a_belt_holds_its_caps_and_no_more(name):
     for one in caps:
         rim = one.region.boundary[0].at(np.linspace(0.0, math.tau, 100))[0]
         assert edge.signed(rim).max() < 1e-9  # of a square root at a tangent's touch
-    assert np.abs(edge.first).max() < 1e-9
+    assert np.abs(edge.turn_start).max() < 1e-9
     for arc, after in zip(found.boundary, (*found.boundary[1:], found.boundary[0]), strict=True):
         assert arc.end == after.start
         if arc.angle < 1.5:

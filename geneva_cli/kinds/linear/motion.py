@@ -10,21 +10,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from geneva_cli.motion.compatible import Conflict, is_set
-from geneva_cli.motion.engagement import Slot, SlotAxis
+from geneva_cli.motion.engagement import Slot
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.path_and_slot import AnchoredPath, StraightSlotMotion
 from geneva_cli.motion.pivots import Pivot, PlaneMotion
 from geneva_cli.motion.wheels.classic import HalfStep, PinPose, middle
 from geneva_cli.motion.wheels.gearing import Gearing, Output, RollerPlace
 from geneva_cli.numerics.arrays import Array, N
-from geneva_cli.numerics.jet import Jet, Number
+from geneva_cli.numerics.jet import Displacement, Jet, Number, Vector
 from geneva_cli.spec.schema import Example
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet_functions import Displacement
 
 
 class Linear(Gearing):
@@ -107,15 +104,14 @@ class ParallelSlot(Slot):
     def __init__(self, path: AnchoredPath) -> None:
         self.path = path
 
-    def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
-        """Pin (x, y) in the rack, on the slot's straight axis."""
-        along = self.path.middle(input_deg, order)[0]
-        return along, along * 0.0
+    def place(self, input_deg: Number, order: int) -> Jet:
+        """Position of the pin across the rack."""
+        return self.path.nearest(input_deg, order)[0]
 
-    def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
-        """Lever of the slot's normal about the pinion's axis, and the pin's speed along it."""
-        along = self.path.nearest(input_deg, order + 1)[0].derivative()
-        return along * 0.0 + 1.0, along
+    def axis(self, input_deg: Number, order: int = 0) -> Vector:
+        """Lever of the slot's normal about the pinion's axis, and the pin's place along it."""
+        place = self.place(input_deg, order)
+        return place * 0.0 + 1.0, place
 
     def play(self, clearance: Number) -> Number:
         """Free travel, for a clearance on either side of the roller."""
@@ -153,19 +149,13 @@ def no_parts(spec: Spec) -> str:
 
 
 class Sliding(PlaneMotion):
-    """The travel of a rack along y, by ``radius`` a radian."""
-
-    PERIOD = math.inf
-    TURNS = 0.0
-
-    def __init__(self, radius: float) -> None:
-        self.radius = radius
+    """The travel of a rack along y, by the crank's radius L a radian."""
 
     def into(self, points: Array, turn: Array) -> Array:
         """Return points, moved back along y."""
-        out = points.copy()
-        out[:, 1] -= self.radius * turn
-        return out
+        import numpy as np
+
+        return np.stack((points[..., 0] + 0.0 * turn, points[..., 1] - self.L * turn), axis=-1)
 
     def level(self, points: Array) -> Array:
         """Return the position across the rack, x."""
@@ -173,7 +163,7 @@ class Sliding(PlaneMotion):
 
     def place(self, points: Array) -> Array:
         """Return the position along the rack, over the radius."""
-        return points[..., 1] / self.radius
+        return points[..., 1] / self.L
 
     def outwards(self, points: Array) -> Array:
         """Return the x axis."""
@@ -181,11 +171,11 @@ class Sliding(PlaneMotion):
 
     def lever(self, level: N) -> N:
         """Return the radius, at any level."""
-        return 0.0 * level + self.radius
+        return 0.0 * level + self.L
 
     def half_span(self, reach: float, level: float) -> float:
         """Return the disc's radius over the rack's."""
-        return reach / self.radius
+        return reach / self.L
 
 
 def refuses(spec: Spec) -> Iterator[Conflict]:

@@ -19,6 +19,17 @@ from geneva_cli.spec.defaults import wall_min
 from geneva_cli.spec.tables import Z_DRAWN, Size
 
 
+class BallLengths(NamedTuple):
+    """Arc lengths on the sphere, mm; ``rim`` is a distance from the wheel's axis."""
+
+    roller: float
+    half_width: float
+    rim: float
+    arm: float
+    horn: float
+    lock: float
+
+
 class Ball(NamedTuple):
     """The sizes of a spherical machine, whose slots are meridians.
 
@@ -47,6 +58,13 @@ class Ball(NamedTuple):
     hub_mm: float  # radius of its hub, 0 for none
     pin_mm: float  # radius of the rollers' pins, 0 for none
     arm_bore_mm: float  # radius of the bore in the arm's hub, 0 without an arm
+
+    @property
+    def lengths(self) -> BallLengths:
+        """The sizes as lengths."""
+        L = self.radius_mm
+        arcs = L * self.roller, L * self.half_width, L * math.sin(self.rim), L * math.sin(self.arm)
+        return BallLengths(*arcs, L * self.horn, L * self.lock)
 
     @property
     def half_step(self) -> float:

@@ -3,9 +3,8 @@
 The sphere's centre is the origin and the wheel's axis is z. The crank's parts are in its frame.
 """
 
-import math
 from collections.abc import Iterator
-from typing import ClassVar, NamedTuple
+from typing import ClassVar
 
 import numpy as np
 
@@ -33,16 +32,6 @@ from geneva_cli.spec.defaults import wheel_material
 from geneva_cli.spec.tables import Size
 
 
-class BallLengths(NamedTuple):
-    """Arc lengths on the sphere, mm; ``rim`` is a distance from the wheel's axis."""
-
-    roller: float
-    half_width: float
-    rim: float
-    arm: float
-    horn: float
-
-
 class SphereParts(Parts):
     """The parts of a machine in the wheel's frame."""
 
@@ -52,10 +41,8 @@ class SphereParts(Parts):
     def shape(self) -> TurnedShape:
         """Wheel and crank as they are turned. Raises GenevaError where the sizes leave none."""
         own, where = ball(self.mechanism), assembly(self.mechanism, flat=False)
-        L, locks = own.radius_mm, regions.sectors(own)
-        rim, arm = L * math.sin(own.rim), L * math.sin(own.arm)
-        lengths = BallLengths(L * own.roller, L * own.half_width, rim, arm, L * own.horn)
-        return TurnedShape(where, lengths, locks, BallGaps(where, own, locks))
+        locks = regions.sectors(own)
+        return TurnedShape(where, own.lengths, locks, BallGaps(where, own, locks))
 
     @property
     def ball(self) -> Ball:

@@ -23,7 +23,7 @@ from geneva_cli.geometry import sphere
 from geneva_cli.geometry.sphere import POLE, Cap, Region, Rotation, SphereArc, opposite, place
 from geneva_cli.geometry.sphere_arcs import RoundHole, least_wall
 from geneva_cli.kinds.spherical.ball import Ball, refuse_above, refuse_wide
-from geneva_cli.kinds.spherical.stops import about
+from geneva_cli.motion.pivots import turned_points
 from geneva_cli.numerics.arrays import Array, within_half_turn
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.outlines.crank_outline import widest
@@ -94,7 +94,7 @@ def edge_points(ball: Ball, each: int = 200) -> Array:
     fractions = np.arange(each) / each
     one = np.concatenate([arc.at(arc.sweep * fractions)[0] for arc in edge(ball)])
     angle = 2.0 * ball.half_step * np.arange(ball.z)  # of each slot
-    return about(np.tile(one, (ball.z, 1)), np.repeat(angle, len(one)))
+    return turned_points(np.tile(one, (ball.z, 1)), np.repeat(angle, len(one)))
 
 
 def sectors(ball: Ball) -> list[Region]:
@@ -164,24 +164,19 @@ def swept(ball: Ball) -> tuple[Array, Array]:
     These are polar angles from the crank's axis and azimuths about it, radians, one row for each
     position, of points that come within the locking edge.
     """
-    frame = np.column_stack(at_mid_motion(ball))
-    wheel = edge_points(ball, 100)
+    frame, wheel = np.array(at_mid_motion(ball)), edge_points(ball, 100)
     # the wheel turns by half a step either way: the position nearest to the crank's axis counts
     off = np.maximum(np.abs(np.arctan2(wheel[:, 1], wheel[:, 0])) - ball.half_step, 0.0)
     nearest = math.sin(ball.axes) * np.hypot(wheel[:, 0], wheel[:, 1]) * np.cos(off)
     nearest += math.cos(ball.axes) * wheel[:, 2]
     wheel = wheel[nearest > math.cos(ball.lock) - SAME_ANGLE]
     turns = np.linspace(-ball.half_motion, ball.half_motion, 361)
-    # rotations (n, 3, 3) of rows of points that bring the wheel's slot under the roller
-    flat, up = math.sin(ball.arm), np.full(len(turns), math.cos(ball.arm))
-    x, y, _ = frame @ np.stack((flat * np.cos(turns), -flat * np.sin(turns), up))
-    away = np.hypot(x, y)
-    c, s, no = x / away, y / away, 0.0 * away
-    index = np.moveaxis(np.array(((c, s, no), (-s, c, no), (no, no, 1.0 + no))), -1, 0)
-    x, y, up = np.moveaxis((wheel @ np.ascontiguousarray(index)) @ frame, -1, 0)
+    x, y, _ = (turned_points(np.array(place(ball.arm, 0.0)), -turns) @ frame).T
+    # the wheel's slot is under the roller
+    seen = turned_points(wheel, np.arctan2(y, x)[:, None]) @ frame.T
     # the limit is below the locking edge's angle, so that points along the edge do not count
-    comes = np.flatnonzero(up.max(axis=0) > math.cos((1.0 - 0.5 * SAME_ANGLE) * ball.lock))
-    x, y, up = x[:, comes], y[:, comes], up[:, comes]
+    comes = seen[..., 2].max(axis=0) > math.cos((1.0 - 0.5 * SAME_ANGLE) * ball.lock)
+    x, y, up = np.moveaxis(seen[:, comes], -1, 0)
     return np.arctan2(np.hypot(x, y), up), np.arctan2(y, x) + turns[:, None]
 
 

@@ -1,104 +1,95 @@
-"""Outlines of circles' arcs on the sphere of a wheel that turns about z: branches for ``stops``.
-
-The region to the left of an arc lies in a cap about the arc's axis. A hollow is the rim of a cap of
-more than half the sphere.
-"""
+"""The motion and the stops of a wheel that turns about z on a sphere."""
 
 from __future__ import annotations
-
-from collections.abc import Callable
-from typing import TypeAlias
 
 import numpy as np
 
 from geneva_cli.geometry.sphere_arcs import SphereArcs
 from geneva_cli.kinds.spherical.ball import Ball
-from geneva_cli.numerics.arrays import Array, within_half_turn
-from geneva_cli.numerics.tolerances import SAME_ANGLE
-from geneva_cli.parts.turn.stops import CONCENTRIC, Branches, Pose, Stops, cut, masked
+from geneva_cli.kinds.spherical.regions import at_mid_motion
+from geneva_cli.motion.pivots import PlaneMotion, turned_points
+from geneva_cli.numerics.arrays import Array, N, within_half_turn
+from geneva_cli.parts.turn.stops import CONCENTRIC, Curve, Pieces, Pose, Stops
 
-Out: TypeAlias = Callable[[Array, Array], Array]
+
+class SphereMotion(PlaneMotion):
+    """The turns of wheel and crank on a sphere; points are directions (..., 3).
+
+    Levels and distances are arcs on the sphere, mm.
+    """
+
+    def __init__(self, ball: Ball) -> None:
+        self.L = self.scale = ball.radius_mm
+        self.crank_frame = np.array(at_mid_motion(ball))  # rows: the crank's axes, in the wheel's
+        self.crank_axis = self.crank_frame[2:]
+
+    def level(self, points: Array) -> Array:
+        """Return the distances of directions from the wheel's axis."""
+        return self.L * polar(points)
+
+    def lever(self, level: N) -> N:
+        """Return how far points at a level move a radian."""
+        return self.L * np.sin(level / self.L)
+
+    def from_crank(self, points: Array, angle: Array) -> Array:
+        """Return directions (k, 3) of the crank in the fixed frame, at n angles: (n, k, 3)."""
+        # the crank turns clockwise about its axis where the wheel turns counterclockwise
+        return turned_points(points, -angle[..., None]) @ self.crank_frame
+
+    def in_crank(self, points: Array, angle: Array) -> Array:
+        """Return directions of the fixed frame in that of the crank, at angles."""
+        return turned_points(points @ self.crank_frame.T, angle)
+
+
+class ProjectedMotion(SphereMotion):
+    """The same, seen from the pole opposite to the wheel's axis: circles stay circles."""
+
+    def level(self, points: Array) -> Array:
+        """Return the distances of projected points from the wheel's axis, over its diameter."""
+        return np.tan(0.5 * polar(points))
 
 
 class SphereStops(Stops):
-    """Stops of one machine's wheel on a sphere, by the ``edge`` of one of its equal slots.
+    """Stops of one machine's wheel on a sphere, by the edge of one of its equal slots.
 
-    Levels are angles from z. Of a branch, ``size`` is the angle of its cap, and ``excess`` that of
-    the cap's axis from z. ``out`` transforms directions (k, 3) of the crank's frame to the fixed
-    one at n angles of the crank: (n, k, 3). A roller is a cap.
+    Levels are those of a ``ProjectedMotion``. A roller is a cap, whose radius is an angle.
     """
-
-    def __init__(self, edge: SphereArcs, crank: list[SphereArcs], out: Out, ball: Ball) -> None:
-        super().__init__(edge, 2.0 * ball.half_step, crank, ball.radius_mm, ball.roller)
-        self.out = out
 
     def first(self, pose: Pose, most: float, close: float) -> tuple[Array, Array]:
         """Return the stops as on a plane, of parts that may overlap by ``close`` mm."""
-        return super().first(pose, most, close / self.L)
+        return super().first(pose, most, close / self.moves.L)
 
-    def rollers(self, centres: Array, inset: float) -> Array:
-        """Return rollers about n centres, directions (n, 3), as branches on one side of them."""
-        far, ahead, zero = polar(centres), azimuth(centres), np.zeros(len(centres))
-        cap = zero + self.roller - inset, far, ahead
-        (low, at_low), (high, at_high) = _extremes(far, cap[0])
-        row = np.arange(len(centres))
-        return np.array((row, low, high, at_low, at_high, *cap, zero + 1.0, zero))
+    def circle(self, centres: Array, radius: Array | float) -> Curve:
+        """Return the curves of caps of a radius, radians, about their middles."""
+        far = polar(centres)
+        nearest, farthest = np.tan(0.5 * (far - radius)), np.tan(0.5 * (far + radius))
+        return 2.0 / (farthest - nearest), nearest, azimuth(centres)
 
-    def corners(self, outline: SphereArcs, pose: Pose) -> Array:
-        """Return the convex corners of a sector in n poses, as branches of one level."""
-        points = self.out(outline.start[outline.first > SAME_ANGLE], pose.crank)
-        row = np.repeat(np.arange(len(pose.crank)), points.shape[1])
-        level, at, zero = polar(points).ravel(), azimuth(points).ravel(), np.zeros(len(row))
-        return np.array((row, level, level, zero, zero, zero, level, at, zero, zero))
-
-    def branches(self, outline: SphereArcs, angle: Array | None, inset: float) -> Array:
-        """Return the branches ``inset`` radians inside the edge, or a sector at n angles."""
-        trims = inset * np.tan(0.5 * np.clip((outline.first, outline.last), 0.0, 3.0))
-        trims, size = trims / np.sin(outline.angle), outline.angle - inset
-        axis, x, y = outline.axis[None], outline.x[None], outline.y[None]
-        if angle is not None:
-            axis, x, y = self.out(axis[0], angle), self.out(x[0], angle), self.out(y[0], angle)
-        far, ahead = polar(axis), azimuth(axis)
-        start = np.arctan2(y[..., 2], -x[..., 2]) + trims[0]
-        sweep, zero = outline.sweep - trims.sum(axis=0), 0.0 * far
-        same = np.sin(far) < CONCENTRIC
-        at, cap = np.abs(far - size), (zero + size, far, ahead)
-        middle = azimuth(_point(axis, x, y, size, trims[0] + 0.5 * sweep))
-        round_ = at, at, zero, zero, zero + size, far, middle, zero, zero + 0.5 * sweep
-        known = []
-        for turn in (trims[0], trims[0] + sweep):
-            point = _point(axis, x, y, size, turn)
-            off = within_half_turn(azimuth(point) - ahead)
-            known.append((polar(point), np.abs(off)))
-        levels = np.array(known).swapaxes(0, 1)
-        parts = cut(~same, (start, start + sweep), levels, _extremes(far, size), cap)
-        return np.concatenate((masked(same, *round_), *parts), axis=1)
-
-    def away(self, branch: Branches, level: Array) -> Array:
-        """Return how far azimuths of branches are from those of their caps, at levels inside."""
-        size, far = branch.size, branch.excess
-        sine = np.sin(0.5 * (size - level + far)) * np.sin(0.5 * (size + level - far))
-        cosine = np.sin(0.5 * (level + far - size)) * np.sin(0.5 * (level + far + size))
-        return 2.0 * np.arctan2(np.sqrt(np.maximum(sine, 0.0)), np.sqrt(np.maximum(cosine, 0.0)))
-
-    def tangents(self, one: Branches, two: Branches) -> tuple[Array, Array]:
-        """Return the levels at which branches may be tangent."""
-        p, q = np.cos(one.excess) * np.sin(two.size), np.cos(two.excess) * np.sin(one.size)
-        both = np.arccos((p + q) / np.sin(two.size + one.size))
-        return both, np.arccos((p - q) / np.sin(two.size - one.size))
+    def pieces(self, outline: SphereArcs, angle: Array | None, inset: float) -> Pieces:
+        """Return the pieces ``inset`` radians inside the edge, or a sector at n angles."""
+        axis, x, y = (
+            points[None] if angle is None else self.moves.from_crank(points, angle)
+            for points in (outline.axis, outline.x, outline.y)
+        )
+        turns = np.array((outline.turn_start, outline.turn_end))
+        size, trims = outline.angle - inset, inset * np.tan(0.5 * np.clip(turns, 0.0, 3.0))
+        begin, end = trims / np.sin(outline.angle)
+        sweep = outline.sweep - begin - end
+        first, middle, last = (
+            _point(axis, x, y, size, begin + share * sweep) for share in (0.0, 0.5, 1.0)
+        )
+        bend, excess, ahead = self.circle(axis, size)
+        level = np.hypot(axis[..., 0], axis[..., 1]) < CONCENTRIC
+        ahead = np.where(level, azimuth(middle), ahead)
+        ends, start = np.array((first, last)), np.arctan2(y[..., 2], -x[..., 2]) + begin
+        off = np.abs(within_half_turn(azimuth(ends) - ahead))
+        known, span = np.array((self.moves.level(ends), off)), np.array((start, start + sweep))
+        return known, span, (bend, excess, ahead), level
 
     def lean(self, level: Array, pins: Array, close: float) -> Array:
         """Return the sine of the pressure angle where rollers touch, ``close`` inside them."""
-        radius, far = self.roller - close, polar(pins)
-        return (np.cos(far) - np.cos(radius) * np.cos(level)) / (np.sin(radius) * np.sin(level))
-
-
-def _extremes(far: Array, size: Array) -> Array:
-    """Return level and angle from the axis' azimuth of the nearest and farthest points of rims."""
-    least, most, zero = far - size, far + size, 0.0 * far
-    over = most > np.pi
-    nearest = np.abs(least), np.where(least < 0.0, np.pi, zero)
-    return np.array((nearest, (np.where(over, 2.0 * np.pi - most, most), np.pi * over)))
+        radius, far, at = self.roller - close, polar(pins), 2.0 * np.arctan(level)
+        return (np.cos(far) - np.cos(radius) * np.cos(at)) / (np.sin(radius) * np.sin(at))
 
 
 def _point(axis: Array, x: Array, y: Array, size: Array, turn: Array) -> Array:
@@ -116,12 +107,3 @@ def polar(points: Array) -> Array:
 def azimuth(points: Array) -> Array:
     """Return the angles of directions (..., 3) about z, from x."""
     return np.arctan2(points[..., 1], points[..., 0])
-
-
-def about(points: Array, angle: Array) -> Array:
-    """Return directions (n, 3), each turned about z by its own angle, radians."""
-    c, s = np.cos(angle), np.sin(angle)
-    x, y, z = points.T
-    out = np.empty(points.shape)
-    out[:, 0], out[:, 1], out[:, 2] = x * c - y * s, x * s + y * c, z
-    return out

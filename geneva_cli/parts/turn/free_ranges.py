@@ -16,6 +16,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc
+from geneva_cli.motion.pivots import PlaneMotion
 from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.parts.turn.stops import Branches, Meetings, Stops
 
@@ -53,7 +54,7 @@ class FreeRanges:
         self.period = math.tau if which is None else pitch
         sector = wheel if which is None else wheel.subset(which)
         # one sector stands for all, so that rounded numbers of a drawing make no difference
-        self.stops = Stops(sector, self.period, [self.crank], L, 0.0)
+        self.stops = Stops(sector, self.period, crank, 0.0, PlaneMotion(L))
         self.own = self.stops.branches(sector, None, 0.0)
 
     def with_slack(self, slack: float) -> FreeRanges:
@@ -136,12 +137,6 @@ def union(row: Whole, start: Array, end: Array) -> Intervals:
 
 
 def levels(outline: Polyarc) -> tuple[Array, Array]:
-    """Return bounds of the distance of the points of each piece from the origin, mm."""
-    middle, far = np.hypot(outline.ox, outline.oy), np.hypot(outline.cx, outline.cy)
-    low, high = np.maximum(middle - outline.size, 0.0), middle + outline.size
-    # of a whole circle
-    least, most = np.abs(far - outline.radius), far + outline.radius
-    ends = np.hypot(outline.x0, outline.y0), np.hypot(outline.x1, outline.y1)
-    arc = outline.arc
-    most = np.where(arc, np.minimum(high, most), np.maximum(*ends))
-    return np.where(arc, np.maximum(low, least), low), most
+    """Return the least and greatest distance of each piece from the origin, mm."""
+    origin = np.zeros((1, 2))
+    return outline.distances(*origin.T)[0], outline.farthest(origin)[0]

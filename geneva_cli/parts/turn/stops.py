@@ -5,21 +5,21 @@ place, the polar angle. Each piece of an outline is cut where its level is least
 that each branch has one place at a level. A branch of the wheel and one of another outline meet at
 the differences of their places at common levels: an interval of the wheel's angle. Its ends are at
 an end of the common levels, where a corner touches, or where both are tangent, in closed form. The
-wheel is free up to the first interval on either side. On a sphere levels are angles from the axis,
-for a rack positions across it.
+wheel is free up to the first interval on either side. For a rack levels are positions across it.
+A sphere is projected on a plane: circles stay circles, and places stay.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from functools import cache, partial
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.motion.pivots import turned_points
-from geneva_cli.numerics.arrays import Array, Mask, Whole
+from geneva_cli.motion.pivots import PlaneMotion
+from geneva_cli.numerics.arrays import Array, Mask, Whole, within_half_turn
 
 BLOCK = 1 << 18  # pairs of branches that are compared together
 CONCENTRIC = 1e-9  # of the radius: an arc about the axis has one level
@@ -61,6 +61,13 @@ class Branches(NamedTuple):
     half: Array
 
 
+# size, excess and ahead of k ``Branches`` in n poses, (n, k) each
+Curve: TypeAlias = tuple[Array, Array, Array]
+# The k pieces of an outline in n poses, run counterclockwise about their centres: levels of both
+# ends, and how far their places are from that of the centre, (2, 2, n, k); angles of the ends about
+# the centre, from the farthest point on; the curves; and a mask of those that have one level only,
+# whose ``ahead`` is the place of the middle.
+Pieces: TypeAlias = tuple[Array, Array, Curve, Mask]
 # The poses of pairs of branches, the intervals of the wheel's angle, radians, at which they meet,
 # levels at both ends, and the branches of the crank and of the wheel.
 Meetings: TypeAlias = tuple[Whole, Array, Array, Array, Array, Array, Array]
@@ -69,16 +76,16 @@ Meetings: TypeAlias = tuple[Whole, Array, Array, Array, Array, Array, Array]
 class Stops:
     """Stops of a wheel about the origin, of its ``outline`` or of a sector that repeats.
 
-    The outlines of the crank are in its own frame, with its axis at (L, 0). Of a branch, ``size``
-    is the curvature, and ``excess`` how much farther from the origin the centre is than the radius;
-    of a line the distance of its foot.
+    The outline of the crank, or None, is in its own frame. Of a branch, ``size`` is the curvature,
+    and ``excess`` how much farther from the origin the centre is than the radius; of a line the
+    distance of its foot.
     """
 
     def __init__(
-        self, outline: Outline, pitch: float, crank: Sequence[Outline], L: float, roller: float
+        self, outline: Outline, pitch: float, crank: Outline, roller: float, moves: PlaneMotion
     ) -> None:
-        self.outline, self.pitch, self.crank, self.L = outline, pitch, crank, L
-        self.roller = roller
+        self.outline, self.pitch, self.crank = outline, pitch, crank
+        self.roller, self.moves = roller, moves
         # branches of the wheel by how far they are inset: equal for all poses
         self.own = cache(partial(self.branches, outline, None))
 
@@ -95,17 +102,22 @@ class Stops:
         Branches(*sides).sign[n * count :] = -1.0
         each, levels = self._blocked(sides, wheel, np.repeat(pose.wheel, count), most)
         lock = np.full((2, n), most)
-        for outline in self.crank:
-            sides, corners = self.branches(outline, pose.crank, close), self.corners(outline, pose)
-            lock = np.minimum(lock, self._blocked(sides, wheel, pose.wheel, most)[0])
-            lock = np.minimum(lock, self._blocked(corners, inset, pose.wheel, most)[0])
+        if self.crank is not None:
+            # convex corners are branches of one level
+            corners = self.crank.starts[self.crank.turn_start > 0.0]
+            points = self.moves.from_crank(corners, pose.crank).reshape(-1, size)
+            level, at = self.moves.level(points), self.moves.place(points)
+            row, zero = np.repeat(np.arange(n), len(corners)), 0.0 * level
+            corners = np.array((row, level, level, zero, zero, zero, level, at, zero, zero))
+            sides = self.branches(self.crank, pose.crank, close)
+            for others, own in ((sides, wheel), (corners, inset)):
+                lock = np.minimum(lock, self._blocked(others, own, pose.wheel, most)[0])
         each, levels = each.reshape(2, n, count), levels.reshape(2, n, count)
+        with np.errstate(all="ignore"):
+            leans = np.arcsin(np.minimum(np.abs(self.lean(levels, pose.pins, close)), 1.0))
         which = np.argmin(each, axis=2)[..., None]
         lead = np.take_along_axis(each, which, axis=2)[..., 0]
-        level = np.take_along_axis(levels, which, axis=2)[..., 0]
-        pins = np.take_along_axis(pose.pins[None], which[..., None], axis=2)[:, :, 0]
-        with np.errstate(all="ignore"):
-            lean = np.arcsin(np.minimum(np.abs(self.lean(level, pins, close)), 1.0))
+        lean = np.take_along_axis(leans, which, axis=2)[..., 0]
         return np.minimum(lead, lock), np.where((lead < most) & (lead <= lock), lean, 0.0)
 
     def _blocked(
@@ -137,95 +149,89 @@ class Stops:
         for block in range(0, others.shape[1], step):
             some = others[:, block : block + step]
             one = Branches(*some)
-            common = (one.low[:, None] <= own.high) & (one.high[:, None] >= own.low)
-            i, j = np.nonzero(common)
+            i, j = np.nonzero((one.low[:, None] <= own.high) & (one.high[:, None] >= own.low))
             # take() keeps each row in one piece of memory
             crank_side, wheel_side = some.take(i, axis=1), wheel.take(j, axis=1)
             one, two = Branches(*crank_side), Branches(*wheel_side)
-            ends = np.maximum(one.low, two.low), np.minimum(one.high, two.high)
-            first = self.place(one, ends[0]) - self.place(two, ends[0])
-            last = self.place(one, ends[1]) - self.place(two, ends[1])
-            second = last > first
-            low, high = np.minimum(first, last), np.maximum(first, last)
-            at_low, at_high = np.where(second, *ends), np.where(second, *ends[::-1])
-            bent = np.flatnonzero((one.size != 0.0) | (two.size != 0.0))
-            arc = Branches(*crank_side.take(bent, axis=1))
-            other = Branches(*wheel_side.take(bent, axis=1))
+            low, high = np.maximum(one.low, two.low), np.minimum(one.high, two.high)
             with np.errstate(all="ignore"):
-                for tangent in self.tangents(arc, other):
-                    level = np.clip(np.nan_to_num(tangent), ends[0][bent], ends[1][bent])
-                    here = self.place(arc, level) - self.place(other, level)
-                    for least, at, less in (
-                        (low, at_low, here < low[bent]),
-                        (high, at_high, here > high[bent]),
-                    ):
-                        least[bent[less]], at[bent[less]] = here[less], level[less]
+                tangents = np.clip(np.nan_to_num(self.tangents(one, two)), low, high)
+                levels = np.array((low, high, *tangents))
+                turns = self.place(one, levels) - self.place(two, levels)
+            least, most = turns.argmin(axis=0)[None], turns.argmax(axis=0)[None]
+            start = np.take_along_axis(turns, least, 0)[0]
+            end = np.take_along_axis(turns, most, 0)[0]
+            ends = np.take_along_axis(levels, np.concatenate((least, most)), 0)
             row, spare = one.row.astype(int), one.half + two.half
-            yield row, low - spare, high + spare, at_low, at_high, crank_side, wheel_side
+            yield row, start - spare, end + spare, *ends, crank_side, wheel_side
 
     def rollers(self, centres: Array, inset: float) -> Array:
         """Return rollers about n centres in the fixed frame, as branches on one side of them."""
-        far, ahead = np.hypot(*centres.T), np.arctan2(centres[:, 1], centres[:, 0])
-        radius = self.roller - inset
-        excess, zero = far - radius, 0.0 * far
-        ends = np.abs(excess), far + radius, np.where(excess < 0.0, np.pi, 0.0), zero
-        one = np.arange(len(far)), *ends, zero + 1.0 / radius, excess, ahead, zero + 1.0, zero
-        return np.array(one)
-
-    def corners(self, outline: Outline, pose: Pose) -> Array:
-        """Return the convex corners of the crank in n poses, as branches of one level."""
-        corners = np.column_stack((outline.x0, outline.y0))[outline.turn_start > 0.0]
-        n, k = len(pose.crank), len(corners)
-        x, y = turned_points(np.tile(corners, (n, 1)), np.repeat(pose.crank, k)).T
-        level, zero = np.hypot(self.L + x, y), np.zeros(n * k)
-        ahead, row = np.arctan2(y, self.L + x), np.repeat(np.arange(n), k)
-        return np.array((row, level, level, zero, zero, zero, level, ahead, zero, zero))
+        curve = self.circle(centres, self.roller - inset)
+        levels, away = self.extremes(curve)
+        row, zero = np.arange(len(centres)), 0.0 * away[0]
+        return np.array((row, *levels, *away, *curve, zero + 1.0, zero))
 
     def branches(self, outline: Outline, angle: Array | None, inset: float) -> Array:
         """Return the branches ``inset`` mm inside an outline of the crank at n angles.
 
         Without ``angle`` it is that of the wheel, in its own frame.
         """
+        known, span, curve, level = self.pieces(outline, angle, inset)
+        half, known[1] = np.where(level, known[1, 0], 0.0), np.where(level, 0.0, known[1])
+        # cut where they are nearest to the axis, or farthest: after half turns about the centre
+        half_turns = np.arange(-2.0, 3.0)[:, None, None]
+        start, end = np.where(level, 1.0, span[0]), np.where(level, 2.0, span[1])
+        low, high = np.pi * half_turns, np.pi * (half_turns + 1.0)
+        there, sign = np.maximum(start, low) < np.minimum(end, high), (-1.0) ** half_turns
+        least, most = self.extremes(curve).swapaxes(0, 1)[:, :, None]
+        first = np.where(start > low, known[:, 0, None], np.where(sign > 0.0, most, least))
+        last = np.where(end < high, known[:, 1, None], np.where(sign > 0.0, least, most))
+        rises = first[0] <= last[0]
+        low, high = np.where(rises, (first, last), (last, first))
+        rows = np.arange(there.shape[1])[:, None]
+        columns = rows, low[0], high[0], low[1], high[1], *curve, sign, half
+        out = np.empty((len(columns), np.count_nonzero(there)))
+        for line, column in zip(out, columns, strict=True):
+            line[:] = np.broadcast_to(column, there.shape)[there]
+        return out
+
+    def circle(self, centres: Array, radius: float) -> Curve:
+        """Return the curves of circles about n centres."""
+        far = self.moves.level(centres)
+        return 0.0 * far + 1.0 / radius, far - radius, self.moves.place(centres)
+
+    def pieces(self, outline: Outline, angle: Array | None, inset: float) -> Pieces:
+        """Return the pieces ``inset`` mm inside an outline; see ``branches``."""
         axis, turn = np.zeros((1, 2)), np.zeros(1)
         if angle is not None:  # the wheel's axis as seen from the crank
-            axis, turn = turned_points(np.tile((-self.L, 0.0), (len(angle), 1)), -angle), angle
+            axis, turn = self.moves.in_crank(axis, angle), angle
+        arc, mx, my = outline.arc, outline.mx, outline.my
         *_, side, _, _ = outline.distances(axis[:, :1], axis[:, 1:])
         side = side - inset
-        towards = np.arctan2(outline.my, outline.mx) + turn[:, None]
-        points, trims, radii = inset_ends(outline, inset)
-        seen = points - axis[:, None]  # (2, n, k, 2)
-        px, py = seen[..., 0], seen[..., 1]
-        i = np.flatnonzero(outline.arc)
-        left, radius, zero = outline.sense[i] > 0.0, radii[i], 0.0 * side[:, i]
-        x, y = outline.cx[i] - axis[:, :1], outline.cy[i] - axis[:, 1:]
-        far, mx, my = np.hypot(x, y), outline.mx[i], outline.my[i]
-        same = far < CONCENTRIC * radius
-        excess, bend = np.where(left, -side[:, i], side[:, i]), zero + 1.0 / radius
-        middle = np.arctan2(x * my - y * mx, x * mx + y * my)
-        half, at = np.arctan2(outline.sin_half[i], outline.cos_half[i]), zero + radius
-        own = zero, zero, bend, excess, towards[:, i], zero
-        parts = [masked(same, at, at, *own, zero + half)]
-        level, off = np.hypot(px, py)[..., i], np.abs(x * py[..., i] - y * px[..., i])
-        known = np.stack((level, np.arctan2(off, x * px[..., i] + y * py[..., i])))
-        nearest = np.abs(excess), np.where(excess < 0.0, np.pi, 0.0)
-        known = np.where(left, known, known[:, ::-1])
-        trim = np.where(left, trims[:, i], trims[::-1, i]) / radius
-        span = middle - half + trim[0], middle + half - trim[1]
-        curve = bend, excess, towards[:, i] - middle
-        parts += cut(~same, span, known, np.array((nearest, (far + radius, zero))), curve)
-        i = np.flatnonzero(~outline.arc)
-        foot, zero, inside = np.abs(side[:, i]), 0.0 * side[:, i], side[:, i] >= 0.0
-        ahead = towards[:, i] + np.where(inside, 0.0, np.pi)
-        along = outline.mx[i] * py[..., i] - outline.my[i] * px[..., i]
-        along, level = np.where(inside, along, -along), np.hypot(px, py)[..., i]
-        for sign in (1.0, -1.0):
-            near, beyond = np.sort(sign * along, axis=0)
-            low = np.where(near > 0.0, level.min(axis=0), foot)
-            high = np.where(sign * along[0] > sign * along[1], level[0], level[1])
-            angles = np.arctan2(np.maximum(near, 0.0), foot), np.arctan2(beyond, foot)
-            line = low, high, *angles, zero, foot, ahead, zero + sign, zero
-            parts.append(masked(beyond > 0.0, *line))
-        return np.concatenate(parts, axis=1)
+        # the centre of a line is beyond its foot
+        left = np.where(arc, outline.sense > 0.0, side < 0.0)
+        points, trims, radius = inset_ends(outline, inset)
+        seen = points - axis[:, None]
+        seen = np.where(left[..., None], seen, seen[::-1])
+        begin, end = np.where(left, trims, trims[::-1]) / radius
+        x, y = outline.cx - axis[:, :1], outline.cy - axis[:, 1:]
+        middle = np.arctan2(x * my - y * mx, x * mx + y * my)  # from the farthest point
+        level = arc & (np.hypot(x, y) < CONCENTRIC * radius)
+        middle = np.where(arc, np.where(level, 0.0, middle), np.where(side < 0.0, np.pi, 0.0))
+        ahead = np.arctan2(my, mx) - middle
+        off = within_half_turn(self.moves.place(seen) - ahead)
+        half = np.arctan2(outline.sin_half, outline.cos_half)
+        span = np.where(arc, (middle - half + begin, middle + half - end), np.pi - off)
+        curve = 0.0 * side + 1.0 / radius, np.where(left, -side, side), ahead + turn[:, None]
+        return np.array((self.moves.level(seen), np.abs(off))), span, curve, level
+
+    def extremes(self, curve: Curve) -> Array:
+        """Return levels of nearest and farthest points, and how far they are from the centre's."""
+        size, excess, _ = curve
+        with np.errstate(divide="ignore"):
+            ends = np.array((excess, excess + 2.0 / size))
+        return np.array((np.abs(ends), np.where(ends < 0.0, np.pi, 0.0)))
 
     def place(self, branch: Branches, level: Array) -> Array:
         """Return the places of branches at levels."""
@@ -254,43 +260,10 @@ class Stops:
         return (out + close) / np.sqrt(level * level + close * (2.0 * out + close))
 
 
-def cut(
-    mask: Mask, span: Sequence[Array], known: Array, extremes: Array, curve: Sequence[Array]
-) -> list[Array]:
-    """Return branches of the arcs of a mask (n, k), cut at their nearest and farthest points.
-
-    ``span`` has the angles of both ends about an arc's centre, from the farthest point on. There
-    ``known`` (2, 2, n, k) has the levels, and their angles from the place of the centre, and
-    ``extremes`` has both at the nearest point and at the farthest. ``curve`` has size, excess and
-    place of the centre.
-    """
-    (start, end), (least, most), zero, parts = span, extremes, 0.0 * curve[2], []
-    for k in (-2, -1, 0, 1, 2):
-        sign = 1.0 if k % 2 == 0 else -1.0
-        first, last = (most, least) if sign > 0.0 else (least, most)
-        low, high = k * np.pi, (k + 1) * np.pi
-        a, b = np.where(start > low, known[:, 0], first), np.where(end < high, known[:, 1], last)
-        there, rises = np.maximum(start, low) < np.minimum(end, high), a[0] <= b[0]
-        (below, at_low), (above, at_high) = np.where(rises, a, b), np.where(rises, b, a)
-        arc = below, above, at_low, at_high, *curve, zero + sign, zero
-        parts.append(masked(mask & there, *arc))
-    return parts
-
-
-def masked(mask: Mask, *columns: Array) -> Array:
-    """Return branches where a mask (n, k) is True; their rows are the poses."""
-    rows = np.nonzero(mask)[0]
-    out = np.empty((1 + len(columns), len(rows)))
-    out[0] = rows
-    for line, column in zip(out[1:], columns, strict=True):
-        line[:] = column[mask]
-    return out
-
-
 def inset_ends(outline: Polyarc, inset: float) -> tuple[Array, Array, Array]:
     """Return both ends of the k pieces ``inset`` mm inside an outline, (2, 1, k, 2), mm.
 
-    With them go the lengths by which they are shorter there, (2, k), and the radii.
+    With them go the lengths by which they are shorter there, (2, 1, k), and the radii.
     """
     turns = np.array((outline.turn_start, outline.turn_end))
     trims = inset * np.tan(0.5 * np.clip(turns, 0.0, 3.0))
@@ -304,4 +277,5 @@ def inset_ends(outline: Polyarc, inset: float) -> tuple[Array, Array, Array]:
         s = way * sense * outline.sin_half
         ux, uy = c * nx - s * ny, s * nx + c * ny  # out of the material
         points.append(np.column_stack((x - inset * ux - trim * uy, y - inset * uy + trim * ux)))
-    return np.array(points)[:, None], trims, outline.radius - outline.sense * inset
+    radius = np.where(outline.arc, outline.radius - outline.sense * inset, np.inf)
+    return np.array(points)[:, None], trims[:, None], radius

@@ -12,13 +12,11 @@ from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from geneva_cli.geometry.distance import Polyarc, farthest, from_segments
+from geneva_cli.geometry.distance import Polyarc, from_segments
 from geneva_cli.geometry.shapes import Arc, Contour, Line, Segment, at
 from geneva_cli.motion.engagement import Engagement
-from geneva_cli.motion.pivots import turned_points
 from geneva_cli.numerics.arrays import Array, rising
-from geneva_cli.parts.turn.gaps import Gaps
-from geneva_cli.parts.turn.stops import Clearances, Pose
+from geneva_cli.parts.turn.stops import Clearances, Outline, Pose
 from geneva_cli.parts.turn.turned_parts import Intervals, TurnedParts, Window, windows
 
 MOST = 20_000  # intervals of one pair of parts: ten times what the designs take; under a second
@@ -109,11 +107,13 @@ def intervals(gaps: Clearances, start: Array, end: Array) -> Intervals:
 class FlatPairs:
     """Pairs of flat parts, with gaps up to ``target`` mm; the wheel reaches the level ``rim``."""
 
-    def __init__(self, gaps: Gaps, crank: Sequence[Contour], target: float, rim: float) -> None:
+    def __init__(
+        self, gaps: Clearances, crank: Sequence[Contour], target: float, rim: float
+    ) -> None:
         self.gaps, self.target, self.rim = gaps, target, rim
-        self.apart = max(target, 0.0)  # the distance up to which parts matter
+        self.apart, moves = max(target, 0.0), gaps.plane_motion  # up to which parts matter
         # the crank in arcs of a degree and pieces of lines, each of which is tested for being in
-        # the wheel, and the greatest distance of the crank from its axis, mm
+        # the wheel, and its greatest distance from its axis, mm
         pieces: list[Segment] = []
         for contour in crank:
             for piece in contour.segments:
@@ -124,8 +124,13 @@ class FlatPairs:
                     end = at(piece, i / count)
                     pieces.append(Arc(start, end, bulge) if sweep else Line(start, end))
                     start = end
-        self.pieces = Polyarc([Contour("", tuple(pieces))]) if crank else None
-        self.disc = float(farthest(self.pieces, 0.0, 0.0).max()) if self.pieces is not None else 0.0
+        self.pieces: Outline = None
+        far = self.apart
+        if crank:
+            self.pieces = Polyarc([Contour("", tuple(pieces))])
+            far += float(self.pieces.farthest(np.zeros((1, 2))).max())
+        # how far points of wheel and crank move a radian, if they may be near each other
+        self.levers = moves.lever(rim if gaps.assembly.sign > 0.0 else moves.L + far), far
 
     def lock(self, window: Window, on: Intervals) -> tuple[Array, Array]:
         """Return the gap of locking disc and wheel: bounds up to ``apart``.
@@ -134,31 +139,29 @@ class FlatPairs:
         circle that the wheel leaves free about the middle of each recess.
         """
         gaps, pieces, pose = self.gaps, self.pieces, on.at_middle
-        moves, sign, L = gaps.plane_motion, gaps.assembly.sign, gaps.assembly.L
-        gap = gaps.locking(pose)
-        far = self.rim if sign > 0.0 else L + self.disc + self.apart
-        least = gap - (moves.lever(far) * on.wheel + (self.disc + self.apart) * on.crank)
+        moves, gap = gaps.plane_motion, gaps.locking(pose)
+        moved = self.levers[1] * on.crank
+        least = gap - (self.levers[0] * on.wheel + moved)
         some = np.flatnonzero(least < self.target)
         if pieces is None or not len(some):
             return gap, np.minimum(least, self.apart)
         wheel, crank = pose.wheel[some], pose.crank[some]
         # the middles of the recesses at both ends of the window, in the wheel's frame
-        turn = gaps.assembly.wheel(np.array((window.start, window.end)))
-        recesses = moves.into(np.array(((L, 0.0), (L, 0.0))), turn)
+        recesses = moves.into(
+            moves.crank_axis, gaps.assembly.wheel(np.array((window.start, window.end)))
+        )
         at = 0.5 * (on.start[some] + on.end[some])
         nearer = (at - window.start >= window.end - at).astype(int)
-        offset = turned_points(moves.into(recesses[nearer], -wheel) - (L, 0.0), -crank)
+        offset = moves.in_crank(moves.into(recesses[nearer], -wheel), crank)
         # the pieces of the crank that may come within the wheel's rim
-        c, s = np.cos(crank)[:, None], np.sin(crank)[:, None]
-        x, y = L + c * pieces.ox - s * pieces.oy, s * pieces.ox + c * pieces.oy
-        beyond = sign * (moves.level(np.stack((x, y), axis=-1)) - self.rim)
-        moved = self.disc * on.crank[some, None] + self.apart
-        row, piece = np.nonzero(beyond - pieces.size <= moved)
-        reach = np.zeros(len(some))  # of the crank from the middle of the nearer recess
-        np.maximum.at(reach, row, farthest(pieces.subset(piece), *offset[row].T))
-        away = moves.lever(L) * on.wheel[some] + np.hypot(*offset.T) * on.crank[some]
-        free = gaps.wheel.signed(recesses)[nearer]
-        least[some] = np.maximum(least[some], free - reach - away)
+        level = moves.level(moves.from_crank(pieces.middles, crank))
+        beyond = gaps.assembly.sign * (level - self.rim) - pieces.size
+        inside = beyond <= moved[some, None] + self.apart
+        reach = np.where(inside, pieces.farthest(offset), 0.0).max(axis=1)
+        away = moves.lever(moves.level(moves.crank_axis)) * on.wheel[some]
+        away = away + moves.scale * np.hypot(offset[:, 0], offset[:, 1]) * on.crank[some]
+        free = gaps.to_wheel(recesses)[nearer] - reach - away
+        least[some] = np.maximum(least[some], free)
         return gap, np.minimum(least, self.apart)
 
     def roller(

@@ -18,6 +18,7 @@ from words import load
 from geneva_cli import Crank, Design, Size, Spherical
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinds.spherical.gaps import BallGaps
+from geneva_cli.motion.mechanism import build
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.turn.full_turn import full_turn
 
@@ -73,6 +74,14 @@ def test_designs_are_proved_to_a_micrometre_of_their_smallest_gap(name):
     found = check_proof(parts, full_turn(parts).smallest.mm)
     assert found.open is None
     assert found.intervals < 1000
+
+
+def test_a_bound_that_is_reached_by_rounding_proves_its_interval():
+    """A target in mm is no larger than the distance up to which parts count."""
+    parts = named("spherical-z6.toml")
+    spec = parts.mechanism.spec.with_("size.slot_clearance_mm", 0.3)
+    parts = parts_of(build(spec.with_("size.lock_clearance_mm", 0.2)))
+    assert check_proof(parts, full_turn(parts).smallest.mm).open is None
 
 
 @pytest.mark.long

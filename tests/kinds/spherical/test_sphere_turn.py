@@ -45,7 +45,7 @@ def least_gap(found, at):
     """The least distance of sampled points of wheel and sectors, mm, at one input angle."""
     gaps, lead = found.gaps, float(found.assembly.wheel(np.array([at]))[0])
     wheel = turned(sampled(gaps.wheel), lead) @ np.array(at_mid_motion(found.ball)).T
-    sectors = np.concatenate([sampled(sector) for sector in gaps.sectors])
+    sectors = sampled(gaps.crank)
     chord, _ = cKDTree(sectors).query(turned(wheel, math.radians(at)))
     return found.ball.radius_mm * 2.0 * math.asin(0.5 * chord.min())
 
@@ -58,7 +58,7 @@ def test_gaps_are_those_of_sampled_edges(axes, z):
     found = parts_of(Design(Spherical(z, axes_deg=axes), size=size).mechanism)
     at = found.assembly.start_deg + np.linspace(1.0, 350.0, 13)
     told = found.gaps.locking(found.gaps.pose(at))
-    edges = (found.gaps.wheel, *found.gaps.sectors)
+    edges = (found.gaps.wheel, found.gaps.crank)
     step = max(80.0 * float((e.sweep * np.sin(e.angle)).max()) / (EACH - 1) for e in edges)
     wide = NEAR * 80.0
     assert (told < wide).sum() > 6
