@@ -78,7 +78,7 @@ class RestingAxis(NamedTuple):
         """Radians after entry at which the true path runs along the axis: 0 but as built."""
         tau = np.zeros((1, 1))
         for _ in range(8 if self.engagement.through.built else 0):  # Newton steps
-            _, slope, bend = self.anchor.displacement(tau, 2)[1].arrays()
+            _, slope, bend = self.anchor.displacement(tau, 2)[1].derivatives()
             tau = tau - slope / bend
         return tau
 
