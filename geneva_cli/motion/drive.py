@@ -12,7 +12,7 @@ from geneva_cli.motion.pivots import Layout, Link, ShaftPlace
 from geneva_cli.motion.wheels.classic import refuse_jam, rollers_max
 from geneva_cli.numerics.arrays import larger
 from geneva_cli.spec.rules import SPEED, Z_MAX, FromZero, Range
-from geneva_cli.spec.schema import Example, SpecTable
+from geneva_cli.spec.schema import SpecTable
 
 if TYPE_CHECKING:
     from geneva_cli.motion.laws.law import Motion
@@ -46,8 +46,6 @@ class Drive(SpecTable, kw_only=True):
     NAME: ClassVar[str]
     # name of the drive in a sentence
     WORDS: ClassVar[str]
-    # example spec, without its kind
-    EXAMPLE: ClassVar[Example]
     # True if the roller stays as far from the crank's axis as at mid-motion
     ONE_ARM: ClassVar[bool] = False
     # True if its crank can carry a locking disc about the line of centres

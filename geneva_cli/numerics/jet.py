@@ -258,12 +258,6 @@ def sine_versine_of(rate: Jet, y: Number, x: Number, order: int) -> tuple[Jet, J
     return s, Jet((versine, *(c * -1).c[1:]))
 
 
-def turned_at(rate: Jet, x: Number, y: Number, order: int) -> tuple[Jet, Jet]:
-    """A vector of constant length with the value (x, y), from the rate at which it turns."""
-    sine, cosine = _circle((0.0, *rate.c)[: order + 1], y, x)
-    return cosine, sine
-
-
 def composed(outer: Jet, inner: Jet) -> Jet:
     """f(g) by the chain rule, from f as a function of g, about g's value, and from g."""
     step = Jet((inner.c[0] * 0.0, *inner.c[1:]))

@@ -18,7 +18,6 @@ from geneva_cli.motion.pivots import Dimension, Layout, Pivot, wheel_places
 from geneva_cli.motion.wheels.classic import rollers_max
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.spec.rules import Range
-from geneva_cli.spec.schema import Example
 
 
 class Carousel(Transmission, kw_only=True):
@@ -35,10 +34,6 @@ class Carousel(Transmission, kw_only=True):
     WORDS: ClassVar[str] = "a carrier round a fixed finger"
     direct: ClassVar[bool] = True
     SHARED: ClassVar[tuple[str, ...]] = ("rollers", "wheels")  # they decide when loads repeat
-    EXAMPLE: ClassVar[Example] = Example(
-        "wandering hours: wheels orbit on a carrier and index at a fixed finger",
-        {"wheel": {"z": 4}, "drive": {"wheels": 3, "n_rpm": 1.0}},
-    )
     FIRST: ClassVar[str] = "its carrier turns at a constant speed"
     wheels: Annotated[int, Range(1, 24), "number of wheels on the carrier, evenly spaced"] = 1
 

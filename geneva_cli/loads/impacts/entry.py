@@ -50,19 +50,21 @@ class RestingAxis(NamedTuple):
         """The axis of an engagement's straight slot."""
         whole = engagement.through
         anchor = whole.motion.entry
-        if anchor is None or whole.built is not None:
+        if anchor is None:
             return None
         x, y = whole.slot(0.5 * whole.entry_deg, 1)  # any place in a straight slot
         (px, u), (py, v) = x.c, y.c
         m = library(px)
         sense = m.copysign(1.0, px * u + py * v)
         hub, ahead = whole.hub, whole.half_step - m.atan2(sense * v, sense * u)
+        if whole.built is not None:  # it may rest where its roller meets it, with a play
+            ahead = -whole.built.angle
         offset, along = parameter(hub * m.sin(ahead)), parameter(hub * m.cos(ahead))
         return RestingAxis(engagement, anchor, offset, along)
 
     @staticmethod
     def each(mechanism: Mechanism) -> list[RestingAxis]:
-        """The axes of all engagements; none for slots that are solved for, and as built."""
+        """The axes of all engagements; none for slots that are solved for."""
         every = map(RestingAxis.of, mechanism.engagements)
         return [axis for axis in every if axis is not None]
 
@@ -70,6 +72,15 @@ class RestingAxis(NamedTuple):
         """Distance over L of the true path from the axis where the path with errors crosses it."""
         arm = self.hub_offset + self.engagement.through.slot.offset  # from the slot's axis
         return (crank * arm - center * self.hub_offset) / (1.0 + crank)
+
+    @property
+    def turn(self) -> Array:
+        """Radians after entry at which the true path runs along the axis: 0 but as built."""
+        tau = np.zeros((1, 1))
+        for _ in range(8 if self.engagement.through.built else 0):  # Newton steps
+            _, slope, bend = self.anchor.displacement(tau, 2)[1].derivatives()
+            tau = tau - slope / bend
+        return tau
 
     def distance(self, tau: Array) -> tuple[Array, Array]:
         """Distance of the true path from the axis ``tau`` radians after entry, and its slope."""
@@ -86,22 +97,26 @@ def first_contacts(axis: RestingAxis, crank: Number, center: Number = 0.0) -> Fi
     # The roller comes from one side, ``before``. At a true entry it stays on that side (a circle)
     # or crosses to the other (a path with an inflection).
     span = 0.5 * axis.engagement.through.motion_deg * DEGREE
-    before = axis.distance(np.atleast_2d(-1e-3 * span))[0]
+    before, turn = axis.distance(np.atleast_2d(-1e-3 * span))[0], axis.turn
     offset = np.atleast_2d(axis.offset(crank, center)) + 0.0 * before
+    left = offset - axis.distance(turn)[0]
     with np.errstate(all="ignore"):
         sense = np.where(offset * before > 0.0, -1.0, np.where(offset > 0.0, 1.0, np.nan))
+        if (built := axis.engagement.through.built) is not None:  # the crossing that is its entry
+            off = (abs(turn) > 1e-9) | np.logical_not(built.crosses)
+            sense = np.where(off, np.where(turn > 1e-9, -1.0, 1.0), sense)
         far = span * np.append(0.0, OCTAVES)
         passed = np.zeros((len(offset), far.shape[-1]), dtype=bool)
         for side in (-1.0, 1.0):  # many errors of one machine have its path in common
             if (sense == side).any():
-                reach = abs(axis.distance(side * far)[0])
-                passed |= (sense == side) & (reach >= abs(offset))
+                beyond = axis.distance(turn + side * far)[0] - offset
+                passed |= (sense == side) & (beyond * left >= 0.0)
 
     def less(tau: Array, which: Whole) -> tuple[Array, Array]:
         value, slope = taken(axis, which).distance(tau)
         return value - offset[which], slope
 
-    tau = _first_roots(less, sense * far, passed)
+    tau = _first_roots(less, turn + sense * far, passed)
     along, across = axis.anchor.displacement(tau, 1)
     moved = (center - crank) / (1.0 + crank) * axis.along
     jump = across.derivatives()[1] / (along.derivatives()[0] + axis.anchor.along + moved)
@@ -229,7 +244,8 @@ def entry_impacts(mechanism: Mechanism, pin: PinSize | None = None) -> Impacts:
     spare = parameter(np.maximum(size.allowances.slot_clearance_mm - lost, 0.0)) / L
     sizes = mechanism.roller_radius_mm / L, spare, size.mouth_radius_mm / L
     best = np.full((2, 1), np.nan)
-    for axis in RestingAxis.each(mechanism):
+    as_built = any(one.built for one in mechanism.engagements)  # it strikes without errors, too
+    for axis in [] if as_built else RestingAxis.each(mechanism):
         errors = [*_errors(mechanism, axis)]
         every = [first_contacts(axis, *error) for error in errors]
         every += [mouth_contacts(axis, *error, sizes) for error in errors]

@@ -12,7 +12,6 @@ from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.numerics.angles import sin_cos_pi
 from geneva_cli.numerics.arrays import choose, library
 from geneva_cli.spec.rules import LENGTH, Range
-from geneva_cli.spec.schema import Example
 
 if TYPE_CHECKING:
     from geneva_cli.motion.engagement import Slot, WheelMotion
@@ -34,7 +33,6 @@ class External(Gearing):
     """
 
     NAME: ClassVar[str] = "external"
-    EXAMPLE: ClassVar[Example] = Example("an external wheel, straight slots")
     offset_mm: Annotated[
         float, LENGTH, "distance from the slots' axes to the wheel's; > 0 enters gently"
     ] = 0.0

@@ -13,7 +13,7 @@ from geneva_cli.motion.wheels.classic import HalfStep, PinPose, radial
 from geneva_cli.numerics.angles import one_minus_sin_pi, sin_cos_pi
 from geneva_cli.numerics.arrays import Truth, choose
 from geneva_cli.spec.rules import Z_MAX, OneOf, Range
-from geneva_cli.spec.schema import Example, SpecTable
+from geneva_cli.spec.schema import SpecTable
 
 if TYPE_CHECKING:
     from geneva_cli.motion.engagement import AsBuilt, Slot, WheelMotion
@@ -69,8 +69,6 @@ class Gearing(SpecTable):
 
     TABLE: ClassVar[str] = "wheel"
     NAME: ClassVar[str]
-    # example spec, without its gearing
-    EXAMPLE: ClassVar[Example]
     # usual keys of [load] in a new spec
     USUAL_LOAD: ClassVar[dict[str, float]] = {"inertia_kgm2": 0.05, "torque_Nm": 2}
     # +1 if the crank's axis is outside the wheel, -1 if inside

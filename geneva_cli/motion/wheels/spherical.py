@@ -14,7 +14,6 @@ from geneva_cli.numerics.angles import radians, sin_cos_deg
 from geneva_cli.numerics.arrays import choose, library
 from geneva_cli.numerics.jet import Displacement, Jet, Number, Vector, atan2, sin, sin_cos, sqrt
 from geneva_cli.spec.rules import Range
-from geneva_cli.spec.schema import Example
 
 
 class Spherical(Gearing):
@@ -29,9 +28,6 @@ class Spherical(Gearing):
     """
 
     NAME: ClassVar[str] = "spherical"
-    EXAMPLE: ClassVar[Example] = Example(
-        "a spherical wheel: shafts that meet, motion and dwell equal"
-    )
     FLAT: ClassVar[bool] = False
     DISTANCE: ClassVar[str] = "sphere's radius"
     axes_deg: Annotated[float, Range(0.0, 180.0, "()"), "angle between the two shafts"] = 90.0

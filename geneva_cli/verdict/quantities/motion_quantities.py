@@ -14,8 +14,8 @@ from geneva_cli.motion.timing import timings
 from geneva_cli.motion.wheels.gearing import Output
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import Array, N, Number
-from geneva_cli.verdict.quantities.batch_designs import Columns, Designs
-from geneva_cli.verdict.quantities.groups import RATES
+from geneva_cli.verdict.quantities.groups import Columns, Designs
+from geneva_cli.verdict.quantities.quantity_rows import RATES
 
 ENDS = ("entry", "exit")  # how the names begin of quantities at the ends of a motion
 
