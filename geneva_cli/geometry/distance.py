@@ -148,25 +148,30 @@ class Polyarc:
         # They are computed from the chord's middle: a centre may be too far away.
         x, y = centres[..., 0] - some.ox, centres[..., 1] - some.oy
         along, out = some.mx * y - some.my * x, some.mx * x + some.my * y
-        half, cosine = 0.5 * some.length, some.cos_half
-        bend = some.sin_half / half
-        ahead = bend * out + cosine
-        size = np.maximum(np.hypot(bend * along, ahead), 1e-300)
-        rows, points = [np.arange(len(which))], [self.probes[which]]
-        for side in (1.0, -1.0):
-            place, height = side * along / size, side * ahead / size
-            within = some.sin_half * height >= cosine * np.abs(bend * place)
-            on_line = (side > 0.0) & (np.abs(place) < half)
-            on = np.nonzero(np.where(some.arc, within, on_line))
-            row, at = on[0], place[on][:, None]
-            # the arc's height above its chord there: its middle's, less that by which it falls off
-            falls = at * at / (1.0 + height[on][:, None])
-            up = bend[row] * (half[row] ** 2 / (1.0 + cosine[row]) - falls)
-            out_x, out_y = some.mx[row], some.my[row]
-            rows.append(row)
-            xy = some.ox[row] + up * out_x - at * out_y, some.oy[row] + up * out_y + at * out_x
-            points.append(np.column_stack(xy))
-        return np.concatenate(rows), np.concatenate(points)
+        bend = 2.0 * some.sin_half / some.length
+        turn = np.arctan2(bend * along, bend * out + some.cos_half)
+        turns = np.array((turn, turn - np.copysign(np.pi, turn)))
+        half = np.arctan2(some.sin_half, some.cos_half)
+        # lines have a foot, and no opposite point
+        place = np.where(some.arc, turns, (along, np.full_like(along, np.inf)))
+        place = place / np.where(some.arc, half, 0.5 * some.length)
+        on = np.nonzero(np.abs(place) <= 1.0)
+        way = np.where(some.sense < 0.0, -0.5, 0.5)[on[1], 0]
+        facing = self.at(which[on[1]], 0.5 + way * place[on])
+        rows = np.concatenate((np.arange(len(which)), on[1]))
+        return rows, np.concatenate((self.probes[which], facing))
+
+    def at(self, which: Whole, fraction: Array) -> Array:
+        """Points of some pieces at fractions of their lengths, (n, 2)."""
+        some, along = self.subset(which), 2.0 * fraction - 1.0  # from its middle, of half of it
+        half = np.arctan2(some.sin_half, some.cos_half)
+        sine = np.where(some.arc, some.sin_half, 1.0)
+        # measured from the chord: the centre may be kilometres away
+        rise = some.length * np.sin(half * fraction) * np.sin(half * (1.0 - fraction)) / sine
+        along = 0.5 * np.where(some.arc, np.sin(along * half) / sine, along)
+        x = some.ox + along * some.dx + rise * some.mx
+        y = some.oy + along * some.dy + rise * some.my
+        return np.column_stack((x, y))
 
     def samples(self, sagitta: float, longest: float) -> Array:
         """Points of the boundary, (n, 2): all corners, and points at the requested spacing."""
@@ -178,17 +183,7 @@ class Polyarc:
         first = np.cumsum(count) - count
         which = np.repeat(np.arange(len(count)), count)
         fraction = (np.arange(len(which)) - first[which]) / count[which]
-        half, size = 0.5 * sweep[which], 2.0 * radius[which]
-        turn = (2.0 * fraction - 1.0) * half
-        # measured from the chord: the centre may be kilometres away
-        along = 0.5 * size * np.sin(turn) * np.where(self.sense[which] < 0.0, -1.0, 1.0)
-        out = size * np.sin(half * fraction) * np.sin(half * (1.0 - fraction))
-        x = self.ox[which] - along * self.my[which] + out * self.mx[which]
-        y = self.oy[which] + along * self.mx[which] + out * self.my[which]
-        flat = ~arc[which] | (fraction == 0.0)
-        along, i = fraction[flat], which[flat]
-        x[flat], y[flat] = self.x0[i] + along * self.dx[i], self.y0[i] + along * self.dy[i]
-        return np.column_stack((x, y))
+        return self.at(which, fraction)
 
     def one_sector(self, pitch: float, near: float) -> Whole | None:
         """The pieces of a sector that repeats after ``pitch`` radians within ``near`` mm, or None.

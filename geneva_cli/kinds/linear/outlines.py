@@ -78,9 +78,9 @@ class SlidingStops(Stops):
         across = (one.excess * q - two.excess * p) / (q - p)
         return np.where(both, same, centre + off), np.where(both, across, centre - off)
 
-    def lean(self, level: Array, pins: Array, close: float) -> Array:
-        """Return the sine of the pressure angle where rollers touch, ``close`` mm inside them."""
-        return (level - pins[..., 0]) / (self.roller - close)
+    def lean(self, level: Array, side: Branches, close: float) -> Array:
+        """Return the sine of the pressure angle where a round side touches."""
+        return (level - side.excess) / side.size
 
 
 class RackGaps(Gaps):

@@ -9,7 +9,7 @@ from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.kinds.spherical.regions import at_mid_motion
 from geneva_cli.motion.pivots import PlaneMotion, turned_points
 from geneva_cli.numerics.arrays import Array, N, within_half_turn
-from geneva_cli.parts.turn.stops import CONCENTRIC, Curve, Pieces, Pose, Stops
+from geneva_cli.parts.turn.stops import CONCENTRIC, Branches, Curve, Pieces, Pose, Stops
 
 
 class SphereMotion(PlaneMotion):
@@ -86,10 +86,9 @@ class SphereStops(Stops):
         known, span = np.array((self.moves.level(ends), off)), np.array((start, start + sweep))
         return known, span, (bend, excess, ahead), level
 
-    def lean(self, level: Array, pins: Array, close: float) -> Array:
-        """Return the sine of the pressure angle where rollers touch, ``close`` inside them."""
-        radius, far, at = self.roller - close, polar(pins), 2.0 * np.arctan(level)
-        return (np.cos(far) - np.cos(radius) * np.cos(at)) / (np.sin(radius) * np.sin(at))
+    def lean(self, level: Array, side: Branches, close: float) -> Array:
+        """Return the sine of the pressure angle where a round side touches; projected it stays."""
+        return super().lean(level, side, 0.0)
 
 
 def _point(axis: Array, x: Array, y: Array, size: Array, turn: Array) -> Array:

@@ -95,12 +95,9 @@ class Stops:
         It turns until some parts overlap by more than ``close``, or by ``most`` radians. Besides
         this angle the pressure angle of a roller that stops it is returned, 0 for anything else.
         """
-        n, count, size = pose.pins.shape
+        n, _, size = pose.pins.shape
         wheel, inset = self.own(0.0), self.own(close)
-        # both sides of each roller: those on the other one follow
-        sides = np.tile(self.rollers(pose.pins.reshape(-1, size), close), 2)
-        Branches(*sides).sign[n * count :] = -1.0
-        each, levels = self._blocked(sides, wheel, np.repeat(pose.wheel, count), most)
+        lead, lean = self._blocked(self.rollers(pose.pins, close), wheel, pose.wheel, most, close)
         lock = np.full((2, n), most)
         if self.crank is not None:
             # convex corners are branches of one level
@@ -111,21 +108,18 @@ class Stops:
             corners = np.array((row, level, level, zero, zero, zero, level, at, zero, zero))
             sides = self.branches(self.crank, pose.crank, close)
             for others, own in ((sides, wheel), (corners, inset)):
-                lock = np.minimum(lock, self._blocked(others, own, pose.wheel, most)[0])
-        each, levels = each.reshape(2, n, count), levels.reshape(2, n, count)
-        with np.errstate(all="ignore"):
-            leans = np.arcsin(np.minimum(np.abs(self.lean(levels, pose.pins, close)), 1.0))
-        which = np.argmin(each, axis=2)[..., None]
-        lead = np.take_along_axis(each, which, axis=2)[..., 0]
-        lean = np.take_along_axis(leans, which, axis=2)[..., 0]
+                lock = np.minimum(lock, self._blocked(others, own, pose.wheel, most, close)[0])
         return np.minimum(lead, lock), np.where((lead < most) & (lead <= lock), lean, 0.0)
 
     def _blocked(
-        self, others: Array, wheel: Array, turn: Array, most: float
+        self, others: Array, wheel: Array, turn: Array, most: float, close: float
     ) -> tuple[Array, Array]:
-        """Return how far the wheel turns back and on until branches meet, and their level there."""
-        leads, levels = np.full((2, len(turn)), most), np.zeros((2, len(turn)))
-        for row, start, end, start_level, end_level, *_ in self.meetings(others, wheel):
+        """Return how far the wheel turns back and on until branches meet, and how much they lean.
+
+        That is the pressure angle of other branches, as of rollers ``close`` mm inside them.
+        """
+        leads, leans = np.full((2, len(turn)), most), np.zeros((2, len(turn)))
+        for row, start, end, start_level, end_level, crank_side, _ in self.meetings(others, wheel):
             start, end = start - turn[row], end - turn[row]
             shift = self.pitch * np.round(0.5 * (start + end) / self.pitch)
             start, end = start - shift, end - shift
@@ -136,8 +130,10 @@ class Stops:
                 hit = np.flatnonzero(lead < most)
                 np.minimum.at(leads[k], row[hit], lead[hit])
                 hit = hit[lead[hit] == leads[k, row[hit]]]
-                levels[k, row[hit]] = level[hit]
-        return leads, levels
+                with np.errstate(all="ignore"):
+                    lean = self.lean(level[hit], Branches(*crank_side.take(hit, axis=1)), close)
+                leans[k, row[hit]] = np.arcsin(np.clip(np.abs(lean), 0.0, 1.0))
+        return leads, leans
 
     def meetings(self, others: Array, wheel: Array) -> Iterator[Meetings]:
         """Yield the intervals of the wheel's angle at which other branches meet the wheel's.
@@ -165,12 +161,14 @@ class Stops:
             row, spare = one.row.astype(int), one.half + two.half
             yield row, start - spare, end + spare, *ends, crank_side, wheel_side
 
-    def rollers(self, centres: Array, inset: float) -> Array:
-        """Return rollers about n centres in the fixed frame, as branches on one side of them."""
-        curve = self.circle(centres, self.roller - inset)
+    def rollers(self, pins: Array, inset: float) -> Array:
+        """Return m rollers in n poses, (n, m, 2) in the fixed frame, as branches of both sides."""
+        curve = self.circle(pins.reshape(-1, pins.shape[-1]), self.roller - inset)
         levels, away = self.extremes(curve)
-        row, zero = np.arange(len(centres)), 0.0 * away[0]
-        return np.array((row, *levels, *away, *curve, zero + 1.0, zero))
+        row = np.repeat(np.arange(len(pins)), pins.shape[1])
+        sides = np.tile((row, *levels, *away, *curve), 2)
+        sign = np.repeat((1.0, -1.0), len(row))
+        return np.array((*sides, sign, 0.0 * sign))
 
     def branches(self, outline: Outline, angle: Array | None, inset: float) -> Array:
         """Return the branches ``inset`` mm inside an outline of the crank at n angles.
@@ -253,10 +251,11 @@ class Stops:
         q = two.excess * (2.0 + two.size * two.excess)
         return np.sqrt((p + q) / (one.size + two.size)), np.sqrt((p - q) / (one.size - two.size))
 
-    def lean(self, level: Array, pins: Array, close: float) -> Array:
-        """Return the sine of the pressure angle where rollers touch, ``close`` mm inside them."""
-        radius, square = self.roller - close, (pins * pins).sum(axis=-1)
-        out = (level * level + radius * radius - square) / (2.0 * radius)  # along the normal
+    def lean(self, level: Array, side: Branches, close: float) -> Array:
+        """Return the sine of the pressure angle where a round side touches, ``close`` mm inside."""
+        radius = 1.0 / side.size
+        far = side.excess + radius  # of the centre
+        out = (level * level + radius * radius - far * far) / (2.0 * radius)  # along the normal
         return (out + close) / np.sqrt(level * level + close * (2.0 * out + close))
 
 
