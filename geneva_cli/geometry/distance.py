@@ -183,7 +183,9 @@ class Polyarc:
         first = np.cumsum(count) - count
         which = np.repeat(np.arange(len(count)), count)
         fraction = (np.arange(len(which)) - first[which]) / count[which]
-        return self.at(which, fraction)
+        points = self.at(which, fraction)
+        points[first] = self.starts  # exactly
+        return points
 
     def one_sector(self, pitch: float, near: float) -> Whole | None:
         """The pieces of a sector that repeats after ``pitch`` radians within ``near`` mm, or None.

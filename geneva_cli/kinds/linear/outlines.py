@@ -38,10 +38,7 @@ class SlidingStops(Stops):
         """Return the pieces ``inset`` mm inside the rack, or inside the crank at n angles."""
         (starts, ends), trims, radius = inset_ends(outline, inset)
         arc, turn = outline.arc, np.zeros(1) if angle is None else angle
-        seen = [
-            points[None] if angle is None else self.moves.from_crank(points, angle)
-            for points in (*starts, *ends, outline.centres)
-        ]
+        seen = self.fixed((*starts, *ends, outline.centres), angle)
         *levels, x = (points[..., 0] for points in seen)
         *places, y = (points[..., 1] / self.moves.L for points in seen)
         run, rise = levels[1] - levels[0], places[1] - places[0]

@@ -11,7 +11,7 @@ A sphere is projected on a plane: circles stay circles, and places stay.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import cache, partial
 from typing import Any, NamedTuple, TypeAlias
 
@@ -193,6 +193,12 @@ class Stops:
         for line, column in zip(out, columns, strict=True):
             line[:] = np.broadcast_to(column, there.shape)[there]
         return out
+
+    def fixed(self, points: Sequence[Array], angle: Array | None) -> list[Array]:
+        """Return points of the crank in the fixed frame at n angles, or the wheel's in its own."""
+        if angle is None:
+            return [each[None] for each in points]
+        return [self.moves.from_crank(each, angle) for each in points]
 
     def circle(self, centres: Array, radius: float) -> Curve:
         """Return the curves of circles about n centres."""
