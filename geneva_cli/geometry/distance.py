@@ -21,40 +21,35 @@ class Polyarc:
     """The boundary of a part, of closed contours with the material on their left."""
 
     def __init__(self, contours: Iterable[Contour]) -> None:
-        rows: list[tuple[float, ...]] = []
+        rows, after = list[tuple[float, ...]](), list[int]()
         for contour in contours:
-            own, ends = [], []  # of the contour's pieces, and their directions at both ends
+            after += [*range(len(rows) + 1, len(rows) + len(contour.segments)), len(rows)]
             for piece in contour.segments:
                 assert isinstance(piece, Line | Arc), "cubics have no exact distance here"
-                (x0, y0), (x1, y1) = piece.start, piece.end
-                chord, half, circle = math.atan2(y1 - y0, x1 - x0), 0.0, (0.0,) * 5
-                if isinstance(piece, Arc):
-                    half = 0.5 * piece.sweep
-                    sine, sense = math.sin(abs(half)), math.copysign(1.0, piece.bulge)
-                    # as ``piece.radius``, without another arc tangent and sine
-                    radius = 0.5 * math.dist(piece.start, piece.end) / abs(sine)
-                    circle = (*piece.centre, radius, sense, sine)
-                own.append((x0, y0, x1, y1, *circle, math.cos(half)))
-                ends.append((chord - half, chord + half))
-            turns = []  # at the start of each
-            for i in range(len(own)):
-                turn = math.remainder(ends[i][0] - ends[i - 1][1], math.tau)
-                turns.append(turn if abs(turn) > SAME_ANGLE else 0.0)
-            for i, row in enumerate(own):
-                rows.append((*row, turns[i], turns[(i + 1) % len(own)]))
-        x0, y0, x1, y1, cx, cy, radius, sense, sin_half, cos_half, *turned = np.array(rows).T
-        dx, dy = x1 - x0, y1 - y0
+                bulge = piece.bulge if isinstance(piece, Arc) else 0.0
+                rows.append((*piece.start, *piece.end, bulge))
+        x0, y0, x1, y1, bulges = np.array(rows).T
+        dx, dy, sense, half = x1 - x0, y1 - y0, np.sign(bulges), 2.0 * np.arctan(bulges)
+        # the turns of the outline at the ends of the pieces, and at their starts
+        chord = np.arctan2(dy, dx)
+        turn = (chord - half)[after] - (chord + half)
+        turn = turn - math.tau * np.round(turn / math.tau)
+        turn_end, turn_start = np.where(np.abs(turn) > SAME_ANGLE, turn, 0.0), np.empty(len(turn))
+        turn_start[after] = turn_end
         dx = np.where((dx == 0.0) & (dy == 0.0), 1e-150, dx)  # a point has a direction too
         square = np.maximum(dx * dx + dy * dy, 1e-300)
-        length = np.sqrt(square)
+        length, ox, oy = np.sqrt(square), 0.5 * (x0 + x1), 0.5 * (y0 + y1)
+        # the centre of a line is far away, on its right
+        with np.errstate(divide="ignore", invalid="ignore"):
+            radius = np.where(sense == 0.0, 0.0, 0.5 * length / np.sin(np.abs(half)))
+            away = 0.25 * (1.0 - bulges * bulges) / bulges
+        away = np.where(sense == 0.0, -1e12 * length.max() / length, away)
         right = np.where(sense < 0.0, -1.0, 1.0) / length
-        size = np.where(cos_half < 0.0, 2.0 * radius, 0.5 * length)
-        # the centre of a line is far away, on its normal
-        far = 1e12 * length.max()
-        cx, cy = np.where(sense == 0.0, (far * dy * right, -far * dx * right), (cx, cy))
-        arcs = (cx, cy, radius, sense, dy * right, -dx * right, sin_half, cos_half)
-        chords = (dx, dy, square, length, 0.5 * (x0 + x1), 0.5 * (y0 + y1), size)
-        self._name(np.array((x0, y0, x1, y1, *arcs, *chords, *turned)))
+        size = np.where(np.abs(bulges) > 1.0, 2.0 * radius, 0.5 * length)
+        arcs = (ox - away * dy, oy + away * dx, radius, sense, dy * right, -dx * right)
+        halves = np.abs(np.sin(half)), np.cos(half)
+        chords = (dx, dy, square, length, ox, oy, size)
+        self._name(np.array((x0, y0, x1, y1, *arcs, *halves, *chords, turn_start, turn_end)))
 
     def _name(self, columns: Array) -> None:
         """Set the numbers of the pieces, one row of ``columns`` each."""
