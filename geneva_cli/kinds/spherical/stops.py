@@ -76,7 +76,7 @@ class SphereStops(Stops):
         bend, excess, ahead = self.circle(axis, outline.angle - inset)
         level = np.hypot(axis[..., 0], axis[..., 1]) < CONCENTRIC
         ahead = np.where(level, azimuth(middle), ahead)
-        ends, start = np.array((first, last)), np.arctan2(y[..., 2], -x[..., 2]) + trims[0]
+        ends, start = np.array((first, last)), np.arctan2(-y[..., 2], x[..., 2]) + trims[0]
         off = np.abs(within_half_turn(azimuth(ends) - ahead))
         known, span = np.array((self.moves.level(ends), off)), np.array((start, start + sweep))
         return known, span, (bend, excess, ahead), level

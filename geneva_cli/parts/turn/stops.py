@@ -65,7 +65,7 @@ class Branches(NamedTuple):
 Curve: TypeAlias = tuple[Array, Array, Array]
 # The k pieces of an outline in n poses, run counterclockwise about their centres: levels of both
 # ends, and how far their places are from that of the centre, (2, 2, n, k); angles of the ends about
-# the centre, from the farthest point on; the curves; and a mask of those that have one level only,
+# the centre, from the nearest point on; the curves; and a mask of those that have one level only,
 # whose ``ahead`` is the place of the middle.
 Pieces: TypeAlias = tuple[Array, Array, Curve, Mask]
 # The poses of pairs of branches, the intervals of the wheel's angle, radians, at which they meet,
@@ -154,12 +154,10 @@ class Stops:
                 tangents = np.clip(np.nan_to_num(self.tangents(one, two)), low, high)
                 levels = np.array((low, high, *tangents))
                 turns = self.place(one, levels) - self.place(two, levels)
-            least, most = turns.argmin(axis=0)[None], turns.argmax(axis=0)[None]
-            start = np.take_along_axis(turns, least, 0)[0]
-            end = np.take_along_axis(turns, most, 0)[0]
-            ends = np.take_along_axis(levels, np.concatenate((least, most)), 0)
-            row, spare = one.row.astype(int), one.half + two.half
-            yield row, start - spare, end + spare, *ends, crank_side, wheel_side
+            levels = np.take_along_axis(levels, np.array((turns.argmin(0), turns.argmax(0))), 0)
+            spare = one.half + two.half
+            start, end = turns.min(axis=0) - spare, turns.max(axis=0) + spare
+            yield one.row.astype(int), start, end, *levels, crank_side, wheel_side
 
     def rollers(self, pins: Array, inset: float) -> Array:
         """Return m rollers in n poses, (n, m, 2) in the fixed frame, as branches of both sides."""
@@ -181,10 +179,10 @@ class Stops:
         half_turns = np.arange(-2.0, 3.0)[:, None, None]
         start, end = np.where(level, 1.0, span[0]), np.where(level, 2.0, span[1])
         low, high = np.pi * half_turns, np.pi * (half_turns + 1.0)
-        there, sign = np.maximum(start, low) < np.minimum(end, high), (-1.0) ** half_turns
+        there, sign = np.maximum(start, low) < np.minimum(end, high), -((-1.0) ** half_turns)
         least, most = self.extremes(curve).swapaxes(0, 1)[:, :, None]
-        first = np.where(start > low, known[:, 0, None], np.where(sign > 0.0, most, least))
-        last = np.where(end < high, known[:, 1, None], np.where(sign > 0.0, least, most))
+        first = np.where(start > low, known[:, 0, None], np.where(sign < 0.0, least, most))
+        last = np.where(end < high, known[:, 1, None], np.where(sign < 0.0, most, least))
         rises = first[0] <= last[0]
         low, high = np.where(rises, (first, last), (last, first))
         rows = np.arange(there.shape[1])[:, None]
@@ -210,24 +208,19 @@ class Stops:
         axis, turn = np.zeros((1, 2)), np.zeros(1)
         if angle is not None:  # the wheel's axis as seen from the crank
             axis, turn = self.moves.in_crank(axis, angle), angle
-        arc, mx, my = outline.arc, outline.mx, outline.my
         *_, side, _, _ = outline.distances(axis[:, :1], axis[:, 1:])
-        side = side - inset
-        # the centre of a line is beyond its foot
-        left = np.where(arc, outline.sense > 0.0, side < 0.0)
-        points, trims, radius = inset_ends(outline, inset)
-        seen = points - axis[:, None]
-        seen = np.where(left[..., None], seen, seen[::-1])
-        begin, end = np.where(left, trims, trims[::-1]) / radius
-        x, y = outline.cx - axis[:, :1], outline.cy - axis[:, 1:]
-        middle = np.arctan2(x * my - y * mx, x * mx + y * my)  # from the farthest point
-        level = arc & (np.hypot(x, y) < CONCENTRIC * radius)
-        middle = np.where(arc, np.where(level, 0.0, middle), np.where(side < 0.0, np.pi, 0.0))
-        ahead = np.arctan2(my, mx) - middle
+        points, sweep, radius = inset_ends(outline, inset)
+        seen = points[:, None] - axis[:, None]
+        x, y = (outline.centres - axis[:, None]).transpose(2, 0, 1)
+        level = outline.arc & (np.hypot(x, y) < CONCENTRIC * radius)
+        towards = np.arctan2(outline.my, outline.mx)
+        ahead = np.where(outline.arc & ~level, np.arctan2(y, x), towards)
         off = within_half_turn(self.moves.place(seen) - ahead)
-        half = np.arctan2(outline.sin_half, outline.cos_half)
-        span = np.where(arc, (middle - half + begin, middle + half - end), np.pi - off)
-        curve = 0.0 * side + 1.0 / radius, np.where(left, -side, side), ahead + turn[:, None]
+        u, v = seen[..., 0], seen[..., 1]
+        first, last = np.arctan2(y * u - x * v, x * (x - u) + y * (y - v))
+        span = np.array((first, np.where(outline.arc, first + sweep, last)))
+        excess = np.where(outline.sense > 0.0, inset - side, side - inset)
+        curve = 0.0 * side + 1.0 / radius, excess, ahead + turn[:, None]
         return np.array((self.moves.level(seen), np.abs(off))), span, curve, level
 
     def extremes(self, curve: Curve) -> Array:
@@ -266,21 +259,21 @@ class Stops:
 
 
 def inset_ends(outline: Polyarc, inset: float) -> tuple[Array, Array, Array]:
-    """Return both ends of the k pieces ``inset`` mm inside an outline, (2, 1, k, 2), mm.
+    """Return both ends of the k pieces ``inset`` mm inside an outline, (2, k, 2), mm.
 
-    With them go the lengths by which they are shorter there, (2, 1, k), and the radii.
+    Arcs run counterclockwise about their centres, and lines about theirs, which are on their right.
+    With them go the angles that they sweep, and the radii, infinite for lines.
     """
     turns = np.array((outline.turn_start, outline.turn_end))
-    trims = inset * np.tan(0.5 * np.clip(turns, 0.0, 3.0))
-    sense = np.where(outline.sense < 0.0, -1.0, 1.0)
-    nx, ny, c = sense * outline.mx, sense * outline.my, outline.cos_half
-    points = []
-    for way, x, y, trim in (
-        (-1.0, outline.x0, outline.y0, trims[0]),
-        (1.0, outline.x1, outline.y1, -trims[1]),
-    ):
-        s = way * sense * outline.sin_half
-        ux, uy = c * nx - s * ny, s * nx + c * ny  # out of the material
-        points.append(np.column_stack((x - inset * ux - trim * uy, y - inset * uy + trim * ux)))
+    trims = inset * np.tan(0.5 * np.clip(turns, 0.0, 3.0))  # by which pieces are shorter there
+    way, sense = np.array(((-1.0,), (1.0,))), np.where(outline.sense < 0.0, -1.0, 1.0)
+    sine, cosine = way * outline.sin_half, sense * outline.cos_half
+    # directions out of the material
+    ux, uy = cosine * outline.mx - sine * outline.my, sine * outline.mx + cosine * outline.my
+    x = np.array((outline.x0, outline.x1)) - inset * ux + way * trims * uy
+    y = np.array((outline.y0, outline.y1)) - inset * uy - way * trims * ux
+    ends = np.stack((x, y), axis=-1)
+    ends = np.where(outline.sense[:, None] > 0.0, ends, ends[::-1])
     radius = np.where(outline.arc, outline.radius - outline.sense * inset, np.inf)
-    return np.array(points)[:, None], trims[:, None], radius
+    sweep = 2.0 * np.arctan2(outline.sin_half, outline.cos_half) - trims.sum(axis=0) / radius
+    return ends, sweep, radius
