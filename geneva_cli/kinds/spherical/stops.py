@@ -9,7 +9,7 @@ from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.kinds.spherical.regions import at_mid_motion
 from geneva_cli.motion.pivots import PlaneMotion, turned_points
 from geneva_cli.numerics.arrays import Array, N, within_half_turn
-from geneva_cli.parts.turn.stops import CONCENTRIC, Branches, Curve, Pieces, Pose, Stops
+from geneva_cli.parts.turn.stops import CONCENTRIC, Branches, Curve, Pieces, Stops
 
 
 class SphereMotion(PlaneMotion):
@@ -54,10 +54,6 @@ class SphereStops(Stops):
 
     Levels are those of a ``ProjectedMotion``. A roller is a cap, whose radius is an angle.
     """
-
-    def first(self, pose: Pose, most: float, close: float) -> tuple[Array, Array]:
-        """Return the stops as on a plane, of parts that may overlap by ``close`` mm."""
-        return super().first(pose, most, close / self.moves.L)
 
     def circle(self, centres: Array, radius: Array | float) -> Curve:
         """Return the curves of caps of a radius, radians, about their middles."""

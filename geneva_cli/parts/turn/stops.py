@@ -92,10 +92,10 @@ class Stops:
     def first(self, pose: Pose, most: float, close: float) -> tuple[Array, Array]:
         """Return the stops of the wheel, turned back and turned on from n poses: (2, n) both.
 
-        It turns until some parts overlap by more than ``close``, or by ``most`` radians. Besides
+        It turns until some parts overlap by more than ``close`` mm, or by ``most`` radians. Besides
         this angle the pressure angle of a roller that stops it is returned, 0 for anything else.
         """
-        n, _, size = pose.pins.shape
+        (n, _, size), close = pose.pins.shape, close / self.moves.scale
         wheel, inset = self.own(0.0), self.own(close)
         lead, lean = self._blocked(self.rollers(pose.pins, close), wheel, pose.wheel, most, close)
         lock = np.full((2, n), most)
