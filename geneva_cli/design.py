@@ -26,8 +26,9 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.spec import tables
-from geneva_cli.spec.rules import plain
+from geneva_cli.spec.rules import Range, plain, require_mm
 from geneva_cli.spec.schema import SHOWN_MAX, refuse_keywords, shortly
+from geneva_cli.table import Table, record_table
 
 if TYPE_CHECKING:
     from geneva_cli.extras.certify.certificate import Certificate
@@ -41,7 +42,6 @@ if TYPE_CHECKING:
     from geneva_cli.parts.chosen import ByLoad, Chosen
     from geneva_cli.parts.parts import Parts
     from geneva_cli.specfile.reader import Text
-    from geneva_cli.table import Table
     from geneva_cli.verdict.checks import Check
     from geneva_cli.verdict.report import Report
     from geneva_cli.verdict.strength import Strength
@@ -179,16 +179,14 @@ class Design:
         >>> Design(External(6), SideCrank(A=0.6), title="feed")
         Design(External(z=6), SideCrank(A=0.6), title='feed')
         """
-        spec = self.spec
-        arguments = [
-            shortly(one) for one in (spec.wheel, spec.drive, spec.motion) if one is not None
-        ]
-        for name in [*type(self).__init__.__annotations__][3:-1]:
-            value = vars(spec)[name]
-            if not value:
+        arguments = []
+        for i, name in enumerate([*type(self).__init__.__annotations__][:-1]):
+            if not (value := vars(self.spec)[name]):
                 continue
             text = f"{value!r}" if isinstance(value, (str, tuple)) else shortly(value)
-            if not text.endswith("()"):
+            if i < 3:  # wheel, drive and motion, which need no name
+                arguments.append(text)
+            elif not text.endswith("()"):
                 arguments.append(f"{name}={cut(text, SHOWN_MAX)}")
         return f"Design({', '.join(arguments)})"
 
@@ -330,9 +328,8 @@ class Design:
         """
         from geneva_cli.motion.peaks import peaks_table
 
-        if self.is_drawn:
-            return cast("Table", self._of_drawing("peaks"))
-        return peaks_table(self.mechanism)
+        peaks: Table = self._of_drawing("peaks") if self.is_drawn else peaks_table(self.mechanism)
+        return peaks
 
     @question
     def certificate(self, quantity: str, intervals: int | None = None) -> Certificate:
@@ -345,8 +342,8 @@ class Design:
         'acceleration.max in [1.34963727590190, 1.34963727590191], at two mirrored places, proved'
         """
         limit = {} if intervals is None else {"limit": intervals}
-        prove = load_extra("certify", "certificate")
-        return cast("Certificate", prove(self.mechanism, quantity, **limit))
+        prove: Callable[..., Certificate] = load_extra("certify", "certificate")
+        return prove(self.mechanism, quantity, **limit)
 
     @question
     def certified_peaks(self, for_people: bool = False) -> Table:
@@ -355,8 +352,8 @@ class Design:
         >>> Design(External(6)).certified_peaks(for_people=True).to_dict()["certificate"][2]
         'jerk.max in [5.99999999999999, 6.00000000000001], unique, proved'
         """
-        prove = load_extra("certify", "peaks")
-        return cast("Table", prove(self.peaks_table, self.mechanism, for_people))
+        prove: Callable[..., Table] = load_extra("certify", "peaks")
+        return prove(self.peaks_table, self.mechanism, for_people)
 
     @question
     def certified_loads(self, for_people: bool = False) -> Table:
@@ -366,8 +363,6 @@ class Design:
         >>> [row["proved"] for row in table.to_dict()["certificate"]]
         [True, True, True]
         """
-        from geneva_cli.table import record_table
-
         own = {"spec": self.spec.path, "title": self.spec.title or None}
         certificates = load_extra("certify", "loads")(self.mechanism, for_people)
         return record_table(own | {"certificate": certificates})
@@ -386,9 +381,9 @@ class Design:
         """
         from geneva_cli.motion.motion_table import angles_table, motion_table, turns_table
 
+        if self.is_drawn and turns is not None:
+            raise GenevaError("--turns: a drawing's motion is that of one turn; leave it out")
         if self.is_drawn:
-            if turns is not None:
-                raise GenevaError("--turns: a drawing's motion is that of one turn; leave it out")
             return cast("Table", self._of_drawing("motion", samples, at_deg))
         if at_deg is not None:
             return angles_table(self.mechanism, at_deg)
@@ -457,10 +452,8 @@ class Design:
         notes = (*self.warnings, *missing(self.cycle), *needed, *sized_by)
         impact = self.strength.table("shock.reversal")
         answers = {"shock.reversal": impact, "sizing": sizing, "life": self.life}
-        table = loads_table(self.cycle, answers, notes, for_people)
-        return table.replaced(
-            names=(*table.names, "chosen"), columns=[*table.columns, (self.chosen_by_load.record,)]
-        )
+        last = {"warnings": notes, "chosen": self.chosen_by_load.record}
+        return loads_table(self.cycle, answers, last, for_people)
 
     @answer
     def wheel_plate(self) -> MassProperties | None:
@@ -469,9 +462,6 @@ class Design:
         >>> round(Design(External(6), size=Size(face_width_mm=20)).wheel_plate.mass_kg, 3)
         2.087
         """
-        size = self.spec.size
-        if size.face_width_mm is None and size.wheel_thickness_mm is None:
-            return None  # before the import of what draws parts
         from geneva_cli.parts.machine_sizes import wheel_body
 
         return wheel_body(self.mechanism)
@@ -531,7 +521,6 @@ class Design:
         0.871288725706
         """
         from geneva_cli.loads.vibration.vibration import oscillator, values
-        from geneva_cli.table import record_table
 
         found = values(self.mechanism, oscillator(self.mechanism, period_ratio, damping))
         found["warnings"] = (*self.ideal_notes, *found["warnings"])
@@ -690,9 +679,9 @@ class Design:
         >>> first.name, first.value, first.must_be, first.limit, first.passes
         ('dwell_deg', 240.0, 'at least', 0.0, True)
         """
-        from geneva_cli.verdict.checks import proofs
+        from geneva_cli.verdict.checks import PROOFS, applicable
 
-        return self._judged if self.is_drawn else [*self._judged, *proofs(self.parts)]
+        return [*self._judged, *([] if self.is_drawn else applicable(PROOFS, self.parts, None))]
 
     def _of_drawing(self, answer: str, *values: object) -> Any:
         """An answer about the drawings that replace the outlines."""
@@ -719,12 +708,11 @@ class Design:
         >>> Design(External(6)).proved_to(0.0002)[-1].why
         'collision-free, proved to 0.2 µm (608 intervals)'
         """
-        from geneva_cli.spec.rules import Range, require_mm
-        from geneva_cli.verdict.checks import proofs
+        from geneva_cli.verdict.checks import PROOFS, applicable
 
         allowed = Range(0.0, self.mechanism.roller_radius_mm, "(]")
         require_mm("--certify", to_mm, allowed, "the roller's radius")
-        return self._judged if self.is_drawn else [*self._judged, *proofs(self.parts, to_mm)]
+        return [*self._judged, *([] if self.is_drawn else applicable(PROOFS, self.parts, to_mm))]
 
     @answer
     def _judged(self) -> list[Check]:
@@ -854,8 +842,8 @@ class Design:
         if not self.spec.accept.reasons:
             return []
         # of drawings without turning parts of ours, which check does not need
-        drawn = [*self.ideal_notes, *self.check_warnings] if self.is_drawn else None
-        return self.spec.accept.unused(self.warnings if drawn is None else drawn)
+        drawn = [*self.ideal_notes, *self.check_warnings] if self.is_drawn else self.warnings
+        return self.spec.accept.unused(drawn)
 
     @answer
     def report(self) -> Report:

@@ -102,6 +102,10 @@ def docstrings(nodes: list[ast.AST], file: str) -> Iterator[Docstring]:
             yield Docstring(f"{file}:{getattr(node, 'lineno', 1)}", text)
 
 
+# an item of a list: a word with its meaning, an option in a help, or an example
+_OF_LIST = re.compile(r"(\w+|[-*]|``\w+``)( \([^)]*\))?: |\S+( \S+)* {2,}\S|geneva ")
+
+
 def docstring_sentences(doc: Docstring) -> list[Sentence]:
     """Sentences of a docstring, without its examples and the names of its sections."""
     lines, code = [], False
@@ -110,7 +114,7 @@ def docstring_sentences(doc: Docstring) -> list[Sentence]:
         code = bare.startswith((">>>", "...")) or (code and bool(bare))
         if code or _ARGUMENTS.match(bare) or bare.endswith("::"):
             lines.append("")
-        elif re.match(r"(\w+|[-*]|``\w+``)( \([^)]*\))?: |\S+ {2,}\S", bare):  # of a list
+        elif _OF_LIST.match(bare):
             lines += ["", bare]
         else:
             lines.append(bare)

@@ -9,6 +9,7 @@ import os
 import sys
 import textwrap
 from functools import partial
+from inspect import cleandoc
 from typing import Any, NoReturn
 
 import typer
@@ -16,53 +17,10 @@ from typer.core import TyperCommand, TyperGroup
 
 import geneva_cli.progress as progress  # ``from geneva_cli`` would load the lists of kinds
 from geneva_cli import __version__
-from geneva_cli.cli.command import HELP, USAGE, PlainValues, as_command, flag, table_options
+from geneva_cli.cli.command import HELP, USAGE, PlainValues, as_command, table_options
 from geneva_cli.errors import GenevaError, clean, cut
 from geneva_cli.streams import leave, open_streams
 
-# The registry by task: the module in geneva_cli.cli.commands, and its line in --help.
-GROUPS = {
-    "Calculate": {
-        "table": "Timing and peaks of wheels, a row for each number of slots.",
-        "peaks": "Greatest velocity, acceleration, jerk and power.",
-        "motion": "Position, velocity, acceleration, jerk over a cycle.",
-        "loads": "Torque, forces, power over the cycle; motor, flywheel, life.",
-        "vibration": "What an index leaves swinging; speeds to avoid.",
-        "tolerance": "Place and play from each dimension's plus or minus.",
-        "laws": "The motion laws and their characteristic values.",
-    },
-    "Judge": {
-        "check": "Does the design work? Exit status 1 where a check fails.",
-        "report": "Everything about a design on a page.",
-    },
-    "Choose": {
-        "synth": "From requirements (angle, time, ...) to machines for them.",
-        "compare": "Designs side by side, a column each.",
-        "sweep": "Thousands of designs, a row each; the best of them.",
-    },
-    "Draw": {
-        "size": "Every size that a rule or the load chose, into the spec.",
-        "profile": "Slots, parts and machines as csv, dxf, svg, step, stl, 3mf.",
-        "plot": "Curves over the cycle, or of a sweep's csv.",
-        "export": "Everything a shop needs, in a folder.",
-        "animate": "A page on which the machine turns; --open shows it.",
-    },
-    "Learn": {
-        "help": "The manual: a page for each topic.",
-        "new": "A commented spec to start from.",
-        "explain": "What a check, a quantity, a kind or a warning means.",
-        "keys": "Every key of a spec: unit, range, default, meaning.",
-        "schema": "JSON Schema of a spec, for editors.",
-    },
-}
-COMMANDS = {name: line for group in GROUPS.values() for name, line in group.items()}
-
-
-EXAMPLES = (
-    "geneva new external -o spec.toml",
-    "geneva check spec.toml",
-    "geneva profile spec.toml --part wheel -o wheel.dxf",
-)
 FAULT = 70  # exit status; EX_SOFTWARE of sysexits.h, and no status of a design or a user's error
 REPORT = (
     "please report it in the issues of geneva-cli, with the spec; GENEVA_DEBUG=1 shows where it is"
@@ -98,7 +56,7 @@ class LazyGroup(PlainValues, TyperGroup):
         self.format_usage(ctx, formatter)
         self.format_help_text(ctx, formatter)
         with formatter.section("Examples"):
-            formatter.write("".join(f"  {line}\n" for line in EXAMPLES))
+            formatter.write("\n".join([*EXAMPLES, ""]))
         self.format_commands(ctx, formatter)
         records = [param.get_help_record(ctx) for param in self.get_params(ctx)]
         with formatter.section("Options"):
@@ -125,7 +83,6 @@ class LazyGroup(PlainValues, TyperGroup):
             return name, stub, rest
         module = importlib.import_module(f"geneva_cli.cli.commands.{name}")
         command = as_command(name, module.run)
-        command.examples = module.EXAMPLES
         # these print no wide table
         if name not in {"animate", "explain", "export", "help", "new", "plot", "schema"}:
             command.params += as_command(name, table_options).params
@@ -188,14 +145,63 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 app = typer.Typer(cls=LazyGroup, rich_markup_mode=None, pretty_exceptions_enable=False)
 
 
-@app.callback(no_args_is_help=True, context_settings=HELP)
 def geneva(
     version: bool = typer.Option(
         False, "--version", callback=_version, is_eager=True, help="Show the version."
     ),
-    no_pager: bool = flag(NO_PAGER, "Print long output on a terminal without a stop."),
+    no_pager: bool = typer.Option(
+        False, NO_PAGER, help="Print long output on a terminal without a stop."
+    ),
 ) -> None:
-    """Design calculator for Geneva (Maltese-cross) mechanisms."""
+    """Design calculator for Geneva (Maltese-cross) mechanisms.
+
+    Examples:
+      geneva new external -o spec.toml
+      geneva check spec.toml
+      geneva profile spec.toml --part wheel -o wheel.dxf
+
+    Calculate:
+      table      Timing and peaks of wheels, a row for each number of slots.
+      peaks      Greatest velocity, acceleration, jerk and power.
+      motion     Position, velocity, acceleration, jerk over a cycle.
+      loads      Torque, forces, power over the cycle; motor, flywheel, life.
+      vibration  What an index leaves swinging; speeds to avoid.
+      tolerance  Place and play from each dimension's plus or minus.
+      laws       The motion laws and their characteristic values.
+
+    Judge:
+      check      Does the design work? Exit status 1 where a check fails.
+      report     Everything about a design on a page.
+
+    Choose:
+      synth      From requirements (angle, time, ...) to machines for them.
+      compare    Designs side by side, a column each.
+      sweep      Thousands of designs, a row each; the best of them.
+
+    Draw:
+      size       Every size that a rule or the load chose, into the spec.
+      profile    Slots, parts and machines as csv, dxf, svg, step, stl, 3mf.
+      plot       Curves over the cycle, or of a sweep's csv.
+      export     Everything a shop needs, in a folder.
+      animate    A page on which the machine turns; --open shows it.
+
+    Learn:
+      help       The manual: a page for each topic.
+      new        A commented spec to start from.
+      explain    What a check, a quantity, a kind or a warning means.
+      keys       Every key of a spec: unit, range, default, meaning.
+      schema     JSON Schema of a spec, for editors.
+    """
+
+
+# The registry of commands is that text: by task, each module in geneva_cli.cli.commands.
+_about, _examples, *_groups = cleandoc(geneva.__doc__ or "").split("\n\n")
+_, *EXAMPLES = _examples.splitlines()
+GROUPS: dict[str, dict[str, str]] = {}
+for _title, *_lines in map(str.splitlines, _groups):
+    GROUPS[_title.rstrip(":")] = dict(_line.split(maxsplit=1) for _line in _lines)
+COMMANDS = {name: line for group in GROUPS.values() for name, line in group.items()}
+app.callback(no_args_is_help=True, context_settings=HELP, help=_about)(geneva)
 
 
 def main() -> None:

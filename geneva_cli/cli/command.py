@@ -3,10 +3,13 @@
 Annotations are objects here and in the commands, for Typer.
 """
 
+import re
 import sys
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from functools import partial
+from inspect import Parameter, cleandoc, signature
 from textwrap import wrap
+from types import FunctionType
 from typing import TYPE_CHECKING, Any
 
 import typer
@@ -77,7 +80,7 @@ def _help(ctx: Any) -> None:
 class Command(PlainValues, TyperCommand):
     """A command whose help ends with examples, and which refuses ineffective options."""
 
-    examples: tuple[str, ...] = ()
+    examples: Sequence[str] = ()
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         """Parse arguments, and refuse an option that would have no effect.
@@ -139,13 +142,68 @@ def _placeholder(argument: Any) -> str:
     return "" if is_option else str(argument.metavar or argument.name)
 
 
+# Arguments and options of several commands, by parameter: names and placeholder, and meaning.
+SHARED = {
+    "spec": ("SPEC", "The spec, a TOML file; - reads standard input."),
+    "specs": ("SPEC...", "Specs, TOML files."),
+    "settings": ("--set KEY=VALUE", "Set a key over the file's, as drive.n_rpm=90."),
+    "reverse": ("--reverse", "Turn the input the other way."),
+    "output": ("-o, --output FILE", "Write to this file; - prints."),
+    "format": ("--format FORMAT", "table, csv, json or md."),
+}
+SECTION = re.compile(r"\n\n(?=.+:\n  \S)")  # between the text of a help and each of its lists
+# names, and behind two spaces or a line break their meaning, with lines that are indented more
+ENTRY = re.compile(r"^  (\S.*?)(?:  +|\n   +)(.*(?:\n   .*)*)", re.MULTILINE)
+
+
 def as_command(name: str, run: Any) -> Any:
-    """A function as a command."""
-    one = typer.Typer(add_completion=False, rich_markup_mode=None)
-    one.command(name, cls=Command, context_settings=HELP)(run)
-    command: Any = get_command(one)
-    command.kinds = run.__annotations__
+    """A function as a command; its docstring is the help, with lists as they are printed.
+
+    A list has a command's own arguments and options, below their heading. Each belongs to the
+    parameter of its name; one without such a parameter to the next that is not listed.
+    """
+    text, *lists = SECTION.split(cleandoc(run.__doc__))
+    each, examples = dict[str, tuple[str, ...]](), ""
+    for one in lists:
+        heading, _, lines = one.partition(":\n")
+        if heading == "Examples":
+            examples = lines
+            continue
+        for names, meaning in ENTRY.findall(lines):
+            option = names.partition("--")[2].partition(" ")[0]
+            key = option.replace("-", "_") or names.lower().replace("...", "s")
+            each[key] = names, re.sub(r"\n +", " ", meaning), heading
+    own = dict[Parameter, tuple[str, ...]]()
+    for param in signature(run).parameters.values():
+        if param.annotation != typer.Context:
+            own[param] = each.pop(param.name.rstrip("_"), SHARED.get(param.name, ()))
+    rest, infos = iter(each.values()), list[Any]()
+    for param, shown in own.items():
+        infos.append(_info(param.default, *(shown or next(rest))))
+    typed = FunctionType(run.__code__, run.__globals__, name, tuple(infos))
+    for key, kind in run.__annotations__.items():
+        typed.__annotations__[key] = list[str] if kind == tuple[str, ...] else kind
+    own_app = typer.Typer(add_completion=False, rich_markup_mode=None)
+    own_app.command(name, cls=Command, context_settings=HELP, help=text)(typed)
+    command: Any = get_command(own_app)
+    command.kinds, command.examples = run.__annotations__, cleandoc(examples).splitlines()
     return command
+
+
+def _info(default: Any, names: str, meaning: str, heading: str = "") -> Any:
+    """What Typer knows of a parameter."""
+    value = ... if default is Parameter.empty else default
+    if not names.startswith("-"):
+        return typer.Argument(value, metavar=names, help=meaning)
+    options, placeholder = re.findall(r"(?<!\S)--?[^ ,]+", names), names.rpartition(" ")[2]
+    return typer.Option(
+        value,
+        *options,
+        metavar=None if placeholder in options else placeholder,
+        help=meaning,
+        rich_help_panel=heading,
+        show_default="-o" not in options,
+    )
 
 
 def words_in(text: str) -> list[str]:
@@ -153,55 +211,13 @@ def words_in(text: str) -> list[str]:
     return [word.strip() for word in text.split(",") if word.strip()]
 
 
-def one_of(names: Iterable[str]) -> str:
-    """The allowed words of an option, for its help."""
-    *others, last = names
-    return f"{', '.join(others)} or {last}."
+def table_options(columns: str | None = None, wide: bool = False) -> None:
+    """Options of every command that prints a table.
 
-
-def option(
-    default: Any,
-    metavar: str,
-    help: str,
-    heading: str = "",
-    name: str = "",
-    show: str | bool = True,
-) -> Any:
-    """An option with a value, below a heading of the help.
-
-    ``name`` has its names if the parameter's is another; the default is shown, or ``show``.
+    Options:
+      --columns NAME,...  Only these columns, as in csv.
+      --wide              All columns on a terminal, however wide.
     """
-    panel = heading or None
-    return typer.Option(
-        default, *name.split(), metavar=metavar, help=help, rich_help_panel=panel, show_default=show
-    )
-
-
-# the option of a file or folder to write
-output_option = partial(option, name="-o --output", show=False)
-
-
-def flag(name: str, help: str, heading: str = "") -> Any:
-    """An option without a value, of these names, below a heading of the help."""
-    return typer.Option(False, *name.split(), help=help, rich_help_panel=heading or None)
-
-
-def table_options(
-    columns: str | None = option(None, "NAME,...", "Only these columns, as in csv."),
-    wide: bool = flag("--wide", "All columns on a terminal, however wide."),
-) -> None:
-    """Options of every command that prints a table."""
-
-
-SPEC: Any = typer.Argument(
-    ..., metavar="SPEC", help="The spec, a TOML file; - reads standard input."
-)
-SPECS: Any = typer.Argument(..., metavar="SPEC...", help="Specs, TOML files.")
-SETTINGS = option((), "KEY=VALUE", "Set a key over the file's, as drive.n_rpm=90.", name="--set")
-REVERSE = flag("--reverse", "Turn the input the other way.")
-ALSO_REVERSE = flag("--reverse", "Also each design turning the other way.")
-OUTPUT = output_option("-", "FILE", "Write to this file; - prints.")
-FORMAT = option("", "FORMAT", "table, csv, json or md.", name="--format")
 
 
 def tell(text: str) -> None:

@@ -5,13 +5,13 @@ from typing import ClassVar
 
 from geneva_cli.errors import GenevaError, refuse_text
 from geneva_cli.motion.drive import Drive, Plan
-from geneva_cli.motion.engagement import Engagement, Held, Loads, Vector, cross
-from geneva_cli.motion.given_motion import LawMotion, SolvedPath, SolvedPathSlot, refuse_alpha0
+from geneva_cli.motion.engagement import Engagement
+from geneva_cli.motion.given_motion import LawMotion, SolvedPath, SolvedPathSlot, shortened
 from geneva_cli.motion.laws.law import Motion
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import larger, parameter
-from geneva_cli.numerics.jet import Number
+from geneva_cli.numerics.jet import Held, Jet, Loads, Vector, cross
 from geneva_cli.spec.schema import Example
 
 
@@ -37,9 +37,7 @@ class Cam(Drive, kw_only=True):
         if motion.ratio is not None:
             text = "ratio has no meaning with a cam, since the crank's length changes: remove ratio"
             raise GenevaError(text, ("motion", "ratio"))
-        natural = 2.0 * wheel.half_motion_deg(wheel.step)
-        motion_deg = natural - motion.alpha0_deg
-        refuse_alpha0(motion.alpha0_deg, natural)
+        motion_deg = shortened(motion.alpha0_deg, 2.0 * wheel.half_motion_deg(wheel.step))
         # At input 0 the roller crosses the line of centres, and the wheel is half-way.
         early = motion.law.half_way * motion_deg
         turned = LawMotion(-early, motion_deg - early, wheel.step.b, motion.law)
@@ -60,7 +58,7 @@ class Cam(Drive, kw_only=True):
         return self.planned(engagement, ratio, L)
 
 
-def _slide(input_deg: Number, path: Vector, loads: Loads) -> Held:
+def _slide(turn: Jet, path: Vector, loads: Loads) -> Held:
     """Forces of each load on the crank's shaft, across its arm, and on the groove's wall."""
     x, y = path
     wall = y.derivative() * -1.0, x.derivative()

@@ -7,17 +7,18 @@ line: u = 2z/(z-2), R0 - rp = L sin b. The jump is (R0 - c² rp)/(L cos b).
 
 from typing import Annotated, ClassVar, NamedTuple, cast
 
+from geneva_cli.drives.pushed import pushed
 from geneva_cli.errors import refuse_text
 from geneva_cli.motion.drive import Drive, Plan
-from geneva_cli.motion.engagement import Anchor, Engagement, Held, Loads, Vector, cross
+from geneva_cli.motion.engagement import Anchor, Engagement
 from geneva_cli.motion.laws.law import Motion
 from geneva_cli.motion.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot, Teeth
 from geneva_cli.motion.wheels.classic import PinPose, PinTravel, gap, middle
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import Array, choose, library
-from geneva_cli.numerics.jet import Jet, Number, rotation, sin_cos, sine_versine
+from geneva_cli.numerics.arrays import Array, Number, choose, library
+from geneva_cli.numerics.jet import Held, Jet, Loads, Vector, rotation, sin_cos, sine_versine
 from geneva_cli.spec.rules import OneOf, Range
 from geneva_cli.spec.schema import Example
 
@@ -126,17 +127,11 @@ class PlanetReactions(NamedTuple):
     rp: float
     c: float
 
-    def __call__(self, input_deg: Number, path: Vector, loads: Loads) -> Held:
+    def __call__(self, turn: Jet, path: Vector, loads: Loads) -> Held:
         """Reactions of the carrier's shaft, and of the fixed gear, to each load."""
-        turn = Jet.variable(radians(input_deg), path[0].order - 1)
         (s, c), (sp, cp) = sin_cos(turn), sin_cos(turn * self.c)
-        across, planet = (s * -1.0, c * -1.0), (cp * -self.rp, sp * self.rp)
-        out = []
-        for force, moment in loads:
-            push = (cross(planet, force) + moment) * (self.c / self.R0)
-            third = across[0] * push, across[1] * push
-            out.append(((force[0] + third[0], force[1] + third[1]), third))
-        return out
+        planet, across = (cp * -self.rp, sp * self.rp), (s * -1.0, c * -1.0)
+        return pushed(loads, planet, across, -self.R0 / self.c)
 
 
 class _Arms(NamedTuple):

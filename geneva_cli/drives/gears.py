@@ -7,23 +7,19 @@ tan(f/2) = (1-e)/(1+e) tan(phi/2), as Kepler's true anomaly; the directions of t
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
+from typing import Annotated, ClassVar, NamedTuple
 
-from geneva_cli.drives.pushed import PushedCrank
+from geneva_cli.drives.pushed import Mesh
 from geneva_cli.drives.transmission import LocalTransmission, Transmission
 from geneva_cli.drives.whitworth import Whitworth, refuse_near_one
 from geneva_cli.motion.drive import Gears, Plan
-from geneva_cli.motion.engagement import Vector
 from geneva_cli.motion.pivots import Dimension, Layout, Pivot, ShaftPlace
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import sin_cos_deg
 from geneva_cli.numerics.arrays import enclosed, library
-from geneva_cli.numerics.jet import Jet, Number, cosines_after, sine_versine_of, turning
+from geneva_cli.numerics.jet import Displacement, Jet, Number, cosines_after, sine_versine_of
 from geneva_cli.spec.rules import POSITIVE, OneOf, Range
 from geneva_cli.spec.schema import Example
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet_functions import Path
 
 
 class GearPair(Transmission, kw_only=True):
@@ -44,8 +40,8 @@ class GearPair(Transmission, kw_only=True):
             Dimension("gears' axes", self.gear_distance_mm, "mm"),
         )
 
-    def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> PushedCrank | None:
-        return Mesh(path, self.gear_distance_mm / L)
+    def reactions(self, wheel: Gearing, advance: Displacement, mid_deg: float, L: float) -> Mesh:
+        return Mesh(advance, self.gear_distance_mm / L, -wheel.SIGN)
 
 
 class EllipticalGears(GearPair, kw_only=True):
@@ -140,22 +136,3 @@ class NoncircularGears(GearPair, Whitworth, kw_only=True):
     def layout(self, plan: Plan, sign: float) -> Layout:
         ratio = Dimension("gears' ratio as of side-crank A", self.A)
         return (*super().layout(plan, sign), ratio)
-
-
-class Mesh(PushedCrank):
-    """Gears whose axes are ``distance`` over L apart, the driver's on the line of centres."""
-
-    def __init__(self, path: Path, distance: float) -> None:
-        self.path, self.distance = path, distance  # the roller turns as the crank does
-
-    def line(self, input_deg: Number, order: int) -> tuple[Vector, Vector]:
-        x, y = self.path(input_deg, order + 2)
-        rate = turning(x - 1.0, y)
-        i, slope = Jet(rate.c[: order + 1]), rate.derivative()
-        # sense of the crank's rotation; the ratio itself is a size
-        sense = library(i.c[0]).copysign(1.0, i.c[0])
-        size, grows = i * sense, slope * sense
-        none = i * 0.0
-        # tangent of the driven gear's curve, (dr, r df), as it turns by df
-        across = none - sense
-        return (self.distance / (size + 1.0), none), (grows / ((size + 1.0) * size) * -1.0, across)

@@ -1,17 +1,15 @@
-"""Equilibrium of a crank that is turned by a push along a known line: a block, a tooth, a pin."""
+"""Equilibrium of a body that a push along a known line holds: of a block, a tooth or a pin."""
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from typing import TYPE_CHECKING, NamedTuple
 
-from geneva_cli.motion.engagement import Held, Loads, Vector, cross
-from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import Batchable
-from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
+from geneva_cli.numerics.arrays import Batchable, Number
+from geneva_cli.numerics.jet import Jet, Vector, composed, cross, sin_cos, turning
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.jet_functions import Displacement
+    from geneva_cli.numerics.jet import Displacement, Held, Loads
 
 
 class CrankRate(NamedTuple):
@@ -26,23 +24,31 @@ class CrankRate(NamedTuple):
         return rate
 
 
+def pushed(loads: Loads, arm: Vector, direction: Vector, lever: Jet | float) -> Held:
+    """Reactions of a body's pivot, and of what pushes it in a direction, to each load.
+
+    The loads act at ``arm`` from the pivot, lengths over L; ``lever`` is that of the push.
+    """
+    out = []
+    for force, moment in loads:
+        push = (cross(arm, force) + moment) / lever * -1.0
+        third = direction[0] * push, direction[1] * push
+        out.append(((force[0] + third[0], force[1] + third[1]), third))
+    return out
+
+
 class PushedCrank(Batchable, ABC):
     """A crank held by its shaft and pushed round, without friction or mass."""
 
     @abstractmethod
-    def line(self, input_deg: Number, order: int) -> tuple[Vector, Vector]:
+    def line(self, turn: Jet) -> tuple[Vector, Vector]:
         """Point of the push from the crank's axis, over L, and a vector in its direction."""
 
-    def __call__(self, input_deg: Number, path: Vector, loads: Loads) -> Held:
+    def __call__(self, turn: Jet, path: Vector, loads: Loads) -> Held:
         """Reactions of the crank's shaft, and of the body that pushes the crank, to each load."""
         x, y = (jet.lower for jet in path)
-        at, direction = self.line(input_deg, x.order)
-        lever, out = cross(at, direction), []
-        for force, moment in loads:
-            push = (cross((x - 1.0, y), force) + moment) / lever * -1.0
-            third = direction[0] * push, direction[1] * push
-            out.append(((force[0] + third[0], force[1] + third[1]), third))
-        return out
+        at, direction = self.line(turn)
+        return pushed(loads, (x - 1.0, y), direction, cross(at, direction))
 
 
 class CirclingPush(PushedCrank):
@@ -55,7 +61,22 @@ class CirclingPush(PushedCrank):
     def __init__(self, x0: float, k: float, scale: float, height: float, mid: float) -> None:
         self.x0, self.k, self.scale, self.height, self.mid = x0, k, scale, height, mid
 
-    def line(self, input_deg: Number, order: int) -> tuple[Vector, Vector]:
-        s, c = sin_cos(Jet.variable(radians(input_deg) + self.mid, order))
+    def line(self, turn: Jet) -> tuple[Vector, Vector]:
+        s, c = sin_cos(turn + self.mid)
         x, y = (c * self.k + self.x0) * self.scale, s * self.height
         return (x, y), (y * -1.0, x)
+
+
+class Mesh(PushedCrank):
+    """Gears whose axes are ``distance`` over L apart; ``sense`` is that of the crank's rotation."""
+
+    def __init__(self, advance: Displacement, distance: float, sense: float) -> None:
+        self.rate, self.distance, self.sense = CrankRate(advance, 1.0), distance, sense
+
+    def line(self, turn: Jet) -> tuple[Vector, Vector]:
+        rate = self.rate(turn.c[0], turn.order + 1)
+        i, grows = composed(rate.lower, turn), composed(rate.derivative(), turn)
+        none = i * 0.0
+        # tangent of the driven gear's curve, (dr, r df), as it turns by df
+        tangent = grows / ((i + 1.0) * i) * -1.0, none - self.sense
+        return (self.distance / (i + 1.0), none), tangent

@@ -8,22 +8,21 @@ radian of input. The push of the drive before follows from that and its own leve
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, ClassVar, NamedTuple, cast
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 from geneva_cli.motion import engagement as base
 from geneva_cli.motion.drive import Drive, Plan
-from geneva_cli.motion.engagement import Held, Load, Loads, Vector, cross
 from geneva_cli.motion.path_and_slot import NEAR_END
-from geneva_cli.numerics.angles import radians
+from geneva_cli.numerics.angles import DEGREE, radians
 from geneva_cli.numerics.arrays import Array, Batchable, array, choose, library, narrowed
-from geneva_cli.numerics.jet import Jet, Number, atan2, composed, piecewise, sin_cos
+from geneva_cli.numerics.jet import Jet, Number, Vector, atan2, composed, cross, piecewise
 from geneva_cli.numerics.roots import boundary
 
 if TYPE_CHECKING:
     from geneva_cli.drives.pushed import PushedCrank
     from geneva_cli.drives.transmission import Transmission
     from geneva_cli.motion.machine_spec import Spec
-    from geneva_cli.numerics.jet_functions import Displacement, Path, Reactions
+    from geneva_cli.numerics.jet import Displacement, Held, Loads, Path, Reactions
 
 
 def retimed(plan: Plan, spec: Spec, in_front: Drive) -> Plan:
@@ -36,8 +35,8 @@ def retimed(plan: Plan, spec: Spec, in_front: Drive) -> Plan:
         for own in plan.engagements:
             timing, push = Timing(before, own, k * plan.period_deg), None
             if spec.drive.direct or not spec.drive.crank:  # it turns about the crank's axis
-                path, mid_deg = ShaftPath(sign, timing), timing.within_deg
-                push = before.reactions(spec.wheel, path, mid_deg, plan.center_distance_mm)
+                turned, mid_deg = timing.advances[1], timing.within_deg
+                push = before.reactions(spec.wheel, turned, mid_deg, plan.center_distance_mm)
             # a crank that carries its rollers is pushed itself, without a shaft between
             held = DrivenShaft(own, timing, push, sign) if own.reactions else push
             each.append(Engagement(own, timing, held))
@@ -68,15 +67,19 @@ class _Path(Batchable):
         self.own, self.timing = own, timing
 
     def __call__(self, input_deg: Number, order: int = 3) -> Vector:
+        return self.through(self.own, input_deg, order)
+
+    def through(self, own: Path, input_deg: Number, order: int) -> Vector:
+        """Two functions of the driven shaft's angle, by the machine's input angle."""
         at, turned = self.timing.at(input_deg, order)
-        x, y = self.own(at, order)
+        x, y = own(at, order)
         return composed(x, turned), composed(y, turned)
 
 
 class _Motion(base.WheelMotion):
     """The wheel's angle by the machine's input angle."""
 
-    BREAKS_TO: ClassVar[float] = 2e-14  # roundings of angles of the own shaft, which may be slower
+    breaks_to = 2e-14  # roundings of angles of the own shaft, which may be slower
 
     def __init__(self, own: base.WheelMotion, timing: Timing) -> None:
         super().__init__(timing.at_deg[0], timing.at_deg[-1], own.half_step)
@@ -105,10 +108,6 @@ class _Motion(base.WheelMotion):
         at, turned = self.timing.at(input_deg, order)
         return composed(self.own(at, order), turned)
 
-    def rate(self, input_deg: Number, order: int = 2) -> Jet:
-        at, turned = self.timing.at(input_deg, order + 1)
-        return _of_rate(self.own.rate(at, order), turned)
-
 
 class _Slot(_Path, base.Slot):
     """A slot whose pin runs along it by the machine's input angle."""
@@ -126,12 +125,8 @@ class _Slot(_Path, base.Slot):
     def seams_deg(self) -> tuple[float, ...]:
         return tuple(self.timing.input_deg(at) for at in self.own.seams_deg)
 
-    def axis(self, input_deg: Number, order: int = 0) -> base.SlotAxis | None:
-        at, turned = self.timing.at(input_deg, order + 1)
-        axis = self.own.axis(at, order)
-        if axis is None:
-            return None
-        return composed(axis[0], turned.lower), _of_rate(axis[1], turned)
+    def axis(self, input_deg: Number, order: int = 0) -> Vector:
+        return self.through(self.own.axis, input_deg, order)
 
     def upright(self, input_deg: Number, order: int = 0) -> Jet | float:
         at, turned = self.timing.at(input_deg, order)
@@ -166,8 +161,8 @@ class Engagement(base.Engagement):
         at, turned = self.timing.at(input_deg, order + 1)
         return _of_rate(self._own.carrier(at, order), turned)
 
-    def shaft_rate(self, input_deg: Number, order: int = 0) -> Jet:
-        return self.timing.at(input_deg, order + 1)[1].derivative()
+    def shaft(self, input_deg: Number, order: int = 0) -> Jet:
+        return self.timing.at(input_deg, order)[1]
 
     def own_deg(self, input_deg: Array) -> Array:
         return array(self.timing.at(input_deg, 0)[0])
@@ -230,18 +225,6 @@ class Timing(Batchable):
         return Jet((self.ends_deg[i] + library(angle).degrees(angle), *own.c[1:]))
 
 
-class ShaftPath(NamedTuple):
-    """A point of a shaft, 1 from its axis: ahead at mid-motion, away from an internal wheel."""
-
-    sign: float
-    angle: Timing
-
-    def __call__(self, input_deg: Number, order: int = 3) -> Vector:
-        """Point (x, y) in the fixed frame."""
-        s, c = sin_cos(self.angle.at(input_deg, order)[1])
-        return 1.0 - c * self.sign, s
-
-
 class DrivenShaft(Batchable):
     """Reactions on the shaft between two drives, and on the second one's guide, to loads.
 
@@ -249,41 +232,28 @@ class DrivenShaft(Batchable):
     """
 
     def __init__(
-        self, own: base.Engagement, angle: Timing, push: PushedCrank | None, sign: float
+        self, own: base.Engagement, timing: Timing, push: PushedCrank | None, sign: float
     ) -> None:
-        self.own, self.angle, self.push = own, angle, push
+        self.own, self.timing, self.push = own, timing, push
         sense = own.crank_sense
         self.mirror = choose(sense == 0.0, 1.0, sense)
         self.clockwise = choose(sense == 0.0, sign, sense)  # -1 for one that turns the other way
 
-    def __call__(self, input_deg: Number, path: Vector, loads: Loads) -> Held:
+    def __call__(self, turn: Jet, path: Vector, loads: Loads) -> Held:
         """Reactions of the shaft's bearings, and of the guide, to each load."""
         assert self.own.reactions is not None  # ``retimed`` passes engagements with reactions only
-        order = path[0].order - 1
-        own_deg, angle = self.angle.at(input_deg, order + 1)
-        low, rate = angle.lower, angle.derivative()
-        # the second drive's bodies alone, which are linear in the load
-        none = low * 0.0
-        one = none + 1.0
-        units: list[Load] = [((one, none), none), ((none, one), none), ((none, none), one)]
-        to_unit = [
-            [composed(part, low) for vector in pair for part in vector]
-            for pair in self.own.reactions(own_deg, self.own.path(own_deg, order + 1), units)
-        ]
-        if self.push is not None:
-            (x, y), (u, v) = self.push.line(input_deg, order)
-            y, v = y * self.mirror, v * self.mirror
-            lever = cross((x, y), (u, v))
-            velocity = path[0].derivative(), path[1].derivative()
-            spin = composed(self.own.carrier(own_deg, order), low) * rate
+        own_deg, angle = self.timing.at(turn.c[0] / DEGREE, turn.order + 1)
+        held = self.own.reactions(angle.lower, path, loads)
+        if self.push is None:
+            return held
+        (x, y), (u, v) = self.push.line(turn)
+        y, v = y * self.mirror, v * self.mirror
+        lever = cross((x, y), (u, v)) * angle.derivative() * self.clockwise
+        velocity = path[0].derivative(), path[1].derivative()
+        spin = _of_rate(self.own.carrier(own_deg, turn.order), angle)
         out = []
-        for force, moment in loads:
-            columns = zip((*force, moment), to_unit, strict=True)
-            parts = [[part * amount for part in unit] for amount, unit in columns]
-            shaft_x, shaft_y, *guide = (a + b + c for a, b, c in zip(*parts, strict=True))
-            if self.push is not None:
-                power = force[0] * velocity[0] + force[1] * velocity[1] + moment * spin
-                size = power / (rate * lever) * self.clockwise
-                shaft_x, shaft_y = shaft_x + u * size, shaft_y + v * size
-            out.append(((shaft_x, shaft_y), (guide[0], guide[1])))
+        for (force, moment), (shaft, guide) in zip(loads, held, strict=True):
+            power = force[0] * velocity[0] + force[1] * velocity[1] + moment * spin
+            size = power / lever
+            out.append(((shaft[0] + u * size, shaft[1] + v * size), guide))
         return out

@@ -5,7 +5,7 @@ A and f follow Polyudov and Kandyak, "Kinematics of the Maltese cross mechanism 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, ClassVar
+from typing import Annotated, ClassVar
 
 from geneva_cli.drives.pushed import CirclingPush, PushedCrank
 from geneva_cli.drives.transmission import places
@@ -15,12 +15,9 @@ from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot, Shaf
 from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import library
-from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.jet import Array, Displacement
 from geneva_cli.spec.rules import POSITIVE, Range
 from geneva_cli.spec.schema import Example
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet_functions import Path
 
 
 class SideCrank(Whitworth, kw_only=True):
@@ -79,7 +76,9 @@ class SideCrank(Whitworth, kw_only=True):
         own = plan.ratio * plan.center_distance_mm
         return own if self.input_crank_mm is None else self.input_crank_mm
 
-    def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> PushedCrank | None:
+    def reactions(
+        self, wheel: Gearing, advance: Displacement, mid_deg: float, L: float
+    ) -> PushedCrank | None:
         if self.input_crank_mm is None:
             return None
         r = self.input_crank_mm / L

@@ -18,12 +18,11 @@ from geneva_cli.motion.wheels.classic import HalfStep, PinTravel, middle, refuse
 from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import larger, parameter
-from geneva_cli.numerics.jet import Array, rotation
+from geneva_cli.numerics.jet import Array, Displacement, rotation
 
 if TYPE_CHECKING:
     from geneva_cli.drives.pushed import PushedCrank
     from geneva_cli.motion.laws.law import Motion
-    from geneva_cli.numerics.jet_functions import Displacement, Path
 
 
 ANGLES_KEY = ("drive", "roller_angles_deg")
@@ -62,8 +61,8 @@ class Transmission(Drive, kw_only=True):
     def distance_mm(self, wheel: Gearing, motion: Motion | None, radius_mm: float) -> float:
         if motion is None:
             return wheel.distance_mm(radius_mm)
-        motion_deg = 2.0 * self.about(wheel.half_motion_deg(wheel.step))[0]
-        return radius_mm / self._ratio(wheel, motion, motion_deg - motion.alpha0_deg)
+        natural_deg = 2.0 * self.about(wheel.half_motion_deg(wheel.step))[0]
+        return radius_mm / self._ratio(wheel, motion, natural_deg - motion.alpha0_deg)
 
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
         if motion is not None:
@@ -104,10 +103,13 @@ class Transmission(Drive, kw_only=True):
         most = rollers_max(2.0 * rollers[0].half_motion_deg)
         return Plan(tuple(engagements), period, rollers[0].ratio, most, L)
 
-    def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> PushedCrank | None:
+    def reactions(
+        self, wheel: Gearing, advance: Displacement, mid_deg: float, L: float
+    ) -> PushedCrank | None:
         """Reactions on crank and transmission; None if a length is not known.
 
-        ``mid_deg`` is the input angle at which the roller crosses the line of centres.
+        ``advance`` is the crank's rotation since the roller was on the line of centres, at
+        ``mid_deg`` of the input.
         """
         return None
 
@@ -117,10 +119,7 @@ class Transmission(Drive, kw_only=True):
 
         half = wheel.half_motion_deg(wheel.step)
         self._refuse_reach(wheel, half)
-        natural = 2.0 * self.about(half)[0]
-        motion_deg = natural - motion.alpha0_deg
-        solved.refuse_alpha0(motion.alpha0_deg, natural)
-        refuse_jam(self.rollers, motion_deg)
+        motion_deg = solved.shortened(motion.alpha0_deg, 2.0 * self.about(half)[0])
         ratio = self._ratio(wheel, motion, motion_deg)
         text = 'ratio = "matched": at mid-motion the wheel turns back, or too fast for any R/L '
         text += "below 1; set a number, or change alpha0_deg or the law"
@@ -129,14 +128,12 @@ class Transmission(Drive, kw_only=True):
         pose = middle(wheel.SIGN, ratio, wheel.rest(ratio))
         travel = PinTravel(pose, advance)
         path = Anchor(0.0 * at_deg, pose.wheel, pose.along, travel)
-        end_deg, b = 0.5 * motion_deg, wheel.step.b
-        turned = solved.LawMotion(-end_deg, end_deg, b, motion.law)
+        turned = solved.LawMotion(-0.5 * motion_deg, 0.5 * motion_deg, wheel.step.b, motion.law)
         slot = solved.SolvedSlot(path, turned)
         engagement = Engagement(0.0, path, slot, turned, -wheel.SIGN)
         if not self.direct:
             self._behind(wheel, engagement, advance, L)
-        period = 360.0 * self.turns / self.rollers
-        return Plan((engagement,), period, ratio, rollers_max(motion_deg), L)
+        return self.planned(engagement, ratio, L)
 
     def _ratio(self, wheel: Gearing, motion: Motion, motion_deg: float) -> float:
         """R/L of a curved slot: the spec's, sin b, or matched to the law at mid-motion, or NaN."""
@@ -151,7 +148,7 @@ class Transmission(Drive, kw_only=True):
         from geneva_cli.drives.pushed import CrankRate
 
         own.body = CrankRate(advance, cast(float, own.body))
-        own.reactions = self.reactions(wheel, own.path, own.mid_deg, L) if wheel.FLAT else None
+        own.reactions = self.reactions(wheel, advance, own.mid_deg, L) if wheel.FLAT else None
 
     def _refuse_reach(self, wheel: Gearing, farthest_deg: float) -> None:
         """Raise GenevaError if the transmission does not cover the whole motion."""

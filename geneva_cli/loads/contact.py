@@ -6,15 +6,24 @@ The slot's tangent t points away from the wheel's axis: M . t > 0, M being the r
 
 from __future__ import annotations
 
-import math
 from functools import partial
 from typing import Any, Generic, NamedTuple
 
 import numpy as np
 
-from geneva_cli.motion.engagement import Engagement, Vector
-from geneva_cli.numerics.arrays import Mask, Truth, Whole, all_true, choose, library
-from geneva_cli.numerics.jet import Array, Jet, Number, V, sqrt
+from geneva_cli.motion.engagement import Engagement
+from geneva_cli.numerics.angles import radians
+from geneva_cli.numerics.arrays import (
+    Mask,
+    Truth,
+    Whole,
+    all_true,
+    array,
+    choose,
+    choose_record,
+    library,
+)
+from geneva_cli.numerics.jet import Array, Jet, Number, V, Vector, sqrt
 
 PRESSED = ("contact_stress_MPa", "pv_W_m2")  # known only with a face width
 # Searched by their squares: a root has no slope where it is 0, nor has the size of a vector.
@@ -92,6 +101,11 @@ class LoadCase(NamedTuple):
             all_friction=friction + guide.friction if guide else friction,
         )
 
+    def lossless(self) -> LoadCase:
+        """The load case without friction and losses, and without a contact's stress."""
+        case = self._replace(hertz=None, efficiency=1.0, guide=None)
+        return case.with_friction(0.0)
+
 
 class QuantityValue(NamedTuple, Generic[V]):
     """A quantity, the margin that bounds it where above 0, and the sign of its infinity."""
@@ -116,44 +130,60 @@ def lesser(a: V, b: V) -> V:
 
 
 def contact(
-    engagement: Engagement, x: Number, order: int = 0, reactions: bool = True, limits: bool = True
+    engagement: Engagement, x: Number, order: int = 0, reactions: bool = True
 ) -> Contact[Jet]:
     """The contact at input angles x, degrees from an engagement's mid-motion, one or an array.
 
     At mid-motion of a curved slot only the values have a limit, that of entry: ``order`` must be 0.
-    Without ``limits`` they are what the formulas give there.
     """
     slot = engagement.slot
-    if slot.curved and limits and not all_true(x != 0.0):
-        assert order == 0
-        return _at_middle(engagement, x, reactions)
     rates = engagement.motion.rate(x, order + 1)
     velocity, acceleration = rates.lower, rates.derivative()
     constant = Jet((velocity.c[0] * 0.0, *[0.0] * order))
-    straight_axis = slot.axis(x, order)
-    if straight_axis:
-        lever, along = straight_axis
+    if not slot.curved:
+        lever, place = slot.axis(x, order + 1)
+        lever, along = lever.lower, place.derivative()
         offset, curvature = constant + slot.offset, constant
-    else:
+    elif all_true(x != 0.0):
         lever, offset, along, curvature = _curved(engagement, x, order, rates)
+    else:
+        assert order == 0
+        lever, offset, along, curvature = _at_middle(engagement, array(x), rates)
     upright, touches = slot.upright(x, order), constant + slot.touches(x)
     body = engagement.carrier(x, order)
     spin = (body - velocity * upright) * touches
-    crank = constant + (body if engagement.on_arm else engagement.shaft_rate(x, order))
+    crank = constant + (body if engagement.on_arm else engagement.shaft(x, order + 1).derivative())
     arm = (constant + upright) * touches
     joints = _reactions(engagement, x, lever, offset) if reactions else None
     wall = lever, offset, along, curvature
     return Contact(velocity, acceleration, *wall, spin, arm, touches, crank, joints)
 
 
-def _at_middle(engagement: Engagement, x: Number, reactions: bool) -> Contact[Jet]:
-    """The contact at input angles of which some are mid-motion of a curved slot."""
-    middle = x == 0.0
-    near = choose(middle, NEAR_CUSP * engagement.entry_deg, x)
-    both = zip(_middle(engagement), contact(engagement, near, 0, False)[:-1], strict=True)
-    jets = [Jet((choose(middle, own, jet.c[0]),)) for own, jet in both]
-    joints = _reactions(engagement, x, jets[2], jets[3]) if reactions else None
-    return Contact._make([*jets, joints])
+def _at_middle(engagement: Engagement, x: Array, rates: Jet) -> list[Jet]:
+    """The values of ``_curved`` at input angles of which some are mid-motion.
+
+    Where the pin crosses the radius there, its lever is 0, so that the sign of the tangent is
+    rounding; next to it, the sign is known. Where the pin reverses in a cusp, the tangent is that
+    of the pitch curve.
+    """
+    from geneva_cli.motion.path_and_slot import pitch_at_retrace, retraces
+
+    near = contact(engagement, NEAR_CUSP * engagement.entry_deg, reactions=False)
+    back, middle, at = retraces(engagement), x == 0.0, pitch_at_retrace(engagement)
+    with np.errstate(all="ignore"):  # each formula holds for its own designs
+        here = [jet.c[0] for jet in _curved(engagement, x, 0, rates)]
+        turned = np.where(here[2] * near.along.c[0] < 0.0, -1.0, 1.0)
+        crossing: tuple[Number, ...] = 0.0, *(turned * value for value in here[1:])
+        lever = array(at.x * at.tangent_x + at.y * at.tangent_y)
+        sense = np.copysign(1.0, lever)
+        offset = sense * (at.x * at.tangent_y - at.y * at.tangent_x)
+        # A slot that turns by less than 1e-9 has equal entry and exit paths: its curvature is that
+        # next to the cusp.
+        sharp = np.copysign(np.inf, sense * at.turning)
+        curvature = np.where(np.abs(at.turning) > 1e-9, sharp, near.curvature.c[0])
+        cusp: tuple[Number, ...] = sense * lever, offset, 0.0, curvature
+        limits = choose_record(back, cusp, crossing)
+        return [Jet((np.where(middle, a, b),)) for a, b in zip(limits, here, strict=True)]
 
 
 def _curved(engagement: Engagement, x: Number, order: int, rates: Jet) -> tuple[Jet, Jet, Jet, Jet]:
@@ -193,55 +223,7 @@ def _reactions(
     none = px * 0.0
     normal, tangent = (ty * -1.0, tx), (tx, ty)
     loads = (normal, none), (tangent, none), ((none, none), none + 1.0)
-    return tuple(engagement.reactions(x, path, loads))
-
-
-def _middle(engagement: Engagement) -> list[Number]:
-    """The contact at mid-motion of a curved slot, where the pin crosses the radius or reverses."""
-    from geneva_cli.motion.path_and_slot import retraces
-
-    back = retraces(engagement)
-    if isinstance(back, bool):
-        return _cusp(engagement) if back else _crossing(engagement)
-    with np.errstate(all="ignore"):  # each formula holds for its own designs
-        both = zip(_cusp(engagement), _crossing(engagement), strict=True)
-        return [choose(back, cusp, crossing) for cusp, crossing in both]
-
-
-def _crossing(engagement: Engagement) -> list[Number]:
-    """The contact where the pin crosses the radius.
-
-    The lever is 0 there, so the sign of the tangent is rounding; next to it, the sign is known.
-    """
-    here, before = (
-        contact_values(contact(engagement, x, 0, False, limits=False))
-        for x in (0.0, NEAR_CUSP * engagement.entry_deg)
-    )
-    sense = choose(here.along * before.along < 0.0, -1.0, 1.0)
-    v, a, lever, offset, along, curvature, *rest, _ = here
-    return [v, a, 0.0 * lever, offset * sense, along * sense, curvature * sense, *rest]
-
-
-def _cusp(engagement: Engagement) -> list[Number]:
-    """The contact where the pin reverses in a cusp of its pitch curve."""
-    from geneva_cli.motion.path_and_slot import pitch_at_retrace
-
-    at = pitch_at_retrace(engagement)
-    m = library(at.x)
-    lever = at.x * at.tangent_x + at.y * at.tangent_y
-    sense = m.copysign(1.0, lever)
-    offset = sense * (at.x * at.tangent_y - at.y * at.tangent_x)
-    _, v, a = engagement.motion(0.0, 2).derivatives()
-    body = engagement.carrier(0.0).c[0]
-    crank = body if engagement.on_arm else engagement.shaft_rate(0.0).c[0]
-    # A slot that turns by less than 1e-9 has equal entry and exit paths: its curvature is that next
-    # to the cusp.
-    curvature = choose(
-        at.turning * at.turning > 1e-9 * 1e-9,
-        m.copysign(math.inf, sense * at.turning),
-        contact(engagement, NEAR_CUSP * engagement.entry_deg, 0, False).curvature.c[0],
-    )
-    return [v, a, sense * lever, offset, 0.0, curvature, body - v, 1.0, 1.0, crank]
+    return tuple(engagement.reactions(Jet.variable(radians(x), lever.order), path, loads))
 
 
 def _to_order(jet: Jet, order: int) -> Jet:

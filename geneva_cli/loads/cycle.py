@@ -104,13 +104,12 @@ class Cycle:
         """The summaries of all quantities that have a value."""
         every = single_summaries(self.machine)
         load_functions.refuse_noise([one.rms for one in every.values()])
-        return dict(zip(every, map(only, every.values()), strict=True))
+        return {name: only(one) for name, one in every.items()}
 
     @cached_property
     def ends(self) -> Mapping[str, LoadSummary[float]]:
         """The same without mean and rms, which take longest."""
-        every = single_extremes(self.machine)[0]
-        return dict(zip(every, map(only, every.values()), strict=True))
+        return {name: only(one) for name, one in single_extremes(self.machine)[0].items()}
 
     @cached_property
     def stretches(self) -> list[tuple[Engagement, Stretch]]:

@@ -7,9 +7,7 @@ are lost to rounding: there the loads are known by themselves.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
-from itertools import pairwise
 from operator import attrgetter
 from typing import TypeAlias
 
@@ -21,10 +19,10 @@ from geneva_cli.loads.instant import Instant, LoadQuantity, Own, sign_of
 from geneva_cli.motion.batch import selection
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.path_and_slot import retraces
-from geneva_cli.motion.peak_search import breaks, pole_deg, spans
+from geneva_cli.motion.peak_search import spans, spread_deg
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Mask, Which, Whole, all_true, array
-from geneva_cli.numerics.cuts import Asked, Held, gathered, spread
+from geneva_cli.numerics.cuts import Asked, Held
 from geneva_cli.numerics.extremes import Known, SearchResult, Stretches, cuts, search
 from geneva_cli.numerics.jet import Array, Jet, Number
 
@@ -80,29 +78,12 @@ class LoadFunctions:
         self._some = selection(self._every) if self.n > 1 else None
 
         # Ends of the smooth parts of the motion, one after the other: (n, 1) each
-        motion = engagement.motion
         self.spans: list[tuple[Array, Array]] = []
-        ends = pairwise(breaks(motion, self.n))
-        for (a, b), (start, end) in zip(ends, spans(motion, self.n), strict=True):
-            if engagement.slot.curved:
-                start = np.where(a == 0.0, NEAR_CUSP * engagement.exit_deg, start)
-                end = np.where(b == 0.0, NEAR_CUSP * engagement.entry_deg, end)
+        for start, end in spans(engagement.motion, self.n):
+            if engagement.slot.curved:  # those next to mid-motion begin at the least double
+                start = np.where(abs(start) <= 1e-300, NEAR_CUSP * engagement.exit_deg, start)
+                end = np.where(end == 0.0, NEAR_CUSP * engagement.entry_deg, end)
             self.spans.append((start, end))
-
-        # Approximate distance from mid-motion of the nearest pole of the loads, degrees: (n, 1).
-        # Near mid-motion a velocity is as v / (1 + x²/w²), a wall's lever as l sqrt(1 + x²/w²).
-        # Where friction holds a lever that vanishes there, w is the distance at which it no longer
-        # does. Not at mid-motion itself, where a curved slot may have no slopes:
-        x = 0.01 * array(engagement.exit_deg)
-        _, _, lever, offset, *_ = at = contact(engagement, x, 2, reactions=False)
-        with np.errstate(all="ignore"):
-            w = np.fmin(pole_deg(at.velocity), math.sqrt(0.5) * pole_deg(lever))
-            if case.rubs:
-                grip = np.abs(lever.c[0]) + case.friction * np.abs(offset.c[0])
-                w = np.fmin(w, array(grip) / np.abs(lever.c[1]) / DEGREE)
-        # ten half motions: samples of a function without poles are not spread
-        w = np.fmin(np.where(w > 0.0, w, np.inf), 10.0 * engagement.exit_deg)
-        self.spread: Array = np.broadcast_to(w, (self.n, 1))
 
     def search(self, sized: bool = False) -> SearchResult:
         """The greatest values of the quantities and of their negatives, or their greatest sizes."""
@@ -120,7 +101,7 @@ class LoadFunctions:
         known = list[Known]()
         if is_curved:  # no span reaches mid-motion
             known = at_mid_motion(engagement, case, self.quantities, self.n)
-        return search(self, parts, sized, known, self.spread)
+        return search(self, parts, sized, known, spread_deg(engagement.motion, self.n))
 
     def stretches(self, result: SearchResult | None = None) -> Stretches:
         """The motion, divided where signs change: as in a search, or without one."""
@@ -133,39 +114,23 @@ class LoadFunctions:
             x = np.where(x == near, 0.0, x)
         return pieces._replace(x=x)
 
-    def integrals(
-        self, pieces: Stretches, functions: Integrands, needed: Mask, poles: bool = False
-    ) -> Array:
+    def integrals(self, pieces: Stretches, functions: Integrands, needed: Mask) -> Array:
         """The integrals of functions by the angle in radians over stretches: (functions, m).
 
         They may behave as a root at the ends of a stretch. ``needed`` (functions, n) selects those
-        of designs; of noise they are NaN. ``poles`` spreads the samples of each design about
-        mid-motion. It costs digits where nearly all happens at the ends of the motion.
+        of designs; of noise they are NaN.
         """
         from geneva_cli.numerics.quadrature import span_integrals  # a check has no integrals
 
-        # those of one span together: a motion of several is evaluated in one of them at a time
-        order = np.argsort(pieces.span, kind="stable")
-        design, (a, b) = pieces.design[order], pieces.x[:, order]
-        signs = np.where(pieces.positive, 1.0, -1.0)[:, order]
-        w = self.spread[design, 0]
+        signs = np.where(pieces.positive, 1.0, -1.0)
 
-        def rows(u: Array, which: Whole) -> Array:
-            x, rate = u, np.ones(1)
-            if poles:
-                width = w[which, None]
-                x, rate = gathered(u, width), np.hypot(1.0, np.sinh(u / width))
-            x = np.clip(x, a[which, None], b[which, None])
-            instant, every, _ = self.at(x, design[which], 0, signs[:, which, None])
-            each = np.broadcast_arrays(*functions(instant, every), x)[:-1]
-            out = np.empty((len(each), *x.shape[::-1])).swapaxes(1, 2)
-            return np.multiply(each, rate, out=out)
+        def rows(x: Array, which: Whole) -> Array:
+            instant, every, _ = self.at(x, pieces.design[which], 0, signs[:, which, None])
+            return np.stack(np.broadcast_arrays(*functions(instant, every), x)[:-1])
 
-        ends = (spread(a, w), spread(b, w)) if poles else (a, b)
-        out = np.empty((len(needed), len(order)))
+        ends = pieces.x[0], pieces.x[1]
         with np.errstate(all="ignore"):
-            out[:, order] = span_integrals(rows, ends, design, needed)
-        return out * DEGREE
+            return DEGREE * span_integrals(rows, ends, pieces.design, needed)
 
     def at(
         self, x: Array, which: Which, order: int = 0, held: Array | None = None

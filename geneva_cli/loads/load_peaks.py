@@ -91,8 +91,7 @@ def greatest_pressure(mechanism: Mechanism) -> PeakArray:
             known = np.full(mechanism.designs, 0.0 if np.all(crosses) else np.nan)
             return PeakArray(90.0 + known, at_deg + known)
     own: dict[str, LoadQuantity] = {"slope": _slope_squared}
-    case = load_case(mechanism)._replace(inertia_Nm=0.0, hertz=None, efficiency=1.0, guide=None)
-    case = case.with_friction(0.0)
+    case = load_case(mechanism).lossless()._replace(inertia_Nm=0.0)
     peak = load_peaks(mechanism, tuple(own), own, case)["slope"]
     angle = np.degrees(np.arctan(np.sqrt(peak.max)))
     return PeakArray(angle, np.where(angle > 0.0, peak.at_deg, 0.0))  # 0 throughout a radial slot
@@ -238,5 +237,5 @@ def _sums_of(load: LoadFunctions, result: SearchResult) -> Array:
         squares = [value if name in contact.SQUARED else value * value for name, value in both]
         return [*squares, *(contact.plain_values(value, name) for name, value in both)]
 
-    each = load.integrals(pieces, functions, needed, poles=True)
+    each = load.integrals(pieces, functions, needed)
     return np.array([np.bincount(pieces.design, row, n) for row in each])

@@ -1,7 +1,7 @@
 """The loads as they are printed: a table of the cycle, its summary, and the standard motor."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from functools import lru_cache
 from typing import Any, NamedTuple, TypeAlias
 
@@ -55,9 +55,9 @@ def reversals_deg(cycle: Cycle) -> list[float]:
 
 
 def loads_table(
-    cycle: Cycle, answers: Mapping[str, Answers], warnings: Sequence[str], for_people: bool = False
+    cycle: Cycle, answers: Mapping[str, Answers], last: Mapping[str, object], for_people: bool
 ) -> Table:
-    """The summary of the loads, with the ``answers`` of impact, sizing and life, and warnings."""
+    """The summary of the loads, then the ``answers`` of impact, sizing and life, then the last."""
     spec = cycle.mechanism.spec
     values: dict[str, object] = {"spec": spec.path, "title": spec.title}
     loads = summaries(cycle)
@@ -76,8 +76,7 @@ def loads_table(
         # a roller that changes no side has no impact to be shown
         if not for_people or own.get("jump", 0.0) is not None:
             values |= {f"{group}.{key}": value for key, value in own.items()}
-    values["warnings"] = tuple(warnings)
-    return record_table(values)
+    return record_table(values | dict(last))
 
 
 class RecommendedMotor(NamedTuple):

@@ -261,8 +261,7 @@ def _works(load: LoadFunctions, bounded: Mask) -> tuple[Array, Array]:
 
 def kinetic_power_W(mechanism: Mechanism) -> Array:
     """Peak power that the inertia takes from the input, W, without friction: (m,)."""
-    case = load_case(mechanism)._replace(resists_Nm=0.0, efficiency=1.0, guide=None)
-    case = case.with_friction(0.0)
+    case = load_case(mechanism).lossless()._replace(resists_Nm=0.0)
     torque = load_peaks(mechanism, ("input_torque_Nm",), case=case)["input_torque_Nm"].max
     spec = mechanism.spec
     return torque * np.ravel(omega(spec.drive.n_rpm) / spec.load.efficiency)

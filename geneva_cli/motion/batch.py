@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from functools import cache
-from typing import TypeAlias, TypeVar, cast
+from typing import Any, TypeAlias, TypeVar, cast
 
 import numpy as np
 
-from geneva_cli.numerics.arrays import Array, Batchable, Which, numbers_of, record_of
+from geneva_cli.numerics.arrays import Array, Batchable, Which, record_of
 from geneva_cli.spec.schema import Points, SpecTable
 
 T = TypeVar("T")
@@ -18,10 +18,14 @@ Change: TypeAlias = "Callable[[Array], object]"
 def taken(thing: T, which: Which | int) -> T:
     """Reduce an object of a batch to some designs: a mask, their numbers, or a slice."""
 
+    some: Any = which
+    if isinstance(which, np.ndarray) and which.dtype == bool:
+        some = which.nonzero()[0]
+
     def change(array: Array) -> object:
-        if isinstance(which, int):
-            return array[which, 0].item()
-        return array[which] if isinstance(which, slice) else array.take(numbers_of(which), axis=0)
+        if isinstance(some, int):
+            return array[some, 0].item()
+        return array[some] if isinstance(some, slice) else array.take(some, axis=0)
 
     return cast("T", _changed(thing, change, {}))
 

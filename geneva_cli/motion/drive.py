@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from geneva_cli.motion.laws.law import Motion
     from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
     from geneva_cli.numerics.arrays import Array
-    from geneva_cli.numerics.jet_functions import Displacement
+    from geneva_cli.numerics.jet import Displacement
 
 
 class Plan(NamedTuple):
@@ -162,7 +162,8 @@ class Drive(SpecTable, kw_only=True):
     def planned(self, own: Engagement, ratio: float, L: float) -> Plan:
         """The plan of one engagement for each roller. Raises GenevaError if they would jam."""
         refuse_jam(self.rollers, own.motion_deg)
-        return Plan((own,), 360.0 / self.rollers, ratio, rollers_max(own.motion_deg), L)
+        period = 360.0 * self.turns / self.rollers
+        return Plan((own,), period, ratio, rollers_max(own.motion_deg), L)
 
     @abstractmethod
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:

@@ -11,40 +11,26 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, ClassVar, Generic, NamedTuple, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeVar
 
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Batchable, Truth, all_true, array, blocks, choose, library
-from geneva_cli.numerics.jet import Array, Jet, Number, turning
+from geneva_cli.numerics.jet import Array, Jet, Number, Vector, turned, turning
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.jet_functions import Displacement, Path, Rate, Reactions
+    from geneva_cli.numerics.jet import Displacement, Path, Rate, Reactions
 
 K = TypeVar("K", float, "Array")
 
 BLOCK = 12288  # angles: their jets stay in the processor's cache
 LONG = 8192  # angles a seam, from which polynomials pay
 
-Vector: TypeAlias = tuple[Jet, Jet]
-# A force at the pin's centre and a couple, both on the roller's body; the couple in that unit x L.
-Load: TypeAlias = tuple[Vector, Jet]
-Loads: TypeAlias = Sequence[Load]
-# Reactions of the crank's shaft and of the body's other guide to each load.
-Held: TypeAlias = list[tuple[Vector, Vector]]
 
+class Slot(Batchable):
+    """The curve in the wheel's own frame along which the pin runs: the slot's pitch curve.
 
-# A straight slot's axis, over L: the lever of its normal about the wheel's axis, and the speed of
-# the pin along it.
-SlotAxis: TypeAlias = tuple[Jet, Jet]
-
-
-def cross(a: Vector, b: Vector) -> Jet:
-    """Third component of the vector product of two plane vectors."""
-    return a[0] * b[1] - a[1] * b[0]
-
-
-class Slot(Batchable, ABC):
-    """The curve in the wheel's own frame along which the pin runs: the slot's pitch curve."""
+    It is straight unless a kind has another curve.
+    """
 
     # True for a curve that was solved for: it has two branches and its own walls.
     curved = False
@@ -52,21 +38,28 @@ class Slot(Batchable, ABC):
     walls_flat = True
     # e: distance between a straight slot's axis and the wheel's centre, over L.
     offset: float = 0.0
+    tilt: float = 0.0  # angle of that axis at the middle of the step, radians
     # The ``Height`` of the pin along the wheel's axis on a sphere, where the path is a projection.
     height: Any = None
 
-    @abstractmethod
+    def place(self, input_deg: Number, order: int) -> Jet:
+        """Place of the pin along a straight slot's axis, over L; on a sphere its polar angle."""
+        raise NotImplementedError
+
     def __call__(self, input_deg: Number, order: int = 3) -> Vector:
         """Pin (x, y) in the wheel's frame; on a sphere its polar angle in the flat development."""
+        place = self.place(input_deg, order)
+        return turned(place, place * 0.0 - self.offset, self.tilt)
 
     @property
     def seams_deg(self) -> tuple[float, ...]:
         """Input angles, degrees, at which another formula takes over, but for the motion's own."""
         return ()
 
-    def axis(self, input_deg: Number, order: int = 0) -> SlotAxis | None:
-        """Lever and speed of a straight slot at input angles; None for a curved slot."""
-        return None
+    def axis(self, input_deg: Number, order: int = 0) -> Vector:
+        """Lever of a straight slot's normal about the wheel's axis, and ``place``."""
+        place = self.place(input_deg, order)
+        return place, place
 
     def upright(self, input_deg: Number, order: int = 0) -> Jet | float:
         """Cosine of the angle between the roller's axis and the wheel's."""
@@ -106,7 +99,7 @@ class WheelMotion(Batchable, ABC):
     # Pin at entry, about which its path is written if the slot follows the pin
     entry: Anchor | None = None
     # Greatest error of the breaks within, as a fraction of the motion; 0 for exact ones.
-    BREAKS_TO: ClassVar[float] = 0.0
+    breaks_to = 0.0
 
     def __init__(self, entry_deg: float, exit_deg: float, half_step: float) -> None:
         self.entry_deg = entry_deg  # from mid-motion, negative
@@ -265,9 +258,9 @@ class Engagement(Batchable):
         x, y = self.path(input_deg, order + 1)
         return turning(x - 1.0, y)
 
-    def shaft_rate(self, input_deg: Number, order: int = 0) -> Jet:
-        """Rate of the drive's own input shaft, in radians per input radian."""
-        return Jet((input_deg * 0.0 + 1.0, *[0.0] * order))
+    def shaft(self, input_deg: Number, order: int = 0) -> Jet:
+        """Angle of the drive's own input shaft from mid-motion, radians."""
+        return Jet.variable(radians(input_deg), order)
 
     def own_deg(self, input_deg: Array) -> Array:
         """Angle of the drive's own input shaft at input angles from mid-motion, degrees."""

@@ -9,13 +9,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from functools import partial
-from typing import ClassVar
+from functools import lru_cache, partial
 
 from geneva_cli.errors import refuse_text
 from geneva_cli.kept import cached_property
-from geneva_cli.motion.engagement import Anchor, Peak, Slot, SlotAxis, WheelMotion
-from geneva_cli.motion.laws.law import Law, greatest, remaining
+from geneva_cli.motion.engagement import Anchor, Peak, Slot, WheelMotion
+from geneva_cli.motion.laws.law import Law, remaining
 from geneva_cli.numerics import arrays
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.jet import Jet, Number, composed, piecewise, sin, sin_cos, taylor
@@ -103,13 +102,8 @@ class SolvedPathSlot(Slot):
     def seams_deg(self) -> tuple[float, ...]:
         return self.path.seams_deg
 
-    def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
-        rho, _ = self.path.distances(input_deg, order)
-        return rho, rho * 0.0
-
-    def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
-        rho, _ = self.path.distances(input_deg, order + 1)
-        return rho.lower, rho.derivative()
+    def place(self, input_deg: Number, order: int) -> Jet:
+        return self.path.distances(input_deg, order)[0]
 
 
 def _sinc(x: Jet) -> Jet:
@@ -133,13 +127,14 @@ class SolvedSlot(Slot):
         return x * c + y * s, y * c - x * s
 
 
+UNIT_DEG = 64.0  # motion in which the peaks of a law are searched: places are exact fractions of it
 MOTION_MIN = 1e-10  # degrees: a shorter motion, or dwell, is rounding
 
 
 class LawMotion(WheelMotion):
     """A law, scaled to the wheel's step and to the motion angle."""
 
-    BREAKS_TO: ClassVar[float] = 1e-15  # a few roundings of an angle
+    breaks_to = 1e-15  # a few roundings of an angle
 
     def __init__(self, entry_deg: float, exit_deg: float, half_step: float, law: Law) -> None:
         super().__init__(entry_deg, exit_deg, half_step)
@@ -174,13 +169,14 @@ class LawMotion(WheelMotion):
     def closed_peak(self, quantity: str) -> Peak[float] | None:
         if self.law.varies:
             return None
-        size, u = greatest(self.law)[quantity]
+        size, at_deg = greatest(self.law)[quantity]
         whole, step = self.exit_deg - self.entry_deg, 2.0 * self.half_step
-        at_deg = self.entry_deg + u * whole if u <= 0.5 else self.exit_deg - (1.0 - u) * whole
+        end, of_end = (self.entry_deg, -0.5) if at_deg <= 0.0 else (self.exit_deg, 0.5)
+        at_deg = end + (at_deg / UNIT_DEG - of_end) * whole
         if quantity == "power":  # velocity times acceleration
             size = size * step
         times = {"velocity": 1, "acceleration": 2, "jerk": 3, "power": 3}[quantity]
-        return Peak(size * step / radians(whole) ** times, at_deg)
+        return Peak(size * step * (UNIT_DEG / whole) ** times, at_deg)
 
     def __call__(self, input_deg: Number, order: int = 3) -> Jet:
         ends = self.entry_deg, self.exit_deg
@@ -200,14 +196,29 @@ class LawMotion(WheelMotion):
         return Jet([c * rate**k if k else c for k, c in enumerate(s.c)])
 
 
-def refuse_alpha0(alpha0_deg: float, natural_deg: float) -> None:
-    """Raise GenevaError if the extra dwell leaves no motion angle, or no dwell at all."""
+@lru_cache(maxsize=256)
+def greatest(law: Law) -> dict[str, Peak[float]]:
+    """Peaks of a law whose keys are numbers, for a step of 1 in ``UNIT_DEG`` about angle 0."""
+    from geneva_cli.motion.peak_search import QUANTITIES, search_peaks
+
+    motion = LawMotion(-0.5 * UNIT_DEG, 0.5 * UNIT_DEG, 0.5, law)
+    motion.breaks_to = 0.0  # breaks are scaled without rounding
+    peaks = search_peaks(motion, QUANTITIES)
+    return {name: Peak(size.item(), at_deg.item()) for name, (size, at_deg) in peaks.items()}
+
+
+def shortened(alpha0_deg: float, natural_deg: float) -> float:
+    """The motion angle that an extra dwell leaves of a natural one, degrees.
+
+    Raises GenevaError if it leaves no motion, or no dwell at all.
+    """
     low, high = natural_deg - 360.0 + MOTION_MIN, natural_deg - MOTION_MIN
     text = "alpha0_deg = {angle:.12g} leaves no motion angle between 0 and 360 degrees; it must be "
     text += "above {low:.12g} and below {high:.12g}"
     outside = (alpha0_deg <= low) | (alpha0_deg >= high)
     key = ("motion", "alpha0_deg")
     refuse_text(outside, key, text, angle=alpha0_deg, low=low, high=high)
+    return natural_deg - alpha0_deg
 
 
 class Backwards(Law):

@@ -35,8 +35,7 @@ class Kind(NamedTuple):
     parts_checks: Mapping[str, str] = _NONE  # of parts at rest, all or those that it adds
     remedies: Mapping[str, str] = _NONE  # of its checks, in words of ``verdict.advice``
     load_case: str = ""  # function that completes the load case of a mechanism
-    # of the report, by the tables behind which they are shown: "batch", or "alone" for those that
-    # make the parts of a single design, the function, their table, and their names
+    # of the report, by the tables behind which they are shown: rows of ``verdict.quantities``
     quantities: Mapping[str, str] = _NONE
     # sizes of a mechanism's horns: half the slot's width, the recess (0 without a lock), and more
     horn_sizes: str = ""

@@ -94,7 +94,7 @@ def angles_table(mechanism: Mechanism, at_deg: Sequence[float]) -> Table:
     places = checked_angles(at_deg)
     start, period = first_entry_deg(mechanism), mechanism.period_deg
     count = np.floor((places - start + SAME_INPUT_DEG) / period)
-    knots = start + np.append(0.0, knots_deg(mechanism, 1))
+    knots = start + knots_deg(mechanism, 1)
     columns = np.empty((len(motion_columns(mechanism)), len(places)))
     for k in np.unique(count).tolist():
         which = np.flatnonzero(count == k)

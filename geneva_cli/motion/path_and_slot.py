@@ -3,7 +3,6 @@
 And the pitch curve of any slot: its tangent, curvature and pressure angle, in jets of any numbers.
 """
 
-from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
 from operator import attrgetter
@@ -11,18 +10,8 @@ from typing import NamedTuple, cast
 
 from geneva_cli.motion import engagement as base
 from geneva_cli.motion.wheels import classic
-from geneva_cli.numerics.arrays import (
-    SINGLE,
-    Array,
-    Batchable,
-    Whole,
-    array,
-    library,
-    picked,
-    piece_of,
-    size,
-)
-from geneva_cli.numerics.jet import Jet, Number, atan2, sqrt, turning
+from geneva_cli.numerics.arrays import SINGLE, Batchable, array, library, picked, piece_of, size
+from geneva_cli.numerics.jet import Array, Jet, Number, Vector, atan2, sqrt, turned, turning
 
 # Where an anchor of an end takes over: this fraction of the span to it from the anchor inside.
 NEAR_END = 0.75
@@ -46,7 +35,7 @@ class AnchoredPath(Batchable):
             self.cuts.append(0.5 * (before + after))
         self.cuts.append(inner[-1] + NEAR_END * (last - inner[-1]))
 
-    def __call__(self, input_deg: Number, order: int = 3) -> base.Vector:
+    def __call__(self, input_deg: Number, order: int = 3) -> Vector:
         """Pin (x, y) on its path at input angles in degrees from mid-motion."""
         along, across = self.middle(input_deg, order)
         return turned(along, across, self.ahead)
@@ -58,7 +47,7 @@ class AnchoredPath(Batchable):
             anchor = self.anchors[piece_of(input_deg, self.cuts)]
         else:
             x, first = array(input_deg), self.cuts[0]
-            index: Whole = (x > first).astype(int)  # laid out as the angles
+            index = (x > first).astype(int)  # laid out as the angles
             for cut in self.cuts[1:]:
                 index = index + (x > cut)
             low, high = int(index.min(initial=len(self.cuts))), int(index.max(initial=0))
@@ -68,21 +57,15 @@ class AnchoredPath(Batchable):
         return (*anchor(input_deg, order), anchor.wheel)
 
 
-@dataclass(eq=False)
 class RadialSlot(base.Slot):
     """A straight slot towards the wheel's centre."""
 
-    path: AnchoredPath
+    def __init__(self, path: AnchoredPath) -> None:
+        self.path, self.tilt = path, path.ahead - path.middle.wheel
 
-    def __call__(self, input_deg: Number, order: int = 3) -> base.Vector:
-        x, y = self.path.middle(input_deg, order)
-        depth = sqrt(x * x + y * y)
-        return turned(depth, depth * 0.0, self.path.ahead - self.path.middle.wheel)
-
-    def axis(self, input_deg: Number, order: int = 0) -> base.SlotAxis:
-        along, across, _ = self.path.nearest(input_deg, order + 1)
-        depth = sqrt(along * along + across * across)
-        return depth.lower, depth.derivative()
+    def place(self, input_deg: Number, order: int) -> Jet:
+        along, across, _ = self.path.nearest(input_deg, order)
+        return sqrt(along * along + across * across)
 
 
 class StraightSlotMotion(base.WheelMotion):
@@ -144,15 +127,6 @@ class StraightSlotMotion(base.WheelMotion):
             return super().end_rates(input_deg)
         jump = self.closed[1] / self.entry.along  # which is cos b
         return jump, 3.0 * jump * jump
-
-
-def turned(x: Jet, y: Jet, angle: float) -> base.Vector:
-    """Turn a vector by a fixed angle in radians."""
-    if isinstance(angle, float) and angle == 0.0:
-        return x, y
-    m = library(angle)
-    s, c = m.sin(angle), m.cos(angle)
-    return x * c - y * s, x * s + y * c
 
 
 # table columns for a pitch curve with a wall on either side

@@ -52,13 +52,13 @@ def breaks(motion: WheelMotion, m: int) -> list[Array]:
 def spans(motion: WheelMotion, m: int) -> list[tuple[Array, Array]]:
     """Ends of the smooth parts of m motions, (m, 1) each, clear of the breaks between them.
 
-    A function may jump at the breaks. They are known to a fraction ``BREAKS_TO`` of the motion, but
+    A function may jump at the breaks. They are known to a fraction ``breaks_to`` of the motion, but
     0 is exact. The value at a break itself belongs to the part before it, so that the part after it
     begins at least one double later.
     """
     places = breaks(motion, m)
     begin, last = places[0], places[-1]
-    blur, out = motion.BREAKS_TO * (last - begin), []
+    blur, out = motion.breaks_to * (last - begin), []
     for x in places[1:-1]:
         clear = np.where(x == 0.0, 0.0, blur)
         out.append((np.minimum(begin, last), np.maximum(begin, x - clear)))
@@ -69,9 +69,16 @@ def spans(motion: WheelMotion, m: int) -> list[tuple[Array, Array]]:
     return [*out, (np.minimum(begin, last), np.maximum(begin, last))]
 
 
-def pole_deg(even: Jet) -> Array:
-    """Distance from mid-motion of a function's nearest pole, degrees, from its jet near there."""
-    return np.sqrt(np.abs(array(even.c[0]) / even.c[2])) / DEGREE
+def spread_deg(motion: WheelMotion, m: int) -> Array:
+    """Distances from mid-motion of the nearest poles of m motions, degrees, roughly: (m, 1).
+
+    Near mid-motion a velocity is as v / (1 + x²/w²). At most ten half motions.
+    """
+    with np.errstate(all="ignore"):  # not at mid-motion itself, where a curved slot has no slopes
+        velocity = motion.rate(0.01 * array(motion.exit_deg), 2)
+        w = np.sqrt(np.abs(array(velocity.c[0]) / velocity.c[2])) / DEGREE
+        w = np.fmin(np.where(w > 0.0, w, np.inf), 10.0 * motion.exit_deg)
+    return np.broadcast_to(w, (m, 1))
 
 
 def search_motion(motion: WheelMotion, f: Smooth, sized: bool = True) -> SearchResult:
@@ -80,10 +87,7 @@ def search_motion(motion: WheelMotion, f: Smooth, sized: bool = True) -> SearchR
     parts = spans(motion, m)
     if motion.symmetric and sized:
         parts = [(a, b) for a, b in parts if np.all(b <= 0.0)]
-    with np.errstate(all="ignore"):
-        w = pole_deg(motion.rate(0.01 * array(motion.exit_deg), 2))
-        w = np.fmin(np.where(w > 0.0, w, np.inf), 10.0 * motion.exit_deg) + 0.0 * parts[0][0]
-    return search(f, parts, sized, w=w)
+    return search(f, parts, sized, w=spread_deg(motion, m))
 
 
 def motion_peaks(

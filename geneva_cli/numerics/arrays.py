@@ -49,7 +49,6 @@ if TYPE_CHECKING:
         def atan2(self, y: N, x: N, /) -> N: ...
         def hypot(self, x: N, y: N, /) -> N: ...
         def sqrt(self, x: N, /) -> N: ...
-        def exp(self, x: N, /) -> N: ...
         def floor(self, x: N, /) -> N: ...
         def ceil(self, x: N, /) -> N: ...
         def degrees(self, x: N, /) -> N: ...
@@ -222,18 +221,15 @@ def joined(records: Sequence[Record], axis: int = -1) -> Record:
     return mapped(lambda *parts: numpy.concatenate(parts, axis), *records)
 
 
-def numbers_of(which: Mask | Whole) -> Whole:
-    """Numbers of some designs, from a mask or from their numbers; a third faster to take by."""
-    return cast("Whole", which.nonzero()[0] if which.dtype == bool else which)
-
-
 def record_taken(record: Record, which: Which) -> Record:
     """A record of arrays (..., m), or of such records, with some of their columns."""
     # NumPy's own indexing puts each column's values side by side in memory; reductions over them
     # then take fifty times as long.
     if isinstance(which, slice):
         return mapped(itemgetter((..., which)), record)
-    return mapped(methodcaller("take", numbers_of(which), axis=-1), record)
+    # numbers are a third faster to take by than a mask
+    numbers = which.nonzero()[0] if which.dtype == bool else which
+    return mapped(methodcaller("take", numbers, axis=-1), record)
 
 
 def blocks(count: int, size: int) -> list[slice]:
@@ -304,15 +300,11 @@ def array(x: Number) -> Array:
     return numpy.asarray(x)
 
 
-def read_only(record: Record) -> Record:
-    """A cached record of arrays, or of such records, as views that cannot be written through."""
-
-    def view(column: Array) -> Array:
-        out = column.view()
-        out.flags.writeable = False
-        return out
-
-    return mapped(view, record)
+def read_only(*arrays: Array) -> tuple[Array, ...]:
+    """Arrays that are cached, and cannot be written to from now on."""
+    for one in arrays:
+        one.flags.writeable = False
+    return arrays
 
 
 def only_of(rows: Iterable[Number | None]) -> list[float | None]:

@@ -2,8 +2,6 @@
 
 A row, a part of a span, is sampled with all signs held as in its middle, so that every function is
 smooth on it; it is cut at the zeros of the signs' functions, or halved where no series shows them.
-Series are from samples (..., points, m) at the Chebyshev points of [-1, 1] (L. N. Trefethen,
-"Approximation Theory and Approximation Practice", SIAM 2013).
 """
 
 from __future__ import annotations
@@ -15,65 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
 import numpy as np
 
 from geneva_cli.numerics.arrays import Array, Mask, Which, Whole, blocks, joined, record_taken
-
-DEGREE = 16  # of the series: for most loads, its terms have ended between two cuts
-MIDDLE = DEGREE // 2  # number of the middle point
-
-
-def product(matrix: Array, values: Array) -> Array:
-    """A matrix (n, k) times values (..., k, m), summed in order."""
-    return np.asarray(np.einsum("nk,...km->...nm", matrix, values))
-
-
-def at(terms: Array, t: Array) -> Array:
-    """Values of series (terms, ...) at places, one for each series or broadcast against them."""
-    twice, after, later = 2.0 * t, terms[-1], 0.0
-    for c in terms[-2:0:-1]:  # Clenshaw's recurrence
-        after, later = c + twice * after - later, after
-    return np.asarray(terms[0] + t * after - later)
-
-
-# Where functions are sampled, and where signs are compared, with two cells for each point: places
-# -cos(pi k / cells), symmetric to the last bit.
-POINTS: Array = np.sin(0.5 * np.pi * np.arange(-DEGREE, DEGREE + 1, 2) / DEGREE)
-GRID: Array = np.sin(0.25 * np.pi * np.arange(-2 * DEGREE, 2 * DEGREE + 1, 2) / DEGREE)
-
-_k = np.arange(DEGREE + 1)
-_ends = np.where(_k % DEGREE == 0, 0.5, 1.0)  # the first and the last count half
-# from samples to terms: the discrete cosine transform of the second kind of points
-SERIES = 2.0 / DEGREE * _ends[:, None] * np.cos(np.pi * np.outer(_k, DEGREE - _k) / DEGREE) * _ends
-_rise = _k - _k[:, None]
-# from the terms of a series to those of its derivative
-_DERIVED = np.where((_rise > 0) & (_rise % 2 == 1), 2.0 * _k, 0.0)
-_DERIVED[0] *= 0.5
-_TERMS = at(np.eye(DEGREE + 1)[..., None], GRID).T
-# from samples to values and to slopes at ``GRID``
-ON_GRID = product(_TERMS, SERIES)
-SLOPES = product(_TERMS, product(_DERIVED, SERIES))
-
-
-def remainder(values: Array) -> Array:
-    """The greatest of the last three terms, an estimate of the series' error: (..., m)."""
-    return np.asarray(np.abs(product(SERIES[-3:], values)).max(axis=-2))
-
-
-def root(terms: Array, low: Array, high: Array, start: Array, slope: Array) -> Array:
-    """The zero of each series (terms, m) between ``low`` and ``high``, where its signs differ.
-
-    ``start`` is a place near it, and ``slope`` an estimate of the slope there. The search goes by
-    secants; the function itself is evaluated afterwards.
-    """
-    rises, t, value = at(terms, high) > 0.0, start, at(terms, start)
-    for _ in range(3):
-        below = (value < 0.0) == rises
-        low, high = np.where(below, t, low), np.where(below, high, t)
-        new = t - value / slope
-        new = np.where((low <= new) & (new <= high), new, 0.5 * (low + high))
-        there = at(terms, new)
-        slope, t, value = (there - value) / (new - t), new, there
-    new = t - value / slope
-    return np.where((low <= new) & (new <= high), new, t)
-
+from geneva_cli.numerics.series import GRID, POINTS, SERIES, on_grid, product, remainder, root
 
 BLOCK = 1024  # rows sampled at a time: that many fit in the processor's cache
 AT_END = 1e-9  # fraction of a row: a zero this near to an end, such as a motion's, is the end's own
@@ -194,65 +134,52 @@ class Cutter:
         return which
 
     def pieces(self, rows: Rows) -> Pieces:
-        """Pieces of rows, cut where a sign changes; parts with unknown zeros are sampled again."""
-        f, count = self.f, len(rows.design)
-        which = rows.design
+        """The part about the middle of each row on which no sign changes.
+
+        The other parts are sampled again, and so are parts with unknown zeros.
+        """
+        f = self.f
         _, x = rows.places(POINTS[:, None], self.w)
         x[0], x[-1] = rows.x
-        own, part = np.arange(count), np.array([[-1.0], [1.0]]).repeat(count, axis=1)
-        sign = np.ones((f.signs, count))
+        part = np.array([[-1.0], [1.0]]).repeat(len(rows.design), axis=1)
+        sign = np.ones((f.signs, len(rows.design)))
         if f.signs:
-            middle = f(x.T[:, MIDDLE, None], which, 0, None, ())[0][..., 0]
+            middle = f(x[len(x) // 2, :, None], rows.design, 0, None, ())[0][..., 0]
             sign = np.where(middle, 1.0, -1.0)
-        value = f(x.T, which, 0, sign[..., None], self.requested)[1][0].swapaxes(1, 2)
+        value = f(x.T, rows.design, 0, sign[..., None], self.requested)[1][0].swapaxes(1, 2)
         for kind in range(f.signs):
             # a pole is multiplied by the distance from it
-            q = value[kind] * np.abs(x.take(own, axis=1)) if kind in f.poled else value[kind]
-            here = record_taken(rows, own)
-            unsure, cut, t = self._zeros(kind, here, sign, part, q)
+            q = value[kind] * np.abs(x) if kind in f.poled else value[kind]
+            unsure, cut, t = self._zeros(kind, rows, part, q * sign[kind])
             if len(cut):
-                t = self._refined(kind, record_taken(here, cut), sign[:, cut], t)
-                inside = (t > part[0, cut]) & (t < part[1, cut])
-                cut, t = cut[inside], t[inside]
-            if unsure.any():
-                unsure = self.again(here.part(part, self.w), part, unsure)
-            if len(cut) or unsure.any():
-                # the parts between the cuts, by the numbers of the original parts
-                number = np.concatenate((np.arange(part.shape[1]), cut))
-                begin, end = np.concatenate((part[0], t)), np.concatenate((part[1], t))
-                one, two = np.lexsort((begin, number)), np.lexsort((end, number))
-                number, part = number[one], np.stack((begin[one], end[two]))
-                kept = np.flatnonzero(~unsure[number] & (part[1] > part[0]))
-                number, part = number[kept], part.take(kept, axis=1)
-                own, q = own[number], q.take(number, axis=1)
-                sign, value = sign.take(number, axis=1), value.take(number, axis=2)
-            # parts in whose middle the function does not have the sign of their row
-            some = np.flatnonzero(part[1] - part[0] != 2.0)
-            terms, t = product(SERIES, q.take(some, axis=1)), 0.5 * part.sum(axis=0)[some]
-            middles = np.where(at(terms, t) > 0.0, 1.0, -1.0)
-            flip = some[middles != sign[kind, some]]
-            if len(flip):
-                sign[kind, flip] *= -1.0
-                there, held = x.take(own[flip], axis=1).T, sign.take(flip, axis=1)[..., None]
-                values = f(there, rows.design[own[flip]], 0, held, self.requested)[1][0]
-                value[..., flip] = values.swapaxes(1, 2)
-        cut_rows = record_taken(rows, own).part(part, self.w)
-        return Pieces(cut_rows, sign, part, x.take(own, axis=1), value[f.signs :])
+                t = self._refined(kind, record_taken(rows, cut), sign[:, cut], t)
+                (low, high), first, last = part.copy(), t < AT_END, t > -AT_END
+                np.maximum.at(low, cut[first], t[first])
+                np.minimum.at(high, cut[last], t[last])
+                for ends in (np.stack((part[0], low)), np.stack((high, part[1]))):
+                    wide = np.flatnonzero(ends[1] > ends[0])
+                    self.todo.append(record_taken(rows, wide).part(ends[:, wide], self.w))
+                part = np.stack((low, high))
+            again = self.again(rows.part(part, self.w), part, unsure) | (part[1] <= part[0])
+            if again.any():
+                kept = np.flatnonzero(~again)
+                rows, part, sign, x, value = record_taken((rows, part, sign, x, value), kept)
+        return Pieces(rows.part(part, self.w), sign, part, x, value[f.signs :])
 
-    def _zeros(
-        self, kind: int, rows: Rows, sign: Array, part: Array, value: Array
-    ) -> tuple[Mask, Whole, Array]:
-        """A mask of parts with unknown zeros, and the zeros of the others' series."""
+    def _zeros(self, kind: int, rows: Rows, part: Array, q: Array) -> tuple[Mask, Whole, Array]:
+        """A mask of parts with unknown zeros, and the zeros of the others' series.
+
+        The samples ``q`` are positive in the middle.
+        """
         unsure, none = np.full(len(rows.design), False), (np.arange(0), np.zeros(0))
-        size, left = np.abs(value).max(axis=0), remainder(value)
+        size, left = np.abs(q).max(axis=0), remainder(q)
         np.fmax.at(self.size[kind], rows.design, np.where(np.isfinite(size), size, 0.0))
-        q = value * sign[kind]
         # where a point is below a twentieth of the size, the function may be 0 next to it
         some = np.flatnonzero(~(q.min(axis=0) >= 0.05 * size + LATER_TERMS * left))
         if not len(some):
             return unsure, *none
         q, size, left = q.take(some, axis=1), size[some], left[some]
-        g, d = product(ON_GRID, q), product(SLOPES, q)
+        g, d = on_grid(q)
         # below 1e-12 of its size on a row, or some roundings of that in its design's whole motion,
         # a function has no sign
         rounding = 4e-15 * self.size[kind, rows.design[some]]
@@ -313,8 +240,3 @@ def spread(x: Array, w: Array) -> Array:
     Elliott, P. R. Johnston, Int. J. Numer. Meth. Engng 62 (2005).
     """
     return np.asarray(w * np.arcsinh(x / w))
-
-
-def gathered(u: Array, w: Array) -> Array:
-    """The places x at u."""
-    return np.asarray(w * np.sinh(u / w))

@@ -13,22 +13,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.numerics.arrays import Array, Mask, Which, Whole, blocks, joined, record_taken
-from geneva_cli.numerics.cuts import (
-    BLOCK,
-    GRID,
-    LATER_TERMS,
-    MIDDLE,
-    ON_GRID,
-    POINTS,
-    SERIES,
-    SLOPES,
-    Cutter,
-    Pieces,
-    Rows,
-    at,
-    product,
-    remainder,
-)
+from geneva_cli.numerics.cuts import BLOCK, LATER_TERMS, Cutter, Pieces, Rows
+from geneva_cli.numerics.series import GRID, POINTS, SERIES, at, on_grid, product, remainder
 from geneva_cli.numerics.tolerances import TIE
 
 if TYPE_CHECKING:
@@ -193,7 +179,7 @@ class _Extremes:
         rows = place[side, number, of], top[side, number, of]
         self.known.append((side, number, design[of], *rows))
         if self.cutter.depth < 4:  # rows that were halved more often lie near a pole
-            inner = np.abs(value[:, MIDDLE // 2 : MIDDLE + 5 : MIDDLE // 2]).max(axis=1)
+            inner = np.abs(value[:, 4:13:4]).max(axis=1)  # of 17 points
             _raise(self.size, (numbers[0], design), np.where(np.isfinite(inner), inner, 0.0))
 
     def judge(self, pieces: Pieces) -> None:
@@ -244,7 +230,7 @@ class _Extremes:
             a, b = part[:, cut]
             t = 0.5 * (a + b) + 0.5 * (b - a) * POINTS[:, None]
             samples[:, cut] = at(product(SERIES, samples.take(cut, axis=1)), t)
-        value, slope = product(ON_GRID, samples), product(SLOPES, samples)
+        value, slope = on_grid(samples)
         terms, every = product(SERIES, samples), np.arange(len(number))
         size = np.abs(samples).max(axis=0)
         # of a constant the start alone: a range of rounding says nothing about places

@@ -215,11 +215,8 @@ def _rising(f: Callable[[float], float]) -> Callable[[object, Interval | float],
 class _Intervals(EnclosedLibrary):
     """The functions of ``math``, of intervals."""
 
-    sqrt, exp, asin = map(_rising, (math.sqrt, math.exp, math.asin))
+    sqrt, asin = map(_rising, (math.sqrt, math.asin))
     pi = _outwards(math.pi, math.pi)
-
-    def acos(self, x: Interval | float) -> Interval:
-        return self.pi / 2.0 - self.asin(x)
 
     def cos(self, x: Interval | float) -> Interval:
         return self._wave(x, 0.0, math.cos)
@@ -248,10 +245,6 @@ class _Intervals(EnclosedLibrary):
         angles = [_each(math.atan2, v, u) for u in (a, b) for v in (c, d)]
         low, high = np.min(angles, axis=0), np.max(angles, axis=0)
         return _outwards(low, high, LIBRARY_UNITS)
-
-    def floor(self, x: Interval) -> float:
-        low, high = np.floor(x.low), np.floor(x.high)
-        return _answer(np.where(low == high, low, math.nan))
 
 
 def _passes(low: Bound, high: Bound, at: float) -> Truth:

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from math import comb, factorial
 from operator import add, sub
-from typing import TypeVar, cast
+from typing import TYPE_CHECKING, Protocol, TypeAlias, TypeVar, cast
 
 from geneva_cli.numerics.arrays import SINGLE, Enclosed, N, enclosed, library, piece_of, size
 from geneva_cli.numerics.arrays import Array as Array
@@ -113,6 +113,62 @@ class Jet:
     def __rtruediv__(self, other: Number) -> Jet:
         # an int, as a float cannot be subtracted from a Decimal
         return Jet((other, *[0] * self.order)) / self
+
+
+Vector: TypeAlias = tuple[Jet, Jet]
+# A force at the pin's centre and a couple, both on the roller's body; the couple in that unit x L.
+Load: TypeAlias = tuple[Vector, Jet]
+Loads: TypeAlias = Sequence[Load]
+# Reactions of the crank's shaft and of the body's other guide to each load.
+Held: TypeAlias = list[tuple[Vector, Vector]]
+
+
+if TYPE_CHECKING:
+
+    class Path(Protocol):
+        """The pin's position (x, y) in the fixed frame, by the input angle in degrees."""
+
+        def __call__(self, input_deg: Number, order: int = 3) -> Vector: ...
+
+    class Displacement(Protocol):
+        """A pin's displacement along a ray and across it, ``tau`` input radians later.
+
+        Or a crank's rotation d since then, as sin d and 1 - cos d.
+        """
+
+        def __call__(self, tau: Number, order: int) -> Vector: ...
+
+    class Rate(Protocol):
+        """Rate of a body per input radian, ``tau`` after mid-motion, positive with the wheel."""
+
+        def __call__(self, tau: Number, order: int) -> Jet: ...
+
+    class Reactions(Protocol):
+        """Reactions on the body that carries the roller, held by links without mass or friction.
+
+        They are those of the crank's shaft, and of the body's other guide (a rocker, slider, groove
+        or fixed gear). ``turn`` is the input's rotation since mid-motion; the pin's ``path`` is one
+        order higher.
+        """
+
+        def __call__(self, turn: Jet, path: Vector, loads: Loads) -> Held: ...
+
+else:
+    Path = Displacement = Rate = Reactions = object
+
+
+def cross(a: Vector, b: Vector) -> Jet:
+    """Third component of the vector product of two plane vectors."""
+    return a[0] * b[1] - a[1] * b[0]
+
+
+def turned(x: Jet, y: Jet, angle: float) -> Vector:
+    """Turn a vector by a fixed angle in radians."""
+    if isinstance(angle, float) and angle == 0.0:
+        return x, y
+    m = library(angle)
+    s, c = m.sin(angle), m.cos(angle)
+    return x * c - y * s, x * s + y * c
 
 
 # Jets, or their values: formulas that hold for both.

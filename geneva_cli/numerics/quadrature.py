@@ -27,14 +27,14 @@ def legendre(x: Array, degree: int) -> tuple[Array, Array]:
 
 
 @cache
-def rule(nodes: int) -> tuple[Array, Array]:
+def rule(nodes: int) -> tuple[Array, ...]:
     """Nodes in [-1, 1] and weights of Gauss-Legendre quadrature, by Newton's method."""
     x = np.cos(np.pi * (np.arange(nodes) + 0.75) / (nodes + 0.5))
     for _ in range(6):
         before, here = legendre(x, nodes)
         slope = nodes * (before - x * here) / ((1.0 - x) * (1.0 + x))
         x = x - here / slope
-    return read_only((x, 2.0 / ((1.0 - x) * (1.0 + x) * slope * slope)))
+    return read_only(x, 2.0 / ((1.0 - x) * (1.0 + x) * slope * slope))
 
 
 def span_integrals(
@@ -109,7 +109,7 @@ def _parts(
 
 
 @cache
-def _rule() -> tuple[Array, Array, Array]:
+def _rule() -> tuple[Array, ...]:
     """Nodes in [-1, 1] and the ends; weights for the sum and the last terms, and for the ends."""
     node, weight = rule(NODES)
     before, last = legendre(node, NODES - 1)
@@ -118,4 +118,4 @@ def _rule() -> tuple[Array, Array, Array]:
     # the series at an end, by the sum of Christoffel and Darboux
     at_ends = [0.5 * NODES * last / (s - node) for s in (-1.0, 1.0)]
     ends = weight[:, None] * np.column_stack(at_ends)
-    return read_only((np.append(node, [-1.0, 1.0]), weight[:, None] * np.column_stack(terms), ends))
+    return read_only(np.append(node, [-1.0, 1.0]), weight[:, None] * np.column_stack(terms), ends)

@@ -1,16 +1,17 @@
 """A table that grows for hours: a stopped run keeps its rows, and can be continued.
 
-The rows of ``FILE`` go to the file that will replace it, and to the state ``FILE.geneva``, from
-which a later run takes them. The state's first line names the request. Each block of rows follows
-a line with the numbers of its rows and its bytes, and their checksum.
+Rows go to the state ``FILE.geneva``, from which a later run takes them. At the end they become
+``FILE``. The state's first line names the request. Each block of rows follows a line with the
+numbers of its rows and its bytes, and their checksum.
 """
 
 import os
 import re
 import sys
 import zlib
+from collections import deque
 from collections.abc import Callable, Collection, Iterator, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from itertools import chain
 from typing import Any
 
@@ -29,12 +30,12 @@ LINE_MAX = 1000  # bytes of a line of ours; a foreign file may have one of gigab
 class GrowingTable:
     """The destination of the rows of ``names``, ``done`` of which exist already.
 
-    Each block of rows, as ``encode`` makes it, goes to ``state``, an open file, and to ``put``.
-    Without a state rows are printed. ``message`` says where a run continues.
+    Each block of rows, as ``encode`` makes it, goes to ``state``, an open file. Without a state
+    rows are printed. ``message`` says where a run continues.
     """
 
-    def __init__(self, names: Sequence[str], put: Callable[[bytes], object], state: Any) -> None:
-        self.names, self.put, self.state, self.name = names, put, state, ""
+    def __init__(self, names: Sequence[str], state: Any = None, name: str = "") -> None:
+        self.names, self.state, self.name = names, state, name
         self.encode: Callable[..., bytes] = lambda _, columns: text_of(columns, "").encode()
         self.done, self.message = 0, ""
 
@@ -48,12 +49,9 @@ class GrowingTable:
         if self.state:
             self.state.write(b"block %d %d %d\n%s" % (count, len(data), zlib.crc32(data), data))
             self.state.flush()
-        done = self.done = self.done + count
-        self.put(data)  # this may read all blocks again, and count them
-        if self.done != done:
-            raise GenevaError(
-                f"{self.name}: changed or damaged while the run wrote it; run again with --resume"
-            )
+        else:
+            sys.stdout.write(data.decode())
+        self.done += count
 
     def blocks(self) -> Iterator[bytes]:
         """Yield the bytes of each block, and count the rows; cut off the first damaged block."""
@@ -83,6 +81,9 @@ class GrowingTable:
             self.state.seek(0)
             self.state.truncate()
             self.state.write(first)
+        if resume:
+            deque(self.blocks(), maxlen=0)
+            self.message = f"--resume: {self.name}: continues after row {self.done}"
 
 
 @contextmanager
@@ -106,7 +107,7 @@ def growing(
             raise GenevaError("--resume continues a file: give -o FILE")
         use_utf8()
         sys.stdout.write(one_line(names))
-        yield GrowingTable(names, lambda data: sys.stdout.write(data.decode()), None)
+        yield GrowingTable(names)
         return
     if not output.endswith((".csv", ".parquet")):
         raise GenevaError(f'-o "{cut(output, 300)}": it must end in .csv or .parquet')
@@ -117,21 +118,20 @@ def growing(
         path = place(output, inputs)[0] + ".geneva"
         state = open_locked(path, output)
     with state:
-        with replacing(output, inputs) as file, ExitStack() as at_end:
-            rows = GrowingTable(names, file.write, state)
-            rows.name = cut(os.path.basename(path))
+        with replacing(output, inputs) as file:  # keeps other runs out
+            rows = GrowingTable(names, state, cut(os.path.basename(path)))
             rows.begin(key, resume)
             if is_parquet:
-                writer = parquet.Writer(file, rows.blocks, texts)
-                at_end.callback(writer.close)
-                rows.encode, rows.put = parquet.block_of, writer.append
-                if resume:  # else pyarrow is imported while the first rows are computed
-                    writer.rewrite()
-            else:
-                file.writelines(chain([one_line(names).encode()], rows.blocks()))
-            if resume:
-                rows.message = f"--resume: {rows.name}: continues after row {rows.done}"
+                rows.encode = parquet.block_of
             yield rows
             if is_parquet and not rows.done:
                 rows.append([[] for _ in names])  # the names of the columns are in each block
+            done = rows.done
+            if is_parquet:
+                parquet.write(file, rows.blocks, texts)
+            else:
+                file.writelines(chain([one_line(names).encode()], rows.blocks()))
+            if rows.done != done:
+                why = "changed or damaged while the run wrote it; run again with --resume"
+                raise GenevaError(f"{rows.name}: {why}")
         remove(state, path)

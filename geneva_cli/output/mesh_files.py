@@ -16,22 +16,10 @@ from geneva_cli.errors import clean
 from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.output.inks import INKS
 from geneva_cli.output.meshes import DECIMALS, Body, bodies, placed
+from geneva_cli.output.templates import template
 from geneva_cli.table import in_decimals
 
 XML = '<?xml version="1.0" encoding="UTF-8"?>\n'
-PACKAGE = "http://schemas.openxmlformats.org/package/2006"
-TYPES = (
-    f'{XML}<Types xmlns="{PACKAGE}/content-types">'
-    '<Default Extension="rels" '
-    'ContentType="application/vnd.openxmlformats-package.relationships+xml"/>'
-    '<Default Extension="model" '
-    'ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/></Types>\n'
-)
-RELATIONS = (
-    f'{XML}<Relationships xmlns="{PACKAGE}/relationships"><Relationship Id="model" '
-    'Target="/3D/3dmodel.model" '
-    'Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>\n'
-)
 MATERIALS = 1  # the number of the list of colours; objects are counted from the next one
 RECORD = [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")]
 
@@ -64,8 +52,8 @@ def threemf(drawing: Drawing) -> Iterator[bytes]:
     stream = io.BytesIO()
     with ZipFile(stream, "w", ZIP_STORED) as archive:
         for name, text in (
-            ("[Content_Types].xml", TYPES),
-            ("_rels/.rels", RELATIONS),
+            ("[Content_Types].xml", template("threemf_types.xml")),
+            ("_rels/.rels", template("threemf_relations.xml")),
             ("3D/3dmodel.model", model),
         ):
             entry = ZipInfo(name)  # dated 1980-01-01, the first day of the format

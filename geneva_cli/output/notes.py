@@ -6,7 +6,7 @@ Each format writes it with its own pen.
 import math
 from typing import NamedTuple
 
-from geneva_cli.geometry.shapes import Arc, Box, Contour, Point, bounds
+from geneva_cli.geometry.shapes import Box, Contour, Point, bounds
 from geneva_cli.geometry.sheet import Annotations, LevelDistance, line
 from geneva_cli.output.letters import width
 from geneva_cli.table import in_decimals
@@ -38,43 +38,34 @@ def notes(look: Annotations, box: Box, title: str, mm: float) -> Notes:
     heads: list[tuple[Point, Point, Point]] = []
     texts: list[tuple[Point, str]] = []
     text, gap = mm * LETTERS, mm * 3.0
-    left, right, low, high = box.x0, box.x1, box.y0, box.y1
     for turn in look.turns:
-        arc = Arc(turn.start, turn.end, turn.bulge)
-        contour = Contour("", (arc,), closed=False)
-        lines.append(contour)
-        (x, y), back = arc.centre, 0.5 * mm * ARROW[0] / arc.radius
-        ahead = math.copysign(0.5 * math.pi - back, arc.bulge)  # that of the arc under the head
-        last = turn.end
-        heads.append(_head(last, math.atan2(last[1] - y, last[0] - x) + ahead, mm))
-        around = bounds(contour)
-        left, right = min(left, around.x0), max(right, around.x1)
-        low, high = min(low, around.y0), max(high, around.y1)
+        lines.append(Contour("", (turn,), closed=False))
+        (x, y), back = turn.centre, 0.5 * mm * ARROW[0] / turn.radius
+        ahead = math.copysign(0.5 * math.pi - back, turn.bulge)  # that of the arc under the head
+        heads.append(_head(turn.end, math.atan2(turn.end[1] - y, turn.end[0] - x) + ahead, mm))
+    x0, y0, x1, y1 = zip(box, *map(bounds, lines), strict=True)
+    left, low, right, high = min(x0), min(y0), max(x1), max(y1)
     for span in look.spans:
         low -= gap + 1.4 * text
         a, b = sorted((span.start[0], span.end[0]))
         lines.append(line("", (a, low), (b, low)))
         lines += [line("", end, (end[0], low - 0.4 * gap)) for end in (span.start, span.end)]
         heads += [_head((a, low), math.pi, mm), _head((b, low), 0.0, mm)]
-        shown = span_text(span)
-        wide = width(shown) * text
+        wide = width(span_text(span)) * text
         # a text that does not fit between the lines from the ends stands to their right
         start = 0.5 * (a + b - wide) if wide < b - a else b + gap
-        texts.append(((start, low + 0.35 * text), shown))
-        left, right = min(left, start), max(right, start + wide)
+        texts.append(((start, low + 0.35 * text), span_text(span)))
     tick = mm * 1.5  # half a scale bar's end mark
     bar = round_length(0.2 * (box.x1 - box.x0 or box.y1 - box.y0))
     y = low - gap - max(tick, 0.5 * text)
     ends = [((x, y - tick), (x, y + tick)) for x in (left, left + bar)]
     ruler = (*(line("", *end) for end in ends), line("", (left, y), (left + bar, y)))
-    label = f"{bar:g} mm"
-    texts.append(((left + bar + gap, y - 0.35 * text), label))
-    right = max(right, left + bar + gap + width(label) * text)
+    texts.append(((left + bar + gap, y - 0.35 * text), f"{bar:g} mm"))
     low = y - max(tick, 0.5 * text)
     if title:
         texts.append(((left, low - 1.2 * text), title))
-        right = max(right, left + width(title) * text)
         low -= 1.5 * text
+    right = max(right, *(x + width(words) * text for (x, _), words in texts))
     return Notes(tuple(lines), ruler, tuple(heads), tuple(texts), Box(left, low, right, high))
 
 

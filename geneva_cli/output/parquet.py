@@ -23,7 +23,7 @@ def refuse_without() -> None:
 
 
 def block_of(names: Sequence[str], columns: Sequence[Any]) -> bytes:
-    """A block of rows, for ``write_blocks``.
+    """A block of rows, for ``write``.
 
     Columns are arrays, in which infinity is no value, or lists of cells.
     """
@@ -36,75 +36,33 @@ def block_of(names: Sequence[str], columns: Sequence[Any]) -> bytes:
     return sink.getvalue().to_pybytes()
 
 
-class Writer:
-    """A parquet file of numbers, truth values or texts, from blocks of rows.
+def write(
+    target: BinaryIO, blocks: Callable[[], Iterable[bytes]], texts: Collection[str] = ()
+) -> None:
+    """Write a file of numbers, truth values or texts, from all blocks that ``blocks`` yields.
 
-    The type of a column follows from all its rows: where a block changes it, the file is written
-    again, from all that ``blocks`` yields. Columns named in ``texts`` are texts even if all their
-    rows are empty.
+    The type of a column follows from all its rows. Columns named in ``texts`` are texts even if all
+    their rows are empty.
     """
+    import pyarrow as pa
+    from pyarrow import parquet
 
-    def __init__(
-        self,
-        target: BinaryIO,
-        blocks: Callable[[], Iterable[bytes]],
-        texts: Collection[str] = (),
-    ) -> None:
-        self.target, self.blocks, self.texts = target, blocks, texts
-        self._types: dict[str, set[pa.DataType]] = {}
-        self._group: list[pa.Table] = []  # of rows that are not written yet
-        self._out: Any = None
-
-    def append(self, block: bytes) -> None:
-        """Write a block, the last one of ``blocks``."""
-        if self._out and self._schema([block]) == self._out.schema:
-            self._write(block)
-        else:
-            self.rewrite()
-
-    def rewrite(self) -> None:
-        """Write all blocks, from the beginning of the file."""
-        from pyarrow import parquet
-
-        schema = self._schema(self.blocks())
-        self.close()
-        self.target.seek(0)
-        self.target.truncate()
-        words = [field.name for field in schema if str(field.type) == "string"]
-        self._out = parquet.ParquetWriter(self.target, schema, use_dictionary=words)
-        for block in self.blocks():
-            self._write(block)
-
-    def close(self) -> None:
-        """Write what is left, and the end of the file."""
-        self._flush()
-        if self._out:
-            self._out.close()
-
-    def _schema(self, blocks: Iterable[bytes]) -> pa.Schema:
-        """The columns of the file with these blocks too."""
-        import pyarrow as pa
-
-        for field in (field for block in blocks for field in pa.ipc.open_stream(block).schema):
-            self._types.setdefault(field.name, set()).add(field.type)
-        types = self._types.items()
-        return pa.schema(
-            [(name, pa.string() if name in self.texts else _common(own)) for name, own in types]
-        )
-
-    def _write(self, block: bytes) -> None:
-        import pyarrow as pa
-
-        self._group.append(_cast(pa.ipc.open_stream(block).read_all(), self._out.schema))
-        if sum(map(len, self._group)) >= ROWS:
-            self._flush()
-
-    def _flush(self) -> None:
-        import pyarrow as pa
-
-        if self._group:
-            self._out.write_table(pa.concat_tables(self._group))
-            self._group = []
+    types: dict[str, set[pa.DataType]] = {}
+    for field in (field for block in blocks() for field in pa.ipc.open_stream(block).schema):
+        types.setdefault(field.name, set()).add(field.type)
+    schema = pa.schema(
+        [(name, pa.string() if name in texts else _common(own)) for name, own in types.items()]
+    )
+    words = [field.name for field in schema if str(field.type) == "string"]
+    with parquet.ParquetWriter(target, schema, use_dictionary=words) as out:
+        group: list[pa.Table] = []
+        for block in blocks():
+            group.append(_cast(pa.ipc.open_stream(block).read_all(), schema))
+            if sum(map(len, group)) >= ROWS:
+                out.write_table(pa.concat_tables(group))
+                group = []
+        if group:
+            out.write_table(pa.concat_tables(group))
 
 
 def _array(column: Any) -> pa.Array:

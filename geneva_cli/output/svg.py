@@ -15,22 +15,11 @@ from geneva_cli.geometry.shapes import Circle, Contour, Layer, Line, Point, Segm
 from geneva_cli.geometry.sheet import CAPITALS, DASHED, WIDTHS, Drawing, Sheet, extent, prepared
 from geneva_cli.output.inks import CENTRE_LINES, DARK, DASHES, INKS, LIGHT, Paper, mixed
 from geneva_cli.output.notes import LETTERS, Notes, notes
+from geneva_cli.output.templates import template
 
 # For drawings to cut, in mm; for drawings to view, as if these were 250 mm wide
 STROKE = 0.25
 MARGIN = 2.0
-
-SHEET_STYLE = """<style>
-.paper { fill: #ffffff; stroke: none }
-.ink { stroke: #000000 }
-.ink text, .ink .full { fill: #000000; stroke: none }
-@media screen and (prefers-color-scheme: dark) {
-.paper { fill: #15181c }
-.ink { stroke: #e8e8e8 }
-.ink text, .ink .full { fill: #e8e8e8 }
-}
-</style>
-"""
 
 
 def chunks(drawing: Drawing) -> Iterator[str]:
@@ -77,7 +66,7 @@ def chunks(drawing: Drawing) -> Iterator[str]:
 def sheet_chunks(sheet: Sheet) -> Iterator[str]:
     """Yield a drawing sheet's text."""
     w, h, top = number(sheet.width), number(sheet.height), number(-sheet.height)
-    yield _head("", f"0 {top}", w, h, clean(sheet.title)) + SHEET_STYLE
+    yield _head("", f"0 {top}", w, h, clean(sheet.title)) + template("sheet.css")
     yield (
         f'<rect class="paper" y="{top}" width="{w}" height="{h}"/>\n'
         f'<g class="ink" font-family="Helvetica, Arial, \'Liberation Sans\', sans-serif">\n'

@@ -10,8 +10,7 @@ wheels in series bears the greatest torque in the second's crank shaft.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from typing import NamedTuple, TypeAlias
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -21,19 +20,17 @@ from geneva_cli.loads.load_case import centrifugal_N
 from geneva_cli.loads.strength import lock, pin_arm_key
 from geneva_cli.loads.strength.part_loads import PartLoads, shear_MPa
 from geneva_cli.loads.tolerance.locking import Lock
-from geneva_cli.motion.batch import taken
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import of_each
 from geneva_cli.numerics.arrays import (
     Array,
     Number,
-    Whole,
+    Truth,
     choose,
+    choose_record,
     half_or,
-    mapped,
     parameter,
-    rising,
     smaller,
     value_or,
 )
@@ -68,29 +65,24 @@ class Stressed(NamedTuple):
 class Sizing(NamedTuple):
     """Sizes of m designs, and what they must hold; numbers, or (m, 1)."""
 
+    assembly: Assembly
     sizes: Sizes
     spec: Spec
-    L: float
-    sign: float  # +1 external, -1 internal
-    planes: tuple[tuple[int, bool], ...]  # of links, gears and a groove; True below the arm
+    # of links, gears and a groove, in the way of the crank's shaft; True below the arm
+    planes: tuple[tuple[int, bool], ...]
     bridged: bool
-    linked: bool  # links or gears are in the way of the crank's shaft
     space: float = 0.0  # radius about the crank's axis inside the relief
     loads: PartLoads = PartLoads(*[0.0] * len(PartLoads._fields))
 
 
 def sizing(assembly: Assembly, sizes: Sizes) -> Sizing:
     """Return the sizes of an assembly with what the dimensions of its parts depend on."""
-    machine, spec, planes = assembly.full, assembly.full.spec, list[tuple[int, bool]]()
-    for link in links_at(machine, np.zeros(1)):
-        planes.append((link.plane, False))
-    if spec.gears:
-        planes.append((gear_plane(machine), False))
-    linked = bool(planes)
+    machine, spec = assembly.full, assembly.full.spec
+    planes = [(link.plane, False) for link in links_at(machine, np.zeros(1))]
+    planes += [(gear_plane(machine), False)] if spec.gears else []
     if machine.engagements[0].groove is not None:  # its plate has its base below the groove
         planes.append((3, False) if spec.drive_before else (2, True))
-    kind = tuple(planes), is_bridged(machine), linked
-    return Sizing(sizes, spec, assembly.L, assembly.sign, *kind)
+    return Sizing(assembly, sizes, spec, tuple(planes), is_bridged(machine))
 
 
 def stressed(assembly: Assembly, sizes: Sizes) -> Stressed:
@@ -120,10 +112,10 @@ def dimensions(of: Sizing) -> Stressed:
     long, hole = sizes.reaches[1], rules.hole_radius(size, sizes.pin)
     bored = reach_or_bore(size, "crank", sizes.arm_bore)
     # some of the disc is left at the axis, or else its sectors stand on the hub
-    whole = np.logical_and(of.sign > 0.0, of.L - sizes.rim > sizes.relief)
+    whole = np.logical_and(of.assembly.sign > 0.0, of.assembly.L - sizes.rim > sizes.relief)
     standing = choose(whole, 0.0, sizes.lock)
     hub = rules.arm_hub(size, bored, sizes.arm_bore, sizes.wall_min, standing)
-    passing = sizes.passing_eye(of.L - long)
+    passing = sizes.passing_eye(of.assembly.L - long)
     eye = half_or(size.arm_eye_mm, eye_about(hole, sizes.wall_min, passing))
     offset = 0.5 * (contact + thick) + gap
     rows = np.broadcast_arrays(long, hub, eye, bored, hole, thick, offset)
@@ -167,70 +159,11 @@ def key_of(standard: str | None, bore: float, length: float) -> pin_arm_key.KeyD
     return pin_arm_key.KeyDimensions(2.0 * bore * known, width, stands, length * known)
 
 
-# Tries the sizes of some designs with a number (n, 1) from a column of trials: the sizes, and which
-# of the designs hold.
-Attempt: TypeAlias = Callable[[Sizing, Array, int], "tuple[Sizes, bool]"]
-
-
 def needs_lock(spec: Spec) -> bool:
     """Return True if the sizes under a load depend on the lock, of a wheel that has one."""
     size = spec.size
     free = size.wheel_thickness_mm is size.face_width_mm is None
     return free or spec.load.dwell_torque_Nm is not None
-
-
-def batch_sizes(
-    of: Unloaded, by: Lock | None, machine: Mechanism, loads: PartLoads, bent_MPa: Array | None
-) -> Sizes:
-    """Return ``load_sizes`` of any m designs: those that have the same parts are sized together."""
-    kinds: Whole = np.array(np.isfinite(loads).all(axis=0), dtype=int)
-    for part in ("lock", "wheel_bore", "crank_bore", "arm_bore", "pin"):
-        kinds = 2 * kinds + np.ravel(np.greater(getattr(of.sizes, part), 0.0))
-    if (kinds == kinds[0]).all():
-        return load_sizes(of, by if np.max(of.sizes.lock) > 0.0 else None, machine, loads, bent_MPa)
-    groups = list[tuple[Whole, Sizes]]()
-    for kind in rising(kinds).tolist():
-        which = np.flatnonzero(kinds == kind)
-        every = of.assembly.L, of.sizes, of.space, by, machine
-        L, sizes, space, lock_of, some = taken(every, which)
-        own = of._replace(assembly=of.assembly._replace(L=L), sizes=sizes, space=space)
-        lock_of = lock_of if np.max(sizes.lock) > 0.0 else None
-        few = PartLoads(*np.asarray(loads)[:, which])
-        bent = None if bent_MPa is None else bent_MPa[which]
-        groups.append((which, load_sizes(own, lock_of, some, few, bent)))
-    return _joined(groups)
-
-
-def _joined(groups: Sequence[tuple[Whole, Sizes]]) -> Sizes:
-    """Return the sizes of groups of designs, by the designs' numbers, as those of all designs."""
-    order = np.argsort(np.concatenate([which for which, _ in groups]))
-
-    def rows(*each: Number) -> Number:
-        if all(one is each[0] for one in each):
-            return each[0]
-        own = [np.broadcast_to(x, (len(w), 1)) for x, (w, _) in zip(each, groups, strict=True)]
-        return np.concatenate(own)[order]
-
-    return mapped(rows, *(sizes for _, sizes in groups))
-
-
-def _first(case: Sizing, trials: Array, attempt: Attempt) -> Sizes:
-    """Return the sizes of each design's first trial that holds, or else of its last one."""
-    m, count = np.size(case.loads.pin_N), trials.shape[1]
-    trials, left = np.broadcast_to(trials, (m, count)), np.arange(m)
-    groups = list[tuple[Whole, Sizes]]()
-    for k in range(count):
-        some = taken(case, left) if len(left) < m else case
-        sizes, holds = attempt(some, trials[left, k, None], k)
-        done = np.ravel(holds) | (k == count - 1)
-        if done.all() and not groups:
-            return sizes
-        if done.any():
-            groups.append((left[done], taken(sizes, done)))
-            left = left[~done]
-        if not len(left):
-            break
-    return _joined(groups)
 
 
 def load_sizes(
@@ -241,21 +174,22 @@ def load_sizes(
     bent_MPa: Array | None = None,
     link: float = 0.0,
 ) -> Sizes:
-    """Return the sizes of m designs with the same parts under their loads, numbers or (m, 1).
+    """Return the sizes of m designs under their loads, numbers or (m, 1).
 
     ``of`` are those without loads, ``by`` their locks, ``bent_MPa`` the stress of ``horn_MPa`` if
-    computed already, ``link`` the thickness that a first wheel needs. Either all loads have bounds,
-    or no design's have, and then none changes.
+    computed already, ``link`` the thickness that a first wheel needs. Loads without a bound change
+    no size.
     """
     spec, size, sizes = machine.spec, machine.spec.size, of.sizes
-    zero = np.zeros((machine.designs, 1))
-    loads = PartLoads(*(zero + np.reshape(loads, (len(loads), -1, 1))))
-    if not np.isfinite(loads).all():
+    rows = np.zeros((machine.designs, 1)) + np.reshape(loads, (len(loads), -1, 1))
+    bounded = np.isfinite(rows).all(axis=0)
+    if not bounded.any():
         return sizes
+    loads = PartLoads(*map(parameter, np.where(bounded, rows, 0.0)))
     if spec.load.dwell_torque_Nm is not None:
         # the force between disc and wheel in the dwell loads both shafts
         held = np.reshape(lock.held_force_N(machine, by), (-1, 1))
-        carried = centrifugal_N(machine) if machine.frame else zero
+        carried = centrifugal_N(machine) if machine.frame else 0.0
         on_wheel = np.maximum(loads.wheel_shaft_N, held + carried)
         on_crank = np.maximum(loads.crank_N, held)
         loads = loads._replace(wheel_shaft_N=parameter(on_wheel), crank_N=parameter(on_crank))
@@ -266,46 +200,50 @@ def load_sizes(
         # a thicker wheel bends its pins more than its horns
         trials = trials_from(sizes.wheel_thickness, 2.0 * sizes.wheel_thickness)
         bent = lock.horn_MPa(machine, sizes.half_width, by) if bent_MPa is None else bent_MPa
-        wide = parameter(_holding(trials, np.reshape(bent, (-1, 1)) / trials, allowed))
+        stress = parameter(np.reshape(bent, (-1, 1)) / trials)
+        wide = _first(keeps(stress, "at most", allowed), trials)
+        wide = choose(np.greater(sizes.lock, 0.0), wide, sizes.wheel_thickness)
         _, disc, arm, bar = size.thicknesses(wide)
         bar = sizes.link_thickness if linked else bar
         sizes = sizes._replace(
             wheel_thickness=wide, lock_thickness=disc, arm_thickness=arm, link_thickness=bar
         )
     wide, eye = sizes.wheel_thickness, math.inf
-    if of.assembly.sign > 0.0 and np.max(sizes.arm_bore) > 0.0:
+    if of.assembly.sign > 0.0:
         # about the pin, where it passes the largest hub
         hub = np.maximum(sizes.wheel_hub, rules.LARGEST_HUB * sizes.slot_end)
-        eye = of.assembly.L - sizes.reaches[1] - hub - sizes.wall_min
+        passing = of.assembly.L - sizes.reaches[1] - hub - sizes.wall_min
+        eye = choose(np.greater(sizes.arm_bore, 0.0), passing, eye)
     sizes = sizes._replace(pin=pin_that_holds(machine, sizes.pin, wide, sizes.roller, eye, loads))
     case = sizing(of.assembly, sizes)._replace(spec=spec, space=of.space, loads=loads)
-    armed = np.max(sizes.arm_bore) > 0.0 and np.max(sizes.pin) > 0.0
-    if not armed or size.arm_thickness_mm is not None:
-        return _bored(case._replace(sizes=_bored(case, "wheel")), "crank")
-    # a thicker arm, up to twice the wheel, is better for a key than a thicker shaft
-    trials = trials_from(wide, 2.0 * wide)
-    count = trials.shape[1] if size.crank_keyway else 0
+    done = ~(np.greater(sizes.arm_bore, 0.0) & np.greater(sizes.pin, 0.0))  # without an arm
+    if size.arm_thickness_mm is not None or done.all():
+        out = _bored(case._replace(sizes=_bored(case, "wheel")), "crank")
+    else:
+        # a thicker arm, up to twice the wheel, is better for a key than a thicker shaft
+        thicknesses = [*trials_from(wide, 2.0 * wide).T[..., None]]
+        count, out = len(thicknesses) if size.crank_keyway else 0, sizes
+        for k, thick in enumerate(thicknesses + thicknesses[:count]):
+            bar = sizes.link_thickness if linked else thick
+            one = case._replace(sizes=sizes._replace(arm_thickness=thick, link_thickness=bar))
+            one = one._replace(sizes=_bored(one, "wheel"))
+            one = one._replace(sizes=_bored(one, "crank", k >= count))
+            out = choose_record(done, out, one.sizes) if k else one.sizes
+            parts = dimensions(one)
+            arm_MPa = parameter(pin_arm_key.arm_stress_MPa(parts.arm, loads.wheel_N))
+            holds = keeps(arm_MPa, "at most", allowed)
+            done = done | (holds & key_holds(spec, parts.crank_key, loads.crank_Nm))
+            if done.all():
+                break
+    return out if bounded.all() else choose_record(bounded, out, of.sizes)
 
-    def attempt(some: Sizing, thick: Array, k: int) -> tuple[Sizes, bool]:
-        bar = some.sizes.link_thickness if linked else thick
-        trial = some.sizes._replace(arm_thickness=parameter(thick), link_thickness=parameter(bar))
-        some = some._replace(sizes=trial)
-        trial = _bored(some._replace(sizes=_bored(some, "wheel")), "crank", k >= count)
-        parts, loads, spec = dimensions(some._replace(sizes=trial)), some.loads, some.spec
-        arm_MPa = parameter(pin_arm_key.arm_stress_MPa(parts.arm, loads.wheel_N))
-        holds = keeps(arm_MPa, "at most", wheel_material(spec).allowed_MPa)
-        return trial, holds & key_holds(spec, parts.crank_key, loads.crank_Nm)
 
-    return _first(case, np.hstack((trials, trials)) if count else trials, attempt)
-
-
-def _holding(trials: Array, stress: Number, allowed: float) -> Array:
+def _first(holds: Truth, trials: Number) -> float:
     """Return the first of each design's trials (m, k) that holds, or else the last: (m, 1)."""
-    holds = np.array(keeps(parameter(stress), "at most", allowed))
-    holds[:, -1] = True
-    return np.take_along_axis(
-        np.broadcast_to(trials, holds.shape), holds.argmax(axis=1)[:, None], 1
-    )
+    fit = np.array(holds)
+    fit[:, -1] = True
+    every = np.broadcast_to(trials, fit.shape)
+    return parameter(np.take_along_axis(every, fit.argmax(axis=1)[:, None], 1))
 
 
 def _bored(case: Sizing, part: str, keyed: bool = True) -> Sizes:
@@ -314,47 +252,46 @@ def _bored(case: Sizing, part: str, keyed: bool = True) -> Sizes:
     The crank's goes through the disc if a shaft that holds fits there. Otherwise the shaft ends in
     the arm, whose bore may be larger, unless links are in its way.
     """
-    sizes, spec, size = case.sizes, case.spec, case.spec.size
+    sizes, spec, size, loads = case.sizes, case.spec, case.spec.size, case.loads
     own, through = vars(size)[f"{part}_bore_mm"], getattr(sizes, f"{part}_bore")
-    armed, trials = part != "wheel" and np.max(sizes.arm_bore) > 0.0, list[Array]()
-    rows = np.zeros((np.size(case.loads.pin_N), 1))
     if part == "wheel":
         fixed = own is not None or spec.shaft.wheel_diameter_mm is not None
         # a third of the wheel up to its slots is left as a wall
         space = smaller(sizes.slot_end * 2.0 / 3.0, sizes.slot_end - sizes.wall_min)
+        force, torque = loads.wheel_shaft_N, loads.wheel_Nm
     else:
-        free = size.arm_bore_mm is spec.shaft.crank_diameter_mm is None
-        fixed = not free or np.max(value_or(own, 0.0)) > 0.0
+        fixed = not (size.arm_bore_mm is spec.shaft.crank_diameter_mm is None)
         space = 0.6 * case.space  # a larger bore leaves no space for its default hub, of 1.5 bores
-    if np.max(through) > 0.0:
-        most = smaller(space, rules.within_hub(size, part))
-        trials.append(rows + trials_from(2.0 * through, 2.0 * most, bores=True))
-    count = len(trials) and trials[0].shape[1]
-    # past links and gears the shaft may have no other way out
-    if armed and not case.linked:
-        left = sizes.reaches[0] - rules.hole_radius(size, sizes.pin)  # half of it stays as a wall
-        trials.append(rows + trials_from(2.0 * sizes.arm_bore, left, bores=True))
-    if fixed or not trials:
+        force, torque = loads.crank_N, loads.crank_Nm
+    if fixed:
         return sizes
-
-    def attempt(some: Sizing, d: Array, k: int) -> tuple[Sizes, bool]:
-        own, loads, spec = some.sizes, some.loads, some.spec
-        bore = parameter(0.5 * d if k < count else 0.0 * d)
-        reach, hub = rules.reach_and_hub(spec.size, part, bore, own.wall_min, own.slot_end)
-        arm = parameter(0.5 * d) if armed else own.arm_bore
-        if part == "wheel":
-            trial = own._replace(wheel_bore=bore, wheel_reach=reach, wheel_hub=hub)
-            force, torque = loads.wheel_shaft_N, loads.wheel_Nm
-        else:
-            trial = own._replace(crank_bore=bore, crank_reach=reach, crank_hub=hub, arm_bore=arm)
-            force, torque = loads.crank_N, loads.crank_Nm
-        parts = dimensions(some._replace(sizes=trial))
-        lever = getattr(parts, f"{part}_shaft").overhang / 1000.0
-        bent, turned = spec.shaft.bending_factor * force * lever, spec.shaft.torsion_factor * torque
-        moment = parameter(np.hypot(bent, turned))  # both are greatest at once
-        return trial, shaft_and_key_hold(spec, part, parts, moment, torque, keyed)
-
-    return _first(case, np.hstack(trials), attempt)
+    known = np.greater(value_or(own, 0.0), 0.0)
+    most = choose(known, through, smaller(space, rules.within_hub(size, part)))
+    d = trials_from(2.0 * through, 2.0 * most, bores=True)
+    goes_on = d > 0.0
+    # past links and gears the shaft may have no other way out
+    if part != "wheel" and not case.planes:
+        left = sizes.reaches[0] - rules.hole_radius(size, sizes.pin)  # half of it stays as a wall
+        ends = trials_from(2.0 * sizes.arm_bore, left, bores=True)
+        ends = np.where(known, 0.0, ends)
+        rows = np.zeros((max(len(d), len(ends)), 1))
+        first, last = np.where(goes_on, d, ends[:, :1]), np.where(ends > 0.0, ends, d[:, -1:])
+        goes_on = np.hstack((goes_on | (rows > 0.0), (ends <= 0.0) & goes_on[:, -1:]))
+        d = np.hstack((first, last))
+    bore = parameter(np.where(goes_on, 0.5 * d, 0.0))
+    reach, hub = rules.reach_and_hub(size, part, bore, sizes.wall_min, sizes.slot_end)
+    trial: dict[str, Any] = {f"{part}_bore": bore, f"{part}_reach": reach, f"{part}_hub": hub}
+    if part != "wheel":
+        changes = np.greater(sizes.arm_bore, 0.0) & (d > 0.0)
+        trial["arm_bore"] = np.where(changes, 0.5 * d, sizes.arm_bore)
+    parts = dimensions(case._replace(sizes=sizes._replace(**trial)))
+    lever = getattr(parts, f"{part}_shaft").overhang / 1000.0
+    bent, turned = spec.shaft.bending_factor * force * lever, spec.shaft.torsion_factor * torque
+    moment = parameter(np.hypot(bent, turned))  # both are greatest at once
+    holds = shaft_and_key_hold(spec, part, parts, moment, torque, keyed)
+    for name, values in trial.items():
+        trial[name] = _first(holds, values)
+    return sizes._replace(**trial)
 
 
 def pin_that_holds(
@@ -365,7 +302,7 @@ def pin_that_holds(
     It holds the cycle and the impact at a change of sides, within roller and ``eye``.
     """
     spec, size, load = mechanism.spec, mechanism.spec.size, mechanism.spec.load
-    if size.pin_mm is not None or not np.max(usual) > 0.0:
+    if size.pin_mm is not None or not np.any(np.greater(usual, 0.0)):
         return usual
     contact = value_or(size.face_width_mm, wide)
     # the roller keeps three tenths of its radius as a wall about the hole for its pin
@@ -378,10 +315,11 @@ def pin_that_holds(
     # with friction along the wall
     whole_N = np.fmax(np.reshape(loads.pin_N, (-1, 1)), struck_N) * np.hypot(1.0, load.friction)
     stress = pin_arm_key.pin_stress_MPa(size, contact, trials, whole_N)[2]
-    held = 0.5 * _holding(trials, stress, roller_material(spec).allowed_MPa)
+    allowed = roller_material(spec).allowed_MPa
+    held = 0.5 * _first(keeps(parameter(stress), "at most", allowed), trials)
     if load.friction_at == "pin":  # loads with friction there depend on the usual one
-        held = np.where(np.asarray(load.friction) > 0.0, usual, held)
-    return parameter(held)
+        held = parameter(np.where(np.asarray(load.friction) > 0.0, usual, held))
+    return held
 
 
 def shaft_and_key_hold(

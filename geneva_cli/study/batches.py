@@ -17,7 +17,7 @@ from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.spec.schema import fields
 from geneva_cli.study.fields import Cell, Rows, cells_of
 from geneva_cli.verdict.quantities.batch_designs import Designs
-from geneva_cli.verdict.quantities.quantity_names import group_of
+from geneva_cli.verdict.quantities.groups import GROUP_OF
 
 Batch: TypeAlias = tuple[Whole, Mechanism]  # the numbers of some designs, and their machine
 
@@ -145,12 +145,11 @@ def split(specs: Sequence[Spec]) -> list[tuple[Any, dict[str, float]]]:
 def columns(machine: Mechanism, names: Sequence[str], count: int) -> list[Array]:
     """Quantities of ``count`` designs in one batch machine, (count,) each.
 
-    All can be computed for a batch. A value is infinite where it is undefined, and NaN where the
-    design must be computed alone.
+    All can be computed for a batch. A value is infinite where it is undefined.
     """
     designs, out = Designs(machine, names), list[Array]()
     for name in names:
-        group = group_of()[name]
-        value = group.columns(designs)[name.removeprefix(f"{group.table}.")]
-        out.append(np.broadcast_to(np.reshape(np.inf if value is None else value, -1), (count,)))
+        value = GROUP_OF[name].columns(designs)[name]
+        row = np.ravel(np.inf if value is None else value)
+        out.append(np.broadcast_to(np.where(np.isnan(row), np.inf, row), (count,)))
     return out

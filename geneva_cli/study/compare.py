@@ -20,8 +20,7 @@ from geneva_cli.study.fields import Cell, pick, values
 from geneva_cli.study.sweep.constraints import is_number
 from geneva_cli.study.sweep.values import axis, refuse_twice
 from geneva_cli.table import Reading, Table, rows_table
-from geneva_cli.verdict.quantities.groups import INPUTS, MACHINE, REPORT
-from geneva_cli.verdict.quantities.quantity_names import group_of
+from geneva_cli.verdict.quantities.groups import GROUP_OF, INPUTS, MACHINE, REPORT
 
 DESIGNS_MAX = 100  # in one comparison
 COLUMNS = ("quantity", "differs")  # of a comparison, besides the designs
@@ -61,7 +60,7 @@ def compare(
             continue
         cells = [own.get(quantity) for own in each]
         differs = not all(same(c, cells[0]) for c in cells[1:])
-        if quantity not in group_of() and (varied or not differs):
+        if quantity not in GROUP_OF and (varied or not differs):
             continue  # a key that the designs share, or that the columns' names show
         if any(c is not None for c in cells):
             if ratio:

@@ -9,18 +9,17 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import chain
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from operator import attrgetter
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array, Mask, Whole
+from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.table import Table
-from geneva_cli.verdict.quantities.groups import QuantityGroup
-from geneva_cli.verdict.quantities.quantity_names import group_of, in_batch, whole_name
-
-if TYPE_CHECKING:
-    from geneva_cli.parts.parts import Parts
+from geneva_cli.verdict.quantities.groups import GROUP_OF, QuantityGroup
+from geneva_cli.verdict.quantities.quantity_names import in_batch, whole_name
 
 Cell: TypeAlias = float | int | str | bool | None
 # Numbers, where infinity is no value, or cells of all sorts.
@@ -125,25 +124,18 @@ class Pick(NamedTuple):
     @property
     def groups(self) -> tuple[QuantityGroup, ...]:
         """The groups that contain them, those that make parts last."""
-        groups = dict.fromkeys(group_of()[name] for name in self.names)
+        groups = dict.fromkeys(GROUP_OF[name] for name in self.names)
         # another group may compute all names of a short one as well
         own = [one for one in groups if not any(set(one.names) < set(x.names) for x in groups)]
-        return tuple(sorted(own, key=lambda group: group.makes_parts))
+        return tuple(sorted(own, key=attrgetter("makes_parts")))
 
     @property
     def batched(self) -> tuple[str, ...]:
         """The names of the quantities that a batch of designs can compute."""
         return tuple(name for name in self.names if in_batch([name]))
 
-    @property
-    def rest(self) -> Pick:
-        """The quantities that are computed for each design alone."""
-        return Pick(tuple(name for name in self.names if not in_batch([name])))
-
     def of(self, mechanism: Mechanism) -> list[Cell]:
         """The values of the quantities for a machine; None if one does not apply."""
-        from geneva_cli.parts.parts import parts_of
-
         return self.of_parts(parts_of(mechanism))
 
     def of_parts(
@@ -157,9 +149,9 @@ class Pick(NamedTuple):
         ``known`` are those of ``batched``, if a batch has computed them. The parts are not made if
         the other values do not keep ``keeps``: what needs parts is then None.
         """
-        groups = self.groups if known is None else self.rest.groups
-        cells = values(parts, [group for group in groups if not group.makes_parts])
-        cells |= zip(self.batched, known or (), strict=False)
+        own = dict(zip(self.batched, known or (), strict=False))
+        groups = Pick(tuple(name for name in self.names if name not in own)).groups
+        cells = values(parts, [group for group in groups if not group.makes_parts]) | own
         slow = [group for group in groups if group.makes_parts]
         if slow and keeps(cells):
             cells |= values(parts, slow)

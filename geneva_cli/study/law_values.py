@@ -5,7 +5,8 @@ import math
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion import registry
 from geneva_cli.motion.given_motion import LawMotion
-from geneva_cli.motion.laws.law import QUANTITIES, Law
+from geneva_cli.motion.laws.law import Law
+from geneva_cli.motion.peaks import QUANTITIES
 from geneva_cli.motion.timing import CamFactors
 from geneva_cli.spec.schema import REQUIRED, fields
 from geneva_cli.table import Reading, Table, rows_table

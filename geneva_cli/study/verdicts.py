@@ -52,7 +52,7 @@ def verdict(
                 single_loads(design.mechanism)
                 _ = cycle_of(design.mechanism).ends, design.parts.built.required
                 of = single(design.mechanism)
-                _ = of.once(shafts), of.columns(horn), of.columns(lock)
+                _ = of.columns(shafts), of.columns(horn), of.columns(lock)
         checks = design.checks if to_mm is None else design.proved_to(to_mm)
         return Verdict(
             path=design.spec.path,
@@ -68,7 +68,7 @@ def verdict(
 
 
 def verdicts(
-    paths: list[str],
+    paths: Sequence[str],
     settings: Sequence[str] = (),
     to_mm: float | None = None,
     reverse: bool = False,

@@ -1,16 +1,11 @@
 """Failing checks in words, and what stands of a record below its summary."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from geneva_cli.errors import is_warning
+from geneva_cli.parts.parts import Parts
 from geneva_cli.table import Table, in_digits, record_table
-
-if TYPE_CHECKING:
-    from geneva_cli.parts.parts import Parts
-    from geneva_cli.verdict.checks import Check
+from geneva_cli.verdict.checks import Check
 
 # The meaning of a failing check, by its name; without one its value says enough.
 _PLAY = (

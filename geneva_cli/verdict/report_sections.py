@@ -5,15 +5,15 @@ from contextlib import suppress
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.cycle import cycle_of
+from geneva_cli.loads.load_peaks import greatest_pressure
 from geneva_cli.loads.load_tables import reversals_deg
 from geneva_cli.motion.peaks import greatest_jumps, peaks
 from geneva_cli.motion.timing import timings
 from geneva_cli.numerics.angles import omega
 from geneva_cli.parts.parts import Parts
 from geneva_cli.table import Reading, rows_table
-from geneva_cli.verdict.quantities.batch_designs import Numbers, Values, only, single
-from geneva_cli.verdict.quantities.groups import ECHOED, own_names
-from geneva_cli.verdict.quantities.load_quantities import pressure
+from geneva_cli.verdict.quantities.batch_designs import Numbers, Values
+from geneva_cli.verdict.quantities.groups import GROUP_OF
 from geneva_cli.verdict.quantities.motion_quantities import peak_values
 from geneva_cli.verdict.strength import NEEDY, strength
 
@@ -40,8 +40,11 @@ def inputs(parts: Parts) -> Values:
         "wheel": {"held_by": spec.wheel.held_by},
         "size": spec.size.allowances._asdict(),
     }
-    tables = {table: spec.table(table) | known.get(table, {}) for table in ECHOED}
-    return {f"{table}.{key}": tables[table][key] for table in ECHOED for key in ECHOED[table]}
+    values: Values = {}
+    for name in GROUP_OF["inputs.drive.n_rpm"].own:
+        table, _, key = name.rpartition(".")
+        values[name] = (spec.table(table) | known.get(table, {}))[key]
+    return values
 
 
 def stations(parts: Parts) -> Values:
@@ -140,7 +143,8 @@ def vibration(parts: Parts) -> Values:
         results = values(mechanism, oscillator(mechanism))
     except GenevaError as error:
         return none | {"none": str(error)}
-    return {name: results[name] for name in results if name in (*own_names("vibration"), *none)}
+    names = ("speeds_to_avoid_rpm", *GROUP_OF["vibration.none"].own)
+    return {name: results[name] for name in results if name in names}
 
 
 def tolerances(parts: Parts) -> Values:
@@ -153,7 +157,8 @@ def tolerances(parts: Parts) -> Values:
     # micrometres need a radius
     L = mechanism.center_distance_mm
     answers = tolerance_table(mechanism, parts, SAMPLES, 0, L).to_dict()
-    return {name: answers[name] for name in (*own_names("tolerance"), "warnings")}
+    names = GROUP_OF["tolerance.entry_jump.mean"].own
+    return {name: answers[name] for name in (*names, "warnings")}
 
 
 def sizes(parts: Parts) -> Values:
@@ -176,8 +181,7 @@ def sizes(parts: Parts) -> Values:
     values["ratio"] = mechanism.ratio
     values["slot_width_mm"] = 2.0 * (r + spec.size.allowances.slot_clearance_mm)
     if first.slot.curved:
-        most = single(mechanism).columns(pressure)["max_deg"]
-        values["pressure_angle_max_deg"] = only(most)
+        values["pressure_angle_max_deg"] = greatest_pressure(mechanism).max.item()
     if spec.is_flat:
         from geneva_cli.parts.assembly import assembly
         from geneva_cli.parts.machine_sizes import machine_sizes

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from functools import cache, lru_cache
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
+from functools import lru_cache
 
 import numpy as np
 
@@ -14,22 +13,10 @@ from geneva_cli.loads.strength.horn import STOUT
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import value_or
 from geneva_cli.parts.machine_sizes import sized
-from geneva_cli.verdict.quantities import part_strength
-from geneva_cli.verdict.quantities.batch_designs import Columns, Designs, only, single
+from geneva_cli.verdict.quantities.batch_designs import only, single
+from geneva_cli.verdict.quantities.groups import GROUP_OF, value_of
 from geneva_cli.verdict.quantities.under_load import UnderLoad
 
-if TYPE_CHECKING:
-    from geneva_cli.verdict.quantities.groups import QuantityGroup
-
-# Functions of the values that checks compare, by the names of their tables, or their whole names:
-# a check does not read the registry of all quantities.
-CHECKED: dict[str, Callable[[Designs], Columns]] = {
-    "strength.arm.least_thickness_mm": part_strength.arm_thickness,
-    "life.pv_max_W_m2": part_strength.pressure_speed,
-    "life.roller_life_h": part_strength.wear,
-}
-for _part in ("pin", "horn", "lock", "wheel_shaft", "crank_shaft", "arm", "wheel_key", "crank_key"):
-    CHECKED[f"strength.{_part}"] = vars(part_strength)[_part]
 # Values of ``life``, in the order in which `geneva loads` lists their needs.
 OF_LIFE = (
     *("roller_life_turns", "roller_life_motions", "roller_life_h", "equivalent_force_N"),
@@ -48,36 +35,30 @@ _EDGE = "lock_edge_mm in [size]"
 _SHORT = "lock_clearance_mm = 0 in [size]: the end of a short locking disc is sharp"
 
 
-@cache
-def report_groups() -> dict[str, QuantityGroup]:
-    """The groups of a report, by the names of their tables, and by whole names of quantities."""
-    from geneva_cli.verdict.quantities.groups import REPORT
-
-    return {name: group for group in REPORT for name in (group.table, *group.names)}
-
-
 class Strength:
     """The strength and life of one design; a value is computed when it is first used."""
 
     def __init__(self, mechanism: Mechanism) -> None:
         self.mechanism = mechanism
         self.spec = mechanism.spec
-        self.design = single(mechanism)
-        self.load = self.design.once(UnderLoad)
+        self.load = single(mechanism).once(UnderLoad)
 
     def __getitem__(self, name: str) -> float | None:
         """A value by its whole name, such as ``strength.pin.stress_MPa``; None if unknown."""
-        table, _, own = name.rpartition(".")
-        if compute := CHECKED.get(name) or CHECKED.get(table):
-            return only(self.design.columns(compute).get(own))
-        groups = report_groups()
-        return only((groups.get(name) or groups[table]).columns(self.design).get(own))
+        value = value_of(self.mechanism, name)
+        return value if math.isfinite(value) else None
 
     def table(self, name: str) -> dict[str, float | None]:
         """The values of a table, such as ``life`` or ``shock.reversal``, by their own names."""
-        from geneva_cli.verdict.quantities.groups import own_names
+        start = f"{name}."
+        return {n.removeprefix(start): self[n] for n in GROUP_OF if n.startswith(start)}
 
-        return {own: self[f"{name}.{own}"] for own in own_names(name)}
+    @property
+    def lock_MPa(self) -> float | None:
+        """The greatest stress between disc and recess; None if it is not known."""
+        names = ("approach_deg", "contact_stress_MPa", "pressure_MPa")
+        approach, *each = (self[f"strength.lock.{name}"] for name in names)
+        return max((x for x in each if approach is not None and x is not None), default=None)
 
     @property
     def contact_mm(self) -> float | None:

@@ -1,13 +1,12 @@
 """All warnings about a design: here those about loads, numbers, keys, parts and their turn."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from operator import attrgetter
 from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError, Notice
+from geneva_cli.geometry.plates import MassProperties, Plate, Shell, solids
 from geneva_cli.geometry.shapes import bounds
 from geneva_cli.loads.load_case import G, inertia_kgm2, weight_kg
 from geneva_cli.motion.compatible import is_geared
@@ -24,8 +23,7 @@ from geneva_cli.verdict.checks.motion_checks import motion_play_max, slips_deg
 from geneva_cli.verdict.motion_warnings import motion_warnings
 
 if TYPE_CHECKING:
-    from geneva_cli.geometry.plates import MassProperties
-    from geneva_cli.parts.projection import Missing, NamedParts
+    from geneva_cli.parts.projection import NamedParts
 
 STEEP_DEG = 60.0  # a pressure angle that friction of 0.58 would hold, more than a dry pair has
 
@@ -149,13 +147,12 @@ def gears_without_teeth(spec: Spec) -> Iterator[Notice]:
         )
 
 
-def _small_holes(named: list[NamedParts], least: float) -> Iterator[Notice]:
+def _small_holes(named: list["NamedParts"], least: float) -> Iterator[Notice]:
     """A warning that names each part with a hole below ``least`` thicknesses."""
     if not least:
         return
     from geneva_cli.drawings.parts_list import is_cut
-    from geneva_cli.geometry.plates import Plate, Shell, solids
-    from geneva_cli.parts.projection import built_of
+    from geneva_cli.parts.projection import Missing, built_of
 
     missing: list[Missing] = []  # the check of the parts reports them
     small: dict[str, tuple[float, float]] = {}

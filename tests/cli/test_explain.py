@@ -102,7 +102,7 @@ def quantities() -> set[str]:
     model = load(str(repo.DESIGNS / "turret.toml")).parts
     quick = [group for group in groups.GROUPS if not group.makes_parts]
     out = {*chain.from_iterable(group.values(model) for group in quick)}
-    parts = [group for group in groups.GROUPS if group.makes_parts and group.table != "checks"]
+    parts = [group for group in groups.GROUPS if group.makes_parts and group.table != "checks."]
     out |= {*chain.from_iterable(group.names for group in parts), "tolerance.warnings"}
     out |= {f"parts_list.{kind}" for kind in parts_list.KINDS} | {"checks.passes", "checks.failed"}
     out |= {"passes", "checks_failed", "not_proved", "warnings", "spec", "title"}  # the report's

@@ -9,14 +9,16 @@ import repo
 from typer.testing import CliRunner
 
 from geneva_cli.cli.app import COMMANDS, GROUPS, app
-from geneva_cli.cli.command import one_of
+from geneva_cli.cli.command import as_command
 from geneva_cli.manual import GROUPS as PAGES
-from geneva_cli.output import FORMATS
+from geneva_cli.output import CAMS, DOCUMENTS, DRAWN, FORMATS
 
 EXAMPLES = [
     (name, example)
     for name in COMMANDS
-    for example in importlib.import_module(f"geneva_cli.cli.commands.{name}").EXAMPLES
+    for example in as_command(
+        name, importlib.import_module(f"geneva_cli.cli.commands.{name}").run
+    ).examples
 ]
 
 
@@ -59,9 +61,18 @@ def test_the_page_of_all_commands_needs_no_click(monkeypatch):
     assert "## check\n" in geneva("help", "commands")
 
 
-def test_help_names_the_formats_of_a_table():
-    """The option writes them out, so that a run does not read the list of formats for its help."""
-    assert one_of(FORMATS) in geneva("keys", "-h")
+@pytest.mark.parametrize(
+    ("name", "formats"),
+    [
+        ("keys", FORMATS),
+        ("motion", (*FORMATS, *CAMS)),
+        ("profile", (*FORMATS, *DRAWN, "pdf")),
+        ("report", {**FORMATS, **DOCUMENTS}),
+    ],
+)
+def test_help_names_the_formats_that_are_written(name, formats):
+    *others, last = formats
+    assert f"{', '.join(others)} or {last}." in " ".join(geneva(name, "-h").split())
 
 
 @pytest.mark.long

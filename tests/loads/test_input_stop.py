@@ -90,7 +90,7 @@ def test_what_the_brake_takes_by_hand() -> None:
     """0.002 kg m² behind 20 : 1 are 0.8 at the input, which turns at 2 pi rad/s."""
     motor = Motor(gear_ratio=20.0, inertia_kgm2=0.002)
     design = Design(External(6), STOPPED, load=LOAD, motor=motor)
-    found = values(design.parts, [group for group in REPORT if group.table == "input_stop"])
+    found = values(design.parts, [group for group in REPORT if group.table == "input_stop."])
     energy = 0.5 * 0.8 * OMEGA**2
     by_hand = {
         "stands_s": 0.8 - 0.15,
@@ -104,7 +104,7 @@ def test_what_the_brake_takes_by_hand() -> None:
     }
     assert found == pytest.approx({f"input_stop.{k}": v for k, v in by_hand.items()}, rel=1e-13)
     runs = Design(External(6), Crank(), load=LOAD, motor=motor)
-    none = values(runs.parts, [group for group in REPORT if group.table == "input_stop"])
+    none = values(runs.parts, [group for group in REPORT if group.table == "input_stop."])
     assert set(none.values()) == {None}
 
 

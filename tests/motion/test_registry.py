@@ -54,7 +54,7 @@ def numbers(engagement):
     out = [engagement.mid_deg, engagement.half_step, engagement.motion.symmetric]
     for at in (x, float(x[7])):
         jets = [engagement.motion(at), *engagement.path(at), *engagement.slot(at)]
-        jets += [engagement.carrier(at, 1), *(engagement.slot.axis(at, 1) or ())]
+        jets += [engagement.carrier(at, 1), *engagement.slot.axis(at, 1)]
         if engagement.groove:
             jets += engagement.groove.distances(at)
         out += [np.broadcast_to(c, np.shape(at)).tolist() for jet in jets for c in jet.c]

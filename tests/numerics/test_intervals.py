@@ -16,9 +16,7 @@ ONE_OF = {
     "sin": mpmath.sin,
     "cos": mpmath.cos,
     "sqrt": lambda x: mpmath.sqrt(abs(x)),
-    "exp": mpmath.exp,
     "asin": lambda x: mpmath.asin(x / 10),
-    "acos": lambda x: mpmath.acos(x / 10),
 }
 
 
@@ -34,7 +32,6 @@ def holds(interval, value):
         lambda x: x > 0.7,
         lambda x: x == 0.7,
         lambda x: x < Interval(0.9, 2.0),
-        lambda x: library(x).floor(x + 0.25),
         lambda x: library(x).copysign(1.0, x - 0.7),
         lambda x: library(x).atan2(x - 0.7, x - 0.8),
         lambda x: x.piece([0.7]),
@@ -66,7 +63,7 @@ def test_every_operation_holds_the_exact_values():
             assert holds(x * x, u * u) and holds(x**3, u**3) and holds(abs(x), abs(u))
             assert holds(2.0 - x, 2 - u) and holds(x / y, u / v) and holds(1.0 / y, 1 / v)
             for name, exact in ONE_OF.items():
-                of = {"sqrt": abs(x), "asin": x / 10.0, "acos": x / 10.0}.get(name, x)
+                of = {"sqrt": abs(x), "asin": x / 10.0}.get(name, x)
                 assert holds(getattr(library(x), name)(of), exact(u)), name
             assert holds(library(x).hypot(x, y), mpmath.sqrt(u * u + v * v))
             try:
@@ -83,7 +80,6 @@ def test_every_operation_holds_the_exact_values():
         (lambda x: x < 1.0, [1.0, math.nan, 0.0]),
         (lambda x: x.piece([0.25, 1.0]), [1.0, math.nan, 2.0]),
         (lambda x: x.pieces([0.25, 1.0]), [0.0, math.nan, 0.0]),
-        (lambda x: library(x).floor(x), [0.0, math.nan, 1.0]),
     ],
 )
 def test_each_interval_has_its_own_answer(ask, answers):

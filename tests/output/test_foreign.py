@@ -12,7 +12,7 @@ from geneva_cli.geometry.loops import loops
 from geneva_cli.geometry.plates import moments
 from geneva_cli.geometry.shapes import Arc, Line, at
 from geneva_cli.output.foreign import read_drawing
-from geneva_cli.output.foreign.drawn import CURVE_MM, ellipse_pieces
+from geneva_cli.output.foreign.drawn import CURVE_MM, Ellipse, traced
 
 
 def dxf(folder, draw, units=4):
@@ -166,6 +166,13 @@ def test_svg_shapes_have_their_areas(tmp_path):
     )
 
 
+@pytest.mark.parametrize("ry", [2, 3])
+def test_an_ellipse_that_is_no_circle_is_not_exact(ry, tmp_path):
+    assert svg(tmp_path, f'<ellipse rx="3" ry="{ry}"/>').is_exact == (ry == 3)
+    drawn = dxf(tmp_path, lambda d, m: m.add_ellipse((1, 1), (3, 0), ry / 3))
+    assert drawn.is_exact == (ry == 3)
+
+
 def test_svg_is_scaled_to_millimetres_with_y_upwards(tmp_path):
     drawn = svg(tmp_path, '<line x2="1" y2="2"/>', 'width="4in" height="4in" viewBox="0 0 8 8"')
     (line,) = drawn.pieces
@@ -204,7 +211,7 @@ def test_svg_curves_and_their_smooth_continuations(tmp_path):
 
 def test_a_skewed_circle_is_the_ellipse_of_its_points():
     p, q = 8 + 0j, 4 * math.tan(math.radians(20.0)) - 4j
-    for piece in ellipse_pieces(0j, (p, q), (0.0, math.tau))[::5]:
+    for piece in traced(Ellipse(0j, p, q), lambda z: z)[0][::5]:
         z = complex(*piece.start)
         t = np.linalg.solve(np.array([[p.real, q.real], [p.imag, q.imag]]), (z.real, z.imag))
         assert np.hypot(*t) == pytest.approx(1.0, abs=1e-4)

@@ -123,6 +123,7 @@ import sys
 from geneva_cli.cli.commands import peaks
 
 def run(spec: str) -> None:
+    "Fail."
     {}["no\\nkey"]
 
 peaks.run = run

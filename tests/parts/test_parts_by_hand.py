@@ -11,6 +11,7 @@ from words import Drive, Keys, Spec, Wheel
 
 from geneva_cli import Design, External
 from geneva_cli.drawings.sheet.crank_views import draw_arm, draw_disc, draw_link
+from geneva_cli.drawings.sheet.sized import Fits
 from geneva_cli.drawings.sheet.view import View
 from geneva_cli.drawings.sheet.wheel_views import draw_wheel
 from geneva_cli.geometry.plates import plates
@@ -32,7 +33,8 @@ def of(**size):
 
 def dimensions(draw, *shown):
     """The texts of the dimensions in one view of a sheet, at 1:1."""
-    view = View("", 1.0)
+    of_machine = getattr(shown[0], "mechanism", shown[-1])
+    view = View("", 1.0, Fits(of_machine.spec))
     draw(view, *shown)
     return {measure.label.text for measure in view.measures}
 

@@ -24,6 +24,7 @@ from sampling import some
 from typer.testing import CliRunner
 
 from geneva_cli.cli.app import COMMANDS, app
+from geneva_cli.cli.command import as_command
 from geneva_cli.motion.motion_table import motion_table
 from geneva_cli.motion.peaks import worst
 from geneva_cli.motion.registry import DRIVES
@@ -154,14 +155,10 @@ LINES = some(30, 1)  # of each command
 @functools.cache
 def command(name):
     """A command's examples as words, its options, and whether it reads specs."""
-    import typer
-    from typer.main import get_command
-
     module = importlib.import_module(f"geneva_cli.cli.commands.{name}")
-    one = typer.Typer(add_completion=False)
-    one.command(name)(module.run)
-    examples = [shlex.split(line)[1:] for line in module.EXAMPLES]
-    options = [p for p in get_command(one).params if p.opts[0].startswith("-")]
+    one = as_command(name, module.run)
+    examples = [shlex.split(line)[1:] for line in one.examples]
+    options = [p for p in one.params if p.opts[0].startswith("-")]
     reads = bool({"spec", "specs"} & set(module.run.__annotations__))
     return examples, options, reads
 

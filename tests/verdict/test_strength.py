@@ -10,14 +10,12 @@ from words import Drive, Motion, Spec, Wheel
 
 import geneva_cli
 from geneva_cli import Cam, External, Internal, SideCrank, design
-from geneva_cli.kept import load_named
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.motion.mechanism import build
 from geneva_cli.parts.machine_sizes import sized
 from geneva_cli.spec.tables import Limits, Load, RollerMaterial, Shaft, Size, WheelMaterial
 from geneva_cli.verdict.checks import checks
-from geneva_cli.verdict.quantities.groups import REPORT
-from geneva_cli.verdict.strength import CHECKED, Strength
+from geneva_cli.verdict.strength import Strength
 
 DESIGNS = repo.DESIGNS
 
@@ -227,16 +225,6 @@ def test_the_wheel_s_shaft_and_key_bear_the_torque_of_the_dwell():
     assert calm["strength.wheel_shaft.moment_Nm"] < 0.2 * most
     bent = 1.5 * 0.030 * force  # the crank's shaft, which the force does not turn
     assert held["strength.crank_shaft.moment_Nm"] == pytest.approx(bent, rel=1e-9)
-
-
-def test_checks_ask_the_functions_of_the_registry():
-    asked = set()
-    for group in REPORT:
-        for name in group.names:
-            if compute := CHECKED.get(name) or CHECKED.get(group.table):
-                assert load_named(group.batch) is compute, name
-                asked |= {name, group.table} & {*CHECKED}
-    assert asked == {*CHECKED}
 
 
 def test_horns_that_are_no_slender_beams_are_said():

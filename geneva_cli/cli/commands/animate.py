@@ -2,26 +2,29 @@
 
 import os
 
-from geneva_cli.cli.command import REVERSE, SETTINGS, SPEC, flag, output_option, say
-
-EXAMPLES = (
-    "geneva animate spec.toml -o machine.html",
-    "geneva animate spec.toml --reverse -o backwards.html",
-    "geneva animate spec.toml --open",
-)
+from geneva_cli.cli.command import say
 
 
 def run(
-    spec: str = SPEC,
-    reverse: bool = REVERSE,
-    settings: list[str] = SETTINGS,
-    open_: bool = flag("--open", "Open the page in the desktop's browser."),
-    output: str = output_option("-", "FILE", "Write to this .html; - prints it.", show=True),
+    spec: str,
+    reverse: bool = False,
+    settings: tuple[str, ...] = (),
+    open_: bool = False,
+    output: str = "-",
 ) -> None:
     """Animate the machine on a page that needs no network.
 
     It shows parts, gears, contact force and curves, and plays or follows a slider.
     --open also prints the page's path.
+
+    Options:
+      --open             Open the page in the desktop's browser.
+      -o, --output FILE  Write to this .html; - prints it.  [default: -]
+
+    Examples:
+      geneva animate spec.toml -o machine.html
+      geneva animate spec.toml --reverse -o backwards.html
+      geneva animate spec.toml --open
     """
     from geneva_cli.design import load
     from geneva_cli.kept import load_extra

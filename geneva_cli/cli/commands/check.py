@@ -4,33 +4,42 @@ import os
 
 import typer
 
-from geneva_cli.cli.command import FORMAT, OUTPUT, REVERSE, SETTINGS, SPECS, flag, option, say, tell
+from geneva_cli.cli.command import say, tell
 from geneva_cli.errors import open_warnings
-
-EXAMPLES = ("geneva check spec.toml", "geneva check spec.toml --set size.slot_clearance_mm=0.05")
-DRAWN = "A drawing from elsewhere"
 
 
 def run(
-    specs: list[str] = SPECS,
-    strict: bool = flag("--strict", "Exit 1 on a warning too."),
-    verbose: bool = flag("-v --verbose", "Every check, a row each."),
-    reverse: bool = REVERSE,
-    certify: float | None = option(None, "MM", "Prove that no parts overlap by more."),
-    wheel: str | None = option(None, "FILE", "The wheel as somebody drew it: .dxf or .svg.", DRAWN),
-    crank: str | None = option(None, "FILE", "The crank: .dxf or .svg.", DRAWN),
-    slack: float | None = option(
-        None, "MM", "Overlap that counts as touching.  [default: 1e-6, or 0.001]", DRAWN
-    ),
-    settings: list[str] = SETTINGS,
-    output: str = OUTPUT,
-    format: str = FORMAT,
+    specs: tuple[str, ...],
+    strict: bool = False,
+    verbose: bool = False,
+    reverse: bool = False,
+    certify: float | None = None,
+    wheel: str | None = None,
+    crank: str | None = None,
+    slack: float | None = None,
+    settings: tuple[str, ...] = (),
+    output: str = "-",
+    format: str = "",
 ) -> None:
     """Check designs: failures with their remedies, warnings, and the tightest check.
 
     It checks the motion, the parts and the spec's own [limits]. With -v, or as csv, json or md,
     there is a row for each check. The exit status is 1 if a check fails. If one spec cannot be
     read, the others are still checked.
+
+    Options:
+      --strict       Exit 1 on a warning too.
+      -v, --verbose  Every check, a row each.
+      --certify MM   Prove that no parts overlap by more.
+
+    A drawing from elsewhere:
+      --wheel FILE  The wheel as somebody drew it: .dxf or .svg.
+      --crank FILE  The crank: .dxf or .svg.
+      --slack MM    Overlap that counts as touching.  [default: 1e-6, or 0.001]
+
+    Examples:
+      geneva check spec.toml
+      geneva check spec.toml --set size.slot_clearance_mm=0.05
     """
     from geneva_cli.output import chosen, show_answer
     from geneva_cli.study.verdicts import of_checks, verdicts

@@ -3,31 +3,34 @@
 from geneva_cli.cli import command
 from geneva_cli.errors import GenevaError
 
-EXAMPLES = (
-    "geneva compare spec.toml --vary wheel.z=4,6,8 --pick dwell_s,acceleration.max",
-    "geneva compare spec.toml --against cam,servo",
-)
-
 
 def run(
-    specs: list[str] = command.SPECS,
-    vary: list[str] = command.option(
-        (), "KEY=VALUES", "One spec with several values: drive.A=0,0.3,0.6."
-    ),
-    pick: str = command.option("", "FIELD,...", "Only these, as acceleration.max,dwell_s."),
-    against: str = command.option(
-        "", "NAME,...", "One spec with cam, servo: the same step, time and load."
-    ),
-    ratio: bool = command.flag("--ratio", "Numbers over the first design's."),
-    differing: bool = command.flag("--differing", "Only what differs."),
-    reverse: bool = command.ALSO_REVERSE,
-    settings: list[str] = command.SETTINGS,
-    output: str = command.OUTPUT,
-    format: str = command.FORMAT,
+    specs: tuple[str, ...],
+    vary: tuple[str, ...] = (),
+    pick: str = "",
+    against: str = "",
+    ratio: bool = False,
+    differing: bool = False,
+    reverse: bool = False,
+    settings: tuple[str, ...] = (),
+    output: str = "-",
+    format: str = "",
 ) -> None:
     """Designs side by side: a column for each design, a row for each quantity.
 
     --against compares one spec with a cam indexer and a servo.
+
+    Options:
+      --vary KEY=VALUES   One spec with several values: drive.A=0,0.3,0.6.
+      --pick FIELD,...    Only these, as acceleration.max,dwell_s.
+      --against NAME,...  One spec with cam, servo: the same step, time and load.
+      --ratio             Numbers over the first design's.
+      --differing         Only what differs.
+      --reverse           Also each design turning the other way.
+
+    Examples:
+      geneva compare spec.toml --vary wheel.z=4,6,8 --pick dwell_s,acceleration.max
+      geneva compare spec.toml --against cam,servo
     """
     from geneva_cli.design import load
     from geneva_cli.output import show

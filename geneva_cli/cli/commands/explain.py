@@ -1,27 +1,19 @@
 """``geneva explain``."""
 
-import typer
 
-from geneva_cli.cli.command import FORMAT, OUTPUT
+def run(words: tuple[str, ...] = (), output: str = "-", format: str = "") -> None:
+    """Explain a word of the output: meaning, formula, unit, source, what to do, manual page.
 
-EXAMPLES = (
-    "geneva explain",
-    "geneva explain pin stress",
-    "geneva explain turns-back",
-    "geneva explain loads.pin_force_N.max --format json",
-)
+    Arguments:
+      [CHECK|QUANTITY|KIND]  horn_mm, acceleration.max, side-crank, a warning, a part, ...;
+                             without one: all.
 
-
-def run(
-    words: list[str] = typer.Argument(
-        (),
-        metavar="[CHECK|QUANTITY|KIND]",
-        help="horn_mm, acceleration.max, side-crank, a warning, a part, ...; without one: all.",
-    ),
-    output: str = OUTPUT,
-    format: str = FORMAT,
-) -> None:
-    """Explain a word of the output: meaning, formula, unit, source, what to do, manual page."""
+    Examples:
+      geneva explain
+      geneva explain pin stress
+      geneva explain turns-back
+      geneva explain loads.pin_force_N.max --format json
+    """
     from geneva_cli.cli.pages import search
     from geneva_cli.output import is_for_people, show, show_markdown
     from geneva_cli.specfile import meanings

@@ -5,21 +5,13 @@ import os
 from geneva_cli.cli import command
 from geneva_cli.errors import GenevaError, below
 
-EXAMPLES = (
-    "geneva export spec.toml -o turret",
-    "geneva export spec.toml --set size.process=laser --for laser -o to-cut",
-    "geneva export spec.toml --set size.process=print --for print -o to-print",
-)
-
 
 def run(
-    spec: str = command.SPEC,
-    output: str = command.output_option("", "FOLDER", "Write into this folder (required)."),
-    trade: str | None = command.option(
-        None, "TRADE", "What laser, mill or print needs.  [default: all files]", name="--for"
-    ),
-    force: bool = command.flag("--force", "Write a machine that jams; replace changed files."),
-    settings: list[str] = command.SETTINGS,
+    spec: str,
+    output: str = "",
+    trade: str | None = None,
+    force: bool = False,
+    settings: tuple[str, ...] = (),
 ) -> None:
     """Write every file that a shop needs into a folder, and list them.
 
@@ -29,6 +21,16 @@ def run(
     All files are written or none. In a folder that exists, this command replaces and removes only
     files that it wrote and nobody changed since; all others stay. For a machine that jams nothing
     is written, and the exit status is 1.
+
+    Options:
+      -o, --output FOLDER  Write into this folder (required).
+      --for TRADE          What laser, mill or print needs.  [default: all files]
+      --force              Write a machine that jams; replace changed files.
+
+    Examples:
+      geneva export spec.toml -o turret
+      geneva export spec.toml --set size.process=laser --for laser -o to-cut
+      geneva export spec.toml --set size.process=print --for print -o to-print
     """
     from geneva_cli.design import load
     from geneva_cli.output import show

@@ -6,18 +6,18 @@ import typer
 
 from geneva_cli.errors import GenevaError, cut, nearest
 
-EXAMPLES = ("geneva help", "geneva help cycle", "geneva help friction")
 
+def run(context: typer.Context, words: tuple[str, ...] = ()) -> None:
+    """Show a page of the manual, the options of a command, or all places of a word.
 
-def run(
-    context: typer.Context,
-    words: list[str] = typer.Argument(
-        (),
-        metavar="[WORD...]",
-        help="A page, a command, or words to search for; without one: all pages.",
-    ),
-) -> None:
-    """Show a page of the manual, the options of a command, or all places of a word."""
+    Arguments:
+      [WORD...]  A page, a command, or words to search for; without one: all pages.
+
+    Examples:
+      geneva help
+      geneva help cycle
+      geneva help friction
+    """
     from geneva_cli.cli.pages import Hit, page, search
     from geneva_cli.manual import TOPICS, contents
     from geneva_cli.output import show, show_markdown, show_text

@@ -1,20 +1,16 @@
 """``geneva keys``."""
 
-import typer
 
-from geneva_cli.cli.command import FORMAT, OUTPUT
+def run(word: str = "", output: str = "-", format: str = "") -> None:
+    """List the keys of a spec: unit, allowed values, default, and the machines that have them.
 
-EXAMPLES = ("geneva keys drive", "geneva keys size.center_distance_mm")
+    Arguments:
+      [TABLE|KEY]  drive, drive.A or A; without one: all.
 
-
-def run(
-    word: str = typer.Argument(
-        "", metavar="[TABLE|KEY]", help="drive, drive.A or A; without one: all."
-    ),
-    output: str = OUTPUT,
-    format: str = FORMAT,
-) -> None:
-    """List the keys of a spec: unit, allowed values, default, and the machines that have them."""
+    Examples:
+      geneva keys drive
+      geneva keys size.center_distance_mm
+    """
     from geneva_cli.output import show
     from geneva_cli.specfile.keys import Key, about
     from geneva_cli.table import Reading, rows_table

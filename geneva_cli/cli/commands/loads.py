@@ -1,28 +1,20 @@
 """``geneva loads``."""
 
-from geneva_cli.cli.command import FORMAT, OUTPUT, REVERSE, SETTINGS, SPEC, flag, option, say
+from geneva_cli.cli.command import say
 from geneva_cli.errors import is_warning
 
 ROWS = 361
 
-EXAMPLES = (
-    "geneva loads spec.toml",
-    "geneva loads spec.toml -v",
-    "geneva loads spec.toml -o cycle.csv",
-    "geneva loads spec.toml --set load.inertia_kgm2=0.8 --format json",
-    "geneva loads spec.toml --certify",
-)
-
 
 def run(
-    spec: str = SPEC,
-    samples: int | None = option(None, "N", f"The cycle in N rows instead (csv: {ROWS})."),
-    certify: bool = flag("--certify", "Prove the greatest loads instead."),
-    verbose: bool = flag("-v --verbose", "Powers, all loads, sizing and life too."),
-    reverse: bool = REVERSE,
-    settings: list[str] = SETTINGS,
-    output: str = OUTPUT,
-    format: str = FORMAT,
+    spec: str,
+    samples: int | None = None,
+    certify: bool = False,
+    verbose: bool = False,
+    reverse: bool = False,
+    settings: tuple[str, ...] = (),
+    output: str = "-",
+    format: str = "",
 ) -> None:
     """Loads of the motion: torque, forces, stress and power over a cycle.
 
@@ -43,6 +35,18 @@ def run(
 
     With --certify, the torques and the pin force are each proved to lie between two bounds, or
     called not proved. It needs geneva-cli[certify]. More: `geneva help accuracy`.
+
+    Options:
+      --samples N    The cycle in N rows instead (csv: 361).
+      --certify      Prove the greatest loads instead.
+      -v, --verbose  Powers, all loads, sizing and life too.
+
+    Examples:
+      geneva loads spec.toml
+      geneva loads spec.toml -v
+      geneva loads spec.toml -o cycle.csv
+      geneva loads spec.toml --set load.inertia_kgm2=0.8 --format json
+      geneva loads spec.toml --certify
     """
     from geneva_cli.design import load
     from geneva_cli.output import choice, chosen, is_for_people, show, show_answer

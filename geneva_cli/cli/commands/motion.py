@@ -2,37 +2,22 @@
 
 import typer
 
-from geneva_cli.cli.command import OUTPUT, REVERSE, SETTINGS, SPEC, one_of, option, say, tell
+from geneva_cli.cli.command import say, tell
 from geneva_cli.errors import GenevaError
-from geneva_cli.output import CAMS, CONTROLLERS, FORMATS
-
-EXAMPLES = (
-    "geneva motion spec.toml --samples 13",
-    "geneva motion spec.toml --at 30,45",
-    "geneva motion spec.toml -o motion.csv",
-    "geneva motion spec.toml --turns 8 -o revolution.csv",
-    "geneva motion spec.toml --format cam --for codesys -o cam.st",
-)
-CAM = "An electronic cam"
+from geneva_cli.output import CAMS, CONTROLLERS
 
 
 def run(
-    spec: str = SPEC,
-    samples: int | None = option(None, "N", "Rows, both ends included.  [default: 361]"),
-    at: str = option(
-        "", "DEG,...", "Rows at these input angles from mid-motion: 30,45, -60..60:5."
-    ),
-    turns: int | None = option(None, "N", "Turns of the input, with a row at each entry and jump."),
-    controller: str | None = option(
-        None, "CONTROLLER", f"{one_of(CONTROLLERS)}  [default: polynomial]", CAM, name="--for"
-    ),
-    tolerance: float | None = option(
-        None, "DEG", "Greatest error of the wheel's angle.  [default: 0.0001]", CAM
-    ),
-    reverse: bool = REVERSE,
-    settings: list[str] = SETTINGS,
-    output: str = OUTPUT,
-    format: str = option("", "FORMAT", one_of((*FORMATS, *CAMS))),
+    spec: str,
+    samples: int | None = None,
+    at: str = "",
+    turns: int | None = None,
+    controller: str | None = None,
+    tolerance: float | None = None,
+    reverse: bool = False,
+    settings: tuple[str, ...] = (),
+    output: str = "-",
+    format: str = "",
 ) -> None:
     """Position, velocity, acceleration and jerk over a cycle from entry.
 
@@ -42,6 +27,23 @@ def run(
     --format cam writes an electronic cam: polynomials of degree five as csv, or CODESYS points
     (XYVA). Standard error has the number of rows and the greatest error. The exit status is 1 if
     that is more than a --tolerance that was given.
+
+    Options:
+      --samples N      Rows, both ends included.  [default: 361]
+      --at DEG,...     Rows at these input angles from mid-motion: 30,45, -60..60:5.
+      --turns N        Turns of the input, with a row at each entry and jump.
+      --format FORMAT  table, csv, json, md or cam.
+
+    An electronic cam:
+      --for CONTROLLER  polynomial or codesys.  [default: polynomial]
+      --tolerance DEG   Greatest error of the wheel's angle.  [default: 0.0001]
+
+    Examples:
+      geneva motion spec.toml --samples 13
+      geneva motion spec.toml --at 30,45
+      geneva motion spec.toml -o motion.csv
+      geneva motion spec.toml --turns 8 -o revolution.csv
+      geneva motion spec.toml --format cam --for codesys -o cam.st
     """
     from geneva_cli.design import load
     from geneva_cli.output import show, show_text

@@ -2,32 +2,35 @@
 
 import os
 
-import typer
-
-from geneva_cli.cli.command import OUTPUT, flag, option
 from geneva_cli.errors import GenevaError, below
-
-EXAMPLES = (
-    "geneva new external -o wheel.toml",
-    "geneva new --list",
-    "geneva new --from-design turret -o turret.toml",
-)
 
 
 def run(
-    kind: str = typer.Argument(
-        "", metavar="[KIND]", help="curved, turret, a kind of drive, ...: see --list."
-    ),
-    from_design: str = option("", "NAME", "A copy of one of the designs, as it is."),
-    list_: bool = flag("--list", "All kinds and designs, and what they are."),
-    all_: bool = flag("--all", "Every key that the kind can have, with its default."),
-    force: bool = flag("--force", "Replace files that exist."),
-    output: str = OUTPUT,
+    kind: str = "",
+    from_design: str = "",
+    list_: bool = False,
+    all_: bool = False,
+    force: bool = False,
+    output: str = "-",
 ) -> None:
     """Write a short commented spec to start from; --all for every key.
 
     `geneva check` judges it, and `geneva size` writes the sizes that it leaves out, so that they
     stay. An existing file is kept, unless --force is given. For editors: `geneva help spec`.
+
+    Arguments:
+      [KIND]  curved, turret, a kind of drive, ...: see --list.
+
+    Options:
+      --from-design NAME  A copy of one of the designs, as it is.
+      --list              All kinds and designs, and what they are.
+      --all               Every key that the kind can have, with its default.
+      --force             Replace files that exist.
+
+    Examples:
+      geneva new external -o wheel.toml
+      geneva new --list
+      geneva new --from-design turret -o turret.toml
     """
     from geneva_cli.output import show
     from geneva_cli.specfile.keys import FILE

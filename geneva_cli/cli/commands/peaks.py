@@ -1,21 +1,15 @@
 """``geneva peaks``."""
 
-from geneva_cli.cli.command import FORMAT, OUTPUT, REVERSE, SETTINGS, SPEC, flag, say
-
-EXAMPLES = (
-    "geneva peaks spec.toml",
-    "geneva peaks spec.toml --set wheel.z=5 --format json",
-    "geneva peaks spec.toml --certify",
-)
+from geneva_cli.cli.command import say
 
 
 def run(
-    spec: str = SPEC,
-    certify: bool = flag("--certify", "Prove each peak between two bounds."),
-    reverse: bool = REVERSE,
-    settings: list[str] = SETTINGS,
-    output: str = OUTPUT,
-    format: str = FORMAT,
+    spec: str,
+    certify: bool = False,
+    reverse: bool = False,
+    settings: tuple[str, ...] = (),
+    output: str = "-",
+    format: str = "",
 ) -> None:
     """Greatest velocity, acceleration, jerk and power of a design, as invariants.
 
@@ -24,6 +18,14 @@ def run(
 
     With --certify each peak is proved to lie between two bounds, or is called not proved. It needs
     the extra geneva-cli[certify]. More: `geneva help accuracy`.
+
+    Options:
+      --certify  Prove each peak between two bounds.
+
+    Examples:
+      geneva peaks spec.toml
+      geneva peaks spec.toml --set wheel.z=5 --format json
+      geneva peaks spec.toml --certify
     """
     from geneva_cli.design import load
     from geneva_cli.output import is_for_people, show

@@ -1,33 +1,39 @@
 """``geneva plot``."""
 
-import typer
-
-from geneva_cli.cli.command import ALSO_REVERSE, OUTPUT, SETTINGS, option, say, words_in
+from geneva_cli.cli.command import say, words_in
 from geneva_cli.errors import GenevaError, cut
-
-EXAMPLES = (
-    "geneva plot spec.toml --pick velocity",
-    "geneva plot spec.toml -o motion.svg",
-    "geneva plot spec.toml --vary wheel.z=6,8,10 --pick acceleration -o several.svg",
-)
 
 
 def run(
-    specs: list[str] = typer.Argument(
-        ..., metavar="SPEC...", help="Specs, TOML files; or one .csv, as of a sweep."
-    ),
-    pick: str = option("", "QUANTITY,...", "Only these, as velocity,pin_force_N."),
-    x: str = option("", "COLUMN", "Column of a csv for the x axis.", name="--x"),
-    y: str = option("", "COLUMN,...", "Columns of a csv for the y axis.", name="--y"),
-    vary: list[str] = option((), "KEY=VALUES", "One spec with several values: wheel.z=4,6,8."),
-    reverse: bool = ALSO_REVERSE,
-    settings: list[str] = SETTINGS,
-    output: str = OUTPUT,
-    format: str = option("", "FORMAT", "svg, png, pdf, or of the points table, csv, json or md."),
+    specs: tuple[str, ...],
+    pick: str = "",
+    x: str = "",
+    y: str = "",
+    vary: tuple[str, ...] = (),
+    reverse: bool = False,
+    settings: tuple[str, ...] = (),
+    output: str = "-",
+    format: str = "",
 ) -> None:
     """Plot curves over a cycle, exact at peaks and jumps; or columns of a csv, such as a sweep's.
 
     Without -o it prints points. png needs the extra geneva-cli[plot]. `geneva help plots`.
+
+    Arguments:
+      SPEC...  Specs, TOML files; or one .csv, as of a sweep.
+
+    Options:
+      --pick QUANTITY,...  Only these, as velocity,pin_force_N.
+      --x COLUMN           Column of a csv for the x axis.
+      --y COLUMN,...       Columns of a csv for the y axis.
+      --vary KEY=VALUES    One spec with several values: wheel.z=4,6,8.
+      --reverse            Also each design turning the other way.
+      --format FORMAT      svg, png, pdf, or of the points table, csv, json or md.
+
+    Examples:
+      geneva plot spec.toml --pick velocity
+      geneva plot spec.toml -o motion.svg
+      geneva plot spec.toml --vary wheel.z=6,8,10 --pick acceleration -o several.svg
     """
     from geneva_cli.output import FORMATS, PLOTTED, chosen, show_figure
     from geneva_cli.study.compare import designs_of, of_designs, of_table

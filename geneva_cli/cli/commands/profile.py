@@ -1,48 +1,50 @@
 """``geneva profile``."""
 
 from geneva_cli.cli import command
-from geneva_cli.cli.command import OUTPUT, SETTINGS, SPEC, flag, one_of, option, say
+from geneva_cli.cli.command import say
 from geneva_cli.drawings.catalogue import is_sheet, require_tolerance
 from geneva_cli.errors import GenevaError
-from geneva_cli.output import DRAWN, FORMATS, SHEETS, chosen, draw, draw_sheet, named, show, usual
-
-EXAMPLES = (
-    "geneva profile spec.toml --samples 9",
-    "geneva profile spec.toml --part wheel -o wheel.dxf",
-    "geneva profile spec.toml --part sheet -o machine.pdf",
-)
-
-WRITTEN = (*FORMATS, *DRAWN, "pdf")
-CUT = "To cut"
-DRAWING = "The drawing"
+from geneva_cli.output import DRAWN, SHEETS, chosen, draw, draw_sheet, named, show, usual
 
 
 def run(
-    spec: str = SPEC,
-    part: str = option(
-        "slot", "PART", "slot, wheel, crank, arm, assembly, parts, sheet or another."
-    ),
-    tolerance: float | None = option(
-        None, "MM", "Greatest distance from the true curve.  [default: 0.001; of meshes 0.01]"
-    ),
-    samples: int | None = option(None, "N", "Number of rows of a table, evenly spaced."),
-    curves: str | None = option(
-        None, "KIND", "Curved walls as arcs or spline; .step has spline.", DRAWING
-    ),
-    kerf: float | None = option(None, "MM", "Paths for a cut of this width.", CUT),
-    cutter: float | None = option(None, "MM", "Diameter of a milling cutter that must fit.", CUT),
-    dxf_version: str | None = option(
-        None, "VERSION", "Version of .dxf, R12 to R2018.  [default: R2000]", DRAWING
-    ),
-    force: bool = flag("--force", "Draw even a machine that jams."),
-    settings: list[str] = SETTINGS,
-    output: str = OUTPUT,
-    format: str = option("", "FORMAT", one_of(WRITTEN), name="--format"),
+    spec: str,
+    part: str = "slot",
+    tolerance: float | None = None,
+    samples: int | None = None,
+    curves: str | None = None,
+    kerf: float | None = None,
+    cutter: float | None = None,
+    dxf_version: str | None = None,
+    force: bool = False,
+    settings: tuple[str, ...] = (),
+    output: str = "-",
+    format: str = "",
 ) -> None:
     """Write a part as a table of points, or as a drawing to cut: csv, dxf, svg, step or pdf.
 
     A drawing is written only if its machine completes a whole turn. All parts, frames of
     reference and layers: `geneva help parts`.
+
+    Options:
+      --part PART      slot, wheel, crank, arm, assembly, parts, sheet or another.
+      --tolerance MM   Greatest distance from the true curve.  [default: 0.001; of meshes 0.01]
+      --samples N      Number of rows of a table, evenly spaced.
+      --force          Draw even a machine that jams.
+      --format FORMAT  table, csv, json, md, dxf, svg, step, stl, 3mf or pdf.
+
+    The drawing:
+      --curves KIND          Curved walls as arcs or spline; .step has spline.
+      --dxf-version VERSION  Version of .dxf, R12 to R2018.  [default: R2000]
+
+    To cut:
+      --kerf MM    Paths for a cut of this width.
+      --cutter MM  Diameter of a milling cutter that must fit.
+
+    Examples:
+      geneva profile spec.toml --samples 9
+      geneva profile spec.toml --part wheel -o wheel.dxf
+      geneva profile spec.toml --part sheet -o machine.pdf
     """
     from geneva_cli.design import form_of, load
 

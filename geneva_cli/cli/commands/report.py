@@ -2,24 +2,18 @@
 
 import typer
 
-from geneva_cli.cli.command import OUTPUT, SETTINGS, SPEC, flag, one_of, option, say
+from geneva_cli.cli.command import say
 from geneva_cli.output import DOCUMENTS, FORMATS
 
-EXAMPLES = (
-    "geneva report spec.toml",
-    "geneva report spec.toml -o report.pdf",
-    "geneva report spec.toml --full -o report.html",
-    "geneva report spec.toml -o report.json",
-)
 WRITTEN = tuple(dict.fromkeys((*FORMATS, *DOCUMENTS)))
 
 
 def run(
-    spec: str = SPEC,
-    full: bool = flag("--full", "All inputs, curves, sizes, checks too."),
-    settings: list[str] = SETTINGS,
-    output: str = OUTPUT,
-    format: str = option("", "FORMAT", one_of(WRITTEN)),
+    spec: str,
+    full: bool = False,
+    settings: tuple[str, ...] = (),
+    output: str = "-",
+    format: str = "",
 ) -> None:
     """Report on a design on two pages: verdict, motor, greatest loads and limits, parts, warnings.
 
@@ -28,6 +22,16 @@ def run(
     would give it. As csv and json it has all values alone.
 
     The exit status is 1 if a check fails, as with `check`.
+
+    Options:
+      --full           All inputs, curves, sizes, checks too.
+      --format FORMAT  table, csv, json, md, html or pdf.
+
+    Examples:
+      geneva report spec.toml
+      geneva report spec.toml -o report.pdf
+      geneva report spec.toml --full -o report.html
+      geneva report spec.toml -o report.json
     """
     from geneva_cli.design import load
     from geneva_cli.output import choice, chosen, show_answer, show_document

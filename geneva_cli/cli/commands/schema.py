@@ -1,12 +1,12 @@
 """``geneva schema``."""
 
-from geneva_cli.cli.command import OUTPUT
 
-EXAMPLES = ("geneva schema -o geneva.schema.json",)
+def run(output: str = "-") -> None:
+    """Print a JSON Schema (draft-07) of specs, with which editors complete and check keys.
 
-
-def run(output: str = OUTPUT) -> None:
-    """Print a JSON Schema (draft-07) of specs, with which editors complete and check keys."""
+    Examples:
+      geneva schema -o geneva.schema.json
+    """
     import json
 
     from geneva_cli.output import show_text

@@ -2,21 +2,10 @@
 
 import os
 
-from geneva_cli.cli.command import FORMAT, SETTINGS, SPEC, output_option, tell
-
-EXAMPLES = (
-    "geneva size spec.toml",
-    "geneva size spec.toml -o sized.toml",
-    "geneva size spec.toml --set drive.n_rpm=90 -o fast.toml",
-)
+from geneva_cli.cli.command import tell
 
 
-def run(
-    spec: str = SPEC,
-    settings: list[str] = SETTINGS,
-    output: str = output_option("", "FILE", "Write the spec with all its sizes."),
-    format: str = FORMAT,
-) -> None:
+def run(spec: str, settings: tuple[str, ...] = (), output: str = "", format: str = "") -> None:
     """The sizes that a rule or the load chose; with -o the spec that has them, so that they stay.
 
     What is written in a spec stays. A size that it leaves out is chosen anew in every run: by a
@@ -26,6 +15,14 @@ def run(
     The written spec gives the same values as its origin, to the last digit, and has its comments.
     What needs a written thickness, as the wheel's own inertia, is known there besides. FILE as csv,
     json or md has the table instead.
+
+    Options:
+      -o, --output FILE  Write the spec with all its sizes.
+
+    Examples:
+      geneva size spec.toml
+      geneva size spec.toml -o sized.toml
+      geneva size spec.toml --set drive.n_rpm=90 -o fast.toml
     """
     from geneva_cli.design import load
     from geneva_cli.output import FORMATS, chosen, require_spec, show_answer, show_text

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from geneva_cli.cli.command import FORMAT, SETTINGS, SPEC, flag, option, output_option, tell
+from geneva_cli.cli.command import tell
 from geneva_cli.errors import GenevaError
 from geneva_cli.progress import tracked
 
@@ -12,46 +12,52 @@ if TYPE_CHECKING:
     from geneva_cli.study.sweep.request import Outcome
     from geneva_cli.study.sweep.run import Sweep
 
-EXAMPLES = (
-    "geneva sweep spec.toml --vary wheel.z=4..12 --pick dwell_s,acceleration.max",
-    "geneva sweep spec.toml --vary size.roller_radius_mm=8..16:1 -o all.csv",
-    "geneva sweep spec.toml --vary wheel.z=4..12 --pareto min:jerk.max,max:dwell_s",
-)
-
-DESIGNS = "Designs"
-CHOICE = "Choice"
-LONG = "Long runs"
-
 
 def run(
-    spec: str = SPEC,
-    vary: list[str] = option(
-        (), "KEY=VALUES", "As drive.A=0..0.9:0.1 or motion.law=a,b; repeat.", DESIGNS
-    ),
-    pick: str = option("", "FIELD,...", "Quantities, as acceleration.max,dwell_s.", DESIGNS),
-    random: int | None = option(
-        None, "N", "N random designs from the ranges, not the grid.", DESIGNS
-    ),
-    seed: int | None = option(None, "S", "Seed of the random designs; 0 by default.", DESIGNS),
-    check: bool = flag("--check", "Add whether all checks pass.", DESIGNS),
-    subject_to: list[str] = option(
-        (), "BOUND", 'Only rows that keep it: "dwell_s >= 0.8"; repeat.', CHOICE
-    ),
-    pareto: str = option(
-        "", "min:FIELD,...", "Only rows that no other row beats in all of these.", CHOICE
-    ),
-    best: str = option("", "min:FIELD", "The best design, refined, as a spec; or max:.", CHOICE),
-    resume: bool = flag("--resume", "Continue a stopped run.", LONG),
-    jobs: int | None = option(None, "N", "Number of processes; all cores by default.", LONG),
-    settings: list[str] = SETTINGS,
-    output: str = output_option("-", "FILE", "A .csv or .parquet; - prints."),
-    format: str = FORMAT,
+    spec: str,
+    vary: tuple[str, ...] = (),
+    pick: str = "",
+    random: int | None = None,
+    seed: int | None = None,
+    check: bool = False,
+    subject_to: tuple[str, ...] = (),
+    pareto: str = "",
+    best: str = "",
+    resume: bool = False,
+    jobs: int | None = None,
+    settings: tuple[str, ...] = (),
+    output: str = "-",
+    format: str = "",
 ) -> None:
     """Compute one row for each design: the varied keys, then the quantities.
 
     VALUES are 4,6,8, 3..12, 0..0.9:0.1 or words. With --random and --best, LOW..HIGH is the
     whole range between.
     Long runs and the best of many: `geneva help search`.
+
+    Designs:
+      --vary KEY=VALUES  As drive.A=0..0.9:0.1 or motion.law=a,b; repeat.
+      --pick FIELD,...   Quantities, as acceleration.max,dwell_s.
+      --random N         N random designs from the ranges, not the grid.
+      --seed S           Seed of the random designs; 0 by default.
+      --check            Add whether all checks pass.
+
+    Choice:
+      --subject-to BOUND      Only rows that keep it: "dwell_s >= 0.8"; repeat.
+      --pareto min:FIELD,...  Only rows that no other row beats in all of these.
+      --best min:FIELD        The best design, refined, as a spec; or max:.
+
+    Long runs:
+      --resume  Continue a stopped run.
+      --jobs N  Number of processes; all cores by default.
+
+    Options:
+      -o, --output FILE  A .csv or .parquet; - prints.
+
+    Examples:
+      geneva sweep spec.toml --vary wheel.z=4..12 --pick dwell_s,acceleration.max
+      geneva sweep spec.toml --vary size.roller_radius_mm=8..16:1 -o all.csv
+      geneva sweep spec.toml --vary wheel.z=4..12 --pareto min:jerk.max,max:dwell_s
     """
     options = locals()
     from geneva_cli.output import chosen, require_spec, show, show_text

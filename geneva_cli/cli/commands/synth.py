@@ -2,53 +2,68 @@
 
 from typing import TYPE_CHECKING
 
-from geneva_cli.cli.command import FORMAT, OUTPUT, SETTINGS, flag, option, say, tell
+from geneva_cli.cli.command import say, tell
 from geneva_cli.errors import GenevaError, cut
 
 if TYPE_CHECKING:
     from geneva_cli.study.target import Target
 
-EXAMPLES = (
-    "geneva synth --motion-deg 180 --z 6 --check 0",
-    "geneva synth --dwell-s 0.8.. --cycle 1.5 --z 8 --check 0",
-)
-
-
-WANTED = "Wanted, a number or a range (0.2..0.3, 0.8.., ..180, 1/3)"
-MACHINES = "Machines that are tried"
-ROWS = "Rows"
-
 
 def run(
-    tau: str = option("", "X", "Motion / cycle.", WANTED),
-    motion_deg: str = option("", "DEG", "Input angle of one motion.", WANTED),
-    dwell_deg: str = option("", "DEG", "Input angle of a dwell.", WANTED),
-    motion_s: str = option("", "S", "Seconds of motion.", WANTED),
-    dwell_s: str = option("", "S", "Seconds of dwell.", WANTED),
-    cycle: str = option("", "S", "Seconds from step to step.", WANTED),
-    subject_to: list[str] = option(
-        (), "BOUND", 'Of any quantity, as "jerk.max <= 5"; repeat.', WANTED
-    ),
-    z: str = option("", "Z", "Slots: 6, 3..12 or 3,4,6.", MACHINES, show="3..24"),
-    internal: bool = flag("--internal", "Internal wheels.", MACHINES),
-    external: bool = flag("--external", "External wheels.", MACHINES),
-    spherical: bool = flag("--spherical", "Spherical wheels.", MACHINES),
-    rollers: int | None = option(None, "M", "Rollers; without it, any number.", MACHINES),
-    law: str = option("modified-sine", "NAME", "Law of curved slots, or all.", MACHINES),
-    space: str = option("", "X", "Largest four-bar, in centre distances.", MACHINES, show="3"),
-    from_: str = option(
-        "", "SPEC", "Take z, speed, sizes, loads and limits from it.", MACHINES, name="--from"
-    ),
-    settings: list[str] = SETTINGS,
-    sort: str = option("", "min:FIELD", "The least first; max:FIELD: the greatest.", ROWS),
-    check: int = option(20, "N", "Turn and check the parts of N rows.", ROWS),
-    buildable: bool = flag("--buildable", "Only rows that pass.", ROWS),
-    write: int | None = option(None, "N", "Write row N as a spec instead.", ROWS),
-    output: str = OUTPUT,
-    format: str = FORMAT,
+    tau: str = "",
+    motion_deg: str = "",
+    dwell_deg: str = "",
+    motion_s: str = "",
+    dwell_s: str = "",
+    cycle: str = "",
+    subject_to: tuple[str, ...] = (),
+    z: str = "",
+    internal: bool = False,
+    external: bool = False,
+    spherical: bool = False,
+    rollers: int | None = None,
+    law: str = "modified-sine",
+    space: str = "",
+    from_: str = "",
+    settings: tuple[str, ...] = (),
+    sort: str = "",
+    check: int = 20,
+    buildable: bool = False,
+    write: int | None = None,
+    output: str = "-",
+    format: str = "",
 ) -> None:
     """Find the machines that meet all requirements; the lowest peak comes first.
     The machines tried, and the columns: `geneva help search`.
+
+    Wanted, a number or a range (0.2..0.3, 0.8.., ..180, 1/3):
+      --tau X             Motion / cycle.
+      --motion-deg DEG    Input angle of one motion.
+      --dwell-deg DEG     Input angle of a dwell.
+      --motion-s S        Seconds of motion.
+      --dwell-s S         Seconds of dwell.
+      --cycle S           Seconds from step to step.
+      --subject-to BOUND  Of any quantity, as "jerk.max <= 5"; repeat.
+
+    Machines that are tried:
+      --z Z        Slots: 6, 3..12 or 3,4,6.  [default: (3..24)]
+      --internal   Internal wheels.
+      --external   External wheels.
+      --spherical  Spherical wheels.
+      --rollers M  Rollers; without it, any number.
+      --law NAME   Law of curved slots, or all.
+      --space X    Largest four-bar, in centre distances.  [default: (3)]
+      --from SPEC  Take z, speed, sizes, loads and limits from it.
+
+    Rows:
+      --sort min:FIELD  The least first; max:FIELD: the greatest.
+      --check N         Turn and check the parts of N rows.
+      --buildable       Only rows that pass.
+      --write N         Write row N as a spec instead.
+
+    Examples:
+      geneva synth --motion-deg 180 --z 6 --check 0
+      geneva synth --dwell-s 0.8.. --cycle 1.5 --z 8 --check 0
     """
     options = locals()
     from geneva_cli.study.synth.reading import OPTIONS, read_frame, read_target

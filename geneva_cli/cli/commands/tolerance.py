@@ -1,23 +1,29 @@
 """``geneva tolerance``."""
 
-from geneva_cli.cli.command import FORMAT, OUTPUT, SETTINGS, SPEC, option, say
-
-EXAMPLES = ("geneva tolerance spec.toml --set tolerance.slot_angle_deg=0.01",)
+from geneva_cli.cli.command import say
 
 
 def run(
-    spec: str = SPEC,
-    samples: int = option(65536, "N", "Number of machines to draw."),
-    seed: int = option(0, "K", "The same seed, the same machines."),
-    radius: float | None = option(None, "MM", "Show micrometres too, at this radius."),
-    settings: list[str] = SETTINGS,
-    output: str = OUTPUT,
-    format: str = FORMAT,
+    spec: str,
+    samples: int = 65536,
+    seed: int = 0,
+    radius: float | None = None,
+    settings: tuple[str, ...] = (),
+    output: str = "-",
+    format: str = "",
 ) -> None:
     """The wheel's place in the dwell, its play in motion and its entry, from [tolerance].
 
     Worst case, root sum of squares and Monte Carlo, in degrees and arc seconds. How much each
     dimension contributes, and the clearances with which every machine still turns.
+
+    Options:
+      --samples N  Number of machines to draw.
+      --seed K     The same seed, the same machines.
+      --radius MM  Show micrometres too, at this radius.
+
+    Examples:
+      geneva tolerance spec.toml --set tolerance.slot_angle_deg=0.01
     """
     from geneva_cli.design import load
     from geneva_cli.output import is_for_people, show_answer

@@ -1,27 +1,31 @@
 """``geneva vibration``."""
 
-from geneva_cli.cli.command import FORMAT, OUTPUT, REVERSE, SETTINGS, SPEC, option, say
-
-EXAMPLES = ("geneva vibration spec.toml --period-ratio 5.5 --damping 0.02",)
+from geneva_cli.cli.command import say
 
 
 def run(
-    spec: str = SPEC,
-    period_ratio: float | None = option(
-        None, "X", "Motion time over natural period, in place of [shaft]."
-    ),
-    damping: float | None = option(None, "Z", "Damping ratio, in place of [shaft]'s."),
-    samples: int = option(401, "N", "Number of speeds in the csv."),
-    reverse: bool = REVERSE,
-    settings: list[str] = SETTINGS,
-    output: str = OUTPUT,
-    format: str = FORMAT,
+    spec: str,
+    period_ratio: float | None = None,
+    damping: float | None = None,
+    samples: int = 401,
+    reverse: bool = False,
+    settings: tuple[str, ...] = (),
+    output: str = "-",
+    format: str = "",
 ) -> None:
     """The load on an elastic shaft: vibration after each index, and the speeds to avoid.
 
     As csv the spectrum: the residual from half to twice the design's speed. At a
     speed to avoid the residual has a local maximum of at least 0.0001 of the step. `avoid` says
     how far it moves with a stiffness 20 % lower and higher.
+
+    Options:
+      --period-ratio X  Motion time over natural period, in place of [shaft].
+      --damping Z       Damping ratio, in place of [shaft]'s.
+      --samples N       Number of speeds in the csv.
+
+    Examples:
+      geneva vibration spec.toml --period-ratio 5.5 --damping 0.02
     """
     from geneva_cli.design import load
     from geneva_cli.output import chosen, show, show_answer

@@ -11,6 +11,7 @@ from geneva_cli.drawings.sheet.view import View, grouped, times
 from geneva_cli.drawings.sheet.wheel_views import bolted, bored, circle_of, draw_hub
 from geneva_cli.geometry.plates import Member, Plate
 from geneva_cli.geometry.shapes import ORIGIN, Arc, Circle, Contour, Point, at, legs
+from geneva_cli.geometry.sheet import OUTLINE
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.assembly import same
@@ -25,17 +26,17 @@ UP = 0.5 * math.pi
 
 def draw_disc(view: View, parts: FlatParts) -> View:
     """Draw the locking disc, or its sectors, about the crank's axis."""
-    outlines, mechanism = parts.outlines, parts.mechanism
+    outlines = parts.outlines
     assembly, sizes = outlines.assembly, outlines.sizes
     contours, screwed, hub = outlines.crank, bolts(outlines), crank_hub(outlines)
     whole = is_whole(assembly, sizes)
     bores = crank_bore(assembly, sizes) if whole else ()
-    view.draw_all((*contours, *screwed, *bores, *((hub.outline,) if hub else ())))
+    view.draw(OUTLINE, *contours, *screwed, *bores, *((hub.outline,) if hub else ()))
     circle_of(view, screwed)
     view.cross(ORIGIN, sizes.lock if whole else 0.2 * sizes.lock)
     if hub:
         draw_hub(view, hub)
-    bored(view, bores, mechanism.spec.size, "crank", sizes.crank_bore if whole else 0.0)
+    bored(view, bores, "crank", sizes.crank_bore if whole else 0.0)
     locking, reliefs = list[Arc](), dict[tuple[str, str], list[Arc]]()
     for arc in (s for contour in contours for s in contour.segments if isinstance(s, Arc)):
         if max(math.hypot(*arc.centre), abs(arc.radius - sizes.lock)) < SAME_ON_SHEET:
@@ -44,7 +45,7 @@ def draw_disc(view: View, parts: FlatParts) -> View:
             far = length(math.hypot(*at(arc, 0.5)))
             reliefs.setdefault((sized.plain(arc.radius, "R "), far), []).append(arc)
     _gaps(view, sizes.lock, locking)  # first, as their legs have no other place
-    view.diameter(locking, sized.made(view.fits, mechanism, "lock", sizes.lock))
+    view.diameter(locking, view.fits.made("lock", sizes.lock))
     for (radius, far), some in reliefs.items():
         view.radius(some, times(len(some), radius))
         arc, middle = some[0], at(some[0], 0.5)
@@ -55,28 +56,20 @@ def draw_disc(view: View, parts: FlatParts) -> View:
 
 
 def _gaps(view: View, lock: float, locking: list[Arc]) -> None:
-    """Draw the angles between the locking arcs; adjoining ones are one arc."""
-    joined: list[Arc] = []
-    for arc in locking:
-        if joined and joined[-1].end == arc.start:
-            sweep = joined[-1].sweep + arc.sweep
-            joined[-1] = Arc(joined[-1].start, arc.end, math.tan(0.25 * sweep))
-        else:
-            joined.append(arc)
-    ends = sorted(map(legs, joined))
-    named = []
+    """Draw the angles between the locking arcs that do not adjoin."""
+    ends, gaps = sorted(map(legs, locking)), []
     for (_, end), (start, _) in zip(ends, [*ends[1:], *ends[:1]], strict=True):
         wide = (start - end) % math.tau
-        if wide > SAME_ON_SHEET:
-            named.append((degrees(wide), (end, end + wide)))
-    for text, pairs in grouped(named):
+        if SAME_ON_SHEET < wide < math.tau - SAME_ON_SHEET:
+            gaps.append((degrees(wide), (end, end + wide)))
+    for text, pairs in grouped(gaps):
         view.angular(pairs, lock, lock, text)
 
 
 def draw_arm(view: View, parts: FlatParts, arm: CrankArm) -> View:
     """Draw the crank arm with its holes."""
     mechanism, radius = parts.mechanism, parts.outlines.sizes.arm_bore
-    view.draw_all((arm.outline, arm.bore, *arm.pins, *arm.bolts))
+    view.draw(OUTLINE, arm.outline, arm.bore, *arm.pins, *arm.bolts)
     view.cross(ORIGIN, arm.hub)
     for pin in arm.pins:
         view.cross(pin.centre, arm.eye, math.atan2(pin.centre[1], pin.centre[0]))
@@ -89,8 +82,8 @@ def draw_arm(view: View, parts: FlatParts, arm: CrankArm) -> View:
     reach = max(math.hypot(*p.centre) for p in arm.pins) + arm.eye
     # the rest of a turn, and a straight line, need no dimension
     view.steps(angles, reach, most=math.pi - SAME_ON_SHEET)
-    bored(view, [arm.bore], mechanism.spec.size, "crank", radius)
-    hole = sized.made(view.fits, mechanism, "pin hole", arm.pins[0].radius)
+    bored(view, [arm.bore], "crank", radius)
+    hole = view.fits.made("pin hole", arm.pins[0].radius)
     view.diameter(arm.pins, times(len(arm.pins), hole))
     view.radii(arm.outline.segments)
     bolted(view, arm.bolts, tapped=True)
@@ -103,12 +96,12 @@ def draw_roller(view: View, parts: FlatParts) -> View:
     roller = mechanism.roller_radius_mm
     hole = pin + 0.5 * mechanism.spec.size.allowances.shaft_fit_mm
     circles = [Circle("", ORIGIN, roller)] + ([Circle("", ORIGIN, hole)] if pin else [])
-    view.draw_all(circles)
+    view.draw(OUTLINE, *circles)
     view.cross(ORIGIN, roller)
-    view.diameter(circles[:1], sized.made(view.fits, mechanism, "roller", roller))
+    view.diameter(circles[:1], view.fits.made("roller", roller))
     if pin:
-        view.diameter(circles[1:], sized.made(view.fits, mechanism, "roller bore", hole))
-        view.notes.append(f"turns on its pin {sized.shaft(view.fits, pin)}, which is pressed in")
+        view.diameter(circles[1:], view.fits.made("roller bore", hole))
+        view.notes.append(f"turns on its pin {view.fits.shaft(pin)}, which is pressed in")
     return view
 
 
@@ -116,7 +109,7 @@ def draw_link(view: View, member: Member, bars: Links, mechanism: Mechanism) -> 
     """Draw a link, or a block that slides in one, with dimensions from its first hole."""
     plate = member.part
     assert isinstance(plate, Plate) and isinstance(plate.outline, Contour)
-    view.draw_all((plate.outline, *plate.holes))
+    view.draw(OUTLINE, plate.outline, *plate.holes)
     holes = [hole for hole in plate.holes if isinstance(hole, Circle)]
     slots = [hole for hole in plate.holes if isinstance(hole, Contour) and hole.layer == "LINK"]
     shaped = [hole for hole in plate.holes if isinstance(hole, Contour) and hole not in slots]
@@ -138,11 +131,11 @@ def draw_link(view: View, member: Member, bars: Links, mechanism: Mechanism) -> 
     pressed = [centre for _, centre in roller_pins(mechanism)]  # in a link or in its block
     texts = []
     for hole, there in zip(holes, placed_holes(member), strict=True):
-        text = sized.bore(view.fits, hole.radius)
+        text = view.fits.bore(hole.radius)
         if plate.name in bars.standing:
             text = sized.screw_hole(hole.radius)
         elif any(same(there.centre, p, mechanism.center_distance_mm) for p in pressed):
-            text = sized.made(view.fits, mechanism, "pin hole", hole.radius)
+            text = view.fits.made("pin hole", hole.radius)
         texts.append(text)
     for text, some in grouped(zip(texts, holes, strict=True)):
         view.diameter(some, text)
@@ -150,11 +143,11 @@ def draw_link(view: View, member: Member, bars: Links, mechanism: Mechanism) -> 
         L = mechanism.center_distance_mm  # no shaft of links but the crank's has a shape
         radius = bars.shaft((L, 0.0), L)
         view.cross(ORIGIN, 2.0 * radius + mechanism.spec.size.allowances.shaft_fit_mm)
-        bored(view, shaped, mechanism.spec.size, "crank", radius)
+        bored(view, shaped, "crank", radius)
     if plate.name in bars.blocks:
         half, end = eyes[0].radius, abs(eyes[0].centre[0]) + eyes[0].radius
-        view.linear((0.0, -half), (0.0, half), UP, sized.fitted(view.fits, 2.0 * half, "", "g6"))
-        view.linear((-end, 0.0), (end, 0.0), 0.0, sized.plain(2.0 * end))
+        view.linear((0.0, -half), (0.0, half), UP, view.fits.fitted(2.0 * half, "g6"))
+        view.linear((-end, 0.0), (end, 0.0), 0.0)
     else:
         view.radii(eyes)
     return view
@@ -166,12 +159,11 @@ def _slot(view: View, slot: Contour, base: Point) -> None:
     (x0, y0), (x1, y1) = near.centre, far.centre
     turn = math.atan2(y1 - y0, x1 - x0)
     view.centre_line(at(near, 0.5), at(far, 0.5))
-    along = (x0 - base[0]) * math.cos(turn) + (y0 - base[1]) * math.sin(turn)
-    view.linear(base, near.centre, turn, sized.plain(abs(along)))
-    view.linear(near.centre, far.centre, turn, sized.plain(math.dist(near.centre, far.centre)))
+    view.linear(base, near.centre, turn)
+    view.linear(near.centre, far.centre, turn)
     half = near.radius
     sides = [(x1 + s * half * math.sin(turn), y1 - s * half * math.cos(turn)) for s in (-1.0, 1.0)]
-    view.linear(sides[0], sides[1], turn + UP, sized.fitted(view.fits, 2.0 * half, "", "H7"))
+    view.linear(sides[0], sides[1], turn + UP, view.fits.fitted(2.0 * half, "H7"))
     off = abs(math.remainder(turn, math.tau))
     if math.degrees(off) > SAME_ON_SHEET and math.hypot(*base) < SAME_ON_SHEET:
         legs = (0.0, turn) if turn > 0.0 else (turn, 0.0)
@@ -183,18 +175,18 @@ def round_parts(members: Sequence[Member], mechanism: Mechanism) -> list[Block]:
     rows = [("part", "outside", "bore", "length")]
     for plate in dict.fromkeys(one.part for one in members if isinstance(one.part, Plate)):
         assert isinstance(plate.outline, Circle)
-        fits = Fits(mechanism.spec.size.process, plate.thickness)
+        fits = Fits(mechanism.spec, plate.thickness)
         outer, bores = plate.outline.radius, [h for h in plate.holes if isinstance(h, Circle)]
         outside, inside = sized.plain(2.0 * outer, "Ø "), ""
         if not bores:
-            outside = sized.shaft(fits, outer)
+            outside = fits.shaft(outer)
         elif plate.layer == "ROLLER":
-            outside = sized.made(fits, mechanism, "roller", outer)
+            outside = fits.made("roller", outer)
         for bore in bores:
             if plate.layer == "SHAFT":  # on a screw
                 inside += sized.plain(2.0 * bore.radius, "Ø ")
             else:
-                inside += sized.made(fits, mechanism, "roller bore", bore.radius)
+                inside += fits.made("roller bore", bore.radius)
         rows.append((plate.name, outside, inside, length(plate.thickness)))
     columns = (62.0, 44.0, 46.0, 16.0)  # mm
     return [table(("round parts",), rows, columns)] if len(rows) > 1 else []

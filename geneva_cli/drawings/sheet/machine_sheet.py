@@ -2,9 +2,11 @@
 
 import math
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Iterator
-from functools import cache, partial
+from collections.abc import Iterable, Iterator
+from functools import cache
 from typing import Any, NamedTuple
+
+import numpy as np
 
 from geneva_cli.drawings.part_drawings import machine
 from geneva_cli.drawings.parts_list import part_rows
@@ -55,9 +57,9 @@ def sheet(parts: FlatParts) -> Sheet:
 
     @cache
     def whole(scale: float) -> Block:
-        view = View(f"assembly ({scale_name(scale)})", scale)
+        view = View(f"assembly ({scale_name(scale)})", scale, Fits(mechanism.spec))
         for shape in drawn:
-            view.draw(shape, LAYERS.get(shape.layer, OUTLINE))
+            view.draw(LAYERS.get(shape.layer, OUTLINE), shape)
         view.cross(shapes.ORIGIN, sizes.outer or sizes.rim)
         for place in mechanism.crank_places:
             view.cross(place.at, max(sizes.lock, 0.1 * L))
@@ -76,7 +78,7 @@ def sheet(parts: FlatParts) -> Sheet:
 
     @cache
     def section(scale: float) -> Block:
-        view = View(f"A-A ({scale_name(scale)})", scale)
+        view = View(f"A-A ({scale_name(scale)})", scale, Fits(mechanism.spec))
         _draw_section(view, faces, (0.0, L))
         tips = defaultdict[int, list[shapes.Point]](list)  # the middles of the faces' sides
         for face in sorted(faces, key=lambda f: round(f.left - f.right, 6)):  # as above
@@ -86,24 +88,23 @@ def sheet(parts: FlatParts) -> Sheet:
         view.balloons(tips)
         return view.block()
 
+    def views(scale: float) -> list[Block]:
+        return [*(view.block() for view in _views(rows, parts, scale)), *tables]
+
     def rest(scale: float) -> Iterator[list[Block]]:
         half = smaller(scale, 2.0)
         for of_cut, of_whole in ((scale, scale), (scale, half), (half, half)):
             yield [section(of_cut), whole(of_whole)]
 
-    def blocks(scale: float) -> tuple[list[Block], Callable[[], Iterator[list[Block]]]]:
-        views = [view.block() for view in _views(rows, parts, scale)]
-        return [*views, *tables], partial(rest, scale)
-
-    return on_paper(mechanism.spec, rows, largest, blocks, area)
+    return on_paper(mechanism.spec, rows, largest, area, views, rest)
 
 
 def _views(rows: list[dict[str, Any]], parts: FlatParts, scale: float) -> Iterator[View]:
     """Yield the view of each part."""
     mechanism, bars = parts.mechanism, parts.links
-    process, unborne = mechanism.spec.size.process, dict(parts.unborne)
+    unborne = dict(parts.unborne)
 
-    def begin(*names: str, thick: bool = True) -> View:
+    def begin(*names: str, thick: bool = True, of: FlatParts = parts) -> View:
         """Begin a view, titled with its parts' numbers and thicknesses."""
         own = {i: row for i, row in enumerate(rows, 1) if row["name"] in names}
         titles = [
@@ -111,15 +112,15 @@ def _views(rows: list[dict[str, Any]], parts: FlatParts, scale: float) -> Iterat
             for i, row in own.items()
         ]
         first = next((row["thickness_mm"] for row in own.values()), None)
-        view = View("; ".join(titles) or names[0], scale, Fits(process, first))
+        view = View("; ".join(titles) or names[0], scale, Fits(of.mechanism.spec, first))
         view.notes += ["no bearing: hold it from above" for name in names if name in unborne]
         return view
 
     for front, of in zip(("", "first "), (parts, *parts.in_front), strict=False):
-        yield draw_wheel(begin(f"{front}wheel", f"{front}wheel's hub"), of)
+        yield draw_wheel(begin(f"{front}wheel", f"{front}wheel's hub", of=of), of)
         if of.outlines.crank:
             names = ("locking disc", "locking sector", "crank's hub")
-            yield crank_views.draw_disc(begin(*(f"{front}{name}" for name in names)), of)
+            yield crank_views.draw_disc(begin(*(f"{front}{name}" for name in names), of=of), of)
     if parts.arm:
         yield crank_views.draw_arm(begin("arm"), parts, parts.arm)
     yield crank_views.draw_roller(begin("roller", "pin"), parts)
@@ -141,16 +142,13 @@ def cut_faces(members: Iterable[Member], scale: float) -> list[Face]:
     """Return the faces that the plane y = 0 cuts, by chords of 1.5 mm at a scale."""
     faces = []
     for own, plate in in_place(members):
-        crossings: list[float] = []
-        for shape in (plate.outline, *plate.holes):
-            scaled = shapes.placed(shape, scale=scale)
-            for p, q in chords(scaled).tolist():
-                # chords that follow each other share their ends within rounding, 1e-9 mm
-                if (round(p.imag, 9) <= 0.0) != (round(q.imag, 9) <= 0.0):
-                    slope = (q.real - p.real) / (q.imag - p.imag)
-                    crossings.append((p.real - p.imag * slope) / scale)
-        ends = sorted(crossings)
-        spans = zip(ends[::2], ends[1::2], strict=True)
+        scaled = (shapes.placed(one, scale=scale) for one in (plate.outline, *plate.holes))
+        pieces = np.concatenate([*map(chords, scaled)])
+        # chords that follow each other share their ends within rounding, 1e-9 mm
+        start, end = (np.round(pieces.imag, 9) <= 0.0).T
+        p, q = pieces[start != end].T
+        slope = (q.real - p.real) / (q.imag - p.imag)
+        spans = np.sort((p.real - p.imag * slope) / scale).reshape(-1, 2).tolist()
         faces += [Face(own, a, b) for a, b in spans if b - a > 1e-6]
     return faces
 
@@ -162,13 +160,13 @@ def _draw_section(view: View, cut: list[Face], axes: Iterable[float]) -> None:
     for face in cut:
         plate = face.plate
         corners = face.left, plate.low, face.right, plate.high
-        view.draw(rectangle("", *corners), OUTLINE)
+        view.draw(OUTLINE, rectangle("", *corners))
         if plate.layer not in ("SHAFT", "ROLLER"):
             _hatch(view, face, numbers.index(plate))
     for x in axes:
         view.centre_line((x, low), (x, high))
     left = min(face.left for face in cut)
-    view.linear((left, low), (left, high), 0.5 * math.pi, length(high - low))
+    view.linear((left, low), (left, high), 0.5 * math.pi)
 
 
 def _hatch(view: View, face: Face, k: int) -> None:
@@ -182,4 +180,4 @@ def _hatch(view: View, face: Face, k: int) -> None:
         start, end = max(a, level + low), min(b, level + high)
         if end - start > 1e-9 * step:
             ends = (rising * start, start - level), (rising * end, end - level)
-            view.draw(line("", *ends), HATCH)
+            view.draw(HATCH, line("", *ends))

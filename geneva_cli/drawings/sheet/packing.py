@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from itertools import takewhile
 from typing import NamedTuple, TypeAlias
 
 from geneva_cli.geometry.shapes import Contour, Point, Shape, placed
 from geneva_cli.geometry.sheet import Label, Measure
 
+APART = (8.0, 12.0, 18.0, 27.0, 40.0)  # mm between blocks that are tried
 Box: TypeAlias = tuple[float, float, float, float]  # x0, y0, x1, y1
 
 
@@ -66,16 +68,15 @@ def packed(blocks: Sequence[Block], taken: Sequence[Block], area: Box) -> list[B
         lambda block: -block.height,
         lambda block: -block.width,
     )
-    result = None
     for order in orders:
-        for apart in (8.0, 12.0, 18.0, 27.0, 40.0):  # mm between blocks
-            wider = packed_apart(blocks, taken, area, order, apart)
-            if wider is None:
-                break
-            result = wider
-        if result is not None:
-            break
-    return result
+        # mm between blocks, as wide as they allow
+        tries = (
+            packed_apart(blocks, taken, area, order, mm) for mm in (8.0, 12.0, 18.0, 27.0, 40.0)
+        )
+        *_, widest = None, *takewhile(lambda placed: placed is not None, tries)
+        if widest is not None:
+            return widest
+    return None
 
 
 def packed_apart(

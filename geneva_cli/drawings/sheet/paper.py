@@ -5,7 +5,7 @@ most. The sheet is the smallest that fits. Above 1:1 the largest part is no wide
 """
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 from geneva_cli.drawings.sheet.packing import Block, is_overfull, packed
 from geneva_cli.errors import GenevaError
@@ -21,20 +21,8 @@ LEFT, MARGIN = 20.0, 10.0  # mm: margin of the frame on the filing side, and on 
 TITLE_WIDTH = 180.0  # mm: width of the title block
 
 
-class PaperSize(NamedTuple):
-    """A trimmed sheet, mm; A4 is upright."""
-
-    name: str
-    width: float
-    height: float
-
-
-FORMATS = (
-    PaperSize("A4", 210.0, 297.0),
-    PaperSize("A3", 420.0, 297.0),
-    PaperSize("A2", 594.0, 420.0),
-    PaperSize("A1", 841.0, 594.0),
-)
+# width and height of trimmed sheets, mm; A4 is upright
+FORMATS = {"A4": (210.0, 297.0), "A3": (420.0, 297.0), "A2": (594.0, 420.0), "A1": (841.0, 594.0)}
 # ISO 5455, with its powers of ten
 SCALES = [1.0 * n * 10**k for k in (4, 3, 2, 1, 0) for n in (5, 2, 1)] + [
     1 / (n * 10**k) for k in (0, 1, 2, 3, 4) for n in (1, 2, 5) if (n, k) != (1, 0)
@@ -59,49 +47,45 @@ def on_paper(
     spec: Spec,
     rows: list[dict[str, Any]],
     largest: float,
-    blocks: Callable[[float], tuple[list[Block], Callable[[], Iterable[list[Block]]]]],
     area: float,
+    views: Callable[[float], list[Block]],
+    rest: Callable[[float], Iterable[list[Block]]],
 ) -> sheet.Sheet:
     """Return the sheet with blocks at the largest scale at which all fit on it.
 
-    ``rows`` are its list of items. ``blocks`` returns what is always on it, and a function that
-    yields alternatives of the rest, the best first, for each size of paper. ``largest`` is the
-    greatest length that is drawn, mm. ``area``, mm², is the least area that some of it needs.
-    Raises GenevaError where no scale fits.
+    ``rows`` are its list of items. ``largest`` is the greatest length that is drawn, mm. ``area``,
+    mm², is the least area that some of it needs. ``views`` returns what is always on it at a scale.
+    ``rest`` yields alternatives of what is added, the best first. Raises GenevaError where no scale
+    fits.
     """
     items = _items(rows)
+    wide_most, high_most = FORMATS["A1"]
     for scale in SCALES:
-        _, wide, high = FORMATS[-1]
-        most = 170.0 if scale > 1.0 else wide  # mm: an enlarged part is no wider than a hand
-        if scale * largest > most or scale * scale * area > wide * high:
+        most = 170.0 if scale > 1.0 else wide_most  # mm: an enlarged part is no wider than a hand
+        if scale * largest > most or scale * scale * area > wide_most * high_most:
             continue
-        parts, alternatives = blocks(scale)
-        for paper in FORMATS:
-            inside = LEFT, MARGIN, paper.width - MARGIN, paper.height - MARGIN
+        parts = views(scale)
+        for name, (wide, high) in FORMATS.items():
+            right, inside = wide - MARGIN, (LEFT, MARGIN, wide - MARGIN, high - MARGIN)
             if is_overfull(parts, inside):
                 continue
-            for one in alternatives():
-                every = [*parts, *one]
-                if is_overfull(every, inside):
-                    continue
-                right = paper.width - MARGIN
-                corner = _title_block(spec, rows, scale, paper).moved(right - TITLE_WIDTH, MARGIN)
-                fixed = [corner, items.moved(right - items.width, corner.y1)]
-                placed = packed(every, fixed, inside)
+            corner = _title_block(spec, rows, scale, name).moved(right - TITLE_WIDTH, MARGIN)
+            fixed = [corner, items.moved(right - items.width, corner.y1)]
+            for one in rest(scale):
+                placed = packed([*parts, *one], fixed, inside)
                 if placed is None:
                     continue
                 whole = [*fixed, *placed]
-                shapes = *_frame(paper), *(shape for block in whole for shape in block.shapes)
+                shapes = *_frame(wide, high), *(shape for block in whole for shape in block.shapes)
                 labels = tuple(label for block in whole for label in block.labels)
                 measures = tuple(measure for block in whole for measure in block.measures)
-                size, title = (paper.width, paper.height), spec.title or spec.wheel.title
-                return sheet.Sheet(title, *size, scale, shapes, labels, measures)
+                title = spec.title or spec.wheel.title
+                return sheet.Sheet(title, wide, high, scale, shapes, labels, measures)
     raise GenevaError("--part sheet: the parts and their tables do not fit on one A1 sheet")
 
 
-def _frame(paper: PaperSize) -> list[Shape]:
+def _frame(w: float, h: float) -> list[Shape]:
     """Return the frame, with marks at the middle of its sides."""
-    _, w, h = paper
     x, y = 0.5 * w, 0.5 * h
     sides = [((x, 0.0), (x, MARGIN)), ((x, h), (x, h - MARGIN))]
     sides += [((0.0, y), (LEFT, y)), ((w, y), (w - MARGIN, y))]
@@ -109,7 +93,7 @@ def _frame(paper: PaperSize) -> list[Shape]:
     return [box, *(line(sheet.FRAME, *ends) for ends in sides)]
 
 
-def _title_block(spec: Spec, rows: list[dict[str, Any]], scale: float, paper: PaperSize) -> Block:
+def _title_block(spec: Spec, rows: list[dict[str, Any]], scale: float, size: str) -> Block:
     """Return the title block; its lower left corner is the origin."""
     own, shop, materials = spec.drawing, WORKSHOPS[spec.size.process], material_names(spec)
     mass = sum(row["mass_kg"] * row["count"] for row in rows)
@@ -117,7 +101,7 @@ def _title_block(spec: Spec, rows: list[dict[str, Any]], scale: float, paper: Pa
     shown = f"{_rounded(mass)} kg" if mass >= 1e-3 else f"{_rounded(1e6 * mass)} mg"
     material = materials[0] if len(set(materials)) == 1 else "see list"
     general = {"scale": scale_name(scale), "mass": shown, "material": material}
-    general |= {"tolerances": shop.tolerances, "units": "mm, degrees", "size": paper.name}
+    general |= {"tolerances": shop.tolerances, "units": "mm, degrees", "size": size}
     general["sheet"] = "1/1"
     rough, flanks = (
         f"Ra {um:g}" if um else "" for um in (own.roughness_um, own.flank_roughness_um)

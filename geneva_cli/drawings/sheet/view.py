@@ -15,7 +15,7 @@ from geneva_cli.drawings.sheet.sized import Fits
 from geneva_cli.geometry import marks, shapes
 from geneva_cli.geometry.board import Board
 from geneva_cli.geometry.shapes import Arc, Circle, Point, Segment, Shape
-from geneva_cli.geometry.sheet import CENTRE, LARGE, OUTLINE, SMALL, Label, Measure, line
+from geneva_cli.geometry.sheet import CENTRE, LARGE, SMALL, Label, Measure, line
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.spec.written import degrees, length
 
@@ -32,26 +32,22 @@ class View:
     Draw all lines before the first dimension: dimensions are placed outside of them.
     """
 
-    def __init__(self, title: str, scale: float, fits: Fits | None = None) -> None:
+    def __init__(self, title: str, scale: float, fits: Fits) -> None:
         self.title, self.scale = title, scale
-        self.fits = fits or Fits()  # how the part's sizes are written
+        self.fits = fits  # how the part's sizes are written
         self.shapes: list[Shape] = []
         self.measures: list[Measure] = []
         self.notes: list[str] = []  # below the title: remarks, and dimensions that did not fit
         self.board = Board()
 
-    def draw(self, shape: Shape, layer: shapes.Layer) -> None:
-        """Draw a shape on a layer."""
-        self._draw(shapes.placed(shape, scale=self.scale)._replace(layer=layer))
-
-    def draw_all(self, shapes: Iterable[Shape]) -> None:
-        """Draw shapes as outlines."""
-        for shape in shapes:
-            self.draw(shape, OUTLINE)
+    def draw(self, layer: shapes.Layer, *of_part: Shape) -> None:
+        """Draw shapes on a layer."""
+        for shape in of_part:
+            self._draw(shapes.placed(shape, scale=self.scale)._replace(layer=layer))
 
     def cross(self, centre: Point, reach: float, turn: float = 0.0) -> None:
         """Draw both centre lines of a circle."""
-        over = self._long(reach) + OVER
+        over = self.scale * reach + OVER
         for angle in (turn, turn + 0.5 * math.pi):
             ends = (shapes.polar(self._at(centre), side * over, angle) for side in (-1.0, 1.0))
             self._draw(line(CENTRE, *ends))
@@ -63,14 +59,17 @@ class View:
         self._draw(line(CENTRE, shapes.polar(a, -OVER, angle), shapes.polar(b, OVER, angle)))
 
     def linear(
-        self, p: Point, q: Point, turn: float, text: str, where: str = "", near: bool = False
+        self, p: Point, q: Point, turn: float, text: str = "", where: str = "", near: bool = False
     ) -> None:
-        """Draw a distance in a direction; ``near`` allows a line inside the part's outline."""
+        """Draw a distance in a direction, by default its length alone, with ``where`` in a note.
+
+        ``near`` allows a line inside the part's outline.
+        """
         ends = self._at(p), self._at(q)
         if turn < SAME_ON_SHEET - math.pi:  # rounding does not choose between -180 and 180 degrees
             turn += math.tau
         value = abs((q[0] - p[0]) * math.cos(turn) + (q[1] - p[1]) * math.sin(turn))
-        levels = list(self._levels(turn, ends if near else ()))
+        text, levels = text or length(value), list(self._levels(turn, ends if near else ()))
         self._put(marks.linear(ends, turn, levels, text, value), f"{text} {where}".rstrip())
 
     def radial(self, p: Point, text: str) -> None:
@@ -103,9 +102,9 @@ class View:
         self, pairs: Iterable[tuple[float, float]], begin: float, radius: float, text: str
     ) -> None:
         """Draw an angle about the origin, between one of some pairs of legs, counterclockwise."""
-        reach = self._long(radius)
+        reach = self.scale * radius
         radii = [reach + FIRST + k * NEXT for k in range(RANKS)]
-        start = self._long(begin) + marks.CLEAR
+        start = self.scale * begin + marks.CLEAR
         candidates = (
             mark
             for wide, legs in product(radii, pairs)
@@ -125,7 +124,7 @@ class View:
         # at most 48 equal ones are tried: without a limit the time grows as z squared
         for one in rounds[:: 1 + len(rounds) // 49]:
             turns = marks.around() if isinstance(one, Circle) else marks.within(*shapes.legs(one))
-            reach, value = self._long(one.radius), one.radius * (1.0 + (kind == "diameter"))
+            reach, value = self.scale * one.radius, one.radius * (1.0 + (kind == "diameter"))
             candidates.append(marks.led(kind, self._at(one.centre), reach, turns, text, value))
         self._put(_short_first(candidates), f"{text} {where}".rstrip())
 
@@ -196,9 +195,6 @@ class View:
 
     def _at(self, p: Point) -> Point:
         return self.scale * p[0], self.scale * p[1]
-
-    def _long(self, mm: float) -> float:
-        return self.scale * mm
 
 
 def _short_first(rows: Iterable[Iterator[Measure]]) -> Iterator[Measure]:

@@ -15,7 +15,6 @@ from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.outlines.outlines import Outlines, dial_circle, wheel_holes
 from geneva_cli.parts.projection import outlines_of
 from geneva_cli.parts.shafts.bores import bore_of
-from geneva_cli.spec.tables import Size
 from geneva_cli.spec.written import degrees, length
 
 
@@ -25,18 +24,23 @@ def draw_wheel(view: View, parts: FlatParts) -> View:
     assembly, sizes = outlines.assembly, outlines.sizes
     wheel, *hubs = plates(parts.wheel.part)
     for shape in outlines_of(parts.wheel.part):
-        view.draw(shape, HIDDEN if shape.layer == "HUB" else OUTLINE)
-    edges = [s for s in (wheel.outline, *wheel.holes) if isinstance(s, shapes.Contour)]
-    contour = next(s for s in edges if s.layer == wheel.layer)
+        view.draw(HIDDEN if shape.layer == "HUB" else OUTLINE, shape)
+    edges = (s for s in (wheel.outline, *wheel.holes) if s.layer == wheel.layer)
+    contour = next(s for s in edges if isinstance(s, shapes.Contour))
     reach = sizes.outer or max(math.hypot(*s.start) for s in contour.segments)
     view.cross(shapes.ORIGIN, reach)
-    for i, ((engagement, _), walls) in enumerate(zip(assembly.slots, outlines.cut, strict=True)):
-        if not engagement.slot.curved:
-            for end, mouth in _ends(walls):
-                view.centre_line(*((end, mouth) if assembly.sign > 0.0 else (mouth, end)))
-        elif i == 0:
-            for line in pitch_lines(parts, engagement):
-                view.draw(line, CENTRE)
+    slots, angles = dict[Engagement, list[shapes.Contour]](), list[float]()
+    for (engagement, direction), walls in zip(assembly.slots, outlines.cut, strict=True):
+        slots.setdefault(engagement, []).append(walls)
+        if engagement.slot.curved:
+            angles.append(direction)
+            continue
+        for inner, outer in (ends[:: round(assembly.sign)] for ends in _ends(walls)):
+            view.centre_line(inner, outer)
+            angle = math.atan2(outer[1] - inner[1], outer[0] - inner[0])
+            angles.append(direction + math.remainder(angle - direction, math.tau))
+    if assembly.slots[0][0].slot.curved:
+        view.draw(CENTRE, *pitch_lines(parts, assembly.slots[0][0]))
     L = assembly.L
     # a recess's centre, the leftmost one
     centres = ((L * math.cos(a), L * math.sin(a)) for a in assembly.rests)
@@ -51,19 +55,19 @@ def draw_wheel(view: View, parts: FlatParts) -> View:
         own = [arc for arc in about if abs(arc.radius - sizes.recess) < SAME_ON_SHEET]
         deviation = assembly.mechanism.spec.tolerance.center_distance_mm
         view.radial(at_rest, sized.plain(L, off=deviation))
-        recess = sized.made(view.fits, assembly.mechanism, "recess", sizes.recess)
+        recess = view.fits.made("recess", sizes.recess)
         view.diameter(own, times(len(own), recess))
         view.radii(arc for arc in about if arc not in own)
+    width = view.fits.made("slot", sizes.half_width)
     for engagement in assembly.kinds:
-        count = sum(1 for one, _ in assembly.slots if one is engagement)
-        if not engagement.slot.curved:
-            _slot(view, outlines, engagement, count)
-            continue
-        width = sized.made(view.fits, assembly.mechanism, "slot", sizes.half_width)
-        view.notes.append(f"{times(count, 'slot')}, {width} wide: flanks as in the wheel's dxf")
+        if engagement.slot.curved:
+            many = times(len(slots[engagement]), "slot")
+            view.notes.append(f"{many}, {width} wide: flanks as in the wheel's dxf")
+        else:
+            _slot(view, slots[engagement], sizes.half_width, width)
     up = 0.5 * math.pi
     view.linear((0.0, -reach), (0.0, reach), up, sized.plain(2.0 * reach, "Ø "))
-    _steps(view, outlines, reach)
+    _steps(view, outlines, sorted(angles), reach)
     own = [arc for arc in arcs if math.hypot(*arc.centre) < SAME_ON_SHEET]
     view.radii(own, besides=reach)
     clear = assembly.mechanism.spec.size.allowances
@@ -79,8 +83,7 @@ def draw_wheel(view: View, parts: FlatParts) -> View:
         )
     for hub in hubs:
         draw_hub(view, hub)
-    size, holes = assembly.mechanism.spec.size, wheel_holes(assembly, sizes)
-    bored(view, holes, size, "wheel", sizes.wheel_bore)
+    bored(view, wheel_holes(assembly, sizes), "wheel", sizes.wheel_bore)
     bolted(view, screwed)
     return view
 
@@ -105,53 +108,36 @@ def _axis(
     return (x + arc.radius * c, y + arc.radius * s), (x + farther * c, y + farther * s)
 
 
-def _slot(view: View, parts: Outlines, engagement: Engagement, count: int) -> None:
-    directions = [d for one, d in parts.assembly.slots if one is engagement]
-    pairs = zip(parts.assembly.slots, parts.cut, strict=True)
-    walls = next(cut for (one, _), cut in pairs if one is engagement)
-    ends = _ends(walls)
-    end, mouth = ends[0]
+def _slot(view: View, slots: list[shapes.Contour], half_width: float, width: str) -> None:
+    """Draw the size and the position of equal straight slots, at the first of them."""
+    (end, mouth), *others = _ends(slots[0])
+    count = len(slots) * (1 + len(others))
     turn = math.atan2(mouth[1] - end[1], mouth[0] - end[0])
     across = turn + 0.5 * math.pi
-    corner = walls.segments[0].start
-    count *= len(ends)
-    if len(ends) == 1:
-        width = sized.made(view.fits, parts.assembly.mechanism, "slot", parts.sizes.half_width)
-        far = walls.segments[-1].end
+    corner, far = slots[0].segments[0].start, slots[0].segments[-1].end
+    if not others:
         view.linear(corner, far, across, times(count, width), "slot's width")
     else:  # one wall each
-        half = sized.plain(parts.sizes.half_width)
-        view.linear(corner, mouth, across, times(count, half), "from a slot's wall to its axis")
+        half = times(count, sized.plain(half_width))
+        view.linear(corner, mouth, across, half, "from a slot's wall to its axis")
     along = end[0] * math.cos(turn) + end[1] * math.sin(turn)
     foot = end[0] - along * math.cos(turn), end[1] - along * math.sin(turn)
-    inwards, deep = sized.plain(math.dist(foot, end)), sized.plain(math.dist(end, mouth))
-    view.linear(foot, end, turn, inwards, "from the wheel's middle to a slot's end", near=True)
-    view.linear(end, mouth, turn, times(count, deep), "from a slot's end to its mouth", near=True)
+    view.linear(foot, end, turn, "", "from the wheel's middle to a slot's end", near=True)
+    deep = times(count, sized.plain(math.dist(end, mouth)))
+    view.linear(end, mouth, turn, deep, "from a slot's end to its mouth", near=True)
     if math.hypot(*foot) > SAME_ON_SHEET:
-        normal, off = math.atan2(foot[1], foot[0]), sized.plain(math.hypot(*foot))
-        view.linear(shapes.ORIGIN, foot, normal, off, "from the wheel's axis to a slot's axis")
-    pieces = [s for d in directions for s in shapes.turned(parts.slots[engagement], d).segments]
-    arcs = [s for s in pieces if isinstance(s, shapes.Arc)]
-    rounds = [s for s in arcs if math.hypot(*s.centre) > SAME_ON_SHEET]
+        normal = math.atan2(foot[1], foot[0])
+        view.linear(shapes.ORIGIN, foot, normal, "", "from the wheel's axis to a slot's axis")
+    arcs = [s for walls in slots for s in walls.segments if isinstance(s, shapes.Arc)]
+    rounds = [arc for arc in arcs if math.hypot(*arc.centre) > SAME_ON_SHEET]
     view.radius(rounds, times(count, sized.plain(rounds[0].radius, "R ")))
 
 
-def _steps(view: View, parts: Outlines, reach: float) -> None:
+def _steps(view: View, parts: Outlines, angles: list[float], reach: float) -> None:
     """Draw the angles from slot to slot, and from a slot to a recess."""
-    assembly = parts.assembly
-    angles = []
-    for engagement, direction in assembly.slots:
-        if engagement.slot.curved:
-            angles.append(direction)
-            continue
-        for (x, y), (u, v) in _ends(shapes.turned(parts.slots[engagement], direction)):
-            angle = math.atan2(v - y, u - x)
-            angle += 0.0 if assembly.sign > 0.0 else math.pi
-            angles.append(direction + math.remainder(angle - direction, math.tau))
-    angles.sort()
-    deviation = assembly.mechanism.spec.tolerance.slot_angle_deg
+    deviation = parts.assembly.mechanism.spec.tolerance.slot_angle_deg
     view.steps(angles, reach, f" ±{deviation:g}°" if deviation else "")
-    rests = assembly.rests if parts.sizes.recess else ()
+    rests = parts.assembly.rests if parts.sizes.recess else ()
     halves = ((min((rest - angle) % math.tau for angle in angles), rest) for rest in rests)
     for text, pairs in grouped((degrees(half), (rest - half, rest)) for half, rest in halves):
         view.angular(pairs, reach, reach, text)
@@ -164,11 +150,10 @@ def draw_frame(
     axis_name: str = "the wheel's axis",
 ) -> View:
     """Draw the frame: its size, and diameter and position of each hole from the axis."""
-    view.draw_all((plate.outline, *plate.holes))
+    view.draw(OUTLINE, plate.outline, *plate.holes)
     holes = [hole for hole in plate.holes if isinstance(hole, shapes.Circle)]
-    # the axis may have no hole
-    first = [(shapes.ORIGIN, holes[0].radius)] if holes else []
-    for centre, radius in dict([*first, *((h.centre, h.radius) for h in holes)]).items():
+    crosses = {shapes.ORIGIN: holes[0].radius} if holes else {}  # the axis may have no hole
+    for centre, radius in (crosses | {hole.centre: hole.radius for hole in holes}).items():
         view.cross(centre, radius)
     box = shapes.bounds(plate.outline)
     up = 0.5 * math.pi
@@ -176,14 +161,13 @@ def draw_frame(
     view.places(
         (hole.centre for hole in holes), shapes.ORIGIN, (f"across, {where}", f"up, {where}")
     )
-    corner = box[:2]
+    low, high = box[:2], box[2:]
     if holes:
-        to_left, to_low = length(-box.x0), length(-box.y0)
-        view.linear(corner, shapes.ORIGIN, 0.0, to_left, f"from the left edge to {axis_name}")
-        view.linear(corner, shapes.ORIGIN, up, to_low, f"from the lower edge to {axis_name}")
-    view.linear(corner, (box.x1, box.y0), 0.0, length(box.x1 - box.x0), "wide")
-    view.linear(corner, (box.x0, box.y1), up, length(box.y1 - box.y0), "high")
-    texts_of = {hole: sized.bore(view.fits, hole.radius) for hole in holes}
+        view.linear(low, shapes.ORIGIN, 0.0, "", f"from the left edge to {axis_name}")
+        view.linear(low, shapes.ORIGIN, up, "", f"from the lower edge to {axis_name}")
+    view.linear(low, (high[0], low[1]), 0.0, "", "wide")
+    view.linear(low, (low[0], high[1]), up, "", "high")
+    texts_of = {hole: view.fits.bore(hole.radius) for hole in holes}
     texts_of |= screws
     for text, some in grouped((texts_of[hole], hole) for hole in holes):
         places = ", ".join(f"({length(x)}, {length(y)})" for _, (x, y), _ in some)
@@ -204,25 +188,25 @@ def draw_shaft(view: View, shaft: Plate) -> View:
     long, bore = shaft.thickness, shaft.bore
     radius = bore.around
     corners = [(0.0, -radius), (long, -radius), (long, radius), (0.0, radius)]
-    view.draw(shapes.polygon("", corners), OUTLINE)
+    view.draw(OUTLINE, shapes.polygon("", corners))
     view.centre_line((0.0, 0.0), (long, 0.0))
-    view.linear((0.0, -radius), (long, -radius), 0.0, length(long))
+    view.linear((0.0, -radius), (long, -radius), 0.0)
     has_corners = bore.form == "hex"
-    size = sized.plain(2.0 * radius, "Ø ") if has_corners else sized.shaft(view.fits, radius)
+    size = sized.plain(2.0 * radius, "Ø ") if has_corners else view.fits.shaft(radius)
     view.linear((0.0, -radius), (0.0, radius), 0.5 * math.pi, size)
     if note := bore.shaft_note:
         view.notes.append(note if view.fits.turned.is_iso else note.replace(" P9", ""))
     return view
 
 
-def bored(view: View, holes: Sequence[shapes.Shape], size: Size, part: str, radius: float) -> None:
+def bored(view: View, holes: Sequence[shapes.Shape], part: str, radius: float) -> None:
     """Draw the first of a part's holes, its bore for a shaft; a note has the angle of its shape."""
     if not radius:
         return
-    shape, form = holes[0], bore_of(size, part, radius)
+    shape, form = holes[0], bore_of(view.fits.spec.size, part, radius)
     if form.form != "hex":
         cut = form.radius + form.loose
-        view.diameter([shapes.Circle("", shapes.ORIGIN, cut)], sized.bore(view.fits, cut))
+        view.diameter([shapes.Circle("", shapes.ORIGIN, cut)], view.fits.bore(cut))
     if isinstance(shape, shapes.Contour):
         x, y = shapes.at(shape.segments[0], 0.5)
         note = form.note if view.fits.is_iso else form.note.replace(" JS9", "")
@@ -234,7 +218,7 @@ def bored(view: View, holes: Sequence[shapes.Shape], size: Size, part: str, radi
 def circle_of(view: View, screwed: Sequence[shapes.Circle]) -> None:
     """Draw the circles that bolts lie on, as centre lines."""
     for far in {round(math.hypot(*c.centre), 6) for c in screwed}:
-        view.draw(shapes.Circle("", (0.0, 0.0), far), CENTRE)
+        view.draw(CENTRE, shapes.Circle("", (0.0, 0.0), far))
 
 
 def bolted(view: View, screwed: Sequence[shapes.Circle], tapped: bool = False) -> None:

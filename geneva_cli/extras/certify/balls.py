@@ -128,8 +128,7 @@ def _of_one(f: Callable[[arb], arb]) -> Callable[[object, Ball | float], Ball]:
 class _Balls(EnclosedLibrary):
     """The functions of ``math``, of balls."""
 
-    sin, cos, sqrt, exp = map(_of_one, (arb.sin, arb.cos, arb.sqrt, arb.exp))
-    asin, acos = map(_of_one, (arb.asin, arb.acos))
+    sin, cos, sqrt, asin = map(_of_one, (arb.sin, arb.cos, arb.sqrt, arb.asin))
 
     @property
     def pi(self) -> Ball:
@@ -137,12 +136,6 @@ class _Balls(EnclosedLibrary):
 
     def atan2(self, y: Ball | float, x: Ball | float) -> Ball:
         return Ball(arb.atan2(arb_of(y), arb_of(x)))
-
-    def floor(self, x: Ball) -> float:
-        low, high = (math.floor(bound) for bound in x.bounds())
-        if low != high:
-            raise Undecided
-        return float(low)
 
 
 Ball.library = cast("Library", _Balls())

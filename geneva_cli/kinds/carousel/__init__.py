@@ -9,9 +9,9 @@ KINDS = (
         gearings=("external", "internal"),
         refuses="kinds.carousel.motion:refuses",
         quantities={
-            "product": "batch kinds.carousel.quantities:motion carousel "
+            "product": "carousel - kinds.carousel.quantities:motion "
             "turn_deg velocity moving_fraction behind_deg centrifugal_N",
-            "parts": "alone kinds.carousel.quantities:envelope carousel envelope_mm",
+            "parts": "carousel kinds.carousel.quantities:envelope - envelope_mm",
         },
     ),
 )

@@ -13,12 +13,12 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, cast
 
 from geneva_cli.motion import registry
 from geneva_cli.motion.drive import Drive, Plan
-from geneva_cli.motion.engagement import Engagement, Slot, SlotAxis, Vector, WheelMotion
+from geneva_cli.motion.engagement import Engagement, Slot, WheelMotion
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Teeth
 from geneva_cli.motion.wheels import classic
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Array, Batchable, larger, library, size
-from geneva_cli.numerics.jet import Jet, Number, piecewise
+from geneva_cli.numerics.jet import Jet, Number, Path, Vector, piecewise
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.spec.rules import Range
 from geneva_cli.spec.schema import Example
@@ -27,7 +27,6 @@ if TYPE_CHECKING:
     from geneva_cli.drives.transmission import Transmission
     from geneva_cli.motion.laws.law import Motion
     from geneva_cli.motion.wheels.gearing import Gearing
-    from geneva_cli.numerics.jet_functions import Path
 
 
 class GearSector(Drive, kw_only=True):
@@ -163,12 +162,10 @@ class _SectorSlot(_SectorPath, Slot):
     inner: Slot
     walls_flat = False
 
-    def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
-        axis = self.inner.axis(self.motion.slot_deg(input_deg), order)
-        assert axis is not None  # it is straight
+    def axis(self, input_deg: Number, order: int = 0) -> Vector:
+        lever, place = self.inner.axis(self.motion.slot_deg(input_deg), order)
         slot = self.touches(input_deg)
-        lever = axis[0] * slot + (1.0 - slot) / (1.0 + self.motion.u)
-        return lever, axis[1] * slot
+        return lever * slot + (1.0 - slot) / (1.0 + self.motion.u), place * slot
 
     def touches(self, input_deg: Number) -> Number:
         slot = size(input_deg) >= self.motion.half_sector

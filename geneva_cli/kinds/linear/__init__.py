@@ -28,8 +28,7 @@ KINDS = (
         no_parts="kinds.linear.motion:no_parts",
         keys=("load.mass_kg", "load.force_N", "load.guide_friction"),
         quantities={
-            "parts": "batch kinds.linear.checks:guide guide "
-            "length_mm locks_at_friction force_N at_deg"
+            "parts": "guide - kinds.linear.checks:guide length_mm locks_at_friction force_N at_deg"
         },
         horn_sizes="kinds.linear.parts:horn_sizes",
         load_case="kinds.linear.guide:with_guide",

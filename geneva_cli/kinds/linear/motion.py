@@ -10,21 +10,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from geneva_cli.motion.compatible import Conflict, is_set
-from geneva_cli.motion.engagement import Slot, SlotAxis
+from geneva_cli.motion.engagement import Slot
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.path_and_slot import AnchoredPath, StraightSlotMotion
 from geneva_cli.motion.pivots import Pivot, PlaneMotion
 from geneva_cli.motion.wheels.classic import HalfStep, PinPose, middle
 from geneva_cli.motion.wheels.gearing import Gearing, Output, RollerPlace
 from geneva_cli.numerics.arrays import Array, N
-from geneva_cli.numerics.jet import Jet, Number
+from geneva_cli.numerics.jet import Displacement, Jet, Number, Vector
 from geneva_cli.spec.schema import Example
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet_functions import Displacement
 
 
 class Linear(Gearing):
@@ -107,15 +104,14 @@ class ParallelSlot(Slot):
     def __init__(self, path: AnchoredPath) -> None:
         self.path = path
 
-    def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
-        """Pin (x, y) in the rack, on the slot's straight axis."""
-        along = self.path.middle(input_deg, order)[0]
-        return along, along * 0.0
+    def place(self, input_deg: Number, order: int) -> Jet:
+        """Position of the pin across the rack."""
+        return self.path.nearest(input_deg, order)[0]
 
-    def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
-        """Lever of the slot's normal about the pinion's axis, and the pin's speed along it."""
-        along = self.path.nearest(input_deg, order + 1)[0].derivative()
-        return along * 0.0 + 1.0, along
+    def axis(self, input_deg: Number, order: int = 0) -> Vector:
+        """Lever of the slot's normal about the pinion's axis, and the pin's place along it."""
+        place = self.place(input_deg, order)
+        return place * 0.0 + 1.0, place
 
     def play(self, clearance: Number) -> Number:
         """Free travel, for a clearance on either side of the roller."""

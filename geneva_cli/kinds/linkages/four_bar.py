@@ -7,14 +7,14 @@ at an angle from the line AB. The wheel's centre is solved for.
 
 from collections.abc import Mapping
 from functools import reduce
-from typing import Annotated, Any, ClassVar, NamedTuple, Self, cast
+from typing import Annotated, Any, ClassVar, Self
 
 from geneva_cli.errors import refuse_text
-from geneva_cli.kinds.linkages.link_path import Displacement, LinkPath
+from geneva_cli.kinds.linkages.link_path import LinkPath, LinkPose
 from geneva_cli.kinds.linkages.linkage import Linkage, Moving
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link
-from geneva_cli.numerics.arrays import Array, Complex, enclosed, larger, library, size, smaller
+from geneva_cli.numerics.arrays import larger, library, smaller
 from geneva_cli.numerics.jet import Jet, sqrt, turned_at
 from geneva_cli.spec.rules import POSITIVE, OneOf, Range
 from geneva_cli.spec.schema import Example
@@ -135,103 +135,19 @@ class CouplerPath(LinkPath):
         rate = (u * ((a - g) * (a + g)) + 1.0) / 2.0 - sine * (a * g) * (1.0 - u * m) / N
         return turned_at(rate, ex, ey, order)
 
-    def turned(self, sine: Array, cosine: Array, order: int) -> tuple[Any, ...]:
-        """The coupler's unit vector, its rate of rotation, and that rate's slope."""
-        import numpy as np  # a list of the kinds needs none
-
+    def pose(self, crank: Any) -> LinkPose:
+        """The coupler for directions of the crank, whose end B is on a circle."""
         a, g, b, c, _, _ = self.numbers
-        x, y = g - a * cosine, -a * sine
+        x, y = g - a * crank.real, -a * crank.imag
         D = x * x + y * y
-        m, u, high, low = (b - c) * (b + c), 1.0 / D, (b + c) ** 2 - D, D - (b - c) ** 2
-        N = library(D).sqrt(high * low) * self.side
-        # products of real numbers take half the time of complex ones
-        scale, level, along = u * (0.5 / b), D + m, np.empty(np.shape(D), dtype=complex)
-        along.real, along.imag = scale * (x * level - y * N), scale * (y * level + x * N)
-        if not order:
-            return (along,)
-        k, share = 0.5 * (a - g) * (a + g), a * g * (1.0 - u * m) / N
-        rate = 0.5 + k * u - sine * share
-        if order == 1:
-            return along, rate
-        slope = 2.0 * a * g * sine  # of D
-        by_u, by_N = slope * u * u, 0.5 * slope * (high - low) / (high * low)  # of -u; of N, over N
-        share_slope = a * g * m * by_u / N - share * by_N
-        return along, rate, -k * by_u - cosine * share - sine * share_slope
+        # N² as a product (Heron); products of real numbers take half the time of complex ones
+        N = library(D).sqrt(((b + c) ** 2 - D) * (D - (b - c) ** 2)) * self.side
+        scale, level = 0.5 / (b * D), D + (b - c) * (b + c)
+        along = scale * (x * level - y * N) + 1j * (scale * (y * level + x * N))
+        return LinkPose(along, b, N * (0.5 / (b * c)), 1.0 / c, (g / c, 0.0))
 
     def hold(self, sine: Jet, cosine: Jet) -> tuple[float, tuple[Jet, Jet]]:
         """Coupler length from A to B, and the rocker's direction, in which it pushes or pulls."""
         a, g, b, c, _, _ = self.numbers
         ex, ey = self.link(sine, cosine)
         return b, ((cosine * a + ex * b - g) / c, (sine * a + ey * b) / c)
-
-    def about(self, crank: Any, velocity: Any = None) -> Displacement:
-        """Displacement since a direction of the crank."""
-        a, g, b, c, p, q = self.numbers
-        A, arm = a * crank, p + 1j * q
-        d = g - A
-        D = d.real**2 + d.imag**2
-        # by Grashof's condition sums of positive terms: (b + c)² - D and D - (b - c)²
-        above = (b + c - g - a) * (b + c + g + a) + g * a * size(crank + 1.0) ** 2
-        below = (g - a - b + c) * (g - a + b - c) + g * a * size(crank - 1.0) ** 2
-        half, square = 0.5 / b, above * below
-        # k is half + real + i imag, and the last two change by D alone
-        real, imag = (b - c) * (b + c) * half / D, self.side * half * library(D).sqrt(square) / D
-        s, t = (2.0 * g / D * x for x in (A.imag, A.real))
-        by_D, k = D * (above - below) / square, half + real + 1j * imag
-        if velocity is None:
-            slope = 0.5j * imag * by_D - real - 1j * imag
-            velocity = 1j * A + (d * slope * s - 1j * A * k) * arm
-        out = velocity, A * k * arm - A, A * arm, d * arm
-        sizes = s, t, by_D, D * D / square, real, imag
-        return CouplerDisplacement(*sizes, *(x for z in out for x in (z.real, z.imag)))
-
-
-class CouplerDisplacement(NamedTuple):
-    """Displacement of the coupler's point, from its numbers at one crank angle.
-
-    It is the velocity there times sin d, and terms of second order: so it has all its digits where
-    the point is much slower than its links.
-    """
-
-    s: float  # 2 g a sin phi / D: D changes by this fraction for sin d
-    t: float  # and by 2 g a cos phi / D for 1 - cos d
-    by_D: float  # N² changes by this fraction for the fraction of D
-    by_square: float  # less this one, for the square
-    real: float  # parts of k, in proportion to 1 / D
-    imag: float  # and N / D
-    vx: float  # velocity of the point
-    vy: float
-    wx: float  # factor of 1 - cos d
-    wy: float
-    ax: float  # the crank, turned and stretched by the point's coordinates on the coupler
-    ay: float
-    dx: float  # d, turned and stretched likewise
-    dy: float
-
-    @property
-    def velocity(self) -> Complex:
-        """Complex velocity at that angle."""
-        return cast("Complex", self.vx + 1j * self.vy)
-
-    def __call__(self, sine: Jet, versine: Jet) -> tuple[Jet, Jet]:
-        """Displacement from sin d and 1 - cos d of the crank's rotation d since then."""
-        numbers = enclosed(sine.c[0], self)
-        s, t, by_D, by_square, real, imag, vx, vy, wx, wy, ax, ay, dx, dy = numbers
-        # fractions of D, of 1 / D, of N² and of N
-        second = versine * t
-        D = sine * s + second
-        u, square = D / (D + 1.0) * -1.0, D * D * by_square
-        grown = D * by_D - square
-        share = 1.0 / (sqrt(grown + 1.0) + 1.0)
-        N = grown * share
-        both = u * N
-        k, n = u * real, (N + u + both) * imag
-        # what they change by beyond their linear parts
-        uu = (D * u + second) * -1.0
-        NN = (second * by_D - square - sine * N * (0.5 * s * by_D)) * share
-        nn = NN + both + uu
-        x, y = sine * ay + versine * ax, sine * ax - versine * ay
-        return (
-            sine * vx + versine * wx + uu * (real * dx) - nn * (imag * dy) + x * k + y * n,
-            sine * vy + versine * wy + uu * (real * dy) + nn * (imag * dx) + x * n - y * k,
-        )

@@ -13,13 +13,12 @@ import numpy as np
 
 from geneva_cli.errors import refuse_text
 from geneva_cli.kinds.linkages import tangent_pairs as tangents
-from geneva_cli.kinds.linkages.link_path import Displacement, LinkPath, LinkRate, LinkReactions
-from geneva_cli.motion.engagement import Anchor, Engagement, Vector
+from geneva_cli.kinds.linkages.link_path import LinkPath, LinkRate, LinkReactions
+from geneva_cli.motion.engagement import Anchor, Engagement
 from geneva_cli.motion.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
 from geneva_cli.motion.wheels.classic import HalfStep
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Array, Complex, blocks, library, parameter, record_taken
-from geneva_cli.numerics.jet import Jet, Number, sine_versine
 
 SAME_PEAK = 1e-8  # fraction by which two wheels' peak velocities may differ and count as equal
 EVEN = 96  # samples of a motion, and twice as many of the way back
@@ -155,7 +154,7 @@ def _engagement(
     flat, middle, index = path.of((slice(None), 0)), ends.mean(axis=0), np.ravel(step.b)
     ends, crank = ends - middle, np.exp(1j * middle)
     move = flat.about(crank)
-    at = tangents.complex_of(*move(*sine_versine(Jet.variable(ends, 2))))
+    at = tangents.complex_of(*move(ends, 2))
     rest = tangents.residual(at, np.exp(2j * sense * index))
     last = np.where(rest.double, 0.0, rest.step)
     ends, at[:2] = ends + last, at[:2] + last * at[1:]
@@ -176,27 +175,11 @@ def _engagement(
         ux, uy, input_deg = plain(ray.real), plain(ray.imag), 0.0 - late / DEGREE
         if end:  # the ray is the pin's velocity, so that none of it is across the ray
             input_deg = end * half / DEGREE
-            ux, uy = (end * parameter(v.c[1]) for v in moved(*sine_versine(Jet.variable(0.0, 1))))
-        along_ray = _AlongRay(moved, ux, uy, 1.0 / (library(ux).hypot(ux, uy) * L), s)
+            ux, uy = (end * parameter(v.c[1]) for v in moved(0.0, 1))
+        along_ray = moved.along(ux, uy, 1.0 / (library(ux).hypot(ux, uy) * L), s)
         anchors.append(Anchor(input_deg, wheel, plain(np.abs(ray)) / L, along_ray))
     anchored = AnchoredPath(tuple(anchors), ahead)
     body = LinkRate(path, plain(middle) + late, s)
     reactions = LinkReactions(*body, L, plain(axis.real) / L, plain(axis.imag) / L)
     motion = StraightSlotMotion(anchored, step.b, mirrored=False)
     return Engagement(0.0, anchored, RadialSlot(anchored), motion, body, reactions, -s), L
-
-
-class _AlongRay(NamedTuple):
-    """The pin's displacement along a ray (x, y) and across it, positive with the wheel."""
-
-    displacement: Displacement
-    x: float
-    y: float
-    scale: float
-    sense: float
-
-    def __call__(self, tau: Number, order: int) -> Vector:
-        x, y = self.displacement(*sine_versine(Jet.variable(tau, order)))
-        along = (x * self.x + y * self.y) * self.scale
-        across = (y * self.x - x * self.y) * (self.sense * self.scale)
-        return along, across

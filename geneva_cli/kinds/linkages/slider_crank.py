@@ -6,14 +6,14 @@ from the line AB. The wheel's centre is solved for.
 """
 
 from collections.abc import Mapping
-from typing import Annotated, Any, ClassVar, NamedTuple, Self, cast
+from typing import Annotated, Any, ClassVar, Self
 
 from geneva_cli.errors import refuse_text
-from geneva_cli.kinds.linkages.link_path import Displacement, LinkPath
+from geneva_cli.kinds.linkages.link_path import LinkPath, LinkPose
 from geneva_cli.kinds.linkages.linkage import Linkage, Moving
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.pivots import Joint, Layout, Link
-from geneva_cli.numerics.arrays import Array, Complex, enclosed, library
+from geneva_cli.numerics.arrays import library
 from geneva_cli.numerics.jet import Jet, sqrt
 from geneva_cli.spec.rules import LENGTH, POSITIVE, Range
 from geneva_cli.spec.schema import Example
@@ -98,64 +98,14 @@ class SlidingRod(LinkPath):
         ey = (h - sine * a) / b
         return sqrt((1.0 - ey) * (ey + 1.0)), ey
 
-    def turned(self, sine: Array, cosine: Array, order: int) -> tuple[Any, ...]:
-        """The rod's unit vector, its rate of rotation, and that rate's slope."""
+    def pose(self, crank: Any) -> LinkPose:
+        """The rod for directions of the crank, whose end B is on a line."""
         a, b, h, _, _ = self.numbers
-        y = (h - a * sine) / b
+        y = (h - a * crank.imag) / b
         x = library(y).sqrt((1.0 - y) * (1.0 + y))
-        rate = -a * cosine / (b * x)
-        return x + 1j * y, rate, (a * sine / b + rate * rate * y) / x
+        return LinkPose(x + 1j * y, b, -x, 0.0, (0.0, 1.0))
 
     def hold(self, sine: Jet, cosine: Jet) -> tuple[float, tuple[Jet, Jet]]:
         """Rod length from A to B, and the direction of the guide's push, across its line."""
         _, b, *_ = self.numbers
         return b, (sine * 0.0, cosine * 0.0 + 1.0)
-
-    def about(self, crank: Any, velocity: Any = None) -> Displacement:
-        """Displacement since a direction of the crank."""
-        a, b, h, p, q = self.numbers
-        s, t, arm = a * crank.imag, a * crank.real, p + 1j * q
-        level, less, more = (h - s) / b, (b - h + s) / b, (b + h - s) / b
-        ex = library(level).sqrt(less * more)
-        slope = level / ex
-        if velocity is None:
-            velocity = 1j * (t + 1j * s) + (slope - 1j) * (t / b) * arm
-        change = (1j - slope) * (s / b) * arm - (t + 1j * s)
-        out = velocity.real, velocity.imag, change.real, change.imag
-        return RodDisplacement(s / b, t / b, level, ex, less, more, slope, p, q, *out)
-
-
-class RodDisplacement(NamedTuple):
-    """Displacement of the rod's point, from the numbers of one crank angle.
-
-    It is the velocity there times sin d, and terms of second order: so it has all its digits where
-    the point is much slower than its links.
-    """
-
-    s: float  # a sin phi / b
-    t: float  # a cos phi / b
-    ey: float  # unit vector along the rod
-    ex: float
-    less: float  # 1 - ey
-    more: float
-    slope: float  # of ex by -ey
-    P: float  # the point's coordinates on the rod
-    Q: float
-    vx: float  # velocity of the point
-    vy: float
-    wx: float  # factor of 1 - cos d
-    wy: float
-
-    @property
-    def velocity(self) -> Complex:
-        """Complex velocity at that angle."""
-        return cast("Complex", self.vx + 1j * self.vy)
-
-    def __call__(self, sine: Jet, versine: Jet) -> tuple[Jet, Jet]:
-        """Displacement from sin d and 1 - cos d of the crank's rotation d since then."""
-        s, t, ey, ex, less, more, slope, P, Q, vx, vy, wx, wy = enclosed(sine.c[0], self)
-        dy = versine * s - sine * t
-        share = 1.0 / (sqrt((less - dy) * (dy + more)) + ex)
-        # what ex changes by beyond its linear part
-        dx = dy * dy * ((dy + 2.0 * ey) * share * slope + 1.0) * share * -1.0
-        return sine * vx + versine * wx + dx * P, sine * vy + versine * wy + dx * Q

@@ -56,14 +56,20 @@ def complex_of(x: Jet, y: Jet) -> Complex:
 def points(path: LinkPath, direction: Complex, order: int = 2) -> Complex:
     """Position, velocity and acceleration (order + 1, ...) for unit vectors of the crank."""
     a, *_, p, q = path.numbers
-    along, *rates = path.turned(direction.imag.copy(), direction.real.copy(), order)
-    crank, arm = direction * a, along * (p + 1j * q)
+    along, b, sine, bend, (x, y) = path.pose(direction)
+    pin, arm = direction * a, along * (p + 1j * q)
     out = np.empty((order + 1, *arm.shape), dtype=complex)
-    out[0] = crank + arm
+    out[0] = pin + arm
     if order:
-        out[1] = 1j * (crank + rates[0] * arm)
+        # the velocity of B, i (A + rate b e), is across its path's normal
+        ahead, lever = along.conj() * pin * bend, b * sine
+        rate = (y * pin.real - x * pin.imag + b * ahead.imag) / lever
+        out[1] = 1j * (pin + rate * arm)
     if order > 1:
-        out[2] = (1j * rates[1] - rates[0] * rates[0]) * arm - crank
+        level, of_link = ahead.real, x * along.real + y * along.imag
+        change = x * pin.real + y * pin.imag - b * level
+        change += b * rate * (rate * (of_link - level) + 2.0 * level)
+        out[2] = (-1j * (change / lever) - rate * rate) * arm - pin
     return out
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
+from typing import Annotated, ClassVar, NamedTuple
 
 from geneva_cli.drives.pushed import CirclingPush, PushedCrank
 from geneva_cli.drives.transmission import LocalTransmission, Transmission
@@ -20,13 +20,10 @@ from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot, Shaf
 from geneva_cli.motion.wheels import classic
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import of_each, radians, sin_cos_pi
-from geneva_cli.numerics.arrays import choose, choose_record, library
-from geneva_cli.numerics.jet import Array, Jet, Number, atan2, rotation, sine_versine_of
+from geneva_cli.numerics.arrays import Number, choose, choose_record, library
+from geneva_cli.numerics.jet import Array, Displacement, Jet, atan2, rotation, sine_versine_of
 from geneva_cli.spec.rules import POSITIVE, Z_MAX, Range
 from geneva_cli.spec.schema import Example
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet_functions import Path
 
 
 class GenevaPair(Transmission, kw_only=True):
@@ -91,7 +88,9 @@ class GenevaPair(Transmission, kw_only=True):
     def _distance_mm(self, L: float) -> float:
         return L if self.first_distance_mm is None else self.first_distance_mm
 
-    def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> PushedCrank | None:
+    def reactions(
+        self, wheel: Gearing, advance: Displacement, mid_deg: float, L: float
+    ) -> PushedCrank | None:
         """Reactions to the first crank's roller, which pushes across the first wheel's slot."""
         if self.first_distance_mm is None:
             return None

@@ -9,7 +9,7 @@ KINDS = (
         refuses="kinds.stop.refuses:refuses",
         keys=("wheel.stop", "load.winding_torque_Nm", "limits.stop_stress_max_MPa"),
         quantities={
-            "parts": "alone kinds.stop.parts:stop stop "
+            "parts": "stop kinds.stop.parts:stop - "
             "turns first_deg last_deg overlap_mm lever_mm force_N contact_stress_MPa"
         },
         scene="kinds.stop.scene:StopScene",

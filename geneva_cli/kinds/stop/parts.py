@@ -136,9 +136,6 @@ def standing(names: Collection[str], parts: FlatParts) -> Iterator[Check]:
     limit, name = parts.mechanism.spec.limits.stop_stress_max_MPa, "stop_stress_max_MPa"
     if limit is None:
         return
-    _, value = stop_contact(outlines, stop)
-    if value is None:
-        needs = "lock_edge_mm in [size], for a sharp end has no stress, and winding_torque_Nm"
-        yield Check(name, None, "at most", limit, None, f"not known: it needs {needs}")
-    else:
-        yield compared(name, value, "at most", limit)
+    why = "not known: it needs lock_edge_mm in [size], for a sharp end has no stress, and "
+    why += "winding_torque_Nm"
+    yield compared(name, stop_contact(outlines, stop)[1], "at most", limit, why=why)

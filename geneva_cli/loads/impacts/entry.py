@@ -90,14 +90,18 @@ def first_contacts(axis: RestingAxis, crank: Number, center: Number = 0.0) -> Fi
     offset = np.atleast_2d(axis.offset(crank, center)) + 0.0 * before
     with np.errstate(all="ignore"):
         sense = np.where(offset * before > 0.0, -1.0, np.where(offset > 0.0, 1.0, np.nan))
-        far = span * sense * np.append(0.0, OCTAVES)
-        passed = abs(axis.distance(far)[0]) >= abs(offset)
+        far = span * np.append(0.0, OCTAVES)
+        passed = np.zeros((len(offset), far.shape[-1]), dtype=bool)
+        for side in (-1.0, 1.0):  # many errors of one machine have its path in common
+            if (sense == side).any():
+                reach = abs(axis.distance(side * far)[0])
+                passed |= (sense == side) & (reach >= abs(offset))
 
     def less(tau: Array, which: Whole) -> tuple[Array, Array]:
         value, slope = taken(axis, which).distance(tau)
         return value - offset[which], slope
 
-    tau = _first_roots(less, far, passed)
+    tau = _first_roots(less, sense * far, passed)
     along, across = axis.anchor.displacement(tau, 1)
     moved = (center - crank) / (1.0 + crank) * axis.along
     jump = across.arrays()[1] / (along.arrays()[0] + axis.anchor.along + moved)

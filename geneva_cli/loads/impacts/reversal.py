@@ -6,25 +6,23 @@ angles in degrees from the engagement's own mid-motion.
 """
 
 import math
-from collections.abc import Sequence
 from functools import reduce
 from typing import cast
 
 import numpy as np
 
-from geneva_cli.loads.contact import contact
+from geneva_cli.loads.contact import LoadCase, contact
 from geneva_cli.loads.impacts.shock_force import Impacts, harder, shown, with_force
 from geneva_cli.loads.load_case import inertia_kgm2, load_case, resisting_torques_Nm
+from geneva_cli.loads.load_functions import LoadFunctions
 from geneva_cli.loads.strength.pin_arm_key import PinSize
-from geneva_cli.motion.batch import selection, taken
-from geneva_cli.motion.engagement import Engagement, WheelMotion
+from geneva_cli.motion.batch import taken
+from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.peak_search import braking, spans
+from geneva_cli.motion.peak_search import braking
 from geneva_cli.numerics import arrays
 from geneva_cli.numerics.angles import DEGREE, omega
-from geneva_cli.numerics.extremes import Smooth, cuts
-from geneva_cli.numerics.jet import Array, Jet
-from geneva_cli.numerics.quadrature import rule
+from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.roots import find_roots
 from geneva_cli.numerics.tolerances import ROUNDED
 from geneva_cli.spec.workshops import WORKSHOPS
@@ -32,23 +30,19 @@ from geneva_cli.spec.workshops import WORKSHOPS
 
 def changes(engagement: Engagement, drag: Array) -> tuple[arrays.Whole, Array]:
     """Designs and input angles (k,) at which the wheel's torque changes sign: psi2 = -drag."""
-    motion, m = engagement.motion, len(drag)
+    m = len(drag)
     if engagement.paired:  # gears hold the wheel until another roller stops it
-        begins = np.broadcast_to(np.ravel(motion.breaks_deg[-2]), m)
+        begins = np.broadcast_to(np.ravel(engagement.motion.breaks_deg[-2]), m)
         return np.arange(m), begins.astype(float)
-    some = selection(motion)
-
-    def torque(x: Array, which: arrays.Which, order: int, _: Sequence[int]) -> list[Jet]:
-        rate = some(which).rate(x, order + 1)
-        return [rate.derivative() + arrays.parameter(drag[which])]
-
-    f = Smooth(torque, 0, signs=1, unit=DEGREE)
-    which, _, (a, b), positive = cuts(f, spans(motion, m))
-    (middle,) = f(0.5 * (a + b)[:, None], which, 0)[1][0]
+    one = arrays.parameter(drag)
+    case = LoadCase(1.0, 1.0, one, 1.0, 0.0, 0.0, 1.0, None, design=np.arange(m)[:, None])
+    load = LoadFunctions(engagement, case, ())
+    which, _, (a, b), positive = load.stretches()
+    torque = load.at(0.5 * (a + b)[:, None], which)[0].wheel_torque_Nm.arrays()[0][:, 0]
     most = np.zeros(m)
-    np.maximum.at(most, which, abs(middle[:, 0]))
+    np.maximum.at(most, which, abs(torque))
     # a law may run at constant speed for a while
-    kept = abs(middle[:, 0]) > ROUNDED * most[which]
+    kept = abs(torque) > ROUNDED * most[which]
     which, a, b, above = which[kept], a[kept], b[kept], positive[0, kept]
     before = np.flatnonzero((above[1:] != above[:-1]) & (which[:-1] == which[1:]))
     x = 0.5 * (b[before] + a[before + 1])
@@ -65,44 +59,22 @@ def impacts_of(
     coasting wheel. It is struck when it is ahead of the slot by the play; if the torque returns
     before that, by the wall that it left. NaN if the play is not used up in the motion.
     """
-    which, start = at
-    if not len(start):
-        return start, start
+    which, begin = at
+    out: Array = np.full((2, len(begin)), np.nan)
+    if not len(begin):
+        return begin, begin
     follows = np.append(which[1:] == which[:-1], False)
-    until = np.where(follows, np.append(start[1:], 0.0), np.nan)
-    parts = []
-    for part in arrays.blocks(len(start), 256):  # the integrals of so many fit in the cache
-        of = which[part]
-        motions = taken(engagement.motion, of)
-        parts.append(_coasts(motions, start[part, None], until[part], play[part], drag[of]))
-    x, speed, crosses = arrays.joined(parts)
-    # a wheel that has not crossed its play leaves no other wall at the next change
-    speed[1:][follows[:-1] & ~crosses[:-1]] = np.nan
-    return start + x / DEGREE, speed
-
-
-def _coasts(
-    motions: WheelMotion, start: Array, until: Array, play: Array, drags: Array
-) -> tuple[Array, Array, arrays.Mask]:
-    """Impacts after changes of sides, up to the next changes ``until`` or, if NaN, to the exits."""
-    out: Array = np.full((2, len(start)), np.nan)
-    nodes, weights = rule(24)  # exact to a double over half a motion
+    until = np.where(follows, np.append(begin[1:], 0.0), np.nan)
+    motions, start, drags = taken(engagement.motion, which), begin[:, None], drag[which]
+    turned, speed = (row + 0.0 * start for row in motions(start, 1).arrays())
 
     def gained(x: Array, live: arrays.Whole) -> tuple[Array, Array]:
-        """Lead of wheels over their slots, and difference in speed, x radians after they coast.
-
-        d = -int (x - t) (psi2 + drag) dt, which loses no digits even for a small play.
-        """
-        motion, begin = taken(motions, live), start[live]
-        end = begin + x[:, None] / DEGREE
-        inner = [begin, *[np.clip(b, begin, end) for b in motion.breaks_deg], end]
-        halves = [0.5 * (b - a) for a, b in zip(inner[:-1], inner[1:], strict=True)]
-        parts = zip(inner[:-1], inner[1:], halves, strict=True)
-        t = np.hstack([0.5 * (a + b) + half * nodes for a, b, half in parts])
-        weight = np.hstack([half * (DEGREE * weights) for half in halves])
-        torque = (motion(t, 2).arrays()[2] + drags[live]) * weight
-        torque = np.where(weight > 0.0, torque, 0.0)
-        return -(torque * ((end - t) * DEGREE)).sum(axis=1), -torque.sum(axis=1)
+        """Lead of wheels over their slots, and difference in speed, x radians after they coast."""
+        x = x[:, None]
+        angle, rate = taken(motions, live)(start[live] + x / DEGREE, 1).arrays()
+        own, slower = speed[live], drags[live] * x
+        lead = own * x - 0.5 * slower * x - (angle - turned[live])
+        return lead[:, 0], (own - slower - rate)[:, 0]
 
     with np.errstate(all="ignore"):
         every = np.arange(len(start))
@@ -134,7 +106,9 @@ def _coasts(
             low, high = np.where(crosses, 0.0, most)[there], np.where(crosses, most, span)[there]
             out[0, there] = find_roots(over, low, high)
             out[1, there] = abs(gained(out[0, there], there)[1])
-    return out[0], out[1], crosses
+    # a wheel that has not crossed its play leaves no other wall at the next change
+    out[1, 1:][follows[:-1] & ~crosses[:-1]] = np.nan
+    return begin + out[0] / DEGREE, out[1]
 
 
 def drag_over(mechanism: Mechanism) -> float:

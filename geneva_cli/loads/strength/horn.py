@@ -138,22 +138,19 @@ class Horn(NamedTuple):
         They are 0 of sections that are not farther inwards than the roller.
         """
         contact, push, begun, rub = roller[:3:2], roller[3:5], roller[5], roller[7]
-        wall, normal = sections[:3:2], sections[3:5]
-        # where another horn begins there are no sections
-        thick = np.where(sections[6] > 0.0, sections[1], np.inf)
+        thick, wall, normal = sections[1], sections[:3:2], sections[3:5]
         # friction along the wall towards the mouth, where the first axis is negative
         x, y = (push + rub * np.stack((push[1], -push[0]))) * begun
         # With the moment M about the section's middle and the pull P along the beam, the stress
         # 6 M/t² - P/t is a sum of products: each of a factor of the roller and one of the section.
         with np.errstate(all="ignore"):
             bends = 6.0 / thick**2
-            factors = bends * (wall + 0.5 * thick * normal) + normal / thick
-            known = np.isfinite(factors).all(axis=0) & np.isfinite(bends)
-        along, across = np.where(known, factors, 0.0)
-        stress: Array = x[..., None] * across[:, None]
-        stress -= y[..., None] * along[:, None]
-        turn = contact[0] * y - contact[1] * x
-        stress += turn[..., None] * np.where(known, bends, 0.0)[:, None]
+            along, across = bends * (wall + 0.5 * thick * normal) + normal / thick
+            own = np.stack((across, along, bends))
+            # where another horn begins there are no sections
+            own = np.where(np.isfinite(own).all(axis=0) & (sections[6] > 0.0), own, 0.0)
+        of_roller = np.stack((x, -y, contact[0] * y - contact[1] * x))
+        stress = np.einsum("imp,ims->mps", of_roller, own)
         return np.where(sections[0][:, None] > roller[0][..., None], stress, 0.0)
 
     @property

@@ -23,7 +23,6 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.wheels.as_built import RestingSlot
 from geneva_cli.numerics import arrays
-from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.jet import Jet, Number, atan2, sqrt
 
 MOTION_SAMPLES = 361  # input angles at which a motion is sampled
@@ -182,25 +181,14 @@ class TrueJump(NamedTuple):
     axis: RestingAxis
     L: float
     arm: float
-    # The true path on each side of its entry: the side, the root of its distance from the axis
-    # (over L), and over that root its speed towards the axis, nearly constant, with the wheel's
-    # lever to the roller as imaginary part: one search interpolates both.
-    branches: tuple[tuple[float, arrays.Array, arrays.Complex], ...]
 
     def __call__(self, by: locking.Deviations) -> tuple[arrays.Array, arrays.Mask]:
         """Sizes of the jumps, over the input's speed, and a mask of machines that miss the axis."""
         crank, center = by.crank_radius_mm.c[0] / self.arm, by.center_distance_mm.c[0] / self.L
-        offset = np.atleast_1d(self.axis.offset(arrays.array(crank), arrays.array(center)))
-        moved = np.broadcast_to((center - crank) / (1.0 + crank) * self.axis.along, offset.shape)
-        jump, missed = np.zeros(len(offset)), offset != 0.0
-        for side, root, speed_and_lever in self.branches:
-            here = np.flatnonzero(offset * side > 0.0)
-            at = np.sqrt(abs(offset[here]))
-            both = np.interp(at, root, speed_and_lever, right=np.nan)
-            speed, lever = at * both.real, both.imag + moved[here]
-            jump[here] = np.nan_to_num(speed / lever)
-            missed[here] = np.isnan(speed)
-        return jump, missed
+        crank, center = (np.reshape(x, (-1, 1)) for x in (crank, center))
+        jump = abs(first_contacts(self.axis, crank, center).jump)
+        off = np.ravel(self.axis.offset(crank, center)) != 0.0
+        return np.nan_to_num(jump), off & np.isnan(jump)
 
 
 class BuiltJump(NamedTuple):
@@ -216,72 +204,38 @@ class BuiltJump(NamedTuple):
 
     def __call__(self, by: locking.Deviations) -> tuple[arrays.Array, arrays.Mask]:
         """Sizes of the jumps, over the input's speed, and a mask of machines that miss the axis."""
-        L = np.atleast_1d(arrays.array(by.center_distance_mm.c[0] + self.L))
-        l = (by.crank_radius_mm.c[0] + self.R) / L
+        L = np.reshape(by.center_distance_mm.c[0] + self.L, (-1, 1))
+        l = np.reshape(by.crank_radius_mm.c[0] + self.R, (-1, 1)) / L
         across = np.sin(self.built.angle) - self.offset / L
         missed: arrays.Mask = abs(across) > l
         with np.errstate(all="ignore"):  # of machines that miss it
             own = self.built
-            here = RestingSlot(
-                self.sign, arrays.parameter(l), own.angle, arrays.parameter(across), own.outer
-            )
+            here = RestingSlot(self.sign, arrays.parameter(l), own.angle, across, own.outer)
             rate = self.drive.crank_rate(arrays.array(here.crank_deg) + self.at_deg)
-            jump = abs(here.velocity) * rate
-        return np.where(missed, 0.0, jump), missed
+            jump = np.where(missed, 0.0, abs(here.velocity) * rate)
+        return np.ravel(jump), np.ravel(missed)
 
 
 EntryJump: TypeAlias = TrueJump | BuiltJump
 
 
-def _built_jumps(mechanism: Mechanism) -> list[BuiltJump]:
-    drive, L, out = mechanism.spec.drive, mechanism.center_distance_mm, []
-    for i, engagement in enumerate(mechanism.engagements):
-        if engagement.built is not None:
-            angles = drive.roller_angles_deg
-            at_deg = angles[i] if angles else 360.0 * i / drive.rollers
-            offset, R = L * engagement.slot.offset, L * mechanism.ratio
-            sign = mechanism.spec.wheel.SIGN
-            out.append(BuiltJump(engagement.built, sign, offset, L, R, drive, at_deg))
-    return out
-
-
 def entry_jumps(mechanism: Mechanism) -> list[EntryJump]:
     """Entry jump of each engagement whose roller enters along its slot's axis, or as built."""
-    out: list[EntryJump] = [*_built_jumps(mechanism)]
-    for axis in RestingAxis.each(mechanism):
-        # the path after the true entry counts if it is on the other side
-        before, after = _branch(axis, -1.0), _branch(axis, 1.0)
-        branches = (before,) if before[0] == after[0] else (before, after)
-        arm = arm_mm(mechanism, axis.engagement)
-        out.append(TrueJump(axis, mechanism.center_distance_mm, arm, branches))
+    drive, L, out = mechanism.spec.drive, mechanism.center_distance_mm, list[EntryJump]()
+    for i, one in enumerate(mechanism.engagements):
+        if one.built is not None:
+            angles = drive.roller_angles_deg
+            at_deg = angles[i] if angles else 360.0 * i / drive.rollers
+            own = L * one.slot.offset, L, L * mechanism.ratio, drive, at_deg
+            out.append(BuiltJump(one.built, mechanism.spec.wheel.SIGN, *own))
+        elif axis := RestingAxis.of(one):
+            out.append(TrueJump(axis, L, arm_mm(mechanism, one)))
     return out
-
-
-def _branch(axis: RestingAxis, sense: float) -> tuple[float, arrays.Array, arrays.Complex]:
-    # In geometric progression from next to the true entry to half-way through the motion: between
-    # two places, interpolation has a relative error of 1e-6 at most.
-    span = 0.5 * axis.engagement.through.motion_deg * DEGREE
-    along, across = axis.anchor.displacement(sense * span * np.geomspace(1e-7, 1.0, 8193), 1)
-    off, slope = across.arrays()
-    root = np.sqrt(abs(off))
-    first = int(np.argmax(root > 3e-8))  # the root of a distance that is not rounding
-    leaves = np.append(np.diff(root[first:]) > 0.0, False)
-    part = slice(first, first + int(np.argmin(leaves)) + 1)  # as far as it leaves the axis
-    root, lever = root[part], axis.anchor.along + along.arrays()[0][part]
-    return float(np.sign(off[first])), root, abs(slope)[part] / root + 1j * lever
 
 
 def entry_jumps_worst(mechanism: Mechanism, use: Mapping[str, float]) -> arrays.Array | None:
     """Greatest jump at entry for any of the deviations, over the input's speed: (m,)."""
-    if built := _built_jumps(mechanism):
-        sizes = [use["center_distance_mm"], use["crank_radius_mm"], *[0.0] * 5]
-        jumps = [one(locking.corners(sizes))[0].reshape(-1, mechanism.designs) for one in built]
-        return np.asarray(np.concatenate(jumps).max(axis=0))
-    worst: list[arrays.Array] = []
-    for axis in RestingAxis.each(mechanism):
-        crank = use["crank_radius_mm"] / arm_mm(mechanism, axis.engagement)
-        center = use["center_distance_mm"] / mechanism.center_distance_mm
-        for one, other in product((-1.0, 1.0), repeat=2):
-            contacts = first_contacts(axis, one * crank, other * center)
-            worst.append(np.nan_to_num(abs(contacts.jump)))
-    return np.max(np.broadcast_arrays(*worst), axis=0) if worst else None
+    ends = [(-use[name], use[name]) for name in ("center_distance_mm", "crank_radius_mm")]
+    corners = [locking.deviations([*end, *[0.0] * 5]) for end in product(*ends)]
+    jumps = [one(by)[0] for one in entry_jumps(mechanism) for by in corners]
+    return np.max(np.broadcast_arrays(*jumps), axis=0) if jumps else None

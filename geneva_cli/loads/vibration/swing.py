@@ -28,7 +28,7 @@ Rates: TypeAlias = Callable[[Array, Whole], Array]
 legendre, chebyshev = np.polynomial.legendre, np.polynomial.chebyshev
 NODES = 32  # of Gauss's rule on a panel
 TERMS = 20  # of Legendre's series that are kept
-MOST = 20_000  # panels of a motion: with more, its series are of noise
+MOST = 200  # panels between two knots of a motion: with more, its series are of noise
 
 X, _weights = rule(NODES)
 # values at the nodes -> coefficients of Legendre's series
@@ -50,9 +50,9 @@ class Panels(NamedTuple):
     left: Array  # (p,) ends of each panel
     right: Array
     series: Array  # (2, p, term): s' and s'' by u as Legendre series
-    jumps: Mask  # (m,) True where the motion begins or ends with a velocity, or it jumps
+    jumps: Mask  # (m,) True where the motion begins or ends with a velocity
     greatest: Array  # greatest size of either derivative, (2, m)
-    variation: Array  # total variation of either, with jumps and ends
+    variation: Array  # total variation of either between nodes, with those at the ends
 
     @property
     def half(self) -> Array:
@@ -86,36 +86,35 @@ def motion_shapes(motion: WheelMotion, m: int = 1) -> Panels:
 
     places = np.hstack([np.broadcast_to(np.asarray(x), (m, 1)) for x in motion.knots_deg])
     breaks = (places - places[:, :1]) / (places[:, -1:] - places[:, :1])
-    number, edges, values = _refined(rates, breaks)
+    number, edges, values, greatest = _refined(rates, breaks)
     in_order = np.lexsort((edges[0], number))
     number, (left, right), values = number[in_order], edges[:, in_order], values[:, in_order]
     series = matrix_product(values, SERIES.T)
-    # values at the ends of panels, and jumps between them
-    first, last = (series * (-1.0) ** np.arange(NODES)).sum(axis=2), series.sum(axis=2)
+    # the last node before each panel, or rest
     begins = np.append(True, number[1:] != number[:-1])
-    jump = np.abs(first - np.where(begins, 0.0, np.roll(last, 1, axis=1)))
-    stop = np.where(np.append(begins[1:], True), np.abs(last), 0.0)
-    through = np.concatenate((first[:, :, None], values, last[:, :, None]), axis=2)
-    rises = jump + stop + np.abs(np.diff(through)).sum(axis=2)
-    greatest, jumps, variation = np.zeros((3, 2, len(breaks)))
-    for k in range(2):
-        np.maximum.at(greatest[k], number, np.abs(values[k]).max(axis=1))
-        np.maximum.at(jumps[k], number, np.maximum(jump[k], stop[k]))
-        np.add.at(variation[k], number, rises[k])
-    # A jump of 1e-12 of the greatest value is rounding. Only a crank as built starts and stops the
-    # wheel with a jump of velocity.
-    jumps_there: Mask = jumps[0] > 1e-12 * greatest[0]
-    return Panels(number, left, right, series[..., :TERMS], jumps_there, greatest, variation)
+    before = np.where(begins, 0.0, np.roll(values[..., -1], 1, axis=1))
+    rises = np.abs(values[..., 0] - before) + np.abs(np.diff(values)).sum(axis=2)
+    rises += np.where(np.append(begins[1:], True), np.abs(values[..., -1]), 0.0)
+    variation = np.zeros((2, len(breaks)))
+    for row, rise in zip(variation, rises, strict=True):
+        np.add.at(row, number, rise)
+    # A velocity of 1e-12 of the greatest one is rounding. Only a crank as built starts and stops
+    # the wheel with a jump of velocity.
+    at_ends = rates(np.broadcast_to([0.0, 1.0], (m, 2)), np.arange(m))[0]
+    jumps = np.abs(at_ends).max(axis=1) > 1e-12 * greatest[0]
+    return Panels(number, left, right, series[..., :TERMS], jumps, greatest, variation)
 
 
-def _refined(of: Rates, breaks: Array) -> tuple[Whole, Array, Array]:
-    """Panels: their motions (p,), ends (2, p), and s' and s'' at their nodes (2, p, NODES)."""
+def _refined(of: Rates, breaks: Array) -> tuple[Whole, Array, Array, Array]:
+    """Panels: their motions (p,), ends (2, p), and s' and s'' at their nodes (2, p, NODES).
+
+    And the greatest sizes of both in each motion.
+    """
     m, closed = len(breaks), []
     open_, motion = np.stack((breaks[:, :-1].ravel(), breaks[:, 1:].ravel())), np.arange(m)
     motion = np.repeat(motion, breaks.shape[1] - 1)
     wide = open_[1] > open_[0]
     open_, motion = open_[:, wide], motion[wide]
-    before = np.full(open_.shape, np.inf)  # last terms of the panels that were halved
     greatest, count = np.zeros((2, m)), np.zeros(m, dtype=int)
     while len(motion):
         np.add.at(count, motion, 1)
@@ -125,23 +124,16 @@ def _refined(of: Rates, breaks: Array) -> tuple[Whole, Array, Array]:
             np.maximum.at(row, motion, values)
         # the last six terms show whether the series has ended
         tail = np.abs(matrix_product(rates, SERIES[TERMS - 6 :].T)).max(axis=2)
-        size = greatest[:, motion]
-        # Terms that shrank in neither half when a panel was halved are rounding; random ones vary.
-        # Those of a smooth motion shrink to 2^-14 in both halves, near a jump or a pole in one. All
-        # left halves come before all right halves.
-        stays = tail > 0.25 * before
-        stays &= np.roll(stays, stays.shape[1] // 2, axis=1)
-        rounding = (tail < 1e-6 * size) & stays  # larger terms are of the motion
         # 1e-13 is some hundred roundings; panels narrower than 1e-12 of the motion are not halved
-        ended = ((tail <= 1e-13 * size) | rounding).all(axis=0) | (width < 1e-12)
-        ended |= (count > MOST)[motion]
+        ended = (tail <= 1e-13 * greatest[:, motion]).all(axis=0) | (width < 1e-12)
+        ended |= (count > MOST * (breaks.shape[1] - 1))[motion]
         closed.append((motion[ended], open_[:, ended], rates.swapaxes(1, 2)[..., ended]))
         left, right = open_[:, ~ended]
-        before, motion = np.tile(tail[:, ~ended], 2), np.tile(motion[~ended], 2)
+        motion = np.tile(motion[~ended], 2)
         middle = 0.5 * (left + right)
         open_ = np.stack((np.append(left, middle), np.append(middle, right)))
     motion, open_, values = joined(closed)
-    return motion, open_, values.swapaxes(1, 2)
+    return motion, open_, values.swapaxes(1, 2), greatest
 
 
 class Oscillator(NamedTuple):
@@ -194,30 +186,17 @@ def _integral(panels: Panels, order: int, motion: Whole, swing: Oscillator) -> C
     for here, whole in ((~large, False), (large, True)):
         if not here.any():
             continue
-        some, c = swing.of(of[here]), series[here]
-        after, q = _after(some, 1.0 - right[here]), (p * h)[here]
+        own, c = p[here], series[here]
+        after, q = np.exp(own * (1.0 - right[here])), own * h[here]
         if whole:
-            before = _after(some, 1.0 - left[here])
+            before = np.exp(own * (1.0 - left[here]))
             both = before * _sums(1.0 / q, c)
             both = both - after * _sums(-1.0 / q, c * (-1.0) ** np.arange(TERMS))
-            out[here] = both / p[here]
+            out[here] = both / own
         else:
             swung = np.exp(q[:, None] * (1.0 - NODE)) * WEIGHT
             out[here] = h[here] * after * (matrix_product(c, _VALUES) * swung).sum(axis=1)
     return np.add.reduceat(out, first)
-
-
-def _after(one: Oscillator, v: Array) -> Complex:
-    """e^(p v), with the angle reduced before it is rounded; elementwise."""
-    whole = np.floor(one.ratio)
-    split = 2.0**26  # half of a double's bits
-    head = np.floor(v * split) / split
-    turns = (whole * head) % 1.0 + whole * (v - head) + (one.ratio - whole) * v
-    angle = 2.0 * np.pi * (turns - np.round(turns))
-    zeta, omega = one.damping, 2.0 * np.pi * one.ratio
-    # difference of sqrt(1 - zeta²) from 1
-    angle -= omega * (zeta * zeta / (1.0 + np.sqrt(1.0 - zeta * zeta))) * v
-    return np.exp(-omega * zeta * v) * (np.cos(angle) + 1j * np.sin(angle))
 
 
 def _sums(y: Complex, series: Array) -> Complex:

@@ -164,9 +164,8 @@ def design_vibrations(
     ratio, zeta = (np.broadcast_to(np.ravel(x), mechanism.designs) for x in (periods, damping))
     known = np.flatnonzero(np.isfinite(ratio) & PERIOD_RATIO.holds(ratio))
     out = np.full((len(NAMES), len(ratio)), np.nan)
-    size = 32  # designs at a time: the panels of each are some 20 kB, and stay in the cache
-    for i in range(0, len(known), size):
-        part = known[i : i + size]
+    for i in range(0, len(known), 128):  # designs at a time, whose panels take some 100 MB
+        part = known[i : i + 128]
         own = Oscillators(taken(mechanism, part), Oscillator(ratio[part], zeta[part]))
         out[:, part] = list(vibrations(own, requested).values())
     return dict(zip(NAMES, out, strict=True))

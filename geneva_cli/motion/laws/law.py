@@ -5,18 +5,15 @@ the remainder 1 - s by the time w = 1 - u left: both ends are exact.
 """
 
 from abc import abstractmethod
-from collections.abc import Callable, Mapping, Sequence
-from functools import lru_cache
+from collections.abc import Callable, Mapping
 from typing import Annotated, Any, ClassVar, Self
 
 from geneva_cli.kept import cached_property
-from geneva_cli.numerics.arrays import Array, Truth, Which, all_true, choose
+from geneva_cli.numerics.arrays import Truth, all_true, choose
 from geneva_cli.numerics.jet import Jet, Number, integral, piecewise
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.spec.rules import FINITE, Range, is_array
 from geneva_cli.spec.schema import Field, SpecTable, fields, refuse_kind
-
-QUANTITIES = ("velocity", "acceleration", "jerk", "power")
 
 
 class Law(SpecTable):
@@ -96,32 +93,6 @@ def from_velocity(
     if order == 0:
         return Jet((position(u),))
     return integral(velocity(Jet.variable(u, order - 1)), position(u))
-
-
-@lru_cache(maxsize=256)
-def greatest(law: Law) -> dict[str, tuple[float, float]]:
-    """Greatest size of each derivative of s(u) and of ds/du d²s/du² (power), and its first u.
-
-    It is for a law whose keys are numbers.
-    """
-    import numpy as np
-
-    from geneva_cli.numerics.extremes import Smooth, search
-
-    def jets(u: Array, _: Which, __: int, requested: Sequence[int]) -> list[Jet]:
-        velocity = law(u, 5).derivative()
-        acceleration = velocity.derivative()
-        power = velocity.lower * acceleration
-        every = velocity, acceleration, acceleration.derivative(), power
-        return [every[i] for i in requested]
-
-    # a break belongs to the piece before it
-    ends = [np.array([[u]]) for u in sorted({0.0, 0.5, 1.0, *law.breaks})]
-    starts = [ends[0], *(np.nextafter(end, 1.0) for end in ends[1:-1])]
-    f = Smooth(jets, len(QUANTITIES))
-    most, u, _ = search(f, list(zip(starts, ends[1:], strict=True)), sized=True)
-    places = zip(most[:, 0].tolist(), u[:, 0].tolist(), strict=True)
-    return dict(zip(QUANTITIES, places, strict=True))
 
 
 class Motion(SpecTable):

@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 from geneva_cli.errors import refuse_text
 from geneva_cli.motion.engagement import AsBuilt
-from geneva_cli.motion.wheels.classic import HalfStep, PinPose, Skew, middle
+from geneva_cli.motion.wheels.classic import HalfStep, PinPose, middle
 from geneva_cli.motion.wheels.gearing import RollerPlace
 from geneva_cli.numerics.arrays import Truth, choose, choose_record, larger, library, smaller
 
@@ -96,11 +96,10 @@ def place(sign: float, step: HalfStep, l: float, e: float, rim: float) -> Roller
         x, y = end.beyond, end.across
         poses.append(PinPose(end.crank_deg, wheel, end.along, (sign * y, -sign * x), (-x, -y)))
     entry, exit_ = poses
-    mid, skew, m = middle(sign, l, 1.0 - sign * l), None, library(l, e, rim)
+    mid, m = middle(sign, l, 1.0 - sign * l), library(l, e, rim)
     if not radial:
         deepest = m.sqrt((1.0 - l - e) * (1.0 - l + e))
         mid = mid._replace(wheel=m.atan2(e, deepest) - tilt)
-        skew = Skew(e, tilt, deepest, (entry, mid, exit_))
     # the slot's direction from the wheel's axis where the pin leaves the rim, if it passes it
     cosine, one = (1.0 + rim * rim - l * l) / (2.0 * rim), 0.0 * l + 1.0
     passes = (cosine <= 1.0) & (rim > abs(e))
@@ -109,13 +108,13 @@ def place(sign: float, step: HalfStep, l: float, e: float, rim: float) -> Roller
     leaves = choose(passes, leaves, math.nan)
     built = AsBuilt(inside, leaves - tilt - step.b, first.angle, first.outer)
     moving = 0.5 * (exit_.crank_deg - entry.crank_deg)
-    return RollerPlace(step, moving, (entry, mid, exit_), l, skew, built=built)
+    own = RollerPlace(step, moving, (entry, mid, exit_), l, built=built)
+    return own if radial else own._replace(e=e, tilt=tilt, deepest=deepest)
 
 
 def as_derived(place: RollerPlace) -> RollerPlace:
     """A place of a crank whose R/L is what its slots need, as one of a crank as built."""
-    skew, b = place.skew, place.step.b
-    built = AsBuilt(True, math.nan, (skew.tilt if skew else 0.0) - b, False)
+    built = AsBuilt(True, math.nan, place.tilt - place.step.b, False)
     return place._replace(closed=None, built=built)
 
 

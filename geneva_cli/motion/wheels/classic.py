@@ -16,8 +16,7 @@ from geneva_cli.numerics.angles import one_minus_sin_pi, sin_cos_pi
 from geneva_cli.numerics.arrays import choose, larger, library, smaller
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Number
-    from geneva_cli.numerics.jet_functions import Displacement, Vector
+    from geneva_cli.numerics.jet import Displacement, Number, Vector
 
 
 class PinPose(NamedTuple):
@@ -64,17 +63,6 @@ class HalfStep(NamedTuple):
         """Half an index angle in degrees."""
         p, q = degrees.as_integer_ratio() if isinstance(degrees, float) else (degrees, 1)
         return cls.of(p, 180 * q)
-
-
-class Skew(NamedTuple):
-    """Proportions of an offset slot."""
-
-    e: float
-    tilt: float  # d, radians: the slot against the line of centres, half-way through the step
-    deepest: float  # least coordinate of the pin along the slot's axis: at mid-motion
-    poses: tuple[PinPose, PinPose, PinPose]
-    # The poses at both ends are in the slot's own frame, whose axis is offset by -e from the ray
-    # from the wheel's centre. The pose in the middle is in the frame of the line of centres.
 
 
 def half_motion_deg(sign: float, p: int, q: int) -> float:

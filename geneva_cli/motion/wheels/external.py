@@ -17,7 +17,7 @@ from geneva_cli.spec.schema import Example
 if TYPE_CHECKING:
     from geneva_cli.motion.engagement import Slot, WheelMotion
     from geneva_cli.motion.path_and_slot import AnchoredPath
-    from geneva_cli.numerics.jet_functions import Displacement
+    from geneva_cli.numerics.jet import Displacement
 
 
 class External(Gearing):
@@ -77,7 +77,7 @@ class External(Gearing):
         if isinstance(self.offset_mm, float) and not self.offset_mm:
             return super().place(step, center_distance_mm)
 
-        from geneva_cli.motion.wheels.offset_slot import skew
+        from geneva_cli.motion.wheels.offset_slot import offset_place
 
         # cos² b - |e| is positive if there is such a slot. b + |d| < 90 degrees means |e| < 1 - l;
         # at the limit e = cos b sin d, d = 90 deg - b. The double angle is exact for 3, 4, 6 slots.
@@ -87,8 +87,7 @@ class External(Gearing):
         text = "offset_mm = {e_mm:g}: the roller cannot enter this slot without shock: its size "
         text += "must be below {limit:.6g}"
         refuse_text(spare <= 0.0, ("wheel", "offset_mm"), text, e_mm=self.offset_mm, limit=limit)
-        slot, half = skew(step, e, spare), self.half_motion_deg(step)
-        return RollerPlace(step, half, slot.poses, slot.poses[2].slope[0], slot)
+        return offset_place(step, e, spare)
 
     def as_built(self, ratio: float, rim: float, L: float) -> RollerPlace | None:
         if self.steps or self.stop:
@@ -108,9 +107,8 @@ class External(Gearing):
     def follow(
         self, path: AnchoredPath, place: RollerPlace, turn: Displacement
     ) -> tuple[Slot, WheelMotion]:
-        if place.skew is None:
+        if place.deepest is None:
             return super().follow(path, place, turn)
         from geneva_cli.motion.wheels.offset_slot import OffsetSlot, OffsetSlotMotion
 
-        slot = OffsetSlot(path, place.skew)
-        return slot, OffsetSlotMotion(path, place.step.b, place.skew)
+        return OffsetSlot(path, place), OffsetSlotMotion(path, place)

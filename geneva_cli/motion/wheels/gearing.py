@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import field
-from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple, Self
 
 from geneva_cli.motion.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
 from geneva_cli.motion.pivots import Layout, Pivot, PlaneMotion
 from geneva_cli.motion.wheels import classic
-from geneva_cli.motion.wheels.classic import HalfStep, PinPose, Skew, radial
+from geneva_cli.motion.wheels.classic import HalfStep, PinPose, radial
 from geneva_cli.numerics.angles import one_minus_sin_pi, sin_cos_pi
 from geneva_cli.numerics.arrays import choose
 from geneva_cli.spec.rules import Z_MAX, OneOf, Range
@@ -17,7 +17,7 @@ from geneva_cli.spec.schema import Example, SpecTable
 
 if TYPE_CHECKING:
     from geneva_cli.motion.engagement import AsBuilt, Slot, WheelMotion
-    from geneva_cli.numerics.jet_functions import Displacement
+    from geneva_cli.numerics.jet import Displacement
 
 
 class Output(NamedTuple):
@@ -48,7 +48,12 @@ class RollerPlace(NamedTuple):
     half_motion_deg: float
     poses: tuple[PinPose, PinPose, PinPose]  # entry, middle and exit, from the line of centres on
     ratio: float  # its arm over the centre distance
-    skew: Skew | None = None  # of an offset slot
+    # Of an offset slot: e; its angle to the line of centres half-way through the step, radians; and
+    # the pin's least place along its axis, at mid-motion. Poses at both ends are in the slot's own
+    # frame, whose axis is offset by -e from the ray from the wheel's centre.
+    e: float = 0.0
+    tilt: float = 0.0
+    deepest: Any = None
     crank_deg: float = 0.0  # crank angle at which it crosses the line of centres
     # on a sphere: (top, fall) of the pin's position along the wheel's axis, top - fall (1 - cos a);
     # the cosine of its cone; and how far from the wheel's axis the crank's arm turns, over L

@@ -7,9 +7,10 @@ cos² b is a product with the distance to it, which is computed once.
 
 from functools import partial
 
-from geneva_cli.motion.engagement import Anchor, Slot, SlotAxis
-from geneva_cli.motion.path_and_slot import AnchoredPath, StraightSlotMotion, turned
-from geneva_cli.motion.wheels.classic import HalfStep, PinPose, Skew, gap, half_motion_deg, middle
+from geneva_cli.motion.engagement import Anchor, Slot
+from geneva_cli.motion.path_and_slot import AnchoredPath, StraightSlotMotion
+from geneva_cli.motion.wheels.classic import HalfStep, PinPose, gap, half_motion_deg, middle
+from geneva_cli.motion.wheels.gearing import RollerPlace
 from geneva_cli.numerics.angles import radians, sin_cos_pi
 from geneva_cli.numerics.arrays import choose, enclosed, library
 from geneva_cli.numerics.jet import Jet, Number, integral, piecewise, sqrt, turning
@@ -18,28 +19,20 @@ from geneva_cli.numerics.jet import Jet, Number, integral, piecewise, sqrt, turn
 class OffsetSlot(Slot):
     """A straight slot whose axis misses the wheel's centre."""
 
-    def __init__(self, path: AnchoredPath, skew: Skew) -> None:
-        self.path, self.skew, self.offset = path, skew, skew.e
+    def __init__(self, path: AnchoredPath, place: RollerPlace) -> None:
+        self.path, self.deepest, self.offset, self.tilt = path, place.deepest, place.e, place.tilt
 
-    def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
-        depth = self._depth(input_deg, order)
-        return turned(depth, depth * 0.0 - self.offset, self.skew.tilt)
-
-    def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
-        depth = self._depth(input_deg, order + 1)
-        return depth.lower, depth.derivative()
-
-    def _depth(self, input_deg: Number, order: int) -> Jet:
-        e, deepest = enclosed(input_deg, (self.skew.e, self.skew.deepest))
+    def place(self, input_deg: Number, order: int) -> Jet:
+        e, deepest = enclosed(input_deg, (self.offset, self.deepest))
         return _depth(e, deepest, _since(self.path.middle, input_deg, order)[0])[0]
 
 
 class OffsetSlotMotion(StraightSlotMotion):
     """Motion of a wheel whose offset slot follows the pin."""
 
-    def __init__(self, path: AnchoredPath, half_step: float, skew: Skew) -> None:
-        super().__init__(path, half_step, mirrored=False)
-        self.skew = skew
+    def __init__(self, path: AnchoredPath, place: RollerPlace) -> None:
+        super().__init__(path, place.step.b, mirrored=False)
+        self.e, self.deepest = place.e, place.deepest
 
     def __call__(self, input_deg: Number, order: int = 3, angle: bool = True) -> Jet:
         entry, _, exit_ = self.path.anchors
@@ -60,7 +53,7 @@ class OffsetSlotMotion(StraightSlotMotion):
         -e) with s² = rho² - e². The excess of s over ``along`` is written so that it vanishes with
         ``across``. The wheel's angle and speed then vanish too.
         """
-        (e,) = enclosed(x, (self.skew.e,))
+        (e,) = enclosed(x, (self.e,))
         along, across = anchor(x, order)
         more = across * (across - 2.0 * e)  # s² - along²
         square = along * along + more
@@ -75,7 +68,7 @@ class OffsetSlotMotion(StraightSlotMotion):
 
     def _inside(self, x: Number, order: int, angle: bool) -> Jet:
         """Wheel angle or rate near mid-motion: the pin's direction minus the slot's angle to it."""
-        e, deepest = enclosed(x, (self.skew.e, self.skew.deepest))
+        e, deepest = enclosed(x, (self.e, self.deepest))
         mid = self.path.middle
         toward, across = _since(mid, x, order)
         s, rho2 = _depth(e, deepest, toward)
@@ -104,8 +97,8 @@ def _depth(e: float, deepest: float, toward: Jet) -> tuple[Jet, Jet]:
     return sqrt(square), square + e**2
 
 
-def skew(step: HalfStep, e: float, spare: float) -> Skew:
-    """The slot of offset e for half an index angle b; ``spare`` is cos² b - |e|, above 0."""
+def offset_place(step: HalfStep, e: float, spare: float) -> RollerPlace:
+    """Place of a roller in a slot of offset e; ``spare`` is cos² b - |e|, above 0."""
     m = library(e, step.p, step.q)
     sin_b, cos_b = step.sin_cos
     less = 2.0 * sin_cos_pi(step.p, 2 * step.q)[0] ** 2  # 1 - cos b
@@ -119,7 +112,8 @@ def skew(step: HalfStep, e: float, spare: float) -> Skew:
     deepest = near / (cos_d + sin_b)  # cos d - sin b
     least = gap(1.0, step.p, step.q) + sin_b * size * size / (1.0 + cos_d)  # 1 - l
     l = sin_b * cos_d
-    long = half_motion_deg(1.0, step.p, step.q) + m.degrees(d)
+    half = half_motion_deg(1.0, step.p, step.q)
+    long = half + m.degrees(d)
     short = m.degrees(m.atan2(narrow, sin_b * cos_d + cos_b * size))
     turn = m.atan2(size * (sin_b - cos_d * less), deepest * cos_d + abs(e) * size)
     mid = middle(1.0, l, least)
@@ -129,4 +123,5 @@ def skew(step: HalfStep, e: float, spare: float) -> Skew:
     entry = PinPose(enters, -step.b, along, (-l, 0.0), (0.0, l))
     leaves, along = choose(gentle, short, long), choose(gentle, narrow, wide)
     exit_ = PinPose(leaves, step.b, along, (l, 0.0), (0.0, -l))
-    return Skew(e, m.copysign(d, e), deepest, (entry, mid, exit_))
+    tilt = m.copysign(d, e)
+    return RollerPlace(step, half, (entry, mid, exit_), l, e, tilt, deepest)

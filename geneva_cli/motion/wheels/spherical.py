@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
+from typing import Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import refuse_text
-from geneva_cli.motion.engagement import Slot, SlotAxis, Vector
+from geneva_cli.motion.engagement import Slot
 from geneva_cli.motion.path_and_slot import AnchoredPath, StraightSlotMotion
 from geneva_cli.motion.pivots import Dimension, Layout, Pivot
 from geneva_cli.motion.wheels.classic import HalfStep, PinPose
 from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.numerics.angles import radians, sin_cos_deg
 from geneva_cli.numerics.arrays import choose, library
-from geneva_cli.numerics.jet import Jet, Number, atan2, sin, sin_cos, sqrt
+from geneva_cli.numerics.jet import Displacement, Jet, Number, Vector, atan2, sin, sin_cos, sqrt
 from geneva_cli.spec.rules import Range
 from geneva_cli.spec.schema import Example
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet_functions import Displacement
 
 
 class Spherical(Gearing):
@@ -99,22 +96,22 @@ class Height(NamedTuple):
 
 
 class MeridianSlot(Slot):
-    """A spherical wheel's slot, a meridian."""
+    """A spherical wheel's slot, a meridian: straight in the development."""
 
     def __init__(self, path: AnchoredPath, height: Height) -> None:
         self.path, self.height = path, height
 
-    def __call__(self, input_deg: Number, order: int = 3) -> Vector:
+    def place(self, input_deg: Number, order: int) -> Jet:
+        """Polar angle of the pin."""
         x, y = self.path(input_deg, order)
-        polar = atan2(sqrt(x * x + y * y), self.height(radians(input_deg), order))
-        return polar, polar * 0.0
+        return atan2(sqrt(x * x + y * y), self.height(radians(input_deg), order))
 
-    def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
-        polar = self(input_deg, order + 1)[0]
-        return sin(polar.lower), polar.derivative()
+    def axis(self, input_deg: Number, order: int = 0) -> Vector:
+        polar = self.place(input_deg, order)
+        return sin(polar), polar
 
     def upright(self, input_deg: Number, order: int = 0) -> Jet:
-        return sin_cos(self(input_deg, order)[0])[1]
+        return sin_cos(self.place(input_deg, order))[1]
 
 
 class Sphere(NamedTuple):

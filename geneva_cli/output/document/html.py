@@ -1,7 +1,6 @@
 """A document as one self-contained page of HTML: no script, no network, no font."""
 
 import base64
-import os
 from collections.abc import Iterable, Iterator
 from html import escape
 
@@ -9,6 +8,7 @@ from geneva_cli.errors import clean
 from geneva_cli.output import svg
 from geneva_cli.output.document import blocks
 from geneva_cli.output.plot import plot_svg
+from geneva_cli.output.templates import filled, template
 from geneva_cli.output.terminal.summary import SIGNS
 
 NUMBER = ' class="n"'
@@ -17,27 +17,21 @@ LONG = 36  # letters; a longer value is broken into lines, from the left
 
 def chunks(document: blocks.Document) -> Iterator[str]:
     """The page's text; the same document gives the same bytes."""
-    title = _text(document.title)
-    with open(os.path.join(os.path.dirname(__file__), "page.css"), encoding="utf-8") as file:
-        style = file.read()
-    yield (
-        '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
-        '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
-        f"<title>{title}</title>\n<style>\n{style}</style>\n</head>\n<body>\n<main>\n"
-        f'<h1>{title}</h1>\n<section class="verdict {document.state}" aria-label="Verdict">\n'
-        f'<p><span aria-hidden="true">{SIGNS[document.state]}</span> '
-        f"{_text(document.verdict)}</p>\n"
-    )
-    yield from _list(document.reasons)
-    yield "</section>\n"
+    parts = {"TITLE": _text(document.title), "STYLE": template("document/page.css")}
+    parts |= {"STATE": document.state, "SIGN": SIGNS[document.state]}
+    parts |= {"VERDICT": _text(document.verdict), "REASONS": "".join(_list(document.reasons))}
+    parts["CONTENT"] = "".join(_content(document.blocks))
+    yield filled("document/page.html", parts)
+
+
+def _content(every: Iterable[blocks.Block]) -> Iterator[str]:
     is_open = False  # facts side by side
-    for block in document.blocks:
+    for block in every:
         if (isinstance(block, blocks.Grid) and block.facts) != is_open:
             yield "</div>\n" if is_open else '<div class="facts">\n'
             is_open = not is_open
         yield from _block(block)
     yield "</div>\n" if is_open else ""
-    yield "</main>\n</body>\n</html>\n"
 
 
 def _block(block: blocks.Block) -> Iterator[str]:

@@ -2,13 +2,14 @@
 
 import cmath
 import math
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Callable, Sequence
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
+from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.fit import arcs
-from geneva_cli.geometry.shapes import Arc, Line, Point, about
+from geneva_cli.geometry.shapes import Arc, Line, about
 
 CURVE_MM = 1e-4  # greatest distance of the arcs that replace a curve which is no arc
 
@@ -24,37 +25,56 @@ class Drawn(NamedTuple):
     is_exact: bool = True
 
 
-def arc_pieces(centre: Point, radius: float, start: float, sweep: float) -> list[Line | Arc]:
-    """Return an arc from a direction on, radians, in parts of at most half a turn."""
-    count = max(1, math.ceil(abs(sweep) / math.pi - 1e-12))
-    return [about(centre, radius, start + sweep * i / count, sweep / count) for i in range(count)]
+class Ellipse(NamedTuple):
+    """A part of an ellipse centre + major cos t + minor sin t, from the parameter ``start`` on.
 
-
-def ellipse_pieces(
-    centre: complex, axes: tuple[complex, complex], span: tuple[float, float], unit: float = 1.0
-) -> list[Line | Arc]:
-    """Return an ellipse centre + major cos t + minor sin t from one parameter on, as arcs.
-
-    Both half ``axes``, which may be skewed, are complex numbers. ``span`` has the first parameter
-    and how far it goes on, and ``unit`` the millimetres in a unit of the drawing.
+    Its half axes, which may be skewed, are complex numbers.
     """
-    (major, minor), (start, sweep) = axes, span
+
+    centre: complex
+    major: complex
+    minor: complex
+    start: float = 0.0
+    sweep: float = math.tau
+
+
+# a part of an ellipse, or the poles of a line or a Bézier curve, as complex numbers
+Curve: TypeAlias = Ellipse | Sequence[complex]
+Traced: TypeAlias = tuple[list[Line | Arc], bool]
+Frame: TypeAlias = Callable[[complex], complex]  # where a point of a drawing is, mm
+
+
+def traced(curve: Curve, frame: Frame) -> Traced:
+    """Return a curve as lines and arcs within ``CURVE_MM``, and whether they are the curve."""
+    if not isinstance(curve, Ellipse):
+        return _bezier([*map(frame, curve)]), len(curve) == 2
+    major, minor = (frame(half) - frame(0j) for half in curve[1:3])
+    if abs((major.conjugate() * minor).imag) <= 1e-9 * max(abs(major), abs(minor)) ** 2:
+        raise GenevaError("a circle or ellipse has no width: remove it")
+    return _ellipse(Ellipse(frame(curve.centre), major, minor, *curve[3:]))
+
+
+def _ellipse(own: Ellipse) -> Traced:
+    centre, major, minor, start, sweep = own
     way = math.copysign(1.0, (major.conjugate() * minor).imag)
     if abs(minor - way * 1j * major) <= 1e-9 * abs(major):  # a circle
-        at = centre.real, centre.imag
-        return arc_pieces(at, abs(major), cmath.phase(major) + way * start, way * sweep)
+        first, at = cmath.phase(major) + way * start, (centre.real, centre.imag)
+        count = max(1, math.ceil(abs(sweep) / math.pi - 1e-12))  # parts of at most half a turn
+        part = way * sweep / count
+        return [about(at, abs(major), first + part * i, part) for i in range(count)], True
 
     def curve(t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         points = centre + major * np.cos(t) + minor * np.sin(t)
         tangents = minor * np.cos(t) - major * np.sin(t)
         return _pairs(points), _pairs(math.copysign(1.0, sweep) * tangents / np.abs(tangents))
 
-    return list(arcs(curve, start, start + sweep, CURVE_MM / unit))
+    return list(arcs(curve, start, start + sweep, CURVE_MM)), False
 
 
-def bezier_pieces(poles: Sequence[complex]) -> list[Line | Arc]:
-    """Return a quadratic or cubic Bézier curve as arcs within ``CURVE_MM``."""
-    if len(poles) == 3:
+def _bezier(poles: Sequence[complex]) -> list[Line | Arc]:
+    if len(poles) == 2:
+        poles = (poles[0], *poles, poles[1])
+    elif len(poles) == 3:
         a, b, c = poles
         poles = (a, a + 2.0 * (b - a) / 3.0, c + 2.0 * (b - c) / 3.0, c)
     p, q, r, s = poles

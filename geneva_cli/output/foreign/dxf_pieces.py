@@ -11,9 +11,9 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.geometry.fit import arcs
-from geneva_cli.geometry.shapes import Arc, Contour, Line, placed
+from geneva_cli.geometry.shapes import Arc, Line
 from geneva_cli.output.ezdxf_alone import Document, readfile
-from geneva_cli.output.foreign.drawn import CURVE_MM, Drawn, arc_pieces, ellipse_pieces
+from geneva_cli.output.foreign.drawn import CURVE_MM, Drawn, Ellipse, Traced, traced
 
 # $INSUNITS: millimetres in one unit
 UNITS = {
@@ -33,8 +33,6 @@ PASSED = {
 KNOWN = ("LINE", "ARC", "CIRCLE", "LWPOLYLINE", "POLYLINE", "ELLIPSE", "SPLINE")
 DEEPEST = 16  # blocks in blocks
 
-Pieces = list[Line | Arc]
-
 
 def read_dxf(data: bytes) -> Drawn:
     """Return the lines and arcs of a DXF file's model space.
@@ -49,8 +47,8 @@ def read_dxf(data: bytes) -> Drawn:
         raise GenevaError(
             f"$INSUNITS is {code}: it must be one of {', '.join(map(str, UNITS))}; 4 is millimetres"
         )
-    pieces: Pieces = []
-    exact, unit = True, UNITS.get(code, 1.0)
+    pieces: list[Line | Arc] = []
+    is_exact, unit = True, UNITS.get(code, 1.0)
     for entity in _entities(document, document.modelspace(), 0):
         kind = entity.dxftype()
         if kind not in KNOWN:
@@ -59,16 +57,14 @@ def read_dxf(data: bytes) -> Drawn:
                 f"one of {', '.join(KNOWN)}"
             )
         try:
-            pieces += _pieces(kind, entity, unit)
+            own, exact = _pieces(kind, entity, unit)
         except (ArithmeticError, ValueError, LookupError, AttributeError) as error:
             handle = entity.dxf.get("handle", "?")
             raise GenevaError(f"{kind} with the handle {handle} cannot be read: {error}") from None
-        exact &= kind not in ("ELLIPSE", "SPLINE")
-    if unit != 1.0 and pieces:
-        scaled = placed(Contour("", tuple(pieces)), scale=unit)
-        pieces = list(scaled.segments)  # type: ignore[arg-type]  # no cubics
+        pieces += own
+        is_exact &= exact
     notes = () if code else ("has no unit ($INSUNITS): its numbers are taken as millimetres",)
-    return Drawn(tuple(pieces), notes, exact)
+    return Drawn(tuple(pieces), notes, is_exact)
 
 
 def _document(data: bytes) -> Document:
@@ -108,67 +104,60 @@ def _entities(document: Document, entities: Iterable[Any], depth: int) -> Iterat
             yield from _entities(document, one.virtual_entities(), depth + 1)
 
 
-def _pieces(kind: str, entity: Any, unit: float) -> Pieces:
-    """Return an entity's pieces; a unit of the drawing has ``unit`` mm."""
-    dxf = entity.dxf
-    if kind == "LINE":
-        (x0, y0, _), (x1, y1, _) = dxf.start, dxf.end
-        return [Line((x0, y0), (x1, y1))]
-    if kind == "ELLIPSE":
-        tool = entity.construction_tool()
-        axes = tool.center, tool.major_axis, tool.minor_axis
-        centre, major, minor = (complex(v.x, v.y) for v in axes)
-        sweep = (tool.end_param - tool.start_param) % math.tau or math.tau
-        return ellipse_pieces(centre, (major, minor), (tool.start_param, sweep), unit)
+def _pieces(kind: str, entity: Any, unit: float) -> Traced:
+    """Return an entity's pieces, mm, as ``traced``; a unit of the drawing has ``unit`` mm."""
+    dxf, points = entity.dxf, list[tuple[float, ...]]()  # x, y, bulge
+    is_flat, is_closed = kind in ("CIRCLE", "ARC"), False
     if kind == "SPLINE":
-        return _spline(entity.construction_tool(), unit)
-    is_flat = True
-    if kind == "CIRCLE":
-        pieces = arc_pieces(tuple(dxf.center)[:2], dxf.radius, 0.0, math.tau)
-    elif kind == "ARC":
-        start = math.radians(dxf.start_angle)
-        sweep = math.radians((dxf.end_angle - dxf.start_angle) % 360.0) or math.tau
-        pieces = arc_pieces(tuple(dxf.center)[:2], dxf.radius, start, sweep)
-    elif kind == "LWPOLYLINE":
-        points = [tuple(map(float, point)) for point in entity.get_points("xyb")]
-        pieces = _bulged(points, entity.closed)
-    else:
+        return _spline(entity.construction_tool(), unit), False
+    if kind == "LWPOLYLINE":
+        points, is_flat, is_closed = [*entity.get_points("xyb")], True, entity.closed
+    elif kind == "POLYLINE":
         if entity.is_poly_face_mesh or entity.is_polygon_mesh:
             raise GenevaError("POLYLINE is a mesh, not an outline")
         # 16: points of the frame of a fitted curve
         corners = [v for v in entity.vertices if not v.dxf.flags & 16]
-        points = [(v.dxf.location.x, v.dxf.location.y, float(v.dxf.bulge)) for v in corners]
-        pieces, is_flat = _bulged(points, entity.is_closed), entity.is_2d_polyline
+        points = [(v.dxf.location.x, v.dxf.location.y, v.dxf.bulge) for v in corners]
+        is_flat, is_closed = entity.is_2d_polyline, entity.is_closed
     # as seen from above: the entity may be in a plane seen from below
-    across = dxf.get("extrusion", (0.0, 0.0, 1.0))
-    if is_flat and abs(abs(across[2]) - 1.0) > 1e-9:
+    up = dxf.get("extrusion", (0.0, 0.0, 1.0))[2] if is_flat else 1.0
+    if abs(abs(up) - 1.0) > 1e-9:
         raise GenevaError(f"{kind} does not lie in the drawing's plane")
-    if is_flat and across[2] < 0.0:
-        pieces = [_flipped(piece) for piece in pieces]
-    return pieces
+
+    def frame(z: complex) -> complex:
+        return unit * (z if up > 0.0 else -z.conjugate())
+
+    if kind == "LINE":
+        return traced((_complex(dxf.start), _complex(dxf.end)), frame)
+    if kind == "ELLIPSE":
+        tool = entity.construction_tool()
+        axes = _complex(tool.center), _complex(tool.major_axis), _complex(tool.minor_axis)
+        sweep = (tool.end_param - tool.start_param) % math.tau or math.tau
+        return traced(Ellipse(*axes, tool.start_param, sweep), frame)
+    if kind in ("CIRCLE", "ARC"):
+        start, end = (dxf.start_angle, dxf.end_angle) if kind == "ARC" else (0.0, 360.0)
+        sweep = math.radians((end - start) % 360.0) or math.tau
+        axes = _complex(dxf.center), dxf.radius + 0j, dxf.radius * 1j
+        return traced(Ellipse(*axes, math.radians(start), sweep), frame)
+    ends = [(frame(_complex(p)), up * float(p[2])) for p in [*points, *points[: 1 * is_closed]]]
+    pairs = (((p.real, p.imag), (q.real, q.imag), bulge) for (p, bulge), (q, _) in pairwise(ends))
+    return [Arc(p, q, bulge) if bulge else Line(p, q) for p, q, bulge in pairs], True
 
 
-def _flipped(piece: Line | Arc) -> Line | Arc:
-    start, end = (-piece.start[0], piece.start[1]), (-piece.end[0], piece.end[1])
-    return Arc(start, end, -piece.bulge) if isinstance(piece, Arc) else Line(start, end)
+def _complex(v: Any) -> complex:
+    return complex(v[0], v[1])
 
 
-def _bulged(points: list[Any], close: bool) -> Pieces:
-    """Return the pieces of a polyline from its points (x, y, bulge)."""
-    ends = [*points, points[0]] if close and points else points
-    return [Arc(p[:2], q[:2], p[2]) if p[2] else Line(p[:2], q[:2]) for p, q in pairwise(ends)]
-
-
-def _spline(tool: Any, unit: float) -> Pieces:
+def _spline(tool: Any, unit: float) -> list[Line | Arc]:
     knots, degree = list(tool.knots()), tool.degree
     if degree == 1:
-        points = [(v.x, v.y) for v in tool.control_points]
+        points = [(unit * v.x, unit * v.y) for v in tool.control_points]
         return [Line(p, q) for p, q in pairwise(points)]
 
     def curve(t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         low, high = knots[degree], knots[-degree - 1]
         rows = list(tool.derivatives([min(max(float(x), low), high) for x in t], 1))
-        points = np.array([(p.x, p.y) for p, _ in rows])
+        points = unit * np.array([(p.x, p.y) for p, _ in rows])
         rates = np.array([(d.x, d.y) for _, d in rows])
         return points, rates / np.hypot(*rates.T)[:, None]
 
@@ -176,8 +165,8 @@ def _spline(tool: Any, unit: float) -> Pieces:
     inner = sorted(set(knots[degree : len(knots) - degree]))
     corners = [k for k in inner[1:-1] if knots.count(k) >= degree]
     edge = 1e-12 * (inner[-1] - inner[0])
-    out: Pieces = []
+    out: list[Line | Arc] = []
     for a, b in pairwise([inner[0], *corners, inner[-1]]):
         low, high = a + (edge if a in corners else 0.0), b - (edge if b in corners else 0.0)
-        out += arcs(curve, low, high, CURVE_MM / unit)
+        out += arcs(curve, low, high, CURVE_MM)
     return out

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
-import re
 from collections.abc import Iterator
 from html import escape
 from typing import TYPE_CHECKING, Any
@@ -14,6 +12,7 @@ from geneva_cli.geometry.shapes import Shape
 from geneva_cli.output.inks import INKS
 from geneva_cli.output.plot.plot_layout import labels, ticks
 from geneva_cli.output.svg import element
+from geneva_cli.output.templates import filled, template
 
 if TYPE_CHECKING:
     from geneva_cli.output.scene import Body, Place, Rotation, Scene, Track
@@ -27,8 +26,9 @@ def chunks(scene: Scene) -> Iterator[str]:
     view = x0 - margin, -y1 - margin, x1 - x0 + 2.0 * margin, y1 - y0 + 2.0 * margin
     data = json.dumps(_data(scene, size), separators=(",", ":"), allow_nan=False)
     parts = {"TITLE": escape(clean(scene.title)), "CAPTION": escape(clean(scene.caption))}
-    parts |= {"SPEC": escape(scene.spec), "STYLE": _file("page.css"), "DRAWING": "", "LINKS": ""}
-    parts |= {"MOTION": _file("motion.js"), "SCRIPT": _file("page.js")}
+    parts |= {"SPEC": escape(scene.spec), "DRAWING": "", "LINKS": ""}
+    parts |= {"STYLE": template("page/page.css"), "SCRIPT": template("page/page.js")}
+    parts["MOTION"] = template("page/motion.js")
     parts |= {"DATA": data.replace("<", "\\u003c"), "VIEW": " ".join(f"{v:.6g}" for v in view)}
     for body in scene.bodies:
         shapes = [_shape(shape, shape.layer.lower()) for shape in body.shapes]
@@ -37,13 +37,7 @@ def chunks(scene: Scene) -> Iterator[str]:
         for i, plate in enumerate(bar.plates):
             shapes = [_shape(one, "hole" if k else "edge") for k, one in enumerate(plate.shapes)]
             parts["LINKS"] += f'<g id="link-{number}-{i}" class="link">{"".join(shapes)}</g>\n'
-    # One pass: a title with the name of another part is not replaced.
-    yield re.sub("%([A-Z]+)%", lambda place: parts[place[1]], _file("page.html"))
-
-
-def _file(name: str) -> str:
-    with open(os.path.join(os.path.dirname(__file__), name), encoding="utf-8") as file:
-        return file.read()
+    yield filled("page/page.html", parts)
 
 
 def _id(name: str) -> str:

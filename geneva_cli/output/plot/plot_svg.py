@@ -11,6 +11,7 @@ from geneva_cli.figure import Figure
 from geneva_cli.output.inks import DARK, LIGHT, Paper, colour, dashes
 from geneva_cli.output.plot import plot_layout as layout
 from geneva_cli.output.plot.plot_layout import TEXT, Frame, Kind, Look, Path, Point
+from geneva_cli.output.templates import filled
 from geneva_cli.table import in_decimals
 
 WIDE = 1500  # pixels of a png: ten inches at 150 dots an inch
@@ -26,21 +27,11 @@ def chunks(figure: Figure) -> Iterator[str]:
     content = f"{names} by {layout.named(figure.x).lower()}"
     patterns = [(n, " ".join(map(_n, dashes(n)))) for n in known]
     dashed = "".join(f".c{n} {{ stroke-dasharray: {d} }}\n" for n, d in patterns if d)
-    yield (
-        f'<svg xmlns="http://www.w3.org/2000/svg" width="{_n(layout.PAGE)}" height="{_n(tall)}"'
-        f' viewBox="0 0 {_n(layout.PAGE)} {_n(tall)}" role="img" font-family="sans-serif"'
-        f' font-size="{_n(TEXT)}">\n'
-        f"<title>{escape(clean(figure.title).strip(), quote=False)}</title>\n"
-        f"<desc>{escape(content, quote=False)}</desc>\n"
-        f"<style>\n{_style(LIGHT, known)}"
-        "path { fill: none } .curve { stroke-width: 1.6; stroke-linejoin: round }\n"
-        f"{dashed}.jump {{ stroke-width: 0.8; stroke-dasharray: none }}\n"
-        ".points { stroke-width: 4; stroke-linecap: round; stroke-dasharray: none }\n"
-        f"@media screen and (prefers-color-scheme: dark) {{\n{_style(DARK, known)}}}\n</style>\n"
-        f'<rect class="page" width="{_n(layout.PAGE)}" height="{_n(tall)}"/>\n'
-    )
-    yield from pen.out
-    yield "</svg>\n"
+    title = escape(clean(figure.title).strip(), quote=False)
+    parts = {"TITLE": title, "CONTENT": escape(content, quote=False), "DASHES": dashed}
+    parts |= {"WIDE": _n(layout.PAGE), "TALL": _n(tall), "SIZE": _n(TEXT)}
+    parts |= {"LIGHT": _style(LIGHT, known), "DARK": _style(DARK, known)}
+    yield filled("plot/figure.svg", parts | {"DRAWING": "".join(pen.out)})
 
 
 def png_chunks(figure: Figure) -> Iterator[bytes]:

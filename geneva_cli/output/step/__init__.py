@@ -14,6 +14,7 @@ from geneva_cli.output.inks import INKS
 from geneva_cli.output.solid_part import solid_part
 from geneva_cli.output.step.brep import plate_solid, shell_solid
 from geneva_cli.output.step.entities import Entities, listed, real, words
+from geneva_cli.output.templates import template
 
 
 def chunks(drawing: Drawing) -> Iterator[str]:
@@ -30,6 +31,14 @@ def chunks(drawing: Drawing) -> Iterator[str]:
     yield "ENDSEC;\nEND-ISO-10303-21;\n"
 
 
+# in what a colour is wrapped, to be that of a solid
+STYLES = (
+    *("FILL_AREA_STYLE_COLOUR('',{})", "FILL_AREA_STYLE('',({}))", "SURFACE_STYLE_FILL_AREA({})"),
+    *("SURFACE_SIDE_STYLE('',({}))", "SURFACE_STYLE_USAGE(.BOTH.,{})"),
+    "PRESENTATION_STYLE_ASSIGNMENT(({}))",
+)
+
+
 class _Products:
     """The products of one file; equal parts are one product in several places."""
 
@@ -37,26 +46,9 @@ class _Products:
         self.file = file
         self.known: dict[Part, tuple[str, str]] = {}  # a part's definition and its shape
         self.styled: list[str] = []
-        application = file.add("APPLICATION_CONTEXT('automotive design')")
-        file.add(
-            "APPLICATION_PROTOCOL_DEFINITION('international standard','automotive_design',2000,"
-            f"{application})"
-        )
-        self.context = file.add(f"PRODUCT_CONTEXT('',{application},'mechanical')")
-        self.design = file.add(
-            f"PRODUCT_DEFINITION_CONTEXT('part definition',{application},'design')"
-        )
-        length = file.add("(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.))")
-        angle = file.add("(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.))")
-        solid_angle = file.add("(NAMED_UNIT(*)SI_UNIT($,.STERADIAN.)SOLID_ANGLE_UNIT())")
-        near = file.add(
-            f"UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE(1.E-06),{length},"
-            "'distance_accuracy_value','')"
-        )
-        self.space = file.add(
-            f"(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT(({near}))"
-            f"GLOBAL_UNIT_ASSIGNED_CONTEXT(({length},{angle},{solid_angle}))"
-            "REPRESENTATION_CONTEXT('',''))"
+        # behind the entities of the origin, #1 to #4
+        _, _, self.context, self.design, *_, self.space = (
+            file.add(text) for text in template("step/contexts.txt").splitlines()
         )
         self.product(whole)
         file.add(
@@ -120,11 +112,7 @@ class _Products:
         """Give a solid its colour."""
         file = self.file
         parts = ",".join(real(int(rgb[i : i + 2], 16) / 255.0, 6) for i in (1, 3, 5))
-        colour = file.shared(f"COLOUR_RGB('',{parts})")
-        fill = file.shared(f"FILL_AREA_STYLE_COLOUR('',{colour})")
-        fill = file.shared(f"FILL_AREA_STYLE('',({fill}))")
-        fill = file.shared(f"SURFACE_STYLE_FILL_AREA({fill})")
-        side = file.shared(f"SURFACE_SIDE_STYLE('',({fill}))")
-        used = file.shared(f"SURFACE_STYLE_USAGE(.BOTH.,{side})")
-        style = file.shared(f"PRESENTATION_STYLE_ASSIGNMENT(({used}))")
+        style = file.shared(f"COLOUR_RGB('',{parts})")
+        for outer in STYLES:
+            style = file.shared(outer.format(style))
         self.styled.append(file.add(f"STYLED_ITEM('',({style}),{body})"))

@@ -25,8 +25,7 @@ def slot_columns(mechanism: Mechanism, input_deg: Array) -> list[Array]:
     output = array(engagement.motion(input_deg, 0).c[0]) * mechanism.output.per_radian
     with np.errstate(divide="ignore", invalid="ignore"):
         radius = L * side * np.divide(at.speed, at.turning)
-    straight = engagement.slot.axis(engagement.entry_deg) is not None
-    radius = np.where(straight | (at.turning == 0.0), np.inf, radius)
+    radius = np.where(at.turning == 0.0, np.inf, radius)
     points = [axis for line in lines for axis in line.T]
     return [input_deg, output, *points, np.degrees(at.pressure), radius]
 
@@ -47,12 +46,8 @@ def _lines(
     engagement, L = mechanism.engagements[0].through, mechanism.center_distance_mm
     retraced = retraces(engagement)
     input_deg = np.where((np.abs(input_deg) < SAME_INPUT_DEG) & retraced, 0.0, input_deg)
-    at, back = pitch_at(engagement, input_deg), retraced & (input_deg > 0.0)
-    if engagement.slot.axis(engagement.entry_deg) is not None:
-        first = pitch(engagement, engagement.entry_deg)
-        ahead = array(at.tangent_x * first.tangent_x + at.tangent_y * first.tangent_y)
-        back = ahead < 0.0
-    side = np.where(back, -1.0, 1.0)
+    at = pitch_at(engagement, input_deg)
+    side = np.where(engagement.slot.curved & retraced & (input_deg > 0.0), -1.0, 1.0)
     offset = mechanism.roller_radius_mm + mechanism.spec.size.allowances.slot_clearance_mm
     normal = np.column_stack((-at.tangent_y * side, at.tangent_x * side))
     centre = L * np.column_stack((at.x, at.y))
@@ -60,7 +55,17 @@ def _lines(
 
 
 def pitch_at(engagement: Engagement, input_deg: Array) -> Pitch:
-    """Return the pitch curve, with its limit at a retracing mid-motion."""
+    """Return the pitch curve, with its limit at a retracing mid-motion.
+
+    In a straight slot, in which a pin may rest, the tangent is everywhere that of the way in.
+    """
+    if not engagement.slot.curved:
+        x, y = (array(jet.c[0]) for jet in engagement.slot(input_deg, 0))
+        outer, inner = (engagement.slot(end, 0) for end in (engagement.entry_deg, 0.0))
+        ahead = np.array([b.c[0] - a.c[0] for a, b in zip(outer, inner, strict=True)])
+        tx, ty = ahead / np.hypot(*ahead)
+        pressure = np.arctan2(np.abs(x * ty - y * tx), np.abs(x * tx + y * ty))
+        return Pitch(x, y, tx, ty, 0.0, 0.0, pressure)
     middle = np.abs(input_deg) < SAME_INPUT_DEG
     if not middle.any() or not retraces(engagement):
         return pitch(engagement, input_deg)

@@ -2,15 +2,13 @@
 
 import cmath
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
-from itertools import pairwise, zip_longest
-from typing import TypeAlias
+from itertools import pairwise
 
 import numpy as np
 
 from geneva_cli.loads.cycle import Cycle
-from geneva_cli.motion.engagement import WheelMotion
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import AxisPlace, Link, turned_points
 from geneva_cli.numerics.arrays import Array
@@ -18,8 +16,6 @@ from geneva_cli.output.scene import Bar, CarriedShapes, Place, Push, Track, cubi
 from geneva_cli.parts.assembly import Passage, assembly, links_at
 from geneva_cli.parts.slots.slot_profile import pitch_at
 
-# value and slope by the input in degrees, at input angles in degrees
-Moving: TypeAlias = "Callable[[Array], tuple[Array, Array]]"
 STILL = Track((0.0,), (0.0,), (0.0,))  # of what stands at the angle 0
 ANGLE_ERROR = 1e-7  # rad, of wheel and crank: a tenth of the page's own error
 
@@ -41,23 +37,17 @@ class MachineTurn:
 
         A wheel behind the first one rests before.
         """
-        turned, behind = place.turn, place.behind_deg
-        first = self.passages[0].engagement.half_step
+        places, gain = list[float](), 0.0
+        for engagement, mid in self.passages:
+            motion, ahead = engagement.motion, mid + place.behind_deg
+            inside = (motion.entry_deg, *motion.breaks_deg, motion.exit_deg)
+            places += [ahead + x for x in inside]
+            gain += 2.0 * engagement.half_step
 
-        def resting(value: float) -> Moving:
-            return lambda x: (0.0 * x + value, 0.0 * x)
+        def angle(x: Array) -> Array:
+            return place.turn + self.assembly.wheel(x - place.behind_deg)
 
-        pieces = [(self.start, self.start + behind, resting(turned - first))]
-        for one, after in zip_longest(self.passages, self.passages[1:]):
-            motion = one.engagement.motion
-            mid = one.mid + behind
-            for a, b in _cut(motion.entry_deg, motion.exit_deg, motion.breaks_deg):
-                pieces.append((mid + a, mid + b, _by_motion(motion, mid, turned)))
-            turned += one.engagement.half_step
-            end = after.entry if after else self.end - behind
-            pieces.append((one.exit + behind, end + behind, resting(turned)))
-            turned += after.engagement.half_step if after else 0.0
-        return _track(pieces, ANGLE_ERROR, self.start, turned + first - place.turn)
+        return self._sampled(angle, ANGLE_ERROR, gain, places)
 
     def on_crank(self, number: int) -> AxisPlace:
         """The place of the crank that carries a roller."""
@@ -148,21 +138,26 @@ class MachineTurn:
 
         return along(0), along(1)
 
-    def _sampled(self, f: Callable[[Array], Array], error: float, gain: float = 0.0) -> Track:
-        """A track over the whole turn, divided at entry, middle and exit of each passage."""
-        places = [x for one in self.passages for x in (one.entry, one.mid, one.exit)]
-        pieces = [(a, b, _with_slopes(f, a, b)) for a, b in _cut(self.start, self.end, places)]
-        return _track(pieces, error, self.start, gain)
+    def _sampled(
+        self,
+        f: Callable[[Array], Array],
+        error: float,
+        gain: float = 0.0,
+        places: Sequence[float] = (),
+    ) -> Track:
+        """The track of a function over the whole turn, within ``error``.
 
-
-def _by_motion(motion: WheelMotion, mid: float, turned: float) -> Moving:
-    """The angle of a wheel in a motion about the input angle ``mid``, where it is ``turned``."""
-
-    def moving(x: Array) -> tuple[Array, Array]:
-        psi = motion(x - mid, 1)
-        return turned + psi.c[0] + 0.0 * x, psi.c[1] * (math.pi / 180.0) + 0.0 * x
-
-    return moving
+        It is smooth between ``places``, by default the entry, middle and exit of each passage.
+        """
+        each = [x for one in self.passages for x in (one.entry, one.mid, one.exit)]
+        inside = sorted(x for x in {*(places or each)} if self.start < x < self.end)
+        columns: tuple[list[float], ...] = ([], [], [])
+        for a, b in pairwise([self.start, *inside, self.end]):
+            knots, v, s = _knots(a, b, f, error)
+            for column, more in zip(columns, (knots - self.start, v, s), strict=True):
+                column += more.tolist()
+        at, value, slope = map(tuple, columns)
+        return Track(at, value, slope, gain)
 
 
 def pushes(cycle: Cycle, turn: MachineTurn) -> Iterator[Push]:
@@ -213,50 +208,18 @@ def _normals(one: Passage, local: Array, turn: MachineTurn, pin: Array) -> Array
     return np.column_stack((-direction[:, 1], direction[:, 0])) / np.hypot(*direction.T)[:, None]
 
 
-def _track(
-    pieces: Iterable[tuple[float, float, Moving]], error: float, start: float, gain: float = 0.0
-) -> Track:
-    """The track of consecutive smooth functions, each on its own stretch, within ``error``.
-
-    ``start`` is the input angle at the track's 0.
-    """
-    columns: tuple[list[float], ...] = ([], [], [])
-    for a, b, moving in pieces:
-        if b > a:
-            knots, v, s = _knots(a, b, moving, error)
-            for column, more in zip(columns, (knots - start, v, s), strict=True):
-                column += more.tolist()
-    at, value, slope = map(tuple, columns)
-    return Track(at, value, slope, gain)
-
-
-def _with_slopes(f: Callable[[Array], Array], a: float, b: float) -> Moving:
-    """Add numerical slopes to a function on a stretch."""
-
-    def moving(x: Array) -> tuple[Array, Array]:
-        d = min(1e-3, 0.1 * (b - a))  # degrees
-        left, right = np.maximum(x - d, a), np.minimum(x + d, b)
-        return f(x), (f(right) - f(left)) / (right - left)
-
-    return moving
-
-
-def _cut(a: float, b: float, places: Sequence[float]) -> list[tuple[float, float]]:
-    """Divide a stretch at the places inside it, where a function's derivatives may jump."""
-    return list(pairwise([a, *sorted(x for x in set(places) if a < x < b), b]))
-
-
-def _knots(a: float, b: float, moving: Moving, error: float) -> tuple[Array, Array, Array]:
+def _knots(
+    a: float, b: float, f: Callable[[Array], Array], error: float
+) -> tuple[Array, Array, Array]:
     """Knots, values and slopes: even steps, halved where the cubic is not within the error."""
-    knots = np.linspace(a, b, 5)
+    knots, d = np.linspace(a, b, 5), min(1e-3, 0.1 * (b - a))  # degrees
     while True:
-        v, s = moving(knots)
-        h = np.diff(knots)
+        left, right = np.maximum(knots - d, a), np.minimum(knots + d, b)
+        v, s, h = f(knots), (f(right) - f(left)) / (right - left), np.diff(knots)
         off = np.zeros(len(h))
         for u in (0.2, 0.5, 0.8):  # places in a step
-            there = moving(knots[:-1] + u * h)[0]
             between = cubic(u, h, (v[:-1], v[1:]), (s[:-1], s[1:]))
-            off = np.maximum(off, np.abs(between - there))
+            off = np.maximum(off, np.abs(f(knots[:-1] + u * h) - between))
         wide = (off > error) & (h > 1e-3)  # degrees: knots are no nearer to each other
         if not wide.any():
             return knots, v, s

@@ -134,7 +134,7 @@ class Sweep(NamedTuple):
     @property
     def is_batched(self) -> bool:
         """Return True if all quantities can be computed for a batch of designs."""
-        return bool(self.pick.names) and not self.pick.rest.names
+        return bool(self.pick.names) and self.pick.batched == self.pick.names
 
     @property
     def _makes_parts(self) -> bool:
@@ -214,7 +214,7 @@ class Sweep(NamedTuple):
         for members, batch in self._batches(designs) if self._makes_parts else ():
             own = [one for i in members.tolist() if (one := machines[i])]
             if len(own) == len(members) > 1:
-                from geneva_cli.verdict.quantities.batch_members import share
+                from geneva_cli.verdict.quantities.under_load import share
 
                 share(batch, own)
         return machines

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator
+from itertools import groupby
 from operator import attrgetter
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
@@ -69,7 +70,7 @@ LIMITS load_checks:strength_limits
   arm_stress_MPa: arm_thickness_mm*10 arm_eye_mm*3 arm_hub_mm*3 arm_thickness_mm= LARGER SLOWER
   wheel_key_pressure_MPa: wheel_thickness_mm*10 wheel_bore_mm*5 LARGER
   crank_key_pressure_MPa: arm_thickness_mm*10 arm_bore_mm*5 LARGER
-LIMITS load_checks:product
+LIMITS motion_checks:limits
   product_acceleration_max_m_s2 product_slip: SLOWER MILDER
 STATIC part_checks:walls
   wall_between_slots_mm: SMALLER TIGHTER
@@ -182,20 +183,24 @@ class Check(NamedTuple):
 
 def compared(
     name: str,
-    value: float,
+    value: float | None,
     must_be: str,
     limit: float,
     at_deg: float | None = None,
     noise: float = 0.0,
     reason: Callable[[], str] | None = None,
+    why: str = "",
 ) -> Check:
     """The check that a value is "at least", "at most" or "above" a limit, with why it fails.
 
-    ``noise`` is the rounding error of the value, if it is larger than the limit's.
+    ``noise`` is the rounding error of the value, if it is larger than the limit's. ``why`` says why
+    a value is not known.
 
     >>> compared("jerk_max", 31.4, "at most", 30.0).passes
     False
     """
+    if value is None:
+        return unknown(name, why, must_be, limit)
     passes = keeps(value, must_be, limit, noise)
     own = None if passes else reason
     return Check(name, value, must_be, limit, passes, at_deg=at_deg, reason=own)
@@ -251,11 +256,9 @@ def applicable(among: Checks, *of: object, reasons: bool = True) -> Iterator[Che
 
     Without ``reasons`` all of them, without words that may take longer than the checks.
     """
-    said, by_function = set[str](), dict[str, list[str]]()
-    for name, path in among.items():
-        by_function.setdefault(path, []).append(name)
-    for path, names in by_function.items():
-        for check in load_named(path)(names, *of):
+    said = set[str]()
+    for path, names in groupby(among, among.__getitem__):
+        for check in load_named(path)([*names], *of):
             if reasons and check.reason:
                 check = check._replace(why=check.reason(), reason=None)
             if not reasons or check.passes is not False:
@@ -340,16 +343,6 @@ def single_check(mechanism: Mechanism, name: str, machine: Parts | None = None) 
     return next((check for check in rows if check.name == name), None)
 
 
-def proofs(parts: Parts, to_mm: float | None = None) -> list[Check]:
-    """The proof that no parts collide in a whole turn; none if they cannot be made or turned."""
-    if not parts.mechanism.spec.is_turned or parts.mechanism.no_turn:
-        return []
-    try:
-        return list(applicable(PROOFS, parts, to_mm))
-    except GenevaError:
-        return []  # the checks of the parts report the error
-
-
 # Quantities of a study: values of checks by their names.
 
 
@@ -374,4 +367,4 @@ def passed(parts: Parts) -> Values:
 
 def proved(parts: Parts) -> Values:
     """The gap that is proved."""
-    return {c.name: c.value for c in proofs(parts)}
+    return {c.name: c.value for c in applicable(PROOFS, parts, None)}

@@ -14,12 +14,10 @@ from geneva_cli.spec.tables import LIMITED
 from geneva_cli.verdict.checks import FIRST, Check, compared, unknown
 
 if TYPE_CHECKING:  # a spec without limits or loads is checked without NumPy
-    from geneva_cli.loads.impacts.shock_force import Impact
-    from geneva_cli.loads.strength.pin_arm_key import PinSize
     from geneva_cli.verdict.strength import Strength
 
-# Each limited quantity of strength and life: the key that limits it, its whole name, and the loaded
-# part whose default steel limits it if the spec does not.
+# Each limited quantity of strength and life: the key that limits it, its whole name, but for the
+# greatest stress of the lock, and the loaded part whose default steel limits it without that key.
 _DEFLECTION = "limits.lock_deflection_max_deg"
 _WHEEL, _SHAFT = "material.wheel.stress_max_MPa", "shaft.shear_stress_max_MPa"
 BOUNDS = {
@@ -28,7 +26,7 @@ BOUNDS = {
     "pin_stress_MPa": ("material.roller.stress_max_MPa", "strength.pin.stress_MPa", "pin"),
     "horn_stress_MPa": (_WHEEL, "strength.horn.stress_MPa", "horn"),
     "lock_horn_stress_MPa": (_WHEEL, "strength.lock.horn_stress_MPa", "horn"),
-    "lock_stress_max_MPa": ("limits.lock_stress_max_MPa", "strength.lock.greatest_MPa", ""),
+    "lock_stress_max_MPa": ("limits.lock_stress_max_MPa", "", ""),
     "lock_deflection_max_deg": (_DEFLECTION, "strength.lock.deflection_deg", ""),
     "wheel_shaft_stress_MPa": (_SHAFT, "strength.wheel_shaft.stress_MPa", "wheel_shaft"),
     "crank_shaft_stress_MPa": (_SHAFT, "strength.crank_shaft.stress_MPa", "crank_shaft"),
@@ -54,24 +52,19 @@ def shocks(names: Collection[str], mechanism: Mechanism) -> Iterator[Check]:
     spec, limits = mechanism.spec, mechanism.spec.limits
     misplaced = spec.tolerance.crank_radius_mm or spec.tolerance.center_distance_mm
     if misplaced and "entry_shock_N" in names:
-        from geneva_cli.loads.impacts.entry import entry_impacts
-
         # R/L is wrong, and the roller does not enter along its slot
-        if entry := entry_impacts(mechanism, _pin(mechanism)).only:
-            yield _force_check("entry_shock_N", mechanism, entry)
+        yield from _force_check("entry_shock_N", mechanism, "shock.entry")
     most_MPa = limits.contact_stress_max_MPa
-    struck = limits.pin_force_max_N is not None or spec.tolerance.is_given
-    if struck or most_MPa is not None:
-        from geneva_cli.loads.impacts.reversal import reversal_impacts
+    # where the roller changes from one wall of its slot to the other
+    if limits.pin_force_max_N is not None or spec.tolerance.is_given:
+        yield from _force_check("reversal_shock_N", mechanism, "shock.reversal", _drag)
+    if most_MPa is not None:
+        from geneva_cli.verdict.strength import strength
 
-        # where the roller changes from one wall of its slot to the other
-        impact, words = reversal_impacts(mechanism, _pin(mechanism)).only, partial(_drag, mechanism)
-        if impact is not None and struck:
-            check = _force_check("reversal_shock_N", mechanism, impact, words)
-            yield check._replace(why=f"{check.why}; {words()}") if check.why else check
-        if impact is not None and most_MPa is not None and impact.contact_stress_MPa is not None:
-            found = impact.contact_stress_MPa, "at most", most_MPa, impact.at_deg
-            yield compared("reversal_stress_MPa", *found, reason=words)
+        of, words = strength(mechanism), partial(_drag, mechanism)
+        if (stress := of["shock.reversal.contact_stress_MPa"]) is not None:
+            place = "at most", most_MPa, of["shock.reversal.at_deg"]
+            yield compared("reversal_stress_MPa", stress, *place, reason=words)
     if mechanism.engagements[0].paired and "stopping_torque_Nm" in names:
         from geneva_cli.loads.impacts.reversal import arrival
 
@@ -95,48 +88,29 @@ def _drag(mechanism: Mechanism) -> str:
     return f"a drag of {drag:g} N m on the wheel prevents the change of sides"
 
 
-def _pin(mechanism: Mechanism) -> PinSize | None:
-    from geneva_cli.verdict.quantities.batch_designs import single
-    from geneva_cli.verdict.quantities.under_load import drawn_pin
-
-    return drawn_pin(single(mechanism))
-
-
 def _force_check(
-    name: str, mechanism: Mechanism, impact: Impact[float], reason: Callable[[], str] | None = None
-) -> Check:
-    """The impact's force, compared with the limit of the pin force if there is one."""
+    name: str, mechanism: Mechanism, shock: str, remedy: Callable[[Mechanism], str] | None = None
+) -> Iterator[Check]:
+    """An impact's force, if there is one, compared with the limit of the pin force."""
+    from geneva_cli.verdict.strength import strength
+
     spec, limit = mechanism.spec, mechanism.spec.limits.pin_force_max_N
-    if impact.force_N is not None and limit is not None:
-        found = impact.force_N, "at most", limit, impact.at_deg
-        return compared(name, *found, reason=reason)
+    names, words = ("jump", "force_N", "at_deg"), remedy and partial(remedy, mechanism)
+    jump, force_N, at_deg = (strength(mechanism)[f"{shock}.{name}"] for name in names)
+    if jump is None:
+        return
+    if force_N is not None and limit is not None:
+        yield compared(name, force_N, "at most", limit, at_deg, reason=words)
+        return
     lacks = [] if spec.is_loaded else ["inertia_kgm2 in [load]"]
-    if impact.force_N is None and spec.size.face_width_mm is None:
+    if force_N is None and spec.size.face_width_mm is None:
         lacks.append("face_width_mm in [size]")
     if limit is None:
         lacks.append("pin_force_max_N in [limits]")
-    why = f"the wheel's speed jumps by {impact.jump:.4g} of the input's; to judge it, set "
+    why = f"the wheel's speed jumps by {jump:.4g} of the input's; to judge it, set "
     why += ", ".join(lacks)
-    return Check(name, impact.force_N, "at most", limit, None, why, impact.at_deg)
-
-
-def product(names: Collection[str], mechanism: Mechanism) -> Iterator[Check]:
-    """The product's greatest acceleration, and the friction that holds it, where bounded."""
-    spec, limit = mechanism.spec, mechanism.spec.limits.product_acceleration_max_m_s2
-    friction = spec.product.friction if spec.support.axis == "vertical" else None
-    if limit is None and friction is None:
-        return
-    from geneva_cli.verdict.quantities.batch_designs import number_of, single
-    from geneva_cli.verdict.quantities.motion_quantities import product as motion_of
-
-    # the spec refuses limit and friction without the product's place
-    motion = single(mechanism).columns(motion_of)
-    most, at_deg = (number_of(motion[f"acceleration_m_s2.{end}"], 0) for end in ("max", "at_deg"))
-    if limit is not None:
-        yield compared("product_acceleration_max_m_s2", most, "at most", limit, at_deg)
-    if friction is not None:
-        needed = number_of(motion["friction_needed"], 0)
-        yield compared("product_slip", needed, "at most", friction, at_deg)
+    why += f"; {words()}" if words else ""
+    yield Check(name, force_N, "at most", limit, None, why, at_deg)
 
 
 def strength_limits(names: Collection[str], mechanism: Mechanism) -> Iterator[Check]:
@@ -153,7 +127,8 @@ def strength_limits(names: Collection[str], mechanism: Mechanism) -> Iterator[Ch
         # a key's allowable shear limits it, too
         if part and (own is None or part.endswith("_key")):
             limit = of[f"strength.{part}.allowed_MPa"]
-        value, must_be = of[quantity], "at least" if name == "roller_life_min_h" else "at most"
+        value = of[quantity] if quantity else of.lock_MPa
+        must_be = "at least" if name == "roller_life_min_h" else "at most"
         if value is not None and limit is not None:
             placed = name in ("horn_stress_MPa", "wheel_shaft_stress_MPa", "crank_shaft_stress_MPa")
             at_deg = of[f"strength.{part}.at_deg"] if placed else None

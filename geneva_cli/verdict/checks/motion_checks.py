@@ -15,6 +15,7 @@ from geneva_cli.parts.turn.turn_certificate import UNKNOWN, certificate
 from geneva_cli.spec.tables import LIMITED
 from geneva_cli.verdict.checks import Check, compared, unknown
 from geneva_cli.verdict.motion_warnings import SHOWN_UNDERCUT, turns_back
+from geneva_cli.verdict.quantities.groups import value_of
 
 # A steeper groove wedges its roller on the crank, which friction of 0.58 would hold.
 GROOVE_MAX_DEG = 60.0
@@ -52,12 +53,11 @@ def _slots(names: Collection[str], mechanism: Mechanism) -> Iterator[Check]:
     """The pressure angle; of curved slots, the walls that carry the load, and the undercut."""
     spec, curved = mechanism.spec, mechanism.engagements[0].slot.curved
     if "pressure_angle_deg" in names:
-        from geneva_cli.verdict.quantities.batch_designs import number_of, single
-        from geneva_cli.verdict.quantities.load_quantities import pressure
+        from geneva_cli.loads import load_peaks
 
-        peak = single(mechanism).columns(pressure)
+        peak = load_peaks.greatest_pressure(mechanism)
         most = value_or(spec.limits.pressure_angle_max_deg, 90.0)
-        value, at_deg = number_of(peak["max_deg"], 0), number_of(peak["at_deg"], 0)
+        value, at_deg = peak.max.item(), peak.at_deg.item()
         # At 90 degrees nothing turns the wheel, whatever the limit.
         passes = keeps(value, "at most", most) and value < 90.0
         yield Check("pressure_angle_deg", value, "at most", most, passes, at_deg=at_deg)
@@ -75,23 +75,25 @@ def _slots(names: Collection[str], mechanism: Mechanism) -> Iterator[Check]:
         yield compared("undercut_mm", depth, "at most", SHOWN_UNDERCUT, where)
 
 
+# Keys that bound the product's motion, by the names of their checks, and what they bound.
+PRODUCT = {
+    "product_acceleration_max_m_s2": "product.acceleration_m_s2.max",
+    "product_slip": "product.friction_needed",
+}
+
+
 def limits(names: Collection[str], mechanism: Mechanism) -> Iterator[Check]:
-    """Peaks, as derivatives by the input's radians, times, and loads that ``[limits]`` bounds."""
-    bounds = mechanism.spec.limits.as_dict()
+    """Peaks, as derivatives by the input's radians, times, loads, and the product, if bounded."""
+    spec = mechanism.spec
+    held_by = spec.product.friction if spec.support.axis == "vertical" else None
+    bounds = spec.limits.as_dict() | {"product_slip": held_by}
     for name in names:
-        limit = bounds[name]
+        limit, quantity = bounds[name], (LIMITED | PRODUCT).get(name, "")
         # a crank as built has a limit of its velocity at entry without one in the spec
         if name == "entry_velocity_max" and (limit is not None or mechanism.engagements[0].built):
             yield _entry_velocity(name, mechanism)
         elif limit is None:
             continue
-        elif name in ("velocity_max", "acceleration_max", "acceleration_entry_max", "jerk_max"):
-            from geneva_cli.motion.peaks import worst
-
-            peaks, own = worst(mechanism), name.removesuffix("_max")
-            at_entry = peaks.ends.acceleration_entry
-            most = at_entry if own == "acceleration_entry" else getattr(peaks, own).max
-            yield compared(name, most, "at most", limit)
         elif name.endswith("_s"):
             from geneva_cli.motion.timing import timings
 
@@ -100,12 +102,10 @@ def limits(names: Collection[str], mechanism: Mechanism) -> Iterator[Check]:
             value, must_be = (min(times), "at least") if is_least else (max(times), "at most")
             yield compared(name, value, must_be, limit)
         else:
-            from geneva_cli.verdict.quantities.batch_designs import number_of, single
-            from geneva_cli.verdict.quantities.load_quantities import greatest
-
-            loads, load = single(mechanism).columns(greatest), LIMITED[name].split(".")[1]
-            most, at_deg = number_of(loads[f"{load}.max"], 0), number_of(loads[f"{load}.at_deg"], 0)
-            yield compared(name, most, "at most", limit, at_deg)
+            place = quantity.replace(".max", ".at_deg") if quantity.startswith("loads.") else ""
+            place = "product.acceleration_m_s2.at_deg" if name in PRODUCT else place
+            at_deg = value_of(mechanism, place) if place else None
+            yield compared(name, value_of(mechanism, quantity), "at most", limit, at_deg)
 
 
 def entry_velocity_limit(mechanism: Mechanism) -> float:
@@ -194,31 +194,23 @@ def turning(names: Collection[str], parts: Parts, turn: FullTurn) -> Iterator[Ch
 
 def within_tolerances(names: Collection[str], parts: Parts, turn: FullTurn) -> Iterator[Check]:
     """Plays that ``[limits]`` bounds, and the clearances per side that ``[tolerance]`` needs."""
-    machine = parts.assembly.full
-    limits, own = machine.spec.limits, machine.spec.size.allowances
+    machine, own = parts.assembly.full, parts.assembly.full.spec.size.allowances
+    limits = machine.spec.limits.as_dict()
     unlocked = "not computed, because no drawn locking disc holds the wheel at rest"
     for name, play in (("index_play_max_deg", turn.motion), ("dwell_play_max_deg", turn.dwell)):
-        limit = limits.as_dict()[name]
-        if limit is None:
-            continue
-        if parts.locked or name == "index_play_max_deg":
-            yield compared(name, play.deg, "at most", limit, play.at_deg if play.deg else None)
-        else:
-            yield unknown(name, unlocked, "at most", limit)
-    limit = limits.dwell_position_max_deg
-    if limit is not None and "dwell_position_max_deg" in names:
+        if (limit := limits[name]) is not None:
+            deg = play.deg if parts.locked or play is turn.motion else None
+            at_deg = play.at_deg if play.deg else None
+            yield compared(name, deg, "at most", limit, at_deg, why=unlocked)
+    name = "dwell_position_max_deg"
+    if (limit := limits[name]) is not None and name in names:
         from geneva_cli.verdict.tolerance import worst_dwell_deg
 
-        # the greatest error of the resting wheel
-        why = unlocked
-        try:
-            worst = worst_dwell_deg(machine, parts)
+        try:  # the greatest error of the resting wheel
+            worst, why = worst_dwell_deg(machine, parts), unlocked
         except GenevaError as error:
             worst, why = None, str(error)
-        if worst is None:
-            yield unknown("dwell_position_max_deg", why, "at most", limit)
-        else:
-            yield compared("dwell_position_max_deg", worst, "at most", limit)
+        yield compared(name, worst, "at most", limit, why=why)
     if machine.spec.tolerance.is_given and machine.output.turns:
         # a spec without tolerances is checked without their modules
         from geneva_cli.loads.tolerance.motion_error import used
@@ -240,16 +232,21 @@ def pushed_round(names: Collection[str], mechanism: Mechanism) -> list[Check]:
 
 
 def proof(names: Collection[str], parts: Parts, to_mm: float | None) -> Iterator[Check]:
-    """The proved lower bound of the gap, mm; none where parts are known to overlap.
+    """The proved lower bound of the gap, mm; none where parts overlap, or cannot be turned.
 
     ``to_mm`` is how far below the smallest gap the bound may be: by default 1 um, or twice the
     overlap that counts as touching, if that is more.
     """
-    gap, name = parts.built.turn.smallest.mm, "gap_proved_mm"
-    if gap < -parts.contact:
+    if not parts.mechanism.spec.is_turned or parts.mechanism.no_turn:
         return
-    to_mm = to_mm or max(1e-3, 2.0 * parts.contact)
-    found = certificate(parts, gap, to_mm)
+    try:
+        gap, name = parts.built.turn.smallest.mm, "gap_proved_mm"
+        if gap < -parts.contact:
+            return
+        to_mm = to_mm or max(1e-3, 2.0 * parts.contact)
+        found = certificate(parts, gap, to_mm)
+    except GenevaError:  # the checks of the parts report the error
+        return
     if not found.open:
         why = f"collision-free, proved to {1e3 * to_mm:.3g} µm ({found.intervals:,} intervals)"
         yield compared(name, found.least_mm, "at least", -to_mm)._replace(why=why)

@@ -5,22 +5,22 @@ from __future__ import annotations
 import copy
 import math
 from collections.abc import Callable, Collection, Mapping, Sequence
-from typing import TYPE_CHECKING, Self, TypeAlias, TypeVar
+from typing import Self, TypeAlias, TypeVar
 
 import numpy as np
 
+from geneva_cli.errors import GenevaError
 from geneva_cli.kept import Known, cached_property
 from geneva_cli.motion.batch import taken
 from geneva_cli.motion.mechanism import Mechanism, build
+from geneva_cli.numerics.arrays import Array, Number
 from geneva_cli.spec.tables import LIMITED
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Number
-    from geneva_cli.table import Table
+from geneva_cli.table import Table
 
 T = TypeVar("T")
-# Values by the names of quantities, (m,) each, or one number for all designs.
-Columns: TypeAlias = "Mapping[str, Number | None]"
+# Values by the names of quantities, (m,) each, or one number for all designs. A design has none
+# where its number is NaN or infinite; no design has those that are None, or left out.
+Columns: TypeAlias = Mapping[str, "Number | None"]
 Numbers: TypeAlias = dict[str, float | None]
 # Values of a single design; None is one that does not apply. All machines have the same names.
 Values: TypeAlias = "dict[str, float | str | tuple[str | float, ...] | Table | None]"
@@ -29,10 +29,10 @@ Values: TypeAlias = "dict[str, float | str | tuple[str | float, ...] | Table | N
 class Designs:
     """The m designs of a machine, and shared values of their quantities, (m,), computed once.
 
-    A value is infinite if a design has none, and NaN if it must be computed for the design alone.
     ``each`` are the machines of a batch's single designs, if they are built already. ``names`` are
-    those of all requested quantities: by default of the loads that the spec limits, which its
-    checks compare.
+    those of all requested quantities: by default those that the spec limits, which its checks
+    compare. ``batch`` are the designs, and the number in them, of a single one that takes its
+    values from a batch.
     """
 
     def __init__(
@@ -40,14 +40,14 @@ class Designs:
         machine: Mechanism,
         names: Collection[str] | None = None,
         each: Sequence[Mechanism] = (),
+        batch: tuple[Designs, int] | None = None,
     ) -> None:
-        self.machine, self._each = machine, each
+        self.machine, self._each, self._batch = machine, each, batch
         self.spec = machine.spec
         if names is None:
             limits, names = vars(machine.spec.limits), list[str]()
             for key, name in LIMITED.items():
-                if name.startswith("loads.") and limits[key]:
-                    names.append(name)
+                names += [name] if limits[key] is not None else []
         self.names = names
         self.single = isinstance(machine.design, int)  # its numbers are floats: m = 1
         self.are_built = self.single or bool(each)  # the machines of the single designs are
@@ -75,9 +75,23 @@ class Designs:
         """The values of the requested quantities that a function computes."""
         key = compute, tuple(self.names)
         if key not in self._kept:
-            self._kept[key] = compute(self)
+            self._kept[key] = self._of_batch(compute) if self._batch else compute(self)
         result: Columns = self._kept[key]  # type: ignore[assignment]
         return result
+
+    def _of_batch(self, compute: Callable[[Designs], Columns]) -> Columns:
+        """The values of a design of a batch."""
+        assert self._batch
+        batch, number = self._batch
+        try:
+            every = batch.requesting(self.names).columns(compute)
+        except GenevaError:  # of another design, or of this one, which then raises it again
+            return compute(self)
+        own = Numbers()
+        for name, column in every.items():
+            values = np.ravel(np.nan if column is None else column)  # one number for all, or (m,)
+            own[name] = values[number if len(values) > 1 else 0].item()
+        return own
 
     @cached_property
     def each(self) -> Sequence[Mechanism]:
@@ -93,13 +107,6 @@ class Designs:
 
         case = load_case(self.machine)
         return np.where(np.ravel(case.inertia_Nm + case.resists_Nm > 0.0), 1.0, np.nan)
-
-
-def number_of(column: Number | None, i: int) -> float:
-    """The value of one design in a column, which may be one number for all."""
-    assert column is not None
-    values = np.ravel(column)
-    return float(values[i] if len(values) > 1 else values[0])
 
 
 def only(column: Number | None) -> float | None:

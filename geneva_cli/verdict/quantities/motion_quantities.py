@@ -30,37 +30,38 @@ def timing(of: Designs) -> Columns:
     motion = out["motion_deg"]
     assert motion is not None  # every engagement has one
     rest = np.where(motion < 360.0, 360.0 - motion, np.nan)
-    return out | {"k_r": np.where(rest > 0.0, motion / rest, np.inf)}
+    return out | {"k_r": motion / rest}
 
 
 def input_stop(of: Designs) -> Columns:
     """How the input stops in each dwell, and what the rotor's inertia asks of brake and start.
 
-    The roller is out of its slot meanwhile, so that the wheel and its load are at rest. NaN without
-    a stop; torques and energy are NaN without the rotor's inertia, or for an abrupt stop.
+    The roller is out of its slot meanwhile, so that the wheel and its load are at rest. There are
+    no torques and no energy without the rotor's inertia, and no torque of an abrupt stop.
     """
     drive, motor = of.spec.drive, of.spec.motor
     w, stops = omega(drive.n_rpm), len(of.machine.engagements)  # in a period
     cycle_s = of.machine.lasting_deg / (6.0 * drive.n_rpm * stops)  # on average
-    none = np.where(np.asarray(drive.stop_s) > 0.0, 0.0, np.nan)
-    inertia = np.asarray(motor.inertia_kgm2 * motor.ratio**2)
-    inertia = np.where(inertia > 0.0, inertia, np.nan)
-    brake_s, start_s = (
-        np.where(np.asarray(x) > 0.0, x, np.nan) for x in (drive.brake_s, drive.start_s)
-    )
+    inertia = _positive(motor.inertia_kgm2 * motor.ratio**2)
     brake_deg, start_deg = drive.brake_and_start_deg
     energy = 0.5 * inertia * w * w
-    values = {
+    values: dict[str, Number] = {
         "stands_s": drive.stands_s,
         "brake_deg": brake_deg,
         "start_deg": start_deg,
         "inertia_kgm2": inertia,
-        "brake_torque_Nm": inertia * w / brake_s,
-        "start_torque_Nm": inertia * w / start_s,
+        "brake_torque_Nm": inertia * w / _positive(drive.brake_s),
+        "start_torque_Nm": inertia * w / _positive(drive.start_s),
         "energy_J": energy,
         "power_W": energy / cycle_s,
     }
-    return {name: np.ravel(value + none) for name, value in values.items()}
+    stopped = 0.0 * _positive(drive.stop_s)
+    return {name: np.ravel(value + stopped) for name, value in values.items()}
+
+
+def _positive(value: Number) -> Array:
+    """A number, NaN where it is not above 0."""
+    return np.where(np.asarray(value) > 0.0, value, np.nan)
 
 
 def _shared(values: Sequence[Number | None]) -> Array | None:
@@ -77,7 +78,7 @@ def _shared(values: Sequence[Number | None]) -> Array | None:
 def peaks(of: Designs) -> Columns:
     """The greatest velocity, acceleration, jerk and power, their sizes at the ends, and the jumps.
 
-    The jumps are those of the velocity, infinite for a roller that misses its slot's axis.
+    The jumps are those of the velocity, NaN for a roller that misses its slot's axis.
     """
     requested = {name: own for name in QUANTITIES if (own := of.requested(name))}
     # values at the ends need no search
@@ -92,8 +93,7 @@ def peaks(of: Designs) -> Columns:
         ends: list[Array] = []
         if name == "velocity":  # the greatest jumps at an entry, and at an exit, with their signs
             for each in zip(*(engagement.jumps for engagement in engagements), strict=True):
-                rows = np.broadcast_arrays(*map(np.ravel, each))
-                jumps = np.stack([np.where(np.isnan(row), np.inf, row) for row in rows])
+                jumps = np.stack(np.broadcast_arrays(*map(np.ravel, each)))
                 i = abs(jumps).argmax(axis=0)[None]
                 ends.append(np.take_along_axis(jumps, i, axis=0)[0])
         order = {"acceleration": 2, "jerk": 3}.get(name, 0)  # derivatives of the wheel's angle
@@ -139,19 +139,17 @@ def peak_values(
 
 def index_gained(of: Designs) -> Columns:
     """The wheel angle beyond its rest at which a roller as built leaves the rim, degrees."""
-    gained = np.degrees(np.ravel(of.machine.engagements[0].gained))  # all rollers leave alike
-    return {"index_gained_deg": np.where(np.isnan(gained), np.inf, gained)}
+    # all rollers leave alike
+    return {"index_gained_deg": np.degrees(np.ravel(of.machine.engagements[0].gained))}
 
 
 def product(of: Designs) -> Columns:
-    """The product's motion; None without its place. Infinite where a design has no value."""
-    motion = product_motion(of.machine)
-    if motion is None:
-        return {}
+    """The product's motion; none without its place."""
     out: dict[str, Number | None] = {}
-    for name, value in motion._asdict().items():
+    motion = product_motion(of.machine)
+    for name, value in motion._asdict().items() if motion else ():
         if isinstance(value, tuple):
             out[f"{name}.max"], out[f"{name}.at_deg"] = value
         else:
-            out[name] = np.where(np.isnan(value), np.inf, value)
+            out[name] = value
     return out

@@ -1,11 +1,10 @@
 """Names of a design's quantities, and the resolution of a typed name."""
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
-from functools import cache
+from collections.abc import Iterable, Iterator
 
 from geneva_cli.errors import GenevaError, cut, nearest
-from geneva_cli.verdict.quantities.groups import CHECKS, GROUPS, INPUTS, QuantityGroup
+from geneva_cli.verdict.quantities.groups import CHECKS, GROUP_OF, INPUTS
 
 # Quantities whose values are words, which have no order.
 WORDS = frozenset(
@@ -18,19 +17,13 @@ WORDS = frozenset(
 )
 
 
-@cache
-def group_of() -> Mapping[str, QuantityGroup]:
-    """The group of each quantity, by its whole name."""
-    return {name: group for group in GROUPS for name in group.names}
-
-
 def in_batch(names: Iterable[str]) -> bool:
     """Return True if all these quantities can be computed for a batch of designs.
 
     >>> in_batch(["timing.dwell_s", "jerk.max"]), in_batch(["sizes.ratio"])
     (True, False)
     """
-    known = group_of()
+    known = GROUP_OF
     return all(name in known and name in known[name].batched for name in names)
 
 
@@ -45,7 +38,7 @@ def whole_name(name: str, option: str = "--pick") -> str:
     >>> whole_name("acceleration_max"), whole_name("dwell_s")
     ('acceleration.max', 'timing.dwell_s')
     """
-    if name in group_of():
+    if name in GROUP_OF:
         return name
     for meanings in _readings(name):
         if len(meanings) > 1:
@@ -70,7 +63,7 @@ def _readings(typed: str) -> Iterator[list[str]]:
         "n_rpm": "inputs.drive.n_rpm",
     }
     yield [synonyms[typed]] if typed in synonyms else []
-    others = [name for name in group_of() if not name.startswith(INPUTS)]
+    others = [name for name in GROUP_OF if not name.startswith(INPUTS)]
     quantities = [name for name in others if not name.startswith(CHECKS)]
     yield [name for name in quantities if name.replace(".", "_") == typed]
     for names in (quantities, others):
@@ -90,7 +83,7 @@ def _ends(name: str) -> list[str]:
 
 def _nearest(typed: str) -> str:
     """A question `` (did you mean "..."?)`` with the nearest whole name or end of one."""
-    known = group_of()
+    known = GROUP_OF
     # a whole name behind an extra word, as peaks.velocity.max, or a key of the spec
     whole = [name for name in known if typed.endswith(f".{name}")]
     whole += [name for name in known if name.startswith(INPUTS) and name.endswith(f".{typed}")]

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, TypeVar, cast
+from contextlib import suppress
+from functools import cache, partial
+from typing import Any, cast
 
 import numpy as np
 
@@ -14,31 +16,22 @@ from geneva_cli.loads.impacts.shock_force import forces_N
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_peaks import load_peaks
 from geneva_cli.loads.strength import lock, pin_arm_key
-from geneva_cli.loads.strength.horn import greatest_stress, horns
+from geneva_cli.loads.strength.horn import HornStress, Sides, Sizes, greatest_stress, horns
 from geneva_cli.loads.strength.part_loads import PartLoads, part_loads, single_loads
 from geneva_cli.loads.strength.pin_arm_key import PinSize
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.motion.batch import designs_in, taken
-from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.mechanism import build
+from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.registry import thing
 from geneva_cli.numerics import arrays
-from geneva_cli.numerics.arrays import Array, Number, Record, mapped, parameter
+from geneva_cli.numerics.arrays import Array, Record, mapped, parameter
 from geneva_cli.parts.machine_sizes import fits, of_batch, sized, unloaded, unloaded_alike
 from geneva_cli.parts.shafts.bores import has_shape
-from geneva_cli.parts.sized_by_load import Stressed, batch_sizes, dimensions, needs_lock, sizing
+from geneva_cli.parts.sized_by_load import Stressed, dimensions, load_sizes, needs_lock, sizing
 from geneva_cli.parts.sizes import Sizes as PartSizes
 from geneva_cli.parts.sizes import Unloaded
 from geneva_cli.spec.defaults import roller_material
-from geneva_cli.verdict.quantities.batch_designs import Designs
-
-if TYPE_CHECKING:
-    from geneva_cli.loads.strength.horn import HornStress, Sides, Sizes
-    from geneva_cli.loads.strength.lock import LockUnderTorque
-    from geneva_cli.motion.mechanism import Mechanism
-
-K = TypeVar("K")
-T = TypeVar("T")
+from geneva_cli.verdict.quantities.batch_designs import Designs, single
 
 
 class UnderLoad:
@@ -74,27 +67,28 @@ class UnderLoad:
     @cached_property
     def _each(self) -> list[Unloaded | None]:
         """The parts of each design, or of all, without loads; None for one without flat parts."""
+        spec = self.machine.spec
         if self.designs.single:
             return [unloaded(self.machine) if sized(self.machine) else None]
-        if not self.designs.are_built:
-            of = self.machine.spec
-            with marking():  # the values of the designs are checked
-                own = of.wheel, of.drive.replace(n_rpm=1.0), of.motion, of.size
-                bare = Spec(*own, shaft=of.shaft, drive_before=of.drive_before)
-            if designs_in(bare) == 1:  # designs that differ in speed and loads have the same
-                return [_bare(build(taken(bare, 0)))]
-            return [_bare(taken(self.machine, i)) for i in range(self.machine.designs)]
-        return [*map(_bare, self.designs.each)]
+        if self.designs.are_built:
+            return [*map(_bare, self.designs.each)]
+        # designs that differ in speed and loads have the same
+        is_one = self._moves_alike and designs_in((spec.size, spec.shaft)) == 1
+        return [_bare(taken(self.machine, i)) for i in range(1 if is_one else self.machine.designs)]
 
     @cached_property
-    def _alike(self) -> bool:
-        """True if designs that are not built yet move alike, and differ in plain sizes at most."""
+    def _moves_alike(self) -> bool:
+        """True if the designs have one motion by the input's angle."""
         of = self.machine.spec
-        if self.designs.are_built or self._shaped:
-            return False
         with marking():  # the values of the designs are checked
             own = of.wheel, of.drive.replace(n_rpm=1.0), of.drive_before, of.motion
-        return designs_in((own, self.machine.engagements)) == 1 and of.is_flat
+        return designs_in((own, self.machine.engagements)) == 1
+
+    @property
+    def _alike(self) -> bool:
+        """True if designs that are not built yet move alike, and differ in plain sizes at most."""
+        is_plain = self.machine.spec.is_flat and not (self.designs.are_built or self._shaped)
+        return is_plain and self._moves_alike
 
     @cached_property
     def _shaped(self) -> bool:
@@ -106,7 +100,9 @@ class UnderLoad:
     def _unloaded(self) -> Unloaded | None:
         """The parts of the designs without loads, NaN for one without flat parts; None for none."""
         if not self.designs.single and self._alike:
-            return _or_none(unloaded_alike, self.machine)
+            with suppress(GenevaError):
+                return unloaded_alike(self.machine)
+            return None
         of = next(filter(None, self._each), None)
         if of is None or len(self._each) == 1:
             return of
@@ -156,7 +152,7 @@ class UnderLoad:
         return greatest_stress(horns, self.machine, self.horn_sizes)
 
     @cached_property
-    def lock(self) -> LockUnderTorque | None:
+    def lock(self) -> lock.LockUnderTorque | None:
         """The lock under the torque that it holds in the dwell; None if no design has one."""
         sizes, width = self.lock_sizes, self.contact_mm
         if sizes is None or width is None:
@@ -166,29 +162,25 @@ class UnderLoad:
     @cached_property
     def parts(self) -> Stressed | None:
         """The dimensions of stressed parts, (m,); None if no design has parts, or a load."""
-        if not self.machine.spec.is_loaded:
+        machine, size, is_own = self.machine, self.machine.spec.size, self.designs.are_built
+        if not machine.spec.is_loaded:
             return None
-        own: Callable[[Mechanism], Stressed | None] | None
-        own = thing(self.machine.spec.wheel.NAME, "stressed")
-        if own:
-            machines = self.designs.each
-            return batched([None if one.spec.no_parts else _or_none(own, one) for one in machines])
-        if self.designs.single:
-            one = sized(self.machine)
+        of_kind = thing(machine.spec.wheel.NAME, "stressed") is not None
+        if self.designs.single and not of_kind:
+            one = sized(machine)
             return one and mapped(np.ravel, dimensions(sizing(*one)))
-        of, size, machine, kinds = self._unloaded, self.machine.spec.size, self.machine, set()
-        if of is None:
-            return None
+        is_own = is_own or of_kind or bool(machine.first_wheel) or self._shaped
+        of = None if is_own else self._unloaded
         # links, gears and a groove, which may be in the way of shafts
-        if sizing(of.assembly, of.sizes).planes and not self._alike:
-            kinds = {sizing(one.assembly, one.sizes)[4:7] for one in filter(None, self._each)}
-        if self.designs.are_built or machine.first_wheel or len(kinds) > 1 or self._shaped:
-            layouts = [*map(sized, self.designs.each)]
-            return batched([one and dimensions(sizing(*one)) for one in layouts])
+        if of and sizing(of.assembly, of.sizes).planes and not self._alike:
+            each = filter(None, self._each)
+            is_own = len({sizing(one.assembly, one.sizes)[3:5] for one in each}) > 1
+        if is_own or of is None:
+            return batched([*map(_stressed, self.designs.each)]) if is_own else None
         locks, bent = self.lock_sizes if needs_lock(machine.spec) else None, None
         if locks and size.wheel_thickness_mm is size.face_width_mm is None:
             bent = lock.horn_MPa(machine, *locks, self._flat_horns)
-        sizes = batch_sizes(of, locks and locks[1], machine, self.part_loads, bent)
+        sizes = load_sizes(of, locks and locks[1], machine, self.part_loads, bent)
         parts = dimensions(sizing(of.assembly, sizes)._replace(spec=machine.spec))
         fit = np.where(np.ravel(fits(of, sizes)), np.ones(machine.designs), np.nan)
         return mapped(lambda row: np.ravel(row) * fit, parts)
@@ -211,20 +203,25 @@ class UnderLoad:
         return np.maximum(force, np.nan_to_num(struck * self.rubbed))
 
     @cached_property
-    def pin_mm(self) -> Number:
-        """The diameter of the roller's pin, (m, 1): of the spec, or as its machine is drawn."""
+    def pin(self) -> PinSize | None:
+        """The roller's pin of the spec, or as its machine is drawn, (m, 1); None without a width.
+
+        Its diameter and the length of its contact line.
+        """
         size, width = self.machine.spec.size, self.contact_mm
-        usual = pin_arm_key.pin_diameter_mm(self.machine)
-        if size.pin_mm is not None or width is None:
+        if width is None:
+            return None
+        usual = PinSize(pin_arm_key.pin_diameter_mm(self.machine), width)
+        if size.pin_mm is not None:
             return usual
-        force = self.pin_N(PinSize(usual, width))
-        stress = pin_arm_key.pin_stress_MPa(size, width, usual, force)[2]
+        stress = pin_arm_key.pin_stress_MPa(size, width, usual.diameter_mm, self.pin_N(usual))[2]
         # where the usual pin holds, it is drawn
         holds = ~(stress > roller_material(self.machine.spec).allowed_MPa)
-        parts = None if np.all(holds) else self.parts
-        if parts is None:
+        if np.all(holds) or self.parts is None:
             return usual
-        return np.where(np.isnan(parts.pin), np.ravel(usual), parts.pin)[:, None]
+        drawn = self.parts.pin
+        diameter = np.where(np.isnan(drawn), np.ravel(usual.diameter_mm), drawn)[:, None]
+        return PinSize(diameter, width)
 
     @cached_property
     def part_loads(self) -> PartLoads:
@@ -232,16 +229,25 @@ class UnderLoad:
         return single_loads(self.machine) if self.designs.single else part_loads(self.machine)
 
 
-def _or_none(make: Callable[[K], T | None], of: K) -> T | None:
-    """The result of a function; None for an error, which the check of the parts reports."""
-    try:
-        return make(of)
-    except GenevaError:
-        return None
-
-
 def _bare(one: Mechanism) -> Unloaded | None:
-    return _or_none(unloaded, one) if one.spec.is_flat else None
+    """The parts of a machine without its load; None without flat parts."""
+    with suppress(GenevaError):  # the check of the parts reports the error
+        return unloaded(one) if one.spec.is_flat else None
+    return None
+
+
+def _stressed(one: Mechanism) -> Stressed | None:
+    """The dimensions of a machine's stressed parts; None without parts."""
+    of_kind: Callable[[Mechanism], Stressed | None] | None
+    of_kind = thing(one.spec.wheel.NAME, "stressed")
+    if one.spec.no_parts:
+        return None
+    if of_kind is None:
+        flat = sized(one)
+        return flat and dimensions(sizing(*flat))
+    with suppress(GenevaError):  # the check of the parts reports the error
+        return of_kind(one)
+    return None
 
 
 def batched(
@@ -256,11 +262,11 @@ def batched(
         return None
     fields = list[object]()
     for k, field in enumerate(like):
-        each = [None if one is None else one[k] for one in records]
-        if isinstance(field, tuple):
-            fields.append(batched(cast("Sequence[tuple[object, ...] | None]", each), column))
-        else:
-            fields.append(column(np.array(each, dtype=float)))  # None is NaN
+        each = list[Any]()
+        for one in records:
+            each.append(one and one[k])
+        number = partial(np.array, dtype=float)  # None is NaN
+        fields.append(batched(each, column) if isinstance(field, tuple) else column(number(each)))
     return arrays.record_of(like, fields)
 
 
@@ -269,7 +275,20 @@ def as_numbers(values: Array) -> float:
     return parameter(values[:, None]) if len(values) > 1 else values.item()
 
 
-def drawn_pin(of: Designs) -> PinSize | None:
-    """The pin that an impact bends, and its contact; None where nothing has a width."""
-    width = of.once(UnderLoad).contact_mm
-    return None if width is None else PinSize(of.once(UnderLoad).pin_mm, width)
+def share(batch: Mechanism, machines: Sequence[Mechanism]) -> None:
+    """Let the machines of a batch's designs take from it what their checks and parts need."""
+    designs = Designs(batch, None, machines)
+
+    @cache
+    def loads() -> PartLoads | None:
+        with suppress(GenevaError):  # which one of the designs raises again
+            return designs.once(UnderLoad).part_loads
+        return None
+
+    def loads_of(i: int) -> PartLoads | None:
+        every = loads()
+        return every and every.of(i)
+
+    for i, machine in enumerate(machines):
+        single.put(machine, partial(Designs, machine, batch=(designs, i)))
+        single_loads.put(machine, partial(loads_of, i))

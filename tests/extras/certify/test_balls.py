@@ -22,7 +22,6 @@ from geneva_cli.numerics.jet import Jet, atan2, sin_cos, sqrt
         lambda x: x > 0.7,
         lambda x: x == 0.7,
         lambda x: x < Ball.between(0.9, 2.0),
-        lambda x: library(x).floor(x + 0.25),
         lambda x: library(x).copysign(1.0, x - 0.7),
         lambda x: x.piece([0.7]),
     ],

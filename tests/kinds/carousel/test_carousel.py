@@ -188,10 +188,10 @@ def test_loads_of_several_wheels_are_the_sum_over_a_turn(z, wheels):
 
 def values_of(design):
     return {
-        f"{group.table}.{name}": value
+        name: value
         for group in GROUPS
-        if group.table == "carousel"
-        for name, value in zip(group.own, group.values(design.parts).values(), strict=True)
+        if group.table == "carousel."
+        for name, value in group.values(design.parts).items()
     }
 
 

@@ -17,7 +17,7 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.spec.tables import Load, Shaft, Size
 from geneva_cli.verdict.quantities.batch_designs import Designs
-from geneva_cli.verdict.quantities.part_strength import crank_shaft, wheel_shaft
+from geneva_cli.verdict.quantities.part_strength import shafts
 
 
 def rotated(v, axis, angles):
@@ -77,7 +77,8 @@ def loaded(z, axes_deg, load, overhangs, **size):
 
 def moments(spec):
     designs = Designs(build(spec))
-    return [of(designs)["moment_Nm"].item() for of in (wheel_shaft, crank_shaft)]
+    rows = shafts(designs)
+    return [rows[f"{part}_shaft.moment_Nm"].item() for part in ("wheel", "crank")]
 
 
 @pytest.mark.sampled(3)

@@ -82,8 +82,10 @@ class _LawLine(NamedTuple):
         keys = partial(_keys, target, natural, self.m)
         own = free.allows(natural)
         if not (own and free.exact):
-            best = math.nan if is_searched else longest
-            yield Family(self.spec(longest), keys, free.low, longest, natural, best=best)
+            one = Family(self.spec(longest))
+            if is_searched:
+                one = one._replace(keys=keys, low=free.low, high=longest, plain=natural)
+            yield one
         if own:
             yield Family(self.spec(natural))
 
