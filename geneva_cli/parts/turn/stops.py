@@ -19,7 +19,7 @@ import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.motion.pivots import PlaneMotion
-from geneva_cli.numerics.arrays import Array, Mask, Whole, within_half_turn
+from geneva_cli.numerics.arrays import Array, Mask, Whole
 
 BLOCK = 1 << 18  # pairs of branches that are compared together
 CONCENTRIC = 1e-9  # of the radius: an arc about the axis has one level
@@ -213,15 +213,17 @@ class Stops:
         seen = points[:, None] - axis[:, None]
         x, y = (outline.centres - axis[:, None]).transpose(2, 0, 1)
         level = outline.arc & (np.hypot(x, y) < CONCENTRIC * radius)
-        towards = np.arctan2(outline.my, outline.mx)
-        ahead = np.where(outline.arc & ~level, np.arctan2(y, x), towards)
-        off = within_half_turn(self.moves.place(seen) - ahead)
+        # lines, and arcs about the axis, are on the ray through their feet or middles
+        on_ray = ~outline.arc | level
+        x, y = np.where(on_ray, 1e12 * outline.mx, x), np.where(on_ray, 1e12 * outline.my, y)
         u, v = seen[..., 0], seen[..., 1]
-        first, last = np.arctan2(y * u - x * v, x * (x - u) + y * (y - v))
+        across, along = x * v - y * u, x * u + y * v
+        off, ahead = np.arctan2(np.abs(across), along), np.arctan2(y, x) + turn[:, None]
+        first, last = np.arctan2(-across, x * x + y * y - along)
         span = np.array((first, np.where(outline.arc, first + sweep, last)))
         excess = np.where(outline.sense > 0.0, inset - side, side - inset)
-        curve = 0.0 * side + 1.0 / radius, excess, ahead + turn[:, None]
-        return np.array((self.moves.level(seen), np.abs(off))), span, curve, level
+        curve = 0.0 * side + 1.0 / radius, excess, ahead
+        return np.array((self.moves.level(seen), off)), span, curve, level
 
     def extremes(self, curve: Curve) -> Array:
         """Return levels of nearest and farthest points, and how far they are from the centre's."""
