@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from functools import lru_cache
 from itertools import islice
 from typing import Any, NamedTuple
 
@@ -213,18 +214,13 @@ def pieces(length: int, count: int, make: Callable[[int, int], Sequence[Any]]) -
 
     The table takes the memory of one piece, however many rows are written.
     """
-    # the start and the columns of the last piece, replaced together: another thread may ask
-    last: tuple[int, Sequence[Any]] = (-1, ())
 
+    @lru_cache(maxsize=1)
     def at(start: int) -> Sequence[Any]:
-        nonlocal last
-        known, columns = last
-        if start != known:
-            columns = make(start, min(start + PIECE, length))
-            for column in columns:
-                if not isinstance(column, (list, tuple)):
-                    column.flags.writeable = False  # it is kept
-            last = start, columns
+        columns = make(start, min(start + PIECE, length))
+        for column in columns:
+            if not isinstance(column, (list, tuple)):
+                column.flags.writeable = False  # it is kept
         return columns
 
     return [Column(length, number, at) for number in range(count)]

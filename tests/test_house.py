@@ -171,7 +171,6 @@ ASKS = {
 }
 # Keys and tables of a kind that stand in the core.
 NAMED = {
-    "specfile.template": {"stop"},  # to be an example of the kind
     "study.verdicts": {"stop"},  # a label
 }
 
@@ -367,12 +366,11 @@ def test_few_rooms_touch_streams():
     assert broken(lambda m: read(source(m)).streams, others) == {}
 
 
-# What a class of drives or wheels says in words: names, an example, and what a message is made of.
+# What a class of drives or wheels says in words: names, and what a message is made of.
 WORDS = {
     "TABLE",  # of the file
     "NAME",  # in the file
     "WORDS",  # the drive in a sentence
-    "EXAMPLE",  # a spec
     "IN_FRONT",  # the drive in front of another, in a sentence
     "FIRST",  # the reason why no drive may stand before it
     "USUAL_LOAD",  # keys of a new spec

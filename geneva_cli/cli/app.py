@@ -17,7 +17,7 @@ from typer.core import TyperCommand, TyperGroup
 
 import geneva_cli.progress as progress  # ``from geneva_cli`` would load the lists of kinds
 from geneva_cli import __version__
-from geneva_cli.cli.command import HELP, USAGE, PlainValues, as_command, table_options
+from geneva_cli.cli.command import HELP, USAGE, PlainValues, as_command
 from geneva_cli.errors import GenevaError, clean, cut
 from geneva_cli.streams import leave, open_streams
 
@@ -26,6 +26,15 @@ REPORT = (
     "please report it in the issues of geneva-cli, with the spec; GENEVA_DEBUG=1 shows where it is"
 )
 NO_PAGER = "--no-pager"
+
+
+def table_options(columns: str | None = None, wide: bool = False) -> None:
+    """Options of every command that prints a table.
+
+    Options:
+      --columns NAME,...  Only these columns, as in csv.
+      --wide              All columns on a terminal, however wide.
+    """
 
 
 class LazyGroup(PlainValues, TyperGroup):

@@ -7,10 +7,9 @@ import re
 import sys
 from collections.abc import Iterable, Mapping, Sequence
 from functools import partial
-from inspect import Parameter, cleandoc, signature
+from inspect import Parameter, Signature, cleandoc, signature
 from textwrap import wrap
-from types import FunctionType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import typer
 from typer.core import TyperCommand
@@ -19,7 +18,11 @@ from typer.main import get_command
 from geneva_cli.errors import GenevaError, Notice, clean
 
 if TYPE_CHECKING:
-    from geneva_cli.design import Design
+    from geneva_cli.design import Design as Design
+
+    Reversible: TypeAlias = Design
+else:  # kinds of a command's first parameter, ``design``: of SPEC and --set; of --reverse too
+    Design, Reversible = object(), object()
 
 HELP = {"help_option_names": ["-h", "--help"]}
 USAGE: Any = typer.BadParameter.__base__  # Typer's error for arguments that no command takes
@@ -109,6 +112,11 @@ class Command(PlainValues, TyperCommand):
         columns = ctx.params.pop("columns", None)
         choice.columns = words_in(columns) if columns else []
         choice.wide = ctx.params.pop("wide", False)
+        if "design" in self.kinds:
+            own = {name: ctx.params.pop(name, False) for name in ("spec", "reverse", "settings")}
+            ctx.params["design"] = _design(**own)
+        elif "context" in self.kinds:
+            ctx.params["context"] = ctx
         return super().invoke(ctx)
 
     def collect_usage_pieces(self, ctx: Any) -> list[str]:
@@ -159,65 +167,76 @@ ENTRY = re.compile(r"^  (\S.*?)(?:  +|\n   +)(.*(?:\n   .*)*)", re.MULTILINE)
 def as_command(name: str, run: Any) -> Any:
     """A function as a command; its docstring is the help, with lists as they are printed.
 
-    A list has a command's own arguments and options, below their heading. Each belongs to the
-    parameter of its name; one without such a parameter to the next that is not listed.
+    A command of one ``design`` has SPEC and its options in place of that parameter.
     """
     text, *lists = SECTION.split(cleandoc(run.__doc__))
-    each, examples = dict[str, tuple[str, ...]](), ""
+    params, kind = [*signature(run).parameters.values()], run.__annotations__.get("design")
+    if kind:
+        spec, reverse, settings = signature(_design).parameters.values()
+        options = [reverse, settings] if kind is Reversible else [settings]
+        at = [*signature(run).parameters].index("output")
+        params = [spec, *params[1:at], *options, *params[at:]]
+    alone, examples = typer.Typer(add_completion=False, rich_markup_mode=None), ""
+    if lists and lists[-1].startswith("Examples:"):
+        examples = cleandoc(lists.pop().partition("\n")[2])
+
+    def like() -> None:
+        """Have the signature that Typer reads; ``run`` is called."""
+
+    vars(like)["__signature__"] = Signature(_infos(params, lists))
+    alone.command(name, cls=Command, context_settings=HELP, help=text)(like)
+    command: Any = get_command(alone)
+    command.kinds, command.examples = run.__annotations__, examples.splitlines()
+    command.callback = run
+    return command
+
+
+def _infos(params: Sequence[Parameter], lists: Sequence[str]) -> list[Parameter]:
+    """Parameters as Typer knows them, from the lists of a command's own arguments and options.
+
+    An entry belongs to the parameter of its name; one without such a parameter to the next that is
+    neither listed nor shared.
+    """
+    each, own, infos = dict[str, tuple[str, ...]](), dict[Parameter, tuple[str, ...]](), []
     for one in lists:
         heading, _, lines = one.partition(":\n")
-        if heading == "Examples":
-            examples = lines
-            continue
         for names, meaning in ENTRY.findall(lines):
             option = names.partition("--")[2].partition(" ")[0]
             key = option.replace("-", "_") or names.lower().replace("...", "s")
             each[key] = names, re.sub(r"\n +", " ", meaning), heading
-    own = dict[Parameter, tuple[str, ...]]()
-    for param in signature(run).parameters.values():
+    for param in params:
         if param.annotation != typer.Context:
             own[param] = each.pop(param.name.rstrip("_"), SHARED.get(param.name, ()))
-    rest, infos = iter(each.values()), list[Any]()
+    rest = iter(each.values())
     for param, shown in own.items():
-        infos.append(_info(param.default, *(shown or next(rest))))
-    typed = FunctionType(run.__code__, run.__globals__, name, tuple(infos))
-    for key, kind in run.__annotations__.items():
-        typed.__annotations__[key] = list[str] if kind == tuple[str, ...] else kind
-    own_app = typer.Typer(add_completion=False, rich_markup_mode=None)
-    own_app.command(name, cls=Command, context_settings=HELP, help=text)(typed)
-    command: Any = get_command(own_app)
-    command.kinds, command.examples = run.__annotations__, cleandoc(examples).splitlines()
-    return command
+        names, meaning, *panel = shown or next(rest)
+        value = ... if param.default is Parameter.empty else param.default
+        info = typer.Argument(value, metavar=names, help=meaning)
+        if names.startswith("-"):
+            options, placeholder = re.findall(r"(?<!\S)--?[^ ,]+", names), names.split()[-1]
+            info = typer.Option(
+                value,
+                *options,
+                metavar=None if placeholder in options else placeholder,
+                help=meaning,
+                rich_help_panel=panel[0] if panel else None,
+                show_default="-o" not in options,
+            )
+        kind = list[str] if param.annotation == tuple[str, ...] else param.annotation
+        infos.append(param.replace(default=info, annotation=kind))
+    return infos
 
 
-def _info(default: Any, names: str, meaning: str, heading: str = "") -> Any:
-    """What Typer knows of a parameter."""
-    value = ... if default is Parameter.empty else default
-    if not names.startswith("-"):
-        return typer.Argument(value, metavar=names, help=meaning)
-    options, placeholder = re.findall(r"(?<!\S)--?[^ ,]+", names), names.rpartition(" ")[2]
-    return typer.Option(
-        value,
-        *options,
-        metavar=None if placeholder in options else placeholder,
-        help=meaning,
-        rich_help_panel=heading,
-        show_default="-o" not in options,
-    )
+def _design(spec: str, reverse: bool = False, settings: tuple[str, ...] = ()) -> Any:
+    """The design of a command that has one."""
+    from geneva_cli.design import load
+
+    return load(spec, settings, reverse)
 
 
 def words_in(text: str) -> list[str]:
     """The words of a list between commas."""
     return [word.strip() for word in text.split(",") if word.strip()]
-
-
-def table_options(columns: str | None = None, wide: bool = False) -> None:
-    """Options of every command that prints a table.
-
-    Options:
-      --columns NAME,...  Only these columns, as in csv.
-      --wide              All columns on a terminal, however wide.
-    """
 
 
 def tell(text: str) -> None:

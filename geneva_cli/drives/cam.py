@@ -12,7 +12,6 @@ from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import larger, parameter
 from geneva_cli.numerics.jet import Held, Jet, Loads, Vector, cross
-from geneva_cli.spec.schema import Example
 
 
 class Cam(Drive, kw_only=True):
@@ -27,10 +26,6 @@ class Cam(Drive, kw_only=True):
 
     NAME: ClassVar[str] = "cam"
     WORDS: ClassVar[str] = "a crank whose roller runs in a cam"
-    EXAMPLE: ClassVar[Example] = Example(
-        "a cam-Geneva: straight slots, and a motion law from a fixed cam",
-        {"motion": {"law": "cycloidal"}},
-    )
 
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
         assert motion is not None  # ``compatible`` refuses a cam without a law

@@ -20,7 +20,6 @@ from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Array, Number, choose, library
 from geneva_cli.numerics.jet import Held, Jet, Loads, Vector, rotation, sin_cos, sine_versine
 from geneva_cli.spec.rules import OneOf, Range
-from geneva_cli.spec.schema import Example
 
 
 class Epicyclic(Drive, kw_only=True):
@@ -36,14 +35,6 @@ class Epicyclic(Drive, kw_only=True):
 
     NAME: ClassVar[str] = "epicyclic"
     WORDS: ClassVar[str] = "a roller on a planet gear"
-    EXAMPLE: ClassVar[Example] = Example(
-        "a gear-Geneva: the roller on a planet enters without a jump",
-        {
-            "wheel": {"z": 4},
-            "drive": {"planet_ratio": "shockless", "fixed": "sun"},
-            "size": {"roller_radius_mm": 4.0},
-        },
-    )
     round_gears: ClassVar[tuple[str, ...]] = ("planet", "fixed gear")
     planet_ratio: Annotated[
         float | str,

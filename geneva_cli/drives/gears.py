@@ -19,7 +19,6 @@ from geneva_cli.numerics.angles import sin_cos_deg
 from geneva_cli.numerics.arrays import enclosed, library
 from geneva_cli.numerics.jet import Displacement, Jet, Number, cosines_after, sine_versine_of
 from geneva_cli.spec.rules import POSITIVE, OneOf, Range
-from geneva_cli.spec.schema import Example
 
 
 class GearPair(Transmission, kw_only=True):
@@ -56,9 +55,6 @@ class EllipticalGears(GearPair, kw_only=True):
     NAME: ClassVar[str] = "elliptical-gears"
     WORDS: ClassVar[str] = "a crank behind elliptical gears"
     IN_FRONT: ClassVar[str] = "elliptical gears"
-    EXAMPLE: ClassVar[Example] = Example(
-        "equal elliptical gears in front: a slower, softer index", {"drive": {"eccentricity": 0.3}}
-    )
     eccentricity: Annotated[float, Range(0.0, 1.0, "[)"), "of the gears' pitch ellipses"]
     phase: Annotated[str, OneOf(("slow", "quick")), "phase of the gears at mid-motion"] = "slow"
 
@@ -128,9 +124,6 @@ class NoncircularGears(GearPair, Whitworth, kw_only=True):
     NAME: ClassVar[str] = "noncircular-gears"
     WORDS: ClassVar[str] = "a crank behind noncircular gears"
     IN_FRONT: ClassVar[str] = "noncircular gears"
-    EXAMPLE: ClassVar[Example] = Example(
-        "noncircular gears in front, with the ratio of a side-crank", {"drive": {"A": 0.6}}
-    )
     A: Annotated[float, Range(-1.0, 1.0, "()"), "ratio of a side-crank with this A"]
 
     def layout(self, plan: Plan, sign: float) -> Layout:

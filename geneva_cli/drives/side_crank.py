@@ -17,7 +17,6 @@ from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import library
 from geneva_cli.numerics.jet import Array, Displacement
 from geneva_cli.spec.rules import POSITIVE, Range
-from geneva_cli.spec.schema import Example
 
 
 class SideCrank(Whitworth, kw_only=True):
@@ -33,9 +32,6 @@ class SideCrank(Whitworth, kw_only=True):
     NAME: ClassVar[str] = "side-crank"
     WORDS: ClassVar[str] = "a side-crank"
     IN_FRONT: ClassVar[str] = "a side-crank"
-    EXAMPLE: ClassVar[Example] = Example(
-        "a side-crank drive: a slower, softer index", {"drive": {"A": 0.6}}
-    )
     length_key: ClassVar[str] = "input_crank_mm"
     A: Annotated[float, Range(-1.0, 1.0, "()"), "side-crank: base offset / crank; > 0 is slower"]
     input_crank_mm: Annotated[

@@ -12,7 +12,7 @@ from geneva_cli.motion.pivots import Layout, Link, ShaftPlace
 from geneva_cli.motion.wheels.classic import refuse_jam, rollers_max
 from geneva_cli.numerics.arrays import larger
 from geneva_cli.spec.rules import SPEED, Z_MAX, FromZero, Range
-from geneva_cli.spec.schema import Example, SpecTable
+from geneva_cli.spec.schema import SpecTable
 
 if TYPE_CHECKING:
     from geneva_cli.motion.laws.law import Motion
@@ -42,11 +42,10 @@ class Drive(SpecTable, kw_only=True):
     """A kind of drive; its fields are the keys of ``[drive]``."""
 
     TABLE: ClassVar[str] = "drive"
+    SHARED: ClassVar[tuple[str, ...]] = ("rollers",)  # they decide how many engagements there are
     NAME: ClassVar[str]
     # name of the drive in a sentence
     WORDS: ClassVar[str]
-    # example spec, without its kind
-    EXAMPLE: ClassVar[Example]
     # True if the roller stays as far from the crank's axis as at mid-motion
     ONE_ARM: ClassVar[bool] = False
     # True if its crank can carry a locking disc about the line of centres
@@ -122,10 +121,6 @@ class Drive(SpecTable, kw_only=True):
         ``L`` is the second wheel's centre distance.
         """
         return None
-
-    def may_vary(self, table: str, key: str) -> bool:
-        """True if a number of a table may be an array along a design axis with this drive."""
-        return True
 
     def crank_rate(self, crank_deg: Array) -> Array | float:
         """Rate of the crank over its input shaft's at crank angles; NaN for a path of its own."""

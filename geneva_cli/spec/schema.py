@@ -15,7 +15,7 @@ import inspect
 import math
 import typing
 from collections.abc import Iterable, Mapping, Sequence
-from types import MappingProxyType, NoneType, UnionType
+from types import NoneType, UnionType
 from typing import Annotated, Any, ClassVar, NamedTuple, Self, TypeAlias
 
 from geneva_cli.errors import GenevaError, cut, few, nearest, refuse
@@ -85,6 +85,7 @@ class SpecTable:
 
     TABLE: ClassVar[str] = ""  # its name in the file
     WORDS_APART: ClassVar[str] = "_"  # what stands between the words of its keys
+    SHARED: ClassVar[tuple[str, ...]] = ()  # its numbers that all designs of a batch have in common
     __signature__ = _Signature()
     _parameters: ClassVar[dict[str, dataclasses.Field[object]]]  # by name
 
@@ -393,10 +394,3 @@ def shown(value: Any) -> str:
         if isinstance(value, kind):
             return word
     return f"{value:.12g}" if isinstance(value, float) else cut(value)
-
-
-class Example(NamedTuple):
-    """An example spec for ``geneva new``: its title, and its keys by table besides z = 6."""
-
-    about: str
-    tables: Mapping[str, dict[str, object]] = MappingProxyType({})

@@ -1,6 +1,7 @@
 """Specs to start from: commented ones with the keys that the reader knows, and whole designs."""
 
 import os
+from glob import glob
 from typing import Any
 
 import tomli
@@ -11,46 +12,27 @@ from geneva_cli.motion import registry
 from geneva_cli.motion.machine_spec import BEFORE
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.motion.wheels.gearing import Gearing
-from geneva_cli.spec.schema import REQUIRED, Example, Field, fields
+from geneva_cli.spec.schema import REQUIRED, Field, fields
 from geneva_cli.spec.tables import LISTS
 from geneva_cli.specfile.keys import FILE
 from geneva_cli.specfile.writer import keys_of, noted, quoted
 
-# common requests, in addition to the example of each kind of wheel and drive
-EXAMPLES = {
-    "curved": Example(
-        "curved slots for a motion law, at the mid condition",
-        {"wheel": {"z": 6}, "motion": {"law": "modified-sine", "ratio": "matched"}},
-    ),
-    "stop": Example(
-        "a Geneva stop: the crank is blocked after four turns",
-        {"wheel": {"z": 5, "stop": True}, "load": {"winding_torque_Nm": 0.5}},
-    ),
-    "turret": Example(
-        "a turret with its load, its motor and its limits",
-        {
-            "wheel": {"z": 8},
-            "drive": {"n_rpm": 40},
-            "size": {"center_distance_mm": 250, "roller_radius_mm": 12, "face_width_mm": 18},
-            "load": {"inertia_kgm2": 1.2, "torque_Nm": 20, "efficiency": 0.95, "friction": 0.05},
-            "motor": {"service_factor": 1.5, "gear_ratio": 35, "speed_variation": 0.1},
-            "limits": {"pin_force_max_N": 500, "contact_stress_max_MPa": 600},
-        },
-    ),
-}
-# other requests, with the keys of a design
-DESIGNS = {
-    "rollers": "three-rollers-z4",
-    "cranks": "two-cranks",
-    "curved-internal": "internal-curved-z8",
-    "offset": "offset-slots",
-    "unequal-steps": "unequal-steps",
-    "elliptical-internal": "elliptical-internal",
-    "behind-gears": "behind-gears",
-}
+
+def _examples() -> dict[str, dict[str, Any]]:
+    """Specs with the keys that they set, by kind; of some the ``design`` that is one."""
+    package, out = os.path.dirname(os.path.dirname(os.path.abspath(__file__))), dict[str, Any]()
+    of_kinds = sorted(glob(os.path.join(package, "kinds", "*", "examples.toml")))
+    for path in (os.path.join(package, "specfile", "examples.toml"), *of_kinds):
+        with open(path, encoding="utf-8") as file:
+            out |= tomli.loads(file.read())
+    return out
+
+
+EXAMPLES = _examples()
 # the plain crank is in all of them
 DRIVES = tuple(name for name in registry.DRIVES if name != Crank.NAME)
-KINDS = (*registry.GEARINGS, *EXAMPLES, *DESIGNS, *DRIVES)
+_others = [name for name in EXAMPLES if name not in DRIVES]
+KINDS = tuple(dict.fromkeys((*registry.GEARINGS, *_others, *DRIVES)))
 
 
 def template(kind: str, schema: bool = True, whole: bool = True) -> str:
@@ -116,20 +98,12 @@ def _note(meaning: str, gearing: str) -> str:
     return own.removeprefix(named)
 
 
-def example(kind: str) -> Example:
-    """Title of a kind's example, and the keys that it sets."""
-    if kind in EXAMPLES:
-        return EXAMPLES[kind]
-    if kind in DESIGNS:
-        tree = tomli.loads(_text(f"{DESIGNS[kind]}.toml"))
-        before = tree.get("drive", {}).pop("before", None)
-        return Example(tree.pop("title"), tree | ({BEFORE: before} if before else {}))
-    is_wheel = kind in registry.GEARINGS
-    about, own = (registry.gearing(kind) if is_wheel else registry.drive(kind)).EXAMPLE
-    tables: dict[str, dict[str, object]] = {"wheel": {"z": 6}, **own}
-    table, key, usual = ("wheel", "gearing", External.NAME) if is_wheel else ("drive", "kind", "")
-    named = {} if kind == usual else {key: kind}  # to show that it is the default
-    return Example(about, {**tables, table: {**named, **tables.get(table, {})}})
+def example(kind: str) -> tuple[str, dict[str, Any]]:
+    """Title of a kind's example, and the tables of keys that it sets."""
+    own = EXAMPLES[kind]
+    tree = tomli.loads(_text(f"{own['design']}.toml")) if "design" in own else {**own}
+    before = tree.get("drive", {}).pop("before", None)
+    return tree.pop("title"), tree | ({BEFORE: before} if before else {})
 
 
 def _line(field: Field, values: dict[str, Any]) -> str:

@@ -10,6 +10,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.loads.cycle_figures import AXIS_BY_NAME
 from geneva_cli.loads.load_peaks import LoadSummary
 from geneva_cli.loads.load_tables import no_load
+from geneva_cli.manual import read
 from geneva_cli.manual.explained import entries
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.names import described
@@ -24,18 +25,6 @@ from geneva_cli.table import Table, in_digits
 from geneva_cli.verdict.failures import below_summary
 from geneva_cli.verdict.strength import OF_LIFE
 
-SOURCES = (
-    "Cited: Malteski mehanizmi, a lecture; handbook no. 7, Maltese mechanisms; F. Krasniqi, "
-    "Improvements of kinetic properties and lifespan of Maltic cross through curved canal, "
-    "University of Prishtina; Polyudov and Kandyak, Kinematics of the Maltese cross mechanism "
-    "with a side-crank drive, Ukrainian Academy of Printing. Where our numbers differ, and "
-    "why: geneva help numbers.",
-    "Derivatives: Taylor coefficients that are carried along; peaks: roots of the next derivative.",
-    "Contact stress: Hertz, line contact. Life of the roller: ISO 281. Shafts: the ASME code "
-    "for transmission shafting (B17c). Pins and arm: beams, by von Mises. Keys: DIN 6892. "
-    "Default steel: C45+N, EN 10083-2; of printed plates PLA, doi 10.1089/3dp.2020.0109.",
-    "Formula and source of each value and check: geneva explain NAME.",
-)
 # Sections of the report's values, by the first parts of their names; the others follow them.
 SECTIONS = {
     "Timing": ("timing", "input_stop"),
@@ -109,7 +98,8 @@ def document(design: Design) -> Document:
     if unknown := tuple(dict.fromkeys((*notes, *needs))):
         title = "What is not known, and the key that would give it"
         blocks += (Heading(title), TextList(unknown))
-    blocks += (Heading("Sources of the formulas"), TextList((*_sources(design.spec), *SOURCES)))
+    sources = *_sources(design.spec), *read("sources.txt").splitlines()
+    blocks += (Heading("Sources of the formulas"), TextList(sources))
     defaults = [Fact(name, value, unit) for name, value, unit, _, is_default in keys if is_default]
     blocks += (Heading("Appendix: keys at their defaults"), page.fact_grid("", defaults))
     return _document(design, blocks)

@@ -33,7 +33,7 @@ from geneva_cli.motion.timing import CamFactors
 from geneva_cli.parts.gears import gear_pair
 from geneva_cli.parts.slots import groove
 from geneva_cli.specfile.meanings import meanings, related
-from geneva_cli.specfile.template import DESIGNS, EXAMPLES
+from geneva_cli.specfile.template import EXAMPLES
 from geneva_cli.study import law_values, survey
 from geneva_cli.study.sweep.run import ERROR
 from geneva_cli.study.synth.synth_search import CELLS as SYNTH
@@ -91,7 +91,7 @@ def test_a_warning_is_told_with_its_name(capsys):
 
 def test_every_kind_law_and_part_has_an_entry_and_no_entry_names_none():
     kinds = {*registry.GEARINGS, *registry.DRIVES}
-    assert kinds <= explained("kind") <= {*kinds, *EXAMPLES, *DESIGNS}
+    assert kinds <= explained("kind") <= {*kinds, *EXAMPLES}
     assert explained("law") == set(registry.LAWS)
     assert explained("part") == set(PARTS)
 

@@ -159,7 +159,7 @@ def command(name):
     one = as_command(name, module.run)
     examples = [shlex.split(line)[1:] for line in one.examples]
     options = [p for p in one.params if p.opts[0].startswith("-")]
-    reads = bool({"spec", "specs"} & set(module.run.__annotations__))
+    reads = bool({"design", "spec", "specs"} & set(module.run.__annotations__))
     return examples, options, reads
 
 

@@ -2,16 +2,10 @@
 
 import os
 
-from geneva_cli.cli.command import say
+from geneva_cli.cli.command import Reversible, say
 
 
-def run(
-    spec: str,
-    reverse: bool = False,
-    settings: tuple[str, ...] = (),
-    open_: bool = False,
-    output: str = "-",
-) -> None:
+def run(design: Reversible, open_: bool = False, output: str = "-") -> None:
     """Animate the machine on a page that needs no network.
 
     It shows parts, gears, contact force and curves, and plays or follows a slider.
@@ -26,12 +20,10 @@ def run(
       geneva animate spec.toml --reverse -o backwards.html
       geneva animate spec.toml --open
     """
-    from geneva_cli.design import load
     from geneva_cli.kept import load_extra
     from geneva_cli.output import animate
     from geneva_cli.study.animation.turning_scene import scene
 
-    design = load(spec, settings, reverse)
     place = output
     if open_ and output == "-":
         import tempfile

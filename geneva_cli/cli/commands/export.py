@@ -7,11 +7,7 @@ from geneva_cli.errors import GenevaError, below
 
 
 def run(
-    spec: str,
-    output: str = "",
-    trade: str | None = None,
-    force: bool = False,
-    settings: tuple[str, ...] = (),
+    design: command.Design, output: str = "", trade: str | None = None, force: bool = False
 ) -> None:
     """Write every file that a shop needs into a folder, and list them.
 
@@ -32,14 +28,12 @@ def run(
       geneva export spec.toml --set size.process=laser --for laser -o to-cut
       geneva export spec.toml --set size.process=print --for print -o to-print
     """
-    from geneva_cli.design import load
     from geneva_cli.output import show
     from geneva_cli.output.folder import Row, filling_folder
     from geneva_cli.study.export import export_files, shop_warnings, trade_of
     from geneva_cli.table import rows_table
 
     needed = trade_of(trade)
-    design = load(spec, settings)
     if not output:
         raise GenevaError("the files need a folder: give -o FOLDER")
     if design.spec.is_turned:
@@ -49,17 +43,18 @@ def run(
     with filling_folder(output, entries, design.spec.files, force) as (folder, kept):
         for file in files:
             file.write(os.path.join(folder, file.name))
+    path = design.spec.path
     rows = [(below(output, one.file), one.content) for one in entries]
     show(rows_table(("file", "content"), rows, design.spec.title))
     for one in missing:
-        command.tell(f"{spec}: warning: {one.name}: not written: {one.why}")
+        command.tell(f"{path}: warning: {one.name}: not written: {one.why}")
     for name in kept:
         text = "no file of this design now, but somebody changed it: it stays"
         command.tell(f"{below(output, name)}: warning: {text}")
     process = design.spec.size.process
     if trade and process != trade:
         command.tell(
-            f"{spec}: warning: size.process is {process or 'not set'}, so clearances are not "
+            f"{path}: warning: size.process is {process or 'not set'}, so clearances are not "
             f"those of {trade}; --set size.process={trade} sets them"
         )
-    command.say(design.spec.path, shop_warnings(design))
+    command.say(path, shop_warnings(design))

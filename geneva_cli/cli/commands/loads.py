@@ -1,18 +1,16 @@
 """``geneva loads``."""
 
-from geneva_cli.cli.command import say
+from geneva_cli.cli.command import Reversible, say
 from geneva_cli.errors import is_warning
 
 ROWS = 361
 
 
 def run(
-    spec: str,
+    design: Reversible,
     samples: int | None = None,
     certify: bool = False,
     verbose: bool = False,
-    reverse: bool = False,
-    settings: tuple[str, ...] = (),
     output: str = "-",
     format: str = "",
 ) -> None:
@@ -48,11 +46,9 @@ def run(
       geneva loads spec.toml --set load.inertia_kgm2=0.8 --format json
       geneva loads spec.toml --certify
     """
-    from geneva_cli.design import load
     from geneva_cli.output import choice, chosen, is_for_people, show, show_answer
     from geneva_cli.study.summary.load_lines import of_loads
 
-    design = load(spec, settings, reverse)
     if certify:
         certificates = design.certified_loads(is_for_people(output, format))
         show(certificates, output, format, design.spec.files)

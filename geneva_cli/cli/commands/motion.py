@@ -2,20 +2,18 @@
 
 import typer
 
-from geneva_cli.cli.command import say, tell
+from geneva_cli.cli.command import Reversible, say, tell
 from geneva_cli.errors import GenevaError
 from geneva_cli.output import CAMS, CONTROLLERS
 
 
 def run(
-    spec: str,
+    design: Reversible,
     samples: int | None = None,
     at: str = "",
     turns: int | None = None,
     controller: str | None = None,
     tolerance: float | None = None,
-    reverse: bool = False,
-    settings: tuple[str, ...] = (),
     output: str = "-",
     format: str = "",
 ) -> None:
@@ -45,10 +43,8 @@ def run(
       geneva motion spec.toml --turns 8 -o revolution.csv
       geneva motion spec.toml --format cam --for codesys -o cam.st
     """
-    from geneva_cli.design import load
     from geneva_cli.output import show, show_text
 
-    design = load(spec, settings, reverse)
     files = design.spec.files
     if format not in CAMS:
         if controller is not None or tolerance is not None:
@@ -78,7 +74,7 @@ def run(
     else:
         show(content, output, "csv", files)
     text, is_met = load_extra("servo", "cam_words")(rows, error_deg, tolerance)
-    tell(f"{spec}: {text}")
+    tell(f"{design.spec.path}: {text}")
     say(design.spec.path, design.motion_warnings)
     if not is_met:
         raise typer.Exit(1)

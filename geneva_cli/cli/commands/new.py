@@ -42,7 +42,7 @@ def run(
     if all_ and not kind:
         raise GenevaError("--all goes with KIND")
     if list_:
-        kinds = [(name, "new", example(name).about) for name in KINDS]
+        kinds = [(name, "new", example(name)[0]) for name in KINDS]
         designs = [(name, "new --from-design", title) for name, title in titles().items()]
         table = rows_table(("name", "command", "about"), kinds + designs)
         show(table.replaced(reading=Reading(("name", "about"))), output)

@@ -1,16 +1,9 @@
 """``geneva peaks``."""
 
-from geneva_cli.cli.command import say
+from geneva_cli.cli.command import Reversible, say
 
 
-def run(
-    spec: str,
-    certify: bool = False,
-    reverse: bool = False,
-    settings: tuple[str, ...] = (),
-    output: str = "-",
-    format: str = "",
-) -> None:
+def run(design: Reversible, certify: bool = False, output: str = "-", format: str = "") -> None:
     """Greatest velocity, acceleration, jerk and power of a design, as invariants.
 
     Angles are signed input angles from mid-motion. If engagements differ, each peak is the
@@ -27,10 +20,8 @@ def run(
       geneva peaks spec.toml --set wheel.z=5 --format json
       geneva peaks spec.toml --certify
     """
-    from geneva_cli.design import load
     from geneva_cli.output import is_for_people, show
 
-    design = load(spec, settings, reverse)
     table = design.peaks_table
     if certify:
         table = design.certified_peaks(is_for_people(output, format))

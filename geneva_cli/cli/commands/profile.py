@@ -1,14 +1,14 @@
 """``geneva profile``."""
 
 from geneva_cli.cli import command
-from geneva_cli.cli.command import say
+from geneva_cli.cli.command import Design, say
 from geneva_cli.drawings.catalogue import is_sheet, require_tolerance
 from geneva_cli.errors import GenevaError
 from geneva_cli.output import DRAWN, SHEETS, chosen, draw, draw_sheet, named, show, usual
 
 
 def run(
-    spec: str,
+    design: Design,
     part: str = "slot",
     tolerance: float | None = None,
     samples: int | None = None,
@@ -17,7 +17,6 @@ def run(
     cutter: float | None = None,
     dxf_version: str | None = None,
     force: bool = False,
-    settings: tuple[str, ...] = (),
     output: str = "-",
     format: str = "",
 ) -> None:
@@ -46,13 +45,12 @@ def run(
       geneva profile spec.toml --part wheel -o wheel.dxf
       geneva profile spec.toml --part sheet -o machine.pdf
     """
-    from geneva_cli.design import form_of, load
+    from geneva_cli.design import form_of
 
     walls, tolerance = usual(output, format, tolerance)
     curves = curves or walls
     form_of(curves)  # refuses another word
     sheet, drawn = is_sheet(part), named(output, format) in DRAWN
-    design = load(spec, settings)
     files = design.spec.files
     table = not sheet and design.is_table(part, drawn)
     if (sheet or table) and (kerf is not None or cutter is not None):

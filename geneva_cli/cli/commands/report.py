@@ -2,19 +2,13 @@
 
 import typer
 
-from geneva_cli.cli.command import say
+from geneva_cli.cli.command import Design, say
 from geneva_cli.output import DOCUMENTS, FORMATS
 
 WRITTEN = tuple(dict.fromkeys((*FORMATS, *DOCUMENTS)))
 
 
-def run(
-    spec: str,
-    full: bool = False,
-    settings: tuple[str, ...] = (),
-    output: str = "-",
-    format: str = "",
-) -> None:
+def run(design: Design, full: bool = False, output: str = "-", format: str = "") -> None:
     """Report on a design on two pages: verdict, motor, greatest loads and limits, parts, warnings.
 
     As html or pdf it has a picture of the machine too. With --full it is a document of all inputs
@@ -33,12 +27,10 @@ def run(
       geneva report spec.toml --full -o report.html
       geneva report spec.toml -o report.json
     """
-    from geneva_cli.design import load
     from geneva_cli.output import choice, chosen, show_answer, show_document
     from geneva_cli.study.summary.report_summary import of_report
 
     is_whole = chosen(output, format, WRITTEN) in DOCUMENTS
-    design = load(spec, settings)
     if is_whole:
         from geneva_cli.study.document import document, short_document
 

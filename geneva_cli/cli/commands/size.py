@@ -2,10 +2,10 @@
 
 import os
 
-from geneva_cli.cli.command import tell
+from geneva_cli.cli.command import Design, tell
 
 
-def run(spec: str, settings: tuple[str, ...] = (), output: str = "", format: str = "") -> None:
+def run(design: Design, output: str = "", format: str = "") -> None:
     """The sizes that a rule or the load chose; with -o the spec that has them, so that they stay.
 
     What is written in a spec stays. A size that it leaves out is chosen anew in every run: by a
@@ -24,11 +24,9 @@ def run(spec: str, settings: tuple[str, ...] = (), output: str = "", format: str
       geneva size spec.toml -o sized.toml
       geneva size spec.toml --set drive.n_rpm=90 -o fast.toml
     """
-    from geneva_cli.design import load
     from geneva_cli.output import FORMATS, chosen, require_spec, show_answer, show_text
     from geneva_cli.study.export import of_sizes, sized_text
 
-    design = load(spec, settings)
     extension = os.path.splitext(output)[1].lower().removeprefix(".")
     if not output or format or extension in FORMATS:
         output = output or "-"

@@ -59,17 +59,16 @@ def run(
       geneva sweep spec.toml --vary size.roller_radius_mm=8..16:1 -o all.csv
       geneva sweep spec.toml --vary wheel.z=4..12 --pareto min:jerk.max,max:dwell_s
     """
-    options = locals()
     from geneva_cli.output import chosen, require_spec, show, show_text
     from geneva_cli.study.fields import cells_of, joined
-    from geneva_cli.study.sweep.request import OPTIONS, Outcome, request
+    from geneva_cli.study.sweep.request import Outcome, request
     from geneva_cli.table import Table
 
     if best:
         require_spec(output, format)
     else:
         chosen("-", format)
-    plan = request(spec, vary, settings, **{name: options[name] for name in OPTIONS})
+    plan = request(spec, vary, settings, pick, random, seed, check, subject_to, pareto, best, jobs)
     if resume and (best or plan.chooses or format not in ("", "csv")):
         raise GenevaError("--resume continues all rows of a sweep, as csv or parquet")
     outcome = Outcome(plan)

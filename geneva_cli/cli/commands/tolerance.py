@@ -1,14 +1,13 @@
 """``geneva tolerance``."""
 
-from geneva_cli.cli.command import say
+from geneva_cli.cli.command import Design, say
 
 
 def run(
-    spec: str,
+    design: Design,
     samples: int = 65536,
     seed: int = 0,
     radius: float | None = None,
-    settings: tuple[str, ...] = (),
     output: str = "-",
     format: str = "",
 ) -> None:
@@ -25,11 +24,9 @@ def run(
     Examples:
       geneva tolerance spec.toml --set tolerance.slot_angle_deg=0.01
     """
-    from geneva_cli.design import load
     from geneva_cli.output import is_for_people, show_answer
     from geneva_cli.study.summary.report_summary import of_tolerance
 
-    design = load(spec, settings)
     table = design.tolerance(samples, seed, radius)
     show_answer(of_tolerance(design, table), output, format, design.spec.files)
     # the warnings of tolerances only

@@ -1,15 +1,13 @@
 """``geneva vibration``."""
 
-from geneva_cli.cli.command import say
+from geneva_cli.cli.command import Reversible, say
 
 
 def run(
-    spec: str,
+    design: Reversible,
     period_ratio: float | None = None,
     damping: float | None = None,
     samples: int = 401,
-    reverse: bool = False,
-    settings: tuple[str, ...] = (),
     output: str = "-",
     format: str = "",
 ) -> None:
@@ -27,11 +25,9 @@ def run(
     Examples:
       geneva vibration spec.toml --period-ratio 5.5 --damping 0.02
     """
-    from geneva_cli.design import load
     from geneva_cli.output import chosen, show, show_answer
     from geneva_cli.study.summary.report_summary import of_vibration
 
-    design = load(spec, settings, reverse)
     if chosen(output, format) == "csv":
         table = design.spectrum(samples, period_ratio, damping)
         show(table, output, format, design.spec.files)

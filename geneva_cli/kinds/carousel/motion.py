@@ -18,7 +18,6 @@ from geneva_cli.motion.pivots import Dimension, Layout, Pivot, wheel_places
 from geneva_cli.motion.wheels.classic import rollers_max
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.spec.rules import Range
-from geneva_cli.spec.schema import Example
 
 
 class Carousel(Transmission, kw_only=True):
@@ -34,20 +33,13 @@ class Carousel(Transmission, kw_only=True):
     NAME: ClassVar[str] = "carousel"
     WORDS: ClassVar[str] = "a carrier round a fixed finger"
     direct: ClassVar[bool] = True
-    EXAMPLE: ClassVar[Example] = Example(
-        "wandering hours: wheels orbit on a carrier and index at a fixed finger",
-        {"wheel": {"z": 4}, "drive": {"wheels": 3, "n_rpm": 1.0}},
-    )
+    SHARED: ClassVar[tuple[str, ...]] = ("rollers", "wheels")  # they decide when loads repeat
     FIRST: ClassVar[str] = "its carrier turns at a constant speed"
     wheels: Annotated[int, Range(1, 24), "number of wheels on the carrier, evenly spaced"] = 1
 
     def __post_init__(self) -> None:
         super().__post_init__()
         vars(self)["wheels_on_carrier"] = self.wheels
-
-    def may_vary(self, table: str, key: str) -> bool:
-        """False for the number of wheels, which decides over what period the loads repeat."""
-        return (table, key) != (self.TABLE, "wheels")
 
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
         """Plan of one wheel; the others do the same later. Only one of them moves at a time."""

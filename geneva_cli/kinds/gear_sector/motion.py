@@ -21,7 +21,6 @@ from geneva_cli.numerics.arrays import Array, Batchable, larger, library, size
 from geneva_cli.numerics.jet import Jet, Number, Path, Vector, piecewise
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.spec.rules import Range
-from geneva_cli.spec.schema import Example
 
 if TYPE_CHECKING:
     from geneva_cli.drives.transmission import Transmission
@@ -38,9 +37,6 @@ class GearSector(Drive, kw_only=True):
 
     NAME: ClassVar[str] = "gear-sector"
     WORDS: ClassVar[str] = "a crank with gear sectors"
-    EXAMPLE: ClassVar[Example] = Example(
-        "slot, gears at a constant ratio, slot", {"wheel": {"z": 3}, "drive": {"sector_deg": 60.0}}
-    )
     ONE_ARM: ClassVar[bool] = True  # both rollers are on the crank
     round_gears: ClassVar[tuple[str, ...]] = ("crank gear", "wheel gear")
     sector_deg: Annotated[float, Range(0.0, 330.0, "(]"), "crank angle in gear, D"]

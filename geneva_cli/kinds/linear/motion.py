@@ -21,7 +21,6 @@ from geneva_cli.motion.wheels.classic import HalfStep, PinPose, middle
 from geneva_cli.motion.wheels.gearing import Gearing, Output, RollerPlace
 from geneva_cli.numerics.arrays import Array, N
 from geneva_cli.numerics.jet import Displacement, Jet, Number, Vector
-from geneva_cli.spec.schema import Example
 
 
 class Linear(Gearing):
@@ -36,7 +35,6 @@ class Linear(Gearing):
     """
 
     NAME: ClassVar[str] = "linear"
-    EXAMPLE: ClassVar[Example] = Example("a rack of parallel slots: motion and dwell equal")
     USUAL_LOAD: ClassVar[dict[str, float]] = {"mass_kg": 4, "force_N": 30}
     FLAT: ClassVar[bool] = False
     DISTANCE: ClassVar[str] = "crank radius"

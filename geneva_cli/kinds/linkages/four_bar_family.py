@@ -23,8 +23,9 @@ from geneva_cli.study.synth.families.family import Family, is_compatible, natura
 from geneva_cli.study.synth.family_search import Places
 from geneva_cli.study.target import AllowedSpan, Target
 
-_EXAMPLE: Any = FourBar.EXAMPLE.tables["drive"]
 _LENGTHS = ("crank_mm", "ground_mm", "coupler_mm", "rocker_mm")
+_EXAMPLE: Any = dict(zip(_LENGTHS, (40.0, 90.0, 100.0, 100.0), strict=True))
+_EXAMPLE |= {"point_mm": 161.5, "point_deg": -36.1, "entry_deg": 123.3}
 
 
 def four_bars(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:

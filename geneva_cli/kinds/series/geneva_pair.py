@@ -23,7 +23,6 @@ from geneva_cli.numerics.angles import of_each, radians, sin_cos_pi
 from geneva_cli.numerics.arrays import Number, choose, choose_record, library
 from geneva_cli.numerics.jet import Array, Displacement, Jet, atan2, rotation, sine_versine_of
 from geneva_cli.spec.rules import POSITIVE, Z_MAX, Range
-from geneva_cli.spec.schema import Example
 
 
 class GenevaPair(Transmission, kw_only=True):
@@ -37,10 +36,6 @@ class GenevaPair(Transmission, kw_only=True):
 
     NAME: ClassVar[str] = "geneva-pair"
     WORDS: ClassVar[str] = "a crank behind a first Geneva wheel"
-    EXAMPLE: ClassVar[Example] = Example(
-        "two wheels in series: one index in many turns",
-        {"wheel": {"z": 4}, "drive": {"first_z": 4}},
-    )
     length_key: ClassVar[str] = "first_distance_mm"
     first_z: Annotated[int, Range(3, Z_MAX), "number of slots of the first, external wheel"]
     first_distance_mm: Annotated[

@@ -3,7 +3,6 @@
 from typing import ClassVar
 
 from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
-from geneva_cli.spec.schema import Example
 
 
 class Internal(Gearing):
@@ -16,7 +15,6 @@ class Internal(Gearing):
     """
 
     NAME: ClassVar[str] = "internal"
-    EXAMPLE: ClassVar[Example] = Example("an internal wheel: more motion than dwell")
     SIGN: ClassVar[float] = -1.0
 
     def as_built(self, ratio: float, rim: float, L: float) -> RollerPlace:

@@ -17,20 +17,17 @@ from geneva_cli.table import Table, rows_table
 
 # tables of quantities that depend on the sizes of the parts
 OF_SIZES = ("parts", "strength", "life", "checks", "tolerance")
-# options of ``geneva sweep`` that ``request`` takes by their names
-OPTIONS = ("pick", "random", "seed", "check", "subject_to", "pareto", "best", "jobs")
 
 
 def request(
     path: str,
     vary: Sequence[str],
     settings: Sequence[str] = (),
-    *,
     pick: str = "",
     random: int | None = None,
     seed: int | None = None,
     check: bool = False,
-    subject_to: Sequence[str] | None = None,
+    subject_to: Sequence[str] = (),
     pareto: str = "",
     best: str = "",
     jobs: int | None = None,
@@ -59,7 +56,7 @@ def request(
         random = 4096  # designs that --best scans
     if seed is not None and random is None:
         raise GenevaError(f"--seed {cut(seed)}: it needs --random N; a grid has no random draw")
-    bounds = [constraints.constraint(text) for text in subject_to or ()]
+    bounds = [constraints.constraint(text) for text in subject_to]
     if pareto and best:
         raise GenevaError("--pareto with --best: a front, or one design; choose one of them")
     option = "--best" if best else "--pareto"
