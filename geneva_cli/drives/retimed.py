@@ -83,14 +83,10 @@ class _Motion(base.WheelMotion):
 
     def __init__(self, own: base.WheelMotion, timing: Timing) -> None:
         super().__init__(timing.at_deg[0], timing.at_deg[-1], own.half_step)
-        self.own, self.timing = own, timing
+        self.own, self.timing, self.mirrored = own, timing, own.symmetric
         if own.entry is not None:
             displacement = _Displacement(own.entry.displacement, timing.advances[0])
             self.entry = own.entry._replace(input_deg=self.entry_deg, displacement=displacement)
-
-    @property
-    def symmetric(self) -> bool:
-        return self.own.symmetric and super().symmetric
 
     @property
     def breaks_deg(self) -> tuple[float, ...]:
@@ -117,13 +113,10 @@ class _Slot(_Path, base.Slot):
     def __init__(self, own: base.Slot, timing: Timing) -> None:
         super().__init__(own, timing)
         self.curved, self.walls_flat, self.offset = own.curved, own.walls_flat, own.offset
+        self.seams_deg = tuple(map(timing.input_deg, own.seams_deg))
         if own.height is not None:
             turn = _Displacement(own.height.turn, timing.advances[1])
             self.height = own.height._replace(turn=turn)
-
-    @property
-    def seams_deg(self) -> tuple[float, ...]:
-        return tuple(self.timing.input_deg(at) for at in self.own.seams_deg)
 
     def axis(self, input_deg: Number, order: int = 0) -> Vector:
         return self.through(self.own.axis, input_deg, order)

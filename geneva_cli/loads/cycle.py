@@ -237,7 +237,7 @@ def back_driven_deg(cycle: Cycle) -> list[tuple[float, float]]:
         if driven:  # where friction alone holds the wheel, it drives nothing
             at = contact(engagement, 0.5 * (stretch.start + stretch.end), 1, reactions=False)
             grip = Instant(cycle.case, at, *stretch[2:]).grip
-            driven = grip.scalars()[0] > 0.0
+            driven = grip.derivatives()[0] > 0.0
         if driven and last == a:
             out[-1] = out[-1][0], shown(b)
         elif driven:

@@ -46,7 +46,7 @@ def positive_drives(mechanism: Mechanism) -> PositiveDrives | None:
         (ax, ay), (bx, by) = (engagement.slot(at, 0) for at in (x, opposites(engagement, x)))
         lead = np.arctan2(ay.c[0], ax.c[0]) - np.arctan2(by.c[0], bx.c[0])
     gap = np.nan_to_num(L * np.hypot(ax.c[0], ay.c[0]) * np.abs(lead))
-    torque = engagement.motion(x, 2).arrays()[2] * case.inertia_Nm + case.resists_Nm
+    torque = engagement.motion(x, 2).derivatives()[2] * case.inertia_Nm + case.resists_Nm
     # branches nearer than 0.01 mm are one slot, as machined
     played = gap > 0.01 + 2.0 * mechanism.spec.size.allowances.slot_clearance_mm
     loose, gap, x = np.broadcast_arrays(played & (lead * torque < 0.0), gap, x)

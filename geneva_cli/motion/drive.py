@@ -42,6 +42,7 @@ class Drive(SpecTable, kw_only=True):
     """A kind of drive; its fields are the keys of ``[drive]``."""
 
     TABLE: ClassVar[str] = "drive"
+    SHARED: ClassVar[tuple[str, ...]] = ("rollers",)  # they decide how many engagements there are
     NAME: ClassVar[str]
     # name of the drive in a sentence
     WORDS: ClassVar[str]
@@ -120,10 +121,6 @@ class Drive(SpecTable, kw_only=True):
         ``L`` is the second wheel's centre distance.
         """
         return None
-
-    def may_vary(self, table: str, key: str) -> bool:
-        """True if a number of a table may be an array along a design axis with this drive."""
-        return True
 
     def crank_rate(self, crank_deg: Array) -> Array | float:
         """Rate of the crank over its input shaft's at crank angles; NaN for a path of its own."""

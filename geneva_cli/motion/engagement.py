@@ -39,6 +39,8 @@ class Slot(Batchable):
     # e: distance between a straight slot's axis and the wheel's centre, over L.
     offset: float = 0.0
     tilt: float = 0.0  # angle of that axis at the middle of the step, radians
+    # input angles, degrees, at which another formula takes over, but for the motion's own
+    seams_deg: tuple[float, ...] = ()
     # The ``Height`` of the pin along the wheel's axis on a sphere, where the path is a projection.
     height: Any = None
 
@@ -50,11 +52,6 @@ class Slot(Batchable):
         """Pin (x, y) in the wheel's frame; on a sphere its polar angle in the flat development."""
         place = self.place(input_deg, order)
         return turned(place, place * 0.0 - self.offset, self.tilt)
-
-    @property
-    def seams_deg(self) -> tuple[float, ...]:
-        """Input angles, degrees, at which another formula takes over, but for the motion's own."""
-        return ()
 
     def axis(self, input_deg: Number, order: int = 0) -> Vector:
         """Lever of a straight slot's normal about the wheel's axis, and ``place``."""
@@ -94,7 +91,7 @@ class Peak(NamedTuple, Generic[K]):
 class WheelMotion(Batchable, ABC):
     """The wheel's angle as the input turns, from rest to rest."""
 
-    # False if the two halves of the path differ
+    # False if its two halves differ
     mirrored = True
     # Pin at entry, about which its path is written if the slot follows the pin
     entry: Anchor | None = None
@@ -140,7 +137,7 @@ class WheelMotion(Batchable, ABC):
 
     def end_rates(self, input_deg: float) -> tuple[float, float]:
         """Sizes of acceleration and jerk at entry or exit, from inside the motion."""
-        _, _, acceleration, jerk = self(input_deg).scalars()
+        _, _, acceleration, jerk = self(input_deg).derivatives()
         return abs(acceleration), abs(jerk)
 
     def derivatives(self, input_deg: Array, orders: Sequence[int] = (0, 1, 2, 3)) -> list[Array]:

@@ -96,11 +96,7 @@ class SolvedPathSlot(Slot):
     """The straight radial slot of a solved path."""
 
     def __init__(self, path: SolvedPath) -> None:
-        self.path = path
-
-    @property
-    def seams_deg(self) -> tuple[float, ...]:
-        return self.path.seams_deg
+        self.path, self.seams_deg = path, path.seams_deg
 
     def place(self, input_deg: Number, order: int) -> Jet:
         return self.path.distances(input_deg, order)[0]
@@ -138,11 +134,7 @@ class LawMotion(WheelMotion):
 
     def __init__(self, entry_deg: float, exit_deg: float, half_step: float, law: Law) -> None:
         super().__init__(entry_deg, exit_deg, half_step)
-        self.law = law
-
-    @property
-    def symmetric(self) -> bool:
-        return arrays.all_true(self.law.symmetric) and super().symmetric
+        self.law, self.mirrored = law, arrays.all_true(law.symmetric)
 
     @property
     def breaks_deg(self) -> tuple[float, ...]:
@@ -231,6 +223,7 @@ class Backwards(Law):
         # a law's class declares these, and finds in its keys if it varies; this one has none
         own = {"NAME": f"{self.of.NAME}, backwards", "TURNS_BACK": self.of.TURNS_BACK}
         vars(self).update(own, ANALYTIC=self.of.ANALYTIC, varies=self.of.varies)
+        vars(self)["symmetric"] = self.of.symmetric
 
     @property
     def breaks(self) -> tuple[float, ...]:
@@ -239,13 +232,6 @@ class Backwards(Law):
     @property
     def knots(self) -> tuple[float, ...]:
         return tuple(1.0 - u for u in reversed(self.of.knots))
-
-    @property
-    def symmetric(self) -> arrays.Truth:
-        return self.of.symmetric
-
-    def may_vary(self, table: str, key: str) -> bool:
-        return self.of.may_vary(table, key)
 
     def doubt(self) -> tuple[int, float] | None:
         return self.of.doubt()

@@ -44,7 +44,7 @@ def distances(groove: SolvedPath, input_deg: Array, order: int = 2) -> tuple[Arr
         return groove.distances(x, order)[1]
 
     rests = partial(in_dwell, groove, order=order)
-    return piecewise(at, (groove.motion.exit_deg,), (moving, rests)).arrays()
+    return piecewise(at, (groove.motion.exit_deg,), (moving, rests)).derivatives()
 
 
 def in_dwell(groove: SolvedPath, input_deg: Number, order: int) -> Jet:

@@ -93,14 +93,8 @@ def may_vary(spec: Spec, key: str) -> bool:
     known = part._own_keys()
     if name not in known:
         raise unknown(name, table, tuple(known))
-    numeric = bool({int, float} & set(known[name].types))
-    # the number of rollers decides how many engagements a machine has
-    able = numeric and name != "rollers" and spec.drive.may_vary(table, name)
-    if spec.motion is not None:
-        able = able and spec.motion.law.may_vary(table, name)
-    if spec.drive_before is not None:  # it sees its own table as that of a drive
-        able = able and spec.drive_before.may_vary("drive" if table == BEFORE else table, name)
-    return able
+    own = spec.motion.law if spec.motion and part is spec.motion else part
+    return bool({int, float} & set(known[name].types)) and name not in own.SHARED
 
 
 def worst_peaks(

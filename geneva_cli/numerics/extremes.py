@@ -13,18 +13,17 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.numerics.arrays import Array, Mask, Which, Whole, blocks, joined, record_taken
-from geneva_cli.numerics.cuts import BLOCK, LATER_TERMS, Cutter, Pieces, Rows
-from geneva_cli.numerics.series import GRID, POINTS, SERIES, at, on_grid, product, remainder
+from geneva_cli.numerics.cuts import BLOCK, GRID, POINTS, Cutter, at, on_grid, remainder, series
 from geneva_cli.numerics.tolerances import TIE
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.cuts import Asked, Functions, Held
+    from geneva_cli.numerics.cuts import Asked, Functions, Held, Pieces, Rows
     from geneva_cli.numerics.jet import Jet
 
 Spans: TypeAlias = Sequence[tuple[Array, Array]]  # both ends (n, 1) of each
 Known: TypeAlias = tuple[int, Array, Array]  # a function's number, places and values
 GROUP = 1 << 15  # functions of designs that are searched together
-UNFINISHED = 4.0 * LATER_TERMS  # times the last terms: the error of a series that has not ended
+UNFINISHED = 16.0  # times the last terms: the error of a series that has not ended
 PRECISE = 1e-5  # fraction of a size: the allowed error of a series near an extreme
 
 
@@ -115,7 +114,8 @@ def search(
 def cuts(f: Functions, spans: Spans) -> Stretches:
     """The parts of the spans of ``search`` on which no sign changes."""
     with np.errstate(all="ignore"):
-        cutter, out = Cutter(f, np.array(spans), None, ()), list[tuple[Rows, Array]]()
+        cutter = Cutter(f, np.array(spans), None, ())
+        out: list[tuple[Rows, Array]] = []
         for part in blocks(len(cutter.w), BLOCK):
             cutter.begin(part)
             while level := cutter.level():
@@ -164,8 +164,9 @@ class _Extremes:
         (a, b), x, design, value = pieces.rows.x, pieces.x, pieces.rows.design, pieces.value
         sided = np.abs(value)[None] if self.sized else np.stack((value, -value))
         outside = (x < a) | (x > b)
-        # from its begin on, where a margin changes its sign
-        endless = ((sided == np.inf) | outside).all(axis=2) & (sided == np.inf).any(axis=2)
+        # from its begin on, where a margin changes its sign, and rounding decides at the end itself
+        known = (sided == np.inf) | outside
+        endless = known[:, :, 1:-1].all(axis=2) & (sided == np.inf).any(axis=2)
         sided = np.where(outside, -np.inf, sided)
         best = sided.argmax(axis=2)
         top = np.take_along_axis(sided, best[:, :, None], axis=2)[:, :, 0]
@@ -229,9 +230,9 @@ class _Extremes:
         if len(cut):  # at the points of the piece itself
             a, b = part[:, cut]
             t = 0.5 * (a + b) + 0.5 * (b - a) * POINTS[:, None]
-            samples[:, cut] = at(product(SERIES, samples.take(cut, axis=1)), t)
+            samples[:, cut] = at(series(samples.take(cut, axis=1)), t)
         value, slope = on_grid(samples)
-        terms, every = product(SERIES, samples), np.arange(len(number))
+        terms, every = series(samples), np.arange(len(number))
         size = np.abs(samples).max(axis=0)
         # of a constant the start alone: a range of rounding says nothing about places
         varied = np.ptp(samples, axis=0) > 1e-13 * size
@@ -311,8 +312,8 @@ class _Extremes:
             x[live] += step
             # after a step of 1e-8 of the search range, a maximum's place is exact
             live = live[np.abs(step) > 1e-8 * near[live]]
-        # on the way to a flat end a step only halves the distance; and 1e-16 is rounding
-        reached = 1e-16 * some.near
+        # on the way to a flat end a step only halves the distance; and 1e-14 is rounding
+        reached = 1e-14 * some.near
         reached[live] = 0.02 * some.near[live]
         for end in some.ends:
             x = np.where(np.abs(x - end) <= reached, end, x)

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from math import comb, factorial
 from operator import add, sub
-from typing import TYPE_CHECKING, Protocol, TypeAlias, TypeVar, cast
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, TypeVar, cast
 
 from geneva_cli.numerics.arrays import SINGLE, Enclosed, N, enclosed, library, piece_of, size
 from geneva_cli.numerics.arrays import Array as Array
@@ -35,20 +35,12 @@ class Jet:
         """The highest derivative carried."""
         return len(self.c) - 1
 
-    def derivatives(self) -> tuple[Number, ...]:
+    def derivatives(self) -> tuple[Any, ...]:
         """Value, first derivative, second, ... up to the order."""
         out = list(self.c)
         for k in range(2, len(out)):
             out[k] = out[k] * factorial(k)
         return tuple(out)
-
-    def scalars(self) -> tuple[float, ...]:
-        """The derivatives of a jet at one number."""
-        return cast("tuple[float, ...]", self.derivatives())
-
-    def arrays(self) -> tuple[Array, ...]:
-        """The derivatives of a jet at many numbers."""
-        return cast("tuple[Array, ...]", self.derivatives())
 
     @property
     def lower(self) -> Jet:
@@ -264,12 +256,6 @@ def sine_versine_of(rate: Jet, y: Number, x: Number, order: int) -> tuple[Jet, J
         versine = ahead * sine * sine / (1.0 + size(cosine)) + (1.0 - ahead) * versine
     s, c = _circle((0.0, *rate.c)[: order + 1], sine, cosine)
     return s, Jet((versine, *(c * -1).c[1:]))
-
-
-def turned_at(rate: Jet, x: Number, y: Number, order: int) -> tuple[Jet, Jet]:
-    """A vector of constant length with the value (x, y), from the rate at which it turns."""
-    sine, cosine = _circle((0.0, *rate.c)[: order + 1], y, x)
-    return cosine, sine
 
 
 def composed(outer: Jet, inner: Jet) -> Jet:

@@ -14,13 +14,12 @@ import numpy as np
 
 from geneva_cli.errors import clean
 from geneva_cli.geometry.sheet import Drawing
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.output.inks import INKS
 from geneva_cli.output.meshes import DECIMALS, Body, bodies, placed
-from geneva_cli.output.templates import template
+from geneva_cli.output.templates import filled, template
 from geneva_cli.table import in_decimals
 
-XML = '<?xml version="1.0" encoding="UTF-8"?>\n'
-MATERIALS = 1  # the number of the list of colours; objects are counted from the next one
 RECORD = [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")]
 
 
@@ -48,13 +47,21 @@ def stl(drawing: Drawing) -> Iterator[bytes]:
 
 def threemf(drawing: Drawing) -> Iterator[bytes]:
     """Yield a 3MF file's bytes. Raises GenevaError as ``bodies`` does."""
-    model = "".join(_model(drawing.title, bodies(drawing, "3MF")))
+    kinds, objects, items = bodies(drawing, "3MF"), "", ""
+    layers = list(dict.fromkeys(body.layer for body in kinds))
+    colours = ((_text(layer), INKS[layer].rgb.upper()) for layer in layers)
+    materials = "".join(f'<base name="{n}" displaycolor="{rgb}"/>\n' for n, rgb in colours)
+    for number, body in enumerate(kinds, 2):  # 1 is the list of colours
+        objects += "".join(_object(body, number, layers.index(body.layer)))
+        items += "".join(_item(number, *place) for place in body.places)
+    parts = {"TITLE": _text(drawing.title), "MATERIALS": materials}
+    parts |= {"OBJECTS": objects, "ITEMS": items}
     stream = io.BytesIO()
     with ZipFile(stream, "w", ZIP_STORED) as archive:
         for name, text in (
             ("[Content_Types].xml", template("threemf_types.xml")),
             ("_rels/.rels", template("threemf_relations.xml")),
-            ("3D/3dmodel.model", model),
+            ("3D/3dmodel.model", filled("threemf_model.xml", parts)),
         ):
             entry = ZipInfo(name)  # dated 1980-01-01, the first day of the format
             entry.create_system = 3  # of any operating system
@@ -62,35 +69,25 @@ def threemf(drawing: Drawing) -> Iterator[bytes]:
     yield stream.getvalue()
 
 
-def _model(title: str, kinds: list[Body]) -> Iterator[str]:
-    core = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
-    yield f'{XML}<model unit="millimeter" xml:lang="en" xmlns="{core}">\n'
-    yield f'<metadata name="Title">{_text(title)}</metadata>\n<resources>\n'
-    layers = list(dict.fromkeys(body.layer for body in kinds))
-    yield f'<basematerials id="{MATERIALS}">\n'
-    for layer in layers:
-        yield f'<base name="{_text(layer)}" displaycolor="{INKS[layer].rgb.upper()}"/>\n'
-    yield "</basematerials>\n"
-    for number, body in enumerate(kinds, MATERIALS + 1):
-        yield (
-            f'<object id="{number}" type="model" name="{_text(body.name)}" '
-            f'pid="{MATERIALS}" pindex="{layers.index(body.layer)}"><mesh>\n<vertices>\n'
-        )
-        for corner in body.corners.tolist():
-            x, y, z = (in_decimals(value, DECIMALS) for value in corner)
-            yield f'<vertex x="{x}" y="{y}" z="{z}"/>\n'
-        yield "</vertices>\n<triangles>\n"
-        for a, b, c in body.triangles.tolist():
-            yield f'<triangle v1="{a}" v2="{b}" v3="{c}"/>\n'
-        yield "</triangles>\n</mesh></object>\n"
-    yield "</resources>\n<build>\n"
-    for number, body in enumerate(kinds, MATERIALS + 1):
-        for turn, shift in body.places:
-            # the images of the axes, with more decimals as they act through a length; the shift
-            words = [f"{round(value, 12) + 0.0:.12g}" for value in turn.T.ravel().tolist()]
-            words += [in_decimals(value, DECIMALS) for value in shift]
-            yield f'<item objectid="{number}" transform="{" ".join(words)}"/>\n'
-    yield "</build>\n</model>\n"
+def _object(body: Body, number: int, colour: int) -> Iterator[str]:
+    """Yield a kind of solid."""
+    yield f'<object id="{number}" type="model" name="{_text(body.name)}" '
+    yield f'pid="1" pindex="{colour}"><mesh>\n<vertices>\n'
+    for corner in body.corners.tolist():
+        x, y, z = (in_decimals(value, DECIMALS) for value in corner)
+        yield f'<vertex x="{x}" y="{y}" z="{z}"/>\n'
+    yield "</vertices>\n<triangles>\n"
+    for a, b, c in body.triangles.tolist():
+        yield f'<triangle v1="{a}" v2="{b}" v3="{c}"/>\n'
+    yield "</triangles>\n</mesh></object>\n"
+
+
+def _item(number: int, turn: Array, shift: Array) -> str:
+    """A solid in its place."""
+    # the images of the axes, with more decimals as they act through a length; the shift
+    words = [f"{round(value, 12) + 0.0:.12g}" for value in turn.T.ravel().tolist()]
+    words += [in_decimals(value, DECIMALS) for value in shift]
+    return f'<item objectid="{number}" transform="{" ".join(words)}"/>\n'
 
 
 def _text(text: str) -> str:

@@ -5,48 +5,39 @@ plates, and notes. A sheet is black on white, or white on black in dark mode.
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from html import escape
+from typing import TypeAlias
 
 from geneva_cli.errors import clean
 from geneva_cli.geometry import shapes
+from geneva_cli.geometry import sheet as papers
 from geneva_cli.geometry.plates import Member, Part, in_place
 from geneva_cli.geometry.shapes import Circle, Contour, Layer, Line, Point, Segment, Shape
-from geneva_cli.geometry.sheet import CAPITALS, DASHED, WIDTHS, Drawing, Sheet, extent, prepared
+from geneva_cli.geometry.sheet import CAPITALS, DASHED, WIDTHS, Drawing, Sheet
 from geneva_cli.output.inks import CENTRE_LINES, DARK, DASHES, INKS, LIGHT, Paper, mixed
-from geneva_cli.output.notes import LETTERS, Notes, notes
-from geneva_cli.output.templates import template
+from geneva_cli.output.notes import LETTERS, notes
+from geneva_cli.output.templates import filled
 
 # For drawings to cut, in mm; for drawings to view, as if these were 250 mm wide
 STROKE = 0.25
 MARGIN = 2.0
+Ring: TypeAlias = tuple[Layer, tuple[Contour, ...]]  # outline and holes of a plate
 
 
 def chunks(drawing: Drawing) -> Iterator[str]:
     """Yield a drawing's text. Raises GenevaError for a drawing without shapes."""
-    look, drawing = drawing.look, prepared(drawing)
-    box = extent(drawing)
-    size = max(box.x1 - box.x0, box.y1 - box.y0)
-    mm = size / 250.0 if look else 1.0
+    look, drawing = drawing.look, papers.prepared(drawing)
+    box = papers.extent(drawing)
+    mm = max(box.x1 - box.x0, box.y1 - box.y0) / 250.0 if look else 1.0
     title = clean(drawing.title).strip()
     shown = notes(look, box, title, mm) if look else None
     frame = shown.box if shown else box
     margin = mm * (2.0 * MARGIN if look else MARGIN + STROKE)
-    x, y = number(frame.x0 - margin), number(-frame.y1 - margin)
-    width = number(frame.x1 - frame.x0 + 2.0 * margin)
-    height = number(frame.y1 - frame.y0 + 2.0 * margin)
-    yield _head(' version="1.1"', f"{x} {y}", width, height, title)
-    plates = rings(drawing.solid) if look and drawing.solid else []
-    if look:
-        yield _style(drawing.layers, list(dict.fromkeys(layer for layer, _ in plates)))
-        yield f'<rect class="page" fill="{LIGHT.page}" x="{x}" y="{y}" width="{width}"'
-        yield f' height="{height}"/>\n'
-    if plates:
-        yield '<g id="FILL" stroke="none" fill-rule="evenodd">\n'
-        for layer, contours in plates:
-            yield f'<path class="{layer}" fill="{_tint(layer, LIGHT)}"'
-            yield f' d="{" ".join(map(path, contours))}"/>\n'
-        yield "</g>\n"
+    wide, high = frame.x1 - frame.x0 + 2.0 * margin, frame.y1 - frame.y0 + 2.0 * margin
+    parts = {"LEFT": number(frame.x0 - margin), "TOP": number(-frame.y1 - margin)}
+    parts |= {"WIDE": number(wide), "HIGH": number(high), "TITLE": escape(title, quote=False)}
+    parts["LAYERS"] = ""
     for name in drawing.layers:
         dashes, stroke = "", mm * STROKE * (1.6 if look else 1.0)  # wider lines to view
         if name in CENTRE_LINES:
@@ -54,58 +45,70 @@ def chunks(drawing: Drawing) -> Iterator[str]:
         # rollers' paths, and the lowest layer
         if look and name in (*CENTRE_LINES, "FRAME"):
             stroke *= 0.6
-        yield f'<g id="{escape(name)}" stroke="{INKS[name].rgb}"'
-        yield f' stroke-width="{number(stroke)}"{dashes}>\n'
-        yield from (element(shape) for shape in drawing.shapes if shape.layer == name)
-        yield "</g>\n"
+        ink = f'stroke="{INKS[name].rgb}" stroke-width="{number(stroke)}"{dashes}'
+        own = (element(shape) for shape in drawing.shapes if shape.layer == name)
+        parts["LAYERS"] += f'<g id="{escape(name)}" {ink}>\n{"".join(own)}</g>\n'
     if shown:
-        yield from _noted(shown, mm)
-    yield "</svg>\n"
+        parts |= _colours(drawing.layers, rings(drawing.solid) if drawing.solid else [])
+        parts |= {"STROKE": number(mm * 0.25), "SIZE": number(mm * LETTERS)}
+        parts |= {"NOTES": "".join(map(element, shown.lines)), "ARROWS": _arrows(shown.heads)}
+        parts["BAR"] = " ".join(map(path, shown.scale_bar))
+        texts = (f"<text {place(at)}>{escape(t, quote=False)}</text>\n" for at, t in shown.texts)
+        parts["TEXTS"] = "".join(texts)
+    yield filled("view.svg" if shown else "cut.svg", parts)
+
+
+def _colours(layers: Sequence[str], plates: Sequence[Ring]) -> dict[str, str]:
+    """The tinted plates of a drawing to view, and the colours of a dark page.
+
+    Programs without CSS show the light one.
+    """
+    tints = "".join(
+        f'<path class="{layer}" fill="{_tint(layer, LIGHT)}" d="{" ".join(map(path, ring))}"/>\n'
+        for layer, ring in plates
+    )
+    fill = f'<g id="FILL" stroke="none" fill-rule="evenodd">\n{tints}</g>\n' if plates else ""
+    dark = [
+        f"g[id='{layer}'] {{ stroke: {mixed(INKS[layer].rgb, 0.55, '#ffffff')} }}\n"
+        for layer in layers
+    ]
+    for layer in dict.fromkeys(layer for layer, _ in plates):
+        dark.append(f"path[class='{layer}'] {{ fill: {_tint(layer, DARK)} }}\n")
+    parts = {"FILL": fill, "DARK": "".join(dark), "PAGE": LIGHT.page}
+    parts |= {"DARKPAGE": DARK.page, "DARKLINE": DARK.axis, "DARKTEXT": DARK.text}
+    return parts | {"INK": LIGHT.text}
 
 
 def sheet_chunks(sheet: Sheet) -> Iterator[str]:
     """Yield a drawing sheet's text."""
-    w, h, top = number(sheet.width), number(sheet.height), number(-sheet.height)
-    yield _head("", f"0 {top}", w, h, clean(sheet.title)) + template("sheet.css")
-    yield (
-        f'<rect class="paper" y="{top}" width="{w}" height="{h}"/>\n'
-        f'<g class="ink" font-family="Helvetica, Arial, \'Liberation Sans\', sans-serif">\n'
-    )
+    parts = {"WIDE": number(sheet.width), "HIGH": number(sheet.height), "LAYERS": ""}
+    parts |= {"TOP": number(-sheet.height), "TITLE": escape(clean(sheet.title), quote=False)}
     for layer, own in sheet.by_layer():
         dashes = ""
         if layer in DASHED:
             dashes = f' stroke-dasharray="{" ".join(map(str, DASHED[layer]))}"'
-        yield f'<g id="{layer}" stroke-width="{WIDTHS[layer]}"{dashes}>\n'
-        yield from map(element, own)
-        yield "</g>\n"
-    yield '<g id="ARROWS" class="full">\n'
-    for arrow in sheet.arrows:
-        yield f'<path d="M {" L ".join(map(point, arrow.corners))} Z"/>\n'
-    yield '</g>\n<g id="TEXTS">\n'
-    for label in sheet.texts:
-        turn = ""
-        if label.turn:
-            x, y = label.at
-            degrees = number(-math.degrees(label.turn))
-            turn = f' transform="rotate({degrees} {number(x)} {number(-y)})"'
-        # stretched to the width that the sheet assumes, whatever the font
-        yield (
-            f'<text {place(label.at)} font-size="{number(label.height / CAPITALS)}"'
-            f' textLength="{number(label.width)}" lengthAdjust="spacingAndGlyphs"{turn}>'
-            f"{escape(clean(label.text), quote=False)}</text>\n"
-        )
-    yield "</g>\n</g>\n</svg>\n"
+        ink = f'stroke-width="{WIDTHS[layer]}"{dashes}'
+        parts["LAYERS"] += f'<g id="{layer}" {ink}>\n{"".join(map(element, own))}</g>\n'
+    parts |= {"ARROWS": _arrows(arrow.corners for arrow in sheet.arrows)}
+    yield filled("sheet.svg", parts | {"TEXTS": "".join(map(_label, sheet.texts))})
 
 
-def _head(version: str, corner: str, width: str, height: str, title: str) -> str:
+def _label(label: papers.Label) -> str:
+    turn = ""
+    if label.turn:
+        x, y = label.at
+        degrees = number(-math.degrees(label.turn))
+        turn = f' transform="rotate({degrees} {number(x)} {number(-y)})"'
+    # stretched to the width that the sheet assumes, whatever the font
     return (
-        '<?xml version="1.0" encoding="UTF-8"?>\n'
-        f'<svg xmlns="http://www.w3.org/2000/svg"{version}'
-        f' width="{width}mm" height="{height}mm"'
-        f' viewBox="{corner} {width} {height}"'
-        ' fill="none" stroke-linecap="round" stroke-linejoin="round">\n'
-        f"<title>{escape(title, quote=False)}</title>\n"
+        f'<text {place(label.at)} font-size="{number(label.height / CAPITALS)}"'
+        f' textLength="{number(label.width)}" lengthAdjust="spacingAndGlyphs"{turn}>'
+        f"{escape(clean(label.text), quote=False)}</text>\n"
     )
+
+
+def _arrows(heads: Iterable[Sequence[Point]]) -> str:
+    return "".join(f'<path d="M {" L ".join(map(point, head))} Z"/>\n' for head in heads)
 
 
 def element(shape: Shape) -> str:
@@ -165,7 +168,7 @@ def opacity(layer: Layer) -> float:
     return 0.55 if layer == "ROLLER" else 0.16
 
 
-def rings(solid: Part) -> list[tuple[Layer, tuple[Contour, ...]]]:
+def rings(solid: Part) -> list[Ring]:
     """The layer of each plate with its outline and holes; the lowest plate first.
 
     Of plates of one shape above each other only the highest is there, which covers the others.
@@ -174,34 +177,3 @@ def rings(solid: Part) -> list[tuple[Layer, tuple[Contour, ...]]]:
     every = sorted(placed, key=lambda plate: (plate.high, plate.low))
     drawn = [(one.layer, tuple(map(shapes.as_contour, (one.outline, *one.holes)))) for one in every]
     return list(dict.fromkeys(reversed(drawn)))[::-1]
-
-
-def _style(layers: tuple[str, ...], plates: list[Layer]) -> str:
-    """The colours of a dark page; programs without CSS show the light one."""
-    dark = "".join(
-        f"g[id='{layer}'] {{ stroke: {mixed(INKS[layer].rgb, 0.55, '#ffffff')} }}\n"
-        for layer in layers
-    )
-    for layer in plates:
-        dark += f"path[class='{layer}'] {{ fill: {_tint(layer, DARK)} }}\n"
-    return (
-        "<style>\n@media screen and (prefers-color-scheme: dark) {\n"
-        f".page {{ fill: {DARK.page} }}\n"
-        f"#NOTES {{ stroke: {DARK.axis} }}\n"
-        f"#TEXT, #ARROWS {{ fill: {DARK.text} }}\n{dark}"
-        "}\n</style>\n"
-    )
-
-
-def _noted(shown: Notes, mm: float) -> Iterator[str]:
-    grey = "#757575"
-    yield f'<g id="NOTES" stroke="{grey}" stroke-width="{number(mm * 0.25)}">\n'
-    yield from map(element, shown.lines)
-    yield f'<path id="SCALE_BAR" d="{" ".join(map(path, shown.scale_bar))}"/>\n</g>\n'
-    yield f'<g id="ARROWS" fill="{grey}">\n'
-    yield from (f'<path d="M {" L ".join(map(point, head))} Z"/>\n' for head in shown.heads)
-    yield f'</g>\n<g id="TEXT" fill="{LIGHT.text}" font-family="sans-serif"'
-    yield f' font-size="{number(mm * LETTERS)}">\n'
-    for at, text in shown.texts:
-        yield f"<text {place(at)}>{escape(text, quote=False)}</text>\n"
-    yield "</g>\n"

@@ -85,6 +85,7 @@ class SpecTable:
 
     TABLE: ClassVar[str] = ""  # its name in the file
     WORDS_APART: ClassVar[str] = "_"  # what stands between the words of its keys
+    SHARED: ClassVar[tuple[str, ...]] = ()  # its numbers that all designs of a batch have in common
     __signature__ = _Signature()
     _parameters: ClassVar[dict[str, dataclasses.Field[object]]]  # by name
 

@@ -16,8 +16,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.spec.schema import fields
 from geneva_cli.study.fields import Cell, Rows, cells_of
-from geneva_cli.verdict.quantities.batch_designs import Designs
-from geneva_cli.verdict.quantities.groups import GROUP_OF
+from geneva_cli.verdict.quantities.groups import GROUP_OF, Designs
 
 Batch: TypeAlias = tuple[Whole, Mechanism]  # the numbers of some designs, and their machine
 

@@ -20,7 +20,8 @@ from geneva_cli.study.fields import Cell, pick, values
 from geneva_cli.study.sweep.constraints import is_number
 from geneva_cli.study.sweep.values import axis, refuse_twice
 from geneva_cli.table import Reading, Table, rows_table
-from geneva_cli.verdict.quantities.groups import GROUP_OF, INPUTS, MACHINE, REPORT
+from geneva_cli.verdict.quantities.groups import GROUP_OF, MACHINE, REPORT
+from geneva_cli.verdict.quantities.quantity_rows import INPUTS
 
 DESIGNS_MAX = 100  # in one comparison
 COLUMNS = ("quantity", "differs")  # of a comparison, besides the designs

@@ -124,7 +124,7 @@ class Pick(NamedTuple):
     @property
     def groups(self) -> tuple[QuantityGroup, ...]:
         """The groups that contain them, those that make parts last."""
-        groups = dict.fromkeys(GROUP_OF[name] for name in self.names)
+        groups = {GROUP_OF[name].names: GROUP_OF[name] for name in self.names}.values()
         # another group may compute all names of a short one as well
         own = [one for one in groups if not any(set(one.names) < set(x.names) for x in groups)]
         return tuple(sorted(own, key=attrgetter("makes_parts")))

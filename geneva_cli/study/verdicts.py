@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from functools import partial
+from itertools import filterfalse
 from operator import attrgetter
 from typing import NamedTuple
 
@@ -44,15 +45,14 @@ def verdict(
         if design.spec.is_loaded and not design.is_drawn:
             from geneva_cli.loads.cycle import cycle_of
             from geneva_cli.loads.strength.part_loads import single_loads
-            from geneva_cli.verdict.quantities.batch_designs import single
-            from geneva_cli.verdict.quantities.part_strength import horn, lock, shafts
+            from geneva_cli.verdict.quantities.groups import value_of
 
             # loads, the parts that they size, their strength: what checks and warnings read
             with suppress(GenevaError):  # a check says why
                 single_loads(design.mechanism)
                 _ = cycle_of(design.mechanism).ends, design.parts.built.required
-                of = single(design.mechanism)
-                _ = of.columns(shafts), of.columns(horn), of.columns(lock)
+                for part in ("wheel_shaft", "horn", "lock"):
+                    value_of(design.mechanism, f"strength.{part}.margin")
         checks = design.checks if to_mm is None else design.proved_to(to_mm)
         return Verdict(
             path=design.spec.path,
@@ -121,12 +121,9 @@ def of_checks(verdicts: Sequence[Verdict], page: bool, as_json: bool) -> Answer:
     data = table = checks_table(verdicts) if is_shown else Table((), ())
     if as_json:
         data = checks_record(verdicts)
-    is_single = len(verdicts) == 1
-    heads, details, sized = list[Summary](), list[Summary](), 0
-    for v in verdicts:
-        if v.error:
-            continue
-        sized += bool(v.chosen.sizes)
+    is_single, judged = len(verdicts) == 1, [*filterfalse(attrgetter("error"), verdicts)]
+    heads, details = list[Summary](), list[Summary]()
+    for v in judged:
         state, text = headline(v.checks, v.warnings)
         lines = [*failure_lines(v.checks), *warning_lines(v.checks, v.warnings, v.unused)]
         if is_single:
@@ -135,20 +132,21 @@ def of_checks(verdicts: Sequence[Verdict], page: bool, as_json: bool) -> Answer:
                 if check.passes and check.why:
                     label = "stop" if check.name == "stop_turns" else "turn"
                     lines.append(SummaryLine(label, check.why))
-            lines += (*tightest(v.checks), *chosen_lines(v.chosen, v.path))
-        elif own := (*lines, *chosen_lines(v.chosen)):
-            details.append(Summary(v.path, own))
+            lines += tightest(v.checks)
+        lines += chosen_lines(v.chosen, v.path if is_single else None)
+        if lines and not is_single:
+            details.append(Summary(v.path, tuple(lines)))
         heads.append(Summary(f"{v.path}: {text}", tuple(lines) if is_single else (), state=state))
     if not is_single:
-        judged, unread = len(heads), len(verdicts) - len(heads)
+        unread = len(verdicts) - len(judged)
         failed, warned = (sum(head.state == state for head in heads) for state in (FAILS, WARNS))
         text = _counted("specs", len(verdicts), failed, unread)
         text += f", {unread} cannot be read" if unread else ""
         text += f", {warned} with warnings" if warned else ""
         state = FAILS if failed or unread else WARNS if warned else PASSES
         heads.append(Summary(text, state=state))
-        if sized:
-            of = f"in {sized} of {judged} specs (geneva size SPEC writes them)"
+        if sized := sum(bool(v.chosen.sizes) for v in judged):
+            of = f"in {sized} of {len(judged)} specs (geneva size SPEC writes them)"
             heads.append(Summary(f"sizes chosen by load {of}"))
     return Answer((*heads, *details), table if page else None, data)
 

@@ -130,13 +130,13 @@ def _of_law(mechanism: Mechanism, law: Law) -> Iterator[Notice]:
             f"pressure angle 90° at mid-motion (0°), because R/L = {mechanism.ratio:.6g} does "
             f"not meet the mid condition: {helps}",
         )
-    if max(abs(half(0.0, 2).scalars()[2]) for half in (law.first, law.second)) > 1e-9:
+    if max(abs(half(0.0, 2).derivatives()[2]) for half in (law.first, law.second)) > 1e-9:
         yield Notice(
             "soft-shock-at-ends",
             f'the law "{law.NAME}" starts and stops with a jump in acceleration: a soft shock at '
             "both ends",
         )
-    if abs(law.first(0.5, 2).scalars()[2] + law.second(0.5, 2).scalars()[2]) > 1e-9:
+    if abs(law.first(0.5, 2).derivatives()[2] + law.second(0.5, 2).derivatives()[2]) > 1e-9:
         yield Notice(
             "soft-shock-at-mid",
             f'the law "{law.NAME}" jumps from acceleration to deceleration: a soft shock at '

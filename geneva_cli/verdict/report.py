@@ -11,8 +11,7 @@ from geneva_cli.parts.parts import Parts
 from geneva_cli.table import Table, record_table
 from geneva_cli.verdict.checks import Check, all_pass
 from geneva_cli.verdict.failures import sentence
-from geneva_cli.verdict.quantities.batch_designs import Values
-from geneva_cli.verdict.quantities.groups import REPORT
+from geneva_cli.verdict.quantities.groups import REPORT, Values
 
 
 class Report(NamedTuple):

@@ -12,8 +12,7 @@ from geneva_cli.motion.timing import timings
 from geneva_cli.numerics.angles import omega
 from geneva_cli.parts.parts import Parts
 from geneva_cli.table import Reading, rows_table
-from geneva_cli.verdict.quantities.batch_designs import Numbers, Values
-from geneva_cli.verdict.quantities.groups import GROUP_OF
+from geneva_cli.verdict.quantities.groups import GROUP_OF, Numbers, Values
 from geneva_cli.verdict.quantities.motion_quantities import peak_values
 from geneva_cli.verdict.strength import NEEDY, strength
 

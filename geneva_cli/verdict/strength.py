@@ -13,8 +13,7 @@ from geneva_cli.loads.strength.horn import STOUT
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import value_or
 from geneva_cli.parts.machine_sizes import sized
-from geneva_cli.verdict.quantities.batch_designs import only, single
-from geneva_cli.verdict.quantities.groups import GROUP_OF, value_of
+from geneva_cli.verdict.quantities.groups import GROUP_OF, only, single, value_of
 from geneva_cli.verdict.quantities.under_load import UnderLoad
 
 # Values of ``life``, in the order in which `geneva loads` lists their needs.

@@ -78,7 +78,7 @@ def needed_mm(
         fraction = sizes["crank_radius_mm"] / arm_mm(mechanism, one)
         for at in (one.entry_deg, one.exit_deg):
             x, y = one.path(at, 1)
-            (px, vx), (py, vy) = x.scalars(), y.scalars()
+            (px, vx), (py, vy) = x.derivatives(), y.derivatives()
             # the roller runs along the slot there, which gives its normal; on a sphere the
             # meridian's
             tx, ty = (vx, vy) if one.slot.height is None else (px, py)
@@ -109,7 +109,7 @@ def _loosest_lock(
     """
     locks = cut_locks(parts.built, use)[0] if mechanism.spec.is_turned else []
     ends = locking.corners(list(use.values()))
-    each = [(lock, float(np.max(lock(ends).angle.arrays()[0]))) for lock in locks]
+    each = [(lock, float(np.max(lock(ends).angle.derivatives()[0]))) for lock in locks]
     lock, most = max(each, key=lambda one: one[1], default=(None, 0.0))
     return (lock, most + use["slot_angle_deg"]) if lock else None
 

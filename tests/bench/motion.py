@@ -162,7 +162,7 @@ def _kind_error(motion, angles, results):
     """Greatest difference from the values of single angles, by ``math`` instead of NumPy."""
     # the error is measured at 50 angles
     some = np.linspace(0, len(angles) - 1, 50).astype(int)
-    exact = np.array([motion(x, ORDERS[-1]).scalars()[1:] for x in angles[some].tolist()]).T
+    exact = np.array([motion(x, ORDERS[-1]).derivatives()[1:] for x in angles[some].tolist()]).T
     errors = [
         np.abs(values[some] - own).max() / np.abs(values).max()
         for values, own in zip(results, exact, strict=True)

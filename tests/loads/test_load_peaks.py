@@ -5,6 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+import repo
 from load_states import greatest, state
 from sampling import some
 from witness import mp
@@ -220,3 +221,11 @@ def test_an_inertia_alone_slides_as_far_on_either_side_of_mid_motion(law, alpha0
     assert slides.max == pytest.approx(-slides.min, rel=1e-12)
     assert slides.max == pytest.approx(slid.max(), rel=1e-3)
     assert stress.min == pytest.approx(pressed.min(), rel=1e-3, abs=1e-6)
+
+
+def test_a_stress_has_no_bound_from_where_the_wall_is_undercut():
+    """Torque changes its sign earlier: the stress is bounded there."""
+    found = load(str(repo.DESIGNS / "sine-group.toml"), ["size.roller_radius_mm=2"]).loads
+    for name in ("contact_stress_MPa", "pv_W_m2"):
+        assert found[name].max is None
+        assert found[name].max_at_deg == pytest.approx(-0.0460118909, abs=1e-9), name

@@ -28,7 +28,7 @@ from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.peaks import greatest_jumps, worst
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.verdict.checks import single_check
-from geneva_cli.verdict.quantities.batch_designs import Designs
+from geneva_cli.verdict.quantities.groups import Designs
 from geneva_cli.verdict.quantities.motion_quantities import index_gained, peaks
 
 mp.mp.dps = 50

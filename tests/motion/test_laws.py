@@ -5,7 +5,6 @@ Rothbart, Cam Design Handbook. The witness integrates them at 50 digits.
 """
 
 import math
-import random
 
 import numpy as np
 import pytest
@@ -13,11 +12,9 @@ from witness import LAWS as WITNESS
 from witness import krasniqi, mp, near
 from words import LAWS, Spec, Wheel, named, points
 
-from geneva_cli.motion.given_motion import LawMotion
 from geneva_cli.motion.laws.law import Motion
-from geneva_cli.motion.laws.standard import SineConstantCosine, SineGroup
+from geneva_cli.motion.laws.standard import SineGroup
 from geneva_cli.motion.laws.table_law import TableLaw
-from geneva_cli.motion.peak_search import QUANTITIES, search_peaks
 from geneva_cli.motion.peaks import peaks
 from geneva_cli.study.law_values import characteristic
 
@@ -101,27 +98,6 @@ def test_constants(machine, name):
         # the same law in a machine of 6 slots and 120 degrees: (2 pi/z) C/phi_l^k
         got = getattr(of_machine, quantity).max * rate ** (k + 1) / (2.0 * s.half_step)
         assert got == near(constant, 1e-14)
-
-
-@pytest.mark.sampled(4)
-@pytest.mark.parametrize("seed", range(16))
-def test_greatest_values_against_the_search_over_arrays(seed):
-    """Sizes and first places of laws of random keys, against the search that batches go through."""
-    draw = random.Random(seed)
-    b, c = sorted((draw.uniform(0.01, 0.98), draw.uniform(0.01, 0.98)))
-    laws = [
-        SineGroup(draw.uniform(-0.3, 0.3)),
-        SineGroup(draw.uniform(-10.0, 10.0)),
-        SineConstantCosine(b=b, c=c - b, d=1.0 - c),
-    ]
-    for law in laws:
-        motion = LawMotion(-60.0, 60.0, 0.5, law)
-        for name, peak in search_peaks(motion, QUANTITIES).items():
-            own = motion.closed_peak(name)
-            # 1e-14: the wheel's angle in the search is scaled before it is differentiated
-            assert own.max == near(peak.max.item(), 1e-14), (law, name)
-            # a summit is flat: its place is known to the root of a rounding
-            assert own.at_deg == pytest.approx(peak.at_deg.item(), abs=1e-5), (law, name)
 
 
 def test_constants_to_the_digits_of_the_books():

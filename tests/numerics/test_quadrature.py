@@ -7,7 +7,6 @@ import pytest
 
 from geneva_cli.motion.given_motion import _sinc
 from geneva_cli.numerics import quadrature
-from geneva_cli.numerics.cuts import spread
 from geneva_cli.numerics.jet import Jet
 from geneva_cli.numerics.quadrature import LAST_TERMS, NODES, rule, span_integrals
 
@@ -103,20 +102,3 @@ def test_noise_is_given_up_after_a_count_and_leaves_other_designs():
     result, places = summed(rounding, n=2)
     assert math.isnan(result[0]) and result[1] == pytest.approx(0.5, rel=4e-15)
     assert places < 100_000 * NODES
-
-
-def test_twenty_places_tell_a_pole():
-    """The integral of 1/(x² + w²)² from 0 to 1, in closed form."""
-    w = 0.26  # as a wheel of three slots
-    true = (1.0 / (1.0 + w * w) + np.arctan(1.0 / w) / w) / (2.0 * w * w)
-    node, weight = rule(20)
-
-    def total(a, b, places_):
-        half = 0.5 * (b - a)
-        x, rate = places_(0.5 * (a + b) + half * node)
-        return (rate / (x * x + w * w) ** 2) @ weight * half
-
-    even = total(0.0, 1.0, lambda x: (x, np.ones_like(x)))
-    gathered_ = total(0.0, spread(1.0, w), lambda u: (w * np.sinh(u / w), np.cosh(u / w)))
-    assert gathered_ == pytest.approx(true, rel=1e-14)
-    assert abs(even / true - 1.0) > 1e-12

@@ -11,8 +11,8 @@ import pytest
 from geneva_cli import Design, External, Internal, Size, Spherical, Tolerance
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
+from geneva_cli.loads.tolerance import motion_error as errors
 from geneva_cli.loads.tolerance.locking import Deviations, Lock, deviations, slope_of
-from geneva_cli.loads.tolerance.motion_error import motion_errors, motion_plays
 from geneva_cli.motion.laws.law import Motion
 from geneva_cli.motion.laws.standard import Cycloidal
 from geneva_cli.motion.many import many
@@ -119,7 +119,7 @@ MACHINES = [
 @pytest.mark.parametrize("design", MACHINES)
 @pytest.mark.parametrize("side", [1.0, -1.0])
 def test_place_and_slopes_in_the_motion(design, side):
-    [one] = motion_errors(design.mechanism)
+    [one] = errors.motion_errors(design.mechanism)
     dev = {"center_distance_mm": 0.02, "crank_radius_mm": -0.01, "slot_width_mm": 0.015}
     for share in (-0.97, -0.3, 0.0, 0.6):
         deg = share * one.engagement.exit_deg if share > 0 else -share * one.engagement.entry_deg
@@ -138,7 +138,7 @@ def test_worst_case_by_corners(design):
     names = Deviations._fields[:5]
     sizes = [design.spec.tolerance.as_dict()[n] for n in names]
     sizes[4] = math.radians(sizes[4])
-    [one] = motion_errors(design.mechanism)
+    [one] = errors.motion_errors(design.mechanism)
     with mp.workdps(20):
         worst = max(
             side * closed(design, mp.radians(deg), side, dict(zip(names, corner, strict=True)))
@@ -197,6 +197,16 @@ def test_mean_jump_of_a_million(wheel, key, s):
     square = 2.0 * s * math.tan(b) ** 2 / math.sqrt(2.0 * math.pi)
     assert found["entry_jump.std"] == pytest.approx(math.sqrt(square - true**2), rel=3e-3)
     assert found["entry_jump.missed_share"] == pytest.approx(0.5, abs=1e-4)
+
+
+def test_jumps_of_cranks_as_built_are_those_of_each_alone():
+    """Too short to reach the slot's axis, as derived, and too long."""
+    design, R = Design(External(6), size=Size(100.0), tolerance=ALL), np.array([49.9, 50.0, 50.2])
+    batch = many(design.spec, {"size.crank_radius_mm": R}).machine
+    jumps = errors.entry_jumps_worst(batch, errors.used(batch))
+    for radius, jump in zip(R.tolist(), jumps, strict=True):
+        one = design.with_("size.crank_radius_mm", radius).mechanism
+        assert errors.entry_jumps_worst(one, errors.used(one)) == pytest.approx(jump, rel=1e-12)
 
 
 def test_machines_that_do_not_go_together_are_counted():
@@ -333,7 +343,7 @@ def test_plays_in_motion_are_the_greatest_over_it(distribution):
     # the quantiles of 65536 and of a million machines differ by some 1e-3 of their spread
     assert found["motion_play.p997_deg"] == pytest.approx(p997, rel=1e-3)
     batch = many(machine.spec, {"tolerance.slot_angle_deg": np.array([0.008, 0.02])})
-    plays = motion_plays(batch.machine)
+    plays = errors.motion_plays(batch.machine)
     assert plays.rss_deg[0] == found["motion_play.rss_deg"]
     assert plays.rss_deg[1] == pytest.approx(free + math.hypot(0.02, *parts[1:]), rel=1e-6)
 

@@ -19,8 +19,8 @@ from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.peaks import QUANTITIES
-from geneva_cli.numerics.arrays import enclosed
+from geneva_cli.motion.peak_search import QUANTITIES, curves
+from geneva_cli.numerics.arrays import Array, enclosed
 from geneva_cli.numerics.intervals import Undecided
 from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.numerics.tolerances import TIE
@@ -32,7 +32,6 @@ if TYPE_CHECKING:
 LIMIT = 2000  # intervals a motion: 12 times what any design here takes, some seconds
 DIGITS = 15  # that are printed: as many as every double keeps
 NARROW_DEG = 1e-6  # a narrower place is one angle for people
-DERIVED = {"velocity": 0, "acceleration": 1, "jerk": 2}  # derivatives of the velocity
 COLUMNS = ("quantity", "low", "high", "at_deg", "places", "proved", "intervals", "open")
 LOADS = ("wheel_torque_Nm", "pin_force_N", "input_torque_Nm")
 
@@ -176,29 +175,21 @@ def certificate(mechanism: Mechanism, quantity: str, limit: int = LIMIT) -> Cert
         slack = 0.0 if start == span.start else 2.0**-42
         return Place(start - slack, span.end + (start - span.start) + slack)
 
-    if found.open:
-        below = found.open.high if math.isfinite(found.open.high) else None
-        left = Open(*shown(found.open), below)
-        return Certificate(quantity, found.low, None, (), False, found.intervals, left)
-    first, last = found.places[0], found.places[-1]
-    symmetric = len(found.places) == 2 and first.motion == last.motion
-    symmetric = symmetric and each[first.motion].motion.symmetric
-    mirrored = symmetric and abs(first.start + last.end) < NARROW_DEG
-    places = tuple(sorted(map(shown, found.places)))
-    return Certificate(quantity, found.low, found.high, places, mirrored, found.intervals, None)
+    low, high, spans, intervals, left = found
+    if left:
+        open_ = Open(*shown(left), left.high if math.isfinite(left.high) else None)
+        return Certificate(quantity, low, None, (), False, intervals, open_)
+    first, last = spans[0], spans[-1]
+    alike = len(spans) == 2 and first.motion == last.motion and each[first.motion].motion.symmetric
+    mirrored = alike and abs(first.start + last.end) < NARROW_DEG
+    places = tuple(sorted(map(shown, spans)))
+    return Certificate(quantity, low, high, places, mirrored, intervals, None)
 
 
 def _invariant(_: Mechanism, engagement: Engagement, quantity: str) -> Formula:
     """An invariant of the motion as a jet by the input angle, at degrees from mid-motion."""
-    derived = DERIVED.get(quantity, 1)
-
-    def formula(x: Number, order: int) -> Jet:
-        jet = rate = engagement.motion.rate(x, order + derived)
-        for _ in range(derived):
-            jet = jet.derivative()
-        return rate.lower * jet if quantity == "power" else jet
-
-    return formula
+    jets = curves(engagement.motion, [quantity]).jets
+    return lambda x, order: jets(cast("Array", x), slice(None), order, [0])[0]
 
 
 def _load(mechanism: Mechanism, engagement: Engagement, quantity: str) -> Formula:

@@ -162,7 +162,7 @@ def lag_deg(result: Turned) -> float:
     at_deg = np.degrees(turn.crank)
     for engagement, mid in result.machine.assembly.motions:
         inside = (at_deg - mid > engagement.entry_deg) & (at_deg - mid < engagement.exit_deg)
-        ideal = engagement.motion(at_deg[inside] - mid, 0).arrays()[0]
+        ideal = engagement.motion(at_deg[inside] - mid, 0).derivatives()[0]
         behind = passed + ideal - turn.wheel[inside]
         worst = max(worst, math.degrees(float(np.max(behind, initial=0.0))))
         passed += 2.0 * engagement.half_step

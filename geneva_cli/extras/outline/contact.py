@@ -75,7 +75,7 @@ class Contact(NamedTuple):
             ):
                 # a root of at least the least number has derivatives
                 root = sqrt(Jet((np.maximum(across.c[0], 1e-300), *across.c[1:])))
-                forms.append((start + atan2(root, along) * sign).arrays()[1:])
+                forms.append((start + atan2(root, along) * sign).derivatives()[1:])
             rates = [np.choose(which, [form[k] for form in forms]) for k in range(ORDER)]
             stands = ~crank.is_edge & (radius < FIXED * L)
             pushes = self.is_known & ~stands & (np.abs(rates[0]) <= 2.0 * STEEPEST)

@@ -85,7 +85,7 @@ def at_crank(result: Turned, turn: LazyTurn, crank: Array) -> tuple[Array, list[
 def _by_input(wheel: Array, rates: Sequence[Array], crank: Jet) -> tuple[Array, ...]:
     """Velocity, acceleration and jerk by the input's angle, from those by the crank's."""
     outer = Jet((wheel, rates[0], rates[1] / 2.0, rates[2] / 6.0))
-    return composed(outer, crank).arrays()[1:]
+    return composed(outer, crank).derivatives()[1:]
 
 
 def peaks(mechanism: Mechanism) -> Table:

@@ -219,7 +219,7 @@ def struck_by(mechanism: Mechanism, result: Turned) -> Struck | None:
     *_, velocity, push, touching = max(hits, key=itemgetter(0, 1))
     place, crank_deg, pin = machine.assembly, math.degrees(push.begin), None
     rates, _ = crank_jet(mechanism, np.array([place.to_input(crank_deg)]))
-    jump = velocity * float(rates.arrays()[1][0])
+    jump = velocity * float(rates.derivatives()[1][0])
     if impulse_Nms(mechanism, abs(jump)) > 0.0:
         sizes, radius = built(mechanism), machine.roller.radius
         width = sizes.face_width_mm or sizes.wheel_thickness_mm

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
 from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from geneva_cli.kept import cached_property
@@ -27,6 +26,7 @@ class SCurve(Law):
 
     NAME: ClassVar[str] = "s-curve"
     ABOUT: ClassVar[str] = "seven segments of a servo: constant jerk in each"
+    SHARED: ClassVar[tuple[str, ...]] = ("cruise", "ramp")  # they decide the pieces
     cruise: Annotated[float, Range(0.0, 0.999), "s-curve: time fraction of constant velocity"] = (
         1.0 / 3.0
     )
@@ -35,10 +35,6 @@ class SCurve(Law):
         Range(0.0, 0.5),
         "s-curve: fraction of the acceleration in which it rises, and of its fall",
     ] = 0.25
-
-    def may_vary(self, table: str, key: str) -> bool:
-        """False for the fractions, which decide the pieces and so must be numbers."""
-        return table != "motion" or key not in self.as_dict()
 
     @cached_property
     def _segments(self) -> PiecewisePolynomial:
@@ -53,16 +49,13 @@ class SCurve(Law):
         ramp = self.ramp * rise
         most = 2.0 / (1.0 + self.cruise) / (rise - ramp)  # of the acceleration
         jerk = most / ramp if ramp else 0.0
-        jerks = {0.0: jerk}  # by where a segment begins
-        if ramp < rise - ramp:
-            jerks[ramp] = 0.0
-        if ramp:
-            jerks[rise - ramp] = -jerk
-        if self.cruise:
-            jerks[rise] = 0.0
-        rows, starts = [[0.0, 0.0, 0.0 if ramp else 0.5 * most, jerk / 6.0]], [*jerks]
-        for before, start in pairwise(starts):
-            rows.append([*taylor(start - before, rows[-1], 2), jerks[start] / 6.0])
+        state, rows, starts = [0.0, 0.0, 0.0 if ramp else 0.5 * most], [], []
+        ends = ramp, rise - ramp, rise, 0.5
+        for start, end, own in zip((0.0, *ends), ends, (jerk, 0.0, -jerk, 0.0), strict=False):
+            if start < end:
+                rows.append([*state, own / 6.0])
+                starts.append(start)
+                state = taylor(end - start, rows[-1], 2)
         if self.cruise:
             rows[-1][2] = 0.0  # without the acceleration that rounding leaves
         return PiecewisePolynomial(np.array(starts[1:]), np.array(starts), np.array(rows))

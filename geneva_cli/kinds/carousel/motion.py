@@ -33,16 +33,13 @@ class Carousel(Transmission, kw_only=True):
     NAME: ClassVar[str] = "carousel"
     WORDS: ClassVar[str] = "a carrier round a fixed finger"
     direct: ClassVar[bool] = True
+    SHARED: ClassVar[tuple[str, ...]] = ("rollers", "wheels")  # they decide when loads repeat
     FIRST: ClassVar[str] = "its carrier turns at a constant speed"
     wheels: Annotated[int, Range(1, 24), "number of wheels on the carrier, evenly spaced"] = 1
 
     def __post_init__(self) -> None:
         super().__post_init__()
         vars(self)["wheels_on_carrier"] = self.wheels
-
-    def may_vary(self, table: str, key: str) -> bool:
-        """False for the number of wheels, which decides over what period the loads repeat."""
-        return (table, key) != (self.TABLE, "wheels")
 
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
         """Plan of one wheel; the others do the same later. Only one of them moves at a time."""

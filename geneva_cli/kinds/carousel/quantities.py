@@ -9,7 +9,7 @@ from geneva_cli.loads.load_case import carried_kg, centrifugal_N
 from geneva_cli.motion.many import worst_peaks
 from geneva_cli.parts.parts import Parts
 from geneva_cli.verdict.checks.part_checks import reach_mm
-from geneva_cli.verdict.quantities.batch_designs import Columns, Designs, Values
+from geneva_cli.verdict.quantities.groups import Columns, Designs, Values
 
 
 def motion(of: Designs) -> Columns:

@@ -24,7 +24,7 @@ from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.spec.defaults import wall_min
 from geneva_cli.verdict.checks import Check, compared
 from geneva_cli.verdict.checks.part_checks import cuts, least_gap
-from geneva_cli.verdict.quantities.batch_designs import Columns, Designs
+from geneva_cli.verdict.quantities.groups import Columns, Designs
 from geneva_cli.verdict.shaft_gap import gear_rings, ring_gaps, rings_of
 from geneva_cli.verdict.strength import strength
 

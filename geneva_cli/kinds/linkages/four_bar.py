@@ -10,12 +10,11 @@ from functools import reduce
 from typing import Annotated, Any, ClassVar, Self
 
 from geneva_cli.errors import refuse_text
-from geneva_cli.kinds.linkages.link_path import LinkPath, LinkPose
-from geneva_cli.kinds.linkages.linkage import Linkage, Moving
+from geneva_cli.kinds.linkages.link_path import Guide, LinkPath
+from geneva_cli.kinds.linkages.linkage import Linkage, PlaneLink
 from geneva_cli.motion.drive import Plan
-from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link
+from geneva_cli.motion.pivots import Dimension, Joint, Layout
 from geneva_cli.numerics.arrays import larger, library, smaller
-from geneva_cli.numerics.jet import Jet, sqrt, turned_at
 from geneva_cli.spec.rules import POSITIVE, OneOf, Range
 
 
@@ -70,13 +69,12 @@ class FourBar(Linkage, kw_only=True):
 
     def layout(self, plan: Plan, sign: float) -> Layout:
         """Joints at input 0, and lengths of the links."""
-        pivots = self.linked(plan, **{"rocker axis": (self.ground_mm, 0.0)})
+        pivots = self.linked(plan, **{"rocker axis": self.ground_mm})
         return (*pivots, Dimension("branch", self.branch))
 
-    def holder(self, end: Moving) -> Link:
+    def holder(self, end: Any) -> PlaneLink:
         """The rocker, on a pin in the frame."""
-        axis = 0.0 * end[0] + self.ground_mm, 0.0 * end[0]
-        return Link("rocker", (end, axis), (Joint.PIN, Joint.PIN), 3)
+        return "rocker", (end, self.ground_mm), (Joint.PIN, Joint.PIN), 3
 
     @property
     def roller_path(self) -> "CouplerPath":
@@ -91,34 +89,19 @@ class CouplerPath(LinkPath):
     """The path of a point of the coupler.
 
     d is the vector from A to the rocker's pivot, D = d² and N = sqrt(4 b² D - (b² + D - c²)²). The
-    unit vector from A towards B is e = d k, k = ((D + b² - c²) + i N) / (2 b D). It turns by
-
-        1/2 (1 + (a² - g²) / D) - a g sin phi (1 - (b² - c²) / D) / N
-
-    per radian of the crank, which is the sum of the rotations of d and k. Its numbers are crank,
-    ground, coupler, rocker, and the point's coordinates on the coupler: a, g, b, c, p, q.
+    unit vector from A towards B is e = d k, k = ((D + b² - c²) + i N) / (2 b D). Its numbers are
+    crank, ground, coupler, rocker, and the point's coordinates on the coupler: a, g, b, c, p, q.
     """
 
     side = 1  # on which the coupler is of the crank's line, or -1
 
-    def link(self, sine: Jet, cosine: Jet) -> tuple[Jet, Jet]:
-        """Unit vector along the coupler, from A towards B."""
-        a, g, b, c, _, _ = self.numbers
-        order = sine.order
-        sine, cosine = (Jet(x.c[: max(order, 1)]) for x in (sine, cosine))
-        dx, dy = g - cosine.c[0] * a, sine.c[0] * -a
-        D = Jet((dx * dx + dy * dy, *(cosine * (-2.0 * g * a)).c[1:]))  # a² is constant
-        m, u = (b - c) * (b + c), 1.0 / D
-        # N² as a product (Heron)
-        N = sqrt(((b + c) ** 2 - D) * (D - (b - c) ** 2)) * self.side
-        along, across = (1.0 + u.c[0] * m) / (2.0 * b), N.c[0] * u.c[0] / (2.0 * b)
-        ex, ey = dx * along - dy * across, dy * along + dx * across
-        if not order:
-            return Jet((ex,)), Jet((ey,))
-        rate = (u * ((a - g) * (a + g)) + 1.0) / 2.0 - sine * (a * g) * (1.0 - u * m) / N
-        return turned_at(rate, ex, ey, order)
+    @property
+    def guide(self) -> Guide:
+        """The rocker, which pushes or pulls."""
+        _, g, b, c, _, _ = self.numbers
+        return Guide(b, 1.0 / c, g / c, 0.0)
 
-    def pose(self, crank: Any) -> LinkPose:
+    def pose(self, crank: Any) -> tuple[Any, Any]:
         """The coupler for directions of the crank, whose end B is on a circle."""
         a, g, b, c, _, _ = self.numbers
         x, y = g - a * crank.real, -a * crank.imag
@@ -127,10 +110,4 @@ class CouplerPath(LinkPath):
         N = library(D).sqrt(((b + c) ** 2 - D) * (D - (b - c) ** 2)) * self.side
         scale, level = 0.5 / (b * D), D + (b - c) * (b + c)
         along = scale * (x * level - y * N) + 1j * (scale * (y * level + x * N))
-        return LinkPose(along, b, N * (0.5 / (b * c)), 1.0 / c, (g / c, 0.0))
-
-    def hold(self, sine: Jet, cosine: Jet) -> tuple[float, tuple[Jet, Jet]]:
-        """Coupler length from A to B, and the rocker's direction, in which it pushes or pulls."""
-        a, g, b, c, _, _ = self.numbers
-        ex, ey = self.link(sine, cosine)
-        return b, ((cosine * a + ex * b - g) / c, (sine * a + ey * b) / c)
+        return along, N * (0.5 / (b * c))

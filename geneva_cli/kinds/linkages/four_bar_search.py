@@ -29,7 +29,7 @@ from geneva_cli.numerics.jet import Jet, atan2, sin_cos
 from geneva_cli.study.sweep.constraints import Constraint
 from geneva_cli.study.synth.family_search import Places, Zoom, sampled, zoom
 from geneva_cli.study.target import AllowedSpan, Target
-from geneva_cli.verdict.quantities.groups import RATES
+from geneva_cli.verdict.quantities.quantity_rows import RATES
 
 SAMPLES = (256, 2048)  # least and most four-bars that are sampled for one wheel
 SAMPLINGS = (14, 60)  # least and most closer samplings for one wheel
@@ -161,8 +161,8 @@ def four_bars_at(goal: Goal, of: Whole, at: Array, places: int = FINE) -> FourBa
 
 def _coupler(links: LinkPath, phi: Array, order: int) -> tuple[Complex, Complex]:
     """The crank's pin and the coupler's unit vector with their derivatives, (order + 1, ...)."""
-    direction = sin_cos(Jet.variable(phi, order))
-    return complex_of(*links.joint(*direction)), complex_of(*links.link(*direction))
+    angle = Jet.variable(phi, order)
+    return complex_of(*links.joint(*sin_cos(angle))), complex_of(*links.link(angle))
 
 
 def coupler_point(links: LinkPath, entry: Array, end: Array, b: Number, sense: Array) -> Complex:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import copy
 from abc import ABC, abstractmethod
-from typing import Any, NamedTuple, Self, cast
+from typing import Any, NamedTuple, Self, TypeAlias, cast
 
 from geneva_cli.drives.pushed import pushed
 from geneva_cli.numerics.angles import sin_cos_deg
-from geneva_cli.numerics.arrays import Array, Batchable, Complex, Which, enclosed
+from geneva_cli.numerics.arrays import Array, Batchable, Complex, Which, enclosed, library
 from geneva_cli.numerics.jet import (
     Held,
     Jet,
@@ -18,20 +18,20 @@ from geneva_cli.numerics.jet import (
     cross,
     rotation,
     sin_cos,
+    sine_versine,
     sqrt,
     turning,
 )
 from geneva_cli.spec.rules import is_array
 
 
-class LinkPose(NamedTuple):
-    """A link at some places of A, and the path of its other joint B: a circle or a line."""
+class Guide(NamedTuple):
+    """How a link's joint B is guided: on a circle or a line, along whose normal the force acts."""
 
-    along: Any  # unit vector from A towards B, complex
     length: float  # from A to B
-    sine: Any  # of the angle from the path's normal to the link
-    bend: float  # curvature of the path: 1/c on a circle, 0 on a line
-    foot: tuple[float, float]  # the normal is ``foot - bend * B``: towards a circle's centre
+    bend: float  # curvature of B's path: 1/c on a circle, 0 on a line
+    x: float  # the normal is (x, y) - bend * B: towards a circle's centre
+    y: float
 
 
 class LinkDisplacement(NamedTuple):
@@ -78,18 +78,27 @@ class LinkDisplacement(NamedTuple):
     def __call__(self, tau: Number, order: int) -> Vector:
         """Displacement (x, y) after a rotation d of the crank, ``tau`` radians."""
         sine, versine = rotation(tau, order)
-        ahead, back, side, rate, fall, vx, vy, px, py, bx, by, fx, fy = enclosed(sine.c[0], self)
-        more, low = sine * ahead + versine * back, versine * fall
-        first, level, right = more + 1.0, side - sine * back + versine * ahead, sine * rate - low
-        root = sqrt(first * first + right * (level * 2.0 - right))
-        tangent = right / (first + root)
-        turn = tangent * 2.0 / (tangent * tangent + 1.0)
-        fallen = turn * tangent
-        bent = low + level * fallen + more * turn
+        _, fallen, bent = rotated(enclosed(sine.c[0], self[:5]), sine, versine)
+        vx, vy, px, py, bx, by, fx, fy = enclosed(sine.c[0], self[5:])
         return (
             sine * vx + versine * px + bent * bx + fallen * fx,
             sine * vy + versine * py + bent * by + fallen * fy,
         )
+
+
+Turn: TypeAlias = tuple[float, float, float, float, float]  # first numbers of a displacement
+
+
+def rotated(numbers: Turn, sine: Jet, versine: Jet) -> tuple[Jet, Jet, Jet]:
+    """sin t, 1 - cos t and what -sin t has beyond its linear part, from sin d and 1 - cos d."""
+    ahead, back, side, rate, fall = numbers
+    more, low = sine * ahead + versine * back, versine * fall
+    first, level, right = more + 1.0, side - sine * back + versine * ahead, sine * rate - low
+    root = sqrt(first * first + right * (level * 2.0 - right))
+    tangent = right / (first + root)
+    turn = tangent * 2.0 / (tangent * tangent + 1.0)
+    fallen = turn * tangent
+    return turn, fallen, low + level * fallen + more * turn
 
 
 class LinkPath(Batchable, ABC):
@@ -116,41 +125,55 @@ class LinkPath(Batchable, ABC):
         a, *_ = self.numbers
         return cosine * a, sine * a
 
+    def link(self, angle: Jet) -> tuple[Jet, Jet]:
+        """Unit vector along the link, from A towards B, for the crank's angle in radians."""
+        m = library(angle.c[0])
+        along, _, turn = self._turn(m.cos(angle.c[0]) + 1j * m.sin(angle.c[0]))
+        x, y = along.real, along.imag
+        if not angle.order:
+            return Jet((x,)), Jet((y,))
+        s, v, _ = rotated(turn, *sine_versine(Jet((0.0, *angle.c[1:]))))
+        return v * -x - s * y + x, s * x - v * y + y
+
+    def _turn(self, crank: Any) -> tuple[Any, Any, Turn]:
+        """Unit vector along the link, place of A, and how the link turns from a direction on."""
+        (along, sine), (b, bend, x, y) = self.pose(crank), self.guide
+        pin, lever = self.numbers[0] * crank, b * sine
+        ahead = along.conjugate() * pin * bend
+        rate = (y * pin.real - x * pin.imag + b * ahead.imag) / lever
+        fall = (x * pin.real + y * pin.imag - b * ahead.real) / lever
+        side = (x * along.real + y * along.imag - ahead.real) / sine
+        return along, pin, (ahead.real / sine, -ahead.imag / sine, side, rate, fall)
+
+    @property
     @abstractmethod
-    def link(self, sine: Jet, cosine: Jet) -> tuple[Jet, Jet]:
-        """Unit vector along the link, from A towards B."""
+    def guide(self) -> Guide:
+        """The guide of the link at its joint B."""
 
     @abstractmethod
-    def pose(self, crank: Any) -> LinkPose:
-        """The link for directions of the crank, complex unit vectors."""
+    def pose(self, crank: Any) -> tuple[Any, Any]:
+        """Unit vector along the link, and the sine of its angle from the normal of B's path.
 
-    @abstractmethod
-    def hold(self, sine: Jet, cosine: Jet) -> tuple[float, tuple[Jet, Jet]]:
-        """Distance along the link from A to the other joint B, and the line of the force at B."""
+        They are those for directions of the crank, complex unit vectors.
+        """
 
     def about(self, crank: Any, velocity: Any = None) -> LinkDisplacement:
         """The point's displacement since a direction of the crank; exactly 0 for no rotation.
 
         The direction is a complex unit vector, and so is the velocity, if it is known.
         """
-        a, *_, p, q = self.numbers
-        along, b, sine, bend, (x, y) = self.pose(crank)
-        pin, arm, lever = a * crank, along * (p + 1j * q), b * sine
-        ahead = along.conjugate() * pin * bend
-        rate = (y * pin.real - x * pin.imag + b * ahead.imag) / lever
-        fall = (x * pin.real + y * pin.imag - b * ahead.real) / lever
-        side = (x * along.real + y * along.imag - ahead.real) / sine
-        sizes = ahead.real / sine, -ahead.imag / sine, side, rate, fall
+        along, pin, turn = self._turn(crank)
+        arm = along * (self.numbers[-2] + 1j * self.numbers[-1])
         if velocity is None:
-            velocity = 1j * (pin + rate * arm)
+            velocity = 1j * (pin + turn[3] * arm)
         factors = velocity, -pin, -1j * arm, -arm
-        return LinkDisplacement(*sizes, *(x for z in factors for x in (z.real, z.imag)))
+        return LinkDisplacement(*turn, *(x for z in factors for x in (z.real, z.imag)))
 
-    def place(self, sine: Jet, cosine: Jet) -> tuple[Jet, Jet]:
-        """Point (x, y) for a crank direction."""
+    def joints(self, crank: Any) -> tuple[Any, Any, Any]:
+        """Crank pin A, the other joint B and the point, for directions of the crank; complex."""
         a, *_, p, q = self.numbers
-        x, y = self.link(sine, cosine)
-        return x * p - y * q + cosine * a, x * q + y * p + sine * a
+        pin, (along, _) = a * crank, self.pose(crank)
+        return pin, pin + self.guide.length * along, pin + along * (p + 1j * q)
 
 
 class LinkRate(NamedTuple):
@@ -162,7 +185,7 @@ class LinkRate(NamedTuple):
 
     def __call__(self, tau: Number, order: int) -> Jet:
         """Rate in radians per input radian, positive with the wheel, ``tau`` after mid-motion."""
-        x, y = self.path.link(*sin_cos(Jet.variable(tau + self.middle, order + 1)))
+        x, y = self.path.link(Jet.variable(tau + self.middle, order + 1))
         return turning(x, y) * self.sense
 
 
@@ -178,14 +201,14 @@ class LinkReactions(NamedTuple):
 
     def __call__(self, turn: Jet, path: Vector, loads: Loads) -> Held:
         """Reactions of the crank's shaft, equal to those at A, and of the third body."""
-        sine, cosine = sin_cos(turn + self.middle)
-        known = self.path.link, self.path.place, self.path.joint
-        (ex, ey), (px, py), (ax, ay) = (f(sine, cosine) for f in known)
-        arm, h = self.path.hold(sine, cosine)
+        angle = turn + self.middle
+        (ax, ay), (ex, ey) = self.path.joint(*sin_cos(angle)), self.path.link(angle)
+        (*_, p, q), (length, bend, nx, ny) = self.path.numbers, self.path.guide
+        arm, point = (ex * length, ey * length), (ex * p - ey * q, ex * q + ey * p)
+        normal = (ax + arm[0]) * -bend + nx, (ay + arm[1]) * -bend + ny
         # from A, over L, and from the path's axes to the machine's
-        ends = (px - ax, py - ay), (ex * arm, ey * arm), (h[0] * self.L, h[1] * self.L)
         place, held, direction = (
             ((x * self.x + y * self.y) / self.L, (y * self.x - x * self.y) * (self.sense / self.L))
-            for x, y in ends
+            for x, y in (point, arm, (normal[0] * self.L, normal[1] * self.L))
         )
         return pushed(loads, place, direction, cross(held, direction))

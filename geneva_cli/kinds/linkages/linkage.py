@@ -3,7 +3,7 @@
 from abc import abstractmethod
 from collections.abc import Mapping
 from functools import reduce
-from typing import Annotated, ClassVar, Self, TypeAlias, TypeVar, cast
+from typing import Annotated, Any, ClassVar, Self, TypeAlias, cast
 
 from geneva_cli.errors import refuse_text
 from geneva_cli.kinds.linkages.link_path import LinkPath, LinkReactions
@@ -12,13 +12,12 @@ from geneva_cli.motion.laws.law import Motion
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import DEGREE, radians
-from geneva_cli.numerics.arrays import Array, array, larger, library, parameter, smaller
-from geneva_cli.numerics.jet import Jet, sin_cos
+from geneva_cli.numerics.arrays import Array, Number, larger, library, parameter, smaller
 from geneva_cli.spec.rules import Range
 from geneva_cli.spec.tables import DISTANCE_MM
 
-Place = TypeVar("Place", float, "Array")
-Moving: TypeAlias = "tuple[Array, Array]"  # x and y at input angles
+# name, joints as complex numbers in the linkage's own frame, their kinds, plane below the wheel
+PlaneLink: TypeAlias = tuple[str, tuple[Any, ...], tuple[Joint, ...], int]
 
 
 class Linkage(Drive, kw_only=True):
@@ -69,14 +68,13 @@ class Linkage(Drive, kw_only=True):
         entry_deg = entry_deg - 360.0 * library(entry_deg).floor(entry_deg / 360.0)
         return self.replace(entry_deg=entry_deg)
 
-    def linked(self, plan: Plan, **fixed: tuple[float, float]) -> Layout:
+    def linked(self, plan: Plan, **fixed: complex) -> Layout:
         """Fixed points of the linkage's own frame, crank pin and roller at input 0, and lengths."""
         at = cast(LinkReactions, plan.engagements[0].reactions)
-        direction = sin_cos(Jet((at.middle,)))
-        moving = {"crank pin A": at.path.joint(*direction), "roller C": at.path.place(*direction)}
-        points = fixed | {k: (parameter(x.c[0]), parameter(y.c[0])) for k, (x, y) in moving.items()}
+        pin, _, roller = self._joints(plan, 0.0)
+        points = {**fixed, "crank pin A": pin, "roller C": roller}
         return (
-            *(Pivot(name, *self._placed(plan, x, y)) for name, (x, y) in points.items()),
+            *(Pivot(name, *self._placed(plan, z)) for name, z in points.items()),
             Dimension("crank turns", "counterclockwise" if at.sense > 0.0 else "clockwise"),
             *(Dimension(name, vars(self)[key], "mm") for name, key in self.LENGTHS.items()),
             Dimension("angle BAC", vars(self)["point_deg"], "deg"),
@@ -84,32 +82,29 @@ class Linkage(Drive, kw_only=True):
 
     def links(self, plan: Plan, sign: float, input_deg: Array) -> tuple[Link, ...]:
         """The crank, the link that carries the roller, and the one that holds that link."""
-        at = cast(LinkReactions, plan.engagements[0].reactions)
-        turn = radians(input_deg) + at.middle
-        direction = sin_cos(Jet((turn,)))
-        pin, unit, roller = (
-            (array(x.c[0]), array(y.c[0]))
-            for x, y in (f(*direction) for f in (at.path.joint, at.path.link, at.path.place))
-        )
-        reach = at.path.hold(*direction)[0]
-        end = pin[0] + reach * unit[0], pin[1] + reach * unit[1]
-        origin = 0.0 * turn, 0.0 * turn
-        own = (
-            Link("crank", (origin, pin), (Joint.SHAFT, Joint.PIN), 2),
-            Link(self.CARRIER, (pin, end, roller), (Joint.PIN, Joint.PIN, Joint.ROLLER), 1),
+        pin, end, roller = self._joints(plan, radians(input_deg))
+        own: tuple[PlaneLink, ...] = (
+            ("crank", (0.0, pin), (Joint.SHAFT, Joint.PIN), 2),
+            (self.CARRIER, (pin, end, roller), (Joint.PIN, Joint.PIN, Joint.ROLLER), 1),
             self.holder(end),
         )
         return tuple(
-            link._replace(joints=tuple(self._placed(plan, x, y) for x, y in link.joints))
-            for link in own
+            Link(name, tuple(self._placed(plan, z + 0.0 * pin) for z in points), kinds, plane)
+            for name, points, kinds, plane in own
         )
 
-    def _placed(self, plan: Plan, x: Place, y: Place) -> tuple[Place, Place]:
-        """Transform points from the linkage's own frame to the machine's."""
+    def _joints(self, plan: Plan, since: Number) -> tuple[Any, Any, Any]:
+        """Joints A and B and the roller's centre, ``since`` radians after mid-motion; complex."""
         at = cast(LinkReactions, plan.engagements[0].reactions)
-        ahead, sideways = x * at.x + y * at.y, at.sense * (y * at.x - x * at.y)
-        return plan.center_distance_mm + ahead, sideways
+        turn, m = since + at.middle, library(since, at.middle)
+        return at.path.joints(m.cos(turn) + 1j * m.sin(turn))
+
+    def _placed(self, plan: Plan, z: Any) -> tuple[Any, Any]:
+        """Transform a point, complex, from the linkage's own frame to the machine's."""
+        at = cast(LinkReactions, plan.engagements[0].reactions)
+        seen = z * (at.x - 1j * at.y)
+        return plan.center_distance_mm + seen.real, at.sense * seen.imag
 
     @abstractmethod
-    def holder(self, end: Moving) -> Link:
-        """The link or guide that holds the carrying link at its end B, in the linkage's frame."""
+    def holder(self, end: Any) -> PlaneLink:
+        """The link or guide that holds the carrying link at its end B."""

@@ -9,12 +9,11 @@ from collections.abc import Mapping
 from typing import Annotated, Any, ClassVar, Self
 
 from geneva_cli.errors import refuse_text
-from geneva_cli.kinds.linkages.link_path import LinkPath, LinkPose
-from geneva_cli.kinds.linkages.linkage import Linkage, Moving
+from geneva_cli.kinds.linkages.link_path import Guide, LinkPath
+from geneva_cli.kinds.linkages.linkage import Linkage, PlaneLink
 from geneva_cli.motion.drive import Plan
-from geneva_cli.motion.pivots import Joint, Layout, Link
+from geneva_cli.motion.pivots import Joint, Layout
 from geneva_cli.numerics.arrays import library
-from geneva_cli.numerics.jet import Jet, sqrt
 from geneva_cli.spec.rules import LENGTH, POSITIVE, Range
 
 
@@ -59,16 +58,15 @@ class SliderCrank(Linkage, kw_only=True):
 
     def layout(self, plan: Plan, sign: float) -> Layout:
         """Joints at input 0, two points of the slider's line, and lengths of the links."""
-        line = {"foot": (0.0, self.height_mm), "ahead": (self.rod_mm, self.height_mm)}
+        foot = 1j * self.height_mm
+        line = {"foot": foot, "ahead": self.rod_mm + foot}
         return self.linked(plan, **{f"slider's line, {end}": at for end, at in line.items()})
 
-    def holder(self, end: Moving) -> Link:
+    def holder(self, end: Any) -> PlaneLink:
         """The slider's fixed guide: its line as far as the slider can reach."""
-        still = 0.0 * end[0]
-        foot, ahead = still, still + (self.crank_mm + self.rod_mm)
-        line = still + self.height_mm
-        joints = ((foot, line), (ahead, line), end)
-        return Link("guide", joints, (Joint.NONE, Joint.NONE, Joint.SLIDE), 3)
+        foot = 1j * self.height_mm
+        ahead = self.crank_mm + self.rod_mm + foot
+        return "guide", (foot, ahead, end), (Joint.NONE, Joint.NONE, Joint.SLIDE), 3
 
     @property
     def roller_path(self) -> "SlidingRod":
@@ -83,20 +81,14 @@ class SlidingRod(LinkPath):
     Its numbers are crank, rod, height, and the point's coordinates on the rod: a, b, h, p, q.
     """
 
-    def link(self, sine: Jet, cosine: Jet) -> tuple[Jet, Jet]:
-        """Unit vector along the rod, from A towards B."""
-        a, b, h, _, _ = self.numbers
-        ey = (h - sine * a) / b
-        return sqrt((1.0 - ey) * (ey + 1.0)), ey
+    @property
+    def guide(self) -> Guide:
+        """The slider's line, across which it pushes."""
+        return Guide(self.numbers[1], 0.0, 0.0, 1.0)
 
-    def pose(self, crank: Any) -> LinkPose:
+    def pose(self, crank: Any) -> tuple[Any, Any]:
         """The rod for directions of the crank, whose end B is on a line."""
         a, b, h, _, _ = self.numbers
         y = (h - a * crank.imag) / b
         x = library(y).sqrt((1.0 - y) * (1.0 + y))
-        return LinkPose(x + 1j * y, b, -x, 0.0, (0.0, 1.0))
-
-    def hold(self, sine: Jet, cosine: Jet) -> tuple[float, tuple[Jet, Jet]]:
-        """Rod length from A to B, and the direction of the guide's push, across its line."""
-        _, b, *_ = self.numbers
-        return b, (sine * 0.0, cosine * 0.0 + 1.0)
+        return x + 1j * y, -x

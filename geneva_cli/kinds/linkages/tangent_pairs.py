@@ -48,7 +48,7 @@ def complex_of(x: Jet, y: Jet) -> Complex:
     """Derivatives of a point's place as complex numbers, (order + 1, ...)."""
     shape = np.broadcast_shapes(*(np.shape(c) for c in (*x.c, *y.c)))
     both = np.empty((len(x.c), *shape), dtype=complex)
-    for k, (p, q) in enumerate(zip(x.arrays(), y.arrays(), strict=True)):
+    for k, (p, q) in enumerate(zip(x.derivatives(), y.derivatives(), strict=True)):
         both[k].real, both[k].imag = p, q
     return both
 
@@ -56,7 +56,7 @@ def complex_of(x: Jet, y: Jet) -> Complex:
 def points(path: LinkPath, direction: Complex, order: int = 2) -> Complex:
     """Position, velocity and acceleration (order + 1, ...) for unit vectors of the crank."""
     a, *_, p, q = path.numbers
-    along, b, sine, bend, (x, y) = path.pose(direction)
+    (along, sine), (b, bend, x, y) = path.pose(direction), path.guide
     pin, arm = direction * a, along * (p + 1j * q)
     out = np.empty((order + 1, *arm.shape), dtype=complex)
     out[0] = pin + arm

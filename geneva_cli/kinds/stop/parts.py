@@ -26,7 +26,7 @@ from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.turn.gaps import Gaps
 from geneva_cli.spec.defaults import wheel_material
 from geneva_cli.verdict.checks import Check, compared
-from geneva_cli.verdict.quantities.batch_designs import Values
+from geneva_cli.verdict.quantities.groups import Values
 
 
 class WheelStop(NamedTuple):

@@ -50,19 +50,21 @@ class RestingAxis(NamedTuple):
         """The axis of an engagement's straight slot."""
         whole = engagement.through
         anchor = whole.motion.entry
-        if anchor is None or whole.built is not None:
+        if anchor is None:
             return None
         x, y = whole.slot(0.5 * whole.entry_deg, 1)  # any place in a straight slot
         (px, u), (py, v) = x.c, y.c
         m = library(px)
         sense = m.copysign(1.0, px * u + py * v)
         hub, ahead = whole.hub, whole.half_step - m.atan2(sense * v, sense * u)
+        if whole.built is not None:  # it may rest where its roller meets it, with a play
+            ahead = -whole.built.angle
         offset, along = parameter(hub * m.sin(ahead)), parameter(hub * m.cos(ahead))
         return RestingAxis(engagement, anchor, offset, along)
 
     @staticmethod
     def each(mechanism: Mechanism) -> list[RestingAxis]:
-        """The axes of all engagements; none for slots that are solved for, and as built."""
+        """The axes of all engagements; none for slots that are solved for."""
         every = map(RestingAxis.of, mechanism.engagements)
         return [axis for axis in every if axis is not None]
 
@@ -71,9 +73,18 @@ class RestingAxis(NamedTuple):
         arm = self.hub_offset + self.engagement.through.slot.offset  # from the slot's axis
         return (crank * arm - center * self.hub_offset) / (1.0 + crank)
 
+    @property
+    def turn(self) -> Array:
+        """Radians after entry at which the true path runs along the axis: 0 but as built."""
+        tau = np.zeros((1, 1))
+        for _ in range(8 if self.engagement.through.built else 0):  # Newton steps
+            _, slope, bend = self.anchor.displacement(tau, 2)[1].derivatives()
+            tau = tau - slope / bend
+        return tau
+
     def distance(self, tau: Array) -> tuple[Array, Array]:
         """Distance of the true path from the axis ``tau`` radians after entry, and its slope."""
-        value, slope = self.anchor.displacement(tau, 1)[1].arrays()
+        value, slope = self.anchor.displacement(tau, 1)[1].derivatives()
         return value, slope
 
 
@@ -86,25 +97,29 @@ def first_contacts(axis: RestingAxis, crank: Number, center: Number = 0.0) -> Fi
     # The roller comes from one side, ``before``. At a true entry it stays on that side (a circle)
     # or crosses to the other (a path with an inflection).
     span = 0.5 * axis.engagement.through.motion_deg * DEGREE
-    before = axis.distance(np.atleast_2d(-1e-3 * span))[0]
+    before, turn = axis.distance(np.atleast_2d(-1e-3 * span))[0], axis.turn
     offset = np.atleast_2d(axis.offset(crank, center)) + 0.0 * before
+    left = offset - axis.distance(turn)[0]
     with np.errstate(all="ignore"):
         sense = np.where(offset * before > 0.0, -1.0, np.where(offset > 0.0, 1.0, np.nan))
+        if (built := axis.engagement.through.built) is not None:  # the crossing that is its entry
+            off = (abs(turn) > 1e-9) | np.logical_not(built.crosses)
+            sense = np.where(off, np.where(turn > 1e-9, -1.0, 1.0), sense)
         far = span * np.append(0.0, OCTAVES)
         passed = np.zeros((len(offset), far.shape[-1]), dtype=bool)
         for side in (-1.0, 1.0):  # many errors of one machine have its path in common
             if (sense == side).any():
-                reach = abs(axis.distance(side * far)[0])
-                passed |= (sense == side) & (reach >= abs(offset))
+                beyond = axis.distance(turn + side * far)[0] - offset
+                passed |= (sense == side) & (beyond * left >= 0.0)
 
     def less(tau: Array, which: Whole) -> tuple[Array, Array]:
         value, slope = taken(axis, which).distance(tau)
         return value - offset[which], slope
 
-    tau = _first_roots(less, sense * far, passed)
+    tau = _first_roots(less, turn + sense * far, passed)
     along, across = axis.anchor.displacement(tau, 1)
     moved = (center - crank) / (1.0 + crank) * axis.along
-    jump = across.arrays()[1] / (along.arrays()[0] + axis.anchor.along + moved)
+    jump = across.derivatives()[1] / (along.derivatives()[0] + axis.anchor.along + moved)
     return FirstContacts(np.ravel(axis.engagement.entry_deg + tau / DEGREE), np.ravel(jump))
 
 
@@ -149,7 +164,7 @@ class _Corner(NamedTuple):
     def gap(self, tau: Array) -> tuple[Array, Array]:
         """Squared distance of centre and corner minus that at contact, and its slope."""
         x, y, z = (p - c for p, c in zip(self.roller(tau), self.place, strict=True))
-        value, slope = (x * x + y * y + z * z - self.reach**2).arrays()
+        value, slope = (x * x + y * y + z * z - self.reach**2).derivatives()
         return value, slope
 
     def contact(self, along: Number, top: Number) -> tuple[Array, Array]:
@@ -163,7 +178,9 @@ class _Corner(NamedTuple):
         span = 0.5 * engagement.motion_deg * DEGREE
         x, _, z = self.roller(np.atleast_2d(0.0 * span))
         # its distance outside, and its speed outwards
-        out, speed = (x - along if engagement.slot.height is None else x * top - z * along).arrays()
+        out, speed = (
+            x - along if engagement.slot.height is None else x * top - z * along
+        ).derivatives()
         places = -out / speed - span * OCTAVES[::-1]
         meets = self.gap(places)[0] <= -1e-16  # of L²: nearer to 0 it is rounding
         places = np.broadcast_to(places, meets.shape)
@@ -171,7 +188,7 @@ class _Corner(NamedTuple):
         supplied = turned = 0.0 * tau
         direction = -self.place[1], self.place[0], 0.0
         for p, c, w in zip(self.roller(tau), self.place, direction, strict=True):
-            value, rate = p.arrays()
+            value, rate = p.derivatives()
             supplied, turned = supplied + (value - c) * rate, turned + (value - c) * w
         return tau, supplied / turned
 
@@ -227,7 +244,8 @@ def entry_impacts(mechanism: Mechanism, pin: PinSize | None = None) -> Impacts:
     spare = parameter(np.maximum(size.allowances.slot_clearance_mm - lost, 0.0)) / L
     sizes = mechanism.roller_radius_mm / L, spare, size.mouth_radius_mm / L
     best = np.full((2, 1), np.nan)
-    for axis in RestingAxis.each(mechanism):
+    as_built = any(one.built for one in mechanism.engagements)  # it strikes without errors, too
+    for axis in [] if as_built else RestingAxis.each(mechanism):
         errors = [*_errors(mechanism, axis)]
         every = [first_contacts(axis, *error) for error in errors]
         every += [mouth_contacts(axis, *error, sizes) for error in errors]

@@ -38,7 +38,7 @@ def changes(engagement: Engagement, drag: Array) -> tuple[arrays.Whole, Array]:
     case = LoadCase(1.0, 1.0, one, 1.0, 0.0, 0.0, 1.0, None, design=np.arange(m)[:, None])
     load = LoadFunctions(engagement, case, ())
     which, _, (a, b), positive = load.stretches()
-    torque = load.at(0.5 * (a + b)[:, None], which)[0].wheel_torque_Nm.arrays()[0][:, 0]
+    torque = load.at(0.5 * (a + b)[:, None], which)[0].wheel_torque_Nm.derivatives()[0][:, 0]
     most = np.zeros(m)
     np.maximum.at(most, which, abs(torque))
     # a law may run at constant speed for a while
@@ -66,12 +66,12 @@ def impacts_of(
     follows = np.append(which[1:] == which[:-1], False)
     until = np.where(follows, np.append(begin[1:], 0.0), np.nan)
     motions, start, drags = taken(engagement.motion, which), begin[:, None], drag[which]
-    turned, speed = (row + 0.0 * start for row in motions(start, 1).arrays())
+    turned, speed = (row + 0.0 * start for row in motions(start, 1).derivatives())
 
     def gained(x: Array, live: arrays.Whole) -> tuple[Array, Array]:
         """Lead of wheels over their slots, and difference in speed, x radians after they coast."""
         x = x[:, None]
-        angle, rate = taken(motions, live)(start[live] + x / DEGREE, 1).arrays()
+        angle, rate = taken(motions, live)(start[live] + x / DEGREE, 1).derivatives()
         own, slower = speed[live], drags[live] * x
         lead = own * x - 0.5 * slower * x - (angle - turned[live])
         return lead[:, 0], (own - slower - rate)[:, 0]
@@ -88,7 +88,7 @@ def impacts_of(
         def faster(x: Array, live: arrays.Whole) -> tuple[Array, Array]:
             of = slows[live]
             place = start[of] + x[:, None] / DEGREE
-            torque = (taken(motions, of)(place, 2).arrays()[2] + drags[of])[:, 0]
+            torque = (taken(motions, of)(place, 2).derivatives()[2] + drags[of])[:, 0]
             return sense[of] * gained(x, of)[1], -sense[of] * torque
 
         most = span.copy()  # where it is farthest from the wall that it left
@@ -166,7 +166,7 @@ def _reversal(
     of, x = at = changes(engagement, drag)
     if not len(x):
         return out
-    lever = abs(contact(taken(engagement, of), x[:, None]).lever.arrays()[0][:, 0])
+    lever = abs(contact(taken(engagement, of), x[:, None]).lever.derivatives()[0][:, 0])
     least = 1e-6  # of the centre distance: where the slot lies across the path, play is unbounded
     sine = play_mm[of, 0] / (np.maximum(lever, least) * L[of, 0])
     play = np.where(lever > least, engagement.slot.play(np.minimum(sine, 1.0)), 0.0)
@@ -178,8 +178,8 @@ def _reversal(
     out[1, which] = speed[order][first]
     wall = contact(taken(engagement, which), places[:, None])
     # the torque that the wheel then needs is that of the wall which strikes it
-    bears = np.copysign(1.0, wall.acceleration.arrays()[0] + drag[which])
-    out[2, which] = (1.0 - wall.curvature.arrays()[0] * bears * radius[which])[:, 0]
+    bears = np.copysign(1.0, wall.acceleration.derivatives()[0] + drag[which])
+    out[2, which] = (1.0 - wall.curvature.derivatives()[0] * bears * radius[which])[:, 0]
     return out
 
 
@@ -197,8 +197,8 @@ def arrival(mechanism: Mechanism) -> tuple[float, float] | None:
         return None
     w, motion = omega(spec.drive.n_rpm), engagement.motion
     begin, exit_deg = motion.breaks_deg[-2], engagement.exit_deg
-    start, u = motion(begin, 1).scalars()[:2]
-    end, _, last = motion(exit_deg, 2).scalars()[:3]
+    start, u = motion(begin, 1).derivatives()[:2]
+    end, _, last = motion(exit_deg, 2).derivatives()[:3]
     span = (exit_deg - begin) * DEGREE
     late = 2.0 * (u * span - (end - start)) / (span * span)
     most = inertia_kgm2(spec) * w * w * max(0.0, min(-last, late))

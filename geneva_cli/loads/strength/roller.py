@@ -53,13 +53,13 @@ def passage(engagement: Engagement, case: LoadCase, half: float = 0.0) -> SlotPa
     def functions(here: Instant[Jet], _: object) -> tuple[Array, ...]:
         """Speed along the slot with its sign, |v_s|, N |v_s| and N^p |v_s|."""
         L, touches = here.case.L, array(here.at.touches.c[0])
-        rubs = abs(here.slip.arrays()[0]) * L
+        rubs = abs(here.slip.derivatives()[0]) * L
         # near the torque's change of sign the force may be slightly negative by rounding
         force = np.maximum(here.force_N.c[0], 0.0)
         force = np.where(here.grip.c[0] > 0.0, force, np.inf) * touches
         # nothing presses on a wall if nothing must be turned
         force = np.where(here.wheel_torque_Nm.c[0] == 0.0, 0.0, force)
-        along = here.at.along.arrays()[0] * L * touches
+        along = here.at.along.derivatives()[0] * L * touches
         return along, rubs, force * rubs, force**LIFE_EXPONENT * rubs
 
     every_one = np.full(n, True)

@@ -10,18 +10,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from itertools import product
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.loads.impacts.entry import RestingAxis, arm_mm, first_contacts
 from geneva_cli.loads.tolerance import locking
 from geneva_cli.motion.batch import taken
-from geneva_cli.motion.drive import Drive
-from geneva_cli.motion.engagement import AsBuilt, Engagement
+from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.wheels.as_built import RestingSlot
 from geneva_cli.numerics import arrays
 from geneva_cli.numerics.jet import Jet, Number, atan2, sqrt
 
@@ -175,8 +173,8 @@ def _plays(mechanism: Mechanism, n: int) -> MotionPlays:
     return MotionPlays(*rows)
 
 
-class TrueJump(NamedTuple):
-    """The jump at one engagement's entry whose roller should enter along its slot's axis."""
+class EntryJump(NamedTuple):
+    """The jump at one engagement's entry into a straight slot."""
 
     axis: RestingAxis
     L: float
@@ -186,51 +184,16 @@ class TrueJump(NamedTuple):
         """Sizes of the jumps, over the input's speed, and a mask of machines that miss the axis."""
         crank, center = by.crank_radius_mm.c[0] / self.arm, by.center_distance_mm.c[0] / self.L
         crank, center = (np.reshape(x, (-1, 1)) for x in (crank, center))
-        jump = abs(first_contacts(self.axis, crank, center).jump)
         off = np.ravel(self.axis.offset(crank, center)) != 0.0
-        return np.nan_to_num(jump), off & np.isnan(jump)
-
-
-class BuiltJump(NamedTuple):
-    """The jump at one engagement's entry of a crank as built."""
-
-    built: AsBuilt
-    sign: float
-    offset: float
-    L: float
-    R: float
-    drive: Drive
-    at_deg: float
-
-    def __call__(self, by: locking.Deviations) -> tuple[arrays.Array, arrays.Mask]:
-        """Sizes of the jumps, over the input's speed, and a mask of machines that miss the axis."""
-        L = np.reshape(by.center_distance_mm.c[0] + self.L, (-1, 1))
-        l = np.reshape(by.crank_radius_mm.c[0] + self.R, (-1, 1)) / L
-        across = np.sin(self.built.angle) - self.offset / L
-        missed: arrays.Mask = abs(across) > l
-        with np.errstate(all="ignore"):  # of machines that miss it
-            own = self.built
-            here = RestingSlot(self.sign, arrays.parameter(l), own.angle, across, own.outer)
-            rate = self.drive.crank_rate(arrays.array(here.crank_deg) + self.at_deg)
-            jump = np.where(missed, 0.0, abs(here.velocity) * rate)
-        return np.ravel(jump), np.ravel(missed)
-
-
-EntryJump: TypeAlias = TrueJump | BuiltJump
+        as_drawn = np.ravel(self.axis.engagement.through.jumps[0])
+        jump = np.where(off, first_contacts(self.axis, crank, center).jump, as_drawn)
+        return np.nan_to_num(abs(jump)), off & np.isnan(jump)
 
 
 def entry_jumps(mechanism: Mechanism) -> list[EntryJump]:
     """Entry jump of each engagement whose roller enters along its slot's axis, or as built."""
-    drive, L, out = mechanism.spec.drive, mechanism.center_distance_mm, list[EntryJump]()
-    for i, one in enumerate(mechanism.engagements):
-        if one.built is not None:
-            angles = drive.roller_angles_deg
-            at_deg = angles[i] if angles else 360.0 * i / drive.rollers
-            own = L * one.slot.offset, L, L * mechanism.ratio, drive, at_deg
-            out.append(BuiltJump(one.built, mechanism.spec.wheel.SIGN, *own))
-        elif axis := RestingAxis.of(one):
-            out.append(TrueJump(axis, L, arm_mm(mechanism, one)))
-    return out
+    L, axes = mechanism.center_distance_mm, RestingAxis.each(mechanism)
+    return [EntryJump(axis, L, arm_mm(mechanism, axis.engagement)) for axis in axes]
 
 
 def entry_jumps_worst(mechanism: Mechanism, use: Mapping[str, float]) -> arrays.Array | None:

@@ -90,16 +90,13 @@ class Oscillators:
     def __init__(self, mechanism: Mechanism, swing: Oscillator) -> None:
         self.mechanism, self.swing = mechanism, swing
         # one shape stands for designs whose motions are alike
-        m = designs_in([engagement.motion for engagement in mechanism.engagements])
-        n = len(swing.ratio)
+        every, n = mechanism.engagements, len(swing.ratio)
+        m = designs_in([one.motion for one in every])
         self.motion = np.arange(n) if m > 1 else np.zeros(n, dtype=np.intp)
-        self.panels, self.scale, steps = [], [], []
-        for engagement in mechanism.engagements:
-            self.panels.append(swings.motion_shapes(engagement.motion, m))
-            # its time over that of the machine's first motion
-            first = mechanism.engagements[0].motion_deg
-            self.scale.append(np.ravel(engagement.motion_deg / first))
-            steps.append(np.broadcast_to(np.ravel(2.0 * engagement.half_step), n))
+        self.panels = [swings.motion_shapes(one.motion, m) for one in every]
+        # its time over that of the machine's first motion
+        self.scale = [np.ravel(one.motion_deg / every[0].motion_deg) for one in every]
+        steps = [np.broadcast_to(np.ravel(2.0 * one.half_step), n) for one in every]
         self.steps = np.array(steps)  # radians
         self.ratio = np.array([swing.ratio * scale for scale in self.scale])
         # wind-up of the shaft at an acceleration of 1 step over the motion's time squared

@@ -24,6 +24,8 @@ class Law(SpecTable):
     ABOUT: ClassVar[str]
     # reason in the warning that the law turns the wheel back
     TURNS_BACK: ClassVar[str] = "the law's points must not fall"
+    # True if the second half mirrors the first, an array for a batch; set where keys decide it
+    symmetric: ClassVar[Truth] = True
     # True if analytic between the breaks; a spline is not
     ANALYTIC: ClassVar[bool] = True
 
@@ -33,18 +35,9 @@ class Law(SpecTable):
         return ()
 
     @property
-    def symmetric(self) -> Truth:
-        """True if the second half mirrors the first; an array for a batch."""
-        return True
-
-    @property
     def knots(self) -> tuple[float, ...]:
         """Values of u inside 0..1 at which any derivative jumps; the law is analytic between."""
         return self.breaks
-
-    def may_vary(self, table: str, key: str) -> bool:
-        """True if a number of a table may be an array along a design axis with this law."""
-        return True
 
     def doubt(self) -> tuple[int, float] | None:
         """Decimals of a law of points, and the effect of their rounding on d³s/du³; else None."""

@@ -5,7 +5,7 @@ from typing import Annotated, ClassVar
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.laws.law import Law, from_velocity
 from geneva_cli.motion.laws.sine_constant_cosine import breaks, first_half
-from geneva_cli.numerics.arrays import Truth, library
+from geneva_cli.numerics.arrays import library
 from geneva_cli.numerics.jet import Jet, Number, sin, sin_cos
 from geneva_cli.spec.rules import Range
 
@@ -78,6 +78,7 @@ class SineConstantCosine(_ScaledLaw):
 
     NAME: ClassVar[str] = "scca"
     ABOUT: ClassVar[str] = "your own: fractions b of sine, c of constant, d of cosine acceleration"
+    SHARED: ClassVar[tuple[str, ...]] = ("b", "c", "d")  # they decide the pieces
     b: Annotated[float, Range(0.0, 1.0), "scca: time fraction of the sine (rising acceleration)"]
     c: Annotated[float, Range(0.0, 1.0), "scca: time fraction of constant acceleration"]
     d: Annotated[float, Range(0.0, 1.0), "scca: time fraction of the cosine; b + c + d = 1"]
@@ -99,9 +100,6 @@ class SineConstantCosine(_ScaledLaw):
         d = self.d / whole
         b = self.b / whole if self.c else 1.0 - d
         vars(self)["FRACTIONS"] = b, d, 0.0
-
-    def may_vary(self, table: str, key: str) -> bool:
-        return table != "motion" or key not in self.as_dict()
 
 
 class ModifiedTrapezoid(_ScaledLaw):
@@ -207,9 +205,9 @@ class SineGroup(Law):
     TURNS_BACK: ClassVar[str] = "the sine group turns back for |lambda| > 1/8"
     lambda_: Annotated[float, Range(-10.0, 10.0), "shape parameter of the sine-group law"] = 0.0
 
-    @property
-    def symmetric(self) -> Truth:
-        return self.lambda_ == 0.0
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        vars(self)["symmetric"] = self.lambda_ == 0.0
 
     def first(self, u: Number, order: int) -> Jet:
         return _tilted(u, order, self.lambda_)

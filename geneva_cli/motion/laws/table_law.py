@@ -30,6 +30,7 @@ class TableLaw(Law):
     NAME: ClassVar[str] = "table"
     ABOUT: ClassVar[str] = "your own: a CSV of u,s points, file = ..."
     ANALYTIC: ClassVar[bool] = False
+    symmetric: ClassVar[bool] = False
     # The points of s are rounded by 1e-16, which moves a third derivative by about 1e-16 / step³.
     # At this step, 10,001 points in all, that is 1e-4 of a usual law's. Ten times closer the jerk
     # is only noise, with a peak at every point. A law that passes ten times its rise is a mistake.
@@ -46,10 +47,6 @@ class TableLaw(Law):
     def _halves(self) -> tuple[PiecewisePolynomial, PiecewisePolynomial]:
         """The spline from its start; and from its end, as 1 - s by w = 1 - u."""
         return _halves(self.points.pairs)
-
-    @property
-    def symmetric(self) -> bool:
-        return False
 
     @property
     def knots(self) -> tuple[float, ...]:

@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING, Annotated, ClassVar, Self
 
 from geneva_cli.errors import GenevaError, refuse_text
-from geneva_cli.motion.pivots import Dimension, Layout
+from geneva_cli.motion.pivots import Dimension
 from geneva_cli.motion.wheels.classic import HalfStep
 from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.numerics.angles import sin_cos_pi
@@ -43,8 +43,10 @@ class External(Gearing):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        vars(self).update(steps=self.steps_deg or (), stopped=self.stop)
         steps, z, key = self.steps_deg, self.z, ("wheel", "steps_deg")
+        offset = Dimension("slots' axes offset from the wheel's", self.offset_mm, "mm")
+        skewed = bool(steps) or self.offset_mm != 0.0
+        vars(self).update(steps=steps or (), stopped=self.stop, skewed=skewed, layout=(offset,))
         if not steps:
             return
         text, n = "offset_mm and steps_deg cannot be combined: remove one of them", len(steps)
@@ -59,17 +61,9 @@ class External(Gearing):
             raise GenevaError(f"a step of {max(steps):g} deg is too large; below 180", key)
 
     @property
-    def skewed(self) -> bool:
-        return True if self.steps_deg else self.offset_mm != 0.0
-
-    @property
     def backwards(self) -> Self:
         steps = (self.steps[0], *self.steps[:0:-1]) if self.steps else None
         return self.replace(offset_mm=0.0 - self.offset_mm, steps_deg=steps)
-
-    @property
-    def layout(self) -> Layout:
-        return (Dimension("slots' axes offset from the wheel's", self.offset_mm, "mm"),)
 
     def place(self, step: HalfStep, center_distance_mm: float) -> RollerPlace:
         if isinstance(self.offset_mm, float) and not self.offset_mm:

@@ -11,7 +11,7 @@ from geneva_cli.motion.pivots import Layout, Pivot, PlaneMotion
 from geneva_cli.motion.wheels import classic
 from geneva_cli.motion.wheels.classic import HalfStep, PinPose, radial
 from geneva_cli.numerics.angles import one_minus_sin_pi, sin_cos_pi
-from geneva_cli.numerics.arrays import choose
+from geneva_cli.numerics.arrays import Truth, choose
 from geneva_cli.spec.rules import Z_MAX, OneOf, Range
 from geneva_cli.spec.schema import SpecTable
 
@@ -79,11 +79,13 @@ class Gearing(SpecTable):
     DISTANCE: ClassVar[str] = "centre distance"
     # what locks it in the dwell, on a crank
     LOCK: ClassVar[str] = "locking disc"
-    # Half the wheel's step, for equal steps. It is set as the wheel is made; and so are steps and
-    # stop of an external wheel.
-    step: ClassVar[HalfStep]
+    # These are set as the wheel is made, where a kind decides them:
+    step: ClassVar[HalfStep]  # half the wheel's step, for equal steps
     steps: ClassVar[tuple[float, ...]] = ()  # pattern of unequal ones, degrees; empty if all equal
     stopped: ClassVar[bool] = False  # a convex face in place of a recess stops the crank
+    skewed: ClassVar[Truth] = False  # some slots are not radial, or not all are alike
+    layout: ClassVar[Layout] = ()  # dimensions of the kind, in addition to the number of slots
+    own_sizes: ClassVar[dict[str, float]] = {}  # by name, which a report shows for this kind only
     z: Annotated[int, Range(3, Z_MAX), "number of slots"]
     held_by: Annotated[
         str | None,
@@ -97,19 +99,9 @@ class Gearing(SpecTable):
         vars(self)["step"] = half
 
     @property
-    def skewed(self) -> bool:
-        """True if slots are not radial or not all alike, which some drives and laws cannot use."""
-        return False
-
-    @property
     def backwards(self) -> Self:
         """The wheel that turns the other way, as seen from its other side."""
         return self
-
-    @property
-    def layout(self) -> Layout:
-        """Dimensions of this kind of wheel, in addition to its number of slots."""
-        return ()
 
     @property
     def title(self) -> str:
@@ -123,11 +115,6 @@ class Gearing(SpecTable):
     def words(self, slots: str) -> str:
         """The wheel in words; ``slots`` is the kind of its slots."""
         return f"{self.NAME} wheel of {self.z} {slots} slots"
-
-    @property
-    def own_sizes(self) -> dict[str, float]:
-        """Values by name that a report shows for this kind of wheel only."""
-        return {}
 
     def output(self, center_distance_mm: float) -> Output:
         """What the wheel gives out: its angle, in degrees."""

@@ -7,7 +7,7 @@ from typing import Annotated, ClassVar, NamedTuple
 from geneva_cli.errors import refuse_text
 from geneva_cli.motion.engagement import Slot
 from geneva_cli.motion.path_and_slot import AnchoredPath, StraightSlotMotion
-from geneva_cli.motion.pivots import Dimension, Layout, Pivot
+from geneva_cli.motion.pivots import Dimension, Pivot
 from geneva_cli.motion.wheels.classic import HalfStep, PinPose
 from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.numerics.angles import radians, sin_cos_deg
@@ -41,17 +41,11 @@ class Spherical(Gearing):
         )
         parallel = (angle < least) | (angle > 180.0 - least)
         refuse_text(parallel, ("wheel", "axes_deg"), text, angle=angle, least=least)
-
-    @property
-    def own_sizes(self) -> dict[str, float]:
-        return {"axes_deg": self.axes_deg}
+        shafts = Dimension("angle of the shafts", angle, "deg")
+        vars(self).update(layout=(shafts,), own_sizes={"axes_deg": angle})
 
     def axes(self, L: float) -> tuple[Pivot, ...]:
         return ()
-
-    @property
-    def layout(self) -> Layout:
-        return (Dimension("angle of the shafts", self.axes_deg, "deg"),)
 
     def half_motion_deg(self, step: HalfStep) -> float:
         return sphere(step, self.axes_deg).half_motion_deg

@@ -17,11 +17,11 @@ LONG = 36  # letters; a longer value is broken into lines, from the left
 
 def chunks(document: blocks.Document) -> Iterator[str]:
     """The page's text; the same document gives the same bytes."""
-    parts = {"TITLE": _text(document.title), "STYLE": template("document/page.css")}
+    parts = {"TITLE": _text(document.title), "STYLE": template("report.css")}
     parts |= {"STATE": document.state, "SIGN": SIGNS[document.state]}
     parts |= {"VERDICT": _text(document.verdict), "REASONS": "".join(_list(document.reasons))}
     parts["CONTENT"] = "".join(_content(document.blocks))
-    yield filled("document/page.html", parts)
+    yield filled("report.html", parts)
 
 
 def _content(every: Iterable[blocks.Block]) -> Iterator[str]:

@@ -31,7 +31,7 @@ def chunks(figure: Figure) -> Iterator[str]:
     parts = {"TITLE": title, "CONTENT": escape(content, quote=False), "DASHES": dashed}
     parts |= {"WIDE": _n(layout.PAGE), "TALL": _n(tall), "SIZE": _n(TEXT)}
     parts |= {"LIGHT": _style(LIGHT, known), "DARK": _style(DARK, known)}
-    yield filled("plot/figure.svg", parts | {"DRAWING": "".join(pen.out)})
+    yield filled("figure.svg", parts | {"DRAWING": "".join(pen.out)})
 
 
 def png_chunks(figure: Figure) -> Iterator[bytes]:

@@ -14,19 +14,14 @@ from geneva_cli.output.inks import INKS
 from geneva_cli.output.solid_part import solid_part
 from geneva_cli.output.step.brep import plate_solid, shell_solid
 from geneva_cli.output.step.entities import Entities, listed, real, words
-from geneva_cli.output.templates import template
+from geneva_cli.output.templates import filled, template
 
 
 def chunks(drawing: Drawing) -> Iterator[str]:
     """Yield the file's text. Raises GenevaError for a drawing without solids."""
     file = Entities()
     _Products(file, solid_part(drawing, "STEP"))
-    yield (
-        "ISO-10303-21;\nHEADER;\n"
-        f"FILE_DESCRIPTION(({words(clean(drawing.title))}),'2;1');\n"
-        f"FILE_NAME('','',(''),(''),'','geneva','');\n"
-        "FILE_SCHEMA(('AUTOMOTIVE_DESIGN { 1 0 10303 214 3 1 1 }'));\nENDSEC;\nDATA;\n"
-    )
+    yield filled("step_head.txt", {"TITLE": words(clean(drawing.title))})
     yield from file.lines
     yield "ENDSEC;\nEND-ISO-10303-21;\n"
 
@@ -48,7 +43,7 @@ class _Products:
         self.styled: list[str] = []
         # behind the entities of the origin, #1 to #4
         _, _, self.context, self.design, *_, self.space = (
-            file.add(text) for text in template("step/contexts.txt").splitlines()
+            file.add(text) for text in template("step_contexts.txt").splitlines()
         )
         self.product(whole)
         file.add(

@@ -9,6 +9,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import lru_cache
+from operator import itemgetter
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -45,6 +46,11 @@ class WallPlace(NamedTuple):
     def t(self) -> float:
         """The parameter of the sample."""
         return float(self.wall.t[self.i])
+
+    @property
+    def run(self) -> tuple[int, int]:
+        """First and last sample of the stretch of free samples that it is on."""
+        return next((a, b) for a, b in _runs(self.wall) if a <= self.i <= b)
 
     def within(self, t: float) -> float:
         """Return a parameter limited to the neighbourhood of the sample."""
@@ -107,53 +113,40 @@ def chain(assembly: Assembly, sizes: Sizes, around: list[Wall]) -> list[WallPiec
         """Return how far points lie inside the wheel."""
         return assembly.sign * (sizes.rim - np.hypot(points[..., 0], points[..., 1]))
 
-    def crossing(wall: Wall, outside: float, inside: float) -> float:
-        """Return the parameter at which a wall crosses the rim."""
-        return boundary_by_sections(
-            lambda t: depth(wall.curve(t)[0]), float(inside), float(outside)
-        )
+    def rim(wall: Wall, i: int, sense: int) -> float | None:
+        """Return the parameter at which a wall leaves the wheel after a sample; None inside."""
+        after = i + sense
+        if not 0 <= after < len(wall.t):
+            return float(wall.t[i]) if depth(wall.points[i]) < close else None
+        if depth(wall.points[after]) > -close:
+            return None
+        inside, outside = float(wall.t[i]), float(wall.t[after])
+        return boundary_by_sections(lambda t: depth(wall.curve(t)[0]), inside, outside)
 
+    around = [one._replace(free=one.free & (depth(one.points) > -close)) for one in around]
     # where walls enter the wheel: their first samples inside, and the parameters
     entries: list[tuple[WallPlace, float]] = []
     for wall in around:
-        deep = depth(wall.points)
-        inside, outside = (deep > -close) & wall.free, deep <= -close
-        rises = np.flatnonzero(outside[:-1] & inside[1:]) + 1
-        falls = np.flatnonzero(inside[:-1] & outside[1:])[::-1]
-        for sense, first, samples in ((1, 0, rises), (-1, len(deep) - 1, falls)):
-            if inside[first] and deep[first] < close < deep[first + sense]:
-                entries.append((WallPlace(wall, first, sense), float(wall.t[first])))
-            for i in samples.tolist():
-                at = crossing(wall, wall.t[i - sense], wall.t[i])
-                entries.append((WallPlace(wall, i, sense), at))
+        for start, end in _runs(wall):
+            for i, sense in ((start, 1), (end, -1)):
+                enters = rim(wall, i, -sense)
+                entries += [] if enters is None else [(WallPlace(wall, i, sense), enters)]
     if not entries:
         raise _lost()
     place, t = min(entries, key=lambda c: math.atan2(*points_at(c[0].wall, c[1])[0][::-1]))
     pieces: list[WallPiece] = []
     for _ in range(64):  # many times the walls of any slot
         # on to the last free sample of the wall, or to the rim
-        wall, i, sense = place
-        deep_at, free, leaves = depth(wall.points).tolist(), wall.free.tolist(), None
-        while True:
-            after = i + sense
-            if not 0 <= after < len(wall.t):
-                leaves = float(wall.t[i]) if deep_at[i] < close and i != place.i else None
-                break
-            if deep_at[after] <= -close:
-                leaves = crossing(wall, wall.t[after], wall.t[i])
-                break
-            if not free[after]:
-                break
-            i = after
-        if leaves is not None:
-            pieces.append((wall, t, leaves))
+        last = place._replace(i=place.run[1 if place.sense > 0 else 0])
+        leaves = rim(*last)
+        if leaves is not None and leaves != t:
+            pieces.append((last.wall, t, leaves))
             # shorter pieces are rounding
             return [p for p in pieces if math.dist(*points_at(*p)) > 1e-7 * assembly.L]
-        last = WallPlace(wall, i, sense)
-        following = _next(around, last)
-        end, begin = _joint(last, following)
-        pieces.append((wall, t, end))
-        place, t = following, begin
+        place = _next(around, last)
+        leaves, begin = _joint(last, place)
+        pieces.append((last.wall, t, leaves))
+        t = begin
     raise _lost()
 
 
@@ -164,32 +157,23 @@ def _lost() -> GenevaError:
 
 def _next(around: list[Wall], last: WallPlace) -> WallPlace:
     """Return the place where the next wall continues: on the nearest free wall but this one."""
-    here = last.wall.points[last.i]
-    travel = last.sense * last.wall.tangents[last.i]
-    ahead = []
+    here, travel = last.wall.points[last.i], last.sense * last.wall.tangents[last.i]
+    ahead = list[tuple[float, int, WallPlace]]()
     for wall in around:
         for start, end in _runs(wall):
             if wall is last.wall and start <= last.i <= end:
                 continue
             away = np.hypot(*(wall.points[start : end + 1] - here).T)
-            i = int(np.argmin(away))
-            ahead.append((float(away[i]), wall, start, start + i, end))
-    best: tuple[float, int] | None = None
-    place = None
-    for far, wall, start, i, end in sorted(ahead, key=lambda one: one[0]):
-        if best is not None and far > best[0]:
-            break
-        along = float((wall.tangents[i] * travel).sum())
-        sense = 1 if i == start else -1 if i == end else (1 if along > 0.0 else -1)
-        rest_of_run = end - i if sense > 0 else i - start
-        score = (far, -rest_of_run)
-        # Never turn back: walls that merge end in one point, in opposite directions.
-        back = sense * along < -0.999
-        if rest_of_run and not back and (best is None or score < best):
-            best, place = score, WallPlace(wall, i, sense)
-    if place is None:
+            i = start + int(np.argmin(away))
+            along = float((wall.tangents[i] * travel).sum())
+            sense = 1 if i == start else -1 if i == end else (1 if along > 0.0 else -1)
+            rest_of_run = end - i if sense > 0 else i - start
+            # Never turn back: walls that merge end in one point, in opposite directions.
+            if rest_of_run and sense * along >= -0.999:
+                ahead.append((float(away.min()), -rest_of_run, WallPlace(wall, i, sense)))
+    if not ahead:
         raise _lost()
-    return place
+    return min(ahead, key=itemgetter(0, 1))[2]
 
 
 def _joint(last: WallPlace, following: WallPlace) -> tuple[float, float]:
@@ -203,8 +187,7 @@ def _joint(last: WallPlace, following: WallPlace) -> tuple[float, float]:
     if met is not None:
         return met
     # They merge: continue from the point of the one to the nearest free point of the other.
-    run = next((a, b) for a, b in _runs(following.wall) if a <= following.i <= b)
-    low, high = (float(following.wall.t[i]) for i in run)
+    low, high = (float(following.wall.t[i]) for i in following.run)
     for _ in range(8):
         q, v, speed = following.course(b)
         step = (p[0] - q[0]) * v[0] + (p[1] - q[1]) * v[1]

@@ -38,15 +38,14 @@ def load_lines(design: Design) -> Iterator[SummaryLine]:
     yield motor_line(design)
     yield from cycle_lines(design)
     if design.spec.drive.stop_s:  # what braking and starting the rotor in each dwell takes
-        values = design.report.table.to_dict()
-        took = []
+        known, took = design.strength.table("input_stop"), list[str]()
         for what, name in (("stops with", "brake_torque_Nm"), ("starts with", "start_torque_Nm")):
-            if (torque := values[f"input_stop.{name}"]) is not None:
+            if (torque := known[name]) is not None:
                 took.append(f"{what} {value_text(torque, 'N m')}")
         text = "not known: set inertia_kgm2 in [motor]"
-        if values["input_stop.inertia_kgm2"] is not None:
-            energy, power = values["input_stop.energy_J"], values["input_stop.power_W"]
-            took.append(f"{value_text(energy, 'J')} each time, {value_text(power, 'W')}")
+        if known["inertia_kgm2"] is not None:
+            energy, power = value_text(known["energy_J"], "J"), value_text(known["power_W"], "W")
+            took.append(f"{energy} each time, {power}")
             text = ", ".join(took)
             text += "; set brake_s and start_s in [drive] for both torques" * (len(took) < 3)
         yield SummaryLine("brake", text)

@@ -22,9 +22,9 @@ from geneva_cli.numerics.tolerances import keeps
 
 if TYPE_CHECKING:
     from geneva_cli.parts.parts import Parts
-    from geneva_cli.verdict.quantities.batch_designs import Values
 
 Checks: TypeAlias = dict[str, str]  # name -> module:function
+Values: TypeAlias = dict[str, "float | str | None"]  # of checks by their names
 
 FIRST = "first_"  # of the first of two wheels in series, and of its crank
 # Plays that the spec limits; a machine whose parts cannot be turned has no value of them.
@@ -163,8 +163,6 @@ class Check(NamedTuple):
     at_deg: float | None = None
     nearest: str = ""
     anew: str = ""
-    # makes ``why`` of a failing check, which an adviser's trials do not need
-    reason: Callable[[], str] | None = None
 
     @property
     def remark(self) -> str:
@@ -194,7 +192,7 @@ def compared(
     """The check that a value is "at least", "at most" or "above" a limit, with why it fails.
 
     ``noise`` is the rounding error of the value, if it is larger than the limit's. ``why`` says why
-    a value is not known.
+    a value is not known, ``reason`` makes the words where it fails.
 
     >>> compared("jerk_max", 31.4, "at most", 30.0).passes
     False
@@ -202,8 +200,8 @@ def compared(
     if value is None:
         return unknown(name, why, must_be, limit)
     passes = keeps(value, must_be, limit, noise)
-    own = None if passes else reason
-    return Check(name, value, must_be, limit, passes, at_deg=at_deg, reason=own)
+    own = "" if passes or not reason else reason()
+    return Check(name, value, must_be, limit, passes, own, at_deg)
 
 
 def unknown(
@@ -251,17 +249,12 @@ def own_checks(mechanism: Mechanism) -> tuple[Checks, Checks]:
     return motion, own | added if own else {**STATIC, **added, **PROCESS}
 
 
-def applicable(among: Checks, *of: object, reasons: bool = True) -> Iterator[Check]:
-    """The checks of a table that apply to ``of``; of those that fail for one reason, the first.
-
-    Without ``reasons`` all of them, without words that may take longer than the checks.
-    """
+def applicable(among: Checks, *of: object) -> Iterator[Check]:
+    """The checks of a table that apply to ``of``; of those that fail for one reason, the first."""
     said = set[str]()
     for path, names in groupby(among, among.__getitem__):
         for check in load_named(path)([*names], *of):
-            if reasons and check.reason:
-                check = check._replace(why=check.reason(), reason=None)
-            if not reasons or check.passes is not False:
+            if check.passes is not False:
                 yield check
             elif check.why not in said:
                 yield check
@@ -282,9 +275,9 @@ def every_check(
     cannot be built, or turned, a single check says so instead. A rack can be turned although some
     of its machine's parts are not built.
     """
-    spec, limits = mechanism.spec, applicable(LIMITS, mechanism, reasons=not quick)
+    spec, limits = mechanism.spec, applicable(LIMITS, mechanism)
     motion, standing = own_checks(mechanism)
-    yield from applicable(motion, mechanism, reasons=not quick)
+    yield from applicable(motion, mechanism)
     if quick:
         yield from limits
     unbuilt = [unknown("parts", spec.no_parts)] if spec.no_parts else []
@@ -305,7 +298,7 @@ def every_check(
             rows, turned = [refused("parts", error)], False
         yield from rows
         if turned and mechanism.no_turn:
-            yield from applicable(PUSHED, mechanism, reasons=False)
+            yield from applicable(PUSHED, mechanism)
         elif turned:
             try:
                 turn = machine.turn
@@ -339,7 +332,7 @@ def single_check(mechanism: Mechanism, name: str, machine: Parts | None = None) 
                 _ = machine.built.assembly
             table = Checks() if mechanism.spec.no_parts else own_checks(mechanism)[1]
             of = [machine.built] if name in table else []
-    rows = applicable({name: table[name]} if name in table else {}, *of, reasons=False)
+    rows: Iterable[Check] = load_named(table[name])([name], *of) if name in table else ()
     return next((check for check in rows if check.name == name), None)
 
 

@@ -163,7 +163,6 @@ def first_stresses(names: Collection[str], parts: FlatParts) -> Iterator[Check]:
         for check in strength_limits([name.removeprefix(FIRST)], parts.front.mechanism):
             # its angles are counted from another motion of the first wheel, and its sizes are of
             # links
-            why = check.reason() if check.reason else check.why
-            why = why.replace("arm_thickness_mm", "link_thickness_mm")
+            why = check.why.replace("arm_thickness_mm", "link_thickness_mm")
             why = why.replace("the crank's shaft", "the first crank's shaft")
-            yield check._replace(name=name, at_deg=None, why=why, reason=None)
+            yield check._replace(name=name, at_deg=None, why=why)

@@ -9,7 +9,7 @@ from geneva_cli.loads.impacts.shock_force import Impacts
 from geneva_cli.loads.load_case import inertia_kgm2, load_case, sources
 from geneva_cli.loads.positive_drive import positive_drives
 from geneva_cli.numerics.arrays import Array, Number
-from geneva_cli.verdict.quantities.batch_designs import Columns, Designs
+from geneva_cli.verdict.quantities.groups import Columns, Designs
 from geneva_cli.verdict.quantities.under_load import UnderLoad
 
 OF_MOTION = ("omega_rad_s", "alpha_rad_s2", "sliding_m_s")  # known without a load

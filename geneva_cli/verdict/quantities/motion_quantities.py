@@ -14,8 +14,8 @@ from geneva_cli.motion.timing import timings
 from geneva_cli.motion.wheels.gearing import Output
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import Array, N, Number
-from geneva_cli.verdict.quantities.batch_designs import Columns, Designs
-from geneva_cli.verdict.quantities.groups import RATES
+from geneva_cli.verdict.quantities.groups import Columns, Designs
+from geneva_cli.verdict.quantities.quantity_rows import RATES
 
 ENDS = ("entry", "exit")  # how the names begin of quantities at the ends of a motion
 
@@ -102,7 +102,7 @@ def peaks(of: Designs) -> Columns:
                 ends.append(np.full(1, np.nan))
                 continue
             motions = [one.motion for one in engagements]
-            at = [one(getattr(one, f"{end}_deg"), order).arrays() for one in motions]
+            at = [one(getattr(one, f"{end}_deg"), order).derivatives() for one in motions]
             sizes = [np.ravel(abs(derivatives[order])) for derivatives in at]
             ends.append(np.max(np.broadcast_arrays(*sizes), axis=0))
         out |= peak_values(name, output, w, found.get(name, unknown), ends)

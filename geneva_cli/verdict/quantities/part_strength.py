@@ -21,7 +21,7 @@ from geneva_cli.numerics.arrays import Array, Number, array, mapped
 from geneva_cli.spec.defaults import roller_material, wheel_material
 from geneva_cli.spec.tables import Material
 from geneva_cli.spec.workshops import Stock
-from geneva_cli.verdict.quantities.batch_designs import Columns, Designs
+from geneva_cli.verdict.quantities.groups import Columns, Designs
 from geneva_cli.verdict.quantities.under_load import UnderLoad, as_numbers
 
 

@@ -4,7 +4,8 @@ from collections import Counter
 from collections.abc import Iterable, Iterator
 
 from geneva_cli.errors import GenevaError, cut, nearest
-from geneva_cli.verdict.quantities.groups import CHECKS, GROUP_OF, INPUTS
+from geneva_cli.verdict.quantities.groups import GROUP_OF
+from geneva_cli.verdict.quantities.quantity_rows import CHECKS, INPUTS
 
 # Quantities whose values are words, which have no order.
 WORDS = frozenset(

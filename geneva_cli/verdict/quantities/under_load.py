@@ -31,7 +31,7 @@ from geneva_cli.parts.sized_by_load import Stressed, dimensions, load_sizes, nee
 from geneva_cli.parts.sizes import Sizes as PartSizes
 from geneva_cli.parts.sizes import Unloaded
 from geneva_cli.spec.defaults import roller_material
-from geneva_cli.verdict.quantities.batch_designs import Designs, single
+from geneva_cli.verdict.quantities.groups import Designs, single
 
 
 class UnderLoad:

@@ -85,7 +85,7 @@ def test_our_own_drawings_turn_as_the_ideal_machine(name, exported):
     (passage,) = result.machine.assembly.motions
     at = np.degrees(turn.crank)
     moving = (at > passage.entry) & (at < passage.exit)
-    ideal = np.degrees(passage.engagement.motion(at[moving] - passage.mid, 0).arrays()[0])
+    ideal = np.degrees(passage.engagement.motion(at[moving] - passage.mid, 0).derivatives()[0])
     assert np.abs(ideal - np.degrees(turn.wheel[moving])).max() < 1e-6
     assert abs(math.degrees(lag_deg(result))) < 1e-4
 

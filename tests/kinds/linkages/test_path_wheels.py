@@ -11,7 +11,6 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.kinds.linkages.four_bar import FourBar
 from geneva_cli.kinds.linkages.path_wheels import chosen, driven
 from geneva_cli.kinds.linkages.tangent_pairs import pairs, sampled
-from geneva_cli.numerics.jet import Jet, sin_cos
 
 PLACES = 480  # of the grid
 CHECKED = 4001  # places at which a wheel is checked between entry and exit, and on the way back
@@ -43,8 +42,8 @@ def four_bars(n, seed):
 
 def pin(path, phi):
     """Place and velocity, as complex numbers."""
-    x, y = path.place(*sin_cos(Jet.variable(phi, 1)))
-    return x.c[0] + 1j * y.c[0], x.c[1] + 1j * y.c[1]
+    crank = np.exp(1j * phi)
+    return path.joints(crank)[2], path.about(crank).velocity
 
 
 def conditions(path, b, sense, phi):

@@ -16,7 +16,7 @@ from geneva_cli.loads.strength.pin_arm_key import arm_stress_MPa
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.spec.tables import Load, Shaft, Size
-from geneva_cli.verdict.quantities.batch_designs import Designs
+from geneva_cli.verdict.quantities.groups import Designs
 from geneva_cli.verdict.quantities.part_strength import shafts
 
 

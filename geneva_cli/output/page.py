@@ -27,8 +27,8 @@ def chunks(scene: Scene) -> Iterator[str]:
     data = json.dumps(_data(scene, size), separators=(",", ":"), allow_nan=False)
     parts = {"TITLE": escape(clean(scene.title)), "CAPTION": escape(clean(scene.caption))}
     parts |= {"SPEC": escape(scene.spec), "DRAWING": "", "LINKS": ""}
-    parts |= {"STYLE": template("page/page.css"), "SCRIPT": template("page/page.js")}
-    parts["MOTION"] = template("page/motion.js")
+    parts |= {"STYLE": template("page.css"), "SCRIPT": template("page.js")}
+    parts["MOTION"] = template("motion.js")
     parts |= {"DATA": data.replace("<", "\\u003c"), "VIEW": " ".join(f"{v:.6g}" for v in view)}
     for body in scene.bodies:
         shapes = [_shape(shape, shape.layer.lower()) for shape in body.shapes]
@@ -37,7 +37,7 @@ def chunks(scene: Scene) -> Iterator[str]:
         for i, plate in enumerate(bar.plates):
             shapes = [_shape(one, "hole" if k else "edge") for k, one in enumerate(plate.shapes)]
             parts["LINKS"] += f'<g id="link-{number}-{i}" class="link">{"".join(shapes)}</g>\n'
-    yield filled("page/page.html", parts)
+    yield filled("page.html", parts)
 
 
 def _id(name: str) -> str:
