@@ -21,40 +21,35 @@ class Polyarc:
     """The boundary of a part, of closed contours with the material on their left."""
 
     def __init__(self, contours: Iterable[Contour]) -> None:
-        rows: list[tuple[float, ...]] = []
+        rows, after = list[tuple[float, ...]](), list[int]()
         for contour in contours:
-            own, ends = [], []  # of the contour's pieces, and their directions at both ends
+            after += [*range(len(rows) + 1, len(rows) + len(contour.segments)), len(rows)]
             for piece in contour.segments:
                 assert isinstance(piece, Line | Arc), "cubics have no exact distance here"
-                (x0, y0), (x1, y1) = piece.start, piece.end
-                chord, half, circle = math.atan2(y1 - y0, x1 - x0), 0.0, (0.0,) * 5
-                if isinstance(piece, Arc):
-                    half = 0.5 * piece.sweep
-                    sine, sense = math.sin(abs(half)), math.copysign(1.0, piece.bulge)
-                    # as ``piece.radius``, without another arc tangent and sine
-                    radius = 0.5 * math.dist(piece.start, piece.end) / abs(sine)
-                    circle = (*piece.centre, radius, sense, sine)
-                own.append((x0, y0, x1, y1, *circle, math.cos(half)))
-                ends.append((chord - half, chord + half))
-            turns = []  # at the start of each
-            for i in range(len(own)):
-                turn = math.remainder(ends[i][0] - ends[i - 1][1], math.tau)
-                turns.append(turn if abs(turn) > SAME_ANGLE else 0.0)
-            for i, row in enumerate(own):
-                rows.append((*row, turns[i], turns[(i + 1) % len(own)]))
-        x0, y0, x1, y1, cx, cy, radius, sense, sin_half, cos_half, *turned = np.array(rows).T
-        dx, dy = x1 - x0, y1 - y0
+                bulge = piece.bulge if isinstance(piece, Arc) else 0.0
+                rows.append((*piece.start, *piece.end, bulge))
+        x0, y0, x1, y1, bulges = np.array(rows).T
+        dx, dy, sense, half = x1 - x0, y1 - y0, np.sign(bulges), 2.0 * np.arctan(bulges)
+        # the turns of the outline at the ends of the pieces, and at their starts
+        chord = np.arctan2(dy, dx)
+        turn = (chord - half)[after] - (chord + half)
+        turn = turn - math.tau * np.round(turn / math.tau)
+        turn_end, turn_start = np.where(np.abs(turn) > SAME_ANGLE, turn, 0.0), np.empty(len(turn))
+        turn_start[after] = turn_end
         dx = np.where((dx == 0.0) & (dy == 0.0), 1e-150, dx)  # a point has a direction too
         square = np.maximum(dx * dx + dy * dy, 1e-300)
-        length = np.sqrt(square)
+        length, ox, oy = np.sqrt(square), 0.5 * (x0 + x1), 0.5 * (y0 + y1)
+        # the centre of a line is far away, on its right
+        with np.errstate(divide="ignore", invalid="ignore"):
+            radius = np.where(sense == 0.0, 0.0, 0.5 * length / np.sin(np.abs(half)))
+            away = 0.25 * (1.0 - bulges * bulges) / bulges
+        away = np.where(sense == 0.0, -1e12 * length.max() / length, away)
         right = np.where(sense < 0.0, -1.0, 1.0) / length
-        size = np.where(cos_half < 0.0, 2.0 * radius, 0.5 * length)
-        # the centre of a line is far away, on its normal
-        far = 1e12 * length.max()
-        cx, cy = np.where(sense == 0.0, (far * dy * right, -far * dx * right), (cx, cy))
-        arcs = (cx, cy, radius, sense, dy * right, -dx * right, sin_half, cos_half)
-        chords = (dx, dy, square, length, 0.5 * (x0 + x1), 0.5 * (y0 + y1), size)
-        self._name(np.array((x0, y0, x1, y1, *arcs, *chords, *turned)))
+        size = np.where(np.abs(bulges) > 1.0, 2.0 * radius, 0.5 * length)
+        arcs = (ox - away * dy, oy + away * dx, radius, sense, dy * right, -dx * right)
+        halves = np.abs(np.sin(half)), np.cos(half)
+        chords = (dx, dy, square, length, ox, oy, size)
+        self._name(np.array((x0, y0, x1, y1, *arcs, *halves, *chords, turn_start, turn_end)))
 
     def _name(self, columns: Array) -> None:
         """Set the numbers of the pieces, one row of ``columns`` each."""
@@ -148,25 +143,30 @@ class Polyarc:
         # They are computed from the chord's middle: a centre may be too far away.
         x, y = centres[..., 0] - some.ox, centres[..., 1] - some.oy
         along, out = some.mx * y - some.my * x, some.mx * x + some.my * y
-        half, cosine = 0.5 * some.length, some.cos_half
-        bend = some.sin_half / half
-        ahead = bend * out + cosine
-        size = np.maximum(np.hypot(bend * along, ahead), 1e-300)
-        rows, points = [np.arange(len(which))], [self.probes[which]]
-        for side in (1.0, -1.0):
-            place, height = side * along / size, side * ahead / size
-            within = some.sin_half * height >= cosine * np.abs(bend * place)
-            on_line = (side > 0.0) & (np.abs(place) < half)
-            on = np.nonzero(np.where(some.arc, within, on_line))
-            row, at = on[0], place[on][:, None]
-            # the arc's height above its chord there: its middle's, less that by which it falls off
-            falls = at * at / (1.0 + height[on][:, None])
-            up = bend[row] * (half[row] ** 2 / (1.0 + cosine[row]) - falls)
-            out_x, out_y = some.mx[row], some.my[row]
-            rows.append(row)
-            xy = some.ox[row] + up * out_x - at * out_y, some.oy[row] + up * out_y + at * out_x
-            points.append(np.column_stack(xy))
-        return np.concatenate(rows), np.concatenate(points)
+        bend = 2.0 * some.sin_half / some.length
+        turn = np.arctan2(bend * along, bend * out + some.cos_half)
+        turns = np.array((turn, turn - np.copysign(np.pi, turn)))
+        half = np.arctan2(some.sin_half, some.cos_half)
+        # lines have a foot, and no opposite point
+        place = np.where(some.arc, turns, (along, np.full_like(along, np.inf)))
+        place = place / np.where(some.arc, half, 0.5 * some.length)
+        on = np.nonzero(np.abs(place) <= 1.0)
+        way = np.where(some.sense < 0.0, -0.5, 0.5)[on[1], 0]
+        facing = self.at(which[on[1]], 0.5 + way * place[on])
+        rows = np.concatenate((np.arange(len(which)), on[1]))
+        return rows, np.concatenate((self.probes[which], facing))
+
+    def at(self, which: Whole, fraction: Array) -> Array:
+        """Points of some pieces at fractions of their lengths, (n, 2)."""
+        some, along = self.subset(which), 2.0 * fraction - 1.0  # from its middle, of half of it
+        half = np.arctan2(some.sin_half, some.cos_half)
+        sine = np.where(some.arc, some.sin_half, 1.0)
+        # measured from the chord: the centre may be kilometres away
+        rise = some.length * np.sin(half * fraction) * np.sin(half * (1.0 - fraction)) / sine
+        along = 0.5 * np.where(some.arc, np.sin(along * half) / sine, along)
+        x = some.ox + along * some.dx + rise * some.mx
+        y = some.oy + along * some.dy + rise * some.my
+        return np.column_stack((x, y))
 
     def samples(self, sagitta: float, longest: float) -> Array:
         """Points of the boundary, (n, 2): all corners, and points at the requested spacing."""
@@ -178,17 +178,9 @@ class Polyarc:
         first = np.cumsum(count) - count
         which = np.repeat(np.arange(len(count)), count)
         fraction = (np.arange(len(which)) - first[which]) / count[which]
-        half, size = 0.5 * sweep[which], 2.0 * radius[which]
-        turn = (2.0 * fraction - 1.0) * half
-        # measured from the chord: the centre may be kilometres away
-        along = 0.5 * size * np.sin(turn) * np.where(self.sense[which] < 0.0, -1.0, 1.0)
-        out = size * np.sin(half * fraction) * np.sin(half * (1.0 - fraction))
-        x = self.ox[which] - along * self.my[which] + out * self.mx[which]
-        y = self.oy[which] + along * self.mx[which] + out * self.my[which]
-        flat = ~arc[which] | (fraction == 0.0)
-        along, i = fraction[flat], which[flat]
-        x[flat], y[flat] = self.x0[i] + along * self.dx[i], self.y0[i] + along * self.dy[i]
-        return np.column_stack((x, y))
+        points = self.at(which, fraction)
+        points[first] = self.starts  # exactly
+        return points
 
     def one_sector(self, pitch: float, near: float) -> Whole | None:
         """The pieces of a sector that repeats after ``pitch`` radians within ``near`` mm, or None.

@@ -67,12 +67,14 @@ class SphereArcs:
     def __len__(self) -> int:
         return len(self.angle)
 
-    def at(self, which: Whole, turn: Array) -> Array:
-        """Points of some of the arcs, (n, 3), at angles about their axes from their starts."""
-        c, s = np.cos(turn)[:, None], np.sin(turn)[:, None]
-        flat = np.sin(self.angle[which])[:, None]
+    def at(self, which: Whole, turn: Array, inset: float = 0.0) -> Array:
+        """Points of some arcs, (n, 3), at angles about their axes from their starts.
+
+        They are ``inset`` radians nearer to the axes.
+        """
+        c, s, angle = np.cos(turn)[:, None], np.sin(turn)[:, None], self.angle[which, None] - inset
         ahead = c * self.x[which] + s * self.y[which]
-        return np.cos(self.angle[which])[:, None] * self.axis[which] + flat * ahead
+        return np.cos(angle) * self.axis[which] + np.sin(angle) * ahead
 
     def signed(self, points: Array) -> Array:
         """Distances of points (n, 3) from the boundary, negative inside."""

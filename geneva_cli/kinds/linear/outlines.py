@@ -8,7 +8,7 @@ import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.kinds.linear.rack import RackSizes, locking_sector, rack_contour
-from geneva_cli.numerics.arrays import Array, Whole, within_half_turn
+from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.turn.gaps import Gaps
@@ -36,12 +36,8 @@ class SlidingStops(Stops):
 
     def pieces(self, outline: Polyarc, angle: Array | None, inset: float) -> Pieces:
         """Return the pieces ``inset`` mm inside the rack, or inside the crank at n angles."""
-        (starts, ends), trims, radius = inset_ends(outline, inset)
-        arc, turn = outline.arc, np.zeros(1) if angle is None else angle
-        seen = [
-            points[None] if angle is None else self.moves.from_crank(points, angle)
-            for points in (*starts, *ends, outline.centres)
-        ]
+        ends, sweep, radius = inset_ends(outline, inset)
+        arc, seen = outline.arc, self.fixed((*ends, outline.centres), angle)
         *levels, x = (points[..., 0] for points in seen)
         *places, y = (points[..., 1] / self.moves.L for points in seen)
         run, rise = levels[1] - levels[0], places[1] - places[0]
@@ -49,16 +45,12 @@ class SlidingStops(Stops):
         level = ~arc & (np.abs(run) <= SAME_ANGLE * np.hypot(run, self.moves.L * rise))
         slope = rise / np.where(arc | level, 1.0, run)
         foot = np.where(level, 0.5 * (places[0] + places[1]), np.where(run > 0.0, *places))
-        ahead, right = np.where(arc, y, foot), outline.sense < 0.0
+        ahead = np.where(arc, y, foot)
         away = places - ahead
         known = np.array((levels, np.where(arc | level, np.abs(away), away)))
-        known = np.where(right, known[:, ::-1], known)
-        begin, end = np.where(right, trims[::-1], trims) / radius
-        towards = within_half_turn(np.arctan2(outline.my, outline.mx) + turn[:, None])
-        half = np.arctan2(outline.sin_half, outline.cos_half)
+        first = np.arctan2(self.moves.L * (y - places[0]), x - levels[0])
         # a line has no nearest and no farthest point: it lies between them
-        span = np.array((towards - half + begin, towards + half - end))
-        span = np.where(arc, span, np.reshape((1.0, 2.0), (2, 1, 1)))
+        span = np.where(arc, (first, first + sweep), np.reshape((-2.0, -1.0), (2, 1, 1)))
         curve = np.where(arc, radius, 0.0 * run), np.where(arc, x, slope), ahead
         return known, span, curve, level
 
@@ -78,9 +70,9 @@ class SlidingStops(Stops):
         across = (one.excess * q - two.excess * p) / (q - p)
         return np.where(both, same, centre + off), np.where(both, across, centre - off)
 
-    def lean(self, level: Array, pins: Array, close: float) -> Array:
-        """Return the sine of the pressure angle where rollers touch, ``close`` mm inside them."""
-        return (level - pins[..., 0]) / (self.roller - close)
+    def lean(self, level: Array, side: Branches, close: float) -> Array:
+        """Return the sine of the pressure angle where a round side touches."""
+        return (level - side.excess) / side.size
 
 
 class RackGaps(Gaps):

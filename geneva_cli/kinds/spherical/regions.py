@@ -173,7 +173,7 @@ def swept(ball: Ball) -> tuple[Array, Array]:
     turns = np.linspace(-ball.half_motion, ball.half_motion, 361)
     x, y, _ = (turned_points(np.array(place(ball.arm, 0.0)), -turns) @ frame).T
     # the wheel's slot is under the roller
-    seen = turned_points(wheel, np.arctan2(y, x)[:, None]) @ frame.T
+    seen = wheel @ (turned_points(np.eye(3), np.arctan2(y, x)[:, None]) @ frame.T)
     # the limit is below the locking edge's angle, so that points along the edge do not count
     comes = seen[..., 2].max(axis=0) > math.cos((1.0 - 0.5 * SAME_ANGLE) * ball.lock)
     x, y, up = np.moveaxis(seen[:, comes], -1, 0)

@@ -9,7 +9,7 @@ from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.kinds.spherical.regions import at_mid_motion
 from geneva_cli.motion.pivots import PlaneMotion, turned_points
 from geneva_cli.numerics.arrays import Array, N, within_half_turn
-from geneva_cli.parts.turn.stops import CONCENTRIC, Curve, Pieces, Pose, Stops
+from geneva_cli.parts.turn.stops import CONCENTRIC, Branches, Curve, Pieces, Stops
 
 
 class SphereMotion(PlaneMotion):
@@ -55,10 +55,6 @@ class SphereStops(Stops):
     Levels are those of a ``ProjectedMotion``. A roller is a cap, whose radius is an angle.
     """
 
-    def first(self, pose: Pose, most: float, close: float) -> tuple[Array, Array]:
-        """Return the stops as on a plane, of parts that may overlap by ``close`` mm."""
-        return super().first(pose, most, close / self.moves.L)
-
     def circle(self, centres: Array, radius: Array | float) -> Curve:
         """Return the curves of caps of a radius, radians, about their middles."""
         far = polar(centres)
@@ -67,36 +63,23 @@ class SphereStops(Stops):
 
     def pieces(self, outline: SphereArcs, angle: Array | None, inset: float) -> Pieces:
         """Return the pieces ``inset`` radians inside the edge, or a sector at n angles."""
-        axis, x, y = (
-            points[None] if angle is None else self.moves.from_crank(points, angle)
-            for points in (outline.axis, outline.x, outline.y)
-        )
         turns = np.array((outline.turn_start, outline.turn_end))
-        size, trims = outline.angle - inset, inset * np.tan(0.5 * np.clip(turns, 0.0, 3.0))
-        begin, end = trims / np.sin(outline.angle)
-        sweep = outline.sweep - begin - end
-        first, middle, last = (
-            _point(axis, x, y, size, begin + share * sweep) for share in (0.0, 0.5, 1.0)
-        )
-        bend, excess, ahead = self.circle(axis, size)
+        trims = inset * np.tan(0.5 * np.clip(turns, 0.0, 3.0)) / np.sin(outline.angle)
+        sweep, every = outline.sweep - trims.sum(axis=0), np.arange(len(outline))
+        points = [outline.axis, outline.x, outline.y]
+        points += [outline.at(every, trims[0] + part * sweep, inset) for part in (0.0, 0.5, 1.0)]
+        axis, x, y, first, middle, last = self.fixed(points, angle)
+        bend, excess, ahead = self.circle(axis, outline.angle - inset)
         level = np.hypot(axis[..., 0], axis[..., 1]) < CONCENTRIC
         ahead = np.where(level, azimuth(middle), ahead)
-        ends, start = np.array((first, last)), np.arctan2(y[..., 2], -x[..., 2]) + begin
+        ends, start = np.array((first, last)), np.arctan2(-y[..., 2], x[..., 2]) + trims[0]
         off = np.abs(within_half_turn(azimuth(ends) - ahead))
         known, span = np.array((self.moves.level(ends), off)), np.array((start, start + sweep))
         return known, span, (bend, excess, ahead), level
 
-    def lean(self, level: Array, pins: Array, close: float) -> Array:
-        """Return the sine of the pressure angle where rollers touch, ``close`` inside them."""
-        radius, far, at = self.roller - close, polar(pins), 2.0 * np.arctan(level)
-        return (np.cos(far) - np.cos(radius) * np.cos(at)) / (np.sin(radius) * np.sin(at))
-
-
-def _point(axis: Array, x: Array, y: Array, size: Array, turn: Array) -> Array:
-    """Return the points of rims (n, k, 3) at angles about their axes."""
-    flat = np.sin(size)
-    c, s = (flat * np.cos(turn))[:, None], (flat * np.sin(turn))[:, None]
-    return np.cos(size)[:, None] * axis + c * x + s * y
+    def lean(self, level: Array, side: Branches, close: float) -> Array:
+        """Return the sine of the pressure angle where a round side touches; projected it stays."""
+        return super().lean(level, side, 0.0)
 
 
 def polar(points: Array) -> Array:

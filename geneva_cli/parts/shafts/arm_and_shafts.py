@@ -207,7 +207,8 @@ def _bolts(parts: Outlines, count: int) -> list[Circle]:
     """Return the holes of so many equal bolts in each sector, where the disc's walls are widest."""
     size, sizes = parts.assembly.mechanism.spec.size, parts.sizes
     locking = disc.sectors(disc.reliefs(parts.assembly)) if parts.crank and count else []
-    directions = lock_bolt_directions([(start, end - start) for start, end in locking], count)
+    starts, ends = np.reshape(locking, (-1, 2)).T
+    directions = lock_bolt_directions(zip(starts, ends - starts, strict=True), count)
     if not directions:
         return []
     # 400 radii: their spacing is far below a wall

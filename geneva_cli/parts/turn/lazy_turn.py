@@ -196,7 +196,7 @@ class _Path:
                 ranges = self.free.at(places)
                 moved = [_pushed(ranges.around(i, wheel), wheel) for i in range(PARTS + 1)]
                 k = max(range(PARTS + 1), key=lambda i: abs(moved[i] - wheel))
-                if abs(moved[k] - wheel) > abs(farthest - wheel):
+                if abs(moved[k] - wheel) > abs(farthest - wheel) + SAME:
                     end, farthest, there = float(places[k]), moved[k], partial(ranges.around, k)
                 k = int(np.argmin(np.abs(places - end)))
                 low, high = float(places[max(k - 1, 0)]), float(places[min(k + 1, PARTS)])

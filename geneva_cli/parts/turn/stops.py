@@ -11,7 +11,7 @@ A sphere is projected on a plane: circles stay circles, and places stay.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import cache, partial
 from typing import Any, NamedTuple, TypeAlias
 
@@ -19,7 +19,7 @@ import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.motion.pivots import PlaneMotion
-from geneva_cli.numerics.arrays import Array, Mask, Whole, within_half_turn
+from geneva_cli.numerics.arrays import Array, Mask, Whole
 
 BLOCK = 1 << 18  # pairs of branches that are compared together
 CONCENTRIC = 1e-9  # of the radius: an arc about the axis has one level
@@ -65,7 +65,7 @@ class Branches(NamedTuple):
 Curve: TypeAlias = tuple[Array, Array, Array]
 # The k pieces of an outline in n poses, run counterclockwise about their centres: levels of both
 # ends, and how far their places are from that of the centre, (2, 2, n, k); angles of the ends about
-# the centre, from the farthest point on; the curves; and a mask of those that have one level only,
+# the centre, from the nearest point on; the curves; and a mask of those that have one level only,
 # whose ``ahead`` is the place of the middle.
 Pieces: TypeAlias = tuple[Array, Array, Curve, Mask]
 # The poses of pairs of branches, the intervals of the wheel's angle, radians, at which they meet,
@@ -92,15 +92,12 @@ class Stops:
     def first(self, pose: Pose, most: float, close: float) -> tuple[Array, Array]:
         """Return the stops of the wheel, turned back and turned on from n poses: (2, n) both.
 
-        It turns until some parts overlap by more than ``close``, or by ``most`` radians. Besides
+        It turns until some parts overlap by more than ``close`` mm, or by ``most`` radians. Besides
         this angle the pressure angle of a roller that stops it is returned, 0 for anything else.
         """
-        n, count, size = pose.pins.shape
+        (n, _, size), close = pose.pins.shape, close / self.moves.scale
         wheel, inset = self.own(0.0), self.own(close)
-        # both sides of each roller: those on the other one follow
-        sides = np.tile(self.rollers(pose.pins.reshape(-1, size), close), 2)
-        Branches(*sides).sign[n * count :] = -1.0
-        each, levels = self._blocked(sides, wheel, np.repeat(pose.wheel, count), most)
+        lead, lean = self._blocked(self.rollers(pose.pins, close), wheel, pose.wheel, most, close)
         lock = np.full((2, n), most)
         if self.crank is not None:
             # convex corners are branches of one level
@@ -111,21 +108,18 @@ class Stops:
             corners = np.array((row, level, level, zero, zero, zero, level, at, zero, zero))
             sides = self.branches(self.crank, pose.crank, close)
             for others, own in ((sides, wheel), (corners, inset)):
-                lock = np.minimum(lock, self._blocked(others, own, pose.wheel, most)[0])
-        each, levels = each.reshape(2, n, count), levels.reshape(2, n, count)
-        with np.errstate(all="ignore"):
-            leans = np.arcsin(np.minimum(np.abs(self.lean(levels, pose.pins, close)), 1.0))
-        which = np.argmin(each, axis=2)[..., None]
-        lead = np.take_along_axis(each, which, axis=2)[..., 0]
-        lean = np.take_along_axis(leans, which, axis=2)[..., 0]
+                lock = np.minimum(lock, self._blocked(others, own, pose.wheel, most, close)[0])
         return np.minimum(lead, lock), np.where((lead < most) & (lead <= lock), lean, 0.0)
 
     def _blocked(
-        self, others: Array, wheel: Array, turn: Array, most: float
+        self, others: Array, wheel: Array, turn: Array, most: float, close: float
     ) -> tuple[Array, Array]:
-        """Return how far the wheel turns back and on until branches meet, and their level there."""
-        leads, levels = np.full((2, len(turn)), most), np.zeros((2, len(turn)))
-        for row, start, end, start_level, end_level, *_ in self.meetings(others, wheel):
+        """Return how far the wheel turns back and on until branches meet, and how much they lean.
+
+        That is the pressure angle of other branches, as of rollers ``close`` mm inside them.
+        """
+        leads, leans = np.full((2, len(turn)), most), np.zeros((2, len(turn)))
+        for row, start, end, start_level, end_level, crank_side, _ in self.meetings(others, wheel):
             start, end = start - turn[row], end - turn[row]
             shift = self.pitch * np.round(0.5 * (start + end) / self.pitch)
             start, end = start - shift, end - shift
@@ -136,8 +130,10 @@ class Stops:
                 hit = np.flatnonzero(lead < most)
                 np.minimum.at(leads[k], row[hit], lead[hit])
                 hit = hit[lead[hit] == leads[k, row[hit]]]
-                levels[k, row[hit]] = level[hit]
-        return leads, levels
+                with np.errstate(all="ignore"):
+                    lean = self.lean(level[hit], Branches(*crank_side.take(hit, axis=1)), close)
+                leans[k, row[hit]] = np.arcsin(np.clip(np.abs(lean), 0.0, 1.0))
+        return leads, leans
 
     def meetings(self, others: Array, wheel: Array) -> Iterator[Meetings]:
         """Yield the intervals of the wheel's angle at which other branches meet the wheel's.
@@ -158,19 +154,19 @@ class Stops:
                 tangents = np.clip(np.nan_to_num(self.tangents(one, two)), low, high)
                 levels = np.array((low, high, *tangents))
                 turns = self.place(one, levels) - self.place(two, levels)
-            least, most = turns.argmin(axis=0)[None], turns.argmax(axis=0)[None]
-            start = np.take_along_axis(turns, least, 0)[0]
-            end = np.take_along_axis(turns, most, 0)[0]
-            ends = np.take_along_axis(levels, np.concatenate((least, most)), 0)
-            row, spare = one.row.astype(int), one.half + two.half
-            yield row, start - spare, end + spare, *ends, crank_side, wheel_side
+            levels = np.take_along_axis(levels, np.array((turns.argmin(0), turns.argmax(0))), 0)
+            spare = one.half + two.half
+            start, end = turns.min(axis=0) - spare, turns.max(axis=0) + spare
+            yield one.row.astype(int), start, end, *levels, crank_side, wheel_side
 
-    def rollers(self, centres: Array, inset: float) -> Array:
-        """Return rollers about n centres in the fixed frame, as branches on one side of them."""
-        curve = self.circle(centres, self.roller - inset)
+    def rollers(self, pins: Array, inset: float) -> Array:
+        """Return m rollers in n poses, (n, m, 2) in the fixed frame, as branches of both sides."""
+        curve = self.circle(pins.reshape(-1, pins.shape[-1]), self.roller - inset)
         levels, away = self.extremes(curve)
-        row, zero = np.arange(len(centres)), 0.0 * away[0]
-        return np.array((row, *levels, *away, *curve, zero + 1.0, zero))
+        row = np.repeat(np.arange(len(pins)), pins.shape[1])
+        sides = np.tile((row, *levels, *away, *curve), 2)
+        sign = np.repeat((1.0, -1.0), len(row))
+        return np.array((*sides, sign, 0.0 * sign))
 
     def branches(self, outline: Outline, angle: Array | None, inset: float) -> Array:
         """Return the branches ``inset`` mm inside an outline of the crank at n angles.
@@ -183,10 +179,10 @@ class Stops:
         half_turns = np.arange(-2.0, 3.0)[:, None, None]
         start, end = np.where(level, 1.0, span[0]), np.where(level, 2.0, span[1])
         low, high = np.pi * half_turns, np.pi * (half_turns + 1.0)
-        there, sign = np.maximum(start, low) < np.minimum(end, high), (-1.0) ** half_turns
+        there, sign = np.maximum(start, low) < np.minimum(end, high), -((-1.0) ** half_turns)
         least, most = self.extremes(curve).swapaxes(0, 1)[:, :, None]
-        first = np.where(start > low, known[:, 0, None], np.where(sign > 0.0, most, least))
-        last = np.where(end < high, known[:, 1, None], np.where(sign > 0.0, least, most))
+        first = np.where(start > low, known[:, 0, None], np.where(sign < 0.0, least, most))
+        last = np.where(end < high, known[:, 1, None], np.where(sign < 0.0, most, least))
         rises = first[0] <= last[0]
         low, high = np.where(rises, (first, last), (last, first))
         rows = np.arange(there.shape[1])[:, None]
@@ -195,6 +191,12 @@ class Stops:
         for line, column in zip(out, columns, strict=True):
             line[:] = np.broadcast_to(column, there.shape)[there]
         return out
+
+    def fixed(self, points: Sequence[Array], angle: Array | None) -> list[Array]:
+        """Return points of the crank in the fixed frame at n angles, or the wheel's in its own."""
+        if angle is None:
+            return [each[None] for each in points]
+        return [self.moves.from_crank(each, angle) for each in points]
 
     def circle(self, centres: Array, radius: float) -> Curve:
         """Return the curves of circles about n centres."""
@@ -206,25 +208,22 @@ class Stops:
         axis, turn = np.zeros((1, 2)), np.zeros(1)
         if angle is not None:  # the wheel's axis as seen from the crank
             axis, turn = self.moves.in_crank(axis, angle), angle
-        arc, mx, my = outline.arc, outline.mx, outline.my
         *_, side, _, _ = outline.distances(axis[:, :1], axis[:, 1:])
-        side = side - inset
-        # the centre of a line is beyond its foot
-        left = np.where(arc, outline.sense > 0.0, side < 0.0)
-        points, trims, radius = inset_ends(outline, inset)
-        seen = points - axis[:, None]
-        seen = np.where(left[..., None], seen, seen[::-1])
-        begin, end = np.where(left, trims, trims[::-1]) / radius
-        x, y = outline.cx - axis[:, :1], outline.cy - axis[:, 1:]
-        middle = np.arctan2(x * my - y * mx, x * mx + y * my)  # from the farthest point
-        level = arc & (np.hypot(x, y) < CONCENTRIC * radius)
-        middle = np.where(arc, np.where(level, 0.0, middle), np.where(side < 0.0, np.pi, 0.0))
-        ahead = np.arctan2(my, mx) - middle
-        off = within_half_turn(self.moves.place(seen) - ahead)
-        half = np.arctan2(outline.sin_half, outline.cos_half)
-        span = np.where(arc, (middle - half + begin, middle + half - end), np.pi - off)
-        curve = 0.0 * side + 1.0 / radius, np.where(left, -side, side), ahead + turn[:, None]
-        return np.array((self.moves.level(seen), np.abs(off))), span, curve, level
+        points, sweep, radius = inset_ends(outline, inset)
+        seen = points[:, None] - axis[:, None]
+        x, y = (outline.centres - axis[:, None]).transpose(2, 0, 1)
+        level = outline.arc & (np.hypot(x, y) < CONCENTRIC * radius)
+        # lines, and arcs about the axis, are on the ray through their feet or middles
+        on_ray = ~outline.arc | level
+        x, y = np.where(on_ray, 1e12 * outline.mx, x), np.where(on_ray, 1e12 * outline.my, y)
+        u, v = seen[..., 0], seen[..., 1]
+        across, along = x * v - y * u, x * u + y * v
+        off, ahead = np.arctan2(np.abs(across), along), np.arctan2(y, x) + turn[:, None]
+        first, last = np.arctan2(-across, x * x + y * y - along)
+        span = np.array((first, np.where(outline.arc, first + sweep, last)))
+        excess = np.where(outline.sense > 0.0, inset - side, side - inset)
+        curve = 0.0 * side + 1.0 / radius, excess, ahead
+        return np.array((self.moves.level(seen), off)), span, curve, level
 
     def extremes(self, curve: Curve) -> Array:
         """Return levels of nearest and farthest points, and how far they are from the centre's."""
@@ -253,29 +252,30 @@ class Stops:
         q = two.excess * (2.0 + two.size * two.excess)
         return np.sqrt((p + q) / (one.size + two.size)), np.sqrt((p - q) / (one.size - two.size))
 
-    def lean(self, level: Array, pins: Array, close: float) -> Array:
-        """Return the sine of the pressure angle where rollers touch, ``close`` mm inside them."""
-        radius, square = self.roller - close, (pins * pins).sum(axis=-1)
-        out = (level * level + radius * radius - square) / (2.0 * radius)  # along the normal
+    def lean(self, level: Array, side: Branches, close: float) -> Array:
+        """Return the sine of the pressure angle where a round side touches, ``close`` mm inside."""
+        radius = 1.0 / side.size
+        far = side.excess + radius  # of the centre
+        out = (level * level + radius * radius - far * far) / (2.0 * radius)  # along the normal
         return (out + close) / np.sqrt(level * level + close * (2.0 * out + close))
 
 
 def inset_ends(outline: Polyarc, inset: float) -> tuple[Array, Array, Array]:
-    """Return both ends of the k pieces ``inset`` mm inside an outline, (2, 1, k, 2), mm.
+    """Return both ends of the k pieces ``inset`` mm inside an outline, (2, k, 2), mm.
 
-    With them go the lengths by which they are shorter there, (2, 1, k), and the radii.
+    Arcs run counterclockwise about their centres, and lines about theirs, which are on their right.
+    With them go the angles that they sweep, and the radii, infinite for lines.
     """
     turns = np.array((outline.turn_start, outline.turn_end))
-    trims = inset * np.tan(0.5 * np.clip(turns, 0.0, 3.0))
-    sense = np.where(outline.sense < 0.0, -1.0, 1.0)
-    nx, ny, c = sense * outline.mx, sense * outline.my, outline.cos_half
-    points = []
-    for way, x, y, trim in (
-        (-1.0, outline.x0, outline.y0, trims[0]),
-        (1.0, outline.x1, outline.y1, -trims[1]),
-    ):
-        s = way * sense * outline.sin_half
-        ux, uy = c * nx - s * ny, s * nx + c * ny  # out of the material
-        points.append(np.column_stack((x - inset * ux - trim * uy, y - inset * uy + trim * ux)))
+    trims = inset * np.tan(0.5 * np.clip(turns, 0.0, 3.0))  # by which pieces are shorter there
+    way, sense = np.array(((-1.0,), (1.0,))), np.where(outline.sense < 0.0, -1.0, 1.0)
+    sine, cosine = way * outline.sin_half, sense * outline.cos_half
+    # directions out of the material
+    ux, uy = cosine * outline.mx - sine * outline.my, sine * outline.mx + cosine * outline.my
+    x = np.array((outline.x0, outline.x1)) - inset * ux + way * trims * uy
+    y = np.array((outline.y0, outline.y1)) - inset * uy - way * trims * ux
+    ends = np.stack((x, y), axis=-1)
+    ends = np.where(outline.sense[:, None] > 0.0, ends, ends[::-1])
     radius = np.where(outline.arc, outline.radius - outline.sense * inset, np.inf)
-    return np.array(points)[:, None], trims[:, None], radius
+    sweep = 2.0 * np.arctan2(outline.sin_half, outline.cos_half) - trims.sum(axis=0) / radius
+    return ends, sweep, radius

@@ -190,7 +190,16 @@ def _group(task: tuple[Kind, Target]) -> list[MachineRow]:
     if len(names) < len(target.names):
         # the search cannot see them: they are computed for the best of several pieces of a family
         families = pieces(families, 120)
-    found = rows(target, [*dict.fromkeys(best(families, target))])
+    specs = [*dict.fromkeys(best(families, target))]
+    # where some keep the bounds that do not depend on the roller, no others get one
+    bounds = [b for b in target.bounds if b.name in names and not b.name.startswith("loads.")]
+    values = numbers(batch_machines(specs), [b.name for b in bounds], len(specs))
+    broken = np.zeros(len(specs), dtype=bool)
+    for bound, own in zip(bounds, values, strict=True):
+        broken |= ~(bound.kept_by(own) | np.isnan(own))
+    if not broken.all():
+        specs = [specs[i] for i in np.flatnonzero(~broken).tolist()]
+    found = rows(target, specs)
     values = numbers(batch_machines([row.spec for row in found]), names, len(found))
     for row, own in zip(found, values.T.tolist(), strict=True):
         for name, x in zip(names, own, strict=True):
