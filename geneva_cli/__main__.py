@@ -6,6 +6,7 @@ Loading the rest takes most of a short run, so Ctrl-C is answered before anythin
 import gc
 import os
 import signal
+import sys
 from types import FrameType
 
 
@@ -19,6 +20,9 @@ def main() -> None:
     # What is imported stays: searching it for garbage takes a tenth of a short run. The largest
     # import, for a DXF file, is of some 120,000 objects.
     gc.set_threshold(250_000)
+    if sys.flags.optimize > 1:  # commands read their options from docstrings, which are dropped
+        sys.stderr.write("geneva: cannot run under -OO; unset PYTHONOPTIMIZE, or set it to 1\n")
+        sys.exit(2)
     from geneva_cli.cli.app import main as run
 
     run()

@@ -2,9 +2,11 @@
 
 import os
 import shlex
+import subprocess
 from typing import NamedTuple, get_args
 
 import pytest
+from repo import GENEVA
 from typer.main import get_command
 from typer.testing import CliRunner
 
@@ -160,6 +162,13 @@ def test_unusual_but_right(text):
     write("spec.toml", text)
     found = run("peaks", "spec.toml")
     assert (found.exit_code, found.stdout) == (0, plain)
+
+
+def test_python_without_docstrings_is_refused():
+    environment = {**os.environ, "PYTHONOPTIMIZE": "2"}
+    run = subprocess.run([GENEVA, "table"], env=environment, capture_output=True, encoding="utf-8")
+    assert (run.returncode, run.stdout, run.stderr.count("\n")) == (2, "", 1)
+    assert "PYTHONOPTIMIZE" in run.stderr
 
 
 def test_no_file():
