@@ -187,8 +187,8 @@ def test_a_motion_near_both_ends_has_its_travel(near):
 
 @pytest.mark.long
 def test_a_motion_between_two_angles_has_no_loads():
-    """At 1 - 1e-7 it has some still; nearer to 1 the reason is told."""
-    for near in some((1.0 - 1e-8, 1.0 - 1e-9, 1.0 - 1e-12), (1.0 - 1e-9,)):
+    """At 1 - 1e-8 it has some still; nearer to 1 the reason is told."""
+    for near in some((1.0 - 1e-9, 1.0 - 1e-10, 1.0 - 1e-12), (1.0 - 1e-10,)):
         with pytest.raises(GenevaError, match="so that their means would be rounding"):
             Design.of(elliptical(6, near, "external")).loads  # noqa: B018
 

@@ -50,7 +50,7 @@ def test_no_text_of_a_design_stands_on_anything(path, sheets):
     assert beyond(found) == []
     # a bore beside others, or a line to a recess's centre, may leave no other place
     assert len(crossings(found)) <= 2
-    assert (found.width, found.height) in [(f.width, f.height) for f in FORMATS]
+    assert (found.width, found.height) in FORMATS.values()
     assert found.scale in SCALES
     assert_measured(found)
     # the centre distance is on it, as the machine has it

@@ -30,6 +30,7 @@ SETTLED = 1e-11  # fraction of a cost: samples nearer to the best than this are 
 # Violations, and costs, of places (n, d) of tasks by their numbers; infinite without a machine.
 Evaluate: TypeAlias = Callable[[Whole, Array], "tuple[Array, Array]"]
 SOFT = 1e-60  # weight of the limits of a frame, which matter less than any bound
+BROKEN = 1e-40  # a violation below it is of such limits, or rounding
 GRID, TRACKS = 24, 3  # intervals of a span, sampled first; the best places that are improved
 QUARTERS = np.array([-3.0, -2.0, -1.0, 1.0, 2.0, 3.0])[:, None] / 4.0
 
@@ -86,11 +87,14 @@ def tops(evaluate: Evaluate, tasks: int, line: Array, most: int) -> Places:
     return every.take((rank < beside) & np.isfinite(every.violation)).best(most)
 
 
-def zoom(evaluate: Evaluate, best: Places, how: Zoom, keep: int = 0) -> Places:
+def zoom(
+    evaluate: Evaluate, best: Places, how: Zoom, keep: int = 0, patient: bool = False
+) -> Places:
     """Improve places by samples ever closer to them.
 
     Each place is improved alone until samples near it are equally good. With ``keep`` that many
-    places of each task are kept together, and all samplings are made.
+    places of each task are kept together, and all samplings are made. Without ``patient`` a place
+    is given up where no small step can keep the bounds.
     """
     track = best.of if keep else np.arange(len(best.of))
     step, live = how.step, np.full(len(track), True)
@@ -111,7 +115,7 @@ def zoom(evaluate: Evaluate, best: Places, how: Zoom, keep: int = 0) -> Places:
             live = np.full(len(track), True)
         else:
             violation, cost = near.violation.reshape(-1, k), near.cost.reshape(-1, k)
-            live[live] = ~_done(best, live, violation, cost)
+            live[live] = ~_done(best, live, violation, cost, patient)
     return best
 
 
@@ -123,7 +127,7 @@ def _first(places: Places, group: Whole, count: int) -> Whole:
     return which
 
 
-def _done(best: Places, live: Mask, violation: Array, cost: Array) -> Mask:
+def _done(best: Places, live: Mask, violation: Array, cost: Array, patient: bool) -> Mask:
     """Mask of the live places that need no closer samples, from their last ones (n, k)."""
     own = best.take(live)
     with np.errstate(invalid="ignore"):
@@ -140,6 +144,8 @@ def _done(best: Places, live: Mask, violation: Array, cost: Array) -> Mask:
         np.minimum.at(least, best.of, np.where(best.violation < ROUNDING, best.cost, math.inf))
         beaten = own.cost - 4.0 * spread > least[own.of]
         beaten |= broken & np.isfinite(least[own.of])
+        if patient:
+            return settled | beaten
         # the violation is more than twice what a step near it changes
         hopeless = broken & (own.violation > 2.0 * (violation.max(axis=1) - own.violation))
         return settled | beaten | hopeless
@@ -149,24 +155,35 @@ def _done(best: Places, live: Mask, violation: Array, cost: Array) -> Mask:
 LINE = Zoom(lambda number: QUARTERS, 1.0 / GRID, 0.25, 20)
 
 
-def best(families: Sequence[Family], target: Target) -> list[Spec]:
-    """The best machine of each family: it keeps the bounds, or breaks them least."""
-    numbers = {i: f.low for i, f in enumerate(families) if not f.is_free}
-    if free := [i for i in range(len(families)) if i not in numbers]:
-        costs = FamilyCosts([families[i] for i in free], target)
-        found = _best_places(costs)
-        own = costs.numbers(found.of, found.at[:, 0]).tolist()
-        numbers |= zip((free[of] for of in found.of.tolist()), own, strict=True)
-    out = list[Spec]()
-    for i, x in sorted(numbers.items()):
+def best(
+    families: Sequence[Family], target: Target, how_near: bool = False
+) -> tuple[list[Spec], list[Spec]]:
+    """The best machine of each family: those that keep the bounds, and the others.
+
+    The others break the bounds least, with ``how_near`` to the last digit.
+    """
+    searched = [i for i, f in enumerate(families) if f.is_free and math.isnan(f.best)]
+    # numbers by those of their families, and whether they keep the bounds
+    numbers = {i: (f.low if math.isnan(f.best) else f.best, True) for i, f in enumerate(families)}
+    if searched:
+        free = FamilyCosts([families[i] for i in searched], target)
+        found = _best_places(free, how_near)
+        own = free.numbers(found.of, found.at[:, 0]).tolist()
+        best = zip(own, (found.violation < BROKEN).tolist(), strict=True)
+        numbers = {i: one for i, one in numbers.items() if i not in searched}
+        numbers |= zip((searched[of] for of in found.of.tolist()), best, strict=True)
+    out: tuple[list[Spec], list[Spec]] = ([], [])
+    for i, (x, keeps) in sorted(numbers.items()):
         f = families[i]
         if not abs(x - f.known) <= 1e-4 * (f.high - f.low):  # it is not of another family
+            values = f.keys(np.array([x])) if f.keys and math.isnan(f.best) else {}
             with suppress(GenevaError):  # no machine at a number
-                out.append(f.machine(x))
+                spec = f.spec.with_keys({key: float(v[0]) for key, v in values.items()})
+                out[not keeps].append(spec)
     return out
 
 
-def _best_places(free: FamilyCosts) -> Places:
+def _best_places(free: FamilyCosts, how_near: bool) -> Places:
     """The best place of each family, from the plain crank's and the tops of a grid."""
     every = np.arange(len(free.families))
     plain = (free.plain - free.low) / (free.high - free.low)
@@ -182,7 +199,7 @@ def _best_places(free: FamilyCosts) -> Places:
     # at equal costs the plain crank's place, which may be another family's machine
     settled = np.where(np.isfinite(nearest.cost), SETTLED * np.abs(nearest.cost), 0.0)
     plainly = nearest._replace(cost=nearest.cost - settled)
-    return zoom(free, tracks, LINE).joined(done, plainly).best(1)
+    return zoom(free, tracks, LINE, patient=how_near).joined(done, plainly).best(1)
 
 
 class FamilyCosts:

@@ -142,8 +142,8 @@ def search(target: Target) -> list[MachineRow]:
     """The machines that meet the requirement, in order; no part has been turned yet."""
     narrowed = target.with_times()
     narrowed.refuse_contradictions()
-    # if there are none, the error says how near the others come
-    every = _all_groups(narrowed) or _all_groups(target)
+    # if there are none, the error message says how near they come
+    every = _all_groups(narrowed, target.names, False) or _all_groups(target, target.names, True)
     if not every:
         raise GenevaError(_out_of_reach(target))
     # without a search for the goal or a bound a family has several rows: the first of each kind,
@@ -159,7 +159,7 @@ def search(target: Target) -> list[MachineRow]:
     return out
 
 
-def _all_groups(target: Target) -> list[MachineRow]:
+def _all_groups(target: Target, names: Sequence[str], how_near: bool) -> list[MachineRow]:
     """The rows of all independent groups of machines, in order, from all cores.
 
     They are straight slots, and laws, of each gearing; those of kinds. Each has some of the numbers
@@ -177,57 +177,52 @@ def _all_groups(target: Target) -> list[MachineRow]:
     # a small search ends before a second process has started
     is_small = len(target.gearings) * len(target.z) * len(target.laws) <= 6
     workers = 1 if is_small else min(len(tasks), cores())
-    done = mapped(_group, tasks, workers)
+    done = mapped(partial(_group, names=names, how_near=how_near), tasks, workers)
     return [row for found in tracked(done, "groups of machines", len(tasks)) for row in found]
 
 
-def _group(task: tuple[Kind, Target]) -> list[MachineRow]:
-    """The rows of a group, with the requested quantities that a batch can compute."""
+def _group(task: tuple[Kind, Target], names: Sequence[str], how_near: bool) -> list[MachineRow]:
+    """The rows of a group."""
     kind, target = task
     wheels = [gearing(name)(z) for name in target.gearings for z in target.z]
     families: Sequence[Family] = [*kind(target, wheels)]
-    names = [name for name in target.names if in_batch([name])]
-    if len(names) < len(target.names):
+    if not in_batch(target.names):
         # the search cannot see them: they are computed for the best of several pieces of a family
         families = pieces(families, 120)
-    specs = [*dict.fromkeys(best(families, target))]
-    # where some keep the bounds that do not depend on the roller, no others get one
-    bounds = [b for b in target.bounds if b.name in names and not b.name.startswith("loads.")]
+    specs, near = best(families, target, how_near)
+    # the bounds that do not depend on the roller; what no batch computes may keep them
+    bounds = [b for b in target.bounds if in_batch([b.name]) and not b.name.startswith("loads.")]
     values = numbers(batch_machines(specs), [b.name for b in bounds], len(specs))
-    broken = np.zeros(len(specs), dtype=bool)
+    keeps = np.full(len(specs), True)
     for bound, own in zip(bounds, values, strict=True):
-        broken |= ~(bound.kept_by(own) | np.isnan(own))
-    if not broken.all():
-        specs = [specs[i] for i in np.flatnonzero(~broken).tolist()]
-    found = rows(target, specs)
-    values = numbers(batch_machines([row.spec for row in found]), names, len(found))
-    for row, own in zip(found, values.T.tolist(), strict=True):
-        for name, x in zip(names, own, strict=True):
-            if not math.isnan(x):  # else it needs its own machine
-                row.cells[name] = None if math.isinf(x) else x
+        keeps &= bound.kept_by(own) | np.isnan(own)
+    shown = [specs[i] for i in np.flatnonzero(keeps).tolist()]
+    if how_near:
+        shown += [*(specs[i] for i in np.flatnonzero(~keeps).tolist()), *near]
+    found = rows(target, [*dict.fromkeys(shown)])
+    if names and in_batch(names):
+        values = numbers(batch_machines([row.spec for row in found]), names, len(found))
+        for row, own in zip(found, values.T.tolist(), strict=True):
+            if not any(map(math.isnan, own)):  # else it needs its own machine
+                cells = (None if math.isinf(x) else x for x in own)
+                row.cells.update(zip(names, cells, strict=True))
     return found
-
-
-def _may_keep(target: Target, row: MachineRow) -> bool:
-    """Return True if a machine keeps all bounds, as far as it is known."""
-    cells = row.cells
-    return all(b.kept(cells[b.name]) for b in target.bounds if b.name in cells)
 
 
 def _bounded(target: Target, found: list[MachineRow]) -> list[MachineRow]:
     """The rows, with the requested quantities, that keep the bounds."""
     names, bounds = target.names, target.bounds
-    able = [row for row in found if _may_keep(target, row)]
-    alone = [row for row in able if not row.cells.keys() >= {*names}]
+    alone = [row for row in found if not row.cells.keys() >= {*names}]
     specs = [row.spec for row in alone]
     rest = mapped(partial(_values, Pick(names)), specs, min(cores(), len(alone)))
     for row, cells in zip(alone, tracked(rest, "machines computed", len(alone)), strict=True):
         row.cells.update(zip(names, cells or (), strict=False))
-    known = [row for row in able if row.cells.keys() >= {*names}]
-    kept = [row for row in known if _may_keep(target, row)]
+    known = [row for row in found if row.cells.keys() >= {*names}]
+    kept = [row for row in known if all(b.kept(row.cells[b.name]) for b in bounds)]
     if not kept:
         nearness = Nearness([*enumerate(bounds)])
-        nearness.add(rows_of([[row.cells.get(b.name) for b in bounds] for row in found]).numbers)
+        if known:
+            nearness.add(rows_of([[row.cells[b.name] for b in bounds] for row in known]).numbers)
         why = "; ".join(nearness.phrases())
         raise GenevaError(f"--subject-to: none of {len(found)} machines keeps all bounds: {why}")
     return kept

@@ -62,15 +62,14 @@ WORDS = {
 def synthesis_table(target: Target, count: int = TURNED, buildable: bool = False) -> Table:
     """One row for each machine, numbered from 1, as ``turned`` returns them."""
     rows = search(target)
-    names, each = (*CELLS, *target.names), turned(target, rows, count, buildable)
-    shown = [[row.cells[name] for name in names] for row in each]
+    shown = [tuple(row.cells.values()) for row in turned(target, rows, count, buildable)]
     title = "1 machine" if len(shown) == 1 else f"{len(shown)} machines"
     if several := len(shown) > 1:
         first = str(target.sort or "") or f"lowest peak acceleration{' in rad/s2' * target.timed}"
         title = f"{title}, {first} first"
     if buildable:
         title = f"{title}{',' * several} of {len(rows)}"
-    return rows_table(names, shown, f"{target.words}: {title}.")
+    return rows_table((*CELLS, *target.names), shown, f"{target.words}: {title}.")
 
 
 def turned(

@@ -82,10 +82,8 @@ class _LawLine(NamedTuple):
         keys = partial(_keys, target, natural, self.m)
         own = free.allows(natural)
         if not (own and free.exact):
-            one = Family(self.spec(longest))
-            if is_searched:
-                one = one._replace(keys=keys, low=free.low, high=longest, plain=natural)
-            yield one
+            best = math.nan if is_searched else longest
+            yield Family(self.spec(longest), keys, free.low, longest, natural, best=best)
         if own:
             yield Family(self.spec(natural))
 

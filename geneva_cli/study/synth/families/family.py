@@ -5,8 +5,6 @@ from collections.abc import Callable, Sequence
 from itertools import pairwise
 from typing import NamedTuple, TypeAlias
 
-import numpy as np
-
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.compatible import refuse_conflicts
 from geneva_cli.motion.machine_spec import Spec
@@ -21,7 +19,8 @@ class Family(NamedTuple):
 
     ``spec`` is one of them. ``keys`` returns the values (n,) of its keys at numbers (n,) between
     ``low`` and ``high``; NaN where there is no machine. At ``plain`` a machine moves as the plain
-    crank does. At ``known`` it is a machine of another family. Those are NaN if there is none.
+    crank does. At ``known`` it is a machine of another family. At ``best`` it is the best, which is
+    ``spec``. Those are NaN if there is none.
     """
 
     spec: Spec
@@ -30,18 +29,12 @@ class Family(NamedTuple):
     high: float = math.nan
     plain: float = math.nan
     known: float = math.nan
+    best: float = math.nan
 
     @property
     def is_free(self) -> bool:
         """Return True if the family has more than one machine."""
         return self.low < self.high
-
-    def machine(self, number: float) -> Spec:
-        """The machine at a number. Raises GenevaError if there is none."""
-        values = self.keys(np.array([number])) if self.keys else {}
-        return (
-            self.spec.with_keys({k: v.item() for k, v in values.items()}) if values else self.spec
-        )
 
 
 def pieces(families: Sequence[Family], most: int) -> list[Family]:
