@@ -199,12 +199,9 @@ class FlatParts(EdgedParts):
         return max(bore, hub) if self.mechanism.spec.size.has_hub(part) else bore
 
     def _crank(self, arm: Plate | None) -> Member:
-        assembly, members = self.outlines.assembly, list[Member]()
-        for plate in (*self.locking, arm):
-            members += [Member(plate)] if plate else []
-        members += self.rollers
-        if hub := crank_hub(self.outlines):
-            members.append(Member(hub))
+        assembly, hub = self.outlines.assembly, crank_hub(self.outlines)
+        members = [*map(Member, filter(None, (*self.locking, arm)))]
+        members += (*self.rollers, *([Member(hub)] if hub else []))
         turn = float(assembly.crank(np.zeros(1))[0])
         return Member(Group("crank", tuple(members)), (assembly.L, 0.0), turn)
 
@@ -261,7 +258,7 @@ class FlatParts(EdgedParts):
             return ()
         from geneva_cli.parts.gears.gear_pair import gear_pair
 
-        return gear_pair(self.mechanism, self.drawn, self.writer)
+        return gear_pair(self, self.drawn)
 
     @cached_property
     def _base(self) -> Plate | None:
@@ -291,13 +288,12 @@ class FlatParts(EdgedParts):
     @cached_property
     def framed(self) -> FrameAndShafts:
         """The frame, what is on it, and the shafts."""
-        parts, lows = self.outlines, [self._base.low] if self._base else []
+        parts, gears = self.outlines, map(attrgetter("plate"), self.links.gears)
         arm = parts.sizes.arm_thickness if parts.has_arm else 0.0
+        plates = self._base, wheel_hub(parts.assembly, parts.sizes), *gears
+        lows = [*map(attrgetter("low"), filter(None, plates))]
         lows.append(-self.mechanism.spec.size.allowances.pin_gap_mm - arm)
-        lows += map(attrgetter("plate.low"), self.links.gears)
-        lows += map(attrgetter("part.low"), (*self.links.cut, *self.links.joined, *self.first))
-        if hub := wheel_hub(parts.assembly, parts.sizes):
-            lows.append(hub.low)
+        lows += map(attrgetter("part.low"), (*self.linked, *self.first))
         if self.mechanism.spec.gears:
             from geneva_cli.parts.gears.gear_pair import gear_span
 
@@ -312,11 +308,10 @@ class FlatParts(EdgedParts):
     @property
     def screws(self) -> tuple[Screws, ...]:
         """The screws of dial, locking disc, and what is fixed to the frame."""
-        own, drawn, locking = list[Screws](), self.outlines, self.locking
-        if dial := dial_circle(drawn.assembly, drawn.sizes).holes:
-            own.append(Screws("dial", len(dial), 2.0 * dial[0].radius, "the dial"))
-        if locking and (some := bolts(drawn)):
-            own.append(Screws(locking[0].name, len(some), 2.0 * some[0].radius, "the arm"))
+        drawn = self.outlines
+        own = Screws.through("dial", dial_circle(drawn.assembly, drawn.sizes).holes, "the dial")
+        for disc in self.locking[:1]:  # or the first of its sectors
+            own += Screws.through(disc.name, bolts(drawn), "the arm")
         return (*own, *self.framed.screws)
 
     @property

@@ -128,9 +128,8 @@ def _bridge(parts: Outlines, bars: Links, shaft: Shaft) -> Plate | None:
     links = {link.name: link for link in links_at(mechanism, turn_deg(mechanism))}
     for plate in bars.plates:
         if plate.name in links:  # a block stays in its link
-            reach = float(
-                Polyarc([shapes.as_contour(plate.outline)]).farthest(np.zeros((1, 2))).max()
-            )
+            edge = Polyarc([shapes.as_contour(plate.outline)])
+            reach = float(edge.farthest(np.zeros((1, 2))).max())
             far.append(float(np.abs(places(links[plate.name])[0] - L).max()) + reach)
     wall = wall_min(size, L)
     bore = shaft.bore.around + 0.5 * size.allowances.shaft_fit_mm
@@ -146,49 +145,27 @@ def _bridge(parts: Outlines, bars: Links, shaft: Shaft) -> Plate | None:
     return Plate("bearing bridge", "FRAME", outline, holes, low, low + thick)
 
 
-def _all_shafts(parts: Outlines, bars: Links, low: float, first: Sequence[Member]) -> list[Shaft]:
-    """Return all shafts and pivots, as ``framed``; ``low`` is the frame's lower face."""
-    mechanism, own, L = parts.assembly.full, parts.sizes, parts.assembly.L
-    stop, out = None, list[Shaft]()
-    if bars.axes:
-        from geneva_cli.parts.links.link_shafts import crank_stop
-
-        stop = crank_stop(parts, bars)
-    known: list[Point] = []  # axes whose shafts carry wheel or crank
-    known += [(L, 0.0)] if (own.arm_bore if parts.has_arm else own.crank_bore) else []
-    known += [ORIGIN] if own.wheel_bore else []
-    out += shafts(parts, low, stop)
-    if bars.axes:
-        out += _link_shafts(parts, bars, (low, stop), known, first)
-    if mechanism.spec.gears:
-        from geneva_cli.parts.gears.gear_pair import gear_shafts
-
-        out += gear_shafts(mechanism, parts, low, (L, 0.0) in known)
-    return out
-
-
-def _link_shafts(
-    outlines: Outlines,
-    bars: Links,
-    ends: tuple[float, float | None],
-    known: Sequence[Point],
-    first: Sequence[Member],
+def _all_shafts(
+    outlines: Outlines, bars: Links, lowest: float, first: Sequence[Member]
 ) -> Iterator[Shaft]:
-    """Yield the shafts and pivots that carry only links and gears: on no ``known`` axis.
+    """Yield all shafts and pivots, as ``framed``; ``lowest`` is the frame's lower face."""
+    mechanism, own, L = outlines.assembly.full, outlines.sizes, outlines.assembly.L
+    known, stop = list[Point](), None  # axes whose shafts carry wheel or crank
+    known += [(L, 0.0)] if (own.arm_bore if outlines.has_arm else own.crank_bore) else []
+    known += [ORIGIN] if own.wheel_bore else []
+    if bars.axes:
+        from geneva_cli.parts.links.link_shafts import carried, crank_stop
 
-    ``ends`` has the frame's lower face, and where links stop the crank's shaft, if they do.
-    """
-    from geneva_cli.parts.links.link_shafts import carried
-
-    mechanism, L, (lowest, stop) = outlines.assembly.full, outlines.assembly.L, ends
-    for axis in bars.axes:
+        stop = crank_stop(outlines, bars)
+    if mechanism.spec.gears:
+        from geneva_cli.parts.gears.gear_pair import gear_shafts, gear_span
+    yield from shafts(outlines, lowest, stop)
+    for axis in bars.axes:  # of which others carry only links and gears
         if any(same(axis.at, at, L) for at in known):
             continue
         here = (one for one in bars.axes if same(one.at, axis.at, L))
         spans = [span for one in here for span in carried(bars, one, first, L)]
         if mechanism.spec.gears and same(axis.at, mechanism.gear_shaft.at, L):
-            from geneva_cli.parts.gears.gear_pair import gear_span
-
             spans.append(gear_span(mechanism, outlines))
         low, high = min(low for low, _ in spans), max(high for _, high in spans)
         if axis.stands:
@@ -196,13 +173,15 @@ def _link_shafts(
             on_crank = same(axis.at, (L, 0.0), L)
             whose = "crank" if on_crank else "wheel" if on_wheel else axis.names[0]
             low = stop if on_crank and stop is not None else lowest
-            high = outlines.sizes.wheel_thickness if on_wheel else high
+            high = own.wheel_thickness if on_wheel else high
             low, high = shaft_ends(mechanism.spec.size, whose, low, high)
             name = f"{whose}'s {'shaft' if turns else 'pivot'}"
             yield Shaft(name, whose, axis.bore, low, high, axis.at, turns=turns)
         elif len(axis.names) > 1 and Joint.PIN not in axis.kinds:  # those are pins between links
             name = f"shaft of {', '.join(axis.names)}"
             yield Shaft(name, axis.names[0], axis.bore, low, high, axis.at, turns=False)
+    if mechanism.spec.gears:
+        yield from gear_shafts(mechanism, outlines, lowest, (L, 0.0) in known)
 
 
 def mounted_plate(

@@ -144,9 +144,7 @@ class FrameAndShafts(NamedTuple):
         """The screws that fix parts to the frame, and those of its mounting holes."""
         kinds = Counter((part, hole.radius) for hole, part in self.screwed)
         fixed = [Screws(part, n, 2.0 * r, "the frame") for (part, r), n in kinds.items()]
-        if self.mounts:
-            fixed.append(Screws("frame", len(self.mounts), 2.0 * self.mounts[0].radius, "its base"))
-        return tuple(fixed)
+        return (*fixed, *Screws.through("frame", self.mounts, "its base"))
 
 
 class EdgedParts(Parts):

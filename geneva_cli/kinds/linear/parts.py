@@ -118,7 +118,7 @@ class RackParts(EdgedParts):
     @cached_property
     def gear_pair(self) -> tuple[Member, ...]:
         """The noncircular gears that turn the crank, up to their pitch curves."""
-        return gear_pair(self.mechanism, None, self.writer, self.sizes.bore)
+        return gear_pair(self, None, self.sizes.bore)
 
     @cached_property
     def guide(self) -> tuple[Member, ...]:
@@ -177,12 +177,10 @@ class RackParts(EdgedParts):
     @property
     def screws(self) -> tuple[Screws, ...]:
         """The screws of locking sector, guide bar, and what is fixed to the frame."""
-        spec, own = self.mechanism.spec, list[Screws]()
-        if self.arm_plate and (bolts := rack.lock_bolts(spec.size, self.sizes)):
-            own.append(Screws("locking sector", len(bolts), 2.0 * bolts[0].radius, "the arm"))
-        if bolted := self._bar_bolts:
-            nuts = "nuts under the guide bar"
-            own.append(Screws("rack", len(bolted), 2.0 * bolted[0].radius, nuts))
+        spec = self.mechanism.spec
+        bolts = rack.lock_bolts(spec.size, self.sizes) if self.arm_plate else []
+        own = Screws.through("locking sector", bolts, "the arm")
+        own += Screws.through("rack", self._bar_bolts, "nuts under the guide bar")
         return (*own, *(() if spec.no_parts else self.framed.screws))
 
     @property

@@ -11,7 +11,7 @@ Gears are drawn at input angle 0, up to their pitch curves. The driven gear is o
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -38,14 +38,15 @@ from geneva_cli.table import Table
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from geneva_cli.geometry.fit import Curve, Writer
+    from geneva_cli.geometry.fit import Curve
+    from geneva_cli.parts.parts import EdgedParts
 
 NAMES = (
     *("input_deg", "crank_deg", "ratio", "driver_radius_mm", "driver_x_mm", "driver_y_mm"),
     *("driven_radius_mm", "driven_x_mm", "driven_y_mm", "driver_convexity", "driven_convexity"),
 )
 GEARS = "driven gear", "driver gear"
-SAMPLES = 721  # input angles of a turn at which ratio and radii are computed
+TURN = np.linspace(-np.pi, np.pi, 721)  # input angles at which ratio and radii are computed
 THIN = 1e-6  # of the axes' distance: a pitch curve nearer to its axis encloses no shaft
 # Of the axes' distance: coarsest tolerance of the fitted curves, which roll on each other, so that
 # their lengths must agree to better than 1e-9.
@@ -62,19 +63,29 @@ def gears_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) 
 
     def points(phi: Array) -> tuple[Array, Array]:
         """Return the points (n, 2) at which driver and driven gear touch."""
-        turn, ratio = _ratio(gears, phi)
-        driver, driven = _radii(gears, ratio)
-        at = np.column_stack((driver * np.cos(phi), -driver * np.sin(phi)))
-        return at, np.column_stack((-driven * np.cos(turn), -driven * np.sin(turn)))
+        _, _, _, _, *driver, _, x, y, _, _ = _columns(gears, phi)
+        return np.column_stack(driver), np.column_stack((x, y))
 
     # one turn; the curves' frames are at input angle 0
     phi = np.linspace(-np.pi, np.pi, samples or 3)
     if samples is None:
         phi = chords.nodes(points, (-np.pi, 0.0, np.pi), tolerance_mm)
-    turn, ratio = _ratio(gears, phi)
-    (r1, r2), both = _radii(gears, ratio), points(phi)
-    columns = [np.degrees(phi), np.degrees(turn), ratio.c[0], r1, *both[0].T, r2, *both[1].T]
-    return Table(NAMES, [*columns, *_convexities(ratio)])
+    return Table(NAMES, _columns(gears, phi))
+
+
+def _columns(gears: Gears, phi: Array) -> list[Array]:
+    """Return the columns of the table at the input's angles, radians, over a turn."""
+    ratio, turned = ratio_and_turn(gears, phi)
+    # the crank's angle ahead of the input is 0 at input angle 0
+    ahead = np.unwrap(np.angle(turned * np.exp(-1j * phi)))
+    middle = float(ahead[np.argmin(np.abs(phi))])
+    turn = phi + ahead - np.round(middle / (2.0 * np.pi)) * 2.0 * np.pi
+    C, (i, i1, i2) = gears.distance_mm, map(array, ratio.derivatives())
+    inverse, _, bend = map(array, (1.0 / ratio).derivatives())
+    r1, r2 = C * i / (1.0 + i), C / (1.0 + i)
+    driver, driven = (r1 * np.cos(phi), -r1 * np.sin(phi)), (-r2 * np.cos(turn), -r2 * np.sin(turn))
+    convex = 1.0 + inverse + bend, 1.0 + i + (i * i2 - i1 * i1) / i**3
+    return [np.degrees(phi), np.degrees(turn), i, r1, *driver, r2, *driven, *convex]
 
 
 def required_gears(mechanism: Mechanism) -> Gears:
@@ -90,14 +101,13 @@ def required_gears(mechanism: Mechanism) -> Gears:
 
 def convexity(gears: Gears) -> tuple[float, float]:
     """Return the least convexity of driver and driven gear in a turn; not above 0 if hollow."""
-    driver, driven = _convexities(_ratio(gears, np.linspace(-np.pi, np.pi, SAMPLES))[1])
+    *_, driver, driven = _columns(gears, TURN)
     return float(driver.min()), float(driven.min())
 
 
 def pitch_radii(pair: Gears) -> list[tuple[float, float]]:
     """Return least and greatest radius of the pitch curves of driven gear and driver, mm."""
-    C = pair.distance_mm
-    driver, driven = _radii(pair, ratio_and_turn(pair, np.linspace(-np.pi, np.pi, SAMPLES))[0])
+    C, (_, _, _, driver, _, _, driven, *_) = pair.distance_mm, _columns(pair, TURN)
     for name, r in zip(GEARS, (driven, driver), strict=True):
         if r.min() < THIN * C:
             text = f"the pitch curve of the {name} comes within {r.min():.3g} mm of its axis: that "
@@ -136,21 +146,6 @@ def _pitch_curve(gears: Gears, sense: float, driver: bool, phi: Array) -> tuple[
     return at, along
 
 
-def _radii(gears: Gears, ratio: Jet) -> tuple[Array, Array]:
-    """Return the radii of driver and driven gear where they touch, mm."""
-    C, i = gears.distance_mm, array(ratio.c[0])
-    return C * i / (1.0 + i), C / (1.0 + i)
-
-
-def _ratio(gears: Gears, phi: Array) -> tuple[Array, Jet]:
-    """Return the crank's angle and the ratio with two derivatives, over a turn of the input."""
-    ratio, turned = ratio_and_turn(gears, phi)
-    # the crank's angle ahead of the input is 0 at input angle 0
-    ahead = np.unwrap(np.angle(turned * np.exp(-1j * phi)))
-    middle = float(ahead[np.argmin(np.abs(phi))])
-    return phi + ahead - np.round(middle / (2.0 * np.pi)) * 2.0 * np.pi, ratio
-
-
 def ratio_and_turn(gears: Gears, phi: np.ndarray) -> tuple[Jet, np.ndarray]:
     """Return the ratio with two derivatives by the input's angle, and the driven gear's turn."""
     sine, versine = gears.advance(phi, 3)
@@ -159,40 +154,28 @@ def ratio_and_turn(gears: Gears, phi: np.ndarray) -> tuple[Jet, np.ndarray]:
     return ratio, array(cosine.c[0]) + 1j * array(sine.c[0])
 
 
-def _convexities(ratio: Jet) -> tuple[np.ndarray, np.ndarray]:
-    i, i1, i2 = (array(c) for c in ratio.derivatives())
-    inverse = [array(c) for c in (1.0 / ratio).derivatives()]
-    return 1.0 + inverse[0] + inverse[2], 1.0 + i + (i * i2 - i1 * i1) / i**3
-
-
 def gear_span(mechanism: Mechanism, parts: Outlines | None) -> tuple[float, float]:
     """Return lower and upper face of both gears, in a plane below all links."""
     return link_sizes(mechanism, [], parts).span(gear_plane(mechanism))
 
 
 def gear_pair(
-    mechanism: Mechanism,
-    parts: Outlines | None,
-    writer: Callable[[float], Writer],
-    on_crank: float = 0.0,
+    parts: EdgedParts, drawn: Outlines | None, on_crank: float = 0.0
 ) -> tuple[Member, ...]:
     """Return both gears up to their pitch curves; none without noncircular gears.
 
     ``on_crank`` is the radius of the crank's shaft if it does not follow from the outlines
-    ``parts``. ``writer`` returns a function that fits curves within a tolerance, mm.
+    ``drawn``.
     """
-    pair = mechanism.spec.gears
+    mechanism, pair = parts.mechanism, parts.mechanism.spec.gears
     if pair is None:
         return ()
-    write, span = writer(FINE["cubics"] * pair.distance_mm), gear_span(mechanism, parts)
+    write, span = parts.writer(FINE["cubics"] * pair.distance_mm), gear_span(mechanism, drawn)
     curves = pitch_curves(pair, mechanism.gear_shaft.sense)
-    (axis, wide), (other, radius), bored = _shafts(mechanism, parts, on_crank)
-    own = round_bore(mechanism.spec.size, radius if bored else 0.0)
-    bores = (axis, bore_at(mechanism, axis, wide)), (other, own)
-    keys, members = ("arm_bore_mm", "link_bore_mm"), []
-    for name, curve, (at, on), (least, _), key in zip(
-        GEARS, curves, bores, pitch_radii(pair), keys, strict=True
-    ):
+    (axis, wide), (other, own), bored = _shafts(mechanism, drawn, on_crank)
+    bores = (axis, wide, "arm_bore_mm"), (other, own if bored else Bore(0.0), "link_bore_mm")
+    rows, members = zip(GEARS, curves, pitch_radii(pair), bores, strict=True), []
+    for name, curve, (least, _), (at, on, key) in rows:
         text = f"no blank of the {name} is left: its bore of {2.0 * on.reach:.6g} mm must be below "
         text += f"{2.0 * least:.6g}, twice its least radius; reduce {key}"
         refuse_size(on.reach >= least, key, text)
@@ -212,28 +195,28 @@ def gear_shafts(
     """
     if mechanism.spec.gears is None:
         return
-    (first, wide), (at, radius), bored = _shafts(mechanism, parts, on_crank)
+    (first, wide), (at, own), bored = _shafts(mechanism, parts, on_crank)
     under, over = gear_span(mechanism, parts)
     at_crank = same(first, mechanism.crank_shaft.at, mechanism.center_distance_mm)
     if at_crank and not (shaft or _on_links(mechanism, parts)):
         reach = shaft_ends(mechanism.spec.size, "crank", lowest, over)
-        on = bore_at(mechanism, first, wide)
-        yield Shaft("crank's shaft", "crank", on, *reach, first)
+        yield Shaft("crank's shaft", "crank", wide, *reach, first)
     top = over if bored else under  # or one piece with it
-    yield Shaft("driver gear's shaft", "driver gear", Bore(radius), lowest, top, at)
+    yield Shaft("driver gear's shaft", "driver gear", own, lowest, top, at)
 
 
 def _shafts(
     mechanism: Mechanism, parts: Outlines | None, on_crank: float
-) -> tuple[tuple[Point, float], tuple[Point, float], bool]:
-    """Return position and radius of both gears' shafts, and whether the driver has a bore."""
+) -> tuple[tuple[Point, Bore], tuple[Point, Bore], bool]:
+    """Return position and bore of both gears' shafts, and whether the driver is bored for it."""
     pair, L = required_gears(mechanism), mechanism.center_distance_mm
     sizes, ((driven, _), (driver, _)) = link_sizes(mechanism, [], parts), pitch_radii(pair)
     usual, x = bore_radius(L / 20.0), mechanism.gear_shaft.x_mm
     wide = on_crank or _on_links(mechanism, parts) or sizes.crank_shaft
     wide = wide or sizes.bore(driven, L) or usual
     own = sizes.bore(driver, L)
-    return ((x, 0.0), wide), ((x + pair.distance_mm, 0.0), own or usual), own > 0.0
+    axis, bore = (x, 0.0), round_bore(mechanism.spec.size, own or usual)
+    return (axis, bore_at(mechanism, axis, wide)), ((x + pair.distance_mm, 0.0), bore), own > 0.0
 
 
 def _on_links(mechanism: Mechanism, parts: Outlines | None) -> float:

@@ -203,17 +203,16 @@ def _rollers(links: Iterable[Link], sizes: LinkSizes, roller: float) -> Iterator
         return
     pin, hole, whole = (Circle("ROLLER", ORIGIN, r) for r in (radius, radius + sizes.loose, roller))
     for link in links:
-        for at, kind in zip(linkage.places(link), link.kinds, strict=True):
-            where, plates = linkage.point_at_zero(at), []
-            if kind is Joint.ROLLER and link.plane > 1:
-                low, high = sizes.span(link.plane - 1)
-                below = sizes.span(link.plane)[0]
-                plates.append(Plate(f"{link.name}'s roller", "ROLLER", whole, (hole,), low, high))
-                plates.append(Plate(f"{link.name}'s pin", "ROLLER", pin, (), below, high))
-            elif kind is Joint.CARRIED:
+        for at, kind in linkage.joints(link, Joint.ROLLER, Joint.CARRIED):
+            where = linkage.point_at_zero(at)
+            if kind is Joint.CARRIED:
                 span = sizes.span(link.plane + 1)
-                plates.append(Plate("roller in the groove", "ROLLER", whole, (hole,), *span))
-            yield from (Member(plate, where) for plate in plates)
+                yield Member(Plate("roller in the groove", "ROLLER", whole, (hole,), *span), where)
+            elif link.plane > 1:
+                (below, _), (low, high) = sizes.span(link.plane), sizes.span(link.plane - 1)
+                own = Plate(f"{link.name}'s roller", "ROLLER", whole, (hole,), low, high)
+                yield Member(own, where)
+                yield Member(Plate(f"{link.name}'s pin", "ROLLER", pin, (), below, high), where)
 
 
 def link_gear(link: Link, at: Point, on: Bore, sizes: LinkSizes, mechanism: Mechanism) -> Gear:

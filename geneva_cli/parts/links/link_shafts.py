@@ -5,6 +5,8 @@ spacers on pins that join links of distant planes, pivots and spacers on the fra
 drive is below, and the crank's shaft, which leaves the machine below all links, or above.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
@@ -13,7 +15,7 @@ import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.plates import Member, Plate
-from geneva_cli.geometry.shapes import Circle, Contour, Point
+from geneva_cli.geometry.shapes import Circle, Contour
 from geneva_cli.motion.pivots import Joint, Link
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
@@ -63,11 +65,11 @@ class Meeting(NamedTuple):
 
 
 class Round(NamedTuple):
-    """A round part that passes through a plane."""
+    """A round part that passes through some planes."""
 
     name: str
-    plane: int
-    path: Array  # complex positions, one at each input angle, or one for all
+    planes: set[int]
+    path: Array | complex  # complex positions, one at each input angle, or one for all
     radius: float
 
 
@@ -83,23 +85,22 @@ def planes(
     every = links_at(mechanism, turn)
     met = list(_gears(parts, bars, [link for link in every if link.radius_mm], turn))
     links = [link for link in every if not link.radius_mm]
-    carries, shaft = _crank_shaft(parts, links, bars)
+    carries, shaft, blocked = _crank_shaft(parts, links, bars, turn)
     low = mechanism.spec.size.crank_shaft_low_mm
     ends = math.inf if low is None else low + SAME_LENGTH * L
     reached = {link.plane for link in links if bars.sizes.span(link.plane)[1] > ends}
     rounds = [*_on_wheel(parts, links, bars.sizes), *_posts(parts, bars, spacers)]
     for path, both in joined(links, SAME_LENGTH * L):  # spacers on pins
         name = f"the pin of {' and '.join(link.name for link in both)}"
-        own = [link.plane for link in both]
-        between = (plane for plane in range(min(own) + 1, max(own)) if plane not in own)
-        rounds += [Round(name, plane, path, bars.sizes.ring) for plane in between]
+        between = {*range(both[0].plane + 1, both[-1].plane)} - {link.plane for link in both}
+        rounds.append(Round(name, between, path, bars.sizes.ring))
     if carries:  # the shaft in the planes that it must cross, or that the spec extends it to
-        crossed = range(min(carries) + 1, max(carries | reached) + 1)
-        rounds += [shaft._replace(plane=plane) for plane in crossed if plane not in carries]
+        crossed = {*range(min(carries) + 1, max(carries | reached) + 1)}
+        rounds.append(shaft._replace(planes=crossed - carries))
     for link in links:
-        met += [_meeting(bars, link, one, turn) for one in rounds if one.plane == link.plane]
+        met += [_meeting(bars, link, one, turn) for one in rounds if link.plane in one.planes]
     through = parts.sizes.crank_bore > 0.0  # the locking disc
-    return min(met, default=None), None if through else _blocked(bars, links, carries, shaft, turn)
+    return min(met, default=None), None if through else blocked
 
 
 def crank_stop(parts: Outlines, bars: Links) -> float | None:
@@ -107,14 +108,16 @@ def crank_stop(parts: Outlines, bars: Links) -> float | None:
     mechanism = parts.assembly.full
     turn = turn_deg(mechanism)
     links = [link for link in links_at(mechanism, turn) if not link.radius_mm]
-    carries, shaft = _crank_shaft(parts, links, bars)
-    if _blocked(bars, links, carries, shaft, turn) is None:
+    carries, _, blocked = _crank_shaft(parts, links, bars, turn)
+    if blocked is None:
         return None
     return bars.sizes.span(max(carries))[0] if max(carries) else -bars.sizes.gap
 
 
-def _crank_shaft(parts: Outlines, links: list[Link], bars: Links) -> tuple[set[int], Round]:
-    """Return the planes in which the crank's shaft carries something, 0 for the wheel's; it."""
+def _crank_shaft(
+    parts: Outlines, links: list[Link], bars: Links, turn: Array
+) -> tuple[set[int], Round, Meeting | None]:
+    """Return planes, 0 the wheel's, in which the crank's shaft carries parts; it; what stops it."""
     L, sizes, machine = parts.assembly.L, bars.sizes, parts.assembly.full
     carries = {1} if parts.has_arm else set[int]()
     for link in links:
@@ -127,16 +130,10 @@ def _crank_shaft(parts: Outlines, links: list[Link], bars: Links) -> tuple[set[i
         carries.add(0)
     radius = sizes.crank_shaft or bars.shaft((L, 0.0), L)
     wide = bore_at(machine, (L, 0.0), radius).around
-    return carries, Round("the crank's shaft", 0, np.array(complex(L)), wide)
-
-
-def _blocked(
-    bars: Links, links: list[Link], carries: set[int], shaft: Round, turn: Array
-) -> Meeting | None:
-    """Return the deepest overlap with links below all that the shaft carries; None if free."""
+    shaft = Round("the crank's shaft", set(), complex(L), wide)
     below = (link for link in links if link.plane > max(carries, default=math.inf))
     met = (_meeting(bars, link, shaft, turn) for link in below)
-    return min((one for one in met if one.gap < 0.0), default=None)
+    return carries, shaft, min((one for one in met if one.gap < 0.0), default=None)
 
 
 def _gears(parts: Outlines, bars: Links, gears: list[Link], turn: Array) -> Iterator[Meeting]:
@@ -150,7 +147,7 @@ def _gears(parts: Outlines, bars: Links, gears: list[Link], turn: Array) -> Iter
         own = gear.bore
         wide = own._replace(radius=own.radius + own.loose).around
         for one in _on_wheel(parts, [link], bars.sizes):
-            if on_shaft and one.radius <= wide:
+            if not one.planes or (on_shaft and one.radius <= wide):
                 continue
             gaps = away + (wide - one.radius) if on_shaft else away - gear.outer - one.radius
             least = int(np.argmin(gaps))
@@ -162,17 +159,16 @@ def _posts(parts: Outlines, bars: Links, spacers: Iterable[Member]) -> Iterator[
     mechanism, L = parts.assembly.full, parts.assembly.L
     lowest, links = gear_plane(mechanism), links_at(mechanism, np.zeros(1))
     planes = {link.name: link.plane for link in links}
-    rounds = list[tuple[str, Point, float]]()
+    below = {plane for plane in planes.values() if plane >= lowest}
     for axis in bars.axes:
         own = same(axis.at, (0.0, 0.0), L) or same(axis.at, (L, 0.0), L)  # of wheel or crank
         if axis.stands and not own and max(planes[name] for name in axis.names) < lowest:
-            rounds.append((f"the pivot of {axis.names[0]}", axis.at, axis.bore.radius))
+            name = f"the pivot of {axis.names[0]}"
+            yield Round(name, below, complex(*axis.at), axis.bore.radius)
     for one in spacers:
         assert isinstance(one.part, Plate) and isinstance(one.part.outline, Circle)
-        rounds.append((f"the {one.part.name}", one.at, one.part.outline.radius))
-    for name, at, radius in rounds:
-        for plane in sorted({link.plane for link in links if link.plane >= lowest}):
-            yield Round(name, plane, np.array(complex(*at)), radius)
+        radius = one.part.outline.radius
+        yield Round(f"the {one.part.name}", below, complex(*one.at), radius)
 
 
 def _on_wheel(parts: Outlines, links: list[Link], sizes: LinkSizes) -> Iterator[Round]:
@@ -184,12 +180,11 @@ def _on_wheel(parts: Outlines, links: list[Link], sizes: LinkSizes) -> Iterator[
     hub = parts.sizes.wheel_hub if size.has_hub("wheel") else 0.0
     reach = -wheel_hub_length(size, parts.sizes)
     low, _ = wheel_shaft_ends(parts, -math.inf)
-    for plane in sorted({link.plane for link in links}):
-        high = sizes.span(plane)[1]
-        if hub and reach < high - SAME_LENGTH * parts.assembly.L:
-            yield Round("the wheel's hub", plane, np.array(0j), hub)
-        elif shaft and low < high - SAME_LENGTH * parts.assembly.L:
-            yield Round("the wheel's shaft", plane, np.array(0j), shaft)
+    left, near = {link.plane for link in links}, SAME_LENGTH * parts.assembly.L
+    for name, radius, end in (("hub", hub, reach), ("shaft", shaft, low)):
+        planes = {plane for plane in left if radius and end < sizes.span(plane)[1] - near}
+        left -= planes
+        yield Round(f"the wheel's {name}", planes, 0j, radius)
 
 
 def _meeting(bars: Links, link: Link, one: Round, turn: Array) -> Meeting:

@@ -98,11 +98,10 @@ def widened(assembly: Assembly, sizes: Sizes, mouths: Mouths) -> list[Relief]:
         start, end, spare = first, after, sizes.relief / lock
         corners = mouths.get(engagement) or next(iter(mouths.values()))  # slots are equal
         for side, p in zip((1.0, -1.0), corners, strict=True):
-            leaves = (L * L + p * p - lock * lock) / (2.0 * L * p)  # as cosines
-            rests = (L * L + p * p - recess * recess) / (2.0 * L * p)
-            if max(leaves, rests) >= 1.0:  # the corner never comes into the disc
+            cosines = [(L * L + p * p - k * k) / (2.0 * L * p) for k in (lock, recess)]
+            if max(cosines) >= 1.0:  # the corner never comes into the disc
                 continue
-            leaves, rests = math.acos(max(leaves, -1.0)), math.acos(max(rests, -1.0))
+            leaves, rests = [math.acos(max(cosine, -1.0)) for cosine in cosines]
             last = side * (leaves - half_step + rests)
             corner = side * (half_step - rests) + np.append(turned, last)
             x, y = p * np.cos(corner) - L, p * np.sin(corner)

@@ -7,11 +7,11 @@ the part that it fixes, and its thread is in the part below.
 
 import math
 from bisect import bisect_right
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from functools import partial
 from itertools import starmap
 from operator import attrgetter
-from typing import NamedTuple
+from typing import NamedTuple, Self
 
 from geneva_cli.errors import GenevaError, refuse_size
 from geneva_cli.geometry import shapes
@@ -213,6 +213,11 @@ class Screws(NamedTuple):
     number: int
     hole_mm: float  # diameter
     tapped: str
+
+    @classmethod
+    def through(cls, fixed: str, holes: Sequence[Circle], into: str) -> list[Self]:
+        """Return the screws that fix a part by equal holes; none without holes."""
+        return [cls(fixed, len(holes), 2.0 * holes[0].radius, into)] if holes else []
 
     @property
     def name(self) -> str:
