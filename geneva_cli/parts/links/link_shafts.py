@@ -85,7 +85,7 @@ def planes(
     every = links_at(mechanism, turn)
     met = list(_gears(parts, bars, [link for link in every if link.radius_mm], turn))
     links = [link for link in every if not link.radius_mm]
-    carries, shaft, blocked = _crank_shaft(parts, links, bars, turn)
+    carries, shaft, overlaps = _crank_shaft(parts, links, bars, turn)
     low = mechanism.spec.size.crank_shaft_low_mm
     ends = math.inf if low is None else low + SAME_LENGTH * L
     reached = {link.plane for link in links if bars.sizes.span(link.plane)[1] > ends}
@@ -100,7 +100,7 @@ def planes(
     for link in links:
         met += [_meeting(bars, link, one, turn) for one in rounds if link.plane in one.planes]
     through = parts.sizes.crank_bore > 0.0  # the locking disc
-    return min(met, default=None), None if through else blocked
+    return min(met, default=None), None if through else min(overlaps, default=None)
 
 
 def crank_stop(parts: Outlines, bars: Links) -> float | None:
@@ -108,16 +108,16 @@ def crank_stop(parts: Outlines, bars: Links) -> float | None:
     mechanism = parts.assembly.full
     turn = turn_deg(mechanism)
     links = [link for link in links_at(mechanism, turn) if not link.radius_mm]
-    carries, _, blocked = _crank_shaft(parts, links, bars, turn)
-    if blocked is None:
+    carries, _, overlaps = _crank_shaft(parts, links, bars, turn)
+    if next(overlaps, None) is None:
         return None
     return bars.sizes.span(max(carries))[0] if max(carries) else -bars.sizes.gap
 
 
 def _crank_shaft(
     parts: Outlines, links: list[Link], bars: Links, turn: Array
-) -> tuple[set[int], Round, Meeting | None]:
-    """Return planes, 0 the wheel's, in which the crank's shaft carries parts; it; what stops it."""
+) -> tuple[set[int], Round, Iterator[Meeting]]:
+    """Return the planes, 0 the wheel's, of parts on the crank's shaft; it; overlaps below them."""
     L, sizes, machine = parts.assembly.L, bars.sizes, parts.assembly.full
     carries = {1} if parts.has_arm else set[int]()
     for link in links:
@@ -133,7 +133,7 @@ def _crank_shaft(
     shaft = Round("the crank's shaft", set(), complex(L), wide)
     below = (link for link in links if link.plane > max(carries, default=math.inf))
     met = (_meeting(bars, link, shaft, turn) for link in below)
-    return carries, shaft, min((one for one in met if one.gap < 0.0), default=None)
+    return carries, shaft, (one for one in met if one.gap < 0.0)
 
 
 def _gears(parts: Outlines, bars: Links, gears: list[Link], turn: Array) -> Iterator[Meeting]:
