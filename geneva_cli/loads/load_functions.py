@@ -7,6 +7,7 @@ are lost to rounding: there the loads are known by themselves.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from operator import attrgetter
 from typing import TypeAlias
@@ -19,7 +20,7 @@ from geneva_cli.loads.instant import Instant, LoadQuantity, Own, sign_of
 from geneva_cli.motion.batch import selection
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.path_and_slot import retraces
-from geneva_cli.motion.peak_search import spans, spread_deg
+from geneva_cli.motion.peak_search import pole_deg, spans
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Mask, Which, Whole, all_true, array
 from geneva_cli.numerics.cuts import Asked, Held
@@ -85,6 +86,21 @@ class LoadFunctions:
                 end = np.where(end == 0.0, NEAR_CUSP * engagement.entry_deg, end)
             self.spans.append((start, end))
 
+        # Approximate distance from mid-motion of the nearest pole of the loads, degrees: (n, 1).
+        # Near mid-motion a velocity is as v / (1 + x²/w²), a wall's lever as l sqrt(1 + x²/w²).
+        # Where friction holds a lever that vanishes there, w is the distance at which it no longer
+        # does. Not at mid-motion itself, where a curved slot may have no slopes:
+        x = 0.01 * array(engagement.exit_deg)
+        _, _, lever, offset, *_ = at = contact(engagement, x, 2, reactions=False)
+        with np.errstate(all="ignore"):
+            w = np.fmin(pole_deg(at.velocity), math.sqrt(0.5) * pole_deg(lever))
+            if case.rubs:
+                grip = np.abs(lever.c[0]) + case.friction * np.abs(offset.c[0])
+                w = np.fmin(w, array(grip) / np.abs(lever.c[1]) / DEGREE)
+        # ten half motions: samples of a function without poles are not spread
+        w = np.fmin(np.where(w > 0.0, w, np.inf), 10.0 * engagement.exit_deg)
+        self.spread: Array = np.broadcast_to(w, (self.n, 1))
+
     def search(self, sized: bool = False) -> SearchResult:
         """The greatest values of the quantities and of their negatives, or their greatest sizes."""
         parts, case, engagement = self.spans, self.case, self.engagement
@@ -101,7 +117,7 @@ class LoadFunctions:
         known = list[Known]()
         if is_curved:  # no span reaches mid-motion
             known = at_mid_motion(engagement, case, self.quantities, self.n)
-        return search(self, parts, sized, known, spread_deg(engagement.motion, self.n))
+        return search(self, parts, sized, known, self.spread)
 
     def stretches(self, result: SearchResult | None = None) -> Stretches:
         """The motion, divided where signs change: as in a search, or without one."""

@@ -69,16 +69,9 @@ def spans(motion: WheelMotion, m: int) -> list[tuple[Array, Array]]:
     return [*out, (np.minimum(begin, last), np.maximum(begin, last))]
 
 
-def spread_deg(motion: WheelMotion, m: int) -> Array:
-    """Distances from mid-motion of the nearest poles of m motions, degrees, roughly: (m, 1).
-
-    Near mid-motion a velocity is as v / (1 + x²/w²). At most ten half motions.
-    """
-    with np.errstate(all="ignore"):  # not at mid-motion itself, where a curved slot has no slopes
-        velocity = motion.rate(0.01 * array(motion.exit_deg), 2)
-        w = np.sqrt(np.abs(array(velocity.c[0]) / velocity.c[2])) / DEGREE
-        w = np.fmin(np.where(w > 0.0, w, np.inf), 10.0 * motion.exit_deg)
-    return np.broadcast_to(w, (m, 1))
+def pole_deg(even: Jet) -> Array:
+    """Distance from mid-motion of a function's nearest pole, degrees, from its jet near there."""
+    return np.sqrt(np.abs(array(even.c[0]) / even.c[2])) / DEGREE
 
 
 def search_motion(motion: WheelMotion, f: Smooth, sized: bool = True) -> SearchResult:
@@ -87,7 +80,10 @@ def search_motion(motion: WheelMotion, f: Smooth, sized: bool = True) -> SearchR
     parts = spans(motion, m)
     if motion.symmetric and sized:
         parts = [(a, b) for a, b in parts if np.all(b <= 0.0)]
-    return search(f, parts, sized, w=spread_deg(motion, m))
+    with np.errstate(all="ignore"):
+        w = pole_deg(motion.rate(0.01 * array(motion.exit_deg), 2))
+        w = np.fmin(np.where(w > 0.0, w, np.inf), 10.0 * motion.exit_deg) + 0.0 * parts[0][0]
+    return search(f, parts, sized, w=w)
 
 
 def motion_peaks(
