@@ -73,7 +73,7 @@ def vibration(of: Designs) -> Columns:
     """The vibration of a load on its elastic shaft."""
     from geneva_cli.loads.vibration.vibration import design_vibrations
 
-    return design_vibrations(of.machine, of.requested("vibration")) or {}
+    return design_vibrations(of.machine, of.requested("vibration"))
 
 
 def entry(of: Designs) -> Columns:
