@@ -10,7 +10,6 @@ import sys
 from collections.abc import Callable
 from typing import Any, NoReturn
 
-import geneva_cli.progress as progress  # ``from geneva_cli`` would load the lists of kinds
 from geneva_cli.errors import GenevaError, cut
 
 NARROWEST = 60  # characters of a line that is never broken
@@ -113,7 +112,6 @@ class _Standard(io.RawIOBase):
 
 def _end(error: OSError) -> None:
     """End a run whose output cannot be written: as by SIGPIPE if its reader has left."""
-    progress.close()  # which gives the cursor back
     if error.errno in (errno.EPIPE, errno.EINVAL):  # EINVAL: a closed pipe of Windows
         os._exit(128 + 13)  # 13 is SIGPIPE's number
     print(f"<stdout>: cannot write: {error.strerror}; try -o FILE", file=sys.stderr)

@@ -40,13 +40,19 @@ def _started(what: str, total: int) -> Any:
         TimeRemainingColumn,
     )
 
+    class Screen(Console):
+        """The terminal, whose cursor stays: a run that is killed could not give it back."""
+
+        def show_cursor(self, show: bool = True) -> bool:
+            return False
+
     shown = Progress(
         BarColumn(30),
         MofNCompleteColumn(),
         TextColumn(f"{what},"),
         TimeRemainingColumn(),
         TextColumn("left"),
-        console=Console(stderr=True),
+        console=Screen(stderr=True),
         transient=True,
         auto_refresh=False,  # no thread, as processes are forked meanwhile
         redirect_stdout=False,
