@@ -61,7 +61,7 @@ def oscillator(
                 f"inertia_kgm2 in [load] or a [[mass]], or use {needed}",
                 key,
             )
-    ratio = own.ratio if period_ratio is None else np.array([period_ratio])
+    ratio = own.ratio if period_ratio is None else np.array([period_ratio], dtype=float)
     if ratio[0] not in PERIOD_RATIO:
         raise GenevaError(
             f"a period ratio (motion time / natural period) of {ratio[0]:.4g}: must be "
