@@ -441,15 +441,18 @@ class Design:
 
     def _loads(self, for_people: bool) -> Table:
         from geneva_cli.loads.load_tables import loads_table, missing
-        from geneva_cli.loads.sizing import sizing as sized
+        from geneva_cli.loads.sizing import WHEEL_INERTIA, sizing_needs
         from geneva_cli.verdict.strength import OF_LIFE
 
         _ = self.loads  # all quantities at once, some of which the life needs
         # without a load every quantity needs one, and that is reported already
-        needed = self.strength.missing(OF_LIFE) if self.cycle.is_loaded else []
-        own = self.wheel_plate and self.wheel_plate.inertia_kgm2
-        sizing, sized_by = sized(self.cycle, own)
-        notes = (*self.warnings, *missing(self.cycle), *needed, *sized_by)
+        needed, of, own = list[str](), self.strength, self.wheel_plate
+        # the wheel's own inertia is shown behind that at its shaft
+        both = dict.fromkeys(("inertia_kgm2", WHEEL_INERTIA), own and own.inertia_kgm2)
+        sizing = both | of.table("sizing")
+        if self.cycle.is_loaded:
+            needed = of.missing(OF_LIFE) + sizing_needs(sizing, self.mechanism.output.lacks)
+        notes = (*self.warnings, *missing(self.cycle), *needed)
         impact = self.strength.table("shock.reversal")
         answers = {"shock.reversal": impact, "sizing": sizing, "life": self.life}
         last = {"warnings": notes, "chosen": self.chosen_by_load.record}

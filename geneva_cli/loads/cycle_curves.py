@@ -45,18 +45,17 @@ def drawn(cycle: Cycle, names: Sequence[str], window: Ends) -> dict[str, Drawn]:
     """The curves of some quantities of a machine, by name."""
     machine, out = cycle.mechanism, dict[str, Drawn]()
     column = machine.output.column
-    moves = [n for n in names if n in (column, *MOTION_QUANTITIES)]
-    loads = [n for n in names if n not in moves]
+    loads = [n for n in names if n not in (column, *MOTION_QUANTITIES)]
     ends = {name: cycle.extremes[name] for name in loads}
     if "pin_force_N" in ends:  # drawn with the sign of the wall that bears
         (wall,) = load_summaries(machine, ["wall_force_N"], means=False).values()
         ends["pin_force_N"] = only(wall)
     bounds = _bounds(cycle, ends)
-    stages = list(_stages(cycle, moves, loads, bounds))
+    stages = list(_stages(cycle, names, loads, bounds))
     step = sum(2.0 * e.half_step for e in machine.engagements) * machine.output.per_radian
-    rise = [step if n == column else 0.0 for n in (*moves, *loads)]
+    rise = [step if n == column else 0.0 for n in names]
     curves = _pieces(stages, machine.period_deg, window, rise)
-    for name, pieces in zip((*moves, *loads), curves, strict=True):
+    for name, pieces in zip(names, curves, strict=True):
         marks, own = tuple[Mark, ...](), bounds.get(name)
         if own:
             pieces = [part for piece in pieces for part in _within(piece, own)]
@@ -77,7 +76,7 @@ def drawn(cycle: Cycle, names: Sequence[str], window: Ends) -> dict[str, Drawn]:
 
 
 def _stages(
-    cycle: Cycle, moves: Sequence[str], loads: Sequence[str], bounds: Mapping[str, Ends]
+    cycle: Cycle, names: Sequence[str], loads: Sequence[str], bounds: Mapping[str, Ends]
 ) -> Iterator[Stage]:
     """Stages of a period from the first entry; loads with ``bounds`` are limited to them."""
     mechanism = cycle.mechanism
@@ -94,7 +93,7 @@ def _stages(
             own = cycle.moving(engagement, np.clip(x, *clear), loads, stretch)
             for name, row in zip(loads, own, strict=True):
                 known[name] = np.clip(row, *bounds.get(name, (None, None)))
-        return np.array([known[name] for name in (*moves, *loads)])
+        return np.array([known[name] for name in names])
 
     base = -mechanism.engagements[0].half_step  # the wheel's angle before the step
     for i, engagement in enumerate(mechanism.engagements):
@@ -115,7 +114,7 @@ def _stages(
             of = partial(curves, engagement, stretch, inside, (start, end), up)
             yield Stage(mid + stretch.start, mid + stretch.end, of)
         base += 2.0 * engagement.half_step
-        rest = [base * per_radian if n == column else 0.0 for n in (*moves, *loads)]
+        rest = [base * per_radian if n == column else 0.0 for n in names]
         yield from _dwell(mechanism, i, rest)
 
 

@@ -11,7 +11,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from functools import reduce
-from typing import NamedTuple
 
 import numpy as np
 
@@ -27,21 +26,15 @@ from geneva_cli.numerics.extremes import Smooth
 from geneva_cli.numerics.jet import Jet
 
 
-class ProductMotion(NamedTuple):
-    """What the products of m designs feel, (m,) each; NaN for what a design does not have."""
+def product_motion(mechanism: Mechanism) -> dict[str, Array]:
+    """What the products of m designs feel, (m,) each by its name; nothing without their place.
 
-    travel_mm: Array  # along the path in the longest step
-    speed_m_s: PeakArray
-    acceleration_m_s2: PeakArray  # along the path, and of a dial towards the axis
-    jerk_m_s3: PeakArray  # along the path
-    friction_needed: Array  # friction coefficient at which the product just does not slip
-
-
-def product_motion(mechanism: Mechanism) -> ProductMotion | None:
-    """The motion of the products of m designs; None if their place is not known."""
+    Speed and jerk are along the path, and the acceleration of a dial also towards the axis. At the
+    friction coefficient ``friction_needed`` the product just does not slip.
+    """
     spec, product, m = mechanism.spec, mechanism.spec.product, mechanism.designs
     if not product.lies:
-        return None
+        return {}
     radius_mm = product.radius_mm
     if radius_mm is None:
         assert product.sprocket_teeth is not None and product.pitch_mm is not None
@@ -63,17 +56,17 @@ def product_motion(mechanism: Mechanism) -> ProductMotion | None:
         velocity = PeakArray(np.maximum(most, 1.0), at_deg)
     both = along if product.runs_straight else _resultant(mechanism, ratio)
 
-    def scaled(peak: PeakArray, by: Array, more: Array | float = 0.0) -> PeakArray:
-        return PeakArray(np.broadcast_to(peak.max * by + more, m), peak.at_deg)
-
-    acceleration, none = scaled(both, scale * w, orbit * w), np.full(m, np.nan)
-    return ProductMotion(
-        r_mm * ratio * step,
-        scaled(velocity, scale, orbit),
-        acceleration,
-        scaled(jerk, scale * w * w),
-        acceleration.max / G if spec.support.axis == "vertical" else none,
-    )
+    out: dict[str, Array] = {"travel_mm": r_mm * ratio * step}
+    for name, peak, by, more in (
+        ("speed_m_s", velocity, scale, orbit),
+        ("acceleration_m_s2", both, scale * w, orbit * w),
+        ("jerk_m_s3", jerk, scale * w * w, 0.0),
+    ):
+        out[f"{name}.max"] = np.broadcast_to(peak.max * by + more, m)
+        out[f"{name}.at_deg"] = peak.at_deg
+    if spec.support.axis == "vertical":
+        out["friction_needed"] = out["acceleration_m_s2.max"] / G
+    return out
 
 
 def _resultant(mechanism: Mechanism, ratio: Array) -> PeakArray:

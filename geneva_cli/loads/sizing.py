@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Collection, Mapping, Sequence
-from functools import lru_cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -19,67 +17,39 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import motion_peaks
 from geneva_cli.motion.timing import CamFactors, cam_factors
 from geneva_cli.numerics.angles import DEGREE, omega, radians
-from geneva_cli.numerics.arrays import Array, Mask, Number, array, choose_record, parameter
+from geneva_cli.numerics.arrays import Array, Mask, Number, array, parameter
 from geneva_cli.numerics.jet import Jet
-
-if TYPE_CHECKING:
-    from geneva_cli.loads.cycle import Cycle
 
 # known without a load
 KNOWN_UNLOADED = ("inertia_kgm2", "motor_rpm", "acceleration_rad_s2", "Am", "Vm", "Qm")
 SUMS = ("energy_fluctuation_J", "flywheel_kgm2", "flywheel_to_add_kgm2", "motor_torque_rms_Nm")
 WHEEL_INERTIA = "wheel_inertia_kgm2"  # known from the parts, not from ``sizings``
-# In the order shown: the inertia at the wheel's shaft, and the wheel's own; the cam-indexer
-# formula, for the engagement with the greatest torque at the input; the exact cycle.
-SHOWN_SIZING = (
-    *("inertia_kgm2", WHEEL_INERTIA, "acceleration_rad_s2", "inertia_torque_Nm"),
-    *("friction_torque_Nm", "total_torque_Nm", "design_torque_Nm", "input_torque_Nm"),
-    *("power_W", "Am", "Vm", "Qm"),
-    *("energy_fluctuation_J", "flywheel_kgm2", "motor_rpm", "motor_torque_max_Nm"),
-    *("motor_torque_rms_Nm", "inertia_ratio", "flywheel_to_add_kgm2"),
-)
 # the keys without which a value is unknown
 NEEDS = {
     "inertia_kgm2": "inertia_kgm2 in [load], or a [[mass]]",
     "friction_torque_Nm": "friction and radius_mm in [support]",
     "flywheel_kgm2": "speed_variation in [motor], and an input torque with a bound",
     "inertia_ratio": "inertia_kgm2 in [motor]",
+    WHEEL_INERTIA: "a flat wheel that can be cut, and face_width_mm in [size]",
 }
-SIZING_NAMES = tuple(name for name in SHOWN_SIZING if name != WHEEL_INERTIA)
 
 
-@lru_cache(maxsize=16)
-def sizing(
-    cycle: Cycle, wheel_inertia_kgm2: float | None = None
-) -> tuple[Mapping[str, float | None], tuple[str, ...]]:
-    """The values of one design in the order shown, and the keys that missing values need."""
-    lacks = cycle.mechanism.output.lacks
-    torque = cycle.extremes["input_torque_Nm"] if cycle.is_loaded else None
-    rows = sizings(cycle.machine, SIZING_NAMES if torque else KNOWN_UNLOADED)
-    values = {name: float(row[0]) for name, row in rows.items() if name not in lacks}
-    out = {
-        name: x if math.isfinite(x := values.get(name, math.nan)) else None for name in SHOWN_SIZING
-    }
-    out[WHEEL_INERTIA] = wheel_inertia_kgm2
-    if torque is None:
-        return out, ()
+def sizing_needs(values: Mapping[str, float | None], lacks: Collection[str]) -> list[str]:
+    """The keys that the missing values of a loaded design need; ``lacks`` are those of no use."""
     needs = list[str]()
-    if math.isinf(torque.max) or math.isinf(torque.min):
+    if values["motor_torque_max_Nm"] is None:
         needs.append("sizing: nothing bounds the input's torque, so no motor or flywheel suffices")
-    for name, why in NEEDS.items():
-        if out[name] is None and name not in lacks:
-            needs.append(f"{name}: needs {why}")
-    if wheel_inertia_kgm2 is None:
-        why = "needs a flat wheel that can be cut, and face_width_mm in [size]"
-        needs.append(f"{WHEEL_INERTIA}: {why}")
-    return out, tuple(needs)
+    unknown = [name for name in NEEDS if values[name] is None and name not in lacks]
+    return needs + [f"{name}: needs {NEEDS[name]}" for name in unknown]
 
 
-def sizings(mechanism: Mechanism, requested: Collection[str] = SIZING_NAMES) -> dict[str, Array]:
-    """Values of ``SIZING_NAMES``, and perhaps more: (m,) or (1,); NaN if undefined."""
+def sizings(mechanism: Mechanism, requested: Collection[str]) -> dict[str, Array]:
+    """The ``requested`` values of ``sizing``, and perhaps more: (m,) or (1,); NaN if undefined."""
     whole, names = mechanism.under_load, set(requested)
     spec, case = whole.spec, load_case(whole)
     loaded, own = np.ravel(case.inertia_Nm + case.resists_Nm > 0.0), inertia_kgm2(spec)
+    if not spec.is_loaded:
+        names &= {*KNOWN_UNLOADED}
     values: dict[str, Number] = {
         "inertia_kgm2": _some(own),
         "motor_rpm": spec.drive.n_rpm * spec.motor.ratio,
@@ -101,6 +71,7 @@ def sizings(mechanism: Mechanism, requested: Collection[str] = SIZING_NAMES) -> 
     return {
         name: np.ravel(row) if name in KNOWN_UNLOADED else np.where(loaded, np.ravel(row), np.nan)
         for name, row in values.items()
+        if name not in whole.output.lacks
     }
 
 
@@ -115,16 +86,6 @@ def _peaks(engagement: Engagement, *names: str) -> list[float]:
     return [parameter(peaks[name].max[:, None]) for name in names]
 
 
-class IndexerFormula(NamedTuple):
-    """The lines of the formula: rad/s², N m at the wheel, and Tc at the input."""
-
-    alpha: float
-    Ti: float
-    Tt: float
-    Te: float
-    Tc: float
-
-
 def indexer_formula(
     factors: CamFactors,
     step_deg: float,
@@ -132,48 +93,50 @@ def indexer_formula(
     n_rpm: float,
     load: tuple[float, float, float],
     service_factor: float,
-) -> IndexerFormula:
+) -> dict[str, float]:
     """The formula of cam-indexer makers for a wheel's step in an input angle at a speed.
 
     It assumes the greatest torque on the wheel during the whole motion, and the curve's factor Qm.
-    ``load`` are the inertia, kg m², and the torques of friction and work, N m.
+    ``load`` are the inertia, kg m², and the torques of friction and work, N m. The design torque
+    counts the service factor, and so does the torque at the input.
     """
     t2, (inertia, friction, work) = motion_deg / (6.0 * n_rpm), load
     alpha = factors.Am * radians(step_deg) / (t2 * t2)
-    Ti = inertia * alpha
-    Tt = Ti + friction + work
-    Te = service_factor * Tt
-    return IndexerFormula(alpha, Ti, Tt, Te, step_deg / motion_deg * factors.Qm * Te)
+    total = inertia * alpha + friction + work
+    design = service_factor * total
+    return {
+        "acceleration_rad_s2": alpha,
+        "inertia_torque_Nm": inertia * alpha,
+        "total_torque_Nm": total,
+        "design_torque_Nm": design,
+        "input_torque_Nm": step_deg / motion_deg * factors.Qm * design,
+    }
 
 
 def _by_formula(mechanism: Mechanism) -> dict[str, Number]:
     """The cam-indexer formula, for the engagement with the greatest torque at the input."""
     spec, fc = mechanism.spec, mechanism.spec.motor.service_factor
     work, friction = resisting_torques_Nm(spec)
-    load = inertia_kgm2(spec), friction, work
-    each: list[tuple[IndexerFormula, CamFactors]] = []
+    load, each = (inertia_kgm2(spec), friction, work), list[dict[str, float]]()
     for number, engagement in enumerate(mechanism.engagements):
-        step, motion = mechanism.spec.wheel.index_deg(number), engagement.motion_deg
+        step, motion = spec.wheel.index_deg(number), engagement.motion_deg
         velocity, acceleration, power = _peaks(engagement, "velocity", "acceleration", "power")
         factors = cam_factors(velocity, acceleration, power, motion, step)
-        line = indexer_formula(factors, step, motion, spec.drive.n_rpm, load, fc)
+        row = factors._asdict() | indexer_formula(factors, step, motion, spec.drive.n_rpm, load, fc)
         # a carrier also turns the wheel's frame, whose torque need not be greatest there
-        line = line._replace(Tc=line.Tc + abs(mechanism.frame) * fc * line.Ti)
-        each.append((line, factors))
-    line, factors = best = each[0]
-    for other in each[1:]:
-        more = (other[0].Tc > line.Tc) | ((other[0].Tc == line.Tc) & (other[0].alpha > line.alpha))
-        line, factors = best = choose_record(more, other, best)
+        frame_Nm = abs(mechanism.frame) * fc * row["inertia_torque_Nm"]
+        each.append(row | {"input_torque_Nm": row["input_torque_Nm"] + frame_Nm})
+    best: dict[str, Number] = {**each[0]}
+    for row in each[1:]:
+        torque, most = (one["input_torque_Nm"] for one in (row, best))
+        faster = row["acceleration_rad_s2"] > best["acceleration_rad_s2"]
+        more = (torque > most) | ((torque == most) & faster)
+        best = {name: np.where(more, row[name], best[name]) for name in row}
     losses = spec.load.efficiency * spec.motor.gear_efficiency
-    return {
-        "acceleration_rad_s2": line.alpha,
-        **factors._asdict(),
-        "inertia_torque_Nm": _some(line.Ti),
+    return best | {
+        "inertia_torque_Nm": _some(best["inertia_torque_Nm"]),
         "friction_torque_Nm": _some(friction),
-        "total_torque_Nm": line.Tt,
-        "design_torque_Nm": line.Te,
-        "input_torque_Nm": line.Tc,
-        "power_W": omega(spec.drive.n_rpm) * line.Tc / losses,
+        "power_W": omega(spec.drive.n_rpm) * best["input_torque_Nm"] / losses,
     }
 
 

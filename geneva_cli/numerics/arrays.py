@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_left
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from operator import itemgetter, methodcaller
 from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Protocol, Self, TypeAlias, TypeVar, cast
 
@@ -305,12 +305,6 @@ def read_only(*arrays: Array) -> tuple[Array, ...]:
     for one in arrays:
         one.flags.writeable = False
     return arrays
-
-
-def only_of(rows: Iterable[Number | None]) -> list[float | None]:
-    """The results of a single design from arrays (1,): None for None and NaN."""
-    numbers = [None if row is None else array(row).item() for row in rows]
-    return [None if x is None or math.isnan(x) else x for x in numbers]
 
 
 def larger(a: N, b: N) -> N:

@@ -22,7 +22,7 @@ from geneva_cli.drawings import parts_list
 from geneva_cli.drawings.catalogue import PARTS
 from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.loads import cycle_figures, load_tables
-from geneva_cli.loads.sizing import SHOWN_SIZING
+from geneva_cli.loads.sizing import WHEEL_INERTIA
 from geneva_cli.loads.vibration import vibration
 from geneva_cli.manual import TOPICS
 from geneva_cli.manual.explained import Entry, entries
@@ -110,7 +110,7 @@ def quantities() -> set[str]:
         f"{q}.{s}" for q in load_tables.SHOWN_QUANTITIES for s in load_tables.LoadSummary._fields
     }
     out |= {f"loads.{name}" for name in of_loads} | {"loads.reversals_deg"}
-    out |= {f"sizing.{name}" for name in SHOWN_SIZING}
+    out |= {f"sizing.{WHEEL_INERTIA}", *(n for n in groups.GROUP_OF if n.startswith("sizing."))}
     out |= {f"vibration.avoid.{name}" for name in vibration.AVOID_COLUMNS}
     out |= {f"vibration.{name}" for name in (*vibration.NAMES, "avoid")}
     out |= {

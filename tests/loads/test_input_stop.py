@@ -16,7 +16,6 @@ from geneva_cli import (
     Size,
 )
 from geneva_cli.errors import GenevaError
-from geneva_cli.loads.sizing import sizing
 from geneva_cli.study.fields import values
 from geneva_cli.verdict.quantities.groups import REPORT
 
@@ -53,7 +52,7 @@ def test_means_and_heat_by_quadrature() -> None:
     assert loads["input_torque_Nm"].rms == pytest.approx(rms, rel=1e-11)
     # a cycle does the work of the torque over the step
     assert loads["power_W"].mean == pytest.approx(15.0 * math.pi / 3.0 / 1.8, rel=1e-12)
-    heat = sizing(design.cycle)[0]["motor_torque_rms_Nm"]
+    heat = design.strength["sizing.motor_torque_rms_Nm"]
     assert heat == pytest.approx(rms / 20.0, rel=1e-11)
 
 

@@ -65,8 +65,8 @@ def as_built(mechanism: Mechanism) -> list[Check]:
 
 def _struck(name: str, mechanism: Mechanism, struck: Struck) -> Check:
     """The check of an impact's velocity, over the input's, without its reason."""
-    limit = entry_velocity_limit(mechanism)
-    return compared(name, abs(struck.impact.jump), "at most", limit, struck.impact.at_deg)
+    limit, (at_deg, jump, *_) = entry_velocity_limit(mechanism), struck.impact
+    return compared(name, abs(jump).item(), "at most", limit, at_deg.item())
 
 
 def warnings(mechanism: Mechanism) -> list[Notice]:

@@ -20,6 +20,7 @@ from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.jet import Jet, composed
 from geneva_cli.parts.turn.lazy_turn import LazyTurn, Push
 from geneva_cli.table import Table, record_table
+from geneva_cli.verdict.quantities.groups import only
 
 FINE = 33  # places about a peak, in each round of the search
 ROUNDS = 6
@@ -131,7 +132,7 @@ def peaks(mechanism: Mechanism) -> Table:
     values["stations"] = None
     struck = struck_by(mechanism, result)
     names = ("jump", "at_deg", "force_N", "moment_Nms")
-    values |= {f"impact.{name}": struck and getattr(struck.impact, name) for name in names}
+    values |= {f"impact.{name}": struck and only(getattr(struck.impact, name)) for name in names}
     return record_table(values)
 
 

@@ -9,13 +9,14 @@ import numpy as np
 
 from geneva_cli.extras.outline.contact import Contact, contacts
 from geneva_cli.extras.outline.machine import DrawnMachine, crank_jet, drawn_machine
-from geneva_cli.loads.impacts.shock_force import Impact, impulse_Nms, with_force
+from geneva_cli.loads.impacts.shock_force import Impacts, impulse_Nms, with_force
 from geneva_cli.loads.strength.pin_arm_key import PinSize, pin_diameter_mm
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.parts.machine_sizes import built
 from geneva_cli.parts.turn.free_ranges import Range
 from geneva_cli.parts.turn.lazy_turn import STEPS, Jam, LazyTurn, Push, Turner
+from geneva_cli.verdict.quantities.groups import only
 
 SETTLED = 1e-9  # radians: the wheel rests where it rested a turn before
 FEW_TRIALS, TRIALS = 2, 8  # places of rest that are tried over the free range
@@ -182,14 +183,14 @@ def least_slack_mm(result: Turned) -> float | None:
 class Struck(NamedTuple):
     """An impact, and the angles of crank and wheel at it, radians."""
 
-    impact: Impact[float]
+    impact: Impacts
     crank: float
     wheel: float
 
     @property
     def text(self) -> str:
         """The force in words, or the impulse of what is no roller; empty without an inertia."""
-        _, _, force_N, moment_Nms, _ = self.impact
+        force_N, moment_Nms = only(self.impact.force_N), only(self.impact.moment_Nms)
         if force_N is not None:
             return f"; the roller strikes it with {force_N:.4g} N"
         if moment_Nms is not None:
@@ -228,6 +229,4 @@ def struck_by(mechanism: Mechanism, result: Turned) -> Struck | None:
         if width and touching.is_known[0] and off < SAME * radius + machine.free.slack:
             pin = PinSize(sizes.pin_mm or pin_diameter_mm(mechanism), width)
     shown = np.array([[place.shown_deg(crank_deg)], [jump]])
-    impact = with_force(mechanism, shown, pin).only
-    assert impact is not None  # the jump is a number
-    return Struck(impact, push.begin, push.begin_wheel)
+    return Struck(with_force(mechanism, shown, pin), push.begin, push.begin_wheel)

@@ -7,7 +7,6 @@ angles in degrees from the engagement's own mid-motion.
 
 import math
 from functools import reduce
-from typing import cast
 
 import numpy as np
 
@@ -154,7 +153,7 @@ def reversal_impacts(mechanism: Mechanism, pin: PinSize | None = None) -> Impact
     if case.hertz is None:
         return hit
     with np.errstate(divide="ignore"):  # a wall as sharp as the roller
-        square = cast("Array", hit.force_N) * np.ravel(case.hertz) / np.maximum(edge, 0.0)
+        square = hit.force_N * np.ravel(case.hertz) / np.maximum(edge, 0.0)
     return hit._replace(contact_stress_MPa=np.sqrt(square))
 
 

@@ -10,7 +10,7 @@ proportional to the 0.9th power of the materials' softness.
 from __future__ import annotations
 
 import math
-from typing import Generic, NamedTuple, TypeAlias, TypeVar
+from typing import NamedTuple
 
 import numpy as np
 
@@ -19,7 +19,7 @@ from geneva_cli.loads.strength.pin_arm_key import PinSize, stiffness_N_mm
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import omega
-from geneva_cli.numerics.arrays import Array, N, Number, Whole, only_of, parameter, size
+from geneva_cli.numerics.arrays import Array, N, Number, Whole, parameter, size
 from geneva_cli.numerics.roots import find_roots
 from geneva_cli.spec.defaults import roller_material, wheel_material
 from geneva_cli.spec.workshops import Stock
@@ -27,29 +27,17 @@ from geneva_cli.spec.workshops import Stock
 POWER, WIDTH = 0.9, 0.8
 
 
-S = TypeVar("S", float, Array)  # of one design, of a batch
+class Impacts(NamedTuple):
+    """Jumps of the wheel's velocity over the input's, and what they cause.
 
-
-class Impact(NamedTuple, Generic[S]):
-    """A jump of the wheel's velocity over the input's, and what it causes.
-
-    Of m designs (m,) each; NaN if there is none, or if it is not known. Of one design None.
+    Of m designs (m,) each; NaN if there is none, or if it is not known.
     """
 
-    at_deg: S
-    jump: S
-    force_N: S | None
-    moment_Nms: S | None
-    contact_stress_MPa: S | None
-
-    @property
-    def only(self) -> Impact[float] | None:
-        """Impact of a single design, or None."""
-        at_deg, jump, *force = only_of(self)
-        return None if at_deg is None or jump is None else Impact(at_deg, jump, *force)
-
-
-Impacts: TypeAlias = Impact[Array]
+    at_deg: Array
+    jump: Array
+    force_N: Array
+    moment_Nms: Array
+    contact_stress_MPa: Array
 
 
 def shown(mechanism: Mechanism, engagement: Engagement, at_deg: Array, *others: Array) -> Array:

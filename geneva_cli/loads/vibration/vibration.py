@@ -21,7 +21,7 @@ from geneva_cli.motion.motion_table import check_samples
 from geneva_cli.motion.peak_search import motion_peaks
 from geneva_cli.motion.timing import timings
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Array, Complex, Whole, array, library, parameter
+from geneva_cli.numerics.arrays import Array, Complex, Whole, array, parameter, value_or
 from geneva_cli.spec.rules import Range
 from geneva_cli.table import Table, computed_table, rows_table
 
@@ -47,38 +47,39 @@ def oscillator(
 
     Raises GenevaError without a stiffness or an inertia, and for values out of range.
     """
-    shaft, spec = mechanism.spec.shaft, mechanism.spec
     if damping is not None and damping not in DAMPING:
         raise GenevaError(f"--damping {damping:g}: must be {DAMPING}: at 1 nothing oscillates")
-    key = STIFFNESS if period_ratio is None else ()
+    key, own = STIFFNESS if period_ratio is None else (), _on_shafts(mechanism)
     if period_ratio is None:
-        inertia = inertia_kgm2(spec)
         needed = "--period-ratio, the motion's time over the load's natural period"
         if not mechanism.output.turns:
             noun = mechanism.output.noun
             raise GenevaError(f"a {noun} has no shaft: use {needed}", ("wheel", "gearing"))
-        if shaft.stiffness_Nm_rad is None or not inertia:
+        if not np.isfinite(own.ratio[0]):
             raise GenevaError(
                 "no natural period: set stiffness_Nm_rad in [shaft], between wheel and load, and "
                 f"inertia_kgm2 in [load] or a [[mass]], or use {needed}",
                 key,
             )
-        period_ratio = _period_ratio(mechanism, shaft.stiffness_Nm_rad, inertia)
-    if period_ratio not in PERIOD_RATIO:
+    ratio = own.ratio if period_ratio is None else np.array([period_ratio], dtype=float)
+    if ratio[0] not in PERIOD_RATIO:
         raise GenevaError(
-            f"a period ratio (motion time / natural period) of {period_ratio:.4g}: must be "
+            f"a period ratio (motion time / natural period) of {ratio[0]:.4g}: must be "
             f"{PERIOD_RATIO.low:g} to {PERIOD_RATIO.high:g}",
             key,
         )
-    zeta = shaft.damping_ratio if damping is None else damping
-    return Oscillator(np.array([period_ratio]), np.array([zeta]))
+    return Oscillator(ratio, own.damping if damping is None else np.array([damping]))
 
 
-def _period_ratio(mechanism: Mechanism, stiffness_Nm_rad: float, inertia_kgm2: float) -> float:
-    """Time of the first motion over the load's natural period; (m, 1) for m designs."""
-    squared = stiffness_Nm_rad / inertia_kgm2
-    natural_hz = library(squared).sqrt(squared) / (2.0 * math.pi)
-    return timings(mechanism)[0].motion_s * natural_hz
+def _on_shafts(mechanism: Mechanism) -> Oscillator:
+    """The loads of m designs: the ratio is not finite without stiffness or inertia."""
+    spec, m = mechanism.spec, mechanism.designs
+    stiffness, inertia = value_or(spec.shaft.stiffness_Nm_rad, np.nan), array(inertia_kgm2(spec))
+    with np.errstate(all="ignore"):
+        natural_hz = parameter(np.sqrt(stiffness / inertia) / (2.0 * math.pi))
+        ratio = timings(mechanism)[0].motion_s * natural_hz
+    each = (np.broadcast_to(np.ravel(x), m) for x in (ratio, spec.shaft.damping_ratio))
+    return Oscillator(*each)
 
 
 class Oscillators:
@@ -120,50 +121,31 @@ def vibrations(
 
     The dynamic factor takes time: it is NaN unless ``requested``.
     """
-    windup = swung = 0.0 * own.swing.ratio
+    windup, has_factor = 0.0 * own.swing.ratio, "dynamic_factor" in requested
+    swung = windup if has_factor else windup + np.nan
     # I alpha / k at the greatest acceleration of the wheel, and of the load during the motion
     for i, engagement in enumerate(own.mechanism.engagements):
         most = motion_peaks(engagement.motion, ["acceleration"])["acceleration"].max
         whole = np.ravel(engagement.motion_deg * DEGREE)
-        unit = np.ravel(2.0 * engagement.half_step)
-        windup = np.maximum(windup, most * whole * whole / unit * own.bent_deg[i])
-        if "dynamic_factor" in requested:
+        windup = np.maximum(windup, most * whole * whole / own.steps[i] * own.bent_deg[i])
+        if has_factor:
             swing = Oscillator(own.ratio[i], own.swing.damping)
             most = swings.greatest_accelerations(own.panels[i], own.motion, swing)
             swung = np.maximum(swung, most * own.bent_deg[i])
-    rows = (
-        own.swing.ratio,
-        own.swing.damping,
-        own.swing.ratio / np.ravel(timings(own.mechanism)[0].motion_s),
-        own.share.max(axis=0),
-        own.residual_deg.max(axis=0),
-        swung / windup if "dynamic_factor" in requested else np.full(len(windup), np.nan),
-        windup,
-    )
+    motion_s = np.ravel(timings(own.mechanism)[0].motion_s)
+    residuals = own.share.max(axis=0), own.residual_deg.max(axis=0)
+    rows = (*own.swing, own.swing.ratio / motion_s, *residuals, swung / windup, windup)
     return dict(zip(NAMES, rows, strict=True))
 
 
-def design_vibrations(
-    mechanism: Mechanism, requested: Collection[str] = ("dynamic_factor",)
-) -> dict[str, Array] | None:
-    """The ``NAMES`` of m designs; None without ``stiffness_Nm_rad``.
-
-    They are NaN for a design whose period ratio is out of range.
-    """
-    stiffness = mechanism.spec.shaft.stiffness_Nm_rad
-    if stiffness is None:
-        return None
-    with np.errstate(all="ignore"):
-        # an array, as a float's quotient by 0 is an error
-        inertia = parameter(array(inertia_kgm2(mechanism.spec)))
-        periods = _period_ratio(mechanism, stiffness, inertia)
-    damping = mechanism.spec.shaft.damping_ratio
-    ratio, zeta = (np.broadcast_to(np.ravel(x), mechanism.designs) for x in (periods, damping))
-    known = np.flatnonzero(np.isfinite(ratio) & PERIOD_RATIO.holds(ratio))
-    out = np.full((len(NAMES), len(ratio)), np.nan)
+def design_vibrations(mechanism: Mechanism, requested: Collection[str]) -> dict[str, Array]:
+    """The ``NAMES`` of m designs: NaN for one whose period ratio is unknown or out of range."""
+    on_shafts = _on_shafts(mechanism)
+    known = np.flatnonzero(PERIOD_RATIO.holds(on_shafts.ratio))
+    out = np.full((len(NAMES), mechanism.designs), np.nan)
     for i in range(0, len(known), 128):  # designs at a time, whose panels take some 100 MB
         part = known[i : i + 128]
-        own = Oscillators(taken(mechanism, part), Oscillator(ratio[part], zeta[part]))
+        own = Oscillators(taken(mechanism, part), on_shafts.of(part))
         out[:, part] = list(vibrations(own, requested).values())
     return dict(zip(NAMES, out, strict=True))
 

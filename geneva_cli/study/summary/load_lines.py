@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import Any
 
 from geneva_cli.answer import WARNS, Answer, Summary, SummaryLine, value_text
 from geneva_cli.design import Design
@@ -55,7 +54,7 @@ def load_lines(design: Design) -> Iterator[SummaryLine]:
 
 def flywheel_line(design: Design) -> Iterator[SummaryLine]:
     """The line of the flywheel, if the spec allows the input's speed to vary."""
-    sizing = _sizing(design)
+    sizing = design.strength.table("sizing")
     whole, add = sizing["flywheel_kgm2"], sizing["flywheel_to_add_kgm2"]
     if whole is not None:
         variation = value_text(100.0 * (design.spec.motor.speed_variation or 0.0), "%")
@@ -114,14 +113,9 @@ def _greatest(loads: Mapping[str, LoadSummary[float | None]], name: str) -> str:
     return f"{value_text(known[0], unit_of(name) or '')}{where}"
 
 
-def _sizing(design: Design) -> dict[str, Any]:
-    values = design.loads_table.to_dict()
-    return {n.removeprefix("sizing."): v for n, v in values.items() if n.startswith("sizing.")}
-
-
 def motor_line(design: Design) -> SummaryLine:
     """The recommended motor, and its reason."""
-    motor = recommended_motor(_sizing(design))
+    motor = recommended_motor(design.strength.table("sizing"))
     if motor is None:
         return SummaryLine("motor", "none suffices: nothing bounds the input's torque", "", WARNS)
     keys = design.spec.motor
@@ -151,7 +145,7 @@ def motor_line(design: Design) -> SummaryLine:
 
 def _powers(design: Design) -> Iterator[SummaryLine]:
     """The powers of a machine in descending order, each with its definition."""
-    motor = recommended_motor(_sizing(design))
+    motor = recommended_motor(design.strength.table("sizing"))
     power = design.loads["power_W"]
     (inertia,) = pick(["loads.kinetic_power_W"]).of(design.mechanism)
     assert inertia is None or isinstance(inertia, float)

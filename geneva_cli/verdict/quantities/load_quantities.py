@@ -52,15 +52,9 @@ def summaries(of: Designs) -> Columns:
 
 def sizing(of: Designs) -> Columns:
     """Motor, flywheel and the cam-indexer formula."""
-    from geneva_cli.loads.sizing import KNOWN_UNLOADED, sizings
+    from geneva_cli.loads.sizing import sizings
 
-    names = of.requested("sizing")
-    names &= names if of.spec.is_loaded else {*KNOWN_UNLOADED}
-    return {
-        name: row * (1.0 if name in KNOWN_UNLOADED else of.loaded)
-        for name, row in sizings(of.machine, names).items()
-        if name not in of.machine.output.lacks
-    }
+    return sizings(of.machine, of.requested("sizing"))
 
 
 def slot(of: Designs) -> Columns:
@@ -79,7 +73,7 @@ def vibration(of: Designs) -> Columns:
     """The vibration of a load on its elastic shaft."""
     from geneva_cli.loads.vibration.vibration import design_vibrations
 
-    return design_vibrations(of.machine, of.requested("vibration")) or {}
+    return design_vibrations(of.machine, of.requested("vibration"))
 
 
 def entry(of: Designs) -> Columns:

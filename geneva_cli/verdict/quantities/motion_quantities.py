@@ -145,11 +145,4 @@ def index_gained(of: Designs) -> Columns:
 
 def product(of: Designs) -> Columns:
     """The product's motion; none without its place."""
-    out: dict[str, Number | None] = {}
-    motion = product_motion(of.machine)
-    for name, value in motion._asdict().items() if motion else ():
-        if isinstance(value, tuple):
-            out[f"{name}.max"], out[f"{name}.at_deg"] = value
-        else:
-            out[name] = value
-    return out
+    return product_motion(of.machine)
