@@ -18,7 +18,7 @@ from geneva_cli.motion.wheels.classic import HalfStep, PinTravel, middle, refuse
 from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import larger, parameter
-from geneva_cli.numerics.jet import Array, Displacement, rotation
+from geneva_cli.numerics.jet import Displacement, rotation
 
 if TYPE_CHECKING:
     from geneva_cli.drives.pushed import PushedCrank
@@ -49,9 +49,6 @@ class Transmission(Drive, kw_only=True):
     def crank(self) -> Drive:
         plain, angles = registry.drive("crank"), self.roller_angles_deg
         return plain(n_rpm=self.n_rpm, rollers=self.rollers, roller_angles_deg=angles)
-
-    def crank_rate(self, crank_deg: Array) -> Array | float:
-        return self.about(parameter(crank_deg))[1](0.0, 1)[0].c[1]
 
     def input_deg(self, crank_deg: float) -> float:
         whole = 360.0 / self.turns  # angle of the crank in which the transmission repeats

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from abc import abstractmethod
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self
 
@@ -121,10 +120,6 @@ class Drive(SpecTable, kw_only=True):
         ``L`` is the second wheel's centre distance.
         """
         return None
-
-    def crank_rate(self, crank_deg: Array) -> Array | float:
-        """Rate of the crank over its input shaft's at crank angles; NaN for a path of its own."""
-        return math.nan
 
     def input_deg(self, crank_deg: float) -> float:
         """Input angle from mid-motion at a crank angle from mid-motion, degrees."""
