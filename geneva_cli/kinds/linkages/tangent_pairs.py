@@ -56,20 +56,18 @@ def complex_of(x: Jet, y: Jet) -> Complex:
 def points(path: LinkPath, direction: Complex, order: int = 2) -> Complex:
     """Position, velocity and acceleration (order + 1, ...) for unit vectors of the crank."""
     a, *_, p, q = path.numbers
-    (along, sine), (b, bend, x, y) = path.pose(direction), path.guide
-    pin, arm = direction * a, along * (p + 1j * q)
+    if order:
+        along, pin, (ahead, _, side, rate, fall) = path.turn(direction)
+    else:
+        (along, _), pin = path.pose(direction), a * direction
+    arm = along * (p + 1j * q)
     out = np.empty((order + 1, *arm.shape), dtype=complex)
     out[0] = pin + arm
     if order:
-        # the velocity of B, i (A + rate b e), is across its path's normal
-        ahead, lever = along.conj() * pin * bend, b * sine
-        rate = (y * pin.real - x * pin.imag + b * ahead.imag) / lever
         out[1] = 1j * (pin + rate * arm)
     if order > 1:
-        level, of_link = ahead.real, x * along.real + y * along.imag
-        change = x * pin.real + y * pin.imag - b * level
-        change += b * rate * (rate * (of_link - level) + 2.0 * level)
-        out[2] = (-1j * (change / lever) - rate * rate) * arm - pin
+        change = fall + rate * (rate * side + 2.0 * ahead)
+        out[2] = (-1j * change - rate * rate) * arm - pin
     return out
 
 
