@@ -194,8 +194,8 @@ def as_command(name: str, run: Any) -> Any:
 def _infos(params: Sequence[Parameter], lists: Sequence[str]) -> list[Parameter]:
     """Parameters as Typer knows them, from the lists of a command's own arguments and options.
 
-    An entry belongs to the parameter of its name; one without such a parameter to the next that is
-    neither listed nor shared.
+    An entry belongs to the parameter of its name. That of an argument without a name, as [KIND],
+    belongs to the one parameter that is neither listed nor shared.
     """
     each, own, infos = dict[str, tuple[str, ...]](), dict[Parameter, tuple[str, ...]](), []
     for one in lists:

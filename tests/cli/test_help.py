@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 from geneva_cli.cli.app import COMMANDS, GROUPS, app
 from geneva_cli.cli.command import as_command
 from geneva_cli.manual import GROUPS as PAGES
-from geneva_cli.output import CAMS, DOCUMENTS, DRAWN, FORMATS
+from geneva_cli.output import CAMS, CONTROLLERS, DOCUMENTS, DRAWN, FORMATS
 
 EXAMPLES = [
     (name, example)
@@ -66,6 +66,7 @@ def test_the_page_of_all_commands_needs_no_click(monkeypatch):
     [
         ("keys", FORMATS),
         ("motion", (*FORMATS, *CAMS)),
+        ("motion", CONTROLLERS),
         ("profile", (*FORMATS, *DRAWN, "pdf")),
         ("report", {**FORMATS, **DOCUMENTS}),
     ],

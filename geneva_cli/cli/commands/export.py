@@ -7,7 +7,7 @@ from geneva_cli.errors import GenevaError, below
 
 
 def run(
-    design: command.Design, output: str = "", trade: str | None = None, force: bool = False
+    design: command.Design, output: str = "", for_: str | None = None, force: bool = False
 ) -> None:
     """Write every file that a shop needs into a folder, and list them.
 
@@ -33,7 +33,7 @@ def run(
     from geneva_cli.study.export import export_files, shop_warnings, trade_of
     from geneva_cli.table import rows_table
 
-    needed = trade_of(trade)
+    needed = trade_of(for_)
     if not output:
         raise GenevaError("the files need a folder: give -o FOLDER")
     if design.spec.is_turned:
@@ -52,9 +52,9 @@ def run(
         text = "no file of this design now, but somebody changed it: it stays"
         command.tell(f"{below(output, name)}: warning: {text}")
     process = design.spec.size.process
-    if trade and process != trade:
+    if for_ and process != for_:
         command.tell(
             f"{path}: warning: size.process is {process or 'not set'}, so clearances are not "
-            f"those of {trade}; --set size.process={trade} sets them"
+            f"those of {for_}; --set size.process={for_} sets them"
         )
     command.say(path, shop_warnings(design))

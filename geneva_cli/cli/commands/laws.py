@@ -1,7 +1,7 @@
 """``geneva laws``."""
 
 
-def run(shape: float = 0.0, output: str = "-", format: str = "") -> None:
+def run(lambda_: float = 0.0, output: str = "-", format: str = "") -> None:
     """List the motion laws and their characteristic values.
 
     These are the greatest ds/du, d2s/du2 and d3s/du3, and the greatest product of the first two
@@ -17,4 +17,4 @@ def run(shape: float = 0.0, output: str = "-", format: str = "") -> None:
     from geneva_cli.output import show
     from geneva_cli.study.law_values import laws_table
 
-    show(laws_table(shape), output, format)
+    show(laws_table(lambda_), output, format)

@@ -12,7 +12,7 @@ def run(
     samples: int | None = None,
     at: str = "",
     turns: int | None = None,
-    controller: str | None = None,
+    for_: str | None = None,
     tolerance: float | None = None,
     output: str = "-",
     format: str = "",
@@ -47,7 +47,7 @@ def run(
 
     files = design.spec.files
     if format not in CAMS:
-        if controller is not None or tolerance is not None:
+        if for_ is not None or tolerance is not None:
             raise GenevaError("--for and --tolerance are for electronic cams: --format cam")
         angles = None
         if at:
@@ -65,9 +65,9 @@ def run(
     if samples is not None or at:
         given = "--at" if at else "--samples"
         raise GenevaError(f"{given}: a cam has the points that its --tolerance needs")
-    controller = controller or CONTROLLERS[0]
+    for_ = for_ or CONTROLLERS[0]
     content, rows, error_deg = load_extra("servo", "cam")(
-        design, controller, turns, 1e-4 if tolerance is None else tolerance
+        design, for_, turns, 1e-4 if tolerance is None else tolerance
     )
     if isinstance(content, str):
         show_text(content, output, files)
