@@ -13,7 +13,17 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.numerics.arrays import Array, Mask, Which, Whole, blocks, joined, record_taken
-from geneva_cli.numerics.cuts import BLOCK, GRID, POINTS, Cutter, at, on_grid, remainder, series
+from geneva_cli.numerics.cuts import (
+    BLOCK,
+    GRID,
+    LATER_TERMS,
+    POINTS,
+    Cutter,
+    at,
+    on_grid,
+    remainder,
+    series,
+)
 from geneva_cli.numerics.tolerances import TIE
 
 if TYPE_CHECKING:
@@ -23,7 +33,7 @@ if TYPE_CHECKING:
 Spans: TypeAlias = Sequence[tuple[Array, Array]]  # both ends (n, 1) of each
 Known: TypeAlias = tuple[int, Array, Array]  # a function's number, places and values
 GROUP = 1 << 15  # functions of designs that are searched together
-UNFINISHED = 16.0  # times the last terms: the error of a series that has not ended
+UNFINISHED = 4.0 * LATER_TERMS  # times the last terms: the error of a series that has not ended
 PRECISE = 1e-5  # fraction of a size: the allowed error of a series near an extreme
 
 
@@ -180,7 +190,8 @@ class _Extremes:
         rows = place[side, number, of], top[side, number, of]
         self.known.append((side, number, design[of], *rows))
         if self.cutter.depth < 4:  # rows that were halved more often lie near a pole
-            inner = np.abs(value[:, 4:13:4]).max(axis=1)  # of 17 points
+            step = len(POINTS) // 4
+            inner = np.abs(value[:, step:-step:step]).max(axis=1)
             _raise(self.size, (numbers[0], design), np.where(np.isfinite(inner), inner, 0.0))
 
     def judge(self, pieces: Pieces) -> None:

@@ -1,13 +1,13 @@
 """Specs to start from: commented ones with the keys that the reader knows, and whole designs."""
 
 import os
-from glob import glob
 from typing import Any
 
 import tomli
 
 from geneva_cli.drives.crank import Crank
 from geneva_cli.errors import GenevaError, cut, few, nearest
+from geneva_cli.kinds import FOLDERS
 from geneva_cli.motion import registry
 from geneva_cli.motion.machine_spec import BEFORE
 from geneva_cli.motion.wheels.external import External
@@ -21,10 +21,11 @@ from geneva_cli.specfile.writer import keys_of, noted, quoted
 def _examples() -> dict[str, dict[str, Any]]:
     """Specs with the keys that they set, by kind; of some the ``design`` that is one."""
     package, out = os.path.dirname(os.path.dirname(os.path.abspath(__file__))), dict[str, Any]()
-    of_kinds = sorted(glob(os.path.join(package, "kinds", "*", "examples.toml")))
-    for path in (os.path.join(package, "specfile", "examples.toml"), *of_kinds):
-        with open(path, encoding="utf-8") as file:
-            out |= tomli.loads(file.read())
+    for folder in ("specfile", *(os.path.join("kinds", name) for name in FOLDERS)):
+        path = os.path.join(package, folder, "examples.toml")
+        if os.path.exists(path):
+            with open(path, encoding="utf-8") as file:
+                out |= tomli.loads(file.read())
     return out
 
 

@@ -21,8 +21,9 @@ NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 GAP = r"[\s,]*"
 # the numbers of each letter of a path; the flags of an arc may stand without a space between them
 COUNTS = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "S": 4, "Q": 4, "T": 2, "A": 7, "Z": 0}
-FORMS = {letter: [f"({NUMBER})"] * count for letter, count in COUNTS.items()}
-FORMS["A"][3:5] = ["([01])"] * 2
+_forms = {letter: [f"({NUMBER})"] * count for letter, count in COUNTS.items()}
+_forms["A"][3:5] = ["([01])"] * 2
+FORMS = {letter: re.compile(GAP.join(["", *form, ""])) for letter, form in _forms.items()}
 
 
 def read_svg(data: bytes) -> Drawn:
@@ -182,11 +183,11 @@ def _commands(data: str) -> Iterator[tuple[str, list[float]]]:
         if form is None:
             shown = cut(text[place - 1 : place + 20], 20)
             raise GenevaError(f'a path has "{shown}": unknown letter')
-        numbers = re.compile(GAP.join(["", *form, ""])).match(text, place)
+        numbers = form.match(text, place)
         if not numbers:
             raise GenevaError(
                 f'a path breaks off at "{cut(text[place : place + 20], 20)}", where {letter} '
-                f"needs {len(form)} numbers"
+                f"needs {form.groups} numbers"
             )
         yield letter, [*map(float, numbers.groups())]
         place = numbers.end()

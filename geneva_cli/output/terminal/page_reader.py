@@ -16,7 +16,6 @@ from geneva_cli.output.terminal.layout import ShownColumn, Window
 
 INDENT = "  "  # before code
 PROSE = 20  # letters to which a column of prose is narrowed before a table becomes a list
-MOST = 100  # letters of a line of prose; longer ones are hard to read
 LINK = re.compile(r"\[([^]]+)\]\([^)]*\)")
 BOLD = re.compile(r"markdown\.(h\d|code|strong)")
 LOOK = Theme({name: "bold" if BOLD.fullmatch(name) else "none" for name in DEFAULT_STYLES})
@@ -75,7 +74,7 @@ def chunks(text: str, window: Window) -> Iterator[str]:
     shown = io.StringIO()
     screen = Console(
         file=shown,
-        width=min(window.columns, MOST),
+        width=min(window.columns, layout.READABLE),
         force_terminal=window.styled,
         color_system="standard" if window.styled else None,
         theme=LOOK,

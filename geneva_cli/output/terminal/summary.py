@@ -28,11 +28,10 @@ def chunks(summaries: Iterable[Summary], output: str, is_seen: bool) -> Iterator
     shown = "✓✗°²³⁻⁵".encode(sys.stdout.encoding or "ascii", "replace")
     unicode = output != "-" or b"?" not in shown
     if is_seen:
-        from geneva_cli.output.terminal.layout import window
+        from geneva_cli.output.terminal.layout import READABLE, window
 
         terminal = window(False, False)
-        # Lines of more than 100 letters are hard to read.
-        columns, styled = min(terminal.columns, 100), terminal.styled
+        columns, styled = min(terminal.columns, READABLE), terminal.styled
 
     def inked(text: str, ink: str) -> str:
         return f"{ink}{text}\x1b[0m" if styled and ink and text else text
