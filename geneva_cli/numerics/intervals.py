@@ -16,7 +16,6 @@ import numpy as np
 from geneva_cli.numerics.arrays import Array, Enclosed, Number, Truth, Whole
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Library
     from geneva_cli.numerics.jet import Jet
 
     Bound: TypeAlias = Array | float
@@ -40,11 +39,14 @@ class Undecided(ArithmeticError):
 class EnclosedLibrary:
     """What the functions of ``math`` of enclosures share."""
 
+    pi: Any
+    sqrt: Callable[..., Any]
+
     def hypot(self, x: float, y: float) -> float:
-        return cast("Library", self).sqrt(x**2 + y**2)
+        return self.sqrt(x**2 + y**2)
 
     def degrees(self, x: float) -> float:
-        return x * (180.0 / cast("Library", self).pi)
+        return x * (180.0 / self.pi)
 
     def copysign(self, x: float, y: float) -> float:
         return abs(x) if y > 0.0 else -abs(x)
@@ -253,7 +255,7 @@ def _passes(low: Bound, high: Bound, at: float) -> Truth:
     return np.greater_equal(below, low - NEAR)
 
 
-Interval.library = cast("Library", _Intervals())
+Interval.library = _Intervals()
 
 
 def curve_rates(curve: Curve, start: Array, end: Array) -> Array:

@@ -10,15 +10,12 @@ from __future__ import annotations
 import math
 from bisect import bisect_left
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Self, cast
+from typing import Self, cast
 
 from flint import arb
 
 from geneva_cli.numerics.arrays import Enclosed, Number
 from geneva_cli.numerics.intervals import EnclosedLibrary, Undecided
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Library
 
 
 def _operator(f: Callable[[arb, arb], arb]) -> Callable[[Ball, Ball | float], Ball]:
@@ -138,4 +135,4 @@ class _Balls(EnclosedLibrary):
         return Ball(arb.atan2(arb_of(y), arb_of(x)))
 
 
-Ball.library = cast("Library", _Balls())
+Ball.library = _Balls()
