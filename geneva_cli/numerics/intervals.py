@@ -36,22 +36,6 @@ class Undecided(ArithmeticError):
         self.answers = answers
 
 
-class EnclosedLibrary:
-    """What the functions of ``math`` of enclosures share."""
-
-    pi: Any
-    sqrt: Callable[..., Any]
-
-    def hypot(self, x: float, y: float) -> float:
-        return self.sqrt(x**2 + y**2)
-
-    def degrees(self, x: float) -> float:
-        return x * (180.0 / self.pi)
-
-    def copysign(self, x: float, y: float) -> float:
-        return abs(x) if y > 0.0 else -abs(x)
-
-
 def _operator(
     f: Callable[[Interval, Interval | float], Interval],
 ) -> Callable[[Interval, Interval | float], Interval]:
@@ -95,11 +79,6 @@ class Interval(Enclosed):
         number = np.searchsorted(cuts, 0.5 * (self.low + self.high))
         return np.where(np.any(inside, axis=0), math.nan, number)
 
-    def rising(self, f: Callable[[Number], Number]) -> Number:
-        ends = (cast("float", Interval(x, x)) for x in (self.low, self.high))
-        low, high = (_ends(cast("float", f(x))) for x in ends)
-        return cast("float", Interval(low[0], high[1]))
-
     def __neg__(self) -> Interval:
         return Interval(-self.high, -self.low)
 
@@ -131,8 +110,6 @@ class Interval(Enclosed):
         return _unknown((low <= 0.0) & (high >= 0.0), out)
 
     def __pow__(self, power: int) -> Interval:
-        if power < 0:
-            return 1.0 / self**-power
         base = self if power % 2 else abs(self)
         low, high = base.low, base.high
         for _ in range(power - 1):
@@ -141,18 +118,8 @@ class Interval(Enclosed):
 
     __radd__, __rmul__ = __add__, __mul__
 
-    def __lt__(self, other: Interval | float) -> bool:
-        low, high = _ends(other)
-        return _decided(self.high < low, self.low >= high)
-
-    def __le__(self, other: Interval | float) -> bool:
-        low, high = _ends(other)
-        return _decided(self.high <= low, self.low > high)
-
     def __eq__(self, other: object) -> bool:
-        low, high = _ends(cast("float", other))
-        equal = (self.low == self.high) & (self.high == low) & (low == high)
-        return _decided(equal, (self.high < low) | (self.low > high))
+        raise TypeError("intervals are not compared")
 
 
 def _answer(answers: Array) -> float:
@@ -161,10 +128,6 @@ def _answer(answers: Array) -> float:
     if np.any(answers != first):  # also where it is open, NaN
         raise Undecided(answers)
     return first
-
-
-def _decided(yes: Truth, no: Truth) -> bool:
-    return bool(_answer(np.where(yes, 1.0, np.where(no, 0.0, math.nan))))
 
 
 def _ends(x: Interval | float) -> tuple[Bound, Bound]:
@@ -204,21 +167,17 @@ def _each(f: Callable[..., float], *x: Bound) -> Array:
     return np.array([*values]).reshape(arrays[0].shape)
 
 
-def _rising(f: Callable[[float], float]) -> Callable[[object, Interval | float], Interval]:
-    """A function that rises everywhere in its domain."""
+class _Intervals:
+    """The functions of ``math`` that curves need, of intervals."""
 
-    def of(_: object, x: Interval | float) -> Interval:
-        low, high = _ends(x)
-        return _outwards(_each(f, low), _each(f, high), LIBRARY_UNITS)
-
-    return of
-
-
-class _Intervals(EnclosedLibrary):
-    """The functions of ``math``, of intervals."""
-
-    sqrt, asin = map(_rising, (math.sqrt, math.asin))
     pi = _outwards(math.pi, math.pi)
+
+    def sqrt(self, x: Interval | float) -> Interval:
+        low, high = _ends(x)
+        return _outwards(_each(math.sqrt, low), _each(math.sqrt, high), LIBRARY_UNITS)
+
+    def hypot(self, x: Interval, y: Interval) -> Interval:
+        return self.sqrt(x**2 + y**2)
 
     def cos(self, x: Interval | float) -> Interval:
         return self._wave(x, 0.0, math.cos)
@@ -238,15 +197,6 @@ class _Intervals(EnclosedLibrary):
             np.where(lowest, -1.0, np.maximum(ends.low, -1.0)),
             np.where(highest, 1.0, np.minimum(ends.high, 1.0)),
         )
-
-    def atan2(self, y: Interval | float, x: Interval | float) -> Interval:
-        """The angles of boxes that do not reach the negative x axis."""
-        (a, b), (c, d) = _ends(x), _ends(y)
-        across = np.less_equal(a, 0.0) & np.less_equal(c, 0.0) & np.less_equal(0.0, d)
-        _answer(np.where(across, math.nan, 0.0))
-        angles = [_each(math.atan2, v, u) for u in (a, b) for v in (c, d)]
-        low, high = np.min(angles, axis=0), np.max(angles, axis=0)
-        return _outwards(low, high, LIBRARY_UNITS)
 
 
 def _passes(low: Bound, high: Bound, at: float) -> Truth:
