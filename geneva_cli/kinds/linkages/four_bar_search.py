@@ -146,7 +146,9 @@ def coupler_point(path: LinkPath, pair: Pairs, b: Array) -> Complex:
 
     NaN if there is none, or if the chord does not run from entry to exit.
     """
-    along, pin, (*_, rate, _) = path.turn(np.exp(1j * pair.phi))
+    crank = np.exp(1j * pair.phi)
+    (x, y), _, (*_, rate, _) = path.turn(crank, 1)
+    along, pin = x + 1j * y, path.numbers[0] * crank
     (p, p_end), (v, v_end) = pin, 1j * pin
     (e, e_end), (u, u_end) = along, 1j * rate * along
     turn = np.exp(1j * pair.sense * (0.5 * math.pi - b))
