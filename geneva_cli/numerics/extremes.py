@@ -88,16 +88,22 @@ class Smooth:
 
 
 def search(
-    f: Functions, spans: Spans, sized: bool, known: Sequence[Known] = (), w: Array | None = None
+    f: Functions,
+    spans: Spans,
+    sized: bool,
+    known: Sequence[Known] = (),
+    w: Array | None = None,
+    requested: Asked = None,
 ) -> SearchResult:
     """The greatest values of n designs over their spans, whose ends are (n, 1).
 
     With ``sized`` they are the greatest sizes, else those of the functions and of their negatives.
     ``known`` are values that no span reaches: the number of a wanted function, and for each design
     the place and the value, or NaN. Samples are spread about 0 by ``w`` (n, 1), or evenly spaced.
+    ``requested`` are the numbers of the functions, all by default.
     """
     with np.errstate(all="ignore"):
-        cutter = Cutter(f, np.array(spans), w, None)
+        cutter = Cutter(f, np.array(spans), w, requested)
         extremes = _Extremes(cutter, sized)
         for number, x, value in known:
             design = np.flatnonzero(~np.isnan(value))
@@ -123,15 +129,7 @@ def search(
 
 def cuts(f: Functions, spans: Spans) -> Stretches:
     """The parts of the spans of ``search`` on which no sign changes."""
-    with np.errstate(all="ignore"):
-        cutter = Cutter(f, np.array(spans), None, ())
-        out: list[tuple[Rows, Array]] = []
-        for part in blocks(len(cutter.w), BLOCK):
-            cutter.begin(part)
-            while level := cutter.level():
-                for pieces in map(cutter.pieces, level):
-                    out.append((pieces.rows, pieces.sign))
-        return _stretches(out)
+    return search(f, spans, sized=True, requested=()).stretches
 
 
 class _Candidates(NamedTuple):
@@ -153,7 +151,8 @@ class _Extremes:
 
     def __init__(self, cutter: Cutter, sized: bool) -> None:
         self.f, self.sized, self.cutter = cutter.f, sized, cutter
-        n, wanted = len(cutter.w), cutter.f.wanted
+        n, asked = len(cutter.w), cutter.requested
+        wanted = cutter.f.wanted if asked is None else len(asked)
         self.most = np.full((1 if sized else 2, wanted, n), -np.inf)
         self.size = np.zeros((wanted, n))  # typical ones, of samples far from poles
         self.at_sample = np.full(self.most.shape, np.nan)  # the place of a greatest sample
@@ -182,7 +181,7 @@ class _Extremes:
         top = np.take_along_axis(sided, best[:, :, None], axis=2)[:, :, 0]
         top = np.where(endless, np.inf, top)
         place = np.where(endless, a, x[best, np.arange(len(design))])
-        sides, numbers, _ = np.ogrid[: len(top), : self.f.wanted, :1]
+        sides, numbers, _ = np.ogrid[: len(top), : top.shape[1], :1]
         _raise(self.most, (sides, numbers, design), top)
         side, number, of = np.nonzero(top == self.most[..., design])
         self.at_sample[side, number, design[of]] = place[side, number, of]
