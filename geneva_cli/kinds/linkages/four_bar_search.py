@@ -13,6 +13,7 @@ the solution.
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -79,11 +80,8 @@ def search_four_bars(goal: Goal) -> list[Places]:
     samplings = min(max(300 // slots, SAMPLINGS[0]), SAMPLINGS[1])
     parents, children = 4, 12  # the best places of a wheel, and the closer samples near each
 
-    def coarse(of: Whole, at: Array) -> tuple[Array, Array]:
-        return four_bars_at(goal, of, at, COARSE)[-2:]
-
-    def fine(of: Whole, at: Array) -> tuple[Array, Array]:
-        return four_bars_at(goal, of, at)[-2:]
+    def coarse(of: Whole, at: Array, samples: int = COARSE) -> tuple[Array, Array]:
+        return four_bars_at(goal, of, at, samples)[-2:]
 
     def offsets(number: int) -> Array:
         return np.column_stack((_spread(children, number) - 0.5, np.zeros(children)))
@@ -98,7 +96,7 @@ def search_four_bars(goal: Goal) -> list[Places]:
         near = Zoom(offsets, 0.3, closer, samplings, around=(3,))
         several = zoom(coarse, first.best(parents), near, keep=parents).joined(first)
         # fine samples remove those that fail between the coarse ones
-        kept = sampled(fine, several.of, several.at)
+        kept = sampled(partial(coarse, samples=FINE), several.of, several.at)
         kept = kept.take(kept.violation == 0.0).best(parents + OTHERS)
     return [kept.take(kept.of == i) for i in range(wheels)]
 
