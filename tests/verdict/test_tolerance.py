@@ -12,7 +12,7 @@ from geneva_cli import Design, External, Internal, Size, Spherical, Tolerance
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.tolerance import motion_error as errors
-from geneva_cli.loads.tolerance.locking import Deviations, Lock, deviations, slope_of
+from geneva_cli.loads.tolerance.locking import Deviations, Lock, deviations, slope_of, used
 from geneva_cli.motion.laws.law import Motion
 from geneva_cli.motion.laws.standard import Cycloidal
 from geneva_cli.motion.many import many
@@ -203,10 +203,12 @@ def test_jumps_of_cranks_as_built_are_those_of_each_alone():
     """Too short to reach the slot's axis, as derived, and too long."""
     design, R = Design(External(6), size=Size(100.0), tolerance=ALL), np.array([49.9, 50.0, 50.2])
     batch = many(design.spec, {"size.crank_radius_mm": R}).machine
-    jumps = errors.entry_jumps_worst(batch, errors.used(batch))
+    jumps = errors.entry_jumps_worst(batch, used(batch.spec))
     for radius, jump in zip(R.tolist(), jumps, strict=True):
         one = design.with_("size.crank_radius_mm", radius).mechanism
-        assert errors.entry_jumps_worst(one, errors.used(one)) == pytest.approx(jump, rel=1e-12)
+        assert errors.entry_jumps_worst(one, errors.used(one.spec)) == pytest.approx(
+            jump, rel=1e-12
+        )
 
 
 def test_machines_that_do_not_go_together_are_counted():

@@ -41,15 +41,6 @@ class Deviations(NamedTuple):
 AS_DRAWN = Deviations(*[Jet((0.0,))] * len(Deviations._fields))  # without any
 
 
-def tolerances(spec: Spec) -> dict[str, float]:
-    """Plus or minus of each dimension, in millimetres and radians."""
-    values = spec.tolerance.as_dict()
-    return {
-        name: radians(values[name]) if name.endswith("_deg") else values[name]
-        for name in Deviations._fields
-    }
-
-
 def without_effect(spec: Spec) -> dict[str, str]:
     """Dimensions whose deviations have no effect in a machine, with the reason."""
     why = {}
@@ -58,6 +49,13 @@ def without_effect(spec: Spec) -> dict[str, str]:
     if not spec.wheel.FLAT:
         why["center_distance_mm"] = "the shafts meet, whatever the sphere's radius"
     return why
+
+
+def used(spec: Spec) -> dict[str, float]:
+    """Plus or minus of each dimension, mm and radians, 0 without effect; (m, 1) for m designs."""
+    values = spec.tolerance.as_dict() | dict.fromkeys(without_effect(spec), 0.0)
+    values["slot_angle_deg"] = radians(values["slot_angle_deg"])
+    return {name: values[name] for name in Deviations._fields}
 
 
 def deviations(values: Sequence[Number]) -> Deviations:
@@ -71,9 +69,10 @@ def slope_of(number: int) -> Deviations:
 
 
 def corners(sizes: Sequence[float]) -> Deviations:
-    """Every combination of the ends of the nonzero tolerances: (2**n,), or (2**n, m, 1) of m."""
+    """Every combination of the ends of n nonzero tolerances: (2**n, 1 or m, 1) for m designs."""
     ends = [(0.0,) if arrays.all_true(size == 0.0) else (-size, size) for size in sizes]
-    return deviations([np.array(column) for column in zip(*product(*ends), strict=True)])
+    columns = zip(*product(*ends), strict=True)
+    return deviations([np.reshape(column, (len(column), -1, 1)) for column in columns])
 
 
 class LockPlay(NamedTuple):
@@ -83,11 +82,11 @@ class LockPlay(NamedTuple):
     jams: arrays.Mask  # True if they do not fit together
 
 
-class CutLock(Protocol):
-    """A lock of parts as they are cut."""
+class Effect(Protocol):
+    """What deviations cause, such as the play of a lock."""
 
-    def __call__(self, by: Deviations, /) -> LockPlay:
-        """Play of the wheel to one side."""
+    def __call__(self, by: Deviations, /) -> tuple[Jet, arrays.Mask]:
+        """Errors of machines, and a mask of those that do not fit together."""
 
 
 class LockContact(NamedTuple):

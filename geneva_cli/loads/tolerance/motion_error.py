@@ -16,6 +16,7 @@ import numpy as np
 
 from geneva_cli.loads.impacts.entry import RestingAxis, arm_mm, first_contacts
 from geneva_cli.loads.tolerance import locking
+from geneva_cli.loads.tolerance.locking import Effect, used
 from geneva_cli.motion.batch import taken
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.machine_spec import Spec
@@ -69,16 +70,24 @@ class MotionError(NamedTuple):
         margin = np.minimum((nearest - self.clearance) / times - play, self.arm / times)
         return arrays.parameter(margin if margin.size > 1 else float(margin[0, 0]))
 
-    def greatest(self, by: locking.Deviations) -> arrays.Array:
-        """Greatest error of any of the machines, the first axis of ``by``, of n designs: (3, n).
+    def at(self, input_deg: float, side: float) -> Effect:
+        """The error at one place, towards a side, and which rollers do not fit into their slots."""
+
+        def error(by: locking.Deviations) -> tuple[Jet, arrays.Mask]:
+            # mm: less is rounding
+            return self(by, input_deg, side) * side, arrays.array(self.play_mm(by).c[0]) < -1e-12
+
+        return error
+
+    def greatest(self, sizes: Sequence[float]) -> arrays.Array:
+        """Greatest error of any machine with deviations up to these sizes, of n designs: (3, n).
 
         The rows are the error in radians, the input angle, and the side.
         """
-        values = [np.atleast_1d(jet.c[0]) for jet in by]
-        each = locking.deviations([np.reshape(z, (len(z), -1, 1)) for z in values])
+        ends = locking.corners(sizes)
 
         def worst(at: arrays.Array, side: float) -> arrays.Array:
-            return np.asarray((arrays.array(self(each, at, side).c[0]) * side).max(axis=0))
+            return np.asarray((arrays.array(self(ends, at, side).c[0]) * side).max(axis=0))
 
         return self._greatest(worst)
 
@@ -138,18 +147,12 @@ class MotionPlays(NamedTuple):
     at_deg: arrays.Array
 
 
-def used(mechanism: Mechanism) -> dict[str, float]:
-    """Plus or minus of each dimension, 0 if it has no effect; (m, 1) for m designs."""
-    return locking.tolerances(mechanism.spec) | dict.fromkeys(
-        locking.without_effect(mechanism.spec), 0.0
-    )
-
-
 def motion_plays(mechanism: Mechanism) -> MotionPlays | None:
     """Greatest errors of m designs; None for curved slots, which are solved for."""
     if mechanism.engagements[0].slot.curved:
         return None
-    m, machines = mechanism.designs, 2 ** sum(bool(np.any(x)) for x in used(mechanism).values())
+    m, sizes = mechanism.designs, used(mechanism.spec).values()
+    machines = 2 ** sum(bool(np.any(size)) for size in sizes)
     # a million places of machines with deviations are computed together
     group = max(1, (1 << 20) // (machines * MOTION_SAMPLES))
     return arrays.joined(
@@ -158,13 +161,13 @@ def motion_plays(mechanism: Mechanism) -> MotionPlays | None:
 
 
 def _plays(mechanism: Mechanism, n: int) -> MotionPlays:
-    use = used(mechanism)
+    use = used(mechanism.spec)
     sizes = list(use.values())
     best, (rss, shown) = np.full(n, -1.0), np.zeros((2, n))
     known = sum(sizes) > np.zeros((n, 1))
     both = use["center_distance_mm"] + use["crank_radius_mm"]
     for engagement, error in zip(mechanism.engagements, motion_errors(mechanism), strict=True):
-        worst, place, _ = (np.resize(row, n) for row in error.greatest(locking.corners(sizes)))
+        worst, place, _ = (np.resize(row, n) for row in error.greatest(sizes))
         at_deg = mechanism.shown_deg(arrays.parameter(engagement.mid_deg + place[:, None]))
         shown = np.where(worst > best, np.ravel(at_deg), shown)
         best, rss = np.maximum(best, worst), np.maximum(rss, error.greatest_rss(sizes)[0])
@@ -180,14 +183,14 @@ class EntryJump(NamedTuple):
     L: float
     arm: float
 
-    def __call__(self, by: locking.Deviations) -> tuple[arrays.Array, arrays.Mask]:
+    def __call__(self, by: locking.Deviations) -> tuple[Jet, arrays.Mask]:
         """Sizes of the jumps, over the input's speed, and a mask of machines that miss the axis."""
         crank, center = by.crank_radius_mm.c[0] / self.arm, by.center_distance_mm.c[0] / self.L
         crank, center = (np.reshape(x, (-1, 1)) for x in (crank, center))
         off = np.ravel(self.axis.offset(crank, center)) != 0.0
         as_drawn = np.ravel(self.axis.engagement.through.jumps[0])
         jump = np.where(off, first_contacts(self.axis, crank, center).jump, as_drawn)
-        return np.nan_to_num(abs(jump)), off & np.isnan(jump)
+        return Jet((np.nan_to_num(abs(jump)),)), off & np.isnan(jump)
 
 
 def entry_jumps(mechanism: Mechanism) -> list[EntryJump]:
@@ -200,5 +203,5 @@ def entry_jumps_worst(mechanism: Mechanism, use: Mapping[str, float]) -> arrays.
     """Greatest jump at entry for any of the deviations, over the input's speed: (m,)."""
     ends = [(-use[name], use[name]) for name in ("center_distance_mm", "crank_radius_mm")]
     corners = [locking.deviations([*end, *[0.0] * 5]) for end in product(*ends)]
-    jumps = [one(by)[0] for one in entry_jumps(mechanism) for by in corners]
+    jumps = [one(by)[0].c[0] for one in entry_jumps(mechanism) for by in corners]
     return np.max(np.broadcast_arrays(*jumps), axis=0) if jumps else None
