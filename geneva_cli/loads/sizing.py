@@ -18,7 +18,6 @@ from geneva_cli.motion.peak_search import motion_peaks
 from geneva_cli.motion.timing import CamFactors, cam_factors
 from geneva_cli.numerics.angles import DEGREE, omega, radians
 from geneva_cli.numerics.arrays import Array, Mask, Number, array, parameter
-from geneva_cli.numerics.jet import Jet
 
 # known without a load
 KNOWN_UNLOADED = ("inertia_kgm2", "motor_rpm", "acceleration_rad_s2", "Am", "Vm", "Qm")
@@ -175,7 +174,7 @@ class Unevenness(NamedTuple):
 
     mean: Array
 
-    def __call__(self, i: Instant[Jet]) -> QuantityValue[Jet]:
+    def __call__(self, i: Instant) -> QuantityValue:
         """The quantity, and the margin that bounds it."""
         return QuantityValue(i.input_torque_Nm - self.mean, i.friction_margin)
 
@@ -209,7 +208,7 @@ def _works(load: LoadFunctions, bounded: Mask) -> tuple[Array, Array]:
     """Works less the mean's, J, a row for each design padded with zeros, and returned squares."""
     pieces, n = load.stretches(), len(bounded)
 
-    def functions(here: Instant[Jet], every: Sequence[str | LoadQuantity]) -> tuple[Array, ...]:
+    def functions(here: Instant, every: Sequence[str | LoadQuantity]) -> tuple[Array, ...]:
         back = array(0.5 * (1.0 - here.feeds) * here.input_torque_Nm.c[0])
         return array(here.quantity(every[0]).value.c[0]), back * back
 
