@@ -52,7 +52,6 @@ class Panels(NamedTuple):
     series: Array  # (2, p, term): s' and s'' by u as Legendre series
     jumps: Mask  # (m,) True where the motion begins or ends with a velocity
     greatest: Array  # greatest size of either derivative, (2, m)
-    variation: Array  # total variation of either between nodes, with those at the ends
 
     @property
     def half(self) -> Array:
@@ -90,19 +89,11 @@ def motion_shapes(motion: WheelMotion, m: int = 1) -> Panels:
     in_order = np.lexsort((edges[0], number))
     number, (left, right), values = number[in_order], edges[:, in_order], values[:, in_order]
     series = matrix_product(values, SERIES.T)
-    # the last node before each panel, or rest
-    begins = np.append(True, number[1:] != number[:-1])
-    before = np.where(begins, 0.0, np.roll(values[..., -1], 1, axis=1))
-    rises = np.abs(values[..., 0] - before) + np.abs(np.diff(values)).sum(axis=2)
-    rises += np.where(np.append(begins[1:], True), np.abs(values[..., -1]), 0.0)
-    variation = np.zeros((2, len(breaks)))
-    for row, rise in zip(variation, rises, strict=True):
-        np.add.at(row, number, rise)
     # A velocity of 1e-12 of the greatest one is rounding. Only a crank as built starts and stops
     # the wheel with a jump of velocity.
     at_ends = rates(np.broadcast_to([0.0, 1.0], (m, 2)), np.arange(m))[0]
     jumps = np.abs(at_ends).max(axis=1) > 1e-12 * greatest[0]
-    return Panels(number, left, right, series[..., :TERMS], jumps, greatest, variation)
+    return Panels(number, left, right, series[..., :TERMS], jumps, greatest)
 
 
 def _refined(of: Rates, breaks: Array) -> tuple[Whole, Array, Array, Array]:
