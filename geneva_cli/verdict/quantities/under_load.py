@@ -49,20 +49,16 @@ class UnderLoad:
     @cached_property
     def force_N(self) -> Array:
         """The greatest force on a roller, along the wall's normal."""
-        if self.machine.spec.size.pin_mm is not None or np.isnan(self.loaded).all():
-            return self._peak("pin_force_N")
+        if np.isnan(self.loaded).all():
+            return self.loaded
         return self.part_loads.pin_N * self.loaded  # a search that sizes need, too
 
     @cached_property
     def pv_W_m2(self) -> Array:
         """The greatest contact pressure times sliding speed; it needs a face width."""
-        return self._peak("pv_W_m2")
-
-    def _peak(self, name: str) -> Array:
-        """The greatest size of a load; NaN without a load."""
         if np.isnan(self.loaded).all():
             return self.loaded
-        return load_peaks(self.machine, [name])[name].max * self.loaded
+        return load_peaks(self.machine, ["pv_W_m2"])["pv_W_m2"].max * self.loaded
 
     @cached_property
     def _each(self) -> list[Unloaded | None]:
