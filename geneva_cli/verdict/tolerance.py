@@ -185,7 +185,9 @@ def tolerance_table(
     except GenevaError as error:
         unknown.append(f"no parts: {error}")
     if motions := motion_error.motion_errors(mechanism):
-        each = [(one, one.greatest(sizes).T, one.greatest_rss(sizes).T) for one in motions]
+        each = [
+            (one, one.greatest(sizes).T, one.greatest(sizes, squared=True).T) for one in motions
+        ]
         one, ((most, place, _),), _ = max(each, key=lambda row: row[1][0, 0])
         at_deg = mechanism.shown_deg(one.engagement.mid_deg + place.item())
         one, _, ((_, place, side),) = max(each, key=lambda row: row[2][0, 0])

@@ -346,8 +346,8 @@ def test_plays_in_motion_are_the_greatest_over_it(distribution):
     assert found["motion_play.p997_deg"] == pytest.approx(p997, rel=1e-3)
     batch = many(machine.spec, {"tolerance.slot_angle_deg": np.array([0.008, 0.02])})
     plays = errors.motion_plays(batch.machine)
-    assert plays.rss_deg[0] == found["motion_play.rss_deg"]
-    assert plays.rss_deg[1] == pytest.approx(free + math.hypot(0.02, *parts[1:]), rel=1e-6)
+    assert plays["rss_deg"][0] == found["motion_play.rss_deg"]
+    assert plays["rss_deg"][1] == pytest.approx(free + math.hypot(0.02, *parts[1:]), rel=1e-6)
 
 
 @pytest.mark.long
