@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.loads.impacts.shock_force import Impacts, harder, shown, with_force
+from geneva_cli.loads.impacts.shock_force import Impacts, hardest, shown
 from geneva_cli.loads.strength.pin_arm_key import PinSize
 from geneva_cli.motion.batch import taken
 from geneva_cli.motion.engagement import Anchor, Engagement
@@ -243,15 +243,14 @@ def entry_impacts(mechanism: Mechanism, pin: PinSize | None = None) -> Impacts:
     lost = 0.5 * (tolerance.roller_diameter_mm + tolerance.slot_width_mm)
     spare = parameter(np.maximum(size.allowances.slot_clearance_mm - lost, 0.0)) / L
     sizes = mechanism.roller_radius_mm / L, spare, size.mouth_radius_mm / L
-    best = np.full((2, 1), np.nan)
+    each = list[Array]()
     as_built = any(one.built for one in mechanism.engagements)  # it strikes without errors, too
     for axis in [] if as_built else RestingAxis.each(mechanism):
         errors = [*_errors(mechanism, axis)]
         every = [first_contacts(axis, *error) for error in errors]
         every += [mouth_contacts(axis, *error, sizes) for error in errors]
-        for contacts in every:
-            best = harder(best, shown(mechanism, axis.engagement, *contacts))
-    return with_force(mechanism, best, pin)
+        each += [shown(mechanism, axis.engagement, *one, np.array(np.nan)) for one in every]
+    return hardest(mechanism, each, pin)
 
 
 def _errors(mechanism: Mechanism, axis: RestingAxis) -> Iterator[tuple[float, float]]:
