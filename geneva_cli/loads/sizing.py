@@ -114,8 +114,8 @@ def _by_formula(mechanism: Mechanism) -> dict[str, Number]:
     for number, engagement in enumerate(mechanism.engagements):
         step, motion = spec.wheel.index_deg(number), engagement.motion_deg
         peaks = motion_peaks(engagement.motion, FACTORS)
-        sizes = (parameter(peaks[name].max[:, None]) for name in FACTORS)
-        factors = cam_factors(*sizes, motion, step)
+        velocity, acceleration, power = (parameter(peaks[n].max[:, None]) for n in FACTORS)
+        factors = cam_factors(velocity, acceleration, power, motion, step)
         row = factors._asdict() | indexer_formula(factors, step, motion, spec.drive.n_rpm, load, fc)
         # a carrier also turns the wheel's frame, whose torque need not be greatest there
         frame_Nm = abs(mechanism.frame) * fc * row["inertia_torque_Nm"]
