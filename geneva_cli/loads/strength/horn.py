@@ -153,11 +153,6 @@ class Horn(NamedTuple):
         stress = np.einsum("imp,ims->mps", of_roller, own)
         return np.where(sections[0][:, None] > roller[0][..., None], stress, 0.0)
 
-    @property
-    def stoutness(self) -> Array:
-        """Thickness at the mouth over the recess's radius, (m,)."""
-        return np.ravel(self.points(self.at.mouth_deg)[1] / self.recess_mm)
-
 
 # Horns of a mechanism and its sizes; those of a sphere have the members that are used of a Horn.
 Sides: TypeAlias = Callable[..., Sequence[Any]]
