@@ -134,9 +134,9 @@ class Strength:
         if not (locked or math.isfinite(load.force_N[0])):
             needs.append(BOUND)
         # on a sharp edge a contact stress has no bound
-        sharp = locked and load.lock and np.isnan(load.lock.approach_deg)
-        if sharp and name != "lock_horn_stress_MPa" and not needs and load.lock:
-            return _EDGE if load.lock.on == "corner" else _SHORT
+        sharp = locked and load.lock and np.isnan(load.lock["approach_deg"][0])
+        if sharp and name != "lock_horn_stress_MPa" and not needs and load.lock_sizes:
+            return _EDGE if load.lock_sizes[1].contact().on == "corner" else _SHORT
         return " and ".join(needs) or None
 
     def missing(self, among: Sequence[str]) -> list[str]:

@@ -60,7 +60,7 @@ def told(design, samples=4096, **more):
 def test_play_of_the_lock_is_that_of_a_whole_turn(name):
     """Found there from the outlines, in steps, without knowing what stops the wheel."""
     design = load(str(ROOT / "designs" / f"{name}.toml")).with_("size.lock_clearance_mm", 0.05)
-    found = [lock(at()).angle.c[0] for lock in flat_locks(design.parts, EXACT)[0]]
+    found = [lock(at())[0].c[0] for lock in flat_locks(design.parts, EXACT)[0]]
     # parts that overlap by rounding, 1e-9 L, still touch there: as much more clearance
     assert math.degrees(max(found)) == pytest.approx(design.parts.turn.dwell.deg, rel=1e-5)
 
@@ -85,7 +85,7 @@ def test_slopes_of_the_lock(half, sign):
         way = [float(name == other) for other in Deviations._fields]
         true = mp.diff(lambda h, w=way: play(h * w[0], h * w[5], h * w[6]), 0)
         # the angle is a small difference of large ones, and so is the slope by L
-        assert abs(lock(slope_of(i)).angle.c[1] - true) < 1e-13
+        assert abs(lock(slope_of(i))[0].c[1] - true) < 1e-13
 
 
 # The motion ----------------------------------------------------------------------------------
@@ -227,7 +227,7 @@ def test_clearances_that_still_turn():
     found = told(MACHINES[0])
     [lock] = flat_locks(MACHINES[0].parts, EXACT)[0]
     # the tightest lock gives way by so much at the mouth, cos 30 deg of 100 mm off
-    yields = lock(at(center_distance_mm=-0.02, lock_radius_mm=0.015, recess_radius_mm=-0.01)).angle
+    yields = lock(at(center_distance_mm=-0.02, lock_radius_mm=0.015, recess_radius_mm=-0.01))[0]
     mouth = 100.0 * math.cos(math.pi / 6)
     across = 0.03 + 0.02 * math.sin(math.pi / 6)
     across += mouth * (math.sin(math.radians(0.02)) - math.sin(yields.c[0]))

@@ -75,13 +75,6 @@ def corners(sizes: Sequence[float]) -> Deviations:
     return deviations([np.reshape(column, (len(column), -1, 1)) for column in columns])
 
 
-class LockPlay(NamedTuple):
-    """The wheel's play to one side, radians; 0 if disc and recess do not fit together."""
-
-    angle: Jet
-    jams: arrays.Mask  # True if they do not fit together
-
-
 class Effect(Protocol):
     """What deviations cause, such as the play of a lock."""
 
@@ -115,8 +108,8 @@ class Lock(NamedTuple):
         a = (self.L**2 + self.recess**2 - self.corner**2) / (2.0 * self.L * self.recess)
         return arrays.library(a).acos(arrays.larger(-1.0, arrays.smaller(1.0, self.sign * a)))
 
-    def __call__(self, by: Deviations) -> LockPlay:
-        """Play of the wheel to one side."""
+    def __call__(self, by: Deviations) -> tuple[Jet, arrays.Mask]:
+        """Play of the wheel to one side, radians: 0 where disc and recess do not fit together."""
         L, off, far = self.L, by.center_distance_mm, self.corner - self.sign * self.edge
         lock, recess = by.lock_radius_mm + self.lock, by.recess_radius_mm + self.recess
         away, spare = off + L, recess - lock
@@ -138,7 +131,7 @@ class Lock(NamedTuple):
         jams = (left < -ROUNDING * L) | (arrays.array(angle.c[0]) < -ROUNDING)
         least = np.cos(arrays.smaller(self.reach, self.half))
         angle = _chosen((nearer > np.maximum(spare.c[0], 0.0) * least) & ~jams, on_recess, angle)
-        return LockPlay(_chosen(jams, angle * 0.0, angle), jams)
+        return _chosen(jams, angle * 0.0, angle), jams
 
     def contact(self) -> LockContact:
         """Contact of disc and recess after the play is used up, without deviations."""
@@ -161,7 +154,7 @@ class Lock(NamedTuple):
         radius = np.where(loose, np.where(arcs, between, ended), math.inf)[()]
         on = np.where(arcs, "recess", np.where(corner, "corner", "disc's end"))[()]
         # without clearance rounding may make it negative
-        play = np.maximum(self(AS_DRAWN).angle.c[0], 0.0)
+        play = np.maximum(self(AS_DRAWN)[0].c[0], 0.0)
         return LockContact(cast("str", on), *map(arrays.parameter, (phi, play, radius)))
 
 

@@ -82,10 +82,9 @@ def lock(of: Designs) -> Columns:
     state, allowed = of.once(UnderLoad).lock, of.spec.limits.lock_stress_max_MPa
     if state is None:
         return {"allowed_MPa": allowed}
-    _, *rows = state
-    most = np.fmax(state.contact_stress_MPa, state.pressure_MPa)
-    most = most * np.where(np.isfinite(state.approach_deg), 1.0, np.nan)
-    return dict(zip(state._fields[1:], rows, strict=True)) | judged(most, allowed)
+    most = np.fmax(state["contact_stress_MPa"], state["pressure_MPa"])
+    most = most * np.where(np.isfinite(state["approach_deg"]), 1.0, np.nan)
+    return state | judged(most, allowed)
 
 
 def shafts(of: Designs) -> Columns:

@@ -148,7 +148,7 @@ class UnderLoad:
         return greatest_stress(horns, self.machine, self.horn_sizes)
 
     @cached_property
-    def lock(self) -> lock.LockUnderTorque | None:
+    def lock(self) -> dict[str, Array] | None:
         """The lock under the torque that it holds in the dwell; None if no design has one."""
         sizes, width = self.lock_sizes, self.contact_mm
         if sizes is None or width is None:
