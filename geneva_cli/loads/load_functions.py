@@ -64,10 +64,8 @@ class LoadFunctions:
             "leans": case.guided,
             "edge": engagement.slot.curved and case.hertz is not None,
         }
-        self.kinds: list[str] = []
-        for kind in (*SIGN_FUNCTIONS, "wanted"):
-            if matters.get(kind) or kind in more:
-                self.kinds.append(kind)
+        every = *SIGN_FUNCTIONS, "wanted"
+        self.kinds = [kind for kind in every if matters.get(kind) or kind in more]
         self.signs, self.wanted = len(self.kinds), len(names)
         self.poled: Sequence[int] = (self.kinds.index("edge"),) if "edge" in self.kinds else ()
         # where links carry the roller, bearings and guide need the reactions of joints
@@ -157,9 +155,8 @@ class LoadFunctions:
         """
         engagement, case, quantities = self._some(which) if self._some else self._every
         known: dict[str, Array] = {} if held is None else dict(zip(self.kinds, held, strict=True))
-        signs: list[Number | None] = [known.get("drives")]
-        for kind in ("slides", "feeds"):  # 1 where it does not matter
-            signs.append(known.get(kind) if kind in self.kinds else 1.0)
+        others = dict.fromkeys({"slides", "feeds"} - {*self.kinds}, 1.0)  # which do not matter
+        signs = map((known | others).get, ("drives", "slides", "feeds"))
         instant = Instant(case, contact(engagement, x, order, self.reactions), *signs)
         found: list[tuple[Array, Jet]] = []
         for kind in self.kinds:
