@@ -162,10 +162,7 @@ class LoadFunctions:
         for kind in self.kinds:
             of = SIGN_FUNCTIONS.get(kind)
             jet: Jet = of(instant) if of else instant.quantity(quantities[0]).value
-            if kind in ("drives", "slides", "feeds"):
-                found.append((getattr(instant, kind), jet))
-            else:
-                found.append((array(sign_of(jet, known.get(kind))), jet))
+            found.append((array(sign_of(jet, known.get(kind))), jet))
         return instant, quantities, found
 
     def __call__(
