@@ -60,8 +60,6 @@ def impacts_of(
     """
     which, begin = at
     out: Array = np.full((2, len(begin)), np.nan)
-    if not len(begin):
-        return begin, begin
     follows = np.append(which[1:] == which[:-1], False)
     until = np.where(follows, np.append(begin[1:], 0.0), np.nan)
     motions, start, drags = taken(engagement.motion, which), begin[:, None], drag[which]
