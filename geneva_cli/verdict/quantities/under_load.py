@@ -49,20 +49,16 @@ class UnderLoad:
     @cached_property
     def force_N(self) -> Array:
         """The greatest force on a roller, along the wall's normal."""
-        if self.machine.spec.size.pin_mm is not None or np.isnan(self.loaded).all():
-            return self._peak("pin_force_N")
+        if np.isnan(self.loaded).all():
+            return self.loaded
         return self.part_loads.pin_N * self.loaded  # a search that sizes need, too
 
     @cached_property
     def pv_W_m2(self) -> Array:
         """The greatest contact pressure times sliding speed; it needs a face width."""
-        return self._peak("pv_W_m2")
-
-    def _peak(self, name: str) -> Array:
-        """The greatest size of a load; NaN without a load."""
         if np.isnan(self.loaded).all():
             return self.loaded
-        return load_peaks(self.machine, [name])[name].max * self.loaded
+        return load_peaks(self.machine, ["pv_W_m2"])["pv_W_m2"].max * self.loaded
 
     @cached_property
     def _each(self) -> list[Unloaded | None]:
@@ -152,7 +148,7 @@ class UnderLoad:
         return greatest_stress(horns, self.machine, self.horn_sizes)
 
     @cached_property
-    def lock(self) -> lock.LockUnderTorque | None:
+    def lock(self) -> dict[str, Array] | None:
         """The lock under the torque that it holds in the dwell; None if no design has one."""
         sizes, width = self.lock_sizes, self.contact_mm
         if sizes is None or width is None:
