@@ -174,10 +174,11 @@ def slot_walls(
         middle = (bottom - w, 0.0)
         quarter = math.tan(math.pi / 8.0)  # the bulge of a quarter of a circle
         inwards, outwards = Arc(first.end, middle, -quarter), Arc(middle, last.start, -quarter)
-        begin = shapes.turned(Contour("", (first, inwards)), -apart).segments
+        begin = shapes.placed(Contour("", (first, inwards)), turn=-apart).segments
         between = shapes.about(ORIGIN, middle[0], -apart, 2.0 * apart)
-        pieces = (*begin, between, *shapes.turned(Contour("", (outwards, last)), apart).segments)
-    return shapes.turned(Contour("WHEEL", shapes.joined(pieces), closed=False), angle)
+        after = shapes.placed(Contour("", (outwards, last)), turn=apart).segments
+        pieces = (*begin, between, *after)
+    return shapes.placed(Contour("WHEEL", shapes.joined(pieces), closed=False), turn=angle)
 
 
 def wheel_contour(
@@ -193,7 +194,7 @@ def wheel_contour(
     """
     around, walls, rims = assembly.slots, list[list[Segment]](), list[list[Segment]]()
     for engagement, direction in around:
-        walls.append([*shapes.turned(slots[engagement], direction).segments])
+        walls.append([*shapes.placed(slots[engagement], turn=direction).segments])
     for i, (_, start) in enumerate(around):
         following = (i + 1) % len(around)
         before, after = walls[i], walls[following]
