@@ -207,25 +207,21 @@ def wheel_contour(
             if off < span or span == 0.0:
                 break
         rims.append(_rim(assembly, sizes, before, after, start + off))
-    if sizes.mouth_radius:
-        for i, rim in enumerate(rims):
-            _round_mouth(assembly, sizes, walls[i], rim)
-            after = walls[(i + 1) % len(walls)]
-            wall, back = [*shapes.mirrored(after[:1])], [*shapes.mirrored(rim)]
-            _round_mouth(assembly, sizes, wall, back)
-            after[:1], rim[:] = shapes.mirrored(wall), shapes.mirrored(back)
+    for i, rim in enumerate(rims if sizes.mouth_radius else ()):
+        after = walls[(i + 1) % len(walls)]
+        ring = [walls[i][-1], *rim, after[0]]
+        # a mouth that is extended has its corner at the rim
+        for k in (len(ring) - 2 - _is_extension(rim[-1]), 0 + _is_extension(rim[0])):
+            ring[k : k + 2] = paths.rounded(*ring[k : k + 2], sizes.mouth_radius, assembly.sign)
+        walls[i][-1], *rim[:], after[0] = ring
     cut = tuple(map(partial(Contour, "WHEEL", closed=False), map(tuple, walls)))
     pieces = chain.from_iterable(chain(*zip(walls, rims, strict=True)))
     return shapes.closed("WHEEL", pieces), cut
 
 
-def _round_mouth(assembly: Assembly, sizes: Sizes, wall: list[Segment], rim: list[Segment]) -> None:
-    """Round the corner of a wall and a rim; of a mouth that is extended, it is at the rim."""
-    first = rim[0]
-    if isinstance(first, Arc) and math.hypot(*first.centre) > 0.1 * first.radius:
-        rim[:2] = paths.rounded(first, rim[1], sizes.mouth_radius, assembly.sign)
-    else:
-        wall[-1], *rim[:1] = paths.rounded(wall[-1], first, sizes.mouth_radius, assembly.sign)
+def _is_extension(piece: Segment) -> bool:
+    """Return True for an arc that is not about the wheel's axis."""
+    return isinstance(piece, Arc) and math.hypot(*piece.centre) > 0.1 * piece.radius
 
 
 def _rim(
