@@ -62,10 +62,6 @@ class SphereArc(NamedTuple):
         """Unit vector of the direction of travel at one of its points."""
         return unit(cross(self.axis, point))
 
-    def turned(self, turn: Rotation) -> SphereArc:
-        """The arc rotated with the sphere."""
-        return SphereArc(turn(self.axis), self.angle, turn(self.start), turn(self.end))
-
     @property
     def back(self) -> SphereArc:
         """The arc in the opposite sense."""
@@ -94,12 +90,6 @@ class Rotation(NamedTuple):
     x: Vector
     y: Vector
     z: Vector
-
-    def __call__(self, v: Vector) -> Vector:
-        """Image of a vector."""
-        a, b, c = v
-        x, y, z = (a * p + b * q + c * r for p, q, r in zip(*self, strict=True))
-        return x, y, z
 
 
 class Region(NamedTuple):
@@ -135,10 +125,6 @@ class Region(NamedTuple):
             flow = np.einsum("n,ni,nj->ij", half * weights, out, u)
             second -= (flow + flow.T) / 6.0
         return second
-
-    def turned(self, turn: Rotation) -> Region:
-        """The region rotated with the sphere."""
-        return Region(tuple(arc.turned(turn) for arc in self.boundary), turn(self.middle))
 
 
 def place(polar: float, azimuth: float) -> Vector:

@@ -203,8 +203,9 @@ def _crossing(last: WallPlace, following: WallPlace) -> tuple[float, float] | No
         samples.append(i[(i >= 0) & (i < len(place.wall.t))])
     one, two = samples
     off = last.wall.points[one][:, None] - following.wall.points[two]
-    i, j = np.unravel_index(np.argmin((off * off).sum(axis=-1)), off.shape[:2])
-    last, following = last._replace(i=int(one[i])), following._replace(i=int(two[j]))
+    near = np.unravel_index(np.argmin((off * off).sum(axis=-1)), off.shape[:2])
+    last = last._replace(i=int(one[near[0]]))
+    following = following._replace(i=int(two[near[1]]))
     a, b = last.t, following.t
     for _ in range(50):
         (px, py), u, p_speed = last.course(a)

@@ -59,9 +59,9 @@ def _drawn(assembly: Assembly, sizes: Sizes) -> Outlines:
     requested = assembly.mechanism.spec.size.relief
     last, whole, spare = requested or "sector", crank_outline.is_whole(assembly, sizes), 0.0
     takes_arcs = not requested and crank_outline.takes_arcs(assembly, sizes)
-    swept = cache(lambda i: bare.swept(i, SWEPT_DEG))
+    mouths, swept = horn_corners(assembly, sizes), cache(lambda i: bare.swept(i, SWEPT_DEG))
     for relief in (*(("arc",) if takes_arcs else ()), *[last] * 6):
-        crank = crank_outline.crank_contours(assembly, sizes, relief, swept, spare)
+        crank = crank_outline.crank_contours(assembly, sizes, relief, mouths, swept, spare)
         gaps, least = bare.with_crank(crank), 0.0
         if whole and relief == last:
             break
@@ -86,7 +86,7 @@ def cut_lock(assembly: Assembly, sizes: Sizes) -> Lock:
     Beyond the crank's axis the wheel leaves less than a sector between two reliefs.
     """
     L, lock, recess, flat = assembly.L, sizes.lock, sizes.recess, sizes.horn_tip
-    mouths = paths.horn_corners(assembly, sizes)
+    mouths = horn_corners(assembly, sizes)
     whole, halves = crank_outline.is_whole(assembly, sizes), list[float]()
     around = crank_outline.reliefs(assembly)
     # arcs end where the motions do
@@ -181,6 +181,33 @@ def slot_walls(
     return shapes.placed(Contour("WHEEL", shapes.joined(pieces), closed=False), turn=angle)
 
 
+def horn_corners(assembly: Assembly, sizes: Sizes) -> dict[Engagement, tuple[float, float]]:
+    """Return the distances from the axis of each slot's horns, mm, before and after a motion.
+
+    They are those of its mouth's corners where the roller comes and goes, or of tips cut to flats.
+    """
+    mouths = [*map(partial(paths.mouth, assembly, r=sizes.roller), assembly.kinds)]
+    least = paths.least_mouth(assembly, sizes) if assembly.sign > 0.0 else 0.0
+    out = {}
+    for kind, rim in zip(assembly.kinds, mouths, strict=True):
+        if kind.slot.curved:
+            out[kind] = (max(rim + sizes.rim - max(mouths), least),) * 2
+            continue
+        first, *_, last = slot_walls(assembly, sizes, kind, 0.0).segments
+        ends = []
+        for end in (-1.0, 1.0):
+            centre = paths.rest(assembly, kind, end)
+            nearer = math.dist(first.start, centre) < math.dist(last.end, centre)
+            wall = Line(first.end, first.start) if nearer else Line(last.start, last.end)
+            at = max(math.hypot(*wall.end), least)
+            if sizes.recess and sizes.horn_tip:
+                flat = paths.tip(wall, centre, sizes.recess, sizes.horn_tip)
+                at = math.hypot(*flat.end) if flat else at
+            ends.append(at)
+        out[kind] = ends[0], ends[1]
+    return out
+
+
 def wheel_contour(
     assembly: Assembly, sizes: Sizes, slots: dict[Engagement, Contour], convex: bool = False
 ) -> tuple[Contour, tuple[Contour, ...]]:
@@ -211,8 +238,8 @@ def wheel_contour(
         after = walls[(i + 1) % len(walls)]
         ring = [walls[i][-1], *rim, after[0]]
         # a mouth that is extended has its corner at the rim
-        for k in (len(ring) - 2 - _is_extension(rim[-1]), 0 + _is_extension(rim[0])):
-            ring[k : k + 2] = paths.rounded(*ring[k : k + 2], sizes.mouth_radius, assembly.sign)
+        for k in (len(ring) - 2 - _is_extension(rim[-1]), _is_extension(rim[0]) + 0):
+            ring[k : k + 2] = paths.rounded(ring[k], ring[k + 1], sizes.mouth_radius, assembly.sign)
         walls[i][-1], *rim[:], after[0] = ring
     cut = tuple(map(partial(Contour, "WHEEL", closed=False), map(tuple, walls)))
     pieces = chain.from_iterable(chain(*zip(walls, rims, strict=True)))
