@@ -17,7 +17,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import motion_peaks
 from geneva_cli.motion.timing import CamFactors, cam_factors
 from geneva_cli.numerics.angles import DEGREE, omega, radians
-from geneva_cli.numerics.arrays import Array, Mask, Number, array, parameter
+from geneva_cli.numerics.arrays import Array, Number, array, parameter
 from geneva_cli.numerics.jet import Jet
 
 # known without a load
@@ -189,37 +189,31 @@ def fluctuations(mechanism: Mechanism, mean: Array) -> tuple[Array, Array]:
     """
     bounded = np.isfinite(mean)
     mean = np.where(bounded, mean, 0.0)[:, None]
-    case, end = load_case(mechanism), None
-    each, returned = [0.0 * mean], np.zeros(len(mean))
+    case, end, n = load_case(mechanism), None, len(mean)
+    each, returned = [0.0 * mean], np.zeros(n)
     for engagement in mechanism.engagements:
         if end is not None:
             each.append(-mean * (engagement.mid_deg + engagement.entry_deg - end) * DEGREE)
         own: dict[str, LoadQuantity] = {"unevenness_Nm": Unevenness(mean)}
         load = LoadFunctions(engagement, case, tuple(own), own, ("feeds", "wanted"))
-        works, back = _works(load, bounded)
+        pieces = load.stretches()
+        work, back = load.integrals(pieces, _work_and_return, np.stack((bounded, bounded)))
+        # works less the mean's, a row for each design padded with zeros
+        number = np.arange(len(work)) - np.searchsorted(pieces.design, pieces.design)
+        works = np.zeros((n, int(number.max()) + 1))
+        works[pieces.design, number] = np.where(bounded[pieces.design], work, 0.0)
         each.append(works)
-        returned += back
+        np.add.at(returned, pieces.design, back)
         end = engagement.mid_deg + engagement.exit_deg
     sums = np.cumsum(np.hstack(each), axis=1)
     energy = sums.max(axis=1) - sums.min(axis=1)
     return np.where(bounded, energy, np.inf), np.where(bounded, returned, np.inf)
 
 
-def _works(load: LoadFunctions, bounded: Mask) -> tuple[Array, Array]:
-    """Works less the mean's, J, a row for each design padded with zeros, and returned squares."""
-    pieces, n = load.stretches(), len(bounded)
-
-    def functions(here: Instant[Jet], every: Sequence[str | LoadQuantity]) -> tuple[Array, ...]:
-        back = array(0.5 * (1.0 - here.feeds) * here.input_torque_Nm.c[0])
-        return array(here.quantity(every[0]).value.c[0]), back * back
-
-    work, back = load.integrals(pieces, functions, np.stack((bounded, bounded)))
-    number = np.arange(len(work)) - np.searchsorted(pieces.design, pieces.design)
-    works = np.zeros((n, int(number.max()) + 1))
-    works[pieces.design, number] = np.where(bounded[pieces.design], work, 0.0)
-    returned = np.zeros(n)
-    np.add.at(returned, pieces.design, back)
-    return works, returned
+def _work_and_return(here: Instant[Jet], every: Sequence[str | LoadQuantity]) -> tuple[Array, ...]:
+    """The unevenness, and the square of the torque where the wheel drives the input."""
+    back = array(0.5 * (1.0 - here.feeds) * here.input_torque_Nm.c[0])
+    return array(here.quantity(every[0]).value.c[0]), back * back
 
 
 def kinetic_power_W(mechanism: Mechanism) -> Array:

@@ -50,27 +50,16 @@ def sized(mechanism: Mechanism) -> Layout | None:
     return None
 
 
+@lru_cache(maxsize=16)
 def machine_sizes(mechanism: Mechanism) -> Layout:
     """Return a machine's assembly and sizes. Raises GenevaError where they leave no parts."""
-    out = _machine_sizes(mechanism)
-    if isinstance(out, GenevaError):
-        raise out.with_traceback(None)  # or else it grows with each time
-    return out
+    of = unloaded(mechanism)
+    if not mechanism.spec.is_loaded:
+        refuse_unfit(of.assembly, of.sizes)
+        return of.assembly, of.sizes
+    from geneva_cli.loads.strength.part_loads import single_loads
 
-
-@lru_cache(maxsize=16)
-def _machine_sizes(mechanism: Mechanism) -> Layout | GenevaError:
-    """Return a machine's assembly and sizes, or the error, which is asked for many times too."""
-    try:
-        of = unloaded(mechanism)
-        if not mechanism.spec.is_loaded:
-            refuse_unfit(of.assembly, of.sizes)
-            return of.assembly, of.sizes
-        from geneva_cli.loads.strength.part_loads import single_loads
-
-        return of.assembly, loaded(of, mechanism, single_loads(mechanism))
-    except GenevaError as error:
-        return error
+    return of.assembly, loaded(of, mechanism, single_loads(mechanism))
 
 
 @lru_cache(maxsize=16)

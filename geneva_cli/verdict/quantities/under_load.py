@@ -25,9 +25,16 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.registry import thing
 from geneva_cli.numerics import arrays
 from geneva_cli.numerics.arrays import Array, Record, mapped, parameter
+from geneva_cli.parts.assembly import is_bridged
 from geneva_cli.parts.machine_sizes import fits, of_batch, sized, unloaded, unloaded_alike
 from geneva_cli.parts.shafts.bores import has_shape
-from geneva_cli.parts.sized_by_load import Stressed, dimensions, load_sizes, needs_lock, sizing
+from geneva_cli.parts.sized_by_load import (
+    Stressed,
+    load_sizes,
+    needs_lock,
+    planes_below,
+    stressed,
+)
 from geneva_cli.parts.sizes import Sizes as PartSizes
 from geneva_cli.parts.sizes import Unloaded
 from geneva_cli.spec.defaults import roller_material
@@ -168,20 +175,20 @@ class UnderLoad:
         of_kind = thing(machine.spec.wheel.NAME, "stressed") is not None
         if self.designs.single and not of_kind:
             one = sized(machine)
-            return one and mapped(np.ravel, dimensions(sizing(*one)))
+            return one and mapped(np.ravel, stressed(*one))
         is_own = is_own or of_kind or bool(machine.first_wheel) or self._shaped
         of = None if is_own else self._unloaded
         # links, gears and a groove, which may be in the way of shafts
-        if of and sizing(of.assembly, of.sizes).planes and not self._alike:
-            each = filter(None, self._each)
-            is_own = len({sizing(one.assembly, one.sizes)[3:5] for one in each}) > 1
+        if of and planes_below(of.assembly.full) and not self._alike:
+            every = [one.assembly.full for one in self._each if one]
+            is_own = len({(planes_below(one), is_bridged(one)) for one in every}) > 1
         if is_own or of is None:
             return batched([*map(_stressed, self.designs.each)]) if is_own else None
         locks, bent = self.lock_sizes if needs_lock(machine.spec) else None, None
         if locks and size.wheel_thickness_mm is size.face_width_mm is None:
             bent = lock.horn_MPa(machine, *locks, self._flat_horns)
         sizes = load_sizes(of, locks and locks[1], machine, self.part_loads, bent)
-        parts = dimensions(sizing(of.assembly, sizes)._replace(spec=machine.spec))
+        parts = stressed(of.assembly, sizes, machine.spec)
         fit = np.where(np.ravel(fits(of, sizes)), np.ones(machine.designs), np.nan)
         return mapped(lambda row: np.ravel(row) * fit, parts)
 
@@ -244,7 +251,7 @@ def _stressed(one: Mechanism) -> Stressed | None:
         return None
     if of_kind is None:
         flat = sized(one)
-        return flat and dimensions(sizing(*flat))
+        return flat and stressed(*flat)
     with suppress(GenevaError):  # the check of the parts reports the error
         return of_kind(one)
     return None
