@@ -46,12 +46,12 @@ class FlatParts(EdgedParts):
 
         No outline depends on a size that the load chooses.
         """
-        of = unloaded(self.mechanism)
+        layout = unloaded(self.mechanism)
         try:
-            refuse_unfit(of.assembly, of.sizes)
+            refuse_unfit(*layout)
         except GenevaError:  # unless the load chooses sizes that fit
-            return drawn(*machine_sizes(self.mechanism))
-        return drawn(of.assembly, of.sizes)
+            layout = machine_sizes(self.mechanism)
+        return drawn(*layout)
 
     @cached_property
     def outlines(self) -> Outlines:

@@ -40,7 +40,7 @@ from geneva_cli.parts import sizes as rules
 from geneva_cli.parts.assembly import Assembly, gear_plane, is_bridged, links_at
 from geneva_cli.parts.outlines.outlines import wheel_hub_length
 from geneva_cli.parts.shafts.bores import reach_or_bore
-from geneva_cli.parts.sizes import Sizes, Unloaded
+from geneva_cli.parts.sizes import Sizes
 from geneva_cli.spec.defaults import eye_about, key, roller_material, wheel_material
 
 
@@ -157,7 +157,8 @@ def needs_lock(spec: Spec) -> bool:
 
 
 def load_sizes(
-    of: Unloaded,
+    assembly: Assembly,
+    sizes: Sizes,
     by: Lock | None,
     machine: Mechanism,
     loads: PartLoads,
@@ -166,11 +167,11 @@ def load_sizes(
 ) -> Sizes:
     """Return the sizes of m designs under their loads, numbers or (m, 1).
 
-    ``of`` are those without loads, ``by`` their locks, ``bent_MPa`` the stress of ``horn_MPa`` if
-    computed already, ``link`` the thickness that a first wheel needs. Loads without a bound change
-    no size.
+    ``sizes`` are those without loads, ``by`` their locks, ``bent_MPa`` the stress of ``horn_MPa``
+    if computed already, ``link`` the thickness that a first wheel needs. Loads without a bound
+    change no size.
     """
-    spec, size, sizes = machine.spec, machine.spec.size, of.sizes
+    spec, size, usual = machine.spec, machine.spec.size, sizes
     rows = np.zeros((machine.designs, 1)) + np.reshape(loads, (len(loads), -1, 1))
     bounded = np.isfinite(rows).all(axis=0)
     if not bounded.any():
@@ -199,15 +200,15 @@ def load_sizes(
             wheel_thickness=wide, lock_thickness=disc, arm_thickness=arm, link_thickness=bar
         )
     wide, eye = sizes.wheel_thickness, math.inf
-    if of.assembly.sign > 0.0:
+    if assembly.sign > 0.0:
         # about the pin, where it passes the largest hub
         hub = np.maximum(sizes.wheel_hub, rules.LARGEST_HUB * sizes.slot_end)
-        passing = of.assembly.L - sizes.reaches[1] - hub - sizes.wall_min
+        passing = assembly.L - sizes.reaches[1] - hub - sizes.wall_min
         eye = choose(np.greater(sizes.arm_bore, 0.0), passing, eye)
     sizes = sizes._replace(pin=pin_that_holds(machine, sizes.pin, wide, sizes.roller, eye, loads))
     done = ~(np.greater(sizes.arm_bore, 0.0) & np.greater(sizes.pin, 0.0))  # without an arm
     if size.arm_thickness_mm is not None or done.all():
-        out = _bored(of, _bored(of, sizes, spec, loads, "wheel"), spec, loads, "crank")
+        out = _bored(assembly, _bored(assembly, sizes, spec, loads, "wheel"), spec, loads, "crank")
     else:
         # a thicker arm, up to twice the wheel, is better for a key than a thicker shaft
         thicknesses = [*trials_from(wide, 2.0 * wide).T[..., None]]
@@ -215,16 +216,16 @@ def load_sizes(
         for k, thick in enumerate(thicknesses + thicknesses[:count]):
             bar = sizes.link_thickness if linked else thick
             one = sizes._replace(arm_thickness=thick, link_thickness=bar)
-            one = _bored(of, one, spec, loads, "wheel")
-            one = _bored(of, one, spec, loads, "crank", k >= count)
+            one = _bored(assembly, one, spec, loads, "wheel")
+            one = _bored(assembly, one, spec, loads, "crank", k >= count)
             out = choose_record(done, out, one) if k else one
-            parts = stressed(of.assembly, one, spec)
+            parts = stressed(assembly, one, spec)
             arm_MPa = parameter(pin_arm_key.arm_stress_MPa(parts.arm, loads.wheel_N))
             holds = keeps(arm_MPa, "at most", allowed)
             done = done | (holds & key_holds(spec, parts.crank_key, loads.crank_Nm))
             if done.all():
                 break
-    return out if bounded.all() else choose_record(bounded, out, of.sizes)
+    return out if bounded.all() else choose_record(bounded, out, usual)
 
 
 def _first(holds: Truth, trials: Number) -> float:
@@ -236,7 +237,7 @@ def _first(holds: Truth, trials: Number) -> float:
 
 
 def _bored(
-    of: Unloaded, sizes: Sizes, spec: Spec, loads: PartLoads, part: str, keyed: bool = True
+    assembly: Assembly, sizes: Sizes, spec: Spec, loads: PartLoads, part: str, keyed: bool = True
 ) -> Sizes:
     """Return the sizes with the first bore of a part whose shaft holds, and if ``keyed`` its key.
 
@@ -252,7 +253,7 @@ def _bored(
         force, torque = loads.wheel_shaft_N, loads.wheel_Nm
     else:
         fixed = not (size.arm_bore_mm is spec.shaft.crank_diameter_mm is None)
-        space = 0.6 * of.space  # a larger bore leaves no space for its default hub, of 1.5 bores
+        space = 0.6 * sizes.space  # a larger bore leaves no space for its default hub, of 1.5 bores
         force, torque = loads.crank_N, loads.crank_Nm
     if fixed:
         return sizes
@@ -261,7 +262,7 @@ def _bored(
     d = trials_from(2.0 * through, 2.0 * most, bores=True)
     goes_on = d > 0.0
     # past links and gears the shaft may have no other way out
-    if part != "wheel" and not planes_below(of.assembly.full):
+    if part != "wheel" and not planes_below(assembly.full):
         left = sizes.reaches[0] - rules.hole_radius(size, sizes.pin)  # half of it stays as a wall
         ends = trials_from(2.0 * sizes.arm_bore, left, bores=True)
         ends = np.where(known, 0.0, ends)
@@ -275,7 +276,7 @@ def _bored(
     if part != "wheel":
         changes = np.greater(sizes.arm_bore, 0.0) & (d > 0.0)
         trial["arm_bore"] = np.where(changes, 0.5 * d, sizes.arm_bore)
-    parts = stressed(of.assembly, sizes._replace(**trial), spec)
+    parts = stressed(assembly, sizes._replace(**trial), spec)
     lever = getattr(parts, f"{part}_shaft").overhang / 1000.0
     bent, turned = spec.shaft.bending_factor * force * lever, spec.shaft.torsion_factor * torque
     moment = parameter(np.hypot(bent, turned))  # both are greatest at once
