@@ -193,10 +193,9 @@ def _flat_details(parts: Outlines) -> Values:
         if radius and (flat := bore_of(size, part, radius).flat):
             out[f"{part}_flat_mm"] = flat
     links = drawn_links(parts.assembly.full, parts)
-    for gear in links.gears:
-        if gear.screws.holes:
-            out["gear_bolt_mm"] = 2.0 * gear.screws.hole
-            out["gear_bolt_circle_mm"] = 2.0 * gear.screws.radius
+    if links.bolts:
+        out["gear_bolt_mm"] = 2.0 * links.bolts.hole
+        out["gear_bolt_circle_mm"] = 2.0 * links.bolts.radius
     if links.plates:
         out |= {"link_pin_mm": 2.0 * links.sizes.pin, "link_width_mm": 2.0 * links.sizes.eye}
     return out

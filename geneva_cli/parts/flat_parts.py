@@ -250,7 +250,7 @@ class FlatParts(EdgedParts):
     @property
     def round_gears(self) -> tuple[Member, ...]:
         """Gears with round pitch circles; a first wheel is none."""
-        return () if self.first else tuple(gear.member for gear in self.links.gears)
+        return () if self.first else self.links.gears
 
     @cached_property
     def gear_pair(self) -> tuple[Member, ...]:
@@ -289,12 +289,12 @@ class FlatParts(EdgedParts):
     @cached_property
     def framed(self) -> FrameAndShafts:
         """The frame, what is on it, and the shafts."""
-        parts, gears = self.outlines, map(attrgetter("plate"), self.links.gears)
+        parts = self.outlines
         arm = parts.sizes.arm_thickness if parts.has_arm else 0.0
-        plates = self._base, wheel_hub(parts.assembly, parts.sizes), *gears
+        plates = self._base, wheel_hub(parts.assembly, parts.sizes)
         lows = [*map(attrgetter("low"), filter(None, plates))]
         lows.append(-self.mechanism.spec.size.allowances.pin_gap_mm - arm)
-        lows += map(attrgetter("part.low"), (*self.linked, *self.first))
+        lows += map(attrgetter("part.low"), (*self.linked, *self.links.gears, *self.first))
         if self.mechanism.spec.gears:
             from geneva_cli.parts.gears.gear_pair import gear_span
 

@@ -123,7 +123,7 @@ class FrameAndShafts(NamedTuple):
     plate: Plate
     shafts: tuple[Member, ...]
     spacers: tuple[Member, ...] = ()  # below the parts that are screwed to it
-    screwed: tuple[tuple[Circle, str], ...] = ()  # clearance holes of screws, and what they fix
+    screwed: tuple[Screwed, ...] = ()  # by screws whose threads are in it
     bridge: tuple[Member, ...] = ()  # one that bears the crank's shaft from above, or none
     unborne: tuple[tuple[str, str], ...] = ()  # shafts that do not reach it, and why
     mounts: tuple[Circle, ...] = ()  # holes about its corners
@@ -136,13 +136,12 @@ class FrameAndShafts(NamedTuple):
     @property
     def threads(self) -> tuple[Circle, ...]:
         """The tapped holes of the frame."""
-        return tuple(tapped(hole) for hole, _ in self.screwed)
+        return tuple(tapped(hole) for *_, hole in self.screwed)
 
     @property
     def screws(self) -> tuple[Screwed, ...]:
         """The screws that fix parts to the frame, and those of its mounting holes."""
-        fixed = ((part, "the frame", hole) for hole, part in self.screwed)
-        return (*fixed, *(("frame", "its base", hole) for hole in self.mounts))
+        return (*self.screwed, *(("frame", "its base", hole) for hole in self.mounts))
 
 
 class EdgedParts(Parts):

@@ -162,8 +162,8 @@ class RackParts(EdgedParts):
         if not sizes.bore:
             bored.insert(0, hole_without_shaft(mechanism.spec.shaft.crank_diameter_mm, axis, L))
         rows = zip(("guide rail", "guide wall"), _screws(sizes), strict=True)
-        screwed = tuple((hole, name) for name, row in rows for hole in row)
-        within = [*bored, *(tapped(hole) for hole, _ in screwed)]
+        screwed = tuple((name, "the frame", hole) for name, row in rows for hole in row)
+        within = [*bored, *(tapped(hole) for *_, hole in screwed)]
         holes = [one for one in within if one.radius]
         eye = max(L / 20.0, 3.0 * wall_min(size, L))  # it leaves walls around mounting holes
         frame, mounts = mounted_plate(holes, within, eye, (plain, top))

@@ -15,16 +15,16 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.geometry.plates import Member, Plate
+from geneva_cli.geometry.plates import Member, Part, Plate
 from geneva_cli.geometry.shapes import Circle, Contour
 from geneva_cli.motion.pivots import Joint, Link
 from geneva_cli.numerics.arrays import Array, value_or
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import gear_plane, links_at, same, turn_deg
-from geneva_cli.parts.links.links import Gear, LinkAxis, Links, joined, placed_holes, places
+from geneva_cli.parts.links.links import LinkAxis, Links, joined, placed_holes, places
 from geneva_cli.parts.outlines.outlines import Outlines, wheel_hub_length
 from geneva_cli.parts.shafts.arm_and_shafts import bore_at, wheel_shaft_ends
-from geneva_cli.parts.shafts.bores import bore_of
+from geneva_cli.parts.shafts.bores import Bore, bore_of
 from geneva_cli.parts.sizes import Span
 
 
@@ -38,8 +38,9 @@ def carried(bars: Links, axis: LinkAxis, others: Iterable[Member], L: float) -> 
             found.append(member.part)
             names.discard(member.part.name)
     for gear in bars.gears:
-        if gear.plate.name in names and not gear.teeth.inside:
-            found.append(gear.plate)
+        assert isinstance(gear.part, Plate)
+        if gear.part.name in names and gear.part.bore:
+            found.append(gear.part)
     return [(plate.low, plate.high) for plate in found]
 
 
@@ -89,7 +90,7 @@ def planes(
     links, met = [link for link in every if not link.radius_mm], list[Meeting]()
     if not mechanism.first_wheel:
         for gear, link in zip(bars.gears, (one for one in every if one.radius_mm), strict=True):
-            met += _to_gear(gear, np.abs(places(link)[0]), on_wheel, turn, near)
+            met += _to_gear(gear.part, link, on_wheel, turn, near)
     shaft, overlaps = _crank_shaft(parts, links, bars, turn)
     low = value_or(mechanism.spec.size.crank_shaft_low_mm, math.inf)  # to which the spec extends it
     rounds = [*on_wheel, *_posts(parts, bars, spacers), shaft._replace(low=min(shaft.low, low))]
@@ -140,18 +141,21 @@ def _crank_shaft(
 
 
 def _to_gear(
-    gear: Gear, away: Array, rounds: Iterable[Round], turn: Array, near: float
+    plate: Part, link: Link, rounds: Iterable[Round], turn: Array, near: float
 ) -> Iterator[Meeting]:
-    """Yield the gaps of a gear to the wheel's hub and shaft, ``away`` from its axis."""
-    on_shaft, own = bool(away.max() < near), gear.bore
+    """Yield the gaps of a gear to the wheel's hub and shaft."""
+    assert isinstance(plate, Plate)
+    away, own = np.abs(places(link)[0]), plate.bore or Bore(0.0)
+    on_shaft, outline = bool(away.max() < near), plate.outline
     # a shaft fills the gear's bore, a hub does not
     wide = own._replace(radius=own.radius + own.loose).around
+    outer = outline.radius if isinstance(outline, Circle) else link.radius_mm
     for one in rounds:
-        meets = _overlap((gear.plate.low, gear.plate.high), one) > near
+        meets = _overlap((plate.low, plate.high), one) > near
         if meets and not (on_shaft and one.radius <= wide):
-            gaps = away + (wide - one.radius) if on_shaft else away - gear.outer - one.radius
+            gaps = away + (wide if on_shaft else -outer) - one.radius
             least = int(np.argmin(gaps))
-            yield Meeting(float(gaps[least]), float(turn[least]), gear.plate.name, one.name)
+            yield Meeting(float(gaps[least]), float(turn[least]), plate.name, one.name)
 
 
 def _posts(parts: Outlines, bars: Links, spacers: Iterable[Member]) -> Iterator[Round]:
