@@ -34,7 +34,7 @@ def wheel(parts: EdgedParts) -> Drawing:
 
 def crank(parts: EdgedParts) -> Drawing:
     """Return the crank in the wheel's plane; its axis is the origin, x is to the first roller."""
-    return drawing_of(parts.mechanism, "crank", parts.crank_without_arm.part)
+    return drawing_of(parts.mechanism, "crank", parts.crank_with(arm=False).part)
 
 
 def arm(parts: FlatParts) -> Drawing:
@@ -138,7 +138,7 @@ def machine(parts: FlatParts) -> Drawing:
     """Return the machine at input angle 0, from the frame up to the wheel."""
     assembly, title = parts.outlines.assembly, titled(parts.mechanism)
     drawn = [shape for one in (parts.wheel, *parts.orbiting) for shape in _seen(one)]
-    for one in parts.about_wheel(parts.crank_without_arm):
+    for one in parts.about_wheel(parts.crank_with(arm=False)):
         drawn += _seen(one)
         if parts.arm:
             drawn.append(forms.placed(parts.arm.outline, one.at, one.turn))

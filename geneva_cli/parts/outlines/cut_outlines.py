@@ -80,6 +80,7 @@ def _drawn(assembly: Assembly, sizes: Sizes) -> Outlines:
     return unlocked._replace(crank=crank, relief=relief, gaps=gaps)
 
 
+@lru_cache(maxsize=KEPT)
 def cut_lock(assembly: Assembly, sizes: Sizes) -> Lock:
     """Return the lock: the narrowest arc of the crank, and the corner that leaves the most play.
 
