@@ -22,7 +22,7 @@ from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.kinds.spherical.parts import SphereParts
 from geneva_cli.kinds.spherical.regions import edge, locked, rollers
 from geneva_cli.motion.pivots import Dimension
-from geneva_cli.numerics.arrays import Array
+from geneva_cli.numerics.arrays import Array, Complex, within_half_turn
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.projection import Missing, or_missing, titled
 from geneva_cli.spec.written import length
@@ -54,8 +54,8 @@ class Cone(NamedTuple):
 
     def point(self, polar: float, azimuth: float) -> shapes.Point:
         """Return the point of the flat cone, mm, that a point of the sphere is projected to."""
-        points, _ = self._flat(*(np.array([v]) for v in (polar, azimuth, 0.0, 0.0)))
-        return float(points[0, 0]), float(points[0, 1])
+        point, _, _ = self._flat(np.array(polar), np.array(azimuth))
+        return point.real.item(), point.imag.item()
 
     def region(self, layer: shapes.Layer, region: Region, about: float) -> shapes.Contour:
         """Return a region laid flat, whose azimuths are within half a turn of ``about``."""
@@ -75,12 +75,13 @@ class Cone(NamedTuple):
 
         def curve(turn: Array) -> tuple[Array, Array]:
             (x, y, z), (dx, dy, dz) = (v.T for v in arc.at(turn))
-            across = np.hypot(x, y)
-            azimuth = about + np.remainder(np.arctan2(y, x) - about + math.pi, math.tau) - math.pi
-            d_polar = z * (x * dx + y * dy) / across - across * dz
-            d_azimuth = (x * dy - y * dx) / (across * across)
-            points, rates = self._flat(np.arctan2(across, z), azimuth, d_polar, d_azimuth)
-            return points, rates / np.hypot(*rates.T)[:, None]
+            across, azimuth = np.hypot(x, y), about + within_half_turn(np.arctan2(y, x) - about)
+            points, outwards, sideways = self._flat(np.arctan2(across, z), azimuth)
+            rates = outwards * (z * (x * dx + y * dy) / across - across * dz)
+            rates = rates + sideways * (x * dy - y * dx) / (across * across)
+            tangents = rates / np.abs(rates)
+            at, ahead = (np.column_stack((v.real, v.imag)) for v in (points, tangents))
+            return at, ahead
 
         return [*fit.KINDS[self.curves](curve, 0.0, arc.sweep, self.tolerance_mm)]
 
@@ -89,22 +90,15 @@ class Cone(NamedTuple):
         bulge = math.tan(0.25 * azimuth * math.cos(self.polar))
         return shapes.Arc(start, end, bulge) if abs(bulge) > SAME_ANGLE else shapes.Line(start, end)
 
-    def _flat(
-        self, polar: Array, azimuth: Array, d_polar: Array, d_azimuth: Array
-    ) -> tuple[Array, Array]:
-        """Return points and their derivatives, (n, 2)."""
-        ratio = math.cos(self.polar)
-        off = polar - self.polar
-        beyond = self.radius_mm * np.tan(off)  # along the cone, from the circle of contact
-        turn, wide = ratio * azimuth, self.radius_mm * math.sin(self.polar)
-        c, s = np.cos(turn), np.sin(turn)
-        # (1 - cos)/ratio and sin/ratio, which are 0 and the azimuth on a cylinder
-        x = beyond * c - wide * azimuth * np.sin(0.5 * turn) * np.sinc(0.5 * turn / math.pi)
-        y = beyond * s + wide * azimuth * np.sinc(turn / math.pi)
-        along, across = self.radius_mm / np.cos(off) ** 2 * d_polar, wide + ratio * beyond
-        across = across * d_azimuth
-        rates = along * c - across * s, along * s + across * c
-        return np.column_stack((x, y)), np.column_stack(rates)
+    def _flat(self, polar: Array, azimuth: Array) -> tuple[Complex, Complex, Complex]:
+        """Return points of the flat cone, x + iy, and their derivatives by both angles."""
+        R, ratio, off = self.radius_mm, math.cos(self.polar), polar - self.polar
+        beyond, wide = R * np.tan(off), R * math.sin(self.polar)  # along the cone, from its circle
+        half = np.exp(0.5j * ratio * azimuth)
+        turn, chord = half * half, azimuth * half * np.sinc(0.5 * ratio * azimuth / math.pi)
+        # the chord is (turn - 1) / (i ratio), and on a cylinder the azimuth
+        points = beyond * turn + 1j * wide * chord
+        return points, turn * R / np.cos(off) ** 2, 1j * turn * (wide + ratio * beyond)
 
 
 def cone_of(parts: SphereParts, name: str) -> Cone:
@@ -133,8 +127,7 @@ def assembly(parts: SphereParts) -> Drawing:
     """Return both laid flat, side by side; the solid is the machine at input angle 0."""
     title, left, right = titled(parts.mechanism), wheel_flat(parts), crank_flat(parts)
     # wheel and crank are 0.1 of the sphere's radius apart
-    shift = 0.1 * parts.ball.radius_mm + max(shapes.bounds(shape).x1 for shape in left)
-    shift -= min(shapes.bounds(shape).x0 for shape in right)
+    shift = 0.1 * parts.ball.radius_mm + shapes.bounds_of(left).x1 - shapes.bounds_of(right).x0
     moved = [shapes.placed(shape, (shift, 0.0)) for shape in right]
     whole = Group(title, parts.members)
     return _drawing(parts, title, [*left, *moved], whole)._replace(look=Annotations())
@@ -143,13 +136,13 @@ def assembly(parts: SphereParts) -> Drawing:
 def _titled(parts: SphereParts, name: str) -> str:
     """Return a part's title with its cone's shape and position for the workshop."""
     cone = cone_of(parts, name)
-    sphere = f"the {length(cone.radius_mm)} mm sphere"
-    at = f"touches {sphere} {math.degrees(cone.polar):.6g} deg from the {name}'s axis"
-    text = f"cylinder that {at}"
+    kind, apex = "cylinder", ""
     if abs(math.cos(cone.polar)) >= SAME_ANGLE:
-        text = f"cone that {at}, {length(abs(cone.apex_mm))} mm from its apex; sector "
-        text += f"{cone.sector_deg:.6g} deg"
-    return titled(parts.mechanism, f"{name}, flat: {text}")
+        kind, apex = "cone", f", {length(abs(cone.apex_mm))} mm from its apex; sector "
+        apex += f"{cone.sector_deg:.6g} deg"
+    at = f"the {length(cone.radius_mm)} mm sphere {math.degrees(cone.polar):.6g} deg"
+    text = f"{name}, flat: {kind} that touches {at} from the {name}'s axis{apex}"
+    return titled(parts.mechanism, text)
 
 
 def _drawing(parts: SphereParts, title: str, drawn: list[shapes.Shape], shells: Part) -> Drawing:

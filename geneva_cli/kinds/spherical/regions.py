@@ -101,24 +101,25 @@ def sectors(ball: Ball) -> list[Region]:
     """Return the locking sectors of the crank, outside the region that the wheel sweeps."""
     spare = min(0.25 * (ball.recess - ball.lock) + 0.1 * ball.roller, 0.1 * ball.lock)
     # A sector's inner edge is a fifth of its outer one, or farther out where the wheel needs that.
-    least = 0.2 * ball.lock
-    spans, most = locked(ball), (1.0 - 0.05) * ball.lock  # a thinner ring would hold nothing
-    polar, azimuth = swept(ball) if spans else (np.zeros((1, 1)), np.zeros((1, 1)))
+    least, most = 0.2 * ball.lock, (1.0 - 0.05) * ball.lock  # a thinner ring would hold nothing
+    spans = locked(ball)
+    if not spans:
+        return []
+    polar, azimuth = swept(ball)
     near = polar < ball.lock * (1.0 - SAME_ANGLE)
 
     def sector(start: float, end: float) -> Region:
-        middle = 0.5 * (start + end)
-        off = np.abs(within_half_turn(np.stack([azimuth + t - middle for t in ball.rollers])))
+        middle, turns = 0.5 * (start + end), np.array(ball.rollers)[:, None, None]
+        off = np.abs(within_half_turn(azimuth + turns - middle)).min(axis=0)
+        # a point that is near at one position counts at the adjacent ones too
+        off = np.pad(np.where(near, off, math.inf), ((1, 1), (0, 0)), constant_values=math.inf)
+        off = np.minimum.reduce((off[:-2], off[1:-1], off[2:]))
 
         @cache
         def nearest(half: float) -> float:
             """Return the polar angle that the wheel leaves free, over half a range of azimuths."""
-            inside = near & (off < half * (1.0 - SAME_ANGLE))
-            # a point that is inside at one position counts at the adjacent ones too
-            inside[:, 1:] |= inside[:, :-1]
-            inside[:, :-1] |= inside[:, 1:]
-            reached = min(ball.lock, float((polar * inside).max(initial=0.0)))
-            return max(reached + spare, least)
+            reached = float(polar[off < half * (1.0 - SAME_ANGLE)].max(initial=0.0))
+            return max(min(ball.lock, reached) + spare, least)
 
         half = widest(0.5 * (end - start), lambda half: nearest(half) <= most)
         if half is None:
@@ -185,7 +186,6 @@ class CapArm(NamedTuple):
 
     boundary: Region
     bore: Bore
-    keyway: float  # azimuth about the crank's axis
     hub: float
     pins: tuple[RoundHole, ...]
     bolts: tuple[RoundHole, ...]  # equally many of each locking sector
@@ -227,7 +227,8 @@ def _arm(ball: Ball, sectors: Sequence[Region], size: Size, bolts_each: int) -> 
     limit = under * math.sin(ball.arm - RoundHole(POLE, hole).angle(under))
     why = "the hub, about arm_bore_mm, cuts the pin's hole"
     refuse_above("arm_hub_mm", 2.0 * hub, 2.0 * limit, why)
-    form = bore_of(size, "crank", ball.arm_bore_mm)
+    keyway = next((0.5 * (a + b) for a, b in locked(ball)), 0.5 * ball.rollers[-1] + math.pi)
+    form = bore_of(size, "crank", ball.arm_bore_mm)._replace(direction=keyway)
     pins = tuple(RoundHole(place(ball.arm, azimuth), hole) for azimuth in ball.rollers)
     bolts = _bolts(ball, sectors, size, bolts_each)
     cap, eye, bolted = ball.cap(hub, form.reach, wall), eye / L, wall + 2.0 * size.edge_mm
@@ -238,9 +239,8 @@ def _arm(ball: Ball, sectors: Sequence[Region], size: Size, bolts_each: int) -> 
     for k, sector in enumerate(sectors if bolts else []):
         of_sector = bolts[k * bolts_each : (k + 1) * bolts_each]
         walls.append(least_wall(sector, of_sector, ball.lock_span_mm[0]))
-    keyway = next((0.5 * (a + b) for a, b in locked(ball)), 0.5 * ball.rollers[-1] + math.pi)
     reach = max(math.acos(sphere.dot(one.middle, POLE)) + one.angle for one in caps)
-    return CapArm(boundary, form, keyway, hub, pins, bolts, cap, eye, reach, min(walls))
+    return CapArm(boundary, form, hub, pins, bolts, cap, eye, reach, min(walls))
 
 
 def _bolts(ball: Ball, sectors: Sequence[Region], size: Size, count: int) -> tuple[RoundHole, ...]:
