@@ -5,6 +5,7 @@ A new part is one function, one name here, and a line in the records of the kind
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, cast
 
 from geneva_cli.errors import GenevaError, cut, few, nearest
@@ -119,9 +120,10 @@ def _drawn(parts: Parts, part: str, tolerance_mm: float, curves: str) -> object:
     require_tolerance(parts.mechanism, tolerance_mm)
     kinds = of_wheel(parts.mechanism.spec.wheel.NAME)
     kind = next(kind for kind in reversed(kinds) if part in kind.drawings)
-    draw, built = load_named(kind.drawings[part]), parts.built if kind.parts else parts.flat
-    drawn: object = draw(built.within(tolerance_mm, curves))
-    return drawn
+    name = part.removeprefix("first-").replace("-", "_")
+    draw: Callable[[Parts], object] = load_named(f"{kind.drawings[part]}:{name}")
+    built = parts.built if kind.parts else parts.flat
+    return draw(built.within(tolerance_mm, curves))
 
 
 def require_cut(part: str, option: str = "--kerf") -> None:

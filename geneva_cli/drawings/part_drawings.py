@@ -131,7 +131,7 @@ def pitch_lines(parts: FlatParts, engagement: Engagement) -> list[Contour]:
     return [forms.turned(line, -apart), forms.turned(line, apart)] if apart else [line]
 
 
-def machine(parts: FlatParts) -> Drawing:
+def assembly(parts: FlatParts) -> Drawing:
     """Return the machine at input angle 0, from the frame up to the wheel."""
     assembly, title = parts.outlines.assembly, titled(parts.mechanism)
     drawn = [shape for one in (parts.wheel, *parts.orbiting) for shape in _seen(one)]

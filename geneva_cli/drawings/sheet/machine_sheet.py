@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from geneva_cli.drawings.part_drawings import machine
+from geneva_cli.drawings.part_drawings import assembly
 from geneva_cli.drawings.parts_list import part_rows
 from geneva_cli.drawings.sheet import crank_views, sized
 from geneva_cli.drawings.sheet.packing import Block
@@ -39,7 +39,7 @@ class Face(NamedTuple):
 def sheet(parts: FlatParts) -> Sheet:
     """Return the drawing sheet of a machine. Raises GenevaError where no scale fits on one."""
     mechanism, L = parts.mechanism, parts.mechanism.center_distance_mm
-    drawn, sizes = machine(parts).shapes, parts.outlines.sizes
+    drawn, sizes = assembly(parts).shapes, parts.outlines.sizes
     every = [one.part for one in parts.members]
     rows: list[dict[str, Any]] = list(part_rows(mechanism.spec, every))
     largest = max(row[f"size_{axis}_mm"] for row in rows for axis in "xy")

@@ -53,14 +53,6 @@ class Block(NamedTuple):
         return Block(*corners, shapes, labels, tuple(map(moved, self.measures)))
 
 
-def is_overfull(blocks: Sequence[Block], area: Box) -> bool:
-    """Return True if blocks need more than an area, so that ``packed`` cannot place them."""
-    x0, y0, x1, y1 = area
-    apart = 7.9  # mm, a little less than ``packed`` keeps between blocks, and to the edge
-    needed = sum((block.width + apart) * (block.height + apart) for block in blocks)
-    return needed > (x1 - x0 - apart) * (y1 - y0 - apart)
-
-
 def packed(blocks: Sequence[Block], taken: Sequence[Block], area: Box) -> list[Block] | None:
     """Return the blocks at free positions in an area, clear of the ``taken`` ones."""
     orders: tuple[Callable[[Block], float], ...] = (

@@ -7,7 +7,7 @@ most. The sheet is the smallest that fits. Above 1:1 the largest part is no wide
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
-from geneva_cli.drawings.sheet.packing import Block, is_overfull, packed
+from geneva_cli.drawings.sheet.packing import Block, packed
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry import sheet
 from geneva_cli.geometry.shapes import Point, Shape
@@ -67,8 +67,6 @@ def on_paper(
         parts = views(scale)
         for name, (wide, high) in FORMATS.items():
             right, inside = wide - MARGIN, (LEFT, MARGIN, wide - MARGIN, high - MARGIN)
-            if is_overfull(parts, inside):
-                continue
             corner = _title_block(spec, rows, scale, name).moved(right - TITLE_WIDTH, MARGIN)
             fixed = [corner, items.moved(right - items.width, corner.y1)]
             for one in rest(scale):

@@ -13,7 +13,6 @@ has flat faces and the bore; it sits in a round hole about the crank's axis.
 
 import math
 from collections.abc import Sequence
-from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -115,7 +114,6 @@ def sectors(ball: Ball) -> list[Region]:
         off = np.pad(np.where(near, off, math.inf), ((1, 1), (0, 0)), constant_values=math.inf)
         off = np.minimum.reduce((off[:-2], off[1:-1], off[2:]))
 
-        @cache
         def nearest(half: float) -> float:
             """Return the polar angle that the wheel leaves free, over half a range of azimuths."""
             reached = float(polar[off < half * (1.0 - SAME_ANGLE)].max(initial=0.0))
