@@ -7,6 +7,8 @@ degrees it is a cylinder.
 Layers: WHEEL and CRANK are cut; ROLLER is the hole of a roller; PITCH is the rollers' path.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Iterator
 from itertools import chain
@@ -18,6 +20,7 @@ from geneva_cli.geometry import fit, shapes
 from geneva_cli.geometry.plates import Group, Member, Part, Plate
 from geneva_cli.geometry.sheet import Annotations, Drawing
 from geneva_cli.geometry.sphere import Region, SphereArc
+from geneva_cli.geometry.sphere_arcs import azimuth, polar
 from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.kinds.spherical.parts import SphereParts
 from geneva_cli.kinds.spherical.regions import edge, locked, rollers
@@ -52,10 +55,9 @@ class Cone(NamedTuple):
         """The angle of the whole cone, laid flat."""
         return 360.0 * abs(math.cos(self.polar))
 
-    def point(self, polar: float, azimuth: float) -> shapes.Point:
-        """Return the point of the flat cone, mm, that a point of the sphere is projected to."""
-        point, _, _ = self._flat(np.array(polar), np.array(azimuth))
-        return point.real.item(), point.imag.item()
+    def points(self, polar: Array | float, azimuth: Array) -> list[shapes.Point]:
+        """Return the points of the flat cone, mm, that n points of the sphere are projected to."""
+        return [(p.real, p.imag) for p in self._flat(np.array(polar), azimuth)[0].tolist()]
 
     def region(self, layer: shapes.Layer, region: Region, about: float) -> shapes.Contour:
         """Return a region laid flat, whose azimuths are within half a turn of ``about``."""
@@ -63,10 +65,12 @@ class Cone(NamedTuple):
 
     def segments(self, arc: SphereArc, about: float) -> list[shapes.Segment]:
         """Return an arc of the sphere on the flat cone."""
-        ends = []
-        for x, y, z in (arc.start, arc.end):
-            azimuth = about + math.remainder(math.atan2(y, x) - about, math.tau)
-            ends.append(self.point(math.atan2(math.hypot(x, y), z), azimuth))
+
+        def near(points: Array) -> Array:
+            return about + within_half_turn(azimuth(points) - about)
+
+        both = np.array((arc.start, arc.end))
+        ends = self.points(polar(both), near(both))
         # a meridian: a great circle is at 90 degrees from its axis
         if not arc.axis[2] and abs(math.cos(arc.angle)) < 1e-12:
             return [shapes.Line(*ends)]
@@ -74,14 +78,13 @@ class Cone(NamedTuple):
             return [self.level(ends[0], ends[1], math.copysign(arc.sweep, arc.axis[2]))]
 
         def curve(turn: Array) -> tuple[Array, Array]:
-            (x, y, z), (dx, dy, dz) = (v.T for v in arc.at(turn))
-            across, azimuth = np.hypot(x, y), about + within_half_turn(np.arctan2(y, x) - about)
-            points, outwards, sideways = self._flat(np.arctan2(across, z), azimuth)
-            rates = outwards * (z * (x * dx + y * dy) / across - across * dz)
-            rates = rates + sideways * (x * dy - y * dx) / (across * across)
-            tangents = rates / np.abs(rates)
-            at, ahead = (np.column_stack((v.real, v.imag)) for v in (points, tangents))
-            return at, ahead
+            at, rates = arc.at(turn)
+            points, outwards, sideways = self._flat(polar(at), near(at))
+            (x, y, _), (dx, dy, dz) = at.T, rates.T
+            tangents = sideways * (x * dy - y * dx) / np.hypot(x, y) - outwards * dz
+            tangents /= np.abs(tangents)
+            on, ahead = (np.column_stack((v.real, v.imag)) for v in (points, tangents))
+            return on, ahead
 
         return [*fit.KINDS[self.curves](curve, 0.0, arc.sweep, self.tolerance_mm)]
 
@@ -165,9 +168,9 @@ def wheel_flat(parts: SphereParts) -> list[shapes.Shape]:
     for at in (2 * k * b for k in range(ball.z)):
         # the edge about a slot, half-way to the adjacent slots on either side
         outer += shapes.joined(chain(*(cone.segments(arc, at) for arc in edge(ball, at))))
-        path = shapes.Line(*(cone.point(polar, at) for polar in ends))
+        path = shapes.Line(*cone.points(np.array(ends), np.array((at, at))))
         pitch.append(shapes.Contour("PITCH", (path,), closed=False))
-    inner = [cone.point(ball.inner, (2 * k - 1) * b) for k in range(ball.z + 1)][::-1]
+    inner = cone.points(ball.inner, b * (2.0 * np.arange(ball.z, -1.0, -1.0) - 1.0))
     back = [cone.level(p, q, -2.0 * b) for p, q in zip(inner, inner[1:], strict=False)]
     first, last = outer[0].start, outer[-1].end
     outer += [shapes.Line(last, inner[0]), *back, shapes.Line(inner[-1], first)]
@@ -183,8 +186,8 @@ def crank_flat(parts: SphereParts) -> list[shapes.Shape]:
     ]
     rolling = zip(rollers(ball), ball.rollers, strict=True)
     drawn += [cone.region("ROLLER", one, about) for one, about in rolling]
-    ends = cone.point(ball.arm, 0.0), cone.point(ball.arm, math.tau)
-    drawn.append(shapes.Contour("PITCH", (cone.level(*ends, math.tau),), closed=False))
+    ends = cone.points(ball.arm, np.array((0.0, math.tau)))
+    drawn.append(shapes.Contour("PITCH", (cone.level(ends[0], ends[1], math.tau),), closed=False))
     return drawn
 
 

@@ -15,10 +15,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from geneva_cli.geometry.sphere import Region, place
-from geneva_cli.geometry.sphere_arcs import Circle, SphereArcs, from_circle, short_arcs
+from geneva_cli.geometry.sphere_arcs import SphereArcs, azimuth, from_circle, polar, short_arcs
 from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.kinds.spherical.regions import QUARTER, edge
-from geneva_cli.kinds.spherical.stops import ProjectedMotion, SphereMotion, SphereStops, polar
+from geneva_cli.kinds.spherical.stops import ProjectedMotion, SphereMotion, SphereStops
 from geneva_cli.motion.pivots import turned_points
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.assembly import Assembly
@@ -90,13 +90,12 @@ class SpherePairs(FlatPairs):
         if window.rests and len(some):
             # the crank's axes in the frame of the resting wheel
             lead = gaps.assembly.wheel(np.array([window.start]))
-            x, y, axis = turned_points(gaps.plane_motion.crank_frame, -lead)
-            circle, half = Circle(axis, x, y, ball.arm), on.crank[some]
-            off, middle = circle.seen(centre[some])
-            aside = np.abs(off - ball.arm)
+            frame, half = turned_points(gaps.plane_motion.crank_frame, -lead), on.crank[some]
+            seen = centre[some] @ frame.T
+            middle, aside = azimuth(seen), np.abs(polar(seen) - ball.arm)
             # an arc that is shorter than its middle's distance from the edge does not cross it
             short = math.sin(ball.arm) * half + aside < ball.roller + gap[some] / L
-            free = from_circle(gaps.wheel, circle, middle[short], half[short])
+            free = from_circle(gaps.wheel, frame, ball.arm, middle[short], half[short])
             some, free = some[short], L * (free - aside[short] - ball.roller)
             least[some] = np.maximum(least[some], free)
         return gap, least

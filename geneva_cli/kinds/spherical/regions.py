@@ -20,7 +20,7 @@ import numpy as np
 from geneva_cli.errors import GenevaError, refuse_size
 from geneva_cli.geometry import sphere
 from geneva_cli.geometry.sphere import POLE, Cap, Region, Rotation, SphereArc, opposite, place
-from geneva_cli.geometry.sphere_arcs import RoundHole, least_wall
+from geneva_cli.geometry.sphere_arcs import RoundHole, azimuth, least_wall, polar
 from geneva_cli.kinds.spherical.ball import Ball, refuse_above, refuse_wide
 from geneva_cli.motion.pivots import turned_points
 from geneva_cli.numerics.arrays import Array, within_half_turn
@@ -104,19 +104,19 @@ def sectors(ball: Ball) -> list[Region]:
     spans = locked(ball)
     if not spans:
         return []
-    polar, azimuth = swept(ball)
-    near = polar < ball.lock * (1.0 - SAME_ANGLE)
+    levels, places = swept(ball)
+    near = levels < ball.lock * (1.0 - SAME_ANGLE)
 
     def sector(start: float, end: float) -> Region:
         middle, turns = 0.5 * (start + end), np.array(ball.rollers)[:, None, None]
-        off = np.abs(within_half_turn(azimuth + turns - middle)).min(axis=0)
+        off = np.abs(within_half_turn(places + turns - middle)).min(axis=0)
         # a point that is near at one position counts at the adjacent ones too
         off = np.pad(np.where(near, off, math.inf), ((1, 1), (0, 0)), constant_values=math.inf)
         off = np.minimum.reduce((off[:-2], off[1:-1], off[2:]))
 
         def nearest(half: float) -> float:
             """Return the polar angle that the wheel leaves free, over half a range of azimuths."""
-            reached = float(polar[off < half * (1.0 - SAME_ANGLE)].max(initial=0.0))
+            reached = float(levels[off < half * (1.0 - SAME_ANGLE)].max(initial=0.0))
             return max(min(ball.lock, reached) + spare, least)
 
         half = widest(0.5 * (end - start), lambda half: nearest(half) <= most)
@@ -124,7 +124,7 @@ def sectors(ball: Ball) -> list[Region]:
             text = "the wheel sweeps over the whole locking sector: another lock_radius_mm may "
             raise GenevaError(text + "leave part of it; 0 omits it", ("size", "lock_radius_mm"))
         high, low, ends = ball.lock, nearest(half), (middle - half, middle + half)
-        far, inner = ([place(polar, a) for a in ends] for polar in (high, low))
+        far, inner = ([place(level, a) for a in ends] for level in (high, low))
         sides = [(-math.sin(a), math.cos(a), 0.0) for a in ends]
         boundary = (
             SphereArc(POLE, high, far[0], far[1]),
@@ -148,7 +148,7 @@ def locked(ball: Ball) -> list[tuple[float, float]]:
 
 def rollers(ball: Ball) -> list[Region]:
     """Return the rollers' cones."""
-    return [Cap(place(ball.arm, azimuth), ball.roller).region for azimuth in ball.rollers]
+    return [Cap(place(ball.arm, turn), ball.roller).region for turn in ball.rollers]
 
 
 def at_mid_motion(ball: Ball) -> Rotation:
@@ -165,18 +165,17 @@ def swept(ball: Ball) -> tuple[Array, Array]:
     """
     frame, wheel = np.array(at_mid_motion(ball)), edge_points(ball, 100)
     # the wheel turns by half a step either way: the position nearest to the crank's axis counts
-    off = np.maximum(np.abs(np.arctan2(wheel[:, 1], wheel[:, 0])) - ball.half_step, 0.0)
+    off = np.maximum(np.abs(azimuth(wheel)) - ball.half_step, 0.0)
     nearest = math.sin(ball.axes) * np.hypot(wheel[:, 0], wheel[:, 1]) * np.cos(off)
     nearest += math.cos(ball.axes) * wheel[:, 2]
     wheel = wheel[nearest > math.cos(ball.lock) - SAME_ANGLE]
     turns = np.linspace(-ball.half_motion, ball.half_motion, 361)
-    x, y, _ = (turned_points(np.array(place(ball.arm, 0.0)), -turns) @ frame).T
+    pins = turned_points(np.array(place(ball.arm, 0.0)), -turns) @ frame
     # the wheel's slot is under the roller
-    seen = wheel @ (turned_points(np.eye(3), np.arctan2(y, x)[:, None]) @ frame.T)
+    seen = wheel @ (turned_points(np.eye(3), azimuth(pins)[:, None]) @ frame.T)
     # the limit is below the locking edge's angle, so that points along the edge do not count
     comes = seen[..., 2].max(axis=0) > math.cos((1.0 - 0.5 * SAME_ANGLE) * ball.lock)
-    x, y, up = np.moveaxis(seen[:, comes], -1, 0)
-    return np.arctan2(np.hypot(x, y), up), np.arctan2(y, x) + turns[:, None]
+    return polar(seen[:, comes]), azimuth(seen[:, comes]) + turns[:, None]
 
 
 class CapArm(NamedTuple):
@@ -227,7 +226,7 @@ def _arm(ball: Ball, sectors: Sequence[Region], size: Size, bolts_each: int) -> 
     refuse_above("arm_hub_mm", 2.0 * hub, 2.0 * limit, why)
     keyway = next((0.5 * (a + b) for a, b in locked(ball)), 0.5 * ball.rollers[-1] + math.pi)
     form = bore_of(size, "crank", ball.arm_bore_mm)._replace(direction=keyway)
-    pins = tuple(RoundHole(place(ball.arm, azimuth), hole) for azimuth in ball.rollers)
+    pins = tuple(RoundHole(place(ball.arm, turn), hole) for turn in ball.rollers)
     bolts = _bolts(ball, sectors, size, bolts_each)
     cap, eye, bolted = ball.cap(hub, form.reach, wall), eye / L, wall + 2.0 * size.edge_mm
     caps = [Cap(POLE, cap), *(Cap(pin.axis, eye) for pin in pins)]
@@ -255,5 +254,5 @@ def _bolts(ball: Ball, sectors: Sequence[Region], size: Size, count: int) -> tup
     holes = []
     for (low, high), azimuths in zip(rings, directions, strict=False):
         far = 0.5 * (low + high) if own is None else math.asin(min(1.0, 0.5 * own / L))
-        holes += [RoundHole(place(far, azimuth), r) for azimuth in azimuths if r]
+        holes += [RoundHole(place(far, turn), r) for turn in azimuths if r]
     return tuple(holes)
