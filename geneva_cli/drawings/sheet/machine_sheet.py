@@ -47,9 +47,8 @@ def sheet(parts: FlatParts) -> Sheet:
     apart = [one for part in every for one in plates(part) if one.layer in ("WHEEL", "ARM")]
     boxes = [shapes.bounds(plate.outline) for plate in (*apart, *plates(every[-1]))]
     area = sum((box.x1 - box.x0) * (box.y1 - box.y0) for box in boxes)
-    items: dict[Plate, int] = {}  # the number of each kind of plate in the list
-    for i, kind in enumerate(alike(every), 1):
-        items |= {one: i for one in kind if isinstance(one, Plate)}
+    # the number of each kind of plate in the list
+    items = {one: i for i, kind in enumerate(alike(every), 1) for one in kind}
     # chords of 1.5 mm on a part of 500 mm: spans are within 0.1 mm on any paper
     faces = cut_faces(parts.members, 500.0 / largest)
     marked = {items[face.plate] for face in faces}
@@ -88,15 +87,16 @@ def sheet(parts: FlatParts) -> Sheet:
         view.balloons(tips)
         return view.block()
 
+    @cache
     def views(scale: float) -> list[Block]:
         return [*(view.block() for view in _views(rows, parts, scale)), *tables]
 
-    def rest(scale: float) -> Iterator[list[Block]]:
+    def blocks(scale: float) -> Iterator[list[Block]]:
         half = smaller(scale, 2.0)
         for of_cut, of_whole in ((scale, scale), (scale, half), (half, half)):
-            yield [section(of_cut), whole(of_whole)]
+            yield [*views(scale), section(of_cut), whole(of_whole)]
 
-    return on_paper(mechanism.spec, rows, largest, area, views, rest)
+    return on_paper(mechanism.spec, rows, largest, area, blocks)
 
 
 def _views(rows: list[dict[str, Any]], parts: FlatParts, scale: float) -> Iterator[View]:

@@ -65,8 +65,7 @@ def draw_wheel(view: View, parts: FlatParts) -> View:
             view.notes.append(f"{many}, {width} wide: flanks as in the wheel's dxf")
         else:
             _slot(view, slots[engagement], sizes.half_width, width)
-    up = 0.5 * math.pi
-    view.linear((0.0, -reach), (0.0, reach), up, sized.plain(2.0 * reach, "Ø "))
+    view.linear((0.0, -reach), (0.0, reach), 0.5 * math.pi, sized.plain(2.0 * reach, "Ø "))
     _steps(view, outlines, sorted(angles), reach)
     own = [arc for arc in arcs if math.hypot(*arc.centre) < SAME_ON_SHEET]
     view.radii(own, besides=reach)
