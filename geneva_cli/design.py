@@ -682,9 +682,9 @@ class Design:
         >>> first.name, first.value, first.must_be, first.limit, first.passes
         ('dwell_deg', 240.0, 'at least', 0.0, True)
         """
-        from geneva_cli.verdict.checks import PROOFS, applicable
+        from geneva_cli.verdict.checks.motion_checks import proof
 
-        return [*self._judged, *([] if self.is_drawn else applicable(PROOFS, self.parts, None))]
+        return [*self._judged, *([] if self.is_drawn else proof((), self.parts))]
 
     def _of_drawing(self, answer: str, *values: object) -> Any:
         """An answer about the drawings that replace the outlines."""
@@ -711,11 +711,11 @@ class Design:
         >>> Design(External(6)).proved_to(0.0002)[-1].why
         'collision-free, proved to 0.2 µm (608 intervals)'
         """
-        from geneva_cli.verdict.checks import PROOFS, applicable
+        from geneva_cli.verdict.checks.motion_checks import proof
 
         allowed = Range(0.0, self.mechanism.roller_radius_mm, "(]")
         require_mm("--certify", to_mm, allowed, "the roller's radius")
-        return [*self._judged, *([] if self.is_drawn else applicable(PROOFS, self.parts, to_mm))]
+        return [*self._judged, *([] if self.is_drawn else proof((), self.parts, to_mm))]
 
     @answer
     def _judged(self) -> list[Check]:
@@ -724,8 +724,7 @@ class Design:
 
         if self.is_drawn:
             return cast("list[Check]", self._of_drawing("checks"))
-        # a machine without parts is judged without NumPy
-        rows = [*every_check(self.mechanism, self.parts if self.spec.is_turned else None)]
+        rows = [*every_check(self.parts)]
         if all_pass(rows):
             return rows
         from geneva_cli.verdict.advice import advised
