@@ -90,8 +90,9 @@ class SpecTable:
     _parameters: ClassVar[dict[str, dataclasses.Field[object]]]  # by name
 
     def __init_subclass__(
-        cls, kw_only: bool = False, names: Iterable[str] = (), of: object = None
+        cls, table: str = "", kw_only: bool = False, names: Iterable[str] = (), of: object = None
     ) -> None:
+        cls.TABLE = table or cls.TABLE
         for name in names:  # keys that have one annotation, and are None by default
             cls.__annotations__[name] = of
             setattr(cls, name, None)
