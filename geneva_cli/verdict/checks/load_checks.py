@@ -72,11 +72,9 @@ def shocks(names: Collection[str], parts: Parts) -> Iterator[Check]:
 
         if stop := arrival(mechanism):
             torque_Nm, most_Nm = stop
-            check = compared("stopping_torque_Nm", torque_Nm, "at most", most_Nm)
-            if not check.passes and most_Nm <= 0.0:
-                why = "no inertia carries the wheel on: set inertia_kgm2 in [load]"
-                check = check._replace(why=why)
-            yield check
+            why = "no inertia carries the wheel on: set inertia_kgm2 in [load]"
+            words = partial(str, "" if most_Nm > 0.0 else why)
+            yield compared("stopping_torque_Nm", torque_Nm, "at most", most_Nm, reason=words)
 
 
 def _drag(mechanism: Mechanism) -> str:

@@ -164,12 +164,11 @@ def turning(names: Collection[str], parts: Parts) -> Iterator[Check]:
     output, unit = machine.output, machine.output.unit
     holds = machine.spec.wheel.held_by is not None or turn.holds
     yield Check("dwell_hold", float(holds), "at least", 1.0, holds)
-    smallest, idle = turn.smallest, turn.gaps.get(IDLE)  # negative where they overlap
-    gap = 0.0 if abs(smallest.mm) <= touch else smallest.mm
-    yield compared("gap_mm", gap, "at least", 0.0, smallest.at_deg, touch)
-    if idle is not None:  # a roller that does not drive the wheel
-        gap = max(idle.mm, 0.0) if idle.mm >= -touch else idle.mm
-        yield compared("idle_roller_mm", gap, "at least", 0.0, idle.at_deg, touch)
+    # negative where they overlap; of a roller that does not drive the wheel
+    for name, gap in (("gap_mm", turn.smallest), ("idle_roller_mm", turn.gaps.get(IDLE))):
+        if gap is not None:
+            mm = 0.0 if abs(gap.mm) <= touch else gap.mm
+            yield compared(name, mm, "at least", 0.0, gap.at_deg, touch)
     plays = {f"motion_play_{unit}": (turn.motion, motion_play_max(parts))}
     if parts.locked:
         # the play with which the roller would just meet the mouth of its slot
