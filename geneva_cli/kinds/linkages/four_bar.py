@@ -101,7 +101,7 @@ class CouplerPath(LinkPath):
         _, g, b, c, _, _ = self.numbers
         return Guide(b, 1.0 / c, g / c, 0.0)
 
-    def pose(self, crank: Any) -> tuple[Any, Any]:
+    def pose(self, crank: Any) -> tuple[Any, Any, Any]:
         """The coupler for directions of the crank, whose end B is on a circle."""
         a, g, b, c, _, _ = self.numbers
         x, y = g - a * crank.real, -a * crank.imag
@@ -109,5 +109,4 @@ class CouplerPath(LinkPath):
         # N² as a product (Heron); products of real numbers take half the time of complex ones
         N = library(D).sqrt(((b + c) ** 2 - D) * (D - (b - c) ** 2)) * self.side
         scale, level = 0.5 / (b * D), D + (b - c) * (b + c)
-        along = scale * (x * level - y * N) + 1j * (scale * (y * level + x * N))
-        return along, N * (0.5 / (b * c))
+        return scale * (x * level - y * N), scale * (y * level + x * N), N * (0.5 / (b * c))

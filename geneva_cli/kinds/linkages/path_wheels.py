@@ -58,20 +58,20 @@ def driven(path: LinkPath, found: tangents.Pairs, samples: tangents.Samples) -> 
     good = np.where(since < motion, near & (turns > 0.0), ~near) | end
     wheels = record_taken(wheels, np.logical_and.reduceat(good, begin))
     some, (entry, exit_) = path.of(wheels.pair.which), wheels.pair.phi
-    far, turns = wheels.driven(*_even(some, entry, exit_ - entry, EVEN, 1))
-    (back,) = _even(some, exit_, math.tau - (exit_ - entry), 2 * EVEN, 0)
+    far, turns = wheels.driven(*tangents.points(some, _even(entry, exit_ - entry, EVEN), 1))
+    *_, back = some.joints(_even(exit_, math.tau - (exit_ - entry), 2 * EVEN))
     kept = (far < wheels.distance) & (turns > 0.0)
     away = np.abs(back - wheels.centre) > wheels.distance
     return record_taken(wheels, kept.all(axis=0) & away.all(axis=0))
 
 
-def _even(path: LinkPath, phi: Array, turn: Array, count: int, order: int) -> Complex:
-    """Points at even crank angles within a turn from ``phi`` on, (order + 1, count - 1, m)."""
+def _even(phi: Array, turn: Array, count: int) -> Complex:
+    """Unit vectors at even crank angles within a turn from ``phi`` on, (count - 1, m)."""
     step = turn / count
     rows: Complex = np.exp(1j * (phi + step))[None]
     while len(rows) < count:
         rows = np.concatenate((rows, rows * np.exp(1j * len(rows) * step)))
-    return tangents.points(path, rows[: count - 1], order)
+    return rows[: count - 1]
 
 
 def _centre(ends: Complex) -> tuple[Complex, Array]:
@@ -103,7 +103,7 @@ def chosen(path: LinkPath, b: Array, wanted: Array | None = None) -> Array:
     if wanted is None:
         some, (entry, exit_) = path.of(found.which), found.phi
         wheels = PathWheels(found, *_centre(tangents.points_at(some, found.phi)))
-        far, turns = wheels.driven(*_even(some, entry, exit_ - entry, EVEN, 1))
+        far, turns = wheels.driven(*tangents.points(some, _even(entry, exit_ - entry, EVEN), 1))
         cost = np.nan_to_num(top((turns / far**2).T), nan=np.inf)
     else:
         off = found.phi[0] - wanted[found.which]

@@ -86,9 +86,9 @@ class SlidingRod(LinkPath):
         """The slider's line, across which it pushes."""
         return Guide(self.numbers[1], 0.0, 0.0, 1.0)
 
-    def pose(self, crank: Any) -> tuple[Any, Any]:
+    def pose(self, crank: Any) -> tuple[Any, Any, Any]:
         """The rod for directions of the crank, whose end B is on a line."""
         a, b, h, _, _ = self.numbers
         y = (h - a * crank.imag) / b
         x = library(y).sqrt((1.0 - y) * (1.0 + y))
-        return x + 1j * y, -x
+        return x, y, -x
