@@ -103,7 +103,7 @@ def test_hand_over_is_refined_to_its_kink(
         90.0 - 180.0 / z + math.degrees(early), abs=1e-4
     )
     assert turn.push.deg == pytest.approx(math.degrees(angle), rel=1e-5)
-    check = next(c for c in applicable(TURNING, found, turn) if c.name == "hand_over_pressure_deg")
+    check = next(c for c in applicable(TURNING, found) if c.name == "hand_over_pressure_deg")
     assert check.limit == pytest.approx(math.degrees(math.atan2(1.0, 0.3)))
     assert check.passes == (push < 73.30)
 
@@ -141,7 +141,7 @@ def test_the_wheel_is_held_at_every_position(tmp_path: Path, name: str) -> None:
     at_deg = np.full(len(leads), p.input_deg[i])
     blocked = overlapping(found, at_deg, way * np.radians(leads), flat=1e-6)
     assert blocked == [False] * 7 + [True]
-    row = next(c for c in applicable(TURNING, found, turn) if c.name == "hand_over_play_deg")
+    row = next(c for c in applicable(TURNING, found) if c.name == "hand_over_play_deg")
     assert row.passes == held
 
 
@@ -158,7 +158,7 @@ def test_play_in_the_motion(tmp_path: Path, c: float) -> None:
     p = math.asin((c + found.close) / 50.0)
     assert turn.motion.deg == pytest.approx(math.degrees(p), rel=1e-13)
     assert turn.motion.at_deg == pytest.approx(0.0, abs=1e-4)
-    row = next(r for r in applicable(TURNING, found, turn) if r.name == "motion_play_deg")
+    row = next(r for r in applicable(TURNING, found) if r.name == "motion_play_deg")
     assert row.passes == (c < 1.0)
 
 

@@ -76,9 +76,8 @@ def rows_of(table: Table, window: Window) -> Iterator[str]:
 
     A single row that does not fit is a value a line.
     """
-    layout_rows = 8192  # rows that determine the layout; later rows of a longer table follow it
-    blocks = table.blocks(layout_rows)
-    first = next(blocks, [])
+    blocks = table.blocks()
+    first = next(blocks, [])  # it determines the layout, which later rows follow
     if not first:
         yield from ["no rows"] if table.names else []
         return
@@ -87,7 +86,7 @@ def rows_of(table: Table, window: Window) -> Iterator[str]:
     if once:
         yield from layout.paragraphs(f"In every row: {'; '.join(once)}.", window)
         yield ""
-    is_long = len(table) > layout_rows
+    is_long = len(table) > len(first)
     if is_long:
         columns = [c if c.is_text else c._replace(cells=[*c.cells, "0" * NUMBER]) for c in columns]
     order = [*table.reading.first, *(n for n in table.names if n not in table.reading.first)]
