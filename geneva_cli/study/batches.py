@@ -59,7 +59,7 @@ def batch_rows(
     numbers = [
         k
         for k, column in enumerate(each)
-        if not (isinstance(column, list) and any(isinstance(cell, str) for cell in column))
+        if not (column.dtype == object and any(isinstance(cell, str) for cell in column))
     ]
 
     def first_spec(members: Whole) -> Spec | None:
@@ -68,19 +68,15 @@ def batch_rows(
                 return read(rows.row(i))
         return None
 
-    def groups(members: Whole, wide: Sequence[int]) -> Iterator[Whole]:
+    def groups(members: Whole, wide: Sequence[int]) -> Iterable[Whole]:
         """The members in groups that are equal in all columns but these."""
-        if len(wide) == len(each):
-            yield members
-            return
-        codes = np.zeros(len(members), dtype=np.intp)
-        for k, column in enumerate(rows.taken(members).columns):
-            if k not in wide:
-                known: dict[object, int] = {}
-                own = [known.setdefault(cell, len(known)) for cell in cells_of(column)]
-                codes = np.unique(codes * len(known) + own, return_inverse=True)[1]
-        order = np.argsort(codes, kind="stable")
-        yield from np.split(members[order], np.flatnonzero(np.diff(codes[order])) + 1)
+        shared = [cells_of(column[members]) for k, column in enumerate(each) if k not in wide]
+        if not shared:
+            return [members]
+        alike: dict[object, list[int]] = {}
+        for i, cells in zip(members.tolist(), zip(*shared, strict=True), strict=True):
+            alike.setdefault(cells, []).append(i)
+        return map(np.array, alike.values())
 
     for kind in groups(np.arange(len(rows)), numbers):
         wide = []
@@ -91,7 +87,7 @@ def batch_rows(
         for members in groups(kind, wide) if wide else ():
             if spec := spec if members is kind else first_spec(members):
                 own = rows.taken(members).columns
-                varied = {keys[k]: np.asarray(own[k]) for k in wide}
+                varied = {keys[k]: np.array(own[k].tolist()) for k in wide}
                 yield from built(spec, varied, members)
 
 

@@ -162,15 +162,15 @@ class Sweep(NamedTuple):
         """The rows of designs from the columns of their keys."""
         designs, known = Rows(keys), self.known(keys)
         columns: dict[str, Column] = dict(zip(self.pick.batched, known, strict=True))
-        none: Column = [None] * len(designs)
+        none: Column = np.full(len(designs), None)
         rows = Rows([*keys, *(columns.get(name, none) for name in self.pick.names), none])
         whole: Mask = np.logical_not(np.isnan(known).any(axis=0))
         left: Mask = ~whole if self.is_batched else np.full(len(designs), True)
         for bound in () if self.goal else self.bounds:  # a search needs all to come nearer
             if bound.name in columns:  # nobody needs the others of a design that breaks it
                 left &= bound.kept_by(rows.numbers(self.names.index(bound.name))) | ~whole
-        alone = self._rows_alone(designs.taken(left), Rows([whole[left].tolist(), *known[:, left]]))
-        return rows.replaced(np.flatnonzero(left), [*alone]) if left.any() else rows
+        alone = self._rows_alone(designs.taken(left))
+        return rows.replaced(np.flatnonzero(left), alone) if left.any() else rows
 
     def known(self, keys: Sequence[Column]) -> Array:
         """The quantities of ``pick.batched`` (q, n) of designs, NaN where a batch lacks them."""
@@ -182,22 +182,17 @@ class Sweep(NamedTuple):
 
         return batch_rows(designs, self.keys, spec)
 
-    def _rows_alone(self, designs: Rows, known: Rows) -> Iterator[list[Cell]]:
-        """The rows of designs, each computed alone.
-
-        ``known`` says whether a batch knows all its quantities of a design, and these.
-        """
+    def _rows_alone(self, designs: Rows) -> Iterator[list[Cell]]:
+        """The rows of designs, each computed alone."""
         from geneva_cli.parts.parts import parts_of  # most sweeps of a batch need no parts
 
         for start in range(0, len(designs), KEPT):
-            part = np.arange(start, min(start + KEPT, len(designs)))
             last: Parts | None = None
-            some = designs.taken(part)
-            each = zip(some, self._machines(some), known.taken(part), strict=True)
-            for values, machine, (whole, *cells) in each:
+            some = designs.taken(np.arange(start, min(start + KEPT, len(designs))))
+            for values, machine in zip(some, self._machines(some), strict=True):
                 if machine:
                     last = last.following(machine) if last else parts_of(machine)
-                yield self.row(values, last if machine else None, cells if whole else None)
+                yield self.row(values, last if machine else None)
 
     def _keeps(self, cells: Mapping[str, Cell]) -> bool:
         """Return False for a design whose parts nobody needs, as it breaks a bound."""
@@ -210,8 +205,8 @@ class Sweep(NamedTuple):
         for i, values in enumerate(designs):
             with suppress(GenevaError):  # its row says why
                 machines[i] = self.machine(values)
-        # the loads of their checks are those of batches
-        for members, batch in self._batches(designs) if self._makes_parts else ():
+        # their quantities, and the loads of their checks, are those of batches
+        for members, batch in self._batches(designs):
             own = [one for i in members.tolist() if (one := machines[i])]
             if len(own) == len(members) > 1:
                 from geneva_cli.verdict.quantities.under_load import share
@@ -219,22 +214,16 @@ class Sweep(NamedTuple):
                 share(batch, own)
         return machines
 
-    def row(
-        self,
-        values: Sequence[Cell],
-        parts: Parts | None = None,
-        known: Sequence[Cell] | None = None,
-    ) -> list[Cell]:
+    def row(self, values: Sequence[Cell], parts: Parts | None = None) -> list[Cell]:
         """The row of the design with these values of the keys, computed alone.
 
-        ``parts`` are those of its machine, if they are made, and ``known`` the quantities of
-        ``pick.batched`` from a batch.
+        ``parts`` are those of its machine, if they are made.
         """
         from geneva_cli.parts.parts import parts_of
 
         try:
             parts = parts or parts_of(self.machine(values))
-            return [*values, *self.pick.of_parts(parts, known, self._keeps), None]
+            return [*values, *self.pick.of_parts(parts, self._keeps), None]
         except GenevaError as error:
             return [*values, *[None] * len(self.pick.names), str(error)]
 
@@ -247,28 +236,18 @@ class Sweep(NamedTuple):
 
     def chosen(self, row_blocks: Iterable[Rows]) -> Iterator[Rows]:
         """The rows that keep all bounds and, of these, the Pareto front."""
-        bounds = [(self.names.index(c.name), c) for c in self.bounds]
         signed = [(self.names.index(o.name), o.sign) for o in self.objectives]
-        best, size, count = list[Rows](), 0, 0  # the front so far, its size; all rows since then
-
-        def foremost() -> Rows:
-            rows = joined(best)
-            return rows.taken(front(np.column_stack([s * rows.numbers(i) for i, s in signed])))
-
+        best = list[Rows]()  # the front so far: a row that it dominates never returns
         for rows in row_blocks:
-            for i, c in bounds:
-                rows = rows.taken(c.kept_by(rows.numbers(i)))
-            if not signed:
-                if len(rows):
-                    yield rows
-                continue
-            best.append(rows)  # a row that the front dominates never returns
-            count += len(rows)
-            if count >= 2 * size:  # not for a few rows more, if the front is long
-                best = [foremost()]
-                size = count = len(best[0])
-        if best and len(rows := foremost()):
-            yield rows
+            for bound in self.bounds:
+                rows = rows.taken(bound.kept_by(rows.numbers(self.names.index(bound.name))))
+            if signed:
+                rows = joined([*best, rows])
+                costs = np.column_stack([sign * rows.numbers(i) for i, sign in signed])
+                best = [rows.taken(front(costs))]
+            elif len(rows):
+                yield rows
+        yield from filter(len, best)
 
 
 def sweep(text: Text, plan: SweepPlan, picks: Sequence[str] = DEFAULT) -> Sweep:
