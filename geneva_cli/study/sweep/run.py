@@ -236,18 +236,25 @@ class Sweep(NamedTuple):
 
     def chosen(self, row_blocks: Iterable[Rows]) -> Iterator[Rows]:
         """The rows that keep all bounds and, of these, the Pareto front."""
-        signed = [(self.names.index(o.name), o.sign) for o in self.objectives]
-        best = list[Rows]()  # the front so far: a row that it dominates never returns
+        best, size = list[Rows](), 0  # the front so far, its size, and rows since then
+
+        def foremost() -> Rows:
+            rows = joined(best)
+            each = [o.sign * rows.numbers(self.names.index(o.name)) for o in self.objectives]
+            return rows.taken(front(np.column_stack(each)))
+
         for rows in row_blocks:
             for bound in self.bounds:
                 rows = rows.taken(bound.kept_by(rows.numbers(self.names.index(bound.name))))
-            if signed:
-                rows = joined([*best, rows])
-                costs = np.column_stack([sign * rows.numbers(i) for i, sign in signed])
-                best = [rows.taken(front(costs))]
+            if self.objectives:
+                best.append(rows)  # a row that the front dominates never returns
+                if sum(map(len, best)) >= 2 * size:  # not for a few rows more than a long front
+                    best = [foremost()]
+                    size = len(best[0])
             elif len(rows):
                 yield rows
-        yield from filter(len, best)
+        if best and len(rows := foremost()):
+            yield rows
 
 
 def sweep(text: Text, plan: SweepPlan, picks: Sequence[str] = DEFAULT) -> Sweep:
