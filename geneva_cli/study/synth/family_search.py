@@ -19,7 +19,8 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.arrays import Array, Mask, Whole, joined
 from geneva_cli.numerics.tolerances import ROUNDED
-from geneva_cli.study.batches import built, columns, split
+from geneva_cli.study.batches import SpecGroups
+from geneva_cli.study.batches import numbers as quantities
 from geneva_cli.study.sweep.constraints import Objective
 from geneva_cli.study.synth.families.family import Family
 from geneva_cli.study.target import Target
@@ -211,10 +212,7 @@ class FamilyCosts:
         self.names = [self.goal.name, *(b.name for b in (*self.bounds, *self.soft))]
         each = [(f.low, f.high, f.plain) for f in families]
         self.low, self.high, self.plain = np.array(each).T
-        own = split([f.spec for f in families])
-        shapes = {shape: i for i, (shape, _) in enumerate(own)}
-        self._own = [values for _, values in own]
-        self._shape = np.array([shapes[shape] for shape, _ in own])
+        self.groups = SpecGroups([f.spec for f in families])
 
     def numbers(self, of: Whole, at: Array) -> Array:
         """The numbers (n,) of families at places of the unit cube, without the cube's rounding."""
@@ -225,37 +223,23 @@ class FamilyCosts:
     def __call__(self, of: Whole, at: Array) -> tuple[Array, Array]:
         """Violations and costs at places (n, 1) of families, (n,) each."""
         numbers = self.numbers(of, at[:, 0])
-        values = self._values(of, numbers)
-        cost = self.goal.sign * values[:, 0]
+        keys = dict[str, Array]()
+        for i in np.unique(of).tolist():
+            some, keys_of = of == i, self.families[i].keys
+            assert keys_of
+            for key, value in keys_of(numbers[some]).items():
+                own = keys.setdefault(key, np.full(len(of), math.nan))
+                own[some] = np.where(np.isnan(value), math.inf, value)
+        goal, *others = quantities(self.groups.machines(of, keys), self.names, len(of))
+        cost = self.goal.sign * goal
         if self.is_nearest:
             far = np.abs(numbers - self.plain[of])
             cost = np.where(np.isnan(far), cost, far)
         violation = np.zeros(len(of))
-        for i, bound in enumerate((*self.bounds, *self.soft)):
-            margin = bound.margin(values[:, i + 1])
+        for i, (bound, own) in enumerate(zip((*self.bounds, *self.soft), others, strict=True)):
+            margin = bound.margin(own)
             rounding = np.where(margin >= -ROUNDED * (bound.bound != 0.0), 1e-300, -margin)
             weight = 1.0 if i < len(self.bounds) else SOFT
             violation += weight * np.where(margin >= 0.0, 0.0, np.minimum(rounding, 1e9))
-        known = np.isfinite(values[:, 0]) & ~np.isnan(violation)
+        known = np.isfinite(goal) & ~np.isnan(violation)
         return np.where(known, violation, math.inf), np.where(known, cost, math.inf)
-
-    def _values(self, of: Whole, numbers: Array) -> Array:
-        """The goal and the bounded quantities, (n, names); NaN without a machine."""
-        out = np.full((len(of), len(self.names)), math.nan)
-        shape = self._shape[of]
-        for kind in np.unique(shape).tolist():
-            which = np.flatnonzero(shape == kind)
-            own = [self._own[i] for i in of[which].tolist()]
-            varied = {key: np.array([one[key] for one in own]) for key in own[0]}
-            for i in np.unique(of[which]).tolist():
-                some, keys = of[which] == i, self.families[i].keys
-                assert keys
-                for key, value in keys(numbers[which][some]).items():
-                    varied[key] = varied[key].astype(float)
-                    varied[key][some] = value
-            able = np.isfinite(list(varied.values())).all(axis=0)
-            if able.any():
-                which, varied = which[able], {key: value[able] for key, value in varied.items()}
-                for members, machine in built(self.families[of[which[0]]].spec, varied, which):
-                    out[members] = np.column_stack(columns(machine, self.names, len(members)))
-        return out
