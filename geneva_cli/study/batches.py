@@ -40,19 +40,16 @@ def batch_machines(specs: Sequence[Spec]) -> Iterator[Batch]:
     return SpecGroups(specs).machines(np.arange(len(specs)))
 
 
-def batch_rows(
-    rows: Rows, keys: Sequence[str], read: Callable[[Sequence[Cell]], Spec]
-) -> Iterator[Batch]:
-    """Batch machines of rows of values of some keys, each with the numbers of its rows.
+def batch_rows(rows: Rows, read: Callable[[Sequence[Cell]], Spec]) -> Iterator[Batch]:
+    """Batch machines of rows of values of keys, each with the numbers of its rows.
 
     ``read`` makes the spec of a row, which takes longer than the row's share of a batch: it is
     called for the first rows of a batch only. Rows that share their words are machines of one kind,
     which tells which of their numbers may be arrays; the rows of a batch share the others too.
     """
-    each = rows.columns
     numbers = [
-        k
-        for k, column in enumerate(each)
+        key
+        for key, column in rows.columns.items()
         if not (column.dtype == object and any(isinstance(cell, str) for cell in column))
     ]
 
@@ -62,9 +59,9 @@ def batch_rows(
                 return read(rows.row(i))
         return None
 
-    def groups(members: Whole, wide: Sequence[int]) -> Iterable[Whole]:
+    def groups(members: Whole, wide: Sequence[str]) -> Iterable[Whole]:
         """The members in groups that are equal in all columns but these."""
-        shared = [cells_of(column[members]) for k, column in enumerate(each) if k not in wide]
+        shared = [cells_of(rows.columns[key][members]) for key in rows.columns if key not in wide]
         if not shared:
             return [members]
         alike: dict[object, list[int]] = {}
@@ -75,13 +72,13 @@ def batch_rows(
     for kind in groups(np.arange(len(rows)), numbers):
         wide = []
         if spec := first_spec(kind):
-            for k in numbers:
+            for key in numbers:
                 with suppress(GenevaError):  # the key belongs to another kind of machine
-                    wide += [k] if may_vary(spec, keys[k]) else []
+                    wide += [key] if may_vary(spec, key) else []
         for members in groups(kind, wide) if wide else ():
             if spec := spec if members is kind else first_spec(members):
                 own = rows.taken(members).columns
-                varied = {keys[k]: np.array(own[k].tolist()) for k in wide}
+                varied = {key: np.array(own[key].tolist()) for key in wide}
                 yield from built(spec, varied, members)
 
 

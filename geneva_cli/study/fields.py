@@ -27,52 +27,53 @@ Column: TypeAlias = "np.ndarray[Any, Any]"
 
 
 class Rows:
-    """Rows of equal columns; iteration yields a list of cells for each row."""
+    """Rows of equal columns by their names; iteration yields a list of cells for each row."""
 
-    def __init__(self, columns: Sequence[Column]) -> None:
-        self.columns = list(columns)
+    def __init__(self, columns: Mapping[str, Column]) -> None:
+        self.columns = dict(columns)
 
     def __len__(self) -> int:
-        return len(self.columns[0])
+        return len(next(iter(self.columns.values())))
 
     def __iter__(self) -> Iterator[list[Cell]]:
-        return map(list, zip(*map(cells_of, self.columns), strict=True))
+        return map(list, zip(*map(cells_of, self.columns.values()), strict=True))
 
     def row(self, i: int) -> list[Cell]:
         """The cells of one row."""
-        return [cells_of(column[i : i + 1])[0] for column in self.columns]
+        return [cells_of(column[i : i + 1])[0] for column in self.columns.values()]
 
-    def numbers(self, at: int) -> Array:
+    def numbers(self, name: str) -> Array:
         """A column as numbers (n,), NaN for cells that hold none; True and False are 1 and 0."""
-        column = self.columns[at]
+        column = self.columns[name]
         if column.dtype == object:
             return np.array([float(v) if isinstance(v, (int, float)) else math.nan for v in column])
         return np.where(np.isinf(column), np.nan, column)
 
     def taken(self, which: Mask | Whole) -> Rows:
         """Some of the rows, by a mask (n,) or by their numbers."""
-        return Rows([column[which] for column in self.columns])
+        return Rows({name: column[which] for name, column in self.columns.items()})
 
     def replaced(self, which: Whole, rows: Iterable[Sequence[Cell]]) -> Rows:
         """The rows with those of these numbers replaced."""
         changed: list[Sequence[Cell]] = [*self]
         for i, row in zip(which.tolist(), rows, strict=True):
             changed[i] = row
-        return rows_of(changed)
+        return rows_of(self.columns, changed)
 
 
-def rows_of(rows: Sequence[Sequence[Cell]]) -> Rows:
-    """Rows from the cells of each row, at least one."""
-    return Rows([column_of(cells) for cells in zip(*rows, strict=True)])
+def rows_of(names: Iterable[str], rows: Sequence[Sequence[Cell]]) -> Rows:
+    """Rows of named columns from the cells of each row, at least one."""
+    return Rows(dict(zip(names, map(column_of, zip(*rows, strict=True)), strict=True)))
 
 
 def joined(several: Sequence[Rows]) -> Rows:
     """The rows of several, at least one, with equal columns."""
-    out: list[Column] = []
-    for columns in zip(*[rows.columns for rows in several], strict=True):
+    out = dict[str, Column]()
+    for name in several[0].columns:
+        columns = [rows.columns[name] for rows in several]
         is_alike = len({column.dtype for column in columns}) == 1
         own = columns if is_alike else [column_of(cells_of(c), object) for c in columns]
-        out.append(np.concatenate(own))
+        out[name] = np.concatenate(own)
     return Rows(out)
 
 

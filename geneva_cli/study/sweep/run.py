@@ -23,7 +23,7 @@ from geneva_cli.numerics.sobol import DIMENSIONS, sobol
 from geneva_cli.specfile.columns import digest
 from geneva_cli.specfile.reader import Setting, Text, setting
 from geneva_cli.study.batches import Batch, batch_rows, numbers
-from geneva_cli.study.fields import Cell, Column, Pick, Rows, joined, pick
+from geneva_cli.study.fields import Cell, Pick, Rows, joined, pick
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.sweep.constraints import Constraint, Objective, front
 from geneva_cli.study.sweep.values import POINTS_MAX, VariedKey
@@ -52,10 +52,10 @@ class SweepPlan(NamedTuple):
 
     def rows(self, start: int, stop: int) -> list[list[Cell]]:
         """The values of the keys of the designs ``start`` to ``stop - 1``."""
-        return [*Rows(self.columns(start, stop))]
+        return [*self.designs(start, stop)]
 
-    def columns(self, start: int, stop: int) -> list[Column]:
-        """The values of each key in the designs ``start`` to ``stop - 1``."""
+    def designs(self, start: int, stop: int) -> Rows:
+        """The designs ``start`` to ``stop - 1``: a column for each key."""
         if self.random:
             # Points that fill the cube more evenly than random ones, drawn in whole blocks: equal
             # wherever a run begins.
@@ -63,10 +63,10 @@ class SweepPlan(NamedTuple):
             dimensions, blocks = len(self.axes), range(first, stop, BLOCK)
             points = np.hstack([sobol(dimensions, self.seed, k, BLOCK) for k in blocks])
             own = points[:, start - first : stop - first]
-            return [a.between(x) for a, x in zip(self.axes, own, strict=True)]
+            return Rows({a.key: a.between(x) for a, x in zip(self.axes, own, strict=True)})
         counts = [len(a.values) for a in self.axes]
         each = np.unravel_index(np.arange(start, stop), counts)
-        return [a.column(at) for a, at in zip(self.axes, each, strict=True)]
+        return Rows({a.key: a.column(at) for a, at in zip(self.axes, each, strict=True)})
 
 
 def plan(axes: Sequence[VariedKey], random: int | None, seed: int) -> SweepPlan:
@@ -156,31 +156,30 @@ class Sweep(NamedTuple):
         yield from mapped(partial(self._block, size), starts, count)
 
     def _block(self, size: int, start: int) -> Rows:
-        return self.rows_of(self.plan.columns(start, min(start + size, len(self.plan))))
+        return self.rows_of(self.plan.designs(start, min(start + size, len(self.plan))))
 
-    def rows_of(self, keys: Sequence[Column]) -> Rows:
-        """The rows of designs from the columns of their keys."""
-        designs, known = Rows(keys), self.known(keys)
-        columns: dict[str, Column] = dict(zip(self.pick.batched, known, strict=True))
-        none: Column = np.full(len(designs), None)
-        rows = Rows([*keys, *(columns.get(name, none) for name in self.pick.names), none])
+    def rows_of(self, designs: Rows) -> Rows:
+        """The rows of designs from the values of their keys."""
+        known, none = self.known(designs), np.full(len(designs), None)
+        columns = designs.columns | dict.fromkeys((*self.pick.names, ERROR), none)
+        rows = Rows(columns | dict(zip(self.pick.batched, known, strict=True)))
         whole: Mask = np.logical_not(np.isnan(known).any(axis=0))
         left: Mask = ~whole if self.is_batched else np.full(len(designs), True)
         for bound in () if self.goal else self.bounds:  # a search needs all to come nearer
-            if bound.name in columns:  # nobody needs the others of a design that breaks it
-                left &= bound.kept_by(rows.numbers(self.names.index(bound.name))) | ~whole
+            if bound.name in self.pick.batched:  # nobody needs the others if a design breaks it
+                left &= bound.kept_by(rows.numbers(bound.name)) | ~whole
         alone = self._rows_alone(designs.taken(left))
         return rows.replaced(np.flatnonzero(left), alone) if left.any() else rows
 
-    def known(self, keys: Sequence[Column]) -> Array:
+    def known(self, designs: Rows) -> Array:
         """The quantities of ``pick.batched`` (q, n) of designs, NaN where a batch lacks them."""
-        return numbers(self._batches(Rows(keys)), self.pick.batched, len(keys[0]))
+        return numbers(self._batches(designs), self.pick.batched, len(designs))
 
     def _batches(self, designs: Rows) -> Iterator[Batch]:
         def spec(values: Sequence[Cell]) -> Spec:
             return with_values(self.text, self.keys, values).spec()
 
-        return batch_rows(designs, self.keys, spec)
+        return batch_rows(designs, spec)
 
     def _rows_alone(self, designs: Rows) -> Iterator[list[Cell]]:
         """The rows of designs, each computed alone."""
@@ -240,12 +239,12 @@ class Sweep(NamedTuple):
 
         def foremost() -> Rows:
             rows = joined(best)
-            each = [o.sign * rows.numbers(self.names.index(o.name)) for o in self.objectives]
+            each = [o.sign * rows.numbers(o.name) for o in self.objectives]
             return rows.taken(front(np.column_stack(each)))
 
         for rows in row_blocks:
             for bound in self.bounds:
-                rows = rows.taken(bound.kept_by(rows.numbers(self.names.index(bound.name))))
+                rows = rows.taken(bound.kept_by(rows.numbers(bound.name)))
             if self.objectives:
                 best.append(rows)  # a row that the front dominates never returns
                 if sum(map(len, best)) >= 2 * size:  # not for a few rows more than a long front
@@ -264,7 +263,7 @@ def sweep(text: Text, plan: SweepPlan, picks: Sequence[str] = DEFAULT) -> Sweep:
     run, size = Sweep(text, plan, Pick(names)), len(plan)
     count, reasons = min(size, 1000), list[str]()  # designs of the sample
     # the middle design comes first: most ranges have one that can be built
-    middle = [*Rows([a.between(np.array([0.5])) for a in plan.axes])]
+    middle = [*Rows({a.key: a.between(np.array([0.5])) for a in plan.axes})]
     starts, some = [i * size // count for i in range(count)], 1
     if plan.random:  # its first ones, at once
         starts, some = [0], count

@@ -215,9 +215,10 @@ def _bounded(target: Target, found: list[MachineRow]) -> list[MachineRow]:
     known = [row for row in found if row.cells.keys() >= {*names}]
     kept = [row for row in known if all(b.kept(row.cells[b.name]) for b in bounds)]
     if not kept:
-        nearness = Nearness([*enumerate(bounds)])
+        nearness = Nearness(bounds)
         if known:
-            nearness.add(rows_of([[row.cells[b.name] for b in bounds] for row in known]).numbers)
+            each = [[row.cells[name] for name in names] for row in known]
+            nearness.add(rows_of(names, each).numbers)
         why = "; ".join(nearness.phrases())
         raise GenevaError(f"--subject-to: none of {len(found)} machines keeps all bounds: {why}")
     return kept
