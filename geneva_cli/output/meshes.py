@@ -13,7 +13,7 @@ from geneva_cli.geometry.shapes import STRAIGHT, Arc, Cubic, Layer, Segment, poi
 from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.geometry.sphere import axis_frame, unit
 from geneva_cli.numerics.arrays import Array, Complex, Whole
-from geneva_cli.output.solid_part import plate_contours, require_thick, solid_part
+from geneva_cli.output.solid_part import plate_contours, solid_part
 
 DECIMALS = 6  # of coordinates in mm, so that rounding of another processor is not seen
 CORNERS_MAX = 200_000  # of a solid: a file of about 40 MB
@@ -66,8 +66,6 @@ def placed(corners: Array, place: Place) -> Array:
 
 @lru_cache(maxsize=32)  # an export writes each solid by itself, and all of them together
 def _surface(solid: Solid, tolerance: float) -> tuple[Array, Whole]:
-    if not tolerance > 0.0:
-        raise GenevaError(f"--tolerance {tolerance:g}: it must be above 0 mm")
     body = _shell(solid, tolerance) if isinstance(solid, Shell) else _plate(solid, tolerance)
     mesh = body.to_mesh64()
     corners = _rounded(np.asarray(mesh.vert_properties)[:, :3])
@@ -108,7 +106,6 @@ def _shell(shell: Shell, tolerance: float) -> m3.Manifold:
 
     Both are made on a map of the outer sphere, in true distances from the middle of the shell.
     """
-    require_thick(shell)
     frame = np.array(axis_frame(unit(np.sum([region.middle for region in shell.regions], axis=0))))
     loops = []
     for region in shell.regions:
