@@ -17,19 +17,12 @@ from geneva_cli.spec.schema import shown
 
 CRANK = "drives.crank:Crank"  # the drive of a spec without one
 _CRANK, _PIN_PATH = "motion.compatible:of_transmission", "motion.compatible:of_pin_path"
-# Of flat parts, and of links and gears in front of a crank.
+# Of flat parts, and of links and gears in front of a crank: functions by the names of the parts.
+_NAMES = "slot wheel crank arm links first-wheel first-crank frame assembly gears groove"
 _DRAWINGS = {
-    "slot": "drawings.part_drawings:slot",
-    "wheel": "drawings.part_drawings:wheel",
-    "crank": "drawings.part_drawings:crank",
-    "arm": "drawings.part_drawings:arm",
-    "links": "drawings.part_drawings:links",
-    "first-wheel": "drawings.part_drawings:wheel",
-    "first-crank": "drawings.part_drawings:crank",
-    "frame": "drawings.part_drawings:frame",
+    name: "drawings.part_drawings:" + name.removeprefix("first-") for name in _NAMES.split()
+} | {
     "assembly": "drawings.part_drawings:machine",
-    "gears": "drawings.part_drawings:gears",
-    "groove": "drawings.part_drawings:groove",
     "groove-plate": "drawings.part_drawings:groove_plate",
     "plate": "drawings.parts_list:plate",
 }
