@@ -4,31 +4,24 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import NamedTuple, TypeAlias, TypeVar
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.plates import Member, Part, Plate, Shell, Solid, in_place, solids
+from geneva_cli.geometry.plates import Member, Part, Shell, Solid, in_place, solids
 from geneva_cli.geometry.shapes import Circle, Shape
 from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.motion.mechanism import Mechanism
 
-Kind: TypeAlias = "Solid | tuple[str, str] | tuple[Plate, float]"
-
 
 def alike(parts: Iterable[Part]) -> list[list[Solid]]:
     """Return the solids of some parts: a list for each kind, also at different heights."""
-    kinds: dict[Kind, list[Solid]] = {}
+    kinds: dict[tuple[object, object], list[Solid]] = {}
     for solid in (one for part in parts for one in solids(part)):
-        kinds.setdefault(_kind(solid), []).append(solid)
+        if isinstance(solid, Shell):
+            # shells of one kind lie at different places, and may differ by rounding
+            kind: tuple[object, object] = solid.name, f"{solid.volume:.9g}"
+        else:
+            # thicknesses are differences of heights: to a nanometre
+            kind = solid._replace(low=0.0, high=0.0), round(solid.thickness, 6)
+        kinds.setdefault(kind, []).append(solid)
     return list(kinds.values())
-
-
-def _kind(solid: Solid) -> Kind:
-    """Return what is equal for solids of one kind."""
-    if isinstance(solid, Shell):
-        # shells of one kind lie at different places, and may differ by rounding
-        return solid.name, f"{solid.volume:.9g}"
-    if isinstance(solid, Plate):
-        # thicknesses are differences of heights: to a nanometre
-        return solid._replace(low=0.0, high=0.0), round(solid.thickness, 6)
-    return solid
 
 
 T = TypeVar("T")
