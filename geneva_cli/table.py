@@ -223,10 +223,8 @@ def computed_table(
 
 def plain_rows(columns: Sequence[Any]) -> list[tuple[Any, ...]]:
     """The rows of columns, arrays or lists, as plain Python values."""
-    lists = []
-    for column in columns:
-        lists.append(column if isinstance(column, (list, tuple)) else column.tolist())
-    return list(zip(*lists, strict=True))
+    plain = (c if isinstance(c, (list, tuple)) else c.tolist() for c in columns)
+    return list(zip(*plain, strict=True))
 
 
 def rows_table(
