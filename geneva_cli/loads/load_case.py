@@ -135,9 +135,7 @@ def sources(mechanism: Mechanism) -> dict[str, tuple[str, float]]:
             *["pv_W_m2"] * pressed,
             *["guide_force_N"] * guided,
         ]
-    out = dict[str, tuple[str, float]]()
-    for name in known:
-        out[name] = name, 1.0
+    out = {name: (name, 1.0) for name in known}
     for name, (source, factor, _) in multiples(mechanism).items():
         if factor is not None and source in known:
             out[name] = source, factor
@@ -179,10 +177,7 @@ def inertia_kgm2(spec: Spec) -> float:
 
 def carried_kg(spec: Spec) -> float:
     """The mass of all bodies on the table, kg."""
-    total = 0.0
-    for mass in spec.mass:
-        total += mass.count * weight_kg(mass)
-    return total
+    return sum((mass.count * weight_kg(mass) for mass in spec.mass), 0.0)
 
 
 def farthest_mm(spec: Spec) -> float:

@@ -19,7 +19,7 @@ from geneva_cli.motion.peak_search import PeakArray, greater
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import array, parameter
 from geneva_cli.numerics.extremes import SearchResult, bar
-from geneva_cli.numerics.jet import Array, Jet
+from geneva_cli.numerics.jet import Array
 
 # Loads whose greatest size a report shows, and their names in the cycle.
 REPORTED_PEAKS = {
@@ -72,7 +72,7 @@ def load_peaks(
     return best
 
 
-def _slope_squared(i: Instant[Jet]) -> contact.QuantityValue[Jet]:
+def _slope_squared(i: Instant) -> contact.QuantityValue:
     """The square of the pressure angle's tangent."""
     slope = i.at.offset / i.at.lever
     return contact.QuantityValue(slope * slope)
@@ -231,7 +231,7 @@ def _sums_of(load: LoadFunctions, result: SearchResult) -> Array:
     pieces, n = load.stretches(result), load.n
     needed = np.tile(np.isfinite(result.most).reshape(2, -1, n).all(axis=0), (2, 1))
 
-    def functions(here: Instant[Jet], every: Sequence[str | LoadQuantity]) -> list[Array]:
+    def functions(here: Instant, every: Sequence[str | LoadQuantity]) -> list[Array]:
         values = [array(here.quantity(of).value.c[0]) for of in every]
         both = list(zip(load.names, values, strict=True))
         squares = [value if name in contact.SQUARED else value * value for name, value in both]

@@ -35,7 +35,7 @@ MEANINGS = {
 }
 
 
-def below_summary(record: Table, *, without: Sequence[str] = ()) -> Table:
+def below_summary(record: Table, without: Sequence[str] = ()) -> Table:
     """A record as it stands below its summary, without the warnings and the names shown there.
 
     Notes on unknown values remain, as ``not_known``. Of an angle in two units, degrees remain. An

@@ -86,6 +86,7 @@ class LinkDisplacement(NamedTuple):
         )
 
 
+Place: TypeAlias = tuple[Any, Any]
 Turn: TypeAlias = tuple[float, float, float, float, float]  # first numbers of a displacement
 
 
@@ -128,27 +129,27 @@ class LinkPath(Batchable, ABC):
     def link(self, angle: Jet) -> tuple[Jet, Jet]:
         """Unit vector along the link, from A towards B, for the crank's angle in radians."""
         m = library(angle.c[0])
-        along, _, turn = self.turn(m.cos(angle.c[0]) + 1j * m.sin(angle.c[0]))
-        x, y = along.real, along.imag
+        (x, y), _, turn = self.turn(m.cos(angle.c[0]) + 1j * m.sin(angle.c[0]))
         if not angle.order:
             return Jet((x,)), Jet((y,))
         s, v, _ = rotated(turn, *sine_versine(Jet((0.0, *angle.c[1:]))))
         return v * -x - s * y + x, s * x - v * y + y
 
-    def turn(self, crank: Any) -> tuple[Any, Any, Turn]:
-        """Unit vector along the link and place of A, complex, and how the link turns from there on.
+    def turn(self, crank: Any, order: int = 2) -> tuple[Place, Place, Turn]:
+        """Unit vector (x, y) along the link, place (x, y) of A, and how the link turns from there.
 
-        ``crank`` is the direction of A, a complex unit vector, or an array of them.
+        ``crank`` is the direction of A, a complex unit vector, or an array of them. Order 1 asks
+        for the link's rate alone.
         """
-        (along, sine), (b, bend, x, y) = self.pose(crank), self.guide
-        u, v, pin, one = along.real, along.imag, self.numbers[0] * crank, 1.0 / sine
-        px, py, over = pin.real, pin.imag, one / b
+        (u, v, sine), (b, bend, x, y) = self.pose(crank), self.guide
         # products of real numbers take half the time of complex ones
-        ahead, back = (u * px + v * py) * bend, (v * px - u * py) * bend
-        rate = (y * px - x * py - b * back) * over
-        fall = (x * px + y * py - b * ahead) * over
-        side = (x * u + y * v - ahead) * one
-        return along, pin, (ahead * one, back * one, side, rate, fall)
+        px, py, one = self.numbers[0] * crank.real, self.numbers[0] * crank.imag, 1.0 / sine
+        over, back = one / b, (v * px - u * py) * bend
+        rate, ahead, fall, side = (y * px - x * py - b * back) * over, 0.0, 0.0, 0.0
+        if order > 1:
+            ahead = (u * px + v * py) * bend
+            fall, side = (x * px + y * py - b * ahead) * over, (x * u + y * v - ahead) * one
+        return (u, v), (px, py), (ahead * one, back * one, side, rate, fall)
 
     @property
     @abstractmethod
@@ -156,8 +157,8 @@ class LinkPath(Batchable, ABC):
         """The guide of the link at its joint B."""
 
     @abstractmethod
-    def pose(self, crank: Any) -> tuple[Any, Any]:
-        """Unit vector along the link, and the sine of its angle from the normal of B's path.
+    def pose(self, crank: Any) -> tuple[Any, Any, Any]:
+        """Unit vector (x, y) along the link, and the sine of its angle from the normal of B's path.
 
         They are those for directions of the crank, complex unit vectors.
         """
@@ -167,8 +168,11 @@ class LinkPath(Batchable, ABC):
 
         The direction is a complex unit vector, and so is the velocity, if it is known.
         """
-        along, pin, turn = self.turn(crank)
-        arm = along * (self.numbers[-2] + 1j * self.numbers[-1])
+        (x, y), _, turn = self.turn(crank)
+        pin, arm = (
+            self.numbers[0] * crank,
+            (x + 1j * y) * (self.numbers[-2] + 1j * self.numbers[-1]),
+        )
         if velocity is None:
             velocity = 1j * (pin + turn[3] * arm)
         factors = velocity, -pin, -1j * arm, -arm
@@ -177,7 +181,8 @@ class LinkPath(Batchable, ABC):
     def joints(self, crank: Any) -> tuple[Any, Any, Any]:
         """Crank pin A, the other joint B and the point, for directions of the crank; complex."""
         a, *_, p, q = self.numbers
-        pin, (along, _) = a * crank, self.pose(crank)
+        pin, (x, y, _) = a * crank, self.pose(crank)
+        along = x + 1j * y
         return pin, pin + self.guide.length * along, pin + along * (p + 1j * q)
 
 

@@ -39,7 +39,7 @@ class PathWheels(NamedTuple):
 
 def driven(path: LinkPath, found: tangents.Pairs, samples: tangents.Samples) -> PathWheels:
     """The wheels of pairs whose roller stays in its slot, at samples of the path and even ones."""
-    wheels = PathWheels(found, *_centre(tangents.points_at(path.of(found.which), found.phi)))
+    wheels = PathWheels(found, *centre_of(tangents.points_at(path.of(found.which), found.phi)))
     counts = np.bincount(samples.which)
     own, first = counts[found.which], (np.cumsum(counts) - counts)[found.which]
     begin = np.cumsum(own) - own  # in a list of all samples of each pair
@@ -58,23 +58,23 @@ def driven(path: LinkPath, found: tangents.Pairs, samples: tangents.Samples) -> 
     good = np.where(since < motion, near & (turns > 0.0), ~near) | end
     wheels = record_taken(wheels, np.logical_and.reduceat(good, begin))
     some, (entry, exit_) = path.of(wheels.pair.which), wheels.pair.phi
-    far, turns = wheels.driven(*_even(some, entry, exit_ - entry, EVEN, 1))
-    (back,) = _even(some, exit_, math.tau - (exit_ - entry), 2 * EVEN, 0)
+    far, turns = wheels.driven(*tangents.points(some, _even(entry, exit_ - entry, EVEN), 1))
+    *_, back = some.joints(_even(exit_, math.tau - (exit_ - entry), 2 * EVEN))
     kept = (far < wheels.distance) & (turns > 0.0)
     away = np.abs(back - wheels.centre) > wheels.distance
     return record_taken(wheels, kept.all(axis=0) & away.all(axis=0))
 
 
-def _even(path: LinkPath, phi: Array, turn: Array, count: int, order: int) -> Complex:
-    """Points at even crank angles within a turn from ``phi`` on, (order + 1, count - 1, m)."""
+def _even(phi: Array, turn: Array, count: int) -> Complex:
+    """Unit vectors at even crank angles within a turn from ``phi`` on, (count - 1, m)."""
     step = turn / count
     rows: Complex = np.exp(1j * (phi + step))[None]
     while len(rows) < count:
         rows = np.concatenate((rows, rows * np.exp(1j * len(rows) * step)))
-    return tangents.points(path, rows[: count - 1], order)
+    return rows[: count - 1]
 
 
-def _centre(ends: Complex) -> tuple[Complex, Array]:
+def centre_of(ends: Complex) -> tuple[Complex, Array]:
     """The wheel's centre, and its distance from entry and exit (m,), from points (3, 2, m)."""
     (p, q), (t, u) = ends[0], ends[1] / np.abs(ends[1])
     rho = np.abs(q - p) / np.abs(t + u)
@@ -102,8 +102,8 @@ def chosen(path: LinkPath, b: Array, wanted: Array | None = None) -> Array:
     found = tangents.pairs(path, samples, b)
     if wanted is None:
         some, (entry, exit_) = path.of(found.which), found.phi
-        wheels = PathWheels(found, *_centre(tangents.points_at(some, found.phi)))
-        far, turns = wheels.driven(*_even(some, entry, exit_ - entry, EVEN, 1))
+        wheels = PathWheels(found, *centre_of(tangents.points_at(some, found.phi)))
+        far, turns = wheels.driven(*tangents.points(some, _even(entry, exit_ - entry, EVEN), 1))
         cost = np.nan_to_num(top((turns / far**2).T), nan=np.inf)
     else:
         off = found.phi[0] - wanted[found.which]
@@ -160,7 +160,7 @@ def _engagement(
     ends, at[:2] = ends + last, at[:2] + last * at[1:]
     half, late = (plain(0.5 * (ends[1] + k * ends[0])) for k in (-1.0, 1.0))
     # from the roller's place in the middle: the roller at both ends, and the centre
-    centre, _ = _centre(at)
+    centre, _ = centre_of(at)
     axis = -(tangents.points_at(flat, middle)[0] + centre)  # from the wheel's to the crank's
     L, s, rays = plain(np.abs(axis)), plain(sense), at[0] - centre
     half_way = (rays / np.abs(rays)).sum(axis=0)

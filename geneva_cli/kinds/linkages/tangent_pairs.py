@@ -54,20 +54,19 @@ def complex_of(x: Jet, y: Jet) -> Complex:
 
 
 def points(path: LinkPath, direction: Complex, order: int = 2) -> Complex:
-    """Position, velocity and acceleration (order + 1, ...) for unit vectors of the crank."""
-    a, *_, p, q = path.numbers
-    if order:
-        along, pin, (ahead, _, side, rate, fall) = path.turn(direction)
-    else:
-        (along, _), pin = path.pose(direction), a * direction
-    arm = along * (p + 1j * q)
-    out = np.empty((order + 1, *arm.shape), dtype=complex)
-    out[0] = pin + arm
-    if order:
-        out[1] = 1j * (pin + rate * arm)
+    """Position, velocity, and acceleration for order 2, for unit vectors of the crank."""
+    *_, p, q = path.numbers
+    (u, v), (pin_x, pin_y), (ahead, _, side, rate, fall) = path.turn(direction, order)
+    x, y = u * p - v * q, u * q + v * p
+    out = np.empty((order + 1, *x.shape), dtype=complex)
+    out[0].real, out[0].imag = pin_x + x, pin_y + y
+    out[1].real, out[1].imag = -(pin_y + rate * y), pin_x + rate * x
     if order > 1:
-        change = fall + rate * (rate * side + 2.0 * ahead)
-        out[2] = (-1j * change - rate * rate) * arm - pin
+        change, square = fall + rate * (rate * side + 2.0 * ahead), rate * rate
+        out[2].real, out[2].imag = (
+            change * y - square * x - pin_x,
+            -(change * x + square * y) - pin_y,
+        )
     return out
 
 

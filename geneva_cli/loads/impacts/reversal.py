@@ -11,7 +11,7 @@ from functools import reduce
 import numpy as np
 
 from geneva_cli.loads.contact import LoadCase, contact
-from geneva_cli.loads.impacts.shock_force import Impacts, harder, shown, with_force
+from geneva_cli.loads.impacts.shock_force import Impacts, hardest, shown
 from geneva_cli.loads.load_case import inertia_kgm2, load_case, resisting_torques_Nm
 from geneva_cli.loads.load_functions import LoadFunctions
 from geneva_cli.loads.strength.pin_arm_key import PinSize
@@ -60,8 +60,6 @@ def impacts_of(
     """
     which, begin = at
     out: Array = np.full((2, len(begin)), np.nan)
-    if not len(begin):
-        return begin, begin
     follows = np.append(which[1:] == which[:-1], False)
     until = np.where(follows, np.append(begin[1:], 0.0), np.nan)
     motions, start, drags = taken(engagement.motion, which), begin[:, None], drag[which]
@@ -133,28 +131,19 @@ def reversal_impacts(mechanism: Mechanism, pin: PinSize | None = None) -> Impact
     lever, for the smallest roller in the widest slot, with the process's fits where both are
     nominal.
     """
-    spec, case = mechanism.spec, load_case(mechanism)
+    spec = mechanism.spec
     given = spec.size.allowances.slot_clearance_mm
     both = spec.tolerance.roller_diameter_mm + spec.tolerance.slot_width_mm
     play_mm = (
         arrays.choose(given == 0.0, WORKSHOPS[spec.size.process].slot_play_mm, given) + 0.5 * both
     )
     drag = drag_over(mechanism)
-    none = (drag == np.inf) | (play_mm == 0.0)
-    if arrays.all_true(none):
+    if arrays.all_true((drag == np.inf) | (play_mm == 0.0)):
         return Impacts(*np.full((5, mechanism.designs), np.nan))
-    best, numbers = np.full((3, 1), np.nan), (mechanism.center_distance_mm, drag, play_mm)
-    rows = [np.broadcast_to(x, (mechanism.designs, 1)) for x in (*numbers, case.radius)]
-    for engagement in mechanism.engagements:
-        own = _reversal(engagement, *rows)
-        best = harder(best, shown(mechanism, engagement, *own))
-    *impacts, edge = best
-    hit = with_force(mechanism, np.array(impacts), pin)
-    if case.hertz is None:
-        return hit
-    with np.errstate(divide="ignore"):  # a wall as sharp as the roller
-        square = hit.force_N * np.ravel(case.hertz) / np.maximum(edge, 0.0)
-    return hit._replace(contact_stress_MPa=np.sqrt(square))
+    numbers = mechanism.center_distance_mm, drag, play_mm, load_case(mechanism).radius
+    rows = [np.broadcast_to(x, (mechanism.designs, 1)) for x in numbers]
+    each = (shown(mechanism, one, *_reversal(one, *rows)) for one in mechanism.engagements)
+    return hardest(mechanism, each, pin)
 
 
 def _reversal(
