@@ -712,18 +712,11 @@ class Design:
         >>> Design(External(6)).judge()
         ('', [])
         """
-        from geneva_cli.drawings.catalogue import parts_having
-        from geneva_cli.verdict.advice import advised
-        from geneva_cli.verdict.checks import checks
-        from geneva_cli.verdict.failures import failures
-
-        parts = parts_having(self.parts, part)
+        parts = load_named("drawings.catalogue:parts_having")(self.parts, part)
         if parts.mechanism.spec.is_flat:
             _ = parts.outlines  # their error comes before all checks
-        if parts is self.parts:
-            return failures(self._judged, parts)
-        other = parts.mechanism
-        return failures(advised(other, checks(other, parts)), parts)
+        of = self if parts is self.parts else Design.of(parts.mechanism.spec)
+        return load_named("verdict.failures:failures")(of._judged, parts)
 
     @question
     def tolerance(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from itertools import islice
+from itertools import chain, islice
 from typing import Any, NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, few, nearest
@@ -140,8 +140,7 @@ class Table(NamedTuple):
 
     def rows(self) -> Iterator[tuple[Any, ...]]:
         """The rows, one by one."""
-        for block in self.blocks():
-            yield from block
+        return chain.from_iterable(self.blocks())
 
     def replaced(self, **fields: Any) -> Table:
         """The table with some fields replaced; _replace would check their number against len()."""
@@ -223,10 +222,8 @@ def computed_table(
 
 def plain_rows(columns: Sequence[Any]) -> list[tuple[Any, ...]]:
     """The rows of columns, arrays or lists, as plain Python values."""
-    lists = []
-    for column in columns:
-        lists.append(column if isinstance(column, (list, tuple)) else column.tolist())
-    return list(zip(*lists, strict=True))
+    plain = (c if isinstance(c, (list, tuple)) else c.tolist() for c in columns)
+    return list(zip(*plain, strict=True))
 
 
 def rows_table(

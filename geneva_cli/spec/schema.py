@@ -108,12 +108,9 @@ class SpecTable:
         if values:
             named = kind.__signature__.bind_partial(*values, **named).arguments
         for name, one in kind._parameters.items():
-            value = named.get(name, one.default)
-            if value is REQUIRED:
-                if one.default_factory is REQUIRED:
-                    raise TypeError(f"{kind.__name__} needs {name}")
-                value = one.default_factory()
-            own[name] = value
+            own[name] = named.get(name, one.default)
+            if own[name] is REQUIRED:
+                raise TypeError(f"{kind.__name__} needs {name}")
         self.__post_init__()
 
     def __setattr__(self, name: str, value: object) -> None:
@@ -222,9 +219,7 @@ def shortly(record: object) -> str:
     arguments = []
     for one in dataclasses.fields(record):  # type: ignore[arg-type]
         value = getattr(record, one.name)
-        factory = one.default_factory
-        default = one.default if factory is dataclasses.MISSING else factory()
-        if one.repr and value != default:
+        if one.repr and value != one.default:
             text = shortly(value) if dataclasses.is_dataclass(value) else repr(value)
             arguments.append(f"{one.name}={cut(text, SHOWN_MAX)}")
     return f"{type(record).__name__}({', '.join(arguments)})"

@@ -130,15 +130,13 @@ class Size(SpecTable, table="size"):
     @property
     def distance_mm(self) -> float:
         """Centre distance L: its key, or derived from the crank radius, or the default."""
-        if self.center_distance_mm is not None:
-            return self.center_distance_mm
-        return DISTANCE_MM if self.derived_distance_mm is None else self.derived_distance_mm
+        usual = value_or(self.derived_distance_mm, DISTANCE_MM)
+        return value_or(self.center_distance_mm, usual)
 
     @property
     def edge_mm(self) -> float:
         """Height of a face that its chamfer or rounding takes at each edge; 0 for sharp edges."""
-        own = self.edge_fillet_mm if self.edge_chamfer_mm is None else self.edge_chamfer_mm
-        return 0.0 if own is None else own
+        return value_or(self.edge_chamfer_mm, value_or(self.edge_fillet_mm, 0.0))
 
     def has_hub(self, part: str) -> bool:
         """True if the spec has a size of a part's hub; otherwise only its space is kept free."""

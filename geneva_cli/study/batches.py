@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
@@ -14,7 +14,6 @@ from geneva_cli.motion.machine_spec import BEFORE, Spec
 from geneva_cli.motion.many import many, may_vary
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array, Whole
-from geneva_cli.spec.schema import fields
 from geneva_cli.study.fields import Cell, Rows, cells_of
 from geneva_cli.verdict.quantities.groups import GROUP_OF, Designs
 
@@ -107,27 +106,22 @@ class SpecGroups:
 
     def __init__(self, specs: Sequence[Spec]) -> None:
         self.specs = specs
-        # of each kind of machine the keys, their tables and attributes, and whether they may vary
-        keys: dict[Any, list[tuple[str, str, str, bool]]] = {}
         self._own: list[dict[str, float]] = []  # of each spec the numbers that may vary
-        groups, each = dict[object, int](), list[int]()
+        may, groups, each = dict[object, bool](), dict[object, int](), list[int]()
         for spec in specs:
-            before, tables = type(spec.drive_before), vars(spec)
-            kinds = (type(spec.wheel), type(spec.drive), before, spec.motion and spec.motion.law)
-            if kinds not in keys:
-                keys[kinds] = []
-                for table in ("wheel", "drive", BEFORE, "motion"):  # where specs of a target differ
-                    place, part = table.replace(".", "_"), spec.part(table)
-                    for field in fields(type(part)) if part else ():
-                        name = f"{table}.{field.key}"
-                        keys[kinds].append((name, place, field.attribute, may_vary(spec, name)))
-            own, shape = {}, [kinds, *(tables[name] for name in _SHARED)]
-            for name, place, attribute, varies in keys[kinds]:
-                value = vars(tables[place])[attribute]
-                if varies and isinstance(value, (int, float)) and not isinstance(value, bool):
-                    own[name] = value
-                else:
-                    shape.append((name, value))
+            before, law = type(spec.drive_before), spec.motion and spec.motion.law
+            kinds = type(spec.wheel), type(spec.drive), before, law
+            own, shape = dict[str, float](), [kinds, *map(vars(spec).get, _SHARED)]
+            for table in ("wheel", "drive", BEFORE, "motion"):  # where specs of a target differ
+                for key, value in spec.table(table).items():
+                    name = f"{table}.{key}"
+                    if (kinds, name) not in may:
+                        may[kinds, name] = may_vary(spec, name)
+                    is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
+                    if is_number and may[kinds, name]:
+                        own[name] = value
+                    else:
+                        shape.append((name, value))
             self._own.append(own)
             each.append(groups.setdefault(tuple(shape), len(groups)))
         self._group = np.array(each, dtype=np.intp)

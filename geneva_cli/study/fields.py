@@ -7,7 +7,7 @@ which go from a computation to a file without a list for each row.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import chain
 from operator import attrgetter
 from typing import Any, NamedTuple, TypeAlias
@@ -17,6 +17,7 @@ import numpy as np
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array, Mask, Whole
 from geneva_cli.parts.parts import Parts, parts_of
+from geneva_cli.study.sweep.constraints import Constraint
 from geneva_cli.table import Table
 from geneva_cli.verdict.quantities.groups import GROUP_OF, QuantityGroup
 from geneva_cli.verdict.quantities.quantity_names import in_batch, whole_name
@@ -130,16 +131,13 @@ class Pick(NamedTuple):
         """The values of the quantities for a machine; None if one does not apply."""
         return self.of_parts(parts_of(mechanism))
 
-    def of_parts(
-        self, parts: Parts, keeps: Callable[[Mapping[str, Cell]], bool] = lambda cells: True
-    ) -> list[Cell]:
+    def of_parts(self, parts: Parts, bounds: Iterable[Constraint] = ()) -> list[Cell]:
         """The values of the quantities for a machine's parts; None if one does not apply.
 
-        The parts are not made if the other values do not keep ``keeps``: what needs parts is then
-        None.
+        The parts are not made if another value breaks a bound: what needs parts is then None.
         """
         cells = values(parts, [group for group in self.groups if not group.makes_parts])
-        if keeps(cells):
+        if all(bound.kept(cells[bound.name]) for bound in bounds if bound.name in cells):
             cells |= values(parts, [group for group in self.groups if group.makes_parts])
         return [cells.get(name) for name in self.names]
 

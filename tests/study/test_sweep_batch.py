@@ -34,7 +34,7 @@ def rows(spec, vary, picks, random=None):
         picks=picks,
     )
     together = [*found.rows_of(found.plan.designs(0, len(found.plan)))]
-    alone = [Sweep.row(found, some) for some in found.plan.rows(0, len(found.plan))]
+    alone = [Sweep.row(found, some) for some in found.plan.designs(0, len(found.plan))]
     return together, alone, found
 
 

@@ -143,14 +143,11 @@ def _path(data: str) -> Iterator[Curve]:
     for letter, v in _commands(data):
         kind, base = letter.upper(), at if letter.islower() else 0j
         pole = at
-        if kind == "Z":
-            end = first
-        elif kind == "H":
-            end = complex(v[0] + base.real, at.imag)
+        if kind == "H":
+            v = [*v, (at - base).imag]
         elif kind == "V":
-            end = complex(at.real, v[0] + base.imag)
-        else:
-            end = base + complex(*v[-2:])
+            v = [(at - base).real, *v]
+        end = first if kind == "Z" else base + complex(*v[-2:])
         if kind == "M":
             first = end
         elif kind in "CSQT":

@@ -59,9 +59,7 @@ def _values(record: Table, window: Window) -> Iterator[str]:
             current = group
         # A long value stands below its label if fewer than 30 letters are free behind it.
         if len(texts) == 1 and (width_of(texts[0]) <= free or free >= 30):
-            first, *more = layout.wrapped(texts[0], free)
-            yield f"{label}{' ' * (width - width_of(label))}{GAP}{first}"
-            yield from (" " * (width + len(GAP)) + line for line in more)
+            yield from layout.row((label, texts[0]), (width, free), (True, True))
             continue
         yield label
         indent = " " * (len(label) - len(label.lstrip()) + len(GAP))

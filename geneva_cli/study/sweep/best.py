@@ -10,7 +10,7 @@ from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.progress import Meter
 from geneva_cli.spec.schema import TEXT_MAX
 from geneva_cli.specfile.writer import quoted, spec_lines
-from geneva_cli.study.fields import Cell, Rows, joined, rows_of
+from geneva_cli.study.fields import Rows, joined, rows_of
 from geneva_cli.study.sweep.constraints import Objective, is_number
 from geneva_cli.study.sweep.request import Outcome
 from geneva_cli.study.sweep.run import Sweep
@@ -41,9 +41,9 @@ def best_spec(outcome: Outcome, goal: Objective, row_blocks: Iterable[Rows]) -> 
         why = [*outcome.nearness.phrases()] or [f"no design has a value of {goal.name}"]
         raise GenevaError(f"--best: none of {outcome.all:,} designs is feasible: {'; '.join(why)}")
     # the best of them suffice; at last onto the bounds that bind
-    each = [search.refined(row) for row in [*starts][: 3 if sweep.is_batched else 1]]
-    refined = search.foremost(rows_of(sweep.names, each), 1).row(0)
-    keys = search.refined(refined, reach=2e-3)[: len(sweep.keys)]
+    first = range(min(len(starts), 3 if sweep.is_batched else 1))
+    refined = joined([search.refined(starts.taken(np.array([i]))) for i in first])
+    keys = search.refined(search.foremost(refined, 1), reach=2e-3).row(0)[: len(sweep.keys)]
     best = sweep.row(keys)  # computed again as a single design: this row is the result
     values = {n: float(v) for n, v in zip(sweep.names, best, strict=True) if is_number(v)}
     spec = (machine := sweep.machine(keys)).spec
@@ -155,16 +155,16 @@ class _SweepSearch:
         free = dict(zip(self.free, values.T, strict=True))
         return Rows({key: free.get(key, rows.columns[key]) for key in self.sweep.keys})
 
-    def refined(self, start: Sequence[Cell], reach: float = 0.05) -> list[Cell]:
-        """The best design among a start and all that the optimiser evaluates from there.
+    def refined(self, first: Rows, reach: float = 0.05) -> Rows:
+        """The best design among the first one and all that the optimiser evaluates from there.
 
         ``reach`` is the optimiser's first step as a fraction of the spans.
         """
         if not self.free:
-            return [*start]
+            return first
         from scipy.optimize import NonlinearConstraint, minimize
 
-        meter, first = Meter("designs near the best", self.most), rows_of(self.sweep.names, [start])
+        meter = Meter("designs near the best", self.most)
         scale = abs(self.merits(first)[1][0]) or 1.0
         evaluated: dict[bytes, Rows] = {}
 
@@ -197,7 +197,7 @@ class _SweepSearch:
         self.is_cut_short |= len(evaluated) >= self.most
         kept = [r for r in (first, *evaluated.values()) if self.merits(r)[0][0] == 0.0]
         inside = [r for r in kept if (self.margins(r) >= 0.0).all()]
-        return min(inside or kept, key=lambda r: float(self.merits(r)[1][0])).row(0)
+        return min(inside or kept, key=lambda r: float(self.merits(r)[1][0]))
 
 
 def _first_of_each(order: Whole, groups: Sequence[object]) -> Whole:

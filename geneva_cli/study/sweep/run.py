@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import math
 import os
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from functools import partial
 from itertools import chain
@@ -49,10 +49,6 @@ class SweepPlan(NamedTuple):
 
     def __len__(self) -> int:
         return self.random or math.prod(len(a.values) for a in self.axes)
-
-    def rows(self, start: int, stop: int) -> list[list[Cell]]:
-        """The values of the keys of the designs ``start`` to ``stop - 1``."""
-        return [*self.designs(start, stop)]
 
     def designs(self, start: int, stop: int) -> Rows:
         """The designs ``start`` to ``stop - 1``: a column for each key."""
@@ -137,14 +133,15 @@ class Sweep(NamedTuple):
         return bool(self.pick.names) and self.pick.batched == self.pick.names
 
     @property
-    def _makes_parts(self) -> bool:
-        return any(group.makes_parts for group in self.pick.groups)
+    def _needed(self) -> tuple[Constraint, ...]:
+        """The bounds that a row must keep; a search needs others too, to come nearer."""
+        return () if self.goal else self.bounds
 
     def blocks(self, done: int = 0) -> Iterator[Rows]:
         """The rows in blocks and in order; the first ``done`` rows are skipped."""
         if self.is_batched:  # larger ones take less time, and keep two processes busy if many
             size = BLOCK if len(self.plan) < 32 * BLOCK else 2 * BLOCK
-        elif not self._makes_parts:
+        elif not any(group.makes_parts for group in self.pick.groups):
             size = 64
         else:
             # Parts are slow: eight tasks keep several processes busy. Four designs or more share
@@ -165,7 +162,7 @@ class Sweep(NamedTuple):
         rows = Rows(columns | dict(zip(self.pick.batched, known, strict=True)))
         whole: Mask = np.logical_not(np.isnan(known).any(axis=0))
         left: Mask = ~whole if self.is_batched else np.full(len(designs), True)
-        for bound in () if self.goal else self.bounds:  # a search needs all to come nearer
+        for bound in self._needed:
             if bound.name in self.pick.batched:  # nobody needs the others if a design breaks it
                 left &= bound.kept_by(rows.numbers(bound.name)) | ~whole
         alone = self._rows_alone(designs.taken(left))
@@ -193,11 +190,6 @@ class Sweep(NamedTuple):
                     last = last.following(machine) if last else parts_of(machine)
                 yield self.row(values, last if machine else None)
 
-    def _keeps(self, cells: Mapping[str, Cell]) -> bool:
-        """Return False for a design whose parts nobody needs, as it breaks a bound."""
-        known = () if self.goal else self.bounds  # a search needs them to come nearer
-        return all(bound.kept(cells[bound.name]) for bound in known if bound.name in cells)
-
     def _machines(self, designs: Rows) -> list[Mechanism | None]:
         """The machine of each row, None if it cannot be built."""
         machines: list[Mechanism | None] = [None] * len(designs)
@@ -222,7 +214,7 @@ class Sweep(NamedTuple):
 
         try:
             parts = parts or parts_of(self.machine(values))
-            return [*values, *self.pick.of_parts(parts, self._keeps), None]
+            return [*values, *self.pick.of_parts(parts, self._needed), None]
         except GenevaError as error:
             return [*values, *[None] * len(self.pick.names), str(error)]
 
@@ -267,7 +259,7 @@ def sweep(text: Text, plan: SweepPlan, picks: Sequence[str] = DEFAULT) -> Sweep:
     starts, some = [i * size // count for i in range(count)], 1
     if plan.random:  # its first ones, at once
         starts, some = [0], count
-    sample = (values for at in starts for values in plan.rows(at, at + some))
+    sample = chain.from_iterable(plan.designs(at, at + some) for at in starts)
     for values in chain(middle, sample):
         try:
             run.machine(values)
