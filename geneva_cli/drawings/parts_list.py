@@ -27,6 +27,7 @@ from geneva_cli.motion.pivots import Dimension, Pivot
 from geneva_cli.motion.registry import thing
 from geneva_cli.parts.parts import EdgedParts, Parts, parts_of
 from geneva_cli.parts.projection import Missing, alike, built_of, or_missing, outlines_of, titled
+from geneva_cli.parts.shafts.bores import listed
 from geneva_cli.spec.defaults import material_names, roller_material, wheel_material
 from geneva_cli.spec.schema import Points, fields
 from geneva_cli.table import Reading, Table, rows_table
@@ -142,8 +143,7 @@ def _dimensions(parts: Parts) -> Iterator[Dimension | Missing]:
         kind = "rounding" if spec.size.edge_chamfer_mm is None else "chamfer"
         yield Dimension(f"{kind} of all edges", spec.size.edge_mm, "mm")
     with suppress(GenevaError):  # the rows of what cannot be built have the reason
-        screws = () if spec.no_parts else parts.built.screws
-        yield from (Dimension(one.name, one.text) for one in screws)
+        yield from listed(() if spec.no_parts else parts.built.screws)
     yield from (d for d in spec.wheel.layout if isinstance(d, Dimension))
     if own := thing(spec.wheel.NAME, "dimensions"):
         yield from own(parts)

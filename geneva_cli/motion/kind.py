@@ -32,9 +32,7 @@ class Kind(NamedTuple):
     details: str = ""  # function of a mechanism that returns sizes of its parts' details
     stressed: str = ""  # dimensions of stressed parts, where no layout of flat parts has them
     wheel_body: str = ""  # function that returns mass and inertia of a mechanism's wheel
-    motion_checks: Mapping[str, str] = _NONE  # by their names
-    parts_checks: Mapping[str, str] = _NONE  # of parts at rest, all or those that it adds
-    remedies: Mapping[str, str] = _NONE  # of its checks, in words of ``verdict.advice``
+    checks: str = ""  # that it has or adds, of the motion and of parts at rest: rows of ``verdict``
     load_case: str = ""  # function that completes the load case of a mechanism
     # of the report, by the tables behind which they are shown: rows of ``verdict.quantities``
     quantities: Mapping[str, str] = _NONE

@@ -2,7 +2,12 @@
 
 from geneva_cli.motion.kind import Kind
 
-_STANDING = "guide_locks beside_shafts_mm gear_gap_mm cut_plate_mm cut_slot_mm"
+_CHECKS = """
+MOTION kinds.linear.checks:rack_horn
+  rack_horn_mm
+STATIC kinds.linear.checks:standing
+  guide_locks beside_shafts_mm gear_gap_mm cut_plate_mm cut_slot_mm
+"""
 KINDS = (
     Kind(
         "linear",
@@ -26,8 +31,6 @@ KINDS = (
         horn_sizes="kinds.linear.parts:horn_sizes",
         load_case="kinds.linear.guide:with_guide",
         scene="kinds.linear.drawings:RackScene",
-        motion_checks={"rack_horn_mm": "kinds.linear.checks:rack_horn"},
-        parts_checks=dict.fromkeys(_STANDING.split(), "kinds.linear.checks:standing")
-        | {"parts": "verdict.checks.part_checks:built"},
+        checks=_CHECKS,
     ),
 )

@@ -61,7 +61,7 @@ def test_the_keyways_of_a_shaft_and_its_hub_face_each_other():
 )
 def test_the_wall_of_a_spherical_hub_is_checked_around_its_bore(size, wall):
     design = Design(Spherical(5, axes_deg=75.0), size=Size(100.0, 5.0, **size))
-    check = single_check(design.mechanism, "wheel_bore_wall_mm")
+    check = single_check(design.parts, "wheel_bore_wall_mm")
     assert check.value == pytest.approx(wall, rel=1e-12)  # halves of the numbers above
     assert check.limit == 0.5  # L/200
     assert check.passes is (wall >= 0.5)
