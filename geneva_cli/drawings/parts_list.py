@@ -108,7 +108,7 @@ def _properties(solid: Solid, density: float, outside: float | None) -> Row:
     row: Row = {"mass_kg": body.mass_kg, "inertia_kgm2": body.inertia_kgm2}
     if isinstance(solid, Shell):
         low, high = solid.inner, solid.outer
-        # twice along the axes x and y
+        # how far it reaches along x and y
         ends = (1.0, 0.0, 0.0), (-1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, -1.0, 0.0)
         right, left, ahead, back = map(solid.reach, ends)
         wide, deep = right + left, ahead + back

@@ -96,7 +96,7 @@ class View:
         off: str = "",
         most: float = math.tau,
     ) -> None:
-        """Draw the angles, above 0 and below ``most``, from the first of two directions on."""
+        """Draw the angles, above 0 and below ``most``, between the directions of pairs."""
         shown = ((degrees(b - a) + off, (a, b)) for a, b in pairs if SAME_ON_SHEET < b - a < most)
         for text, some in grouped(shown):
             self.angular(some, reach, reach, text)

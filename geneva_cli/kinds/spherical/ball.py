@@ -180,14 +180,13 @@ def usual_ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
     slots = roller, w, bottom, bottom_mm, mouth, rim
     locks = lock, lock_mm, lock + allowed.lock_clearance_mm / L if lock else 0.0
     spans = (inside, outside), (under - thick.lock, under), (under, under + thick.arm)
-    ball = Ball(L, z, *crank, *slots, *locks, *spans, 0.0, 0.0, pin, bored)
-    end = ball.slot_end_mm
+    end = inside * math.sin(min(bottom - w, 0.5 * math.pi))  # of the slots, from the axis
     bore = sizes.wheel_bore(spec, end, wall_min(size, L), L)
     hub = hub_about(size, L, bore, end)
     why = "the slots of this roller reach this diameter"
     refuse_above("wheel_bore_mm", 2.0 * bore, 2.0 * end, why)
     refuse_above("wheel_hub_mm", 2.0 * hub, 2.0 * end, why)
-    ball = ball._replace(bore_mm=bore, hub_mm=hub)
+    ball = Ball(L, z, *crank, *slots, *locks, *spans, bore, hub, pin, bored)
     text = "the wheel's middle is not open: the slots end within a roller's width of its axis; "
     text += "set a wheel_bore_mm or reduce the roller"
     refuse_size(ball.inner <= 0.0, "wheel_bore_mm", text)

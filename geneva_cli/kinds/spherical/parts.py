@@ -6,14 +6,12 @@ The sphere's centre is the origin and the wheel's axis is z. The crank's parts a
 from collections.abc import Iterator
 from typing import ClassVar
 
-import numpy as np
-
 from geneva_cli.errors import refuse_size
 from geneva_cli.geometry import plates
 from geneva_cli.geometry.plates import Group, MassProperties, Member, Plate, Shell
 from geneva_cli.geometry.shapes import ORIGIN, Circle
 from geneva_cli.geometry.sphere import POLE, Cap, axis_frame, place
-from geneva_cli.geometry.sphere_arcs import RoundHole
+from geneva_cli.geometry.sphere_arcs import RoundHole, polar
 from geneva_cli.kept import cached_property
 from geneva_cli.kinds.spherical import regions
 from geneva_cli.kinds.spherical.ball import Ball, refuse_wide
@@ -61,8 +59,8 @@ class SphereParts(Parts):
 
     def past_mouth(self, motion: int, at: Array) -> Array:
         """Return how far a motion's roller is in its slot, beyond the mouth's corners, mm, (n,)."""
-        height = self.shape.gaps.pose(at).pins[:, motion, 2]  # the same in the wheel's frame
-        return self.ball.radius_mm * (self.ball.mouth - np.arccos(np.clip(height, -1.0, 1.0)))
+        pins = self.shape.gaps.pose(at).pins[:, motion]  # as far from the axis in the wheel's frame
+        return self.ball.radius_mm * (self.ball.mouth - polar(pins))
 
     @cached_property
     def wheel(self) -> Member:
