@@ -183,8 +183,8 @@ def fluctuations(mechanism: Mechanism, mean: Array) -> tuple[Array, Array]:
     """
     bounded = np.isfinite(mean)
     mean = np.where(bounded, mean, 0.0)[:, None]
-    case, end = load_case(mechanism), None
-    each, returned = [0.0 * mean], np.zeros(len(mean))
+    case, end, n = load_case(mechanism), None, len(mean)
+    each, returned = [0.0 * mean], np.zeros(n)
     for engagement in mechanism.engagements:
         if end is not None:
             each.append(-mean * (engagement.mid_deg + engagement.entry_deg - end) * DEGREE)
