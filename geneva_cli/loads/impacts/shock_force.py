@@ -15,11 +15,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.loads.load_case import MM, contact_modulus_GPa, inertia_kgm2, load_case
+from geneva_cli.loads.load_case import MM, contact_modulus_GPa, load_case
 from geneva_cli.loads.strength.pin_arm_key import PinSize, stiffness_N_mm
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import Array, N, Number, Whole, parameter, size
 from geneva_cli.numerics.roots import find_roots
 from geneva_cli.spec.defaults import roller_material, wheel_material
@@ -67,8 +66,8 @@ def hardest(mechanism: Mechanism, each: Iterable[Array], pin: PinSize | None) ->
 
 def impulse_Nms(mechanism: Mechanism, jump: N) -> N:
     """Moment of a plastic impact, I dw, for a jump over the input's speed; (m, 1) for m designs."""
-    w = omega(mechanism.spec.drive.n_rpm)
-    return size(jump) * (inertia_kgm2(mechanism.spec) * w)
+    case = load_case(mechanism)
+    return size(jump) * (case.inertia_Nm / case.speed_rad_s)
 
 
 def forces_N(mechanism: Mechanism, jump: Array, pin: PinSize) -> Array:
@@ -80,8 +79,7 @@ def forces_N(mechanism: Mechanism, jump: Array, pin: PinSize) -> Array:
         return stored - work[live], slope
 
     force = find_roots(over, 0.0 * work, np.sqrt(2.0 * work / bend))
-    heavy = np.broadcast_to(np.ravel(inertia_kgm2(mechanism.spec)), len(force)) > 0.0
-    return np.where(heavy, force, np.nan)
+    return np.where(np.ravel(load_case(mechanism).inertia_Nm) > 0.0, force, np.nan)
 
 
 def least_pin_mm(
@@ -124,8 +122,7 @@ def _energy(force: Array, press: Array, bend: Array) -> tuple[Array, Array]:
 def _struck(mechanism: Mechanism, jump: Array, pin: PinSize) -> tuple[Array, Array, Array]:
     """Energy of impacts, N mm, Palmgren's c, and 1/k of pin or teeth, mm/N: (m,) each."""
     spec, width = mechanism.spec, pin.contact_mm
-    dw = jump * omega(spec.drive.n_rpm)
-    energy = 0.5 * inertia_kgm2(spec) * dw * dw / MM
+    energy = 0.5 * load_case(mechanism).inertia_Nm * jump * jump / MM
     steel = Stock()  # on steel: half of its plane strain modulus
     usual = 0.5 * steel.youngs_modulus_GPa / (1.0 - steel.poisson_ratio**2)
     soft = usual / contact_modulus_GPa(wheel_material(spec), roller_material(spec))
