@@ -16,10 +16,10 @@ import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import nullcontext, suppress
 from functools import wraps
-from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec, Self, TypeVar, cast
+from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec, Self, TypeVar
 
 from geneva_cli.errors import GenevaError, Notice, cut
-from geneva_cli.kept import cached_property, load_extra
+from geneva_cli.kept import cached_property, load_extra, load_named
 from geneva_cli.motion.drive import Drive
 from geneva_cli.motion.laws.law import Motion
 from geneva_cli.motion.machine_spec import Spec
@@ -220,9 +220,8 @@ class Design:
         """
         spec, plan, motion = self.spec, self.mechanism.plan, self.spec.motion
         if motion:
-            from geneva_cli.motion.given_motion import run_backwards
-
-            motion = motion.replace(law=run_backwards(motion.law))
+            law = load_named("motion.given_motion:run_backwards")(motion.law)
+            motion = motion.replace(law=law)
         loaded: Mapping[str, Chosen] = {}
         with suppress(GenevaError):  # sizes that leave no parts: the checks say why
             loaded = self.chosen_by_load.sizes
@@ -245,9 +244,7 @@ class Design:
         >>> Design(External(6)).size.wheel_thickness_mm
         10.0
         """
-        from geneva_cli.parts.machine_sizes import built
-
-        return built(self.mechanism)
+        return load_named("parts.machine_sizes:built")(self.mechanism)
 
     @answer
     def chosen(self) -> dict[str, Chosen]:
@@ -294,9 +291,7 @@ class Design:
         >>> [t.index_deg for t in Design(External(6, steps_deg=(72, 48))).timings]
         [72.0, 48.0]
         """
-        from geneva_cli.motion.timing import timings
-
-        return timings(self.mechanism)
+        return load_named("motion.timing:timings")(self.mechanism)
 
     @property
     def timing(self) -> Timing:
@@ -315,9 +310,7 @@ class Design:
         >>> round(peak.max, 12), round(peak.at_deg, 9)
         (1.349637275902, -22.903061866)
         """
-        from geneva_cli.motion.peaks import worst
-
-        return worst(self.mechanism)
+        return load_named("motion.peaks:worst")(self.mechanism)
 
     @answer
     def peaks_table(self) -> Table:
@@ -326,10 +319,9 @@ class Design:
         >>> Design(External(6)).peaks_table.to_dict()["velocity.max"]
         1.0
         """
-        from geneva_cli.motion.peaks import peaks_table
-
-        peaks: Table = self._of_drawing("peaks") if self.is_drawn else peaks_table(self.mechanism)
-        return peaks
+        if self.is_drawn:
+            return self._of_drawing("peaks")
+        return load_named("motion.peaks:peaks_table")(self.mechanism)
 
     @question
     def certificate(self, quantity: str, intervals: int | None = None) -> Certificate:
@@ -342,8 +334,7 @@ class Design:
         'acceleration.max in [1.34963727590190, 1.34963727590191], at two mirrored places, proved'
         """
         limit = {} if intervals is None else {"limit": intervals}
-        prove: Callable[..., Certificate] = load_extra("certify", "certificate")
-        return prove(self.mechanism, quantity, **limit)
+        return load_extra("certify", "certificate")(self.mechanism, quantity, **limit)
 
     @question
     def certified_peaks(self, for_people: bool = False) -> Table:
@@ -352,8 +343,7 @@ class Design:
         >>> Design(External(6)).certified_peaks(for_people=True).to_dict()["certificate"][2]
         'jerk.max in [5.99999999999999, 6.00000000000001], unique, proved'
         """
-        prove: Callable[..., Table] = load_extra("certify", "peaks")
-        return prove(self.peaks_table, self.mechanism, for_people)
+        return load_extra("certify", "peaks")(self.peaks_table, self.mechanism, for_people)
 
     @question
     def certified_loads(self, for_people: bool = False) -> Table:
@@ -384,7 +374,7 @@ class Design:
         if self.is_drawn and turns is not None:
             raise GenevaError("--turns: a drawing's motion is that of one turn; leave it out")
         if self.is_drawn:
-            return cast("Table", self._of_drawing("motion", samples, at_deg))
+            return self._of_drawing("motion", samples, at_deg)
         if at_deg is not None:
             return angles_table(self.mechanism, at_deg)
         if turns is not None:
@@ -402,9 +392,7 @@ class Design:
         >>> [mark.y for mark in panels[1].curves[0].marks]
         [-6.0]
         """
-        from geneva_cli.loads.cycle_figures import figure
-
-        return figure({self.spec.title: self.cycle}, pick)[0]
+        return load_named("loads.cycle_figures:figure")({self.spec.title: self.cycle}, pick)[0]
 
     @answer
     def cycle(self) -> Cycle:
@@ -414,9 +402,7 @@ class Design:
         >>> round(cycle.extremes["input_torque_Nm"].mean, 9)  # of 15 N m in a sixth of a turn
         2.5
         """
-        from geneva_cli.loads.cycle import cycle_of
-
-        return cycle_of(self.mechanism)
+        return load_named("loads.cycle:cycle_of")(self.mechanism)
 
     @answer
     def loads(self) -> Mapping[str, LoadSummary[float | None]]:
@@ -426,9 +412,7 @@ class Design:
         >>> round(loaded.loads["pin_force_N"].max, 3)
         649.007
         """
-        from geneva_cli.loads.load_tables import summaries
-
-        return summaries(self.cycle)
+        return load_named("loads.load_tables:summaries")(self.cycle)
 
     @answer
     def loads_table(self) -> Table:
@@ -465,9 +449,7 @@ class Design:
         >>> round(Design(External(6), size=Size(face_width_mm=20)).wheel_plate.mass_kg, 3)
         2.087
         """
-        from geneva_cli.parts.machine_sizes import wheel_body
-
-        return wheel_body(self.mechanism)
+        return load_named("parts.machine_sizes:wheel_body")(self.mechanism)
 
     @answer
     def life(self) -> dict[str, float | None]:
@@ -487,9 +469,7 @@ class Design:
         >>> round(held.strength["strength.pin.stress_MPa"], 1)
         192.7
         """
-        from geneva_cli.verdict.strength import strength
-
-        return strength(self.mechanism)
+        return load_named("verdict.strength:strength")(self.mechanism)
 
     @answer
     def loads_page(self) -> Table:
@@ -498,9 +478,7 @@ class Design:
         >>> Design(External(6), load=Load(0.4, 15)).loads_page.to_dict()["loads"][0]["quantity"]
         'omega_rad_s'
         """
-        from geneva_cli.verdict.failures import below_summary
-
-        return below_summary(self._loads(for_people=True), without=("title", "chosen"))
+        return load_named("verdict.failures:below_summary")(self._loads(True), ("title", "chosen"))
 
     @question
     def load_cycle(self, samples: int = 361) -> Table:
@@ -509,9 +487,7 @@ class Design:
         >>> Design(External(6), load=Load(torque_Nm=15)).load_cycle(4).to_dict()["pin_force_N"]
         array([173.20508076, 173.20508076,   0.        ,   0.        ])
         """
-        from geneva_cli.loads.load_tables import cycle_table
-
-        return cycle_table(self.cycle, samples)
+        return load_named("loads.load_tables:cycle_table")(self.cycle, samples)
 
     @question
     def vibration(self, period_ratio: float | None = None, damping: float | None = None) -> Table:
@@ -577,9 +553,7 @@ class Design:
         >>> wheel.is_table("slot", drawn=False), wheel.is_table("wheel", drawn=False)
         (True, False)
         """
-        from geneva_cli.drawings.catalogue import table_of
-
-        return bool(table_of(self.mechanism, part, drawn))
+        return bool(load_named("drawings.catalogue:table_of")(self.mechanism, part, drawn))
 
     @answer
     def parts(self) -> Parts:
@@ -588,9 +562,7 @@ class Design:
         >>> Design(External(6)).parts.turn.holds  # its lock, in the dwell
         True
         """
-        from geneva_cli.parts.parts import parts_of
-
-        return parts_of(self.mechanism)
+        return load_named("parts.parts:parts_of")(self.mechanism)
 
     @question
     def drawing(
@@ -613,10 +585,8 @@ class Design:
         picture = part_drawing(self.parts, part, tolerance_mm, form_of(curves))
         if kerf_mm is None:
             return picture
-        from geneva_cli.geometry.offsets import paths
-
         require_cut(part)
-        return paths(picture, kerf_mm)
+        return load_named("geometry.offsets:paths")(picture, kerf_mm)
 
     @question
     def cutter(self, part: str, cutter_mm: float) -> tuple[str, list[str]]:
@@ -626,10 +596,9 @@ class Design:
         'inner radius of 5 mm is narrower; use a smaller one'
         """
         from geneva_cli.drawings.catalogue import require_cut
-        from geneva_cli.geometry.offsets import judged
 
         require_cut(part, "--cutter")
-        return judged(self.drawing(part), cutter_mm)
+        return load_named("geometry.offsets:judged")(self.drawing(part), cutter_mm)
 
     @question
     def sheet(self, tolerance_mm: float = 0.001, curves: str = "arcs") -> Sheet:
@@ -682,9 +651,8 @@ class Design:
         >>> first.name, first.value, first.must_be, first.limit, first.passes
         ('dwell_deg', 240.0, 'at least', 0.0, True)
         """
-        from geneva_cli.verdict.checks import PROOFS, applicable
-
-        return [*self._judged, *([] if self.is_drawn else applicable(PROOFS, self.parts, None))]
+        prove = load_named("verdict.checks.motion_checks:proof")
+        return [*self._judged, *([] if self.is_drawn else prove((), self.parts))]
 
     def _of_drawing(self, answer: str, *values: object) -> Any:
         """An answer about the drawings that replace the outlines."""
@@ -702,7 +670,7 @@ class Design:
         """
         if not self.is_drawn:
             return drawing
-        return cast("Drawing", self._of_drawing("over", drawing))
+        return self._of_drawing("over", drawing)
 
     @question
     def proved_to(self, to_mm: float) -> list[Check]:
@@ -711,11 +679,10 @@ class Design:
         >>> Design(External(6)).proved_to(0.0002)[-1].why
         'collision-free, proved to 0.2 µm (608 intervals)'
         """
-        from geneva_cli.verdict.checks import PROOFS, applicable
-
         allowed = Range(0.0, self.mechanism.roller_radius_mm, "(]")
         require_mm("--certify", to_mm, allowed, "the roller's radius")
-        return [*self._judged, *([] if self.is_drawn else applicable(PROOFS, self.parts, to_mm))]
+        prove = load_named("verdict.checks.motion_checks:proof")
+        return [*self._judged, *([] if self.is_drawn else prove((), self.parts, to_mm))]
 
     @answer
     def _judged(self) -> list[Check]:
@@ -723,14 +690,11 @@ class Design:
         from geneva_cli.verdict.checks import all_pass, every_check
 
         if self.is_drawn:
-            return cast("list[Check]", self._of_drawing("checks"))
-        # a machine without parts is judged without NumPy
-        rows = [*every_check(self.mechanism, self.parts if self.spec.is_turned else None)]
+            return self._of_drawing("checks")
+        rows = [*every_check(self.parts)]
         if all_pass(rows):
             return rows
-        from geneva_cli.verdict.advice import advised
-
-        return advised(self.mechanism, rows)
+        return load_named("verdict.advice:advised")(self.mechanism, rows)
 
     @property
     def passes(self) -> bool:
@@ -739,9 +703,7 @@ class Design:
         >>> Design(External(6), limits=Limits(velocity_max=0.8)).passes
         False
         """
-        from geneva_cli.verdict.checks import all_pass
-
-        return all_pass(self.checks)
+        return load_named("verdict.checks:all_pass")(self.checks)
 
     @question
     def judge(self, part: str = "wheel") -> tuple[str, list[str]]:
@@ -750,18 +712,11 @@ class Design:
         >>> Design(External(6)).judge()
         ('', [])
         """
-        from geneva_cli.drawings.catalogue import parts_having
-        from geneva_cli.verdict.advice import advised
-        from geneva_cli.verdict.checks import checks
-        from geneva_cli.verdict.failures import failures
-
-        parts = parts_having(self.parts, part)
+        parts = load_named("drawings.catalogue:parts_having")(self.parts, part)
         if parts.mechanism.spec.is_flat:
             _ = parts.outlines  # their error comes before all checks
-        if parts is self.parts:
-            return failures(self._judged, parts)
-        other = parts.mechanism
-        return failures(advised(other, checks(other, parts)), parts)
+        of = self if parts is self.parts else Design.of(parts.mechanism.spec)
+        return load_named("verdict.failures:failures")(of._judged, parts)
 
     @question
     def tolerance(
@@ -785,9 +740,8 @@ class Design:
         >>> [text.name for text in Design(External(30)).motion_warnings]
         ['many-slots']
         """
-        from geneva_cli.verdict.motion_warnings import motion_warnings
-
-        return self.spec.accept.applied(motion_warnings(self.mechanism))
+        own = load_named("verdict.motion_warnings:motion_warnings")(self.mechanism)
+        return self.spec.accept.applied(own)
 
     @answer
     def warnings(self) -> list[Notice]:
@@ -796,9 +750,7 @@ class Design:
         >>> [text.name for text in Design(External(30)).warnings]
         ['many-slots']
         """
-        from geneva_cli.verdict.warnings import warnings
-
-        own = self.spec.accept.applied(warnings(self.parts))
+        own = self.spec.accept.applied(load_named("verdict.warnings:warnings")(self.parts))
         return [*self.ideal_notes, *self.check_warnings, *own] if self.is_drawn else own
 
     @answer

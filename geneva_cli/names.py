@@ -132,11 +132,9 @@ def _in_words(name: str, known: dict[str, str]) -> tuple[str, str]:
 
 def unit_end(name: str) -> str:
     """The longest ending of a name that is a unit; empty without one."""
-    _, line, rest = name.partition("_")
-    while line:
-        if f"_{rest}" in UNITS:
-            return f"_{rest}"
-        _, line, rest = rest.partition("_")
+    for i, letter in enumerate(name):
+        if letter == "_" and name[i:] in UNITS:
+            return name[i:]
     return ""
 
 

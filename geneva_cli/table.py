@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from functools import lru_cache
-from itertools import islice
+from itertools import chain, islice
 from typing import Any, NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, few, nearest
 
-PIECE = 65536  # rows of a long table that are computed at once; a multiple of a block
+BLOCK = 8192  # rows that are computed and written at once
 WHOLE_ROWS = 100_000  # longer tables are computed while they are written
 SHOWN_ROWS = 10  # rows that the interpreter shows
 NO_BOUND = "no bound"  # an infinity, for people
@@ -32,6 +31,13 @@ class Reading(NamedTuple):
     decide: tuple[str, ...] = ()
 
 
+class Later(NamedTuple):
+    """The rows of a table too long for memory: ``make(start, stop)`` returns their columns."""
+
+    length: int
+    make: Callable[[int, int], Sequence[Any]]
+
+
 class Table(NamedTuple):
     """Named columns (lists or arrays) of equal length; the names carry the units.
 
@@ -39,7 +45,8 @@ class Table(NamedTuple):
     people. None is a value that does not exist (an empty field, ``null`` in json). In a record a
     value may also be a tuple of texts, or a table. ``prose`` stands below the title. The columns of
     a ``mixed`` table hold quantities of many kinds, so no number in them is rounding compared with
-    another. Their names are headings, such as drive.A=0.6, which json does not nest.
+    another. Their names are headings, such as drive.A=0.6, which json does not nest. A long
+    table computes its rows ``later``, and has no columns.
     """
 
     names: tuple[str, ...]
@@ -49,6 +56,7 @@ class Table(NamedTuple):
     prose: str = ""
     mixed: bool = False
     reading: Reading = Reading()
+    later: Later | None = None
 
     def __getitem__(self, key: Any) -> Any:
         """A column by its name, as a read-only NumPy array; for a record, the value.
@@ -63,12 +71,12 @@ class Table(NamedTuple):
         if key not in self.names:
             hint = nearest(key, self.names)
             raise GenevaError(f"no column {cut(key)}{hint}; it has {few(key, self.names)}")
-        column = self.columns[self.names.index(key)]
+        column = self.whole()[self.names.index(key)]
         if self.record:
             return column[0]
         import numpy as np
 
-        array = np.asarray(_whole(column)).view()
+        array = np.asarray(column).view()
         array.flags.writeable = False
         return array
 
@@ -95,25 +103,44 @@ class Table(NamedTuple):
         except ImportError:
             raise GenevaError("pandas is not installed: pip install pandas") from None
         table = flat(self) if self.record else self
-        columns = zip(table.names, map(_whole, table.columns), strict=True)
+        columns = zip(table.names, table.whole(), strict=True)
         return pandas.DataFrame({name: list(column) for name, column in columns})
 
     def __len__(self) -> int:
+        if self.later:
+            return self.later.length
         return len(self.columns[0]) if self.columns else 0
 
-    def slices(self, size: int) -> Iterator[list[Any]]:
-        """Slices of all columns, ``size`` rows at a time, so that memory stays flat."""
-        for start in range(0, len(self), size):
-            yield [column[start : start + size] for column in self.columns]
+    def slices(self) -> Iterator[Sequence[Any]]:
+        """Slices of all columns, a block at a time, so that memory stays flat."""
+        for start in range(0, len(self), BLOCK):
+            stop = min(start + BLOCK, len(self))
+            own = [column[start:stop] for column in self.columns]
+            yield self.later.make(start, stop) if self.later else own
 
-    def blocks(self, size: int = 8192) -> Iterator[list[tuple[Any, ...]]]:
+    def whole(self) -> Sequence[Any]:
+        """All columns; those of a long table are computed."""
+        if not self.later:
+            return self.columns
+        import numpy as np
+
+        return [*map(np.concatenate, zip(*self.slices(), strict=True))]
+
+    def through(self, change: Callable[[Sequence[Any]], Sequence[Any]], **fields: Any) -> Table:
+        """The table with its columns changed; those of a long one as its rows are computed."""
+        if not self.later:
+            return self.replaced(columns=change(self.columns), **fields)
+        length, make = self.later
+        later = Later(length, lambda start, stop: change(make(start, stop)))
+        return self.replaced(later=later, **fields)
+
+    def blocks(self) -> Iterator[list[tuple[Any, ...]]]:
         """Rows as plain Python values, in blocks, so that memory stays flat."""
-        return map(plain_rows, self.slices(size))
+        return map(plain_rows, self.slices())
 
     def rows(self) -> Iterator[tuple[Any, ...]]:
         """The rows, one by one."""
-        for block in self.blocks():
-            yield from block
+        return chain.from_iterable(self.blocks())
 
     def replaced(self, **fields: Any) -> Table:
         """The table with some fields replaced; _replace would check their number against len()."""
@@ -129,8 +156,7 @@ class Table(NamedTuple):
         if self.record:
             row = zip(self.names, next(self.rows()), strict=True)
             return {n: v.to_rows() if isinstance(v, Table) else v for n, v in row}
-        columns = (c if isinstance(c, (list, tuple)) else _whole(c) for c in self.columns)
-        return dict(zip(self.names, columns, strict=True))
+        return dict(zip(self.names, self.whole(), strict=True))
 
     def to_rows(self) -> list[dict[str, Any]]:
         """A list of rows by name, as data frames take it."""
@@ -185,62 +211,19 @@ def in_decimals(value: float, decimals: int) -> str:
     return "0" if text == "-0" else text
 
 
-def _whole(column: Any) -> Any:
-    """A column as one array, including one that is computed in pieces."""
-    import numpy as np
-
-    if not isinstance(column, Column):
-        return column
-    starts = range(0, len(column), PIECE)
-    return np.concatenate([column[start : start + PIECE] for start in starts])
-
-
-class Column:
-    """A column of a table too long for memory, with a length and slices within a piece."""
-
-    def __init__(self, length: int, number: int, at: Callable[[int], Sequence[Any]]) -> None:
-        self.length, self.number, self.at = length, number, at
-
-    def __len__(self) -> int:
-        return self.length
-
-    def __getitem__(self, rows: slice) -> Any:
-        start = rows.start - rows.start % PIECE
-        return self.at(start)[self.number][rows.start - start : rows.stop - start]
-
-
-def pieces(length: int, count: int, make: Callable[[int, int], Sequence[Any]]) -> list[Column]:
-    """``count`` columns, whose rows ``make(start, stop)`` gives as arrays, or lists with None.
-
-    The table takes the memory of one piece, however many rows are written.
-    """
-
-    @lru_cache(maxsize=1)
-    def at(start: int) -> Sequence[Any]:
-        columns = make(start, min(start + PIECE, length))
-        for column in columns:
-            if not isinstance(column, (list, tuple)):
-                column.flags.writeable = False  # it is kept
-        return columns
-
-    return [Column(length, number, at) for number in range(count)]
-
-
 def computed_table(
     names: Sequence[str], length: int, make: Callable[[int, int], Sequence[Any]]
 ) -> Table:
     """A table whose rows ``make(start, stop)`` gives; a long one is computed as it is written."""
-    is_long = length > WHOLE_ROWS
-    columns = pieces(length, len(names), make) if is_long else make(0, length)
-    return Table(tuple(names), columns)
+    if length > WHOLE_ROWS:
+        return Table(tuple(names), (), later=Later(length, make))
+    return Table(tuple(names), make(0, length))
 
 
 def plain_rows(columns: Sequence[Any]) -> list[tuple[Any, ...]]:
     """The rows of columns, arrays or lists, as plain Python values."""
-    lists = []
-    for column in columns:
-        lists.append(column if isinstance(column, (list, tuple)) else column.tolist())
-    return list(zip(*lists, strict=True))
+    plain = (c if isinstance(c, (list, tuple)) else c.tolist() for c in columns)
+    return list(zip(*plain, strict=True))
 
 
 def rows_table(

@@ -20,7 +20,7 @@ def rows(spec):
 
 
 def standing_checks(parts):
-    return applicable(own_checks(parts.mechanism)[1], parts)
+    return applicable(own_checks(parts.mechanism.spec)[1], parts)
 
 
 def judged(mechanism, machine=None, parts=True):

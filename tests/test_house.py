@@ -368,7 +368,6 @@ def test_few_rooms_touch_streams():
 
 # What a class of drives or wheels says in words: names, and what a message is made of.
 WORDS = {
-    "TABLE",  # of the file
     "NAME",  # in the file
     "TITLE",  # of a design without one
     "WORDS",  # the drive or the wheel in a sentence

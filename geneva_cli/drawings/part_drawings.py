@@ -122,19 +122,16 @@ def pitch_lines(parts: FlatParts, engagement: Engagement) -> list[Contour]:
         mouth, end = (assembly.L * np.column_stack((x.c[0], y.c[0] + 0.0 * x.c[0]))).tolist()
         line = Contour("PITCH", (Line(tuple(mouth), tuple(end)),), closed=False)
     else:
-        from geneva_cli.geometry import fit
         from geneva_cli.parts.outlines.path_walls import parallel
 
-        fine = 1e-3 if parts.tolerance is None else parts.tolerance  # mm, as a drawing's
-        pieces: list[Segment] = []
+        write, pieces = parts.writer(1e-3), list[Segment]()  # mm, as a drawing's
         for a, b in ((through.entry_deg, 0.0), (0.0, through.exit_deg)):
-            path = partial(parallel, assembly.L, through, 0.0, b > 0.0)
-            pieces += fit.KINDS[parts.curves](path, a, b, fine)
+            pieces += write(partial(parallel, assembly.L, through, 0.0, b > 0.0), a, b)
         line = Contour("PITCH", forms.joined(pieces), closed=False)
     return [forms.placed(line, turn=turn) for turn in ((-apart, apart) if apart else (0.0,))]
 
 
-def machine(parts: FlatParts) -> Drawing:
+def assembly(parts: FlatParts) -> Drawing:
     """Return the machine at input angle 0, from the frame up to the wheel."""
     assembly, title = parts.outlines.assembly, titled(parts.mechanism)
     drawn = [shape for one in (parts.wheel, *parts.orbiting) for shape in _seen(one)]

@@ -13,7 +13,7 @@ from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot, ShaftPlace
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import library
+from geneva_cli.numerics.arrays import library, value_or
 from geneva_cli.numerics.jet import Array, Displacement
 from geneva_cli.spec.rules import POSITIVE, Range
 
@@ -66,8 +66,7 @@ class SideCrank(Whitworth, kw_only=True):
         )
 
     def _crank_mm(self, plan: Plan) -> float:
-        own = plan.ratio * plan.center_distance_mm
-        return own if self.input_crank_mm is None else self.input_crank_mm
+        return value_or(self.input_crank_mm, plan.ratio * plan.center_distance_mm)
 
     def reactions(
         self, wheel: Gearing, advance: Displacement, mid_deg: float, L: float

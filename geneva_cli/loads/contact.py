@@ -25,6 +25,7 @@ from geneva_cli.numerics.arrays import (
 )
 from geneva_cli.numerics.jet import Array, Jet, Number, Vector, sqrt
 
+OF_MOTION = ("omega_rad_s", "alpha_rad_s2", "sliding_m_s")  # known without a load
 PRESSED = ("contact_stress_MPa", "pv_W_m2")  # known only with a face width
 # Searched by their squares: a root has no slope where it is 0, nor has the size of a vector.
 SQUARED = (*PRESSED, "crank_bearing_N", "guide_force_N")

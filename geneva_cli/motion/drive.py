@@ -37,10 +37,9 @@ class Gears(NamedTuple):
     advance: Displacement
 
 
-class Drive(SpecTable, kw_only=True):
+class Drive(SpecTable, kw_only=True, table="drive"):
     """A kind of drive; its fields are the keys of ``[drive]``."""
 
-    TABLE: ClassVar[str] = "drive"
     SHARED: ClassVar[tuple[str, ...]] = ("rollers",)  # they decide how many engagements there are
     NAME: ClassVar[str]
     # name of the drive in a sentence

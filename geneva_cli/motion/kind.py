@@ -23,7 +23,8 @@ class Kind(NamedTuple):
     parts: str = ""  # class of the parts of wheel and crank
     no_parts: str = ""  # function that returns the reason why a spec has no parts, or ""
     front: str = ""  # class of links and gears in front of a crank that is not flat
-    drawings: Mapping[str, str] = _NONE  # or sheets, by the names of the parts that they show
+    # modules that draw a part, or a sheet, by its name: the function is named as the part
+    drawings: Mapping[str, str] = _NONE
     tables: Mapping[str, str] = _NONE  # of points, by the names of the parts
     dimensions: str = ""  # in the list of parts, of these parts
     # function that returns the ``KeySizes`` of a mechanism, where its parts are not flat
@@ -31,9 +32,7 @@ class Kind(NamedTuple):
     details: str = ""  # function of a mechanism that returns sizes of its parts' details
     stressed: str = ""  # dimensions of stressed parts, where no layout of flat parts has them
     wheel_body: str = ""  # function that returns mass and inertia of a mechanism's wheel
-    motion_checks: Mapping[str, str] = _NONE  # by their names
-    parts_checks: Mapping[str, str] = _NONE  # of parts at rest, all or those that it adds
-    remedies: Mapping[str, str] = _NONE  # of its checks, in words of ``verdict.advice``
+    checks: str = ""  # that it has or adds, of the motion and of parts at rest: rows of ``verdict``
     load_case: str = ""  # function that completes the load case of a mechanism
     # of the report, by the tables behind which they are shown: rows of ``verdict.quantities``
     quantities: Mapping[str, str] = _NONE

@@ -4,9 +4,8 @@ And the tables of its file whose keys depend on the kind of wheel, drive or law.
 """
 
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import field
 from operator import attrgetter
-from typing import Any, ClassVar, NamedTuple, Self
+from typing import Any, ClassVar, NamedTuple, Self, cast
 
 from geneva_cli.errors import GenevaError, refuse_text
 from geneva_cli.kept import load_named
@@ -72,7 +71,7 @@ class Spec(SpecTable):
     unbalanced: ClassVar[bool]  # a single body stands off the wheel's axis
     dwell_holder: ClassVar[str | None]  # what holds the wheel in the dwell; None if nothing does
     wheel: Gearing
-    drive: Drive = field(default_factory=lambda: load_named(CRANK)())
+    drive: Drive = cast("Drive", None)  # by default a plain crank
     motion: Motion | None = None
     size: tables.Size = tables.Size()
     load: tables.Load = tables.Load()
@@ -94,6 +93,8 @@ class Spec(SpecTable):
     drive_before: Drive | None = None
 
     def __post_init__(self) -> None:
+        if vars(self)["drive"] is None:
+            vars(self)["drive"] = load_named(CRANK)()
         for name, (kind, example) in _TABLE_TYPES.items():
             value = vars(self)[name]
             is_left_out = value is None and name in ("drive_before", "motion")

@@ -55,8 +55,19 @@ class SearchResult(NamedTuple):
 
     @property
     def stretches(self) -> Stretches:
-        """The parts on which no sign changes."""
-        return _stretches(self.pieces)
+        """The parts on which no sign changes: adjacent pieces with equal signs joined into one."""
+        if not self.pieces:
+            return Stretches(np.arange(0), np.arange(0), np.zeros((2, 0)), np.full((0, 0), True))
+        rows, sign = joined(self.pieces)
+        order = np.lexsort((rows.x[1], rows.x[0], rows.span, rows.design))  # empty pieces first
+        design, span, _, (a, b) = record_taken(rows, order)
+        positive = sign[:, order] > 0.0
+        first = np.ones(len(design), dtype=bool)
+        first[1:] = (design[1:] != design[:-1]) | (span[1:] != span[:-1])
+        first[1:] |= (positive[:, 1:] != positive[:, :-1]).any(axis=0)
+        last = np.append(first[1:], True)
+        x = np.stack((a[first], b[last]))
+        return Stretches(design[first], span[first], x, positive[:, first])
 
 
 @dataclass
@@ -321,19 +332,3 @@ def bar(most: Array, size: Array) -> Array:
     # within 1e-12 of their own size, or of 1e-13 of the function's: at a root it is not exactly 0
     tie = np.maximum(1e-12 * np.abs(most), 1e-13 * size)
     return most - np.where(np.isfinite(most), tie, 0.0)
-
-
-def _stretches(pieces: Sequence[tuple[Rows, Array]]) -> Stretches:
-    """Adjacent pieces with equal signs joined into one."""
-    if not pieces:
-        return Stretches(np.arange(0), np.arange(0), np.zeros((2, 0)), np.full((0, 0), True))
-    rows, sign = joined(pieces)
-    order = np.lexsort((rows.x[1], rows.x[0], rows.span, rows.design))  # empty pieces first
-    design, span, _, (a, b) = record_taken(rows, order)
-    positive = sign[:, order] > 0.0
-    first = np.ones(len(design), dtype=bool)
-    first[1:] = (design[1:] != design[:-1]) | (span[1:] != span[:-1])
-    first[1:] |= (positive[:, 1:] != positive[:, :-1]).any(axis=0)
-    last = np.append(first[1:], True)
-    x = np.stack((a[first], b[last]))
-    return Stretches(design[first], span[first], x, positive[:, first])

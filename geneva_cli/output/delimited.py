@@ -16,7 +16,7 @@ def chunks(table: Table) -> Iterator[str]:
     if table.record:
         table = flat(table)
     yield one_line(table.names)
-    for columns in table.slices(8192):
+    for columns in table.slices():
         yield text_of(columns)
 
 

@@ -13,7 +13,7 @@ from typing import Any
 
 from geneva_cli.errors import GenevaError, clean, cut, few
 from geneva_cli.progress import Meter
-from geneva_cli.table import Column, Table, flat, in_digits, pieces, plain_rows, record_table
+from geneva_cli.table import Table, flat, in_digits, plain_rows, record_table
 
 WIDTH = 90  # letters of a line in a file or a pipe
 GAP = "  "  # between two columns
@@ -130,22 +130,17 @@ def checked(table: Table, is_seen: bool = False) -> Table:
     Its progress is reported, unless the rows are seen as they come. Raises ArithmeticError as
     ``refuse_nonsense`` does.
     """
-    own = table.columns
-    if not (own and isinstance(own[0], Column)):
-        refuse_nonsense(table.names, own)
-        return table
-    meter, done = None if is_seen else Meter("rows", len(table)), 0
+    meter, done = Meter("rows", len(table)) if table.later and not is_seen else None, 0
 
-    def make(start: int, stop: int) -> Sequence[Any]:
+    def check(columns: Sequence[Any]) -> Sequence[Any]:
         nonlocal done
-        columns = [column[start:stop] for column in own]
         refuse_nonsense(table.names, columns)
         if meter:
             done += len(columns[0])
             meter.report(done)
         return columns
 
-    return table.replaced(columns=pieces(len(table), len(own), make))
+    return table.through(check)
 
 
 def refuse_nonsense(names: Iterable[str], columns: Iterable[Any], endless: bool = False) -> None:
@@ -189,7 +184,7 @@ def only(table: Table, names: Sequence[str]) -> Table:
             raise GenevaError(f"--columns {cut(name)}: no such column; there are {some}")
     if not table.record:
         at = [table.names.index(name) for name in names]
-        return table.replaced(names=tuple(names), columns=[table.columns[i] for i in at])
+        return table.through(lambda columns: [columns[i] for i in at], names=tuple(names))
     values: dict[str, Any] = {}
     for name, value in zip(table.names, next(table.rows()), strict=True):
         parts = [t for t in _tables(value) if set(names) & set(t.names)]

@@ -34,14 +34,10 @@ class Range(NamedTuple):
     def __str__(self) -> str:
         low = f"{'above' if self.ends[0] == '(' else 'at least'} {self.low:.12g}"
         high = f"{'below' if self.ends[1] == ')' else 'at most'} {self.high:.12g}"
-        if math.isinf(self.low) and math.isinf(self.high):
-            text = "a finite number"
-        elif 0.0 < self.low < 1e-6:  # a bound that only keeps the arithmetic finite
+        ends = [low] * math.isfinite(self.low) + [high] * math.isfinite(self.high)
+        text = ", ".join(ends) or "a finite number"
+        if 0.0 < self.low < 1e-6:  # a bound that only keeps the arithmetic finite
             text = f"above 0 ({self.low:g} to {self.high:g})"
-        elif math.isinf(self.low) or math.isinf(self.high):
-            text = low if math.isinf(self.high) else high
-        else:
-            text = f"{low}, {high}"
         for number, word in enumerate(self.words):
             text += f'{"" if number else ","} or "{word}"'
         return text

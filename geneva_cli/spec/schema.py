@@ -90,8 +90,9 @@ class SpecTable:
     _parameters: ClassVar[dict[str, dataclasses.Field[object]]]  # by name
 
     def __init_subclass__(
-        cls, kw_only: bool = False, names: Iterable[str] = (), of: object = None
+        cls, table: str = "", kw_only: bool = False, names: Iterable[str] = (), of: object = None
     ) -> None:
+        cls.TABLE = table or cls.TABLE
         for name in names:  # keys that have one annotation, and are None by default
             cls.__annotations__[name] = of
             setattr(cls, name, None)
@@ -107,12 +108,9 @@ class SpecTable:
         if values:
             named = kind.__signature__.bind_partial(*values, **named).arguments
         for name, one in kind._parameters.items():
-            value = named.get(name, one.default)
-            if value is REQUIRED:
-                if one.default_factory is REQUIRED:
-                    raise TypeError(f"{kind.__name__} needs {name}")
-                value = one.default_factory()
-            own[name] = value
+            own[name] = named.get(name, one.default)
+            if own[name] is REQUIRED:
+                raise TypeError(f"{kind.__name__} needs {name}")
         self.__post_init__()
 
     def __setattr__(self, name: str, value: object) -> None:
@@ -221,9 +219,7 @@ def shortly(record: object) -> str:
     arguments = []
     for one in dataclasses.fields(record):  # type: ignore[arg-type]
         value = getattr(record, one.name)
-        factory = one.default_factory
-        default = one.default if factory is dataclasses.MISSING else factory()
-        if one.repr and value != default:
+        if one.repr and value != one.default:
             text = shortly(value) if dataclasses.is_dataclass(value) else repr(value)
             arguments.append(f"{one.name}={cut(text, SHOWN_MAX)}")
     return f"{type(record).__name__}({', '.join(arguments)})"
@@ -237,24 +233,18 @@ def fields(table: type[SpecTable]) -> tuple[Field, ...]:
     """Keys of a table, in their order."""
     if table in _fields_of:
         return _fields_of[table]
-    known: dict[str, Field] = {}
-    for base in table.__bases__:
-        if issubclass(base, SpecTable) and base is not SpecTable:
-            for field in fields(base):
-                known[field.attribute] = field
-    own, keys = inspect.get_annotations(table, eval_str=True), []
+    own, keys = dict[str, Any](), list[Field]()
+    for base in reversed(table.__mro__[:-2]):  # but for those of every table
+        own |= inspect.get_annotations(base, eval_str=True)
     for name, one in table._parameters.items():
-        annotation = own.get(name)
         # others are no keys: objects with their own keys, such as a motion's law
-        if typing.get_origin(annotation) is Annotated:
-            annotated, rule, meaning = typing.get_args(annotation)
+        if typing.get_origin(own[name]) is Annotated:
+            annotated, rule, meaning = typing.get_args(own[name])
             # an alternative (a | b) by its parts, anything else as it is; tuple[...] stays whole
             types = typing.get_args(annotated) if isinstance(annotated, UnionType) else (annotated,)
             key = name.rstrip("_").replace("_", table.WORDS_APART)
             key = "file" if isinstance(rule, Csv) else key
             keys.append(Field(key, name, types, rule, one.default, meaning))
-        elif name in known:
-            keys.append(known[name])
     _fields_of[table] = tuple(keys)
     return _fields_of[table]
 

@@ -36,7 +36,7 @@ class Thicknesses(NamedTuple):
     link: float
 
 
-class Size(SpecTable):
+class Size(SpecTable, table="size"):
     """``[size]``: sizes of the parts.
 
     Lengths in mm; diameters where a key says so. Keys that are not set follow from the others.
@@ -44,8 +44,6 @@ class Size(SpecTable):
     >>> Design(External(6), size=Size(center_distance_mm=200.0)).mechanism.roller_radius_mm
     10.0
     """
-
-    TABLE: ClassVar[str] = "size"
 
     center_distance_mm: Annotated[
         Positive, "centre distance L; spherical: sphere radius; linear: crank radius; default 100"
@@ -132,15 +130,13 @@ class Size(SpecTable):
     @property
     def distance_mm(self) -> float:
         """Centre distance L: its key, or derived from the crank radius, or the default."""
-        if self.center_distance_mm is not None:
-            return self.center_distance_mm
-        return DISTANCE_MM if self.derived_distance_mm is None else self.derived_distance_mm
+        usual = value_or(self.derived_distance_mm, DISTANCE_MM)
+        return value_or(self.center_distance_mm, usual)
 
     @property
     def edge_mm(self) -> float:
         """Height of a face that its chamfer or rounding takes at each edge; 0 for sharp edges."""
-        own = self.edge_fillet_mm if self.edge_chamfer_mm is None else self.edge_chamfer_mm
-        return 0.0 if own is None else own
+        return value_or(self.edge_chamfer_mm, value_or(self.edge_fillet_mm, 0.0))
 
     def has_hub(self, part: str) -> bool:
         """True if the spec has a size of a part's hub; otherwise only its space is kept free."""
@@ -191,14 +187,12 @@ class Size(SpecTable):
         return Allowances(**values)
 
 
-class Load(SpecTable):
+class Load(SpecTable, table="load"):
     """``[load]``: inertia, torque and friction at the wheel.
 
     >>> Design(External(6), load=Load(torque_Nm=15.0)).loads["input_torque_Nm"].max
     15.0
     """
-
-    TABLE: ClassVar[str] = "load"
 
     inertia_kgm2: Annotated[FromZero, "inertia of everything the wheel turns"] = 0.0
     torque_Nm: Annotated[FromZero, "torque that resists the wheel's motion"] = 0.0
@@ -212,14 +206,12 @@ class Load(SpecTable):
     guide_friction: Annotated[NotNegative, "linear: of the guide; default friction"] = None
 
 
-class Mass(SpecTable):
+class Mass(SpecTable, table="mass"):
     """One ``[[mass]]``: a body on the wheel, or several equal ones.
 
     >>> Mass("disc", mass_kg=2.0, diameter_mm=300.0).count
     1
     """
-
-    TABLE: ClassVar[str] = "mass"
 
     shape: Annotated[str, OneOf(("disc", "ring", "block", "point")), "shape of the body"]
     mass_kg: Annotated[Positive, "mass of one; or density_kgm3 and all sizes"] = None
@@ -275,14 +267,12 @@ class Mass(SpecTable):
         return ()
 
 
-class Support(SpecTable):
+class Support(SpecTable, table="support"):
     """``[support]``: the bearing of the table that the wheel turns, and the gears to it.
 
     >>> Support(friction=0.01, radius_mm=80.0).gear_ratio
     1.0
     """
-
-    TABLE: ClassVar[str] = "support"
 
     friction: Annotated[FromZero, "friction coefficient of the table's bearing"] = 0.0
     radius_mm: Annotated[FromZero, "radius at which that friction acts"] = 0.0
@@ -291,14 +281,12 @@ class Support(SpecTable):
     gear_ratio: Annotated[float, POSITIVE, "turns of table and masses per turn of the wheel"] = 1.0
 
 
-class Motor(SpecTable):
+class Motor(SpecTable, table="motor"):
     """``[motor]``: the motor, its reducer and a flywheel.
 
     >>> Motor(gear_ratio=20.0, gear_efficiency=0.9).service_factor
     1.0
     """
-
-    TABLE: ClassVar[str] = "motor"
 
     service_factor: Annotated[float, Range(1.0, 100.0), "service factor of the makers"] = 1.0
     gear_ratio: Annotated[Positive, "motor's turns for one of the input; default 1"] = None
@@ -314,14 +302,12 @@ class Motor(SpecTable):
         return value_or(self.gear_ratio, 1.0)
 
 
-class Shaft(SpecTable):
+class Shaft(SpecTable, table="shaft"):
     """``[shaft]``: the shafts of wheel and crank, and the elastic shaft between wheel and load.
 
     >>> Shaft(wheel_diameter_mm=25.0, wheel_overhang_mm=30.0).damping_ratio
     0.0
     """
-
-    TABLE: ClassVar[str] = "shaft"
 
     stiffness_Nm_rad: Annotated[Positive, "stiffness between wheel and load"] = None
     damping_ratio: Annotated[float, Range(0.0, 1.0, "[)"), "shaft's damping over critical"] = 0.0
@@ -352,36 +338,30 @@ class Material(SpecTable):
     grade: Annotated[str | None, None, "grade, as drawings name it"] = None
 
 
-class WheelMaterial(Material):
+class WheelMaterial(Material, table="material.wheel"):
     """``[material.wheel]``: material of wheel, arm, locking disc and other plates.
 
     >>> WheelMaterial(grade="POM", youngs_modulus_GPa=2.8).stress_max_MPa is None
     True
     """
 
-    TABLE: ClassVar[str] = "material.wheel"
 
-
-class RollerMaterial(Material):
+class RollerMaterial(Material, table="material.roller"):
     """``[material.roller]``: material of rollers, their pins, and shafts.
 
     >>> RollerMaterial(stress_max_MPa=1500.0).stress_max_MPa
     1500.0
     """
 
-    TABLE: ClassVar[str] = "material.roller"
-
     dynamic_capacity_N: Annotated[Positive, "capacity C of the roller as bearing (ISO 281)"] = None
 
 
-class Tolerance(SpecTable):
+class Tolerance(SpecTable, table="tolerance"):
     """``[tolerance]``: deviations of the dimensions, each plus or minus.
 
     >>> Tolerance(center_distance_mm=0.02).distribution
     'uniform'
     """
-
-    TABLE: ClassVar[str] = "tolerance"
 
     center_distance_mm: Annotated[FromZero, "± of the centre distance L"] = 0.0
     crank_radius_mm: Annotated[FromZero, "± of the crank radius R, by center_distance_mm"] = 0.0
@@ -398,14 +378,12 @@ class Tolerance(SpecTable):
         return self != Tolerance(distribution=self.distribution)
 
 
-class Product(SpecTable):
+class Product(SpecTable, table="product"):
     """``[product]``: what the dial, chain or film carries, and how it may slip.
 
     >>> Product(radius_mm=300.0).friction is None
     True
     """
-
-    TABLE: ClassVar[str] = "product"
 
     radius_mm: Annotated[Positive, "distance of the product from the axis"] = None
     sprocket_teeth: Annotated[int | None, Range(3, 10000), "teeth of its sprocket"] = None
@@ -435,14 +413,12 @@ class Product(SpecTable):
         return self.pitch_mm is not None
 
 
-class TitleBlock(SpecTable):
+class TitleBlock(SpecTable, table="drawing"):
     """``[drawing]``: fields of the title block, and what drawings ask of faces and edges.
 
     >>> TitleBlock(number="G-106", revision="B").author is None
     True
     """
-
-    TABLE: ClassVar[str] = "drawing"
 
     number: Annotated[str | None, None, "drawing number"] = None
     revision: Annotated[str | None, None, "revision of the drawing"] = None
@@ -453,14 +429,12 @@ class TitleBlock(SpecTable):
     flank_hardness_HRC: Annotated[float | None, Range(20.0, 70.0), "hardness of these faces"] = None
 
 
-class Outline(SpecTable):
+class Outline(SpecTable, table="outline"):
     """``[outline]``: drawings of wheel and crank that replace the computed outlines.
 
     >>> Outline(wheel="wheel.dxf").files, Outline().files
     (('wheel.dxf',), ())
     """
-
-    TABLE: ClassVar[str] = "outline"
 
     wheel: Annotated[str | None, None, "wheel: a .dxf or .svg file, its axis at the origin"] = None
     crank: Annotated[str | None, None, "a file, axis at the origin, first roller on +x"] = None
@@ -477,15 +451,13 @@ class Outline(SpecTable):
         return tuple([name for name in (self.wheel, self.crank) if name is not None])
 
 
-class Limits(SpecTable):
+class Limits(SpecTable, table="limits"):
     """``[limits]``: limits that ``geneva check`` compares the design with.
 
     >>> strict = Design(External(6), limits=Limits(velocity_max=0.8))
     >>> [check.name for check in strict.checks if not check.passes]
     ['velocity_max']
     """
-
-    TABLE: ClassVar[str] = "limits"
 
     velocity_max: Annotated[Positive, "velocity dpsi/dtheta"] = None
     acceleration_max: Annotated[Positive, "acceleration d2psi/dtheta2"] = None
@@ -542,14 +514,13 @@ ACCEPTED = (
 Reason = Annotated[str | None, None, "reason for accepting this warning"]
 
 
-class Accept(SpecTable, names=ACCEPTED, of=Reason):
+class Accept(SpecTable, names=ACCEPTED, of=Reason, table="accept"):
     """``[accept]``: the reason for each accepted warning, by its name.
 
     >>> Accept(many_slots="a dial of 30 stations").reasons
     {'many-slots': 'a dial of 30 stations'}
     """
 
-    TABLE: ClassVar[str] = "accept"
     WORDS_APART: ClassVar[str] = "-"  # in the names of warnings
 
     # warnings of `geneva vibration` and `geneva tolerance` alone

@@ -250,8 +250,6 @@ def tightest(checks: Iterable[Check]) -> Iterator[SummaryLine]:
 
 def compared_text(check: Check, unit: str) -> str:
     """The value of a check, its place, and its limit."""
-    assert check.value is not None
-    assert check.limit is not None
     where = "" if check.at_deg is None else f" at {value_text(check.at_deg, 'deg')}"
     limit = value_text(check.limit, unit if unit == "deg" else "")
     return f"{value_text(check.value, unit)}{where}, {check.must_be} {limit}"

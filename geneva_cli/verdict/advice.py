@@ -271,7 +271,7 @@ class Adviser:
                 self._parts[key] = parts_of(build(spec, self.mechanism))
             parts = self._parts[key]
             for name in names:
-                check = single_check(parts.mechanism, name, parts)
+                check = single_check(parts, name)
                 out.spares[name] = check.spare if check else math.inf
                 if check and check.passes is None:  # a change is no advice that hides a check
                     out.spares[name] = -math.inf
@@ -279,7 +279,7 @@ class Adviser:
                     return out
             # where a check has no value, others say how near it is
             if every or math.inf in out.spares.values():
-                for check in every_check(parts.mechanism, parts, quick=True):
+                for check in every_check(parts, quick=True):
                     if check.name not in self.failing:
                         out.spares[check.name] = check.spare
                         if check.passes is False:

@@ -35,7 +35,7 @@ MEANINGS = {
 }
 
 
-def below_summary(record: Table, *, without: Sequence[str] = ()) -> Table:
+def below_summary(record: Table, without: Sequence[str] = ()) -> Table:
     """A record as it stands below its summary, without the warnings and the names shown there.
 
     Notes on unknown values remain, as ``not_known``. Of an angle in two units, degrees remain. An
@@ -43,8 +43,7 @@ def below_summary(record: Table, *, without: Sequence[str] = ()) -> Table:
     """
     values = dict(zip(record.names, next(record.rows()), strict=True))
     notes = tuple(text for text in values.pop("warnings") if not is_warning(text))
-    left = {name: value for name, value in values.items() if name not in without}
-    left = {name: value for name, value in left.items() if not name.endswith("_arcsec")}
+    left = {n: v for n, v in values.items() if n not in without and not n.endswith("_arcsec")}
     for name in [n for n in left if n.endswith(".allowed_MPa")]:
         if left.get(name.replace("allowed_MPa", "margin")) is None:  # there is no stress
             del left[name]

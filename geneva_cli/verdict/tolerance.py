@@ -8,7 +8,8 @@ distance reduces the lock's clearance. These sums are exact if the roller enters
 """
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from itertools import product
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -48,24 +49,21 @@ def flat_locks(parts: Parts, sizes: Mapping[str, float]) -> Locks:
     size, assembly = outlines.sizes, outlines.assembly
     if not outlines.crank:
         return [], None
-    near = SAME * assembly.L
-    radii = {
-        round(math.hypot(*end) / near): math.hypot(*end)
-        for arc in cut_arcs([outlines.wheel], size.recess, assembly.L, near)
-        for end in (arc.start, arc.end)
-    }
-    halves = {
-        round(arc.sweep / SAME): 0.5 * abs(arc.sweep)
-        for arc in cut_arcs(outlines.crank, size.lock, 0.0, near)
-    }
-    locks = [
-        locking.Lock(assembly.L, assembly.sign, size.lock, size.recess, radius, half)
-        for radius in radii.values()
-        for half in halves.values()
-        if half > SAME
-    ]
+    L, near = assembly.L, SAME * assembly.L
+    arcs = cut_arcs([outlines.wheel], size.recess, L, near)
+    radii = [math.hypot(*end) for arc in arcs for end in (arc.start, arc.end)]
+    sweeps = [abs(arc.sweep) for arc in cut_arcs(outlines.crank, size.lock, 0.0, near)]
+    halves = [0.5 * sweep for sweep in sweeps if sweep > 2.0 * SAME]
+    own = L, assembly.sign, size.lock, size.recess
+    shapes = product(_distinct(radii, near), _distinct(halves, SAME))
+    locks = [locking.Lock(*own, *shape) for shape in shapes]
     ring = sizes["lock_radius_mm"] + sizes["recess_radius_mm"]
     return locks, ring + sizes["center_distance_mm"]
+
+
+def _distinct(values: Iterable[float], near: float) -> Iterable[float]:
+    """The values, of those that are nearly equal one."""
+    return {round(value / near): value for value in values}.values()
 
 
 def cut_locks(parts: Parts, sizes: Mapping[str, float]) -> Locks:

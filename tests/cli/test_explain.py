@@ -38,7 +38,7 @@ from geneva_cli.study import law_values, survey
 from geneva_cli.study.sweep.run import ERROR
 from geneva_cli.study.synth.synth_search import CELLS as SYNTH
 from geneva_cli.study.verdicts import checks_table
-from geneva_cli.verdict.checks import LIMITS, MOTION, STANDING, TURNING, checks
+from geneva_cli.verdict.checks import BEFORE_TURN, TURNING, checks
 from geneva_cli.verdict.checks import PROOFS as PROVED
 from geneva_cli.verdict.quantities import groups
 from geneva_cli.verdict.tolerance import ANGLES
@@ -72,7 +72,7 @@ def named_in_calls(function: str) -> set[str]:
 def test_every_check_has_an_entry_and_no_entry_names_none():
     made = set().union(*map(named_in_calls, ("Check", "compared", "refused", "_struck")))
     assert made >= {"parts", "full_turn"}
-    assert explained("check") == {*MOTION, *LIMITS, *STANDING, *TURNING, *PROVED, *made}
+    assert explained("check") == {*BEFORE_TURN, *TURNING, *PROVED, *made}
 
 
 def test_every_warning_has_an_entry_and_no_entry_names_none():

@@ -121,7 +121,7 @@ def test_check_of_the_jump() -> None:
     def row(limit: float | None, R: float) -> tuple[float | None, bool | None]:
         sizes = Size(center_distance_mm=100.0, crank_radius_mm=R)
         design = Design(External(6), size=sizes, limits=Limits(entry_velocity_max=limit))
-        check = single_check(design.mechanism, "entry_velocity_max")
+        check = single_check(design.parts, "entry_velocity_max")
         assert check
         return check.limit, check.passes
 
@@ -130,7 +130,7 @@ def test_check_of_the_jump() -> None:
     assert row(0.1, 50.1) == (0.1, True)
     assert row(0.001, 50.0) == (0.001, True)  # as derived
     offset = built(External(4, offset_mm=-13.397459), 100, 73.20508)
-    check = single_check(offset.mechanism, "entry_velocity_max")
+    check = single_check(offset.parts, "entry_velocity_max")
     assert check and check.value == pytest.approx(0.732, abs=1e-4)
     assert check.at_deg == pytest.approx(30.0, abs=1e-4)
 

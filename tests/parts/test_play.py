@@ -12,6 +12,7 @@ from words import load
 
 from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.parts.turn.full_turn import DRIVING, full_turn
+from geneva_cli.parts.turn.turned_parts import play_of
 from geneva_cli.verdict.checks import TURNING, applicable
 
 DESIGNS = repo.DESIGNS
@@ -103,7 +104,7 @@ def test_hand_over_is_refined_to_its_kink(
         90.0 - 180.0 / z + math.degrees(early), abs=1e-4
     )
     assert turn.push.deg == pytest.approx(math.degrees(angle), rel=1e-5)
-    check = next(c for c in applicable(TURNING, found, turn) if c.name == "hand_over_pressure_deg")
+    check = next(c for c in applicable(TURNING, found) if c.name == "hand_over_pressure_deg")
     assert check.limit == pytest.approx(math.degrees(math.atan2(1.0, 0.3)))
     assert check.passes == (push < 73.30)
 
@@ -131,7 +132,7 @@ def test_the_wheel_is_held_at_every_position(tmp_path: Path, name: str) -> None:
     found = machine(tmp_path, f"[wheel]\n{keys}{bore}\n")
     turn = full_turn(found)
     assert turn.hand_over.deg == pytest.approx(play, rel=1e-3)
-    p = turn.play
+    p, _ = play_of(found, fits=True)
     either = np.maximum(p.back, p.on)
     i = int(np.argmax(np.where(p.guided, 0.0, either)))
     # all the way to there the wheel is free, and a little farther it is not
@@ -141,7 +142,7 @@ def test_the_wheel_is_held_at_every_position(tmp_path: Path, name: str) -> None:
     at_deg = np.full(len(leads), p.input_deg[i])
     blocked = overlapping(found, at_deg, way * np.radians(leads), flat=1e-6)
     assert blocked == [False] * 7 + [True]
-    row = next(c for c in applicable(TURNING, found, turn) if c.name == "hand_over_play_deg")
+    row = next(c for c in applicable(TURNING, found) if c.name == "hand_over_play_deg")
     assert row.passes == held
 
 
@@ -158,7 +159,7 @@ def test_play_in_the_motion(tmp_path: Path, c: float) -> None:
     p = math.asin((c + found.close) / 50.0)
     assert turn.motion.deg == pytest.approx(math.degrees(p), rel=1e-13)
     assert turn.motion.at_deg == pytest.approx(0.0, abs=1e-4)
-    row = next(r for r in applicable(TURNING, found, turn) if r.name == "motion_play_deg")
+    row = next(r for r in applicable(TURNING, found) if r.name == "motion_play_deg")
     assert row.passes == (c < 1.0)
 
 

@@ -88,7 +88,7 @@ def test_horns_of_no_thickness_need_a_tip() -> None:
         _ = wheel(lock_radius_mm=THIN).parts.outlines
     design = wheel(lock_radius_mm=THIN, horn_tip_mm=0.1)
     assert design.parts.horn_mm == 0.1
-    row = single_check(design.mechanism, "horn_mm", design.parts)
+    row = single_check(design.parts, "horn_mm")
     assert row and row.value == 0.1
 
 

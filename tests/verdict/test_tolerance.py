@@ -362,7 +362,7 @@ def test_clearances_too_small_for_the_tolerances_fail():
     def rows(slot_mm, lock_mm, **more):
         play = size.replace(slot_clearance_mm=slot_mm, lock_clearance_mm=lock_mm)
         model = parts_of(Design(External(6), size=play, **more).mechanism)
-        checks = {one.name: one for one in applicable(TURNING, model, model.turn)}
+        checks = {one.name: one for one in applicable(TURNING, model)}
         return {name: checks[name] for name in every if name in checks}
 
     tight = rows(0.01, 0.01, tolerance=allowed)

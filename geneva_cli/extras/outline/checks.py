@@ -1,7 +1,7 @@
 """The checks of a drawn machine, with what its turn gives in words."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 
 import numpy as np
@@ -57,16 +57,15 @@ def as_built(mechanism: Mechanism) -> list[Check]:
     check, struck = _turns(result, mechanism), struck_by(mechanism, result)
     if not check.passes or struck is None:
         return [check]
-    row, why = _struck("strike_velocity", mechanism, struck), ""
-    if not row.passes:
-        why = f"roller, clearance and disc strike the wheel{struck.text}"
-    return [check, row._replace(why=why)]
+    words = "roller, clearance and disc strike the wheel"
+    return [check, _struck("strike_velocity", mechanism, struck, lambda: words)]
 
 
-def _struck(name: str, mechanism: Mechanism, struck: Struck) -> Check:
-    """The check of an impact's velocity, over the input's, without its reason."""
+def _struck(name: str, mechanism: Mechanism, struck: Struck, words: Callable[[], str]) -> Check:
+    """The check of an impact's velocity, over the input's."""
     limit, (at_deg, jump, *_) = entry_velocity_limit(mechanism), struck.impact
-    return compared(name, abs(jump).item(), "at most", limit, at_deg.item())
+    speed, reason = abs(jump).item(), lambda: words() + struck.text
+    return compared(name, speed, "at most", limit, at_deg.item(), reason=reason)
 
 
 def warnings(mechanism: Mechanism) -> list[Notice]:
@@ -184,8 +183,7 @@ def _rests(result: Turned) -> Iterator[Check]:
         text += f", and may stand between {low:.5g} and {high:.5g}°"
     is_put_back = turning.put_back(result.machine, result.rest)
     bound = ("above", 0.0) if is_put_back else ("at least", high - low)
-    row = compared("turning_rests_deg", value, *bound)
-    yield row if row.passes else row._replace(why=text)
+    yield compared("turning_rests_deg", value, *bound, reason=lambda: text)
 
 
 def _walls(machine: DrawnMachine) -> Iterator[Check]:
@@ -195,9 +193,9 @@ def _walls(machine: DrawnMachine) -> Iterator[Check]:
         return
     sector = Polyarc(machine.wheel).one_sector(math.tau / spec.wheel.z, machine.free.slack)
     if wall := smallest_wall(machine.wheel, sector):
-        row = compared("wall_mm", wall[0], "at least", wall_min(spec.size, place.L))
         start, end = (shown((z.real, z.imag)) for z in wall[1:])
-        yield row if row.passes else row._replace(why=f"thinnest from {start} to {end}")
+        text, least = f"thinnest from {start} to {end}", wall_min(spec.size, place.L)
+        yield compared("wall_mm", wall[0], "at least", least, reason=lambda: text)
 
 
 def _entry(result: Turned, mechanism: Mechanism) -> Iterator[Check]:
@@ -205,8 +203,8 @@ def _entry(result: Turned, mechanism: Mechanism) -> Iterator[Check]:
     machine, struck = result.machine, struck_by(mechanism, result)
     if struck is None or not result.rest.is_free:
         return
-    row = _struck("entry_velocity_max", mechanism, struck)
-    if not row.passes:
+
+    def words() -> str:
         R, L = math.hypot(*machine.roller.centre), machine.assembly.L
         ideal = mechanism.ratio * L
         if mechanism.engagements[0].built:  # radial slots on a crank that was built for others
@@ -221,5 +219,6 @@ def _entry(result: Turned, mechanism: Mechanism) -> Iterator[Check]:
             rim = float(corners.max() if sign > 0.0 else corners.min())
             if sign * (own - rim) > 1e-3:
                 why += f"; the rim is at {rim:.5g} mm, and must reach {own:.4g}"
-        row = row._replace(why=f"{why}{struck.text}")
-    yield row
+        return why
+
+    yield _struck("entry_velocity_max", mechanism, struck, words)

@@ -2,7 +2,12 @@
 
 from geneva_cli.motion.kind import Kind
 
-_STANDING = "guide_locks beside_shafts_mm gear_gap_mm cut_plate_mm cut_slot_mm"
+_CHECKS = """
+MOTION kinds.linear.checks:rack_horn
+  rack_horn_mm
+STATIC kinds.linear.checks:standing
+  guide_locks beside_shafts_mm gear_gap_mm cut_plate_mm cut_slot_mm
+"""
 KINDS = (
     Kind(
         "linear",
@@ -10,16 +15,9 @@ KINDS = (
         wheel="kinds.linear.motion:Linear",
         parts="kinds.linear.parts:RackParts",
         front="parts.flat_parts:FrontParts",
-        drawings={
-            "slot": "kinds.linear.drawings:slot",
-            "wheel": "drawings.part_drawings:wheel",
-            "crank": "drawings.part_drawings:crank",
-            "arm": "kinds.linear.drawings:arm",
-            "frame": "drawings.part_drawings:frame",
-            "guide": "kinds.linear.drawings:guide",
-            "assembly": "kinds.linear.drawings:assembly",
-            "plate": "drawings.parts_list:plate",
-        },
+        drawings=dict.fromkeys(("slot", "arm", "guide", "assembly"), "kinds.linear.drawings")
+        | dict.fromkeys(("wheel", "crank", "frame"), "drawings.part_drawings")
+        | {"plate": "drawings.parts_list"},
         tables={"slot": "parts.slots.slot_profile:profile_table"},
         dimensions="kinds.linear.drawings:dimensions",
         sizes="kinds.linear.rack:key_sizes",
@@ -33,8 +31,6 @@ KINDS = (
         horn_sizes="kinds.linear.parts:horn_sizes",
         load_case="kinds.linear.guide:with_guide",
         scene="kinds.linear.drawings:RackScene",
-        motion_checks={"rack_horn_mm": "kinds.linear.checks:rack_horn"},
-        parts_checks=dict.fromkeys(_STANDING.split(), "kinds.linear.checks:standing")
-        | {"parts": "verdict.checks.part_checks:built"},
+        checks=_CHECKS,
     ),
 )

@@ -17,7 +17,6 @@ from geneva_cli.kinds.linear.rack import rack_sizes
 from geneva_cli.loads.contact import QuantityValue
 from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.load_peaks import load_peaks
-from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import value_or
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.spec.defaults import wall_min
@@ -28,10 +27,9 @@ from geneva_cli.verdict.shaft_gap import gear_rings, ring_gaps, rings_of
 from geneva_cli.verdict.strength import strength
 
 
-def rack_horn(names: Collection[str], mechanism: Mechanism) -> Iterator[Check]:
+def rack_horn(names: Collection[str], parts: RackParts) -> Iterator[Check]:
     """The wall between slot and recess of a rack that is locked."""
-    if mechanism.output.turns:
-        return
+    mechanism = parts.mechanism
     try:
         sizes = rack_sizes(mechanism)
     except GenevaError:

@@ -22,9 +22,8 @@ from geneva_cli.study.synth.families.family import Family, is_compatible, natura
 from geneva_cli.study.synth.family_search import Places
 from geneva_cli.study.target import AllowedSpan, Target
 
-_LENGTHS = ("crank_mm", "ground_mm", "coupler_mm", "rocker_mm")
-_EXAMPLE: Any = dict(zip(_LENGTHS, (40.0, 90.0, 100.0, 100.0), strict=True))
-_EXAMPLE |= {"point_mm": 161.5, "point_deg": -36.1, "entry_deg": 123.3}
+_SIDES: Any = {"crank_mm": 40.0, "ground_mm": 90.0, "coupler_mm": 100.0, "rocker_mm": 100.0}
+_EXAMPLE = FourBar(**_SIDES, point_mm=161.5, point_deg=-36.1, entry_deg=123.3)
 
 
 def four_bars(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
@@ -44,7 +43,7 @@ def _task(target: Target, wheel: Gearing) -> search.WheelGoal | None:
     free = target.free_motions(1, natural_deg(wheel))
     if free is None:
         return None
-    if not is_compatible(_machine(target, wheel, FourBar(**_EXAMPLE), free.low)):
+    if not is_compatible(_machine(target, wheel, _EXAMPLE, free.low)):
         return None
     frame = target.own
     radius_mm = frame.size.roller_radius_mm
@@ -88,7 +87,7 @@ def _spec(target: Target, goal: search.Goal, places: Places, number: int) -> Spe
         machine = search.four_bars_at(goal, one.of, one.at)
     scale, pair = target.own.given_distance_mm / machine.distance, machine.pair
     *lengths, x, y = (np.array(machine.path.numbers) * scale)[:, 0].tolist()
-    sides: Any = dict(zip(_LENGTHS, lengths, strict=True))
+    sides: Any = dict(zip(_SIDES, lengths, strict=True))
     entry, exit_ = pair.phi[:, 0].tolist()
     try:
         drive = FourBar(

@@ -2,20 +2,17 @@
 
 from geneva_cli.motion.kind import Kind
 
-_STANDING = (
-    "wall_between_slots_mm horn_mm wheel_bore_wall_mm beside_shafts_mm arm_wall_mm cut_plate_mm "
-    "cut_slot_mm"
-)
+_CHECKS = """
+STATIC kinds.spherical.checks:standing
+  wall_between_slots_mm horn_mm wheel_bore_wall_mm beside_shafts_mm arm_wall_mm cut_plate_mm
+    cut_slot_mm
+"""
 KINDS = (
     Kind(
         "shells",
         adds_to="spherical",
         parts="kinds.spherical.parts:SphereParts",
-        drawings={
-            "wheel": "kinds.spherical.drawings:wheel",
-            "crank": "kinds.spherical.drawings:crank",
-            "assembly": "kinds.spherical.drawings:assembly",
-        },
+        drawings=dict.fromkeys(("wheel", "crank", "assembly"), "kinds.spherical.drawings"),
         dimensions="kinds.spherical.drawings:dimensions",
         sizes="kinds.spherical.sizes:key_sizes",
         details="kinds.spherical.parts:screw_sizes",
@@ -25,7 +22,6 @@ KINDS = (
         horn_sizes="kinds.spherical.sizes:horn_sizes",
         horns="kinds.spherical.horn:sphere_horns",
         roller="kinds.spherical.sizes:ball_roller",
-        parts_checks=dict.fromkeys(_STANDING.split(), "kinds.spherical.checks:standing")
-        | {"parts": "verdict.checks.part_checks:built"},
+        checks=_CHECKS,
     ),
 )

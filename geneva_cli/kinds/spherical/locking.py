@@ -54,16 +54,15 @@ class SphereLock(NamedTuple):
         recess = by.recess_radius_mm / self.radius_mm + math.sin(self.recess)
         lock_cosine, recess_cosine = (positive_root(1.0 - a * a) for a in (lock, recess))
         if self.reach <= self.half:
-            near, high = math.cos(self.corner), math.sin(self.corner)
-            still = 0.0 * lock
-            angle = self._azimuth(still + near, still + high, recess_cosine)
-            angle = angle - self._azimuth(still + near, still + high, lock_cosine)
+            cosine, sine = (0.0 * lock + f(self.corner) for f in (math.cos, math.sin))
+            there = self._azimuth(cosine, sine, lock_cosine)
         else:
             up, ahead = math.cos(self.axes), math.sin(self.axes)
             x = lock_cosine * ahead - lock * (math.cos(self.half) * up)
             y = lock * math.sin(self.half)
-            z = lock_cosine * up + lock * (math.cos(self.half) * ahead)
-            angle = self._azimuth(z, sqrt(x * x + y * y), recess_cosine) - atan2(y, x)
+            cosine = lock_cosine * up + lock * (math.cos(self.half) * ahead)
+            sine, there = sqrt(x * x + y * y), atan2(y, x)
+        angle = self._azimuth(cosine, sine, recess_cosine) - there
         jams = (array((recess - lock).c[0]) < -ROUNDING) | (array(angle.c[0]) < -ROUNDING)
         one = bool(jams) if jams.ndim == 0 else jams
         return Jet([choose(one, c * 0.0, c) for c in angle.c]), jams

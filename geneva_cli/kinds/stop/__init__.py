@@ -2,6 +2,11 @@
 
 from geneva_cli.motion.kind import Kind
 
+_CHECKS = """
+STATIC kinds.stop.parts:standing
+  stop_turns stop_overlap_mm: lock_radius_mm? SMALLER
+  stop_stress_max_MPa: lock_edge_mm*10 WIDER LARGER
+"""
 KINDS = (
     Kind(
         "stop",
@@ -13,15 +18,6 @@ KINDS = (
             "turns first_deg last_deg overlap_mm lever_mm force_N contact_stress_MPa"
         },
         scene="kinds.stop.scene:StopScene",
-        parts_checks={
-            "stop_turns": "kinds.stop.parts:standing",
-            "stop_overlap_mm": "kinds.stop.parts:standing",
-            "stop_stress_max_MPa": "kinds.stop.parts:standing",
-        },
-        remedies={
-            "stop_turns": "lock_radius_mm? SMALLER",
-            "stop_overlap_mm": "lock_radius_mm? SMALLER",
-            "stop_stress_max_MPa": "lock_edge_mm*10 WIDER LARGER",
-        },
+        checks=_CHECKS,
     ),
 )

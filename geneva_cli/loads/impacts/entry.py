@@ -105,16 +105,16 @@ class _Approach(NamedTuple):
     corner: tuple[Number, Number, Number] | None = None
     reach: Number = 0.0  # distance of the roller's centre at which it touches the corner
 
-    def roller(self, tau: Array, order: int = 1) -> tuple[Jet, Jet, Jet]:
+    def roller(self, tau: Array) -> tuple[Jet, Jet, Jet]:
         """Roller centre ``tau`` radians of the input after the true entry."""
         (axis, crank, center, *_), longer = self, 1.0 + self.crank
         slot, anchor = axis.engagement.through.slot, axis.anchor
-        x, y = anchor.displacement(tau, order)
+        x, y = anchor.displacement(tau, 1)
         x = (x + anchor.along) * longer - (crank - center) * axis.along
         y = (y - axis.offset(crank, center)) * longer
         if slot.height is None:
             return x, y, x * 0.0
-        z = slot.height(radians(anchor.input_deg) + tau, order) * longer - crank * slot.height.hub
+        z = slot.height(radians(anchor.input_deg) + tau, 1) * longer - crank * slot.height.hub
         far = sqrt(x * x + y * y + z * z)
         return x / far, y / far, z / far
 

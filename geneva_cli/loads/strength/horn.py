@@ -242,12 +242,10 @@ def _sampled(
     if first is not row:
         at = mapped(lambda jet: jet and Jet([_picked(array(jet.c[0]), row)]), at)
     with np.errstate(all="ignore"):
-        # with signs of the horn that bears: elsewhere the force on it is 0
+        # with signs of the horn that bears: the force is below 0 where it is on the other one
         loads = Instant(case, at, -side.at.end, None, 1.0)
-        bears = array(loads.wheel_torque_Nm.c[0]) * side.at.end < 0.0  # or else the other horn
-        held = bears & (array(loads.grip.c[0]) > 0.0)
-        force = np.where(held, np.abs(loads.force_N.c[0]), 0.0)
-    force = np.atleast_2d(np.where(np.isfinite(force), force, 0.0))
+        force = np.where(array(loads.grip.c[0]) > 0.0, loads.force_N.c[0], 0.0)
+    force = np.atleast_2d(np.where(np.isfinite(force), np.maximum(force, 0.0), 0.0))
     own = np.flatnonzero(force.any(axis=0))  # elsewhere it is 0
     own = own if len(own) else np.arange(1)
     # a mouth is away from the axis, but for internal wheels

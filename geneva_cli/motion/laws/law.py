@@ -16,10 +16,9 @@ from geneva_cli.spec.rules import FINITE, Range, is_array
 from geneva_cli.spec.schema import Field, SpecTable, fields, refuse_kind
 
 
-class Law(SpecTable):
+class Law(SpecTable, table="motion"):
     """A motion law; its fields are the keys that it adds to ``[motion]``."""
 
-    TABLE: ClassVar[str] = "motion"
     NAME: ClassVar[str]
     ABOUT: ClassVar[str]
     # reason in the warning that the law turns the wheel back
@@ -88,7 +87,7 @@ def from_velocity(
     return integral(velocity(Jet.variable(u, order - 1)), position(u))
 
 
-class Motion(SpecTable):
+class Motion(SpecTable, table="motion"):
     """``[motion]``: the wheel's motion law; the slots (or a cam drive's pin path) are solved for.
 
     ``law`` is the wheel's motion over its step. ``alpha0_deg`` is an extra dwell angle of the crank
@@ -100,7 +99,6 @@ class Motion(SpecTable):
     1.5
     """
 
-    TABLE: ClassVar[str] = "motion"
     law: Law
     alpha0_deg: Annotated[float, FINITE, "extra dwell angle of the crank"] = 0.0
     ratio: Annotated[

@@ -64,10 +64,9 @@ class RollerPlace(NamedTuple):
     built: AsBuilt | None = None
 
 
-class Gearing(SpecTable):
+class Gearing(SpecTable, table="wheel"):
     """A wheel; its fields are the keys of ``[wheel]``. Raises GenevaError for impossible values."""
 
-    TABLE: ClassVar[str] = "wheel"
     NAME: ClassVar[str]
     # usual keys of [load] in a new spec
     USUAL_LOAD: ClassVar[dict[str, float]] = {"inertia_kgm2": 0.05, "torque_Nm": 2}

@@ -10,7 +10,6 @@ from geneva_cli.loads.load_peaks import LoadSummary
 from geneva_cli.loads.load_tables import RATED_kW, no_load, recommended_motor
 from geneva_cli.names import unit_of
 from geneva_cli.numerics.tolerances import TIE
-from geneva_cli.study.fields import pick
 from geneva_cli.study.verdicts import chosen_lines, warning
 from geneva_cli.table import Table
 from geneva_cli.verdict.failures import below_summary
@@ -146,9 +145,7 @@ def motor_line(design: Design) -> SummaryLine:
 def _powers(design: Design) -> Iterator[SummaryLine]:
     """The powers of a machine in descending order, each with its definition."""
     motor = recommended_motor(design.strength.table("sizing"))
-    power = design.loads["power_W"]
-    (inertia,) = pick(["loads.kinetic_power_W"]).of(design.mechanism)
-    assert inertia is None or isinstance(inertia, float)
+    power, inertia = design.loads["power_W"], design.strength["loads.kinetic_power_W"]
     powers: list[tuple[float | None, str]] = [
         (power.max, "greatest at the input, over the exact cycle"),
         (power.rms, "root mean square at the input, dwells included: what heats the motor"),

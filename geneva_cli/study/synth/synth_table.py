@@ -34,7 +34,7 @@ _LIMITED = {
 # keys that conflict with a crank's bore
 SHAFT = {"crank_shaft_mm", "crank_hub_mm", "crank_bore_wall_mm"}
 # checks that no other roller can mend
-UNSIZED = {*judged.MOTION, *judged.LIMITS} - {"undercut_mm"}
+UNSIZED = {*judged.QUICK} - {"undercut_mm"}
 # Columns in order, with the requested quantities before the last, and short names of some.
 COLUMNS = (
     *("no", "z", "gearing", "rollers", "machine", "ratio", "motion_deg", "dwell_deg", "motion_s"),

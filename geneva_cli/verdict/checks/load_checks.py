@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import to_digits
 from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.parts.parts import Parts
 from geneva_cli.spec.tables import LIMITED
 from geneva_cli.verdict.checks import FIRST, Check, compared, unknown
 
@@ -47,9 +48,10 @@ SIZES = {
 }
 
 
-def shocks(names: Collection[str], mechanism: Mechanism) -> Iterator[Check]:
+def shocks(names: Collection[str], parts: Parts) -> Iterator[Check]:
     """Impacts, where tolerances or limits ask for them: the pin's stress has them in any case."""
-    spec, limits = mechanism.spec, mechanism.spec.limits
+    mechanism, spec = parts.mechanism, parts.mechanism.spec
+    limits = spec.limits
     misplaced = spec.tolerance.crank_radius_mm or spec.tolerance.center_distance_mm
     if misplaced and "entry_shock_N" in names:
         # R/L is wrong, and the roller does not enter along its slot
@@ -70,11 +72,9 @@ def shocks(names: Collection[str], mechanism: Mechanism) -> Iterator[Check]:
 
         if stop := arrival(mechanism):
             torque_Nm, most_Nm = stop
-            check = compared("stopping_torque_Nm", torque_Nm, "at most", most_Nm)
-            if not check.passes and most_Nm <= 0.0:
-                why = "no inertia carries the wheel on: set inertia_kgm2 in [load]"
-                check = check._replace(why=why)
-            yield check
+            why = "no inertia carries the wheel on: set inertia_kgm2 in [load]"
+            words = partial(str, "" if most_Nm > 0.0 else why)
+            yield compared("stopping_torque_Nm", torque_Nm, "at most", most_Nm, reason=words)
 
 
 def _drag(mechanism: Mechanism) -> str:
@@ -113,8 +113,9 @@ def _force_check(
     yield Check(name, force_N, "at most", limit, None, why, at_deg)
 
 
-def strength_limits(names: Collection[str], mechanism: Mechanism) -> Iterator[Check]:
+def strength_limits(names: Collection[str], parts: Parts) -> Iterator[Check]:
     """Limited values of strength and life; none without a limit, or without the part."""
+    mechanism = parts.mechanism
     for name in names:
         whole, quantity, part = BOUNDS[name]
         table, _, key = whole.rpartition(".")
@@ -160,7 +161,7 @@ def first_stresses(names: Collection[str], parts: FlatParts) -> Iterator[Check]:
     if not (parts.mechanism.spec.is_loaded and parts.in_front):
         return
     for name in names:
-        for check in strength_limits([name.removeprefix(FIRST)], parts.front.mechanism):
+        for check in strength_limits([name.removeprefix(FIRST)], parts.front):
             # its angles are counted from another motion of the first wheel, and its sizes are of
             # links
             why = check.why.replace("arm_thickness_mm", "link_thickness_mm")

@@ -10,7 +10,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import value_or
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.parts import Parts
-from geneva_cli.parts.turn.full_turn import IDLE, FullTurn
+from geneva_cli.parts.turn.full_turn import IDLE
 from geneva_cli.parts.turn.turn_certificate import UNKNOWN, certificate
 from geneva_cli.spec.tables import LIMITED
 from geneva_cli.verdict.checks import Check, compared, unknown
@@ -23,8 +23,9 @@ GROOVE_MAX_DEG = 60.0
 ENTRY_VELOCITY = 0.01
 
 
-def motion(names: Collection[str], mechanism: Mechanism) -> Iterator[Check]:
+def motion(names: Collection[str], parts: Parts) -> Iterator[Check]:
     """Dwells, convex gears, a law that turns back, and the groove of a cam."""
+    mechanism = parts.mechanism
     spec, own = mechanism.spec, mechanism.engagements
     # the shortest dwell, degrees of the input: below 0 a roller enters before another has left
     least = min(map(mechanism.dwell_deg, range(len(own))))
@@ -82,9 +83,9 @@ PRODUCT = {
 }
 
 
-def limits(names: Collection[str], mechanism: Mechanism) -> Iterator[Check]:
+def limits(names: Collection[str], parts: Parts) -> Iterator[Check]:
     """Peaks, as derivatives by the input's radians, times, loads, and the product, if bounded."""
-    spec = mechanism.spec
+    mechanism, spec = parts.mechanism, parts.mechanism.spec
     held_by = spec.product.friction if spec.support.axis == "vertical" else None
     bounds = spec.limits.as_dict() | {"product_slip": held_by}
     for name in names:
@@ -157,18 +158,17 @@ def motion_play_max(parts: Parts) -> float:
     return 0.05 * (2.0 * math.degrees(half))
 
 
-def turning(names: Collection[str], parts: Parts, turn: FullTurn) -> Iterator[Check]:
+def turning(names: Collection[str], parts: Parts) -> Iterator[Check]:
     """What holds the wheel, gaps between wheel and crank, and how far the wheel is free."""
-    machine, touch = parts.assembly.full, parts.contact
+    machine, turn, touch = parts.assembly.full, parts.turn, parts.contact
     output, unit = machine.output, machine.output.unit
     holds = machine.spec.wheel.held_by is not None or turn.holds
     yield Check("dwell_hold", float(holds), "at least", 1.0, holds)
-    smallest, idle = turn.smallest, turn.gaps.get(IDLE)  # negative where they overlap
-    gap = 0.0 if abs(smallest.mm) <= touch else smallest.mm
-    yield compared("gap_mm", gap, "at least", 0.0, smallest.at_deg, touch)
-    if idle is not None:  # a roller that does not drive the wheel
-        gap = max(idle.mm, 0.0) if idle.mm >= -touch else idle.mm
-        yield compared("idle_roller_mm", gap, "at least", 0.0, idle.at_deg, touch)
+    # negative where they overlap; of a roller that does not drive the wheel
+    for name, gap in (("gap_mm", turn.smallest), ("idle_roller_mm", turn.gaps.get(IDLE))):
+        if gap is not None:
+            mm = 0.0 if abs(gap.mm) <= touch else gap.mm
+            yield compared(name, mm, "at least", 0.0, gap.at_deg, touch)
     plays = {f"motion_play_{unit}": (turn.motion, motion_play_max(parts))}
     if parts.locked:
         # the play with which the roller would just meet the mouth of its slot
@@ -192,10 +192,10 @@ def turning(names: Collection[str], parts: Parts, turn: FullTurn) -> Iterator[Ch
             yield compared(name, offset, "at most", 0.0, at_deg if offset else None)
 
 
-def within_tolerances(names: Collection[str], parts: Parts, turn: FullTurn) -> Iterator[Check]:
+def within_tolerances(names: Collection[str], parts: Parts) -> Iterator[Check]:
     """Plays that ``[limits]`` bounds, and the clearances per side that ``[tolerance]`` needs."""
     machine, own = parts.assembly.full, parts.assembly.full.spec.size.allowances
-    limits = machine.spec.limits.as_dict()
+    limits, turn = machine.spec.limits.as_dict(), parts.turn
     unlocked = "not computed, because no drawn locking disc holds the wheel at rest"
     for name, play in (("index_play_max_deg", turn.motion), ("dwell_play_max_deg", turn.dwell)):
         if (limit := limits[name]) is not None:
@@ -222,16 +222,16 @@ def within_tolerances(names: Collection[str], parts: Parts, turn: FullTurn) -> I
             yield compared("tolerance_lock_mm", own.lock_clearance_mm, "at least", lock_mm)
 
 
-def pushed_round(names: Collection[str], mechanism: Mechanism) -> list[Check]:
+def pushed_round(names: Collection[str], parts: Parts) -> list[Check]:
     """Whether parts turn that do not follow the formulas, and how hard they are struck."""
     try:
-        rows: list[Check] = load_extra("outline", "as_built")(mechanism)
+        rows: list[Check] = load_extra("outline", "as_built")(parts.mechanism)
     except GenevaError:
-        return [unknown("full_turn", mechanism.no_turn)]
+        return [unknown("full_turn", parts.mechanism.no_turn)]
     return rows
 
 
-def proof(names: Collection[str], parts: Parts, to_mm: float | None) -> Iterator[Check]:
+def proof(names: Collection[str], parts: Parts, to_mm: float | None = None) -> Iterator[Check]:
     """The proved lower bound of the gap, mm; none where parts overlap, or cannot be turned.
 
     ``to_mm`` is how far below the smallest gap the bound may be: by default 1 um, or twice the

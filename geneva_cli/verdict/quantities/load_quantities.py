@@ -3,6 +3,7 @@
 import numpy as np
 
 from geneva_cli.loads import load_peaks
+from geneva_cli.loads.contact import OF_MOTION
 from geneva_cli.loads.impacts.entry import entry_impacts
 from geneva_cli.loads.impacts.reversal import lasting_drag_Nm, reversal_impacts
 from geneva_cli.loads.impacts.shock_force import Impacts
@@ -11,8 +12,6 @@ from geneva_cli.loads.positive_drive import positive_drives
 from geneva_cli.numerics.arrays import Array, Number
 from geneva_cli.verdict.quantities.groups import Columns, Designs
 from geneva_cli.verdict.quantities.under_load import UnderLoad
-
-OF_MOTION = ("omega_rad_s", "alpha_rad_s2", "sliding_m_s")  # known without a load
 
 
 def greatest(of: Designs) -> Columns:

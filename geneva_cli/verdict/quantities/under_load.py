@@ -90,8 +90,8 @@ class UnderLoad:
     @property
     def _alike(self) -> bool:
         """True if designs that are not built yet move alike, and differ in plain sizes at most."""
-        is_plain = self.machine.spec.is_flat and not (self.designs.are_built or self._shaped)
-        return is_plain and self._moves_alike
+        differ = self.designs.are_built or self._shaped or not self._moves_alike
+        return not differ and self.machine.spec.is_flat
 
     @cached_property
     def _shaped(self) -> bool:

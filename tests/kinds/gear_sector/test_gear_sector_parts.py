@@ -158,9 +158,9 @@ def test_the_torque_with_which_the_wheel_comes_to_its_dwell(z, sector):
 
 def test_what_is_said_of_a_wheel_that_lags():
     for torque, passes in ((0.0, True), (0.004, True), (0.02, False)):
-        machine = loaded(torque).mechanism
-        assert single_check(machine, "stopping_torque_Nm").passes is passes
-        said = {c.name for c in cycle_warnings(machine)}
+        design = loaded(torque)
+        assert single_check(design.parts, "stopping_torque_Nm").passes is passes
+        said = {c.name for c in cycle_warnings(design.mechanism)}
         assert ("lags-behind" in said) is (torque == 0.004)
-    check = single_check(loaded(1.0, 0.0).mechanism, "stopping_torque_Nm")
+    check = single_check(loaded(1.0, 0.0).parts, "stopping_torque_Nm")
     assert (check.limit, check.passes) == (0.0, False) and "inertia_kgm2" in check.why
