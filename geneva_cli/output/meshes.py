@@ -11,7 +11,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Group, Part, Plate, Shell, Solid, oriented
 from geneva_cli.geometry.shapes import STRAIGHT, Arc, Cubic, Layer, Segment, points
 from geneva_cli.geometry.sheet import Drawing
-from geneva_cli.geometry.sphere import axis_frame, unit
+from geneva_cli.geometry.sphere import axis_frame
 from geneva_cli.numerics.arrays import Array, Complex, Whole
 from geneva_cli.output.solid_part import plate_contours, solid_part
 
@@ -102,46 +102,42 @@ def _face(loops: list[Complex], name: str) -> m3.CrossSection:
 
 
 def _shell(shell: Shell, tolerance: float) -> m3.Manifold:
-    """Return a shell: a block between the spheres, cut by the walls over its regions.
+    """Return a shell, cut from a block on a map of its outer sphere, with radii as heights.
 
-    Both are made on a map of the outer sphere, in true distances from the middle of the shell.
+    Distances from the middle of the map are true. The block bulges, so that its triangles stay.
     """
-    frame = np.array(axis_frame(unit(np.sum([region.middle for region in shell.regions], axis=0))))
+    frame = np.array(axis_frame(shell.regions[-1].middle))
     loops = []
     for region in shell.regions:
         arcs = [
             arc.at(arc.sweep / n * np.arange(float(n)))[0]
             for arc in region.boundary
-            for n in [arc_chords(shell.outer * math.sin(arc.angle), arc.sweep, tolerance)]
+            for n in [arc_chords(shell.outer * math.sin(arc.angle), arc.sweep, 0.5 * tolerance)]
         ]
         x, y, z = frame @ np.concatenate(arcs).T
         away = np.arctan2(np.hypot(x, y), z)
         loops.append(shell.outer * away * np.exp(1j * np.arctan2(y, x)))
-
-    def curved(flat: m3.Manifold, low: float, high: float) -> m3.Manifold:
-        """A solid over the map, from 0 to 1, between two spheres."""
-
-        def place(at: Array) -> Array:
-            across = at[:, :2] / shell.outer
-            away = np.hypot(*across.T)
-            ahead = np.column_stack((across * np.sinc(away / math.pi)[:, None], np.cos(away)))
-            return (low + (high - low) * at[:, 2:]) * (ahead @ frame)
-
-        return flat.warp_batch(place)
-
     face = _face(loops, shell.name)
     x0, y0, x1, y1 = face.bounds()
     # A right triangle with legs a is at most a²/4R below a sphere.
     step = 2.0 * math.sqrt(tolerance * shell.outer)
+    _require_few(math.ceil(2.0 * face.area() / step**2), shell.name)
     size = max(x1 - x0, y1 - y0) + 2.0 * step
-    count = math.ceil(size / step)
-    _require_few(2 * count * count, shell.name)
-    block = m3.Manifold.cube((size, size, 1.0)).refine(count)
-    block = block.translate((0.5 * (x0 + x1 - size), 0.5 * (y0 + y1 - size), 0.0))
-    # the ends of the walls have large triangles, which must not reach the block
-    walls = face.extrude(1.0).refine_to_length(0.2 * shell.outer)
-    body = curved(block, shell.inner, shell.outer)
-    body ^= curved(walls, 0.8 * shell.inner, 1.1 * shell.outer)
+    corner = 0.5 * (x0 + x1 - size), 0.5 * (y0 + y1 - size), 0.0
+    block = m3.Manifold.cube((size, size, 1.0)).translate(corner).refine(math.ceil(size / step))
+    bulge = 1e-10 * size / step**2  # more than rounding, and less than the decimals of corners
+
+    def raised(at: Array, by: float) -> Array:
+        return at + by * np.outer((at[:, :2] ** 2).sum(axis=1), (0.0, 0.0, 1.0))
+
+    def place(at: Array) -> Array:
+        across, height = at[:, :2] / shell.outer, raised(at, -bulge)[:, 2:]
+        away = np.hypot(*across.T)
+        ahead = np.column_stack((across * np.sinc(away / math.pi)[:, None], np.cos(away)))
+        return (shell.inner + (shell.outer - shell.inner) * height) * (ahead @ frame)
+
+    block = block.warp_batch(lambda at: raised(at, bulge))
+    body = (block ^ face.extrude(4.0).translate((0.0, 0.0, -1.0))).warp_batch(place)
     for hole in shell.holes:
         chords = arc_chords(hole.radius, math.tau, tolerance)
         drill = m3.Manifold.cylinder(1.01 * shell.outer, hole.radius, circular_segments=chords)

@@ -12,7 +12,7 @@ import shapely.affinity
 import trimesh
 from drawing_witness import polygon
 
-from geneva_cli import Design, External, Size
+from geneva_cli import Design, External, Size, Spherical
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Plate, Shell, face, solids
@@ -106,6 +106,17 @@ def test_every_part_of_every_design(design):
         assert mesh.center_mass[:2] == pytest.approx(
             true.centroid, abs=2.0 * off * far / mesh.volume
         )
+
+
+def test_a_wheel_beyond_a_hemisphere_is_whole():
+    """Its rim is more than 130 degrees from its axis."""
+    wheel = Design(Spherical(8, axes_deg=140.0), size=Size(center_distance_mm=100))
+    solid = next(s for s in solids(wheel.drawing("wheel", 0.1).shells) if isinstance(s, Shell))
+    assert solid.reach((0.0, 0.0, -1.0)) > 0.6 * solid.outer
+    mesh = one(solid, 0.1)
+    require_closed(mesh)
+    require_near_spheres(mesh, solid, 0.1)
+    assert mesh.euler_number == 2 * (1 - len(solid.holes))
 
 
 def require_near_spheres(mesh, shell, tolerance):
