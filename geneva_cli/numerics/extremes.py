@@ -313,8 +313,8 @@ class _Extremes:
             x[live] += step
             # after a step of 1e-8 of the search range, a maximum's place is exact
             live = live[np.abs(step) > 1e-8 * near[live]]
-        # on the way to a flat end a step only halves the distance; and 1e-14 is rounding
-        reached = 1e-14 * some.near
+        # on the way to a flat end a step only halves the distance; 1e-7 is a flat top's rounding
+        reached = 1e-7 * some.near
         reached[live] = 0.02 * some.near[live]
         for end in some.ends:
             x = np.where(np.abs(x - end) <= reached, end, x)
