@@ -275,7 +275,8 @@ class _Extremes:
         side, of, t, uphill, reach = record_taken((side, of, t, uphill, reach), kept)
         own, shifts = record_taken(rows, of), np.array([[-0.1], [0.0], [0.1]])
         before, x, after = own.places(t + shifts, self.cutter.w)[1]
-        x = np.where(t == -1.0, own.x[0], np.where(t == 1.0, own.x[1], x))
+        # a search begins at an end that is this near: its value counts, and Newton leaves it
+        x = np.where(t < -0.999, own.x[0], np.where(t > 0.999, own.x[1], x))
         row, sign = (side, number[of], own.design), pieces.sign.take(piece[of], axis=1)
         self.candidates.append(_Candidates(*row, sign, own.x, x, after - before, uphill, reach))
 
@@ -290,7 +291,7 @@ class _Extremes:
         some = record_taken(every, ~(every.reach < least) & (least < np.inf))
         x, near = some.x.copy(), some.near.copy()
         value, live = np.empty(len(x)), np.arange(len(x))
-        for _ in range(20):  # most take two
+        for number in range(20):  # most take two
             if not len(live):
                 break
             jets = np.empty((3, len(live)))  # value and two derivatives
@@ -305,6 +306,9 @@ class _Extremes:
                 for k in range(3):
                     jets[k, here] = rows[k][self.f.signs + own, np.arange(len(of)), 0]
             v, slope, bend = jets[0], jets[1], 2.0 * jets[2]
+            if not number:  # the ends' own values, as a flat top's place is rounding
+                at_end = np.flatnonzero((x == some.ends).any(axis=0))
+                self.add(*record_taken((some.number, some.design, x, v), at_end))
             step = np.nan_to_num(some.uphill[live] * slope / np.abs(bend))
             step = np.clip(step, -near[live], near[live])
             step = np.clip(x[live] + step, *some.ends[:, live]) - x[live]
