@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.loads.contact import contact, contact_values
+from geneva_cli.loads.contact import contact
 from geneva_cli.loads.instant import Instant, bounded
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_peaks import load_peaks
@@ -31,14 +31,14 @@ def state(mechanism, engagement, input_deg):
     At one angle they are numbers of one design, or (m, 1).
     """
     x = np.atleast_1d(input_deg)
-    at = contact_values(contact(engagement, x, reactions=False))
+    at = contact(engagement, x, reactions=False)
     case = load_case(mechanism)
     with np.errstate(all="ignore"):
         here = Instant(case, at)
         names = ("wheel_torque_Nm", "pin_force_N", "input_torque_Nm")
         loads = [bounded(here, name) for name in names]
         stress = None if case.hertz is None else np.sqrt(bounded(here, "contact_stress_MPa"))
-    pressure = np.degrees(np.arctan2(np.abs(at.offset), at.lever)) + 0.0 * x
+    pressure = np.degrees(np.arctan2(np.abs(at.offset.c[0]), at.lever.c[0])) + 0.0 * x
     rows = (*loads, stress)
     single = np.ndim(input_deg) == 0 and all(np.ndim(row) < 2 for row in rows)
     return LoadState(*(row[0] if single and row is not None else row for row in (*rows, pressure)))
@@ -58,9 +58,9 @@ def integrals(cycle, *of):
         start, end, *signs = np.array(pieces).T
 
         def rows(x, which, engagement=engagement, signs=signs):
-            at = contact_values(contact(engagement, x))
+            at = contact(engagement, x)
             here = Instant(cycle.case, at, *(sign[which, None] for sign in signs))
-            return np.stack([np.broadcast_to(f(here), x.shape) for f in of])
+            return np.stack([np.broadcast_to(f(here).c[0], x.shape) for f in of])
 
         one, needed = np.zeros(len(pieces), dtype=int), np.full(total.shape, True)
         with np.errstate(all="ignore"):

@@ -6,7 +6,7 @@ A new part is one function, one name here, and a line in the records of the kind
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, cast
 
 from geneva_cli.errors import GenevaError, cut, few, nearest
 from geneva_cli.kept import load_named
@@ -91,9 +91,8 @@ def parts_having(parts: Parts, part: str) -> Parts:
 def part_drawing(parts: Parts, part: str, tolerance_mm: float, curves: str) -> Drawing:
     """Return a part's drawing: lines and arcs, or with ``curves`` = "cubics" also cubics."""
     parts = parts_having(parts, part)
-    require_tolerance(parts.mechanism, tolerance_mm)
     table_of(parts.mechanism, part, drawn=True)
-    drawing: Drawing = _drawn(parts, part)(tolerance_mm, curves)
+    drawing = cast("Drawing", _drawn(parts, part, tolerance_mm, curves))
     return drawing._replace(tolerance=tolerance_mm)
 
 
@@ -103,9 +102,7 @@ def part_sheet(parts: Parts, tolerance_mm: float, curves: str) -> Sheet:
         raise GenevaError(
             f"--part {SHEET}: no sheet for {of}: use -o FILE.step or a dxf of each part"
         )
-    require_tolerance(parts.mechanism, tolerance_mm)
-    sheet: Sheet = _drawn(parts, SHEET)(tolerance_mm, curves)
-    return sheet
+    return cast("Sheet", _drawn(parts, SHEET, tolerance_mm, curves))
 
 
 def without_sheet(mechanism: Mechanism) -> str:
@@ -118,12 +115,15 @@ def without_sheet(mechanism: Mechanism) -> str:
     return "machines with a groove" if mechanism.engagements[0].groove else ""
 
 
-def _drawn(parts: Parts, part: str) -> Callable[[float, str], Any]:
-    """What draws a part for a tolerance and curves, by the record of the machine's kind."""
+def _drawn(parts: Parts, part: str, tolerance_mm: float, curves: str) -> object:
+    """Return what the record of the machine's kind draws of a part."""
+    require_tolerance(parts.mechanism, tolerance_mm)
     kinds = of_wheel(parts.mechanism.spec.wheel.NAME)
     kind = next(kind for kind in reversed(kinds) if part in kind.drawings)
-    draw, built = load_named(kind.drawings[part]), parts.built if kind.parts else parts.flat
-    return lambda *exact: draw(built.within(*exact))
+    name = part.removeprefix("first-").replace("-", "_")
+    draw: Callable[[Parts], object] = load_named(f"{kind.drawings[part]}:{name}")
+    built = parts.built if kind.parts else parts.flat
+    return draw(built.within(tolerance_mm, curves))
 
 
 def require_cut(part: str, option: str = "--kerf") -> None:

@@ -34,7 +34,7 @@ def wheel(parts: EdgedParts) -> Drawing:
 
 def crank(parts: EdgedParts) -> Drawing:
     """Return the crank in the wheel's plane; its axis is the origin, x is to the first roller."""
-    return drawing_of(parts.mechanism, "crank", parts.crank_without_arm.part)
+    return drawing_of(parts.mechanism, "crank", parts.crank_with(arm=False).part)
 
 
 def arm(parts: FlatParts) -> Drawing:
@@ -122,23 +122,20 @@ def pitch_lines(parts: FlatParts, engagement: Engagement) -> list[Contour]:
         mouth, end = (assembly.L * np.column_stack((x.c[0], y.c[0] + 0.0 * x.c[0]))).tolist()
         line = Contour("PITCH", (Line(tuple(mouth), tuple(end)),), closed=False)
     else:
-        from geneva_cli.geometry import fit
         from geneva_cli.parts.outlines.path_walls import parallel
 
-        fine = 1e-3 if parts.tolerance is None else parts.tolerance  # mm, as a drawing's
-        pieces: list[Segment] = []
+        write, pieces = parts.writer(1e-3), list[Segment]()  # mm, as a drawing's
         for a, b in ((through.entry_deg, 0.0), (0.0, through.exit_deg)):
-            path = partial(parallel, assembly.L, through, 0.0, b > 0.0)
-            pieces += fit.KINDS[parts.curves](path, a, b, fine)
+            pieces += write(partial(parallel, assembly.L, through, 0.0, b > 0.0), a, b)
         line = Contour("PITCH", forms.joined(pieces), closed=False)
-    return [forms.turned(line, -apart), forms.turned(line, apart)] if apart else [line]
+    return [forms.placed(line, turn=turn) for turn in ((-apart, apart) if apart else (0.0,))]
 
 
-def machine(parts: FlatParts) -> Drawing:
+def assembly(parts: FlatParts) -> Drawing:
     """Return the machine at input angle 0, from the frame up to the wheel."""
     assembly, title = parts.outlines.assembly, titled(parts.mechanism)
     drawn = [shape for one in (parts.wheel, *parts.orbiting) for shape in _seen(one)]
-    for one in parts.about_wheel(parts.crank_without_arm):
+    for one in parts.about_wheel(parts.crank_with(arm=False)):
         drawn += _seen(one)
         if parts.arm:
             drawn.append(forms.placed(parts.arm.outline, one.at, one.turn))
@@ -163,7 +160,9 @@ def machine(parts: FlatParts) -> Drawing:
     drawn += [Circle("PITCH", axis, radius) for axis in axes for radius in sorted(radii)]
     pitches = {one: pitch_lines(parts, one) for one in assembly.kinds}
     for engagement, direction in assembly.slots:
-        drawn += [forms.turned(line, direction + parts.wheel.turn) for line in pitches[engagement]]
+        drawn += [
+            forms.placed(line, turn=direction + parts.wheel.turn) for line in pitches[engagement]
+        ]
     distance = LevelDistance((0.0, 0.0), (assembly.L, 0.0), "L")
     look = Annotations((distance,), tuple(_turns(parts.outlines)))
     return Drawing(title, tuple(once(drawn)), look, Group(title, parts.members))

@@ -18,7 +18,7 @@ from geneva_cli.drawings.sheet.packing import Block, packed_apart
 from geneva_cli.drives.transmission import places
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry import plates
-from geneva_cli.geometry.plates import MM, Group, Member, Part, Plate, Shell, Solid
+from geneva_cli.geometry.plates import Group, Member, Part, Plate, Shell, Solid
 from geneva_cli.geometry.shapes import bounds_of
 from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.motion.machine_spec import Spec
@@ -27,6 +27,7 @@ from geneva_cli.motion.pivots import Dimension, Pivot
 from geneva_cli.motion.registry import thing
 from geneva_cli.parts.parts import EdgedParts, Parts, parts_of
 from geneva_cli.parts.projection import Missing, alike, built_of, or_missing, outlines_of, titled
+from geneva_cli.parts.shafts.bores import listed
 from geneva_cli.spec.defaults import material_names, roller_material, wheel_material
 from geneva_cli.spec.schema import Points, fields
 from geneva_cli.table import Reading, Table, rows_table
@@ -103,64 +104,58 @@ def part_rows(spec: Spec, parts: Iterable[Part], outside: float | None = None) -
 
 def _properties(solid: Solid, density: float, outside: float | None) -> Row:
     """Return heights, mass, inertia and size of a solid; in a flat machine also its centroid."""
-    row: Row = {}
-    if not isinstance(solid, Shell):
+    body = plates.mass_properties(solid, density)
+    row: Row = {"mass_kg": body.mass_kg, "inertia_kgm2": body.inertia_kgm2}
+    if isinstance(solid, Shell):
+        low, high = solid.inner, solid.outer
+        # twice along the axes x and y
+        ends = (1.0, 0.0, 0.0), (-1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, -1.0, 0.0)
+        right, left, ahead, back = map(solid.reach, ends)
+        wide, deep = right + left, ahead + back
+    else:
         low, high = solid.low, solid.high
         x0, y0, x1, y1 = bounds_of(outlines_of(solid))
         wide, deep = x1 - x0, y1 - y0
-        body = plates.mass_properties(solid, density)
-        mass, inertia = body.mass_kg, body.inertia_kgm2
-        if outside is None:
-            # a centroid within 1e-13 of a part's size of its axis is on it
-            near = 1e-13 * max(wide, deep)
-            x, y = (at if abs(at) > near else 0.0 for at in body.centroid_mm)
-            row = {"centroid_x_mm": x, "centroid_y_mm": y}
-    else:
-        from geneva_cli.geometry.sphere import POLE, opposite
-
-        low, high = solid.inner, solid.outer
-        across = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)  # axes along which its size is measured
-        wide, deep = (solid.reach(axis) + solid.reach(opposite(axis)) for axis in across)
-        mass, inertia = density * solid.volume * MM**3, density * solid.inertia(POLE) * MM**5
-    thickness = high - low
+    row |= {"thickness_mm": high - low, "size_x_mm": wide, "size_y_mm": deep}
     if outside is not None:
         low, high = outside - high, outside - low
-    row |= {"thickness_mm": thickness, "z_low_mm": low, "z_high_mm": high, "mass_kg": mass}
-    return row | {"inertia_kgm2": inertia, "size_x_mm": wide, "size_y_mm": deep}
+    else:
+        # a centroid within 1e-13 of a part's size of its axis is on it
+        near = 1e-13 * max(wide, deep)
+        x, y = (at if abs(at) > near else 0.0 for at in body.centroid_mm)
+        row |= {"centroid_x_mm": x, "centroid_y_mm": y}
+    return row | {"z_low_mm": low, "z_high_mm": high}
 
 
-def _dimensions(parts: Parts) -> list[Dimension | Missing]:
+def _dimensions(parts: Parts) -> Iterator[Dimension | Missing]:
     mechanism = parts.mechanism
     spec, L = mechanism.spec, mechanism.center_distance_mm
     r, clear = mechanism.roller_radius_mm, spec.size.allowances.slot_clearance_mm
-    entries: list[Dimension | Missing] = [
-        Dimension("wheel", spec.wheel.NAME),
-        Dimension("drive", spec.drive.NAME),
-        *([Dimension("drive before it", spec.drive_before.NAME)] if spec.drive_before else []),
-        Dimension("slots", spec.wheel.z),
-        Dimension(spec.wheel.DISTANCE, L, "mm"),
-        Dimension("roller radius", r, "mm"),
-        Dimension("slot width", 2.0 * (r + clear), "mm"),
-    ]
+    yield Dimension("wheel", spec.wheel.NAME)
+    yield Dimension("drive", spec.drive.NAME)
+    if spec.drive_before:
+        yield Dimension("drive before it", spec.drive_before.NAME)
+    yield Dimension("slots", spec.wheel.z)
+    yield Dimension(spec.wheel.DISTANCE, L, "mm")
+    yield Dimension("roller radius", r, "mm")
+    yield Dimension("slot width", 2.0 * (r + clear), "mm")
     if spec.size.edge_mm:
         kind = "rounding" if spec.size.edge_chamfer_mm is None else "chamfer"
-        entries.append(Dimension(f"{kind} of all edges", spec.size.edge_mm, "mm"))
+        yield Dimension(f"{kind} of all edges", spec.size.edge_mm, "mm")
     with suppress(GenevaError):  # the rows of what cannot be built have the reason
-        screws = () if spec.no_parts else parts.built.screws
-        entries += (Dimension(one.name, one.text) for one in screws)
-    entries += [d for d in spec.wheel.layout if isinstance(d, Dimension)]
-    own = thing(spec.wheel.NAME, "dimensions")
-    entries += own(parts) if own else ()
+        yield from listed(() if spec.no_parts else parts.built.screws)
+    yield from (d for d in spec.wheel.layout if isinstance(d, Dimension))
+    if own := thing(spec.wheel.NAME, "dimensions"):
+        yield from own(parts)
     if mechanism.law is None and spec.drive.crank:
-        entries += _straight(mechanism)
+        yield from _straight(mechanism)
     else:
         if spec.drive.crank:
-            entries.append(Dimension("crank radius", mechanism.ratio * L, "mm"))
+            yield Dimension("crank radius", mechanism.ratio * L, "mm")
         if spec.drive.crank or spec.drive.rollers > 1:
-            entries.append(Dimension("rollers, evenly", spec.drive.rollers))
-    entries += _motions(mechanism)
-    entries += [d for d in mechanism.layout if isinstance(d, Dimension)]
-    return entries
+            yield Dimension("rollers, evenly", spec.drive.rollers)
+    yield from _motions(mechanism)
+    yield from (d for d in mechanism.layout if isinstance(d, Dimension))
 
 
 def _straight(mechanism: Mechanism) -> Iterator[Dimension]:

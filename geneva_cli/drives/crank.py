@@ -6,9 +6,8 @@ Whole steps apart they move the wheel alike, in turn: as by one crank with that 
 import math
 from typing import Annotated, ClassVar, Self
 
-from geneva_cli.drives.transmission import Transmission, places
+from geneva_cli.drives.transmission import Transmission
 from geneva_cli.motion.drive import Plan
-from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.spec.rules import Z_MAX, Range
 
 
@@ -27,6 +26,7 @@ class Crank(Transmission, kw_only=True):
     NAME: ClassVar[str] = "crank"
     WORDS: ClassVar[str] = "a crank"
     direct: ClassVar[bool] = True
+    ANY_RATIO: ClassVar[bool] = True
     crank_steps: Annotated[
         tuple[float, ...] | None,
         Range(0.0, Z_MAX, "[)"),
@@ -37,9 +37,6 @@ class Crank(Transmission, kw_only=True):
         super().__post_init__()
         if self.crank_steps:
             vars(self)["cranks"] = self.crank_steps
-
-    def as_built(self, wheel: Gearing, place: RollerPlace, L: float) -> Plan:
-        return self.straight(wheel, places(wheel, self, L, place), L)
 
     def backwards(self, plan: Plan) -> Self:
         out = super().backwards(plan)

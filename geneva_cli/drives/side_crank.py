@@ -8,13 +8,12 @@ from __future__ import annotations
 from typing import Annotated, ClassVar
 
 from geneva_cli.drives.pushed import CirclingPush, PushedCrank
-from geneva_cli.drives.transmission import places
 from geneva_cli.drives.whitworth import Whitworth
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot, ShaftPlace
-from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
+from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import library
+from geneva_cli.numerics.arrays import library, value_or
 from geneva_cli.numerics.jet import Array, Displacement
 from geneva_cli.spec.rules import POSITIVE, Range
 
@@ -32,14 +31,12 @@ class SideCrank(Whitworth, kw_only=True):
     NAME: ClassVar[str] = "side-crank"
     WORDS: ClassVar[str] = "a side-crank"
     IN_FRONT: ClassVar[str] = "a side-crank"
+    ANY_RATIO: ClassVar[bool] = True
     length_key: ClassVar[str] = "input_crank_mm"
     A: Annotated[float, Range(-1.0, 1.0, "()"), "side-crank: base offset / crank; > 0 is slower"]
     input_crank_mm: Annotated[
         float | None, POSITIVE, "input crank length r, for its forces (parts use R by default)"
     ] = None
-
-    def as_built(self, wheel: Gearing, place: RollerPlace, L: float) -> Plan:
-        return self.straight(wheel, places(wheel, self, L, place), L)
 
     def input_shaft(self, plan: Plan, sign: float, sense: float) -> ShaftPlace:
         return ShaftPlace(self._axis_mm(plan, sign), sense)
@@ -69,8 +66,7 @@ class SideCrank(Whitworth, kw_only=True):
         )
 
     def _crank_mm(self, plan: Plan) -> float:
-        own = plan.ratio * plan.center_distance_mm
-        return own if self.input_crank_mm is None else self.input_crank_mm
+        return value_or(self.input_crank_mm, plan.ratio * plan.center_distance_mm)
 
     def reactions(
         self, wheel: Gearing, advance: Displacement, mid_deg: float, L: float

@@ -37,6 +37,8 @@ class Transmission(Drive, kw_only=True):
     """A drive in front of the crank; a kind defines ``about``, and more only if it needs more."""
 
     ONE_ARM: ClassVar[bool] = True
+    # True if its crank may be as built, of another R/L than its slots need
+    ANY_RATIO: ClassVar[bool] = False
     # greatest crank angle from mid-motion at which the crank may move the wheel, degrees
     reach_deg: ClassVar[float] = 180.0
     side_crank: ClassVar[float | None] = None  # A of the side-crank whose ratio it has
@@ -65,6 +67,9 @@ class Transmission(Drive, kw_only=True):
         if motion is not None:
             return self._curved(wheel, motion, L)
         return self.straight(wheel, places(wheel, self, L), L)
+
+    def as_built(self, wheel: Gearing, place: RollerPlace, L: float) -> Plan | None:
+        return self.straight(wheel, places(wheel, self, L, place), L) if self.ANY_RATIO else None
 
     def straight(self, wheel: Gearing, rollers: list[RollerPlace], L: float) -> Plan:
         """Plan of straight slots for the places of the rollers on the crank."""

@@ -7,7 +7,7 @@ from typing import TypeAlias
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.numerics.arrays import Array, Mask
+from geneva_cli.numerics.arrays import Array
 
 # points (n, 2) of the curves in mm at n places: one array for each curve
 Curves: TypeAlias = "Callable[[Array], Sequence[Array]]"
@@ -41,19 +41,13 @@ def nodes(curves: Curves, ends: Sequence[float], tolerance_mm: float, fewest: bo
 def _smooth(curves: Curves, a: float, b: float, tolerance_mm: float, fewest: bool) -> Array:
     """Nodes of a smooth stretch, spread evenly in the integral of the error's square root."""
     grid = np.linspace(a, b, 1025 if fewest else 257)
-    error, hides = chord_errors(curves, grid, MIDDLE)
-    for _ in range(8):  # each time to a thousandth: to the last digits of the parameter
-        if not hides.any():  # only where the curve runs away within a small part of an interval
-            break
-        _, grid = _respread(grid, np.sqrt(error))
-        error, hides = chord_errors(curves, grid, MIDDLE)
-    area, _ = _respread(grid, np.sqrt(error))
+    area, _ = _respread(grid, np.sqrt(chord_errors(curves, grid, MIDDLE)))
     total = float(area[-1])
     fraction = area / total if total else np.linspace(0.0, 1.0, len(grid))
     count = max(1, int(np.ceil(total / np.sqrt(tolerance_mm))))
     if count > MANY_NODES or not fewest:
         count += count // (50 if fewest else 10)  # so that the first attempt is enough
-    best, too_few, asked = None, 0, f"--tolerance {tolerance_mm / AIM:g} mm"
+    best, asked = None, f"--tolerance {tolerance_mm / AIM:g} mm"
     for _ in range(20):  # attempts; a few are enough but at the limit of double precision
         if not count < ROWS_MAX:
             text = f"use for example {2.0 * (total / ROWS_MAX) ** 2:.1g} mm"
@@ -62,27 +56,24 @@ def _smooth(curves: Curves, a: float, b: float, tolerance_mm: float, fewest: boo
         for _ in range(6):  # rounds that move this number of nodes to where they are needed
             places[0], places[-1] = a, b
             inner = PLACES if fewest and len(places) < MANY_NODES else MIDDLE
-            root = np.sqrt(chord_errors(curves, places, inner)[0] / tolerance_mm)
+            root = np.sqrt(chord_errors(curves, places, inner) / tolerance_mm)
             if root.max() <= 1.0:
                 break
             _, places = _respread(places, root)
         # A chord's error is proportional to the square of its length: this number should be enough.
-        enough = int(np.ceil(root.sum()))
+        enough = max(int(np.ceil(root.sum())), count // 2, 1)
         if root.max() <= 1.0:
-            best, good = places, count
-            count = max(enough, (too_few + good) // 2, 1)
+            best = places
+            if not fewest or enough >= count or count > MANY_NODES:
+                break
+            count = enough
+        elif best is None:
+            count = max(enough, count + 1 + count // 50)
         else:
-            too_few = count
-            more = count + max(1, 0 if fewest else count // 50)
-            count = max(enough, more) if best is None else (too_few + good + 1) // 2
-        # 2 % of the nodes are not worth another attempt
-        if best is not None and (
-            not fewest or count >= good or good - too_few <= 0.02 * good or good > MANY_NODES
-        ):
-            return best
-    if best is not None:
-        return best
-    raise GenevaError(f"{asked} is finer than doubles can show at this size")
+            break
+    if best is None:
+        raise GenevaError(f"{asked} is finer than doubles can show at this size")
+    return best
 
 
 def _respread(places: Array, root: Array) -> tuple[Array, Array]:
@@ -93,13 +84,13 @@ def _respread(places: Array, root: Array) -> tuple[Array, Array]:
     return area, np.interp(np.linspace(0.0, area[-1], len(places)), area, places)
 
 
-def chord_errors(curves: Curves, at: Array, places: Array) -> tuple[Array, Mask]:
-    """Greatest distance of the curves from each chord between adjacent places, mm, and a mask.
+def chord_errors(curves: Curves, at: Array, places: Array) -> Array:
+    """Greatest distance of the curves from each chord between adjacent places, mm.
 
-    The mask has the chords that hide most of a curve between two measurements, at fractions
-    ``places`` of the chord. Such a chord has its length as error.
+    It is measured at fractions ``places`` of the chord. A chord that hides most of a curve between
+    two of them has its length as error.
     """
-    worst, hides = np.zeros(len(at) - 1), np.zeros(len(at) - 1, dtype=bool)
+    worst = np.zeros(len(at) - 1)
     block = 4096  # chords, so that memory stays flat
     for start in range(0, len(at) - 1, block):
         some, ends = slice(start, start + block), at[start : start + block + 1]
@@ -129,5 +120,4 @@ def chord_errors(curves: Curves, at: Array, places: Array) -> tuple[Array, Mask]
             hidden = np.diff(along, axis=1).max(axis=1) > 0.75
             long = np.where(hidden, np.sqrt(square[:, 0]), error)
             worst[some] = np.maximum(worst[some], long)
-            hides[some] |= hidden & (square[:, 0] > error * error)
-    return worst, hides
+    return worst

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from geneva_cli.geometry.sphere_arcs import RoundHole
 
 MM = 1e-3  # metres
+Z_AXIS = (0.0, 0.0, 1.0)
 SAMPLED = 1e-4, 0.5  # mm: sagitta and length of samples of a hole that is not a circle
 # Gauss-Legendre's abscissae and weights of eight points on -1..1, of which four are below 0
 GAUSS = (
@@ -183,15 +184,18 @@ def total(rows: Iterable[Iterable[float]]) -> Moments:
 
 
 class MassProperties(NamedTuple):
-    """A plate's mass, centroid, and moment of inertia about its own origin along the axis."""
+    """A solid's mass, centroid, and moment of inertia about its own origin along the axis."""
 
     mass_kg: float
     centroid_mm: Point
     inertia_kgm2: float
 
 
-def mass_properties(plate: Plate, density_kgm3: float) -> MassProperties:
-    """Mass, centroid and inertia J = rho h Ip of a plate."""
+def mass_properties(plate: Solid, density_kgm3: float) -> MassProperties:
+    """Mass, centroid and inertia J = rho h Ip of a plate; a shell's centroid is on its axis, z."""
+    if isinstance(plate, Shell):
+        mass = density_kgm3 * plate.volume * MM**3
+        return MassProperties(mass, (0.0, 0.0), density_kgm3 * plate.inertia(Z_AXIS) * MM**5)
     thick, per = plate.high - plate.low, density_kgm3 * MM**3
     area, x, y, polar = face(plate)
     volume = thick * area

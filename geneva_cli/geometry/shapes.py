@@ -7,13 +7,15 @@ Points are (x, y). Nothing is measured from an arc's centre, which may be far aw
 import cmath
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from itertools import pairwise
+from itertools import permutations
+from operator import attrgetter, itemgetter
 from typing import Literal, NamedTuple, TypeAlias, TypeVar
 
 Point: TypeAlias = tuple[float, float]
 ORIGIN: Point = (0.0, 0.0)
 STRAIGHT = 1e-16  # a bulge below it moves no point of the arc by a rounding of the chord
-HULL_ROUNDING = 1e-12  # radians, and mm: directions and points nearer to each other are one
+HULL_ROUNDING = 1e-12  # radians: directions nearer to each other are one
+TOUCHING = 1e-10  # mm: a circle that reaches so much less far touches a line
 # The names of all layers: of drawings, sheets and animations. Shapes that are not drawn
 # have none.
 Layer: TypeAlias = Literal[
@@ -143,40 +145,34 @@ def backwards(contour: Contour) -> Contour:
 def convex_hull(layer: Layer, circles: Sequence[Circle]) -> Contour:
     """Convex hull of circles, counterclockwise: arcs on circles, and lines between them.
 
-    It touches a circle in the directions in which this circle reaches farthest. Going round, the
-    next circle takes over where both reach equally far, on their common tangent.
+    A line leaves one circle for another, in a direction in which both reach farthest.
     """
-    here = circles[0]
-    for one in circles:  # the farthest along x
-        ahead = one.centre[0] + one.radius - (here.centre[0] + here.radius)
-        if ahead > 0.0 or (ahead == 0.0 and one.centre[1] >= here.centre[1]):
-            here = one
-    turns = [(0.0, here)]  # directions from which on circles reach farthest
-    while len(turns) == 1 or turns[-1][0] < turns[1][0] + math.tau - HULL_ROUNDING:
-        turn, here = turns[-1]
-        step, far, after = math.tau, 0.0, here
-        for other in circles:
-            x, y = other.centre[0] - here.centre[0], other.centre[1] - here.centre[1]
-            apart, less = math.hypot(x, y), here.radius - other.radius
-            if apart <= abs(less) * (1.0 + HULL_ROUNDING) or other == here:
-                continue  # one circle holds the other
-            at = math.atan2(y, x) - math.acos(less / apart)
-            to = max((at - turn + HULL_ROUNDING) % math.tau - HULL_ROUNDING, 0.0)
-            if to < step - HULL_ROUNDING or (to < step + HULL_ROUNDING and apart > far):
-                step, far, after = to, apart, other
-        if step == math.tau:
-            return closed(layer, two_arcs(here))
-        turns.append((turn + step, after))
-    last, here = turns[-2]
-    pieces: list[Segment] = []
-    for (start, circle), (end, _) in pairwise([(last - math.tau, here), *turns[1:-1]]):
-        arc = about(circle.centre, circle.radius, start, end - start)
-        if pieces and math.dist(pieces[-1].end, arc.start) > HULL_ROUNDING:
-            pieces.append(Line(pieces[-1].end, arc.start))
-        if end - start > HULL_ROUNDING:
-            pieces.append(arc)
-    if math.dist(pieces[-1].end, pieces[0].start) > HULL_ROUNDING:
-        pieces.append(Line(pieces[-1].end, pieces[0].start))
+    found = list[tuple[float, float, Circle, Circle]]()
+    for one, other in permutations(circles, 2):
+        x, y = other.centre[0] - one.centre[0], other.centre[1] - one.centre[1]
+        apart, less = math.hypot(x, y), one.radius - other.radius
+        if apart <= abs(less) * (1.0 + HULL_ROUNDING):
+            continue  # one circle holds the other
+        # above 0: the first arc reaches farthest along x
+        turn = math.atan2(y, x) - math.acos(less / apart) - HULL_ROUNDING
+        turn = turn % math.tau + HULL_ROUNDING
+        u, v = math.cos(turn), math.sin(turn)
+        reaches = [centre[0] * u + centre[1] * v + radius for _, centre, radius in circles]
+        if one.centre[0] * u + one.centre[1] * v + one.radius >= max(reaches) - TOUCHING:
+            found.append((turn, apart, one, other))
+    lines: list[tuple[float, float, Circle, Circle]] = []
+    for line in sorted(found, key=itemgetter(0)):
+        if not lines or line[0] - lines[-1][0] > HULL_ROUNDING:
+            lines.append(line)
+        elif line[1] > lines[-1][1]:  # the longer one of two in the same direction
+            lines[-1] = line
+    if not lines:
+        return as_contour(max(circles, key=attrgetter("radius"))._replace(layer=layer))
+    pieces, before = list[Segment](), lines[-1][0] - math.tau
+    for turn, _, one, other in lines:
+        arc = about(one.centre, one.radius, before, turn - before)
+        pieces += [arc, Line(arc.end, polar(other.centre, other.radius, turn))]
+        before = turn
     return closed(layer, pieces)
 
 
@@ -311,11 +307,6 @@ def placed(
         else:
             pieces.append(type(one)(*corners))
     return shape._replace(segments=tuple(pieces))
-
-
-def turned(shape: S, radians: float) -> S:
-    """Rotate a shape about the origin, counterclockwise."""
-    return placed(shape, turn=radians)
 
 
 def mirrored(pieces: Iterable[Segment]) -> tuple[Segment, ...]:

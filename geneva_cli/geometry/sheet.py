@@ -171,11 +171,12 @@ class Arrow(NamedTuple):
 
     tip: Point
     turn: float
+    size: tuple[float, float] = ARROW
 
     @property
     def corners(self) -> tuple[Point, Point, Point]:
         """Tip and both other corners."""
-        length, half = ARROW
+        length, half = self.size
         back = ((-length, half), (-length, -half))
         left, right = (_turned(p, self.turn, self.tip) for p in back)
         return self.tip, left, right

@@ -7,6 +7,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from itertools import permutations
+from operator import attrgetter
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -60,10 +62,6 @@ class SphereArc(NamedTuple):
         """Unit vector of the direction of travel at one of its points."""
         return unit(cross(self.axis, point))
 
-    def turned(self, turn: Rotation) -> SphereArc:
-        """The arc rotated with the sphere."""
-        return SphereArc(turn(self.axis), self.angle, turn(self.start), turn(self.end))
-
     @property
     def back(self) -> SphereArc:
         """The arc in the opposite sense."""
@@ -92,12 +90,6 @@ class Rotation(NamedTuple):
     x: Vector
     y: Vector
     z: Vector
-
-    def __call__(self, v: Vector) -> Vector:
-        """Image of a vector."""
-        a, b, c = v
-        x, y, z = (a * p + b * q + c * r for p, q, r in zip(*self, strict=True))
-        return x, y, z
 
 
 class Region(NamedTuple):
@@ -133,10 +125,6 @@ class Region(NamedTuple):
             flow = np.einsum("n,ni,nj->ij", half * weights, out, u)
             second -= (flow + flow.T) / 6.0
         return second
-
-    def turned(self, turn: Rotation) -> Region:
-        """The region rotated with the sphere."""
-        return Region(tuple(arc.turned(turn) for arc in self.boundary), turn(self.middle))
 
 
 def place(polar: float, azimuth: float) -> Vector:
@@ -203,45 +191,29 @@ def convex_hull(caps: Sequence[Cap]) -> Region:
 
     It has arcs of the caps' rims, and great circles that touch two caps.
     """
-    leaving = [_tangents(i, caps) for i in range(len(caps))]
-    first = next((tangents[0] for tangents in leaving if tangents), None)
-    if first is None:  # one cap holds all others
-        return max(caps, key=lambda cap: cap.angle).region
-    boundary: list[SphereArc] = []
-    to, arc = first
-    while not boundary or arc is not first[1]:
-        boundary.append(arc)
-        rims = [SphereArc(*caps[to], arc.end, after.start) for _, after in leaving[to]]
-        k = min(range(len(rims)), key=lambda k: rims[k].sweep)
-        boundary.append(rims[k])
-        to, arc = leaving[to][k]
-    return Region(tuple(boundary), caps[0].middle)
-
-
-def _tangents(i: int, caps: Sequence[Cap]) -> list[tuple[int, SphereArc]]:
-    """Arcs of great circles from a cap to others, with all caps on their left."""
-    found: list[tuple[int, SphereArc]] = []
-    one = caps[i]
-    for j, other in enumerate(caps):
+    found = list[tuple[int, int, SphereArc]]()  # from one cap to another, with all on their left
+    for (i, one), (j, other) in permutations(enumerate(caps), 2):
         # the circle's pole is a quarter of the sphere from each middle, less the cap's angle
         g = dot(one.middle, other.middle)
-        square = 1.0 - g * g
-        if j == i or square <= 0.0:
-            continue
-        s, t = math.sin(one.angle), math.sin(other.angle)
-        a, b = (s - g * t) / square, (t - g * s) / square
-        left = (1.0 - (a * s + b * t)) / square
-        if left <= SAME_LENGTH * SAME_LENGTH:
+        square, s, t = 1.0 - g * g, math.sin(one.angle), math.sin(other.angle)
+        left = square - s * (s - g * t) - t * (t - g * s)
+        if left <= (SAME_LENGTH * square) ** 2:
             continue  # one cap holds the other
-        both = combined(one.middle, a, other.middle, b)
+        both = combined(one.middle, s - g * t, other.middle, t - g * s)
         pole = unit(combined(both, 1.0, cross(one.middle, other.middle), math.sqrt(left)))
-        if any(dot(pole, c.middle) < math.sin(c.angle) - SAME_LENGTH for c in caps):
-            continue
-        ends = [unit(combined(c.middle, 1.0, pole, -math.sin(c.angle))) for c in (one, other)]
-        found.append((j, SphereArc(pole, 0.5 * math.pi, *ends)))
-    longest = []  # on each circle
-    for j, arc in found:
-        alike = (one for _, one in found if math.dist(arc.axis, one.axis) < SAME_LENGTH)
-        if all(dot(one.start, one.end) >= dot(arc.start, arc.end) for one in alike):
-            longest.append((j, arc))
-    return longest
+        if all(dot(pole, c.middle) >= math.sin(c.angle) - SAME_LENGTH for c in caps):
+            ends = [unit(combined(c.middle, 1.0, pole, -math.sin(c.angle))) for c in (one, other)]
+            found.append((i, j, SphereArc(pole, 0.5 * math.pi, *ends)))
+    lines, (x, y, _) = list[tuple[int, int, SphereArc]](), axis_frame(caps[0].middle)
+    for line in sorted(found, key=lambda line: dot(line[2].start, line[2].end)):
+        # of those on one circle, the longest
+        if all(math.dist(line[2].axis, one.axis) >= SAME_LENGTH for *_, one in lines):
+            lines.append(line)
+    if not lines:  # one cap holds all others
+        return max(caps, key=attrgetter("angle")).region
+    lines.sort(key=lambda line: math.atan2(dot(line[2].axis, y), dot(line[2].axis, x)))
+    first, boundary = lines.index(min(lines)), list[SphereArc]()
+    lines = lines[first:] + lines[:first]
+    for (_, j, arc), (*_, after) in zip(lines, [*lines[1:], lines[0]], strict=True):
+        boundary += [arc, SphereArc(*caps[j], arc.end, after.start)]
+    return Region(tuple(boundary), caps[0].middle)

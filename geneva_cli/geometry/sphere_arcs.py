@@ -123,43 +123,36 @@ class SphereArcs:
         return on[1], self.at(which[on[1]], turn[on])
 
 
-class Circle(NamedTuple):
-    """A circle on the sphere, ``angle`` radians from its axis, with azimuths from x towards y."""
-
-    axis: Array
-    x: Array
-    y: Array
-    angle: float
-
-    def seen(self, points: Array) -> tuple[Array, Array]:
-        """Return the angles of points (n, 3) from the axis, and their azimuths, radians."""
-        along, sideways = points @ self.x, points @ self.y
-        polar = np.arctan2(np.hypot(along, sideways), points @ self.axis)
-        return polar, np.arctan2(sideways, along)
-
-    def at(self, azimuth: Array) -> Array:
-        """Return the points of the circle at azimuths, (n, 3)."""
-        c, s = np.cos(azimuth)[:, None], np.sin(azimuth)[:, None]
-        flat = math.sin(self.angle)
-        return math.cos(self.angle) * self.axis + flat * (c * self.x + s * self.y)
+def polar(points: Array) -> Array:
+    """Return the angles of directions (..., 3) from z."""
+    return np.arctan2(np.hypot(points[..., 0], points[..., 1]), points[..., 2])
 
 
-def from_circle(boundary: SphereArcs, circle: Circle, middle: Array, half: Array) -> Array:
+def azimuth(points: Array) -> Array:
+    """Return the angles of directions (..., 3) about z, from x."""
+    return np.arctan2(points[..., 1], points[..., 0])
+
+
+def from_circle(
+    boundary: SphereArcs, frame: Array, angle: float, middle: Array, half: Array
+) -> Array:
     """Return the angles of arcs of a circle from a boundary that they do not cross, (n,).
 
-    They are from azimuths ``middle - half`` to ``middle + half``.
+    The circle is ``angle`` from the axis z of a frame, whose axes are rows (3, 3). The arcs are
+    from azimuths ``middle - half`` to ``middle + half`` in it.
     """
     # two circles are nearest to each other on the great circle through both axes
     every = np.arange(len(boundary))
-    _, facing = boundary.facing(every, np.tile(circle.axis, (len(every), 1, 1)))
-    polar, azimuth = circle.seen(np.concatenate((boundary.starts, facing)))
-    away = within_half_turn(azimuth - middle[:, None])
-    beyond = np.maximum(np.abs(away) - half[:, None], 0.0)
-    across = math.sin(circle.angle) * np.sin(polar)
-    from_points = _distances(polar - circle.angle, across, beyond).min(axis=1)
-    ends = [circle.at(end) for end in (middle - half, middle + half)]
-    from_ends = [boundary.angles(end).min(axis=1) for end in ends]
-    return np.minimum.reduce((from_points, *from_ends))
+    _, facing = boundary.facing(every, np.tile(frame[2], (len(every), 1, 1)))
+    points = np.concatenate((boundary.starts, facing)) @ frame.T
+    beyond = np.abs(within_half_turn(azimuth(points) - middle[:, None])) - half[:, None]
+    off, flat = polar(points), math.sin(angle)
+    nearest = [_distances(off - angle, flat * np.sin(off), np.maximum(beyond, 0.0))]
+    for end in (middle - half, middle + half):
+        level = np.full(len(end), math.cos(angle))
+        at = np.column_stack((flat * np.cos(end), flat * np.sin(end), level))
+        nearest.append(boundary.angles(at @ frame))
+    return np.concatenate(nearest, axis=1).min(axis=1)
 
 
 def short_arcs(regions: Iterable[Region], step: float, radius: float) -> SphereArcs:

@@ -7,7 +7,7 @@ The slot's tangent t points away from the wheel's axis: M . t > 0, M being the r
 from __future__ import annotations
 
 from functools import partial
-from typing import Any, Generic, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -23,8 +23,9 @@ from geneva_cli.numerics.arrays import (
     choose_record,
     library,
 )
-from geneva_cli.numerics.jet import Array, Jet, Number, V, Vector, sqrt
+from geneva_cli.numerics.jet import Array, Jet, Number, Vector, sqrt
 
+OF_MOTION = ("omega_rad_s", "alpha_rad_s2", "sliding_m_s")  # known without a load
 PRESSED = ("contact_stress_MPa", "pv_W_m2")  # known only with a face width
 # Searched by their squares: a root has no slope where it is 0, nor has the size of a vector.
 SQUARED = (*PRESSED, "crank_bearing_N", "guide_force_N")
@@ -39,29 +40,22 @@ def plain_values(values: Array, name: str) -> Array:
     return np.sqrt(np.abs(values)) if name in SQUARED else values
 
 
-class Contact(NamedTuple, Generic[V]):
-    """The state of roller and slot that the loads depend on: jets of one order, or values."""
+class Contact(NamedTuple):
+    """The state of roller and slot that the loads depend on: jets of one order."""
 
-    velocity: V
-    acceleration: V
-    lever: V  # M . t: of the walls' normal about the wheel's axis
-    offset: V  # M x t: of the slot's tangent from the wheel's axis
-    along: V  # the roller centre's speed along t
-    curvature: V  # of the pitch curve, positive to the left of t: 0 in a straight slot
-    spin: V  # rate of the roller's body relative to the wheel
-    arm: V  # of friction at the wall about the wheel's axis, beyond M's: over the radius
-    touches: V  # 0 while gears drive and no roller does, else 1
-    crank: V  # rate of the shaft that carries the crank
+    velocity: Jet
+    acceleration: Jet
+    lever: Jet  # M . t: of the walls' normal about the wheel's axis
+    offset: Jet  # M x t: of the slot's tangent from the wheel's axis
+    along: Jet  # the roller centre's speed along t
+    curvature: Jet  # of the pitch curve, positive to the left of t: 0 in a straight slot
+    spin: Jet  # rate of the roller's body relative to the wheel
+    arm: Jet  # of friction at the wall about the wheel's axis, beyond M's: over the radius
+    touches: Jet  # 0 while gears drive and no roller does, else 1
+    crank: Jet  # rate of the shaft that carries the crank
     # Reactions of the joints of the roller's body (the crank's shaft, a guide) to a force of 1
     # along the normal i t, to one along t, and to a couple of 1; None where there is only a shaft.
-    reactions: tuple[tuple[tuple[V, V], tuple[V, V]], ...] | None = None
-
-
-def contact_values(at: Contact[Jet]) -> Contact[Array]:
-    """The values of a contact's jets."""
-    *jets, joints = at
-    reactions = joints and [[(x.c[0], y.c[0]) for x, y in pair] for pair in joints]
-    return Contact._make([*map(value, jets), reactions])
+    reactions: tuple[tuple[Vector, Vector], ...] | None = None
 
 
 class LoadCase(NamedTuple):
@@ -107,31 +101,21 @@ class LoadCase(NamedTuple):
         return case.with_friction(0.0)
 
 
-class QuantityValue(NamedTuple, Generic[V]):
+class QuantityValue(NamedTuple):
     """A quantity, the margin that bounds it where above 0, and the sign of its infinity."""
 
-    value: V
-    margin: V | None = None
+    value: Jet
+    margin: Jet | None = None
     sign: Number = 1.0
 
 
-def value(quantity: V) -> Number:
-    """The value of a jet; a value unchanged."""
-    return quantity.c[0] if isinstance(quantity, Jet) else quantity
+def lesser(a: Jet, b: Jet) -> Jet:
+    """The lesser of two jets, element by element."""
+    first: Truth = a.c[0] < b.c[0]
+    return Jet(map(partial(choose, first), a.c, b.c))
 
 
-def lesser(a: V, b: V) -> V:
-    """The lesser of two jets, or of their values, element by element."""
-    first: Truth = value(a) < value(b)
-    if not isinstance(a, Jet) or not isinstance(b, Jet):
-        out: V = choose(first, a, b)
-        return out
-    return type(a)([*map(partial(choose, first), a.c, b.c)])
-
-
-def contact(
-    engagement: Engagement, x: Number, order: int = 0, reactions: bool = True
-) -> Contact[Jet]:
+def contact(engagement: Engagement, x: Number, order: int = 0, reactions: bool = True) -> Contact:
     """The contact at input angles x, degrees from an engagement's mid-motion, one or an array.
 
     At mid-motion of a curved slot only the values have a limit, that of entry: ``order`` must be 0.

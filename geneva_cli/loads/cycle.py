@@ -15,7 +15,7 @@ import numpy as np
 from geneva_cli.errors import Notice
 from geneva_cli.kept import cached_property
 from geneva_cli.loads import load_functions
-from geneva_cli.loads.contact import NEGLIGIBLE, LoadCase, contact, contact_values, plain_values
+from geneva_cli.loads.contact import NEGLIGIBLE, LoadCase, contact, plain_values
 from geneva_cli.loads.impacts.reversal import arrival
 from geneva_cli.loads.instant import Instant, bounded
 from geneva_cli.loads.load_case import load_case, sources, weight_kg
@@ -75,7 +75,7 @@ class Cycle:
         or of the stretch in which each angle is.
         """
         with np.errstate(all="ignore"):
-            at = contact_values(contact(engagement, x))
+            at = contact(engagement, x)
             here = Instant(self.case, at, *(stretch[2:] if stretch else self._signs(engagement, x)))
             each = [self.sources.get(name, (name, 1.0)) for name in names]  # or of a pinion
             sought = ["wall_force_N" if source == "pin_force_N" else source for source, _ in each]

@@ -12,20 +12,20 @@ roller, fixed to its body, rubs along the wall.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, Generic, Protocol, TypeAlias
+from typing import Protocol, TypeAlias
 
 import numpy as np
 
 from geneva_cli.kept import cached_property
-from geneva_cli.loads.contact import PRESSED, Contact, LoadCase, QuantityValue, lesser, value
-from geneva_cli.numerics.arrays import all_true
-from geneva_cli.numerics.jet import Array, Jet, Number, V
+from geneva_cli.loads.contact import Contact, LoadCase, QuantityValue, lesser
+from geneva_cli.numerics.arrays import all_true, array
+from geneva_cli.numerics.jet import Array, Jet, Number
 
 
-class Instant(Generic[V]):
+class Instant:
     """Motion and loads for the signs of wheel torque, sliding and input torque.
 
-    Quantities are jets by the input angle in radians, or values; most are computed at first use. A
+    Quantities are jets by the input angle in radians; most are computed at first use. A
     torque that drives the wheel, and a pin force on the wall that drives it, are positive; so is a
     sliding speed away from the wheel's axis, and the input's torque where the input drives.
 
@@ -33,14 +33,14 @@ class Instant(Generic[V]):
     also unbounded where ``edge`` <= 0: there the wall is more sharply curved than the roller.
     """
 
-    at: Contact[V]
-    wheel_torque_Nm: V  # that the wheel needs for inertia and resistance, N m
-    slip: V  # speed at which the roller rubs along the wall, over L, per input radian
-    slot_grip: V  # the grip without friction in a guide
-    drag: V  # friction in a guide over the pin's force
-    grip: V  # torque on the wheel over L times the pin force, the margin of all forces
+    at: Contact
+    wheel_torque_Nm: Jet  # that the wheel needs for inertia and resistance, N m
+    slip: Jet  # speed at which the roller rubs along the wall, over L, per input radian
+    slot_grip: Jet  # the grip without friction in a guide
+    drag: Jet  # friction in a guide over the pin's force
+    grip: Jet  # torque on the wheel over L times the pin force, the margin of all forces
 
-    def __init__(self, case: LoadCase, at: Contact[V], *signs: Number | None) -> None:
+    def __init__(self, case: LoadCase, at: Contact, *signs: Number | None) -> None:
         """Of wheel torque, sliding and input torque those that are None, or NaN, are as here."""
         drives, slides, feeds = (*signs, None, None, None)[:3]
         self.case, self.at = case, at
@@ -61,7 +61,7 @@ class Instant(Generic[V]):
         self.losses = 0.5 * (1.0 + self.feeds) / case.efficiency + 0.5 * (1.0 - self.feeds)
 
     @cached_property
-    def feeding(self) -> V:
+    def feeding(self) -> Jet:
         """A value with the sign of the input's torque: always finite, and smooth between its signs.
 
         It is the ratio of the input's torque to the wheel's, times ``grip``.
@@ -74,23 +74,23 @@ class Instant(Generic[V]):
         return self.wheel_torque_Nm * gain + self.frame_torque_Nm * self.grip
 
     @property
-    def frame_torque_Nm(self) -> V:
+    def frame_torque_Nm(self) -> Jet:
         """The torque on the carrier that speeds the wheel up against the ground, N m."""
         return self.at.acceleration * (self.case.inertia_Nm * self.case.frame)
 
     @property
-    def leaning(self) -> V:
+    def leaning(self) -> Jet:
         """A value at whose changes of sign the friction in a guide has a corner."""
-        leaning: V = self.case.guide.leaning(self.case, self.at, self.drives, self.slides)
+        leaning: Jet = self.case.guide.leaning(self.case, self.at, self.drives, self.slides)
         return leaning
 
     @cached_property
-    def edge(self) -> V:
+    def edge(self) -> Jet:
         """1 - curvature of the bearing wall's pitch curve times the roller's radius."""
         return 1.0 - self.at.curvature * (self.drives * self.case.radius)
 
     @cached_property
-    def friction_margin(self) -> V | None:
+    def friction_margin(self) -> Jet | None:
         """Margin of quantities that only friction makes unbounded; None without friction."""
         free = self.case.all_friction == 0.0  # designs of the batch, whose margin is infinite
         if all_true(free):
@@ -98,12 +98,12 @@ class Instant(Generic[V]):
         return self.grip + np.where(free, np.inf, 0.0) if np.any(free) else self.grip
 
     @cached_property
-    def force_N(self) -> V:
+    def force_N(self) -> Jet:
         """The force on the pin, along the wall's normal, N."""
         return self.wheel_torque_Nm * self.drives / (self.grip * self.case.L)
 
     @cached_property
-    def slot_torque_Nm(self) -> V:
+    def slot_torque_Nm(self) -> Jet:
         """The part of the input's torque that goes through the slot, before the efficiency, N m."""
         at, case = self.at, self.case
         moved = self.wheel_torque_Nm * at.velocity
@@ -116,13 +116,11 @@ class Instant(Generic[V]):
         # designs of the batch without friction, whose force may be infinite
         free = case.all_friction == 0.0
         if np.any(free):
-            if isinstance(rubbed, Jet):
-                return moved + type(rubbed)([np.where(free, 0.0, c) for c in rubbed.c])
-            return moved + np.where(free, 0.0, rubbed)
+            rubbed = Jet(np.where(free, 0.0, c) for c in rubbed.c)
         return moved + rubbed
 
     @cached_property
-    def input_torque_Nm(self) -> V:
+    def input_torque_Nm(self) -> Jet:
         """Torque of the input shaft, N m, losses included."""
         lossless = self.slot_torque_Nm
         if not all_true(self.case.frame == 0.0):
@@ -130,23 +128,23 @@ class Instant(Generic[V]):
         return lossless * self.losses
 
     @cached_property
-    def wheel_bearing_N(self) -> V:
+    def wheel_bearing_N(self) -> Jet:
         """Size of the force on the wheel, and so of its shaft's reaction, N."""
-        rub = self.case.friction * value(self.at.touches)
+        rub = self.case.friction * self.at.touches.c[0]
         return self.force_N * (1.0 + rub * rub) ** 0.5
 
     @cached_property
-    def crank_bearing_squared(self) -> V:
+    def crank_bearing_squared(self) -> Jet:
         """The square of the reaction on the shaft whose crank carries the roller or link, N²."""
         if self.at.reactions is None:  # the crank is the roller's body, and its drive turns it
             return self.wheel_bearing_N * self.wheel_bearing_N
-        return self._reaction(0)
+        return self.reaction_squared(0)
 
-    def _reaction(self, joint: int) -> V:
+    def reaction_squared(self, joint: int) -> Jet:
         """The square of the reaction of a joint that holds the roller's body, N²."""
         assert self.at.reactions is not None
         normal, tangent, couple = self.at.reactions
-        rub = self.case.friction * value(self.at.touches) * self.slides
+        rub = self.case.friction * self.at.touches.c[0] * self.slides
         turn = rub * self.drives * self.case.radius
         x, y = (
             normal[joint][i] * self.drives + tangent[joint][i] * rub - couple[joint][i] * turn
@@ -154,66 +152,58 @@ class Instant(Generic[V]):
         )
         return self.force_N * self.force_N * (x * x + y * y)
 
-    def quantity(self, of: str | LoadQuantity) -> QuantityValue[V]:
-        """A quantity of the cycle, squared if it is one of ``SQUARED``, or a function's."""
-        at, w = self.at, self.case.speed_rad_s
-        if not isinstance(of, str):
-            return of(self)
-        if of == "omega_rad_s":
-            return QuantityValue(at.velocity * w)
-        if of == "alpha_rad_s2":
-            return QuantityValue(at.acceleration * (w * w))
-        if of == "wall_force_N":
-            return QuantityValue(self.force_N * self.drives, self.grip, self.drives)
-        if of == "guide_force_N":  # of rocker, slider, groove or fixed gear
-            return QuantityValue(self._reaction(1), self.grip)
-        if of in ATTRIBUTES:
-            name, margin = ATTRIBUTES[of]
-            return QuantityValue(getattr(self, name), margin and getattr(self, margin))
-        # of a roller that is fixed to its pin, m/s
-        sliding = self.slip * (self.case.L * w) * at.touches
-        if of not in PRESSED:
-            return QuantityValue(sliding)
-        assert self.case.hertz is not None  # there is a face width
-        square = self.force_N * at.touches * self.case.hertz / self.edge  # MPa²
-        if of == "pv_W_m2":  # W²/m⁴
-            square = square * (sliding * sliding * 1e12)
+    def pressed(self, sliding: Jet | float = 1.0) -> QuantityValue:
+        """The square of the contact stress, MPa, times a speed; it needs a face width."""
+        assert self.case.hertz is not None
+        square = self.force_N * self.at.touches * self.case.hertz / self.edge
+        square = square * (sliding * sliding)
         friction = self.friction_margin
         return QuantityValue(square, self.edge if friction is None else lesser(friction, self.edge))
 
-
-# quantities that are attributes of an instant, and their margins
-ATTRIBUTES: dict[str, tuple[str, str | None]] = {
-    "wheel_torque_Nm": ("wheel_torque_Nm", None),
-    "input_torque_Nm": ("input_torque_Nm", "friction_margin"),
-    "pin_force_N": ("force_N", "grip"),
-    "wheel_bearing_N": ("wheel_bearing_N", "grip"),
-    "crank_bearing_N": ("crank_bearing_squared", "grip"),
-}
+    def quantity(self, of: str | LoadQuantity) -> QuantityValue:
+        """A quantity of the cycle, squared if it is one of ``SQUARED``, or a function's."""
+        return QUANTITIES[of](self) if isinstance(of, str) else of(self)
 
 
 class LoadQuantity(Protocol):
     """A quantity: a function without numbers, or a tuple whose numbers may be arrays (m, 1)."""
 
-    def __call__(self, i: Instant[Any], /) -> QuantityValue[Any]:
+    def __call__(self, i: Instant, /) -> QuantityValue:
         """The quantity, and the margin that bounds it."""
 
 
 Own: TypeAlias = "Mapping[str, LoadQuantity] | None"  # functions for names of a search
+QUANTITIES: dict[str, LoadQuantity] = {
+    "omega_rad_s": lambda i: QuantityValue(i.at.velocity * i.case.speed_rad_s),
+    "alpha_rad_s2": lambda i: QuantityValue(i.at.acceleration * i.case.speed_rad_s**2),
+    "wheel_torque_Nm": lambda i: QuantityValue(i.wheel_torque_Nm),
+    "pin_force_N": lambda i: QuantityValue(i.force_N, i.grip),
+    "wall_force_N": lambda i: QuantityValue(i.force_N * i.drives, i.grip, i.drives),
+    "contact_stress_MPa": lambda i: i.pressed(),
+    # of a roller that is fixed to its pin
+    "sliding_m_s": lambda i: QuantityValue(i.slip * (i.case.L * i.case.speed_rad_s) * i.at.touches),
+    "input_torque_Nm": lambda i: QuantityValue(i.input_torque_Nm, i.friction_margin),
+    "wheel_bearing_N": lambda i: QuantityValue(i.wheel_bearing_N, i.grip),
+    "crank_bearing_N": lambda i: QuantityValue(i.crank_bearing_squared, i.grip),
+    "pv_W_m2": lambda i: i.pressed(QUANTITIES["sliding_m_s"](i).value * 1e6),
+    # of rocker, slider, groove or fixed gear
+    "guide_force_N": lambda i: QuantityValue(i.reaction_squared(1), i.grip),
+}
 
 
-def sign_of(jet: V, known: Number | None) -> Number:
+def sign_of(jet: Jet, known: Number | None) -> Number:
     """The sign of a jet's value, or the known one; NaN in an array of signs is not known."""
     if isinstance(known, float):
         return known
-    own = np.copysign(1.0, value(jet))
+    own = np.copysign(1.0, jet.c[0])
     return own if known is None else np.where(np.isnan(known), own, known)
 
 
-def bounded(here: Instant[Array], name: str) -> Array:
+def bounded(here: Instant, name: str) -> Array:
     """A quantity, infinite where a force is unbounded, and 0 where no force is needed there."""
     own, margin, sign = here.quantity(name)
     if margin is None:
-        return own
-    bound = np.where(here.wheel_torque_Nm == 0.0, 0.0, np.inf)
-    return np.where((here.grip > 0.0) & (margin > 0.0), own, bound * sign)
+        return array(own.c[0])
+    bound = np.where(here.wheel_torque_Nm.c[0] == 0.0, 0.0, np.inf) * sign
+    is_bounded = (array(here.grip.c[0]) > 0.0) & (array(margin.c[0]) > 0.0)
+    return np.where(is_bounded, own.c[0], bound)

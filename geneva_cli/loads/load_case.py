@@ -9,7 +9,8 @@ from operator import attrgetter
 import numpy as np
 
 from geneva_cli.kept import Known
-from geneva_cli.loads.contact import LoadCase
+from geneva_cli.loads.contact import OF_MOTION, PRESSED, LoadCase
+from geneva_cli.loads.instant import QUANTITIES
 from geneva_cli.loads.strength.pin_arm_key import pin_diameter_mm
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
@@ -124,22 +125,16 @@ def multiples(mechanism: Mechanism) -> dict[str, tuple[str, float | None, str]]:
 
 def sources(mechanism: Mechanism) -> dict[str, tuple[str, float]]:
     """Each known quantity by name: the one that is searched for it, and its ratio to that."""
-    known = ["omega_rad_s", "alpha_rad_s2", "sliding_m_s"]
-    if mechanism.spec.is_loaded:
-        pressed = load_case(mechanism).hertz is not None
-        guided = mechanism.engagements[0].reactions is not None  # as the joints of all of them
-        known = [
-            *("omega_rad_s", "alpha_rad_s2", "wheel_torque_Nm", "pin_force_N"),
-            *["contact_stress_MPa"] * pressed,
-            *("sliding_m_s", "input_torque_Nm", "wheel_bearing_N", "crank_bearing_N"),
-            *["pv_W_m2"] * pressed,
-            *["guide_force_N"] * guided,
-        ]
-    out = dict[str, tuple[str, float]]()
-    for name in known:
-        out[name] = name, 1.0
+    unknown = {"wall_force_N"}  # the force on the pin, with the sign of a wall
+    if not mechanism.spec.is_loaded:
+        unknown = QUANTITIES.keys() - {*OF_MOTION}
+    elif load_case(mechanism).hertz is None:
+        unknown |= {*PRESSED}
+    if mechanism.engagements[0].reactions is None:  # as the joints of all of them
+        unknown |= {"guide_force_N"}
+    out = {name: (name, 1.0) for name in QUANTITIES if name not in unknown}
     for name, (source, factor, _) in multiples(mechanism).items():
-        if factor is not None and source in known:
+        if factor is not None and source in out:
             out[name] = source, factor
     for name in mechanism.output.lacks:
         out.pop(name, None)
@@ -179,10 +174,7 @@ def inertia_kgm2(spec: Spec) -> float:
 
 def carried_kg(spec: Spec) -> float:
     """The mass of all bodies on the table, kg."""
-    total = 0.0
-    for mass in spec.mass:
-        total += mass.count * weight_kg(mass)
-    return total
+    return sum((mass.count * weight_kg(mass) for mass in spec.mass), 0.0)
 
 
 def farthest_mm(spec: Spec) -> float:

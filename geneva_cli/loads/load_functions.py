@@ -15,7 +15,7 @@ from typing import TypeAlias
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.loads.contact import NEAR_CUSP, NEGLIGIBLE, LoadCase, contact, value
+from geneva_cli.loads.contact import NEAR_CUSP, NEGLIGIBLE, LoadCase, contact
 from geneva_cli.loads.instant import Instant, LoadQuantity, Own, sign_of
 from geneva_cli.motion.batch import selection
 from geneva_cli.motion.engagement import Engagement
@@ -39,7 +39,7 @@ SIGN_FUNCTIONS = {
 }
 MARGINS = ("grip", "edge")  # where one of them is not above 0, a quantity is unbounded
 # values at an instant, whose quantities are those of ``LoadFunctions``
-Integrands: TypeAlias = Callable[[Instant[Jet], Sequence["str | LoadQuantity"]], Sequence[Array]]
+Integrands: TypeAlias = Callable[[Instant, Sequence["str | LoadQuantity"]], Sequence[Array]]
 
 
 class LoadFunctions:
@@ -64,10 +64,8 @@ class LoadFunctions:
             "leans": case.guided,
             "edge": engagement.slot.curved and case.hertz is not None,
         }
-        self.kinds: list[str] = []
-        for kind in (*SIGN_FUNCTIONS, "wanted"):
-            if matters.get(kind) or kind in more:
-                self.kinds.append(kind)
+        every = *SIGN_FUNCTIONS, "wanted"
+        self.kinds = [kind for kind in every if matters.get(kind) or kind in more]
         self.signs, self.wanted = len(self.kinds), len(names)
         self.poled: Sequence[int] = (self.kinds.index("edge"),) if "edge" in self.kinds else ()
         # where links carry the roller, bearings and guide need the reactions of joints
@@ -150,25 +148,21 @@ class LoadFunctions:
 
     def at(
         self, x: Array, which: Which, order: int = 0, held: Array | None = None
-    ) -> tuple[Instant[Jet], list[str | LoadQuantity], list[tuple[Array, Jet]]]:
+    ) -> tuple[Instant, list[str | LoadQuantity], list[tuple[Array, Jet]]]:
         """The instants of some designs at places (m, k), degrees, and the quantities there.
 
         With them the signs that matter, known ones as ``held``, and the functions that have them.
         """
         engagement, case, quantities = self._some(which) if self._some else self._every
         known: dict[str, Array] = {} if held is None else dict(zip(self.kinds, held, strict=True))
-        signs: list[Number | None] = [known.get("drives")]
-        for kind in ("slides", "feeds"):  # 1 where it does not matter
-            signs.append(known.get(kind) if kind in self.kinds else 1.0)
+        others = dict.fromkeys({"slides", "feeds"} - {*self.kinds}, 1.0)  # which do not matter
+        signs = map((known | others).get, ("drives", "slides", "feeds"))
         instant = Instant(case, contact(engagement, x, order, self.reactions), *signs)
         found: list[tuple[Array, Jet]] = []
         for kind in self.kinds:
             of = SIGN_FUNCTIONS.get(kind)
             jet: Jet = of(instant) if of else instant.quantity(quantities[0]).value
-            if kind in ("drives", "slides", "feeds"):
-                found.append((getattr(instant, kind), jet))
-            else:
-                found.append((array(sign_of(jet, known.get(kind))), jet))
+            found.append((array(sign_of(jet, known.get(kind))), jet))
         return instant, quantities, found
 
     def __call__(
@@ -245,10 +239,10 @@ def at_mid_motion(
         for sense, acceleration in ((1.0, at.acceleration), (-1.0, Jet([after]))):
             turned = {name: getattr(at, name) * sense for name in ("along", "offset", "curvature")}
             instant = Instant(case, at._replace(acceleration=acceleration, **turned))
-            loaded = case.is_loaded(engagement, value(instant.wheel_torque_Nm))
+            loaded = case.is_loaded(engagement, instant.wheel_torque_Nm.c[0])
             for k, of in enumerate(quantities):
                 row, margin, sign = instant.quantity(of)
-                known, bar = value(row), np.inf if margin is None else value(margin)
+                known, bar = row.c[0], np.inf if margin is None else margin.c[0]
                 finite = np.isfinite(known)
                 add(k, known, np.isinf(bar) & finite)
                 for limit in limits:

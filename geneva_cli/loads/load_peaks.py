@@ -19,7 +19,7 @@ from geneva_cli.motion.peak_search import PeakArray, greater
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import array, parameter
 from geneva_cli.numerics.extremes import SearchResult, bar
-from geneva_cli.numerics.jet import Array, Jet
+from geneva_cli.numerics.jet import Array
 
 # Loads whose greatest size a report shows, and their names in the cycle.
 REPORTED_PEAKS = {
@@ -72,12 +72,6 @@ def load_peaks(
     return best
 
 
-def _slope_squared(i: Instant[Jet]) -> contact.QuantityValue[Jet]:
-    """The square of the pressure angle's tangent."""
-    slope = i.at.offset / i.at.lever
-    return contact.QuantityValue(slope * slope)
-
-
 def greatest_pressure(mechanism: Mechanism) -> PeakArray:
     """The greatest pressure angles of m designs, degrees, and their input angles: (m,).
 
@@ -90,10 +84,12 @@ def greatest_pressure(mechanism: Mechanism) -> PeakArray:
             at_deg = np.ravel(mechanism.shown_deg(engagement.mid_deg))
             known = np.full(mechanism.designs, 0.0 if np.all(crosses) else np.nan)
             return PeakArray(90.0 + known, at_deg + known)
-    own: dict[str, LoadQuantity] = {"slope": _slope_squared}
+    own: dict[str, LoadQuantity] = {
+        "tangent": lambda i: contact.QuantityValue(i.at.offset / i.at.lever)
+    }
     case = load_case(mechanism).lossless()._replace(inertia_Nm=0.0)
-    peak = load_peaks(mechanism, tuple(own), own, case)["slope"]
-    angle = np.degrees(np.arctan(np.sqrt(peak.max)))
+    peak = load_peaks(mechanism, tuple(own), own, case)["tangent"]
+    angle = np.degrees(np.arctan(peak.max))
     return PeakArray(angle, np.where(angle > 0.0, peak.at_deg, 0.0))  # 0 throughout a radial slot
 
 
@@ -231,7 +227,7 @@ def _sums_of(load: LoadFunctions, result: SearchResult) -> Array:
     pieces, n = load.stretches(result), load.n
     needed = np.tile(np.isfinite(result.most).reshape(2, -1, n).all(axis=0), (2, 1))
 
-    def functions(here: Instant[Jet], every: Sequence[str | LoadQuantity]) -> list[Array]:
+    def functions(here: Instant, every: Sequence[str | LoadQuantity]) -> list[Array]:
         values = [array(here.quantity(of).value.c[0]) for of in every]
         both = list(zip(load.names, values, strict=True))
         squares = [value if name in contact.SQUARED else value * value for name, value in both]

@@ -12,17 +12,17 @@ from geneva_cli.loads.instant import Instant, LoadQuantity
 from geneva_cli.loads.load_case import inertia_kgm2, load_case, resisting_torques_Nm
 from geneva_cli.loads.load_functions import LoadFunctions
 from geneva_cli.loads.load_peaks import LoadSummary, load_peaks, load_summaries
-from geneva_cli.motion.engagement import Engagement
+from geneva_cli.motion.many import worst_peaks
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import motion_peaks
 from geneva_cli.motion.timing import CamFactors, cam_factors
 from geneva_cli.numerics.angles import DEGREE, omega, radians
-from geneva_cli.numerics.arrays import Array, Mask, Number, array, parameter
-from geneva_cli.numerics.jet import Jet
+from geneva_cli.numerics.arrays import Array, Number, array, parameter
 
 # known without a load
 KNOWN_UNLOADED = ("inertia_kgm2", "motor_rpm", "acceleration_rad_s2", "Am", "Vm", "Qm")
 SUMS = ("energy_fluctuation_J", "flywheel_kgm2", "flywheel_to_add_kgm2", "motor_torque_rms_Nm")
+FACTORS = ("velocity", "acceleration", "power")  # whose peaks give the factors of a motion
 WHEEL_INERTIA = "wheel_inertia_kgm2"  # known from the parts, not from ``sizings``
 # the keys without which a value is unknown
 NEEDS = {
@@ -62,8 +62,7 @@ def sizings(mechanism: Mechanism, requested: Collection[str]) -> dict[str, Array
         frame = whole.frame
         motor = spec.motor.inertia_kgm2 * spec.motor.ratio**2
         others = max(0, spec.drive.wheels_on_carrier - 1) * frame * frame
-        velocities = [_peaks(engagement, "velocity")[0] for engagement in whole.engagements]
-        fastest = np.max(np.broadcast_arrays(*velocities), axis=0) + frame
+        fastest = worst_peaks(whole, ["velocity"])["velocity"].max[:, None] + frame
         with np.errstate(all="ignore"):
             ratios = [np.divide(own * (turn * turn + others), motor) for turn in (frame, fastest)]
         known = np.asarray(spec.motor.inertia_kgm2) > 0.0
@@ -78,12 +77,6 @@ def sizings(mechanism: Mechanism, requested: Collection[str]) -> dict[str, Array
 def _some(x: Number) -> Array:
     """The number, with NaN in place of 0."""
     return np.where(np.asarray(x) > 0.0, x, np.nan)
-
-
-def _peaks(engagement: Engagement, *names: str) -> list[float]:
-    """The greatest values of quantities of a motion, as invariants: (m, 1) each."""
-    peaks = motion_peaks(engagement.motion, names)
-    return [parameter(peaks[name].max[:, None]) for name in names]
 
 
 def indexer_formula(
@@ -120,7 +113,8 @@ def _by_formula(mechanism: Mechanism) -> dict[str, Number]:
     load, each = (inertia_kgm2(spec), friction, work), list[dict[str, float]]()
     for number, engagement in enumerate(mechanism.engagements):
         step, motion = spec.wheel.index_deg(number), engagement.motion_deg
-        velocity, acceleration, power = _peaks(engagement, "velocity", "acceleration", "power")
+        peaks = motion_peaks(engagement.motion, FACTORS)
+        velocity, acceleration, power = (parameter(peaks[n].max[:, None]) for n in FACTORS)
         factors = cam_factors(velocity, acceleration, power, motion, step)
         row = factors._asdict() | indexer_formula(factors, step, motion, spec.drive.n_rpm, load, fc)
         # a carrier also turns the wheel's frame, whose torque need not be greatest there
@@ -175,7 +169,7 @@ class Unevenness(NamedTuple):
 
     mean: Array
 
-    def __call__(self, i: Instant[Jet]) -> QuantityValue[Jet]:
+    def __call__(self, i: Instant) -> QuantityValue:
         """The quantity, and the margin that bounds it."""
         return QuantityValue(i.input_torque_Nm - self.mean, i.friction_margin)
 
@@ -189,37 +183,31 @@ def fluctuations(mechanism: Mechanism, mean: Array) -> tuple[Array, Array]:
     """
     bounded = np.isfinite(mean)
     mean = np.where(bounded, mean, 0.0)[:, None]
-    case, end = load_case(mechanism), None
-    each, returned = [0.0 * mean], np.zeros(len(mean))
+    case, end, n = load_case(mechanism), None, len(mean)
+    each, returned = [0.0 * mean], np.zeros(n)
     for engagement in mechanism.engagements:
         if end is not None:
             each.append(-mean * (engagement.mid_deg + engagement.entry_deg - end) * DEGREE)
         own: dict[str, LoadQuantity] = {"unevenness_Nm": Unevenness(mean)}
         load = LoadFunctions(engagement, case, tuple(own), own, ("feeds", "wanted"))
-        works, back = _works(load, bounded)
+        pieces = load.stretches()
+        work, back = load.integrals(pieces, _work_and_returned, np.stack((bounded, bounded)))
+        # a row for each design, padded with zeros
+        number = np.arange(len(work)) - np.searchsorted(pieces.design, pieces.design)
+        works = np.zeros((len(mean), int(number.max()) + 1))
+        works[pieces.design, number] = np.where(bounded[pieces.design], work, 0.0)
         each.append(works)
-        returned += back
+        np.add.at(returned, pieces.design, back)
         end = engagement.mid_deg + engagement.exit_deg
     sums = np.cumsum(np.hstack(each), axis=1)
     energy = sums.max(axis=1) - sums.min(axis=1)
     return np.where(bounded, energy, np.inf), np.where(bounded, returned, np.inf)
 
 
-def _works(load: LoadFunctions, bounded: Mask) -> tuple[Array, Array]:
-    """Works less the mean's, J, a row for each design padded with zeros, and returned squares."""
-    pieces, n = load.stretches(), len(bounded)
-
-    def functions(here: Instant[Jet], every: Sequence[str | LoadQuantity]) -> tuple[Array, ...]:
-        back = array(0.5 * (1.0 - here.feeds) * here.input_torque_Nm.c[0])
-        return array(here.quantity(every[0]).value.c[0]), back * back
-
-    work, back = load.integrals(pieces, functions, np.stack((bounded, bounded)))
-    number = np.arange(len(work)) - np.searchsorted(pieces.design, pieces.design)
-    works = np.zeros((n, int(number.max()) + 1))
-    works[pieces.design, number] = np.where(bounded[pieces.design], work, 0.0)
-    returned = np.zeros(n)
-    np.add.at(returned, pieces.design, back)
-    return works, returned
+def _work_and_returned(here: Instant, every: Sequence[str | LoadQuantity]) -> tuple[Array, Array]:
+    """The input's torque less its mean, and the torque's square where the wheel drives."""
+    back = array(0.5 * (1.0 - here.feeds) * here.input_torque_Nm.c[0])
+    return array(here.quantity(every[0]).value.c[0]), back * back
 
 
 def kinetic_power_W(mechanism: Mechanism) -> Array:

@@ -11,11 +11,11 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeVar, cast
 
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Batchable, Truth, all_true, array, blocks, choose, library
-from geneva_cli.numerics.jet import Array, Jet, Number, Vector, turned, turning
+from geneva_cli.numerics.jet import Array, Jet, Number, Vector, turned
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Displacement, Path, Rate, Reactions
@@ -176,14 +176,14 @@ class WheelMotion(Batchable, ABC):
 class Engagement(Batchable):
     """Pin path, slot and motion of one roller in one slot.
 
-    The crank's arm carries the roller, or else ``body`` does, which ``reactions`` hold.
+    ``body`` carries the roller: the crank's arm, or else a link that ``reactions`` hold.
     """
 
     mid_deg: float  # the machine's input angle at its mid-motion
     path: Path
     slot: Slot
     motion: WheelMotion
-    body: Rate | float | None = None  # its rate; a number if that is constant
+    body: Rate | float | None  # its rate; a number if that is constant; None for a ``carrier``
     reactions: Reactions | None = None
     crank_sense: float = 0.0  # of a crank that does not carry it: -1 with the wheel, 1 against it
     groove: Any = None  # the ``SolvedPath``, if a fixed groove guides the roller along the crank
@@ -250,10 +250,7 @@ class Engagement(Batchable):
         """Rate of the body that carries the roller, about its axis, positive with the wheel."""
         if callable(self.body):
             return self.body(radians(input_deg), order)
-        if self.body is not None:
-            return Jet((input_deg * 0.0 + self.body, *[0.0] * order))
-        x, y = self.path(input_deg, order + 1)
-        return turning(x - 1.0, y)
+        return Jet((input_deg * 0.0 + cast(float, self.body), *[0.0] * order))
 
     def shaft(self, input_deg: Number, order: int = 0) -> Jet:
         """Angle of the drive's own input shaft from mid-motion, radians."""

@@ -9,11 +9,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import Array, Number, smaller
+from geneva_cli.numerics.arrays import Array, Number, piece_of, smaller
 from geneva_cli.numerics.jet import Jet, piecewise, sin_cos
 
 if TYPE_CHECKING:
     from geneva_cli.motion.given_motion import SolvedPath
+    from geneva_cli.numerics.jet import Path
 
 EASED_DEG = 30.0  # of the input: range in which the groove joins its arc in the dwell
 
@@ -24,10 +25,19 @@ def roller_in_groove(groove: SolvedPath, input_deg: Array) -> Array:
     return np.column_stack((1.0 - groove.sign * R * np.cos(angle), R * np.sin(angle)))
 
 
-def path_in_dwell(groove: SolvedPath, input_deg: Number, order: int) -> tuple[Jet, Jet]:
-    """Roller (x, y) at input angles in the dwell after the motion, in units of L."""
-    R = in_dwell(groove, input_deg, order)
-    s, c = sin_cos(Jet.variable(radians(input_deg), order))
+def path_over_turn(
+    groove: SolvedPath, moving: Path, input_deg: Number, order: int
+) -> tuple[Jet, Jet]:
+    """Roller (x, y), in units of L, at input angles up to half a turn from mid-motion.
+
+    ``moving`` is the path in the motion.
+    """
+    part = piece_of(input_deg, (groove.motion.entry_deg, groove.motion.exit_deg))
+    if part == 1:
+        return moving(input_deg, order)
+    at = input_deg if part else input_deg + 360.0  # in the dwell after the motion
+    R = in_dwell(groove, at, order)
+    s, c = sin_cos(Jet.variable(radians(at), order))
     return 1.0 - R * c * groove.sign, R * s
 
 

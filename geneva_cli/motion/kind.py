@@ -23,7 +23,8 @@ class Kind(NamedTuple):
     parts: str = ""  # class of the parts of wheel and crank
     no_parts: str = ""  # function that returns the reason why a spec has no parts, or ""
     front: str = ""  # class of links and gears in front of a crank that is not flat
-    drawings: Mapping[str, str] = _NONE  # or sheets, by the names of the parts that they show
+    # modules that draw a part, or a sheet, by its name: the function is named as the part
+    drawings: Mapping[str, str] = _NONE
     tables: Mapping[str, str] = _NONE  # of points, by the names of the parts
     dimensions: str = ""  # in the list of parts, of these parts
     # function that returns the ``KeySizes`` of a mechanism, where its parts are not flat

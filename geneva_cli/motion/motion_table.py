@@ -11,6 +11,7 @@ from geneva_cli.errors import GenevaError, cut
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import distinct
+from geneva_cli.numerics.arrays import Whole, rising
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
 from geneva_cli.table import Table, computed_table
@@ -51,7 +52,7 @@ def motion_table(mechanism: Mechanism, samples: int) -> Table:
     return computed_table(
         motion_columns(mechanism),
         samples,
-        lambda i, j: _columns(mechanism, inputs(mechanism, samples, i, j), 0),
+        lambda i, j: [*_columns(mechanism, inputs(mechanism, samples, i, j), np.zeros(j - i, int))],
     )
 
 
@@ -70,10 +71,9 @@ def turns_table(mechanism: Mechanism, samples: int, turns: int) -> Table:
     )
     # An even row that a knot repeats but for rounding is left out.
     places = np.sort(np.append(even[apart > 1e-9 * period], knots))
-    cuts = np.searchsorted(places, period * np.arange(1, count))
-    start = first_entry_deg(mechanism)
-    columns = [_columns(mechanism, start + x, k) for k, x in enumerate(np.split(places, cuts))]
-    return Table(motion_columns(mechanism), [np.concatenate(c) for c in zip(*columns, strict=True)])
+    passed = np.searchsorted(period * np.arange(1, count), places, "right")
+    columns = _columns(mechanism, first_entry_deg(mechanism) + places, passed)
+    return Table(motion_columns(mechanism), [*columns])
 
 
 def checked_angles(at_deg: Sequence[float]) -> Array:
@@ -93,16 +93,11 @@ def angles_table(mechanism: Mechanism, at_deg: Sequence[float]) -> Table:
     """
     places = checked_angles(at_deg)
     start, period = first_entry_deg(mechanism), mechanism.period_deg
-    count = np.floor((places - start + SAME_INPUT_DEG) / period)
+    count = np.floor((places - start + SAME_INPUT_DEG) / period).astype(int)
     knots = start + knots_deg(mechanism, 1)
-    columns = np.empty((len(motion_columns(mechanism)), len(places)))
-    for k in np.unique(count).tolist():
-        which = np.flatnonzero(count == k)
-        which = which[np.argsort(places[which])]
-        here = places[which]
-        near = k * period + knots[np.abs(here[:, None] - k * period - knots).argmin(axis=1)]
-        exact = np.where(abs(near - here) <= SAME_INPUT_DEG, near, here)
-        columns[:, which] = _columns(mechanism, exact, int(k))
+    near = knots[np.abs((places - count * period)[:, None] - knots).argmin(axis=1)] + count * period
+    exact = np.where(abs(near - places) <= SAME_INPUT_DEG, near, places)
+    columns = _columns(mechanism, exact, count)
     columns[1] = places
     return Table(motion_columns(mechanism), list(columns))
 
@@ -153,12 +148,18 @@ def times_s(mechanism: Mechanism, input_deg: Array) -> Array:
     return time_s + lost_s
 
 
-def _columns(mechanism: Mechanism, input_deg: Array, periods: int) -> list[Array]:
-    """The columns at ascending input angles of a period, which others came before."""
-    before_deg = periods * mechanism.period_deg
-    wheel, *rates = derivatives(mechanism, input_deg - before_deg, (0, 1, 2, 3))
-    turned = periods * math.fsum(2.0 * one.half_step for one in mechanism.engagements)
-    return columns_of(mechanism, input_deg, (wheel + turned) * mechanism.output.per_radian, rates)
+def _columns(mechanism: Mechanism, input_deg: Array, passed: Whole) -> Array:
+    """The columns, each a row (k,), at input angles (k,), which so many periods have ``passed``."""
+    out = np.empty((len(motion_columns(mechanism)), len(input_deg)))
+    turned = math.fsum(2.0 * one.half_step for one in mechanism.engagements)
+    for k in rising(passed).tolist():
+        which = np.flatnonzero(passed == k)
+        which = which[np.argsort(input_deg[which])]
+        at = input_deg[which]
+        wheel, *rates = derivatives(mechanism, at - k * mechanism.period_deg, (0, 1, 2, 3))
+        shown = (wheel + k * turned) * mechanism.output.per_radian
+        out[:, which] = columns_of(mechanism, at, shown, rates)
+    return out
 
 
 def columns_of(

@@ -18,21 +18,9 @@ from geneva_cli.spec.schema import shown
 CRANK = "drives.crank:Crank"  # the drive of a spec without one
 _CRANK, _PIN_PATH = "motion.compatible:of_transmission", "motion.compatible:of_pin_path"
 # Of flat parts, and of links and gears in front of a crank.
-_DRAWINGS = {
-    "slot": "drawings.part_drawings:slot",
-    "wheel": "drawings.part_drawings:wheel",
-    "crank": "drawings.part_drawings:crank",
-    "arm": "drawings.part_drawings:arm",
-    "links": "drawings.part_drawings:links",
-    "first-wheel": "drawings.part_drawings:wheel",
-    "first-crank": "drawings.part_drawings:crank",
-    "frame": "drawings.part_drawings:frame",
-    "assembly": "drawings.part_drawings:machine",
-    "gears": "drawings.part_drawings:gears",
-    "groove": "drawings.part_drawings:groove",
-    "groove-plate": "drawings.part_drawings:groove_plate",
-    "plate": "drawings.parts_list:plate",
-}
+_DRAWN = "slot wheel crank arm links first-wheel first-crank frame assembly gears groove "
+_DRAWINGS = dict.fromkeys(f"{_DRAWN}groove-plate".split(), "drawings.part_drawings")
+_DRAWINGS["plate"] = "drawings.parts_list"
 _TABLES = {
     "slot": "parts.slots.slot_profile:profile_table",
     "gears": "parts.gears.gear_pair:gears_table",
@@ -42,7 +30,7 @@ _TABLES = {
 FRONT = "parts.flat_parts:FrontParts"
 # What wheels in the plane have in common.
 _FLAT = Kind("", parts="parts.flat_parts:FlatParts", tables=_TABLES)
-_FLAT = _FLAT._replace(drawings=_DRAWINGS | {"sheet": "drawings.sheet.machine_sheet:sheet"})
+_FLAT = _FLAT._replace(drawings=_DRAWINGS | {"sheet": "drawings.sheet.machine_sheet"})
 # The kinds of the core; those in ``kinds`` follow.
 _CORE = (
     _FLAT._replace(

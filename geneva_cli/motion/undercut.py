@@ -111,9 +111,5 @@ def depths_mm(wall: OuterWall, roller_mm: Number, L: Number) -> Array:
         # a single design needs no copy for each place
         own_wall = slice(None) if len(wall.bend) == 1 else d
         x, y = x[:, None] - wall.x[own_wall], y[:, None] - wall.y[own_wall]
-        # a fraction of the time of hypot, which is used for the nearest places only
-        square = x * x + y * y
-        # beyond 1e-14 a square is greater whatever the rounding; NaN stays NaN
-        near = ~(square > (1.0 + 1e-14) * square.min(axis=1, keepdims=True))
-        np.minimum.at(gap, d[np.nonzero(near)[0]], np.hypot(x[near], y[near]))
+        np.minimum.at(gap, d, np.sqrt((x * x + y * y).min(axis=1)))
     return np.ravel(L * np.maximum(0.0, r - gap[:, None]))

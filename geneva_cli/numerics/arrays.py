@@ -11,11 +11,10 @@ import math
 from bisect import bisect_left
 from collections.abc import Callable, Sequence
 from operator import itemgetter, methodcaller
-from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Protocol, Self, TypeAlias, TypeVar, cast
+from types import ModuleType
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self, TypeAlias, TypeVar, cast
 
 if TYPE_CHECKING:
-    from decimal import Decimal
-
     import numpy as np
     from numpy.typing import NDArray
 
@@ -30,29 +29,11 @@ Truth: TypeAlias = "bool | Mask"
 # One kind of number as argument, and the same kind as result.
 N = TypeVar("N", float, "Array", "Number")
 Either = TypeVar("Either", "Array", "Whole")
-Real = TypeVar("Real", float, "Array", "Number", "Decimal")
+Real = TypeVar("Real", float, "Array", "Number")
 T = TypeVar("T")
 Record = TypeVar("Record", bound=tuple[object, ...])
+Library: TypeAlias = ModuleType  # ``math``, ``numpy``, or an object with the like of enclosures
 _PLAIN = (float, int)
-
-if TYPE_CHECKING:
-
-    class Library(Protocol):
-        """The functions that ``math`` and ``numpy`` share."""
-
-        @property
-        def pi(self) -> float: ...
-        def sin(self, x: N, /) -> N: ...
-        def cos(self, x: N, /) -> N: ...
-        def asin(self, x: N, /) -> N: ...
-        def acos(self, x: N, /) -> N: ...
-        def atan2(self, y: N, x: N, /) -> N: ...
-        def hypot(self, x: N, y: N, /) -> N: ...
-        def sqrt(self, x: N, /) -> N: ...
-        def floor(self, x: N, /) -> N: ...
-        def ceil(self, x: N, /) -> N: ...
-        def degrees(self, x: N, /) -> N: ...
-        def copysign(self, x: N, y: N, /) -> N: ...
 
 
 class Enclosed:
@@ -63,7 +44,7 @@ class Enclosed:
 
     __slots__ = ()
     __array_ufunc__ = None  # NumPy's numbers leave the arithmetic to the enclosure
-    library: ClassVar[Library]
+    library: ClassVar[Any]
 
     # How far one may reach over the end of its piece of a formula, in the formula's own variable:
     # the ends are known to a few units in the last place of doubles (EDGE_DEG of enclosures).
@@ -139,13 +120,13 @@ def enclosed(x: Number, numbers: Record) -> Record:
 def library(x: Number, y: Number = 0.0, z: Number = 0.0) -> Library:
     """The module whose functions suit these numbers: ``numpy`` if one of them is an array."""
     if isinstance(x, _PLAIN) and isinstance(y, _PLAIN) and isinstance(z, _PLAIN):
-        return cast("Library", math)
+        return math
     for one in (x, y, z):
         if isinstance(one, Enclosed):
             return one.library
     import numpy
 
-    return cast("Library", numpy)
+    return numpy
 
 
 def choose(condition: Truth, yes: Real, no: Real) -> Real:

@@ -55,8 +55,19 @@ class SearchResult(NamedTuple):
 
     @property
     def stretches(self) -> Stretches:
-        """The parts on which no sign changes."""
-        return _stretches(self.pieces)
+        """The parts on which no sign changes: adjacent pieces with equal signs joined into one."""
+        if not self.pieces:
+            return Stretches(np.arange(0), np.arange(0), np.zeros((2, 0)), np.full((0, 0), True))
+        rows, sign = joined(self.pieces)
+        order = np.lexsort((rows.x[1], rows.x[0], rows.span, rows.design))  # empty pieces first
+        design, span, _, (a, b) = record_taken(rows, order)
+        positive = sign[:, order] > 0.0
+        first = np.ones(len(design), dtype=bool)
+        first[1:] = (design[1:] != design[:-1]) | (span[1:] != span[:-1])
+        first[1:] |= (positive[:, 1:] != positive[:, :-1]).any(axis=0)
+        last = np.append(first[1:], True)
+        x = np.stack((a[first], b[last]))
+        return Stretches(design[first], span[first], x, positive[:, first])
 
 
 @dataclass
@@ -88,16 +99,22 @@ class Smooth:
 
 
 def search(
-    f: Functions, spans: Spans, sized: bool, known: Sequence[Known] = (), w: Array | None = None
+    f: Functions,
+    spans: Spans,
+    sized: bool,
+    known: Sequence[Known] = (),
+    w: Array | None = None,
+    requested: Asked = None,
 ) -> SearchResult:
     """The greatest values of n designs over their spans, whose ends are (n, 1).
 
     With ``sized`` they are the greatest sizes, else those of the functions and of their negatives.
     ``known`` are values that no span reaches: the number of a wanted function, and for each design
     the place and the value, or NaN. Samples are spread about 0 by ``w`` (n, 1), or evenly spaced.
+    ``requested`` are the numbers of the functions, all by default.
     """
     with np.errstate(all="ignore"):
-        cutter = Cutter(f, np.array(spans), w, None)
+        cutter = Cutter(f, np.array(spans), w, requested)
         extremes = _Extremes(cutter, sized)
         for number, x, value in known:
             design = np.flatnonzero(~np.isnan(value))
@@ -123,15 +140,7 @@ def search(
 
 def cuts(f: Functions, spans: Spans) -> Stretches:
     """The parts of the spans of ``search`` on which no sign changes."""
-    with np.errstate(all="ignore"):
-        cutter = Cutter(f, np.array(spans), None, ())
-        out: list[tuple[Rows, Array]] = []
-        for part in blocks(len(cutter.w), BLOCK):
-            cutter.begin(part)
-            while level := cutter.level():
-                for pieces in map(cutter.pieces, level):
-                    out.append((pieces.rows, pieces.sign))
-        return _stretches(out)
+    return search(f, spans, sized=True, requested=()).stretches
 
 
 class _Candidates(NamedTuple):
@@ -144,7 +153,7 @@ class _Candidates(NamedTuple):
     ends: Array  # of the piece: (2, m)
     x: Array  # from which to search
     near: Array  # the longest step from there
-    uphill: Array  # 1 for a maximum, -1 for a minimum, 0 for the value there
+    uphill: Array  # 1 for a maximum, -1 for a minimum
     reach: Array  # a bound of the value, with its sign by the side
 
 
@@ -153,7 +162,8 @@ class _Extremes:
 
     def __init__(self, cutter: Cutter, sized: bool) -> None:
         self.f, self.sized, self.cutter = cutter.f, sized, cutter
-        n, wanted = len(cutter.w), cutter.f.wanted
+        n, asked = len(cutter.w), cutter.requested
+        wanted = cutter.f.wanted if asked is None else len(asked)
         self.most = np.full((1 if sized else 2, wanted, n), -np.inf)
         self.size = np.zeros((wanted, n))  # typical ones, of samples far from poles
         self.at_sample = np.full(self.most.shape, np.nan)  # the place of a greatest sample
@@ -182,7 +192,7 @@ class _Extremes:
         top = np.take_along_axis(sided, best[:, :, None], axis=2)[:, :, 0]
         top = np.where(endless, np.inf, top)
         place = np.where(endless, a, x[best, np.arange(len(design))])
-        sides, numbers, _ = np.ogrid[: len(top), : self.f.wanted, :1]
+        sides, numbers, _ = np.ogrid[: len(top), : top.shape[1], :1]
         _raise(self.most, (sides, numbers, design), top)
         side, number, of = np.nonzero(top == self.most[..., design])
         self.at_sample[side, number, design[of]] = place[side, number, of]
@@ -230,58 +240,44 @@ class _Extremes:
             self._add_candidates(number, piece, left[number, piece], pieces)
 
     def _add_candidates(self, number: Whole, piece: Whole, left: Array, pieces: Pieces) -> None:
-        """Keep the places where functions turn on pieces, and their ends, if they may be greatest.
+        """Keep the tops of functions on pieces, some at their ends, if they may be greatest.
 
-        ``left`` is the error of their series, at whose ends a slope may have the wrong sign.
+        ``left`` is the error of their series.
         """
         rows, part = record_taken(pieces.rows, piece), pieces.part.take(piece, axis=1)
         samples = np.ascontiguousarray(pieces.value[number, :, piece].T)
-        whole = part[1] - part[0] == 2.0
-        cut = np.flatnonzero(~whole)
+        cut = np.flatnonzero(part[1] - part[0] < 2.0)
         if len(cut):  # at the points of the piece itself
             a, b = part[:, cut]
             t = 0.5 * (a + b) + 0.5 * (b - a) * POINTS[:, None]
             samples[:, cut] = at(series(samples.take(cut, axis=1)), t)
-        value, slope = on_grid(samples)
-        terms, every = series(samples), np.arange(len(number))
-        size = np.abs(samples).max(axis=0)
+        (value, slope), terms = on_grid(samples), series(samples)
         # of a constant the start alone: a range of rounding says nothing about places
-        varied = np.ptp(samples, axis=0) > 1e-13 * size
-        loose = np.flatnonzero(varied & ~(left <= 1e-11 * size))
-        # of each turn or end: side of the result, curve, position from -1 to 1, 1 for a maximum, -1
-        # for a minimum and 0 for the value there, and a bound of it but for the series' error
-        turns: list[tuple[Any, ...]] = []
+        varied = np.ptp(samples, axis=0) > 1e-13 * np.abs(samples).max(axis=0)
+        value, slope = np.pad(value, ((1, 1), (0, 0)), "edge"), np.where(varied, slope, 0.0)
+        grid, one = np.pad(GRID, 1, "edge"), np.ones((1, len(number)))
+        # of each top: side of the result, curve, position from -1 to 1, 1 for a maximum or -1 for a
+        # minimum, and a bound of it but for the series' error
+        tops: list[tuple[Any, ...]] = []
         for sense in (1.0, -1.0):
-            to = 0 if self.sized or sense > 0.0 else 1
-            g, d = sense * value, sense * slope
-            cell, of = np.nonzero((d[:-1] > 0.0) & (d[1:] <= 0.0) & varied)
+            # as if the function rose before the piece, and fell after it
+            g, d = sense * value, np.concatenate((one, sense * slope, -one))
+            cell, of = np.nonzero((d[:-1] > 0.0) & (d[1:] <= 0.0))
             before, after = d[cell, of], d[cell + 1, of]
-            t = GRID[cell] + (GRID[cell + 1] - GRID[cell]) * before / (before - after)
-            top = 2.0 * sense * at(terms[:, of], t)
-            top = top - np.minimum(g[cell, of], g[cell + 1, of])
-            turns.append(tuple(np.broadcast_arrays(to, of, t, sense, top)))
-            for end, there in ((-1.0, every), (1.0, np.flatnonzero(varied))):
-                at_end = sense * samples[0 if end < 0.0 else -1]
-                turns.append(tuple(np.broadcast_arrays(to, there, end, 0.0, at_end[there])))
-                top = at_end[loose] + 1e-3 * size[loose]
-                turns.append(tuple(np.broadcast_arrays(to, loose, end, sense, top)))
-        found = joined(turns)
-        side, of, _, _, top = found
-        reach = top + UNFINISHED * left[of]
-        design = rows.design[of]
+            t = grid[cell] + (grid[cell + 1] - grid[cell]) * before / (before - after)
+            top = 2.0 * sense * at(terms[:, of], t) - np.minimum(g[cell, of], g[cell + 1, of])
+            to = 0 if self.sized or sense > 0.0 else 1
+            tops.append(tuple(np.broadcast_arrays(to, of, t, sense, top)))
+        side, of, t, uphill, top = joined(tops)
+        reach, design = top + UNFINISHED * left[of], rows.design[of]
         least = bar(self.most[side, number[of], design], self.size[number[of], design])
         kept = np.flatnonzero(~(reach < least) & (least < np.inf))
-        side, of, t, uphill, top = record_taken(found, kept)
+        side, of, t, uphill, reach = record_taken((side, of, t, uphill, reach), kept)
         own, shifts = record_taken(rows, of), np.array([[-0.1], [0.0], [0.1]])
         before, x, after = own.places(t + shifts, self.cutter.w)[1]
         x = np.where(t == -1.0, own.x[0], np.where(t == 1.0, own.x[1], x))
-        # the sample at the end of a whole row is the value there
-        exact = (uphill == 0.0) & whole[of]
-        row = side, number[of], own.design
-        self.known.append(record_taken((*row, x, top), exact))
-        sign = pieces.sign.take(piece[of], axis=1)
-        some = _Candidates(*row, sign, own.x, x, after - before, uphill, reach[kept])
-        self.candidates.append(record_taken(some, ~exact))
+        row, sign = (side, number[of], own.design), pieces.sign.take(piece[of], axis=1)
+        self.candidates.append(_Candidates(*row, sign, own.x, x, after - before, uphill, reach))
 
     def refine(self) -> None:
         """Evaluate the functions themselves near the candidates."""
@@ -310,12 +306,6 @@ class _Extremes:
                     jets[k, here] = rows[k][self.f.signs + own, np.arange(len(of)), 0]
             v, slope, bend = jets[0], jets[1], 2.0 * jets[2]
             step = np.nan_to_num(some.uphill[live] * slope / np.abs(bend))
-            # at rest where the function has the other extreme: inwards, by less each time
-            rests = np.abs(slope) <= 1e-6 * np.abs(bend) * near[live]
-            away = rests & (some.uphill[live] * bend > 0.0)
-            middle = 0.5 * some.ends[:, live].sum(axis=0)
-            step = np.where(away, np.sign(middle - x[live]) * 0.1 * near[live], step)
-            near[live] *= np.where(away, 0.3, 1.0)
             step = np.clip(step, -near[live], near[live])
             step = np.clip(x[live] + step, *some.ends[:, live]) - x[live]
             short = np.abs(step) <= 1e-3 * near[live]
@@ -342,19 +332,3 @@ def bar(most: Array, size: Array) -> Array:
     # within 1e-12 of their own size, or of 1e-13 of the function's: at a root it is not exactly 0
     tie = np.maximum(1e-12 * np.abs(most), 1e-13 * size)
     return most - np.where(np.isfinite(most), tie, 0.0)
-
-
-def _stretches(pieces: Sequence[tuple[Rows, Array]]) -> Stretches:
-    """Adjacent pieces with equal signs joined into one."""
-    if not pieces:
-        return Stretches(np.arange(0), np.arange(0), np.zeros((2, 0)), np.full((0, 0), True))
-    rows, sign = joined(pieces)
-    order = np.lexsort((rows.x[1], rows.x[0], rows.span, rows.design))  # empty pieces first
-    design, span, _, (a, b) = record_taken(rows, order)
-    positive = sign[:, order] > 0.0
-    first = np.ones(len(design), dtype=bool)
-    first[1:] = (design[1:] != design[:-1]) | (span[1:] != span[:-1])
-    first[1:] |= (positive[:, 1:] != positive[:, :-1]).any(axis=0)
-    last = np.append(first[1:], True)
-    x = np.stack((a[first], b[last]))
-    return Stretches(design[first], span[first], x, positive[:, first])

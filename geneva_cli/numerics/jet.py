@@ -103,8 +103,7 @@ class Jet:
         return Jet(q)
 
     def __rtruediv__(self, other: Number) -> Jet:
-        # an int, as a float cannot be subtracted from a Decimal
-        return Jet((other, *[0] * self.order)) / self
+        return Jet((other, *[0.0] * self.order)) / self
 
 
 Vector: TypeAlias = tuple[Jet, Jet]

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from geneva_cli.numerics.arrays import Array, Real, Truth, Whole, all_true, choose
 from geneva_cli.numerics.tolerances import TIE
 
-MOST_STEPS = 200  # towards a root, at most; halving reaches the last of 50 digits in 170
+MOST_STEPS = 200  # towards a root, at most; halving reaches the last digit in 60
 
 
 def find_roots(f: Callable[[Array, Whole], tuple[Array, Array]], a: Array, b: Array) -> Array:
@@ -44,7 +44,7 @@ def boundary(
 ) -> Real:
     """The last number from ``good`` towards ``bad`` for which a condition holds, by halving.
 
-    ``good`` and ``bad`` are floats, arrays of designs, or Decimals of the current context.
+    ``good`` and ``bad`` are floats, or arrays of designs.
     ``evaluations`` limits their number; the condition holds for the result then too.
     """
     for _ in range(evaluations):
@@ -60,22 +60,14 @@ def boundary_by_sections(margin: Callable[[Array], Array], good: float, bad: flo
     """The last number from ``good`` towards ``bad`` at which a margin is positive."""
     import numpy as np
 
-    even, close = np.arange(1, 32) / 32, 0.5 ** np.arange(6, 54, 3)
-    left, short, root = math.nan, math.nan, 0.5
+    fractions = np.arange(1, 64) / 64
     for _ in range(MOST_STEPS):
-        if math.nextafter(good, bad) == bad:
+        x = good + (bad - good) * fractions
+        ends, holds = [good, *x.tolist(), bad], margin(x) > 0.0
+        first = len(x) if holds.all() else int(np.argmin(holds))
+        if [good, bad] == ends[first : first + 2]:
             break
-        fractions = np.sort(np.concatenate((even, root - close, root + close)))
-        x = good + (bad - good) * fractions[(fractions > 0.0) & (fractions < 1.0)]
-        y = margin(x)
-        yes = y > 0.0
-        i = len(x) if yes.all() else int(np.argmin(yes))
-        ends, margins = [good, *x.tolist(), bad], [left, *y.tolist(), short]
-        if (good, bad) == (ends[i], ends[i + 1]):
-            break
-        (good, bad), (left, short) = ends[i : i + 2], margins[i : i + 2]
-        known = math.isfinite(left - short)
-        root = left / (left - short) if known else 0.5
+        good, bad = ends[first : first + 2]
     return good
 
 

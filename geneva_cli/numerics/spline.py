@@ -38,69 +38,47 @@ class PiecewisePolynomial:
 
 def at_rest(x: Sequence[float], y: Sequence[float]) -> PiecewisePolynomial:
     """Return the spline through points whose first two derivatives are zero at both ends."""
-    starts, n = np.array(x[:-1]), len(x) - 1
-    knots = np.concatenate(
-        (np.repeat(x[0], SPLINE_DEGREE + 1), x[1:-1], np.repeat(x[-1], SPLINE_DEGREE + 1))
-    )
-    bases = _bases(knots, n)
-    # At a knot five B-splines are not zero. At rest, three coefficients are the end's value.
-    bands = bases[SPLINE_DEGREE][:SPLINE_DEGREE, 1:].T
-    values = np.array(y[1:-1])
-    for k in range(min(2, n - 1)):
-        values[k] -= y[0] * bands[k, : 2 - k].sum()
-        values[-1 - k] -= y[-1] * bands[-1 - k, 3 + k :].sum()
-    inner = _pentadiagonal(bands.tolist(), values.tolist())
-    rows = _pieces(knots, np.array([*[y[0]] * 3, *inner, *[y[-1]] * 3]), bases)
-    rows[:, 0] = y[:-1]
-    rows[0, 1:3] = 0.0
+    starts, h, rise = np.array(x[:-1]), np.diff(x), np.diff(y)
+    before, after, (low, high) = h[:-1], h[1:], (rise[:-1], rise[1:])
+    # Slope and curvature at the points inside are unknown, in turn: those of the point before, of
+    # the point and of the one after. The fourth and the third derivative do not jump there.
+    bands, values = np.zeros((len(before), 2, 7)), np.zeros((len(before), 2))
+    for column, (fourth, third) in enumerate(
+        (
+            (168.0 / before**3, -24.0 / before**2),
+            (24.0 / before**2, -3.0 / before),
+            (192.0 / before**3 + 192.0 / after**3, 36.0 / after**2 - 36.0 / before**2),
+            (36.0 / after**2 - 36.0 / before**2, 9.0 / before + 9.0 / after),
+            (168.0 / after**3, 24.0 / after**2),
+            (-24.0 / after**2, -3.0 / after),
+        )
+    ):
+        bands[:, 0, column + 1], bands[:, 1, column] = fourth, third
+    values[:, 0] = 360.0 * (low / before**4 + high / after**4)
+    values[:, 1] = 60.0 * (high / after**3 - low / before**3)
+    inner = _solved(bands.reshape(-1, 7).tolist(), values.ravel().tolist())
+    slope, bend = np.pad(np.reshape(inner, (-1, 2)).T, ((0, 0), (1, 1)))
+    (p, q), (u, v) = (slope[:-1] * h, slope[1:] * h), (bend[:-1] * h * h, bend[1:] * h * h)
+    third = (10.0 * rise - 6.0 * p - 4.0 * q - 1.5 * u + 0.5 * v) / h**3
+    fourth = (-15.0 * rise + 8.0 * p + 7.0 * q + 1.5 * u - v) / h**4
+    fifth = (6.0 * rise - 3.0 * p - 3.0 * q - 0.5 * u + 0.5 * v) / h**5
+    rows = np.column_stack((y[:-1], slope[:-1], 0.5 * bend[:-1], third, fourth, fifth))
     return PiecewisePolynomial(starts[1:], starts, rows)
 
 
-def _bases(knots: Array, n: int) -> list[Array]:
-    """Values of the B-splines of degrees 0 to 5 at the starts of n pieces: (degree + 1, n) each."""
-    first = np.arange(SPLINE_DEGREE, SPLINE_DEGREE + n)
-    x, values = knots[first], [np.ones((1, n))]
-    for p in range(1, SPLINE_DEGREE + 1):
-        rows = np.zeros((p + 1, n))
-        for r in range(p):
-            low, high = knots[first + 1 + r - p], knots[first + 1 + r]
-            share = values[-1][r] / (high - low)
-            rows[r] += (high - x) * share
-            rows[r + 1] += (x - low) * share
-        values.append(rows)
-    return values
-
-
-def _pieces(knots: Array, coefficients: Array, bases: list[Array]) -> Array:
-    """Taylor coefficients of a spline at the starts of its pieces, (n, 6)."""
-    n = bases[0].shape[1]
-    rows, d = np.zeros((n, SPLINE_DEGREE + 1)), coefficients
-    for k in range(SPLINE_DEGREE + 1):
-        p = SPLINE_DEGREE - k
-        for r in range(p + 1):
-            rows[:, k] += bases[p][r] * d[r : r + n]
-        rows[:, k] /= math.factorial(k)
-        if p:
-            low = np.arange(k + 1, k + len(d))
-            d = p * np.diff(d) / (knots[low + p] - knots[low])
-    return rows
-
-
-def _pentadiagonal(bands: list[list[float]], values: list[float]) -> list[float]:
-    """Solve a system whose row i holds columns i - 2 to i + 2.
-
-    B-splines' values are a totally positive matrix (C. de Boor, 1978): no pivots are needed.
-    """
+def _solved(bands: list[list[float]], values: list[float]) -> list[float]:
+    """Solve a system whose row i holds columns i - 3 to i + 3, without pivots."""
     n = len(values)
     for i in range(n):
-        for k in range(1, min(3, n - i)):
-            factor = bands[i + k][2 - k] / bands[i][2]
-            bands[i + k][3 - k] -= factor * bands[i][3]
-            bands[i + k][4 - k] -= factor * bands[i][4]
+        for k in range(1, min(4, n - i)):
+            factor = bands[i + k][3 - k] / bands[i][3]
+            for j in range(1, 4):
+                bands[i + k][3 - k + j] -= factor * bands[i][3 + j]
             values[i + k] -= factor * values[i]
-    out = [0.0] * (n + 2)
+    out = [0.0] * (n + 3)
     for i in reversed(range(n)):
-        out[i] = (values[i] - bands[i][3] * out[i + 1] - bands[i][4] * out[i + 2]) / bands[i][2]
+        later = sum(bands[i][3 + j] * out[i + j] for j in range(1, 4))
+        out[i] = (values[i] - later) / bands[i][3]
     return out[:n]
 
 

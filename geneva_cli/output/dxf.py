@@ -9,6 +9,7 @@ measures again gets the part's own size.
 import io
 import math
 from collections.abc import Callable, Iterator
+from typing import Any
 
 from geneva_cli.errors import GenevaError, clean, cut
 from geneva_cli.geometry import shapes
@@ -37,10 +38,8 @@ def chunks(drawing: papers.Drawing, version: str = USUAL) -> Iterator[str]:
 
     def fill(document: Document, space: Modelspace) -> None:
         for layer in drawing.layers:
-            name = "CENTER" if layer in CENTRE_LINES else "Continuous"
-            if layer in CENTRE_LINES:
-                _linetype(document, name, DASHES)
-            document.layers.add(layer, color=INKS[layer].number, linetype=name)
+            dashes = DASHES if layer in CENTRE_LINES else ()
+            _layer(document, layer, dashes, color=INKS[layer].number)
         for shape in drawing.shapes:
             _draw(space, shape)
         _extents(document, space, papers.extent(drawing))
@@ -53,11 +52,8 @@ def sheet_chunks(sheet: Sheet, version: str = USUAL) -> Iterator[str]:
 
     def fill(document: Document, space: Modelspace) -> None:
         for name, width in papers.WIDTHS.items():
-            pattern = "Continuous"
-            if name in papers.DASHED:
-                pattern = {2: "HIDDEN", 4: "CENTER"}[len(papers.DASHED[name])]
-                _linetype(document, pattern, papers.DASHED[name])
-            document.layers.add(name, color=7, linetype=pattern, lineweight=round(100.0 * width))
+            dashes = papers.DASHED.get(name, ())
+            _layer(document, name, dashes, color=7, lineweight=round(100.0 * width))
         document.styles.add("SHEET", font="arial.ttf")
         for shape in sheet.shapes:
             _draw(space, shape)
@@ -108,16 +104,11 @@ def _entity(space: BaseLayout, layer: str, piece: Piece) -> None:
     if isinstance(piece, shapes.Line):
         space.add_line(piece.start, piece.end, dxfattribs=attributes)
     elif isinstance(piece, shapes.Arc):
-        # Centre and angles of a larger arc are not precise enough for its ends.
-        if piece.radius > 1e5:
-            _polyline(space, layer, [piece], False)
-            return
         x, y = piece.centre
         start, end = (
             math.degrees(math.atan2(q - y, p - x)) % 360.0 for p, q in (piece.start, piece.end)
         )
-        angles = (start, end) if piece.bulge > 0.0 else (end, start)  # always counterclockwise
-        space.add_arc(piece.centre, piece.radius, *angles, dxfattribs=attributes)
+        space.add_arc((x, y), piece.radius, start, end, piece.bulge > 0.0, attributes)
     else:
         spline = space.add_spline(degree=3, dxfattribs=attributes)
         spline.control_points = piece.poles
@@ -219,12 +210,17 @@ def _extents(document: Document, space: Modelspace, box: tuple[float, float, flo
     document.set_modelspace_vport(1.1 * max(x1 - x0, y1 - y0), middle)
 
 
-def _linetype(document: Document, name: str, dashes: tuple[float, ...]) -> None:
-    """Define a pattern of dashes and gaps, once."""
-    if name not in document.linetypes:
-        pattern = [d * (1 if i % 2 == 0 else -1) for i, d in enumerate(dashes)]
-        shown = "____ _ ____ _ ____" if len(dashes) > 2 else "__ __ __ __"
-        document.linetypes.add(name, [sum(dashes), *pattern], description=shown)
+def _layer(document: Document, name: str, dashes: tuple[float, ...], **look: Any) -> None:
+    """Define a layer, and once its pattern of dashes and gaps."""
+    pattern, shown = {
+        0: ("Continuous", ""),
+        2: ("HIDDEN", "__ __ __ __"),
+        4: ("CENTER", "____ _ ____ _ ____"),
+    }[len(dashes)]
+    if pattern not in document.linetypes:
+        lengths = [d * (1 if i % 2 == 0 else -1) for i, d in enumerate(dashes)]
+        document.linetypes.add(pattern, [sum(dashes), *lengths], description=shown)
+    document.layers.add(name, linetype=pattern, **look)
 
 
 def _fixed(code: int, value: str) -> str:

@@ -8,7 +8,7 @@ settings and no widths of texts, so an empty cache lies in the folder of this fi
 import os
 from configparser import ConfigParser
 
-__all__ = ["BaseLayout", "Document", "Modelspace", "options", "readfile"]
+__all__ = ["BaseLayout", "ConstructionEllipse", "Document", "Modelspace", "options", "readfile"]
 
 CACHE = "XDG_CACHE_HOME"
 read, environment = ConfigParser.read, dict(os.environ)
@@ -20,6 +20,7 @@ try:
     from ezdxf.filemanagement import readfile
     from ezdxf.layouts.base import BaseLayout
     from ezdxf.layouts.layout import Modelspace
+    from ezdxf.math import ConstructionEllipse
 finally:
     setattr(ConfigParser, "read", read)  # noqa: B010
     del os.environ[CACHE]

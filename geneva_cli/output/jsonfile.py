@@ -15,19 +15,13 @@ def chunks(table: Table) -> Iterator[str]:
         return
     yield '{"rows": ['
     separator = "\n"
-    numbers = "{" + ", ".join(f"{json.dumps(name)}: %r" for name in table.names) + "}"
-    flat = table.mixed or not any("." in name for name in table.names)
+    names, encode = table.names, json.JSONEncoder(allow_nan=False).encode
     for block in table.blocks():
-        if flat and all(type(v) is float and math.isfinite(v) for row in block for v in row):
-            lines = [numbers % tuple(v + 0.0 for v in row) for row in block]
+        if table.mixed or not any("." in name for name in names):
+            trees = (dict(zip(names, map(_plain, row), strict=True)) for row in block)
         else:
-            names = table.names
-            trees = (
-                dict(zip(names, map(_plain, row), strict=True)) if flat else _nested(names, row)
-                for row in block
-            )
-            lines = [json.dumps(tree, allow_nan=False) for tree in trees]
-        yield separator + ",\n".join(lines)
+            trees = (_nested(names, row) for row in block)
+        yield separator + ",\n".join(map(encode, trees))
         separator = ",\n"
     yield "\n]}\n"
 

@@ -40,8 +40,4 @@ def _spelled(letter: str) -> str:
 
 
 def _is_western(letter: str) -> bool:
-    try:
-        letter.encode("cp1252")
-    except UnicodeEncodeError:
-        return False
-    return True
+    return bool(letter.encode("cp1252", "ignore"))

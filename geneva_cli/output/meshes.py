@@ -1,11 +1,8 @@
 """The solids of a part as closed meshes, by manifold3d: one for each kind, and its places."""
 
-from __future__ import annotations
-
 import math
 from functools import lru_cache
-from itertools import pairwise
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import manifold3d as m3
 import numpy as np
@@ -14,14 +11,9 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Group, Part, Plate, Shell, Solid, oriented
 from geneva_cli.geometry.shapes import STRAIGHT, Arc, Cubic, Layer, Segment, points
 from geneva_cli.geometry.sheet import Drawing
-from geneva_cli.geometry.sphere import Vector, axis_frame, unit
-from geneva_cli.numerics.arrays import Array
-from geneva_cli.output.solid_part import plate_contours, require_thick, solid_part
-
-if TYPE_CHECKING:
-    import numpy.typing as npt
-
-    Numbers: TypeAlias = npt.NDArray[np.int64]
+from geneva_cli.geometry.sphere import axis_frame, unit
+from geneva_cli.numerics.arrays import Array, Complex, Whole
+from geneva_cli.output.solid_part import plate_contours, solid_part
 
 DECIMALS = 6  # of coordinates in mm, so that rounding of another processor is not seen
 CORNERS_MAX = 200_000  # of a solid: a file of about 40 MB
@@ -40,7 +32,7 @@ class Body(NamedTuple):
     name: str
     layer: Layer
     corners: Array
-    triangles: Numbers
+    triangles: Whole
     places: list[Place]
 
 
@@ -73,111 +65,88 @@ def placed(corners: Array, place: Place) -> Array:
 
 
 @lru_cache(maxsize=32)  # an export writes each solid by itself, and all of them together
-def _surface(solid: Solid, tolerance: float) -> tuple[Array, Numbers]:
-    if not tolerance > 0.0:
-        raise GenevaError(f"--tolerance {tolerance:g}: it must be above 0 mm")
+def _surface(solid: Solid, tolerance: float) -> tuple[Array, Whole]:
     body = _shell(solid, tolerance) if isinstance(solid, Shell) else _plate(solid, tolerance)
     mesh = body.to_mesh64()
     corners = _rounded(np.asarray(mesh.vert_properties)[:, :3])
     if body.is_empty() or not np.ptp(corners, axis=0).all():  # thinner than the decimals
         raise _no_wall(solid.name)
-    return corners, np.asarray(mesh.tri_verts).astype(np.int64)
+    return corners, np.asarray(mesh.tri_verts).astype(np.intp)
 
 
 def _plate(plate: Plate, tolerance: float) -> m3.Manifold:
-    """Return a plate: a ring of corners around each face, strips, and two faces."""
+    """Return a plate: its face, extruded."""
     shapes = plate_contours(plate)
     if not shapes:  # its outline is rounding
         raise _no_wall(plate.name)
     outline, *holes = shapes
-    contours = [contour.segments for contour in oriented(outline, holes)]
-    counts = [[_chords(piece, tolerance) for piece in contour] for contour in contours]
-    around = sum(map(sum, counts))
-    _require_few(2 * around, plate.name)
-    ring = np.concatenate([_corners(one, n) for one, n in zip(contours, counts, strict=True)])
-    corners = np.concatenate((_raised(ring, plate.low), _raised(ring, plate.high)))
-    starts = np.cumsum([0, *map(sum, counts)])
-    loops = [np.arange(a, b) for a, b in pairwise(starts)]
-    top = _triangles([ring[loop] for loop in loops], plate.name)
-    triangles = [top[:, ::-1], top + around]
-    for loop in loops:
-        triangles += _strips(loop, around)
-    return _manifold(corners, triangles)
-
-
-def _manifold(corners: Array, triangles: list[Numbers]) -> m3.Manifold:
-    return m3.Manifold(m3.Mesh64(corners, np.concatenate(triangles).astype(np.uint64)))
-
-
-def _strips(ring: Numbers, up: int) -> list[Numbers]:
-    """Return the walls over a closed ring of corners; each above has a number ``up`` greater."""
-    after = np.roll(ring, -1)
-    return [
-        np.column_stack((ring, after, after + up)),
-        np.column_stack((ring, after + up, ring + up)),
+    contours = [
+        [(piece, _chords(piece, tolerance)) for piece in contour.segments]
+        for contour in oriented(outline, holes)
     ]
+    _require_few(2 * sum(n for contour in contours for _, n in contour), plate.name)
+    loops = [
+        np.array([complex(*p) for piece, n in contour for p in points(piece, n)[:-1]])
+        for contour in contours
+    ]
+    return _face(loops, plate.name).extrude(plate.thickness).translate((0.0, 0.0, plate.low))
 
 
-def _triangles(loops: list[Array], name: str) -> Numbers:
-    """Return the triangles of an outline with holes; raises GenevaError for loops that cross."""
-    triangles = m3.triangulate(loops)
-    p, q, r = np.concatenate(loops)[triangles.T]
-    twice = (q - p)[:, 0] * (r - p)[:, 1] - (q - p)[:, 1] * (r - p)[:, 0]
-    if not len(triangles) or twice.min() < -1e-6 * twice.sum():
+def _face(loops: list[Complex], name: str) -> m3.CrossSection:
+    """Return the inside of loops of complex numbers; raises GenevaError for loops that cross."""
+    face = m3.CrossSection([np.column_stack((loop.real, loop.imag)) for loop in loops])
+    area = sum(0.5 * float(np.vdot(loop, np.roll(loop, -1)).imag) for loop in loops)
+    if not abs(face.area() - area) <= 1e-5 * area:
         raise _no_wall(name)
-    return triangles
+    return face
 
 
 def _shell(shell: Shell, tolerance: float) -> m3.Manifold:
-    """Return a shell: a curved block between the spheres, in pyramids from the centre."""
-    require_thick(shell)
-    middle = unit(np.sum([region.middle for region in shell.regions], axis=0))
-    far = 1.01 * shell.outer
-    pyramids, reach = [], 0.0
+    """Return a shell: a block between the spheres, cut by the walls over its regions.
+
+    Both are made on a map of the outer sphere, in true distances from the middle of the shell.
+    """
+    frame = np.array(axis_frame(unit(np.sum([region.middle for region in shell.regions], axis=0))))
+    loops = []
     for region in shell.regions:
         arcs = [
             arc.at(arc.sweep / n * np.arange(float(n)))[0]
             for arc in region.boundary
             for n in [arc_chords(shell.outer * math.sin(arc.angle), arc.sweep, tolerance)]
         ]
-        around = np.concatenate(arcs)
-        reach = max(reach, float(np.arccos(around @ middle).max()))
-        frame = np.array(axis_frame(region.middle))
-        seen = around @ frame.T
-        flat = far * seen[:, :2] / seen[:, 2:]  # great circles are straight lines
-        here = np.arange(len(flat))
-        walls = np.column_stack((np.full_like(here, len(flat)), np.roll(here, -1), here))
-        corners = np.concatenate((_raised(flat, far), np.zeros((1, 3)))) @ frame
-        pyramids.append(_manifold(corners, [_triangles([flat], shell.name), walls]))
-    body = _block(shell, middle, reach, tolerance)
-    body ^= m3.Manifold.batch_boolean(pyramids, m3.OpType.Add)
+        x, y, z = frame @ np.concatenate(arcs).T
+        away = np.arctan2(np.hypot(x, y), z)
+        loops.append(shell.outer * away * np.exp(1j * np.arctan2(y, x)))
+
+    def curved(flat: m3.Manifold, low: float, high: float) -> m3.Manifold:
+        """A solid over the map, from 0 to 1, between two spheres."""
+
+        def place(at: Array) -> Array:
+            across = at[:, :2] / shell.outer
+            away = np.hypot(*across.T)
+            ahead = np.column_stack((across * np.sinc(away / math.pi)[:, None], np.cos(away)))
+            return (low + (high - low) * at[:, 2:]) * (ahead @ frame)
+
+        return flat.warp_batch(place)
+
+    face = _face(loops, shell.name)
+    x0, y0, x1, y1 = face.bounds()
+    # A right triangle with legs a is at most a²/4R below a sphere.
+    step = 2.0 * math.sqrt(tolerance * shell.outer)
+    size = max(x1 - x0, y1 - y0) + 2.0 * step
+    count = math.ceil(size / step)
+    _require_few(2 * count * count, shell.name)
+    block = m3.Manifold.cube((size, size, 1.0)).refine(count)
+    block = block.translate((0.5 * (x0 + x1 - size), 0.5 * (y0 + y1 - size), 0.0))
+    # the ends of the walls have large triangles, which must not reach the block
+    walls = face.extrude(1.0).refine_to_length(0.2 * shell.outer)
+    body = curved(block, shell.inner, shell.outer)
+    body ^= curved(walls, 0.8 * shell.inner, 1.1 * shell.outer)
     for hole in shell.holes:
         chords = arc_chords(hole.radius, math.tau, tolerance)
-        drill = m3.Manifold.cylinder(far, hole.radius, circular_segments=chords)
+        drill = m3.Manifold.cylinder(1.01 * shell.outer, hole.radius, circular_segments=chords)
         body -= drill.transform(np.column_stack((np.array(axis_frame(hole.axis)).T, np.zeros(3))))
     return body
-
-
-def _block(shell: Shell, middle: Vector, reach: float, tolerance: float) -> m3.Manifold:
-    """Return a block between the spheres of a shell, over all within ``reach`` of its middle."""
-    # A right triangle with legs a is at most a²/4R below a sphere.
-    step = 2.0 * math.sqrt(tolerance / shell.outer)
-    half = 1.02 * reach + step
-    count = math.ceil(2.0 * half / step)
-    _require_few(2 * count * count, shell.name)
-    across = np.linspace(-half, half, count + 1)
-    x, y = (one.ravel() for one in np.meshgrid(across, across, indexing="ij"))
-    angle = np.hypot(x, y)
-    ahead = np.column_stack((x, y, np.cos(angle)))
-    ahead[:, :2] *= np.sinc(angle / math.pi)[:, None]
-    sphere = ahead @ np.array(axis_frame(middle))
-    number = np.arange(len(sphere)).reshape(count + 1, count + 1)
-    a, b = number[:-1, :-1].ravel(), number[1:, :-1].ravel()
-    face = np.concatenate((np.column_stack((a, b, b + 1)), np.column_stack((a, b + 1, a + 1))))
-    ring = (number[:-1, 0], number[-1, :-1], number[:0:-1, -1], number[0, :0:-1])
-    walls = _strips(np.concatenate(ring), len(sphere))
-    corners = np.concatenate((shell.inner * sphere, shell.outer * sphere))
-    return _manifold(corners, [face[:, ::-1], face + len(sphere), *walls])
 
 
 def arc_chords(radius: float, sweep: float, tolerance: float) -> int:
@@ -201,15 +170,6 @@ def _chords(segment: Segment, tolerance: float) -> int:
         # the second derivative is at most 6 bends, and a chord's error an eighth of it
         return max(1, math.ceil(math.sqrt(0.75 * bend / tolerance)))
     return 1
-
-
-def _corners(pieces: tuple[Segment, ...], counts: list[int]) -> Array:
-    flat = [p for piece, n in zip(pieces, counts, strict=True) for p in points(piece, n)[:-1]]
-    return np.array(flat)
-
-
-def _raised(flat: Array, z: float) -> Array:
-    return np.column_stack((flat, np.full(len(flat), z)))
 
 
 def _rounded(corners: Array) -> Array:

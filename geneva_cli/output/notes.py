@@ -7,7 +7,7 @@ import math
 from typing import NamedTuple
 
 from geneva_cli.geometry.shapes import Box, Contour, Point, bounds
-from geneva_cli.geometry.sheet import Annotations, LevelDistance, line
+from geneva_cli.geometry.sheet import Annotations, Arrow, LevelDistance, line
 from geneva_cli.output.letters import width
 from geneva_cli.table import in_decimals
 
@@ -23,7 +23,7 @@ class Notes(NamedTuple):
 
     lines: tuple[Contour, ...]
     scale_bar: tuple[Contour, ...]
-    heads: tuple[tuple[Point, Point, Point], ...]
+    heads: tuple[Arrow, ...]
     texts: tuple[tuple[Point, str], ...]
     box: Box
 
@@ -35,14 +35,16 @@ def notes(look: Annotations, box: Box, title: str, mm: float) -> Notes:
     below them are the scale bar and the title.
     """
     lines: list[Contour] = []
-    heads: list[tuple[Point, Point, Point]] = []
+    heads: list[Arrow] = []
     texts: list[tuple[Point, str]] = []
     text, gap = mm * LETTERS, mm * 3.0
+    size = mm * ARROW[0], mm * ARROW[1]
     for turn in look.turns:
         lines.append(Contour("", (turn,), closed=False))
-        (x, y), back = turn.centre, 0.5 * mm * ARROW[0] / turn.radius
+        (x, y), back = turn.centre, 0.5 * size[0] / turn.radius
         ahead = math.copysign(0.5 * math.pi - back, turn.bulge)  # that of the arc under the head
-        heads.append(_head(turn.end, math.atan2(turn.end[1] - y, turn.end[0] - x) + ahead, mm))
+        angle = math.atan2(turn.end[1] - y, turn.end[0] - x) + ahead
+        heads.append(Arrow(turn.end, angle, size))
     x0, y0, x1, y1 = zip(box, *map(bounds, lines), strict=True)
     left, low, right, high = min(x0), min(y0), max(x1), max(y1)
     for span in look.spans:
@@ -50,7 +52,7 @@ def notes(look: Annotations, box: Box, title: str, mm: float) -> Notes:
         a, b = sorted((span.start[0], span.end[0]))
         lines.append(line("", (a, low), (b, low)))
         lines += [line("", end, (end[0], low - 0.4 * gap)) for end in (span.start, span.end)]
-        heads += [_head((a, low), math.pi, mm), _head((b, low), 0.0, mm)]
+        heads += [Arrow((a, low), math.pi, size), Arrow((b, low), 0.0, size)]
         wide = width(span_text(span)) * text
         # a text that does not fit between the lines from the ends stands to their right
         start = 0.5 * (a + b - wide) if wide < b - a else b + gap
@@ -72,12 +74,6 @@ def notes(look: Annotations, box: Box, title: str, mm: float) -> Notes:
 def span_text(span: LevelDistance) -> str:
     """The name and the length, to three decimals of a millimetre."""
     return f"{span.name} = {in_decimals(abs(span.end[0] - span.start[0]), 3)} mm"
-
-
-def _head(tip: Point, angle: float, mm: float) -> tuple[Point, Point, Point]:
-    long, half, c, s = mm * ARROW[0], mm * ARROW[1], math.cos(angle), math.sin(angle)
-    x, y = tip[0] - long * c, tip[1] - long * s
-    return tip, (x - half * s, y + half * c), (x + half * s, y - half * c)
 
 
 def round_length(length: float) -> float:

@@ -37,11 +37,9 @@ def value_at(track: Track, t: float) -> float:
     >>> value_at(Track((0.0, 2.0), (0.0, 8.0), (0.0, 12.0)), 1.0)  # t³
     1.0
     """
-    if len(track.at) == 1:
-        return track.value[0]
     i = min(max(bisect_right(track.at, t) - 1, 0), len(track.at) - 2)
     h = track.at[i + 1] - track.at[i]
-    if not h > 0.0:
+    if not h > 0.0:  # a single knot too, which is the last one
         return track.value[i + 1]
     u = min(1.0, max(0.0, (t - track.at[i]) / h))
     return cubic(u, h, track.value[i : i + 2], track.slope[i : i + 2])

@@ -1,7 +1,7 @@
 """The part that a drawing shows and its contours, for formats of solids."""
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.plates import Part, Plate, Shell
+from geneva_cli.geometry.plates import Part, Plate
 from geneva_cli.geometry.shapes import Circle, Contour
 from geneva_cli.geometry.sheet import Drawing, prepared
 
@@ -27,11 +27,3 @@ def plate_contours(plate: Plate) -> tuple[Contour | Circle, ...]:
             f"{plate.name}: a solid of {plate.thickness:g} mm; it must be thicker than 0"
         )
     return prepared(Drawing(plate.name, (plate.outline, *plate.holes))).shapes
-
-
-def require_thick(shell: Shell) -> None:
-    """Raise GenevaError for a shell without thickness, or one that reaches the centre."""
-    if not 0.0 < shell.inner < shell.outer:
-        raise GenevaError(
-            f"{shell.name}: a shell from {shell.inner:g} to {shell.outer:g} mm is no solid"
-        )

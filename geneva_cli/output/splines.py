@@ -2,8 +2,7 @@
 
 Two cubics may meet with a common tangent. A parameter in proportion to their handles then makes the
 whole curve once differentiable. So no pole is needed at the joint: n cubics have 2 n + 2 poles, and
-the curve is the same. A short arc next to a cubic, such as at the end of a wall in a mouth, also
-becomes a cubic, within rounding, so that no sliver of a face is left for it.
+the curve is the same.
 """
 
 import math
@@ -11,7 +10,7 @@ from collections.abc import Iterable
 from itertools import accumulate
 from typing import NamedTuple, TypeAlias
 
-from geneva_cli.geometry.shapes import Arc, Cubic, Line, Point, Segment, as_cubic
+from geneva_cli.geometry.shapes import Arc, Cubic, Line, Point, Segment
 
 
 class Spline(NamedTuple):
@@ -37,42 +36,18 @@ def pieces(segments: Iterable[Segment]) -> list[Piece]:
     >>> pieces([first, after])[0].knots  # handles of the second are twice as long there
     (0.0, 1.0, 3.0)
     """
-    curve: list[Piece] = []
-    run: list[Cubic] = []
-    intervals: list[float] = []
-    uneven = 100.0  # greatest ratio of a spline's parameter intervals to its first
-    for segment in _softened(list(segments)):
-        interval = _interval(run[-1], segment, intervals[-1]) if run else 0.0
-        if run and not 1.0 / uneven < interval < uneven:
-            interval = 0.0
-            curve.append(_spline(run, intervals))
-            run, intervals = [], []
-        if isinstance(segment, Cubic):
-            run.append(segment)
-            intervals.append(interval or 1.0)
+    curve: list[Line | Arc | list[tuple[Cubic, float]]] = []
+    for segment in segments:
+        run = curve[-1] if curve else None
+        interval = _interval(*run[-1], segment) if isinstance(run, list) else 0.0
+        if isinstance(segment, Cubic) and isinstance(run, list) and interval:
+            run.append((segment, interval))
         else:
-            curve.append(segment)
-    return [*curve, _spline(run, intervals)] if run else curve
+            curve.append([(segment, 1.0)] if isinstance(segment, Cubic) else segment)
+    return [_spline(one) if isinstance(one, list) else one for one in curve]
 
 
-def _softened(segments: list[Segment]) -> list[Segment]:
-    """The segments, with short arcs as cubics where they join one."""
-    softened = list(segments)
-    for i, arc in enumerate(segments):
-        # The cubic of an arc errs by 4/27 of the bulge's sixth power: here 1e-12 of the radius.
-        if not isinstance(arc, Arc) or abs(arc.bulge) > 0.0137:
-            continue
-        cubic = as_cubic(arc)
-        before = softened[i - 1] if i else None
-        after = segments[i + 1] if i + 1 < len(segments) else None
-        if (isinstance(before, Cubic) and _interval(before, cubic, 1.0)) or (
-            after is not None and _interval(cubic, after, 1.0)
-        ):
-            softened[i] = cubic
-    return softened
-
-
-def _interval(before: Cubic, after: Segment, interval: float) -> float:
+def _interval(before: Cubic, interval: float, after: Segment) -> float:
     """The parameter interval of the next segment after ``before``; 0 if it does not continue it."""
     if not isinstance(after, Cubic):
         return 0.0
@@ -86,7 +61,7 @@ def _interval(before: Cubic, after: Segment, interval: float) -> float:
     return interval * on / back if math.dist(between, after.start) < 1e-11 else 0.0
 
 
-def _spline(run: list[Cubic], intervals: list[float]) -> Spline:
-    poles = [pole for cubic in run for pole in (cubic.first, cubic.second)]
-    knots = tuple(accumulate(intervals, initial=0.0))
-    return Spline((run[0].start, *poles, run[-1].end), knots)
+def _spline(run: list[tuple[Cubic, float]]) -> Spline:
+    poles = [pole for cubic, _ in run for pole in (cubic.first, cubic.second)]
+    knots = tuple(accumulate((interval for _, interval in run), initial=0.0))
+    return Spline((run[0][0].start, *poles, run[-1][0].end), knots)

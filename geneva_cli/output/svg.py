@@ -89,7 +89,7 @@ def sheet_chunks(sheet: Sheet) -> Iterator[str]:
             dashes = f' stroke-dasharray="{" ".join(map(str, DASHED[layer]))}"'
         ink = f'stroke-width="{WIDTHS[layer]}"{dashes}'
         parts["LAYERS"] += f'<g id="{layer}" {ink}>\n{"".join(map(element, own))}</g>\n'
-    parts |= {"ARROWS": _arrows(arrow.corners for arrow in sheet.arrows)}
+    parts |= {"ARROWS": _arrows(sheet.arrows)}
     yield filled("sheet.svg", parts | {"TEXTS": "".join(map(_label, sheet.texts))})
 
 
@@ -107,8 +107,8 @@ def _label(label: papers.Label) -> str:
     )
 
 
-def _arrows(heads: Iterable[Sequence[Point]]) -> str:
-    return "".join(f'<path d="M {" L ".join(map(point, head))} Z"/>\n' for head in heads)
+def _arrows(heads: Iterable[papers.Arrow]) -> str:
+    return "".join(f'<path d="M {" L ".join(map(point, head.corners))} Z"/>\n' for head in heads)
 
 
 def element(shape: Shape) -> str:

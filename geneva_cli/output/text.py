@@ -8,6 +8,7 @@ import math
 import textwrap
 import unicodedata
 from collections.abc import Iterable, Iterator, Sequence
+from itertools import zip_longest
 from typing import Any
 
 from geneva_cli.errors import GenevaError, clean, cut, few
@@ -64,24 +65,15 @@ def _plain(table: Table) -> Iterator[str]:
     if not table.names:
         return
     # names broken at underscores, so that sixteen columns stay readable
-    parts = [clean(name).split("_") for name in table.names]
-    height = max(len(p) for p in parts)
-    heads = [[""] * (height - len(p)) + p for p in parts]
-    is_first = True
+    parts = (clean(name).split("_")[::-1] for name in table.names)
+    heads = [*zip_longest(*parts, fillvalue="")][::-1]
     for block in table.blocks():
-        rows = block if table.mixed else without_noise(block)
-        lines = [[cell(v) for v in row] for row in rows]
-        columns = zip(*lines, strict=True)
-        widths = [
-            max(map(width_of, (*(head if is_first else ()), *column)))
-            for head, column in zip(heads, columns, strict=True)
-        ]
+        lines = [[cell(v) for v in row] for row in (block if table.mixed else without_noise(block))]
+        widths = [max(map(width_of, column)) for column in zip(*heads, *lines, strict=True)]
         left = [isinstance(v, str) for v in block[0]]
-        if is_first:
-            for level in zip(*heads, strict=True):
-                yield line_of(level, widths, left) + "\n"
-            yield GAP.join("-" * w for w in widths) + "\n"
-            is_first = False
+        if heads:
+            lines = [*map(list, heads), ["-" * width for width in widths], *lines]
+            heads = []
         for line in lines:
             yield line_of(line, widths, left) + "\n"
 

@@ -43,6 +43,7 @@ NAMES = {
     "size.link_thickness_mm": ("links {:g} thick", "{0.crank_Nm:.4g} N m on the first wheel"),
 }
 
+BY_LOAD = "by load: "
 Values = dict[str, float | str]
 
 
@@ -100,21 +101,24 @@ def chosen(mechanism: Mechanism, details: Values | None = None) -> dict[str, Cho
     >>> chosen(Design(External(6)).mechanism)["size.roller_radius_mm"]
     Chosen(value=5.0, why='default L/20')
     """
-    size, out = mechanism.spec.size, {}
-    values = {**key_sizes(mechanism)[0], **(details or {})}
-    loaded, meanings = by_load(mechanism), {field.key: field.meaning for field in fields(Size)}
-    for key, own in size.as_dict().items():
+    (known, keys), out = key_sizes(mechanism), dict[str, Chosen]()
+    values, loads = {**known, **(details or {})}, None
+    if keys:
+        from geneva_cli.loads.strength.part_loads import single_loads
+
+        loads = single_loads(mechanism)
+    size = mechanism.spec.size
+    for field in fields(Size):
+        key, own = field.key, getattr(size, field.attribute)
         if own is not None or key not in values or not _is_written(mechanism, key, values):
             continue
-        if f"size.{key}" in loaded:
-            out[f"size.{key}"] = loaded[f"size.{key}"]
-            continue
         # what the meaning of a key says of its default, without a load
-        rule = meanings[key].partition("default")[2].lstrip(": ").partition(";")[0]
-        if rule.endswith("by process") and size.process:
+        rule = field.meaning.partition("default")[2].lstrip(": ").partition(";")[0]
+        why = f"default {re.sub(',? or by load$', '', rule)}"
+        if key in keys and ("arm_bore_mm" in values or key != "arm_thickness_mm"):
+            why = f"{BY_LOAD}{NAMES[f'size.{key}'][1].format(loads)}"
+        elif rule.endswith("by process") and size.process:
             why = f"by process {size.process}"
-        else:
-            why = f"default {re.sub(',? or by load$', '', rule)}"
         out[f"size.{key}"] = Chosen(values[key], why)
     return out
 
@@ -126,20 +130,10 @@ def by_load(mechanism: Mechanism) -> dict[str, Chosen]:
     >>> by_load(heavy.mechanism)["size.pin_mm"]
     Chosen(value=7.0, why='by load: 2000 N on the pin')
     """
-    if not mechanism.spec.is_loaded:
-        return {}
-    (values, keys), out = key_sizes(mechanism), dict[str, Chosen]()
-    if not keys:
-        return out
-    from geneva_cli.loads.strength.part_loads import single_loads
-
-    loads = single_loads(mechanism)
-    armed = "arm_bore_mm" in values
-    for key in keys:
-        drawn = key in values and (armed or key != "arm_thickness_mm")
-        if drawn and _is_written(mechanism, key, values):
-            why = NAMES[f"size.{key}"][1].format(loads)
-            out[f"size.{key}"] = Chosen(values[key], f"by load: {why}")
+    every, out = chosen(mechanism) if mechanism.spec.is_loaded else {}, dict[str, Chosen]()
+    for key in filter(every.__contains__, NAMES):
+        if every[key].why.startswith(BY_LOAD):
+            out[key] = every[key]
     return out
 
 
@@ -199,10 +193,9 @@ def _flat_details(parts: Outlines) -> Values:
         if radius and (flat := bore_of(size, part, radius).flat):
             out[f"{part}_flat_mm"] = flat
     links = drawn_links(parts.assembly.full, parts)
-    for gear in links.gears:
-        if gear.screws.holes:
-            out["gear_bolt_mm"] = 2.0 * gear.screws.hole
-            out["gear_bolt_circle_mm"] = 2.0 * gear.screws.radius
+    if links.bolts:
+        out["gear_bolt_mm"] = 2.0 * links.bolts.hole
+        out["gear_bolt_circle_mm"] = 2.0 * links.bolts.radius
     if links.plates:
         out |= {"link_pin_mm": 2.0 * links.sizes.pin, "link_width_mm": 2.0 * links.sizes.eye}
     return out

@@ -28,7 +28,7 @@ from geneva_cli.parts.outlines.cut_outlines import drawn, slot_walls, wheel_cont
 from geneva_cli.parts.outlines.outlines import Outlines, dial_circle, wheel_hub, wheel_plate
 from geneva_cli.parts.parts import EdgedParts, FrameAndShafts, NamedBuilds, Parts, parts_of
 from geneva_cli.parts.shafts.arm_and_shafts import CrankArm, bolts, crank_arm, crank_hub, rollers
-from geneva_cli.parts.shafts.bores import Screws
+from geneva_cli.parts.shafts.bores import Screwed
 from geneva_cli.parts.sizes import drawn_thicknesses, pin_radius
 from geneva_cli.parts.slots.roller_paths import roller_centres
 
@@ -46,12 +46,12 @@ class FlatParts(EdgedParts):
 
         No outline depends on a size that the load chooses.
         """
-        of = unloaded(self.mechanism)
+        layout = unloaded(self.mechanism)
         try:
-            refuse_unfit(of.assembly, of.sizes)
+            refuse_unfit(*layout)
         except GenevaError:  # unless the load chooses sizes that fit
-            return drawn(*machine_sizes(self.mechanism))
-        return drawn(of.assembly, of.sizes)
+            layout = machine_sizes(self.mechanism)
+        return drawn(*layout)
 
     @cached_property
     def outlines(self) -> Outlines:
@@ -198,9 +198,10 @@ class FlatParts(EdgedParts):
         hub = sizes.wheel_hub if part == "wheel" else sizes.crank_hub
         return max(bore, hub) if self.mechanism.spec.size.has_hub(part) else bore
 
-    def _crank(self, arm: Plate | None) -> Member:
+    def crank_with(self, arm: bool) -> Member:
+        """Return the crank in the machine; without its arm as it lies in the wheel's plane."""
         assembly, hub = self.outlines.assembly, crank_hub(self.outlines)
-        members = [*map(Member, filter(None, (*self.locking, arm)))]
+        members = [*map(Member, filter(None, (*self.locking, self.arm_plate if arm else None)))]
         members += (*self.rollers, *([Member(hub)] if hub else []))
         turn = float(assembly.crank(np.zeros(1))[0])
         return Member(Group("crank", tuple(members)), (assembly.L, 0.0), turn)
@@ -249,7 +250,7 @@ class FlatParts(EdgedParts):
     @property
     def round_gears(self) -> tuple[Member, ...]:
         """Gears with round pitch circles; a first wheel is none."""
-        return () if self.first else tuple(gear.member for gear in self.links.gears)
+        return () if self.first else self.links.gears
 
     @cached_property
     def gear_pair(self) -> tuple[Member, ...]:
@@ -288,12 +289,12 @@ class FlatParts(EdgedParts):
     @cached_property
     def framed(self) -> FrameAndShafts:
         """The frame, what is on it, and the shafts."""
-        parts, gears = self.outlines, map(attrgetter("plate"), self.links.gears)
+        parts = self.outlines
         arm = parts.sizes.arm_thickness if parts.has_arm else 0.0
-        plates = self._base, wheel_hub(parts.assembly, parts.sizes), *gears
+        plates = self._base, wheel_hub(parts.assembly, parts.sizes)
         lows = [*map(attrgetter("low"), filter(None, plates))]
         lows.append(-self.mechanism.spec.size.allowances.pin_gap_mm - arm)
-        lows += map(attrgetter("part.low"), (*self.linked, *self.first))
+        lows += map(attrgetter("part.low"), (*self.linked, *self.links.gears, *self.first))
         if self.mechanism.spec.gears:
             from geneva_cli.parts.gears.gear_pair import gear_span
 
@@ -306,12 +307,13 @@ class FlatParts(EdgedParts):
         return (*self.groove_plate, *self.framed.on_it, self.frame)
 
     @property
-    def screws(self) -> tuple[Screws, ...]:
+    def screws(self) -> tuple[Screwed, ...]:
         """The screws of dial, locking disc, and what is fixed to the frame."""
         drawn = self.outlines
-        own = Screws.through("dial", dial_circle(drawn.assembly, drawn.sizes).holes, "the dial")
+        holes = dial_circle(drawn.assembly, drawn.sizes).holes
+        own = [("dial", "the dial", hole) for hole in holes]
         for disc in self.locking[:1]:  # or the first of its sectors
-            own += Screws.through(disc.name, bolts(drawn), "the arm")
+            own += [(disc.name, "the arm", hole) for hole in bolts(drawn)]
         return (*own, *self.framed.screws)
 
     @property

@@ -57,19 +57,16 @@ def framed(
     for at, diameter_mm in standing.items():
         here = [axle._replace(at=at) for axle in axles if same(axle.at, at, L)]
         holes += shaft_holes(size, here, top) if here else [hole_without_shaft(diameter_mm, at, L)]
-    fixed: list[tuple[Circle, Plate]] = []  # holes of screws into the frame, and what they fix
-    for member in bars.cut:
-        if isinstance(member.part, Plate) and member.part.name in bars.standing:
-            fixed += [(hole, member.part) for hole in placed_holes(member)]
-    for gear in bars.gears:
-        fixed += [(shapes.placed(hole, gear.at), gear.plate) for hole in gear.screws.holes]
-    for plate in filter(None, (base, bridge)):
-        bored = placed_holes(Member(plate, (L, 0.0)))
-        fixed += [(hole, plate) for hole in bored if not same(hole.centre, (L, 0.0), L)]
-    screwed, spacers = list[tuple[Circle, str]](), list[Member]()
-    for hole, part in fixed:
+    fixed = [one for one in (*bars.cut, *bars.gears) if one.part.name in bars.standing]
+    fixed += [Member(plate, (L, 0.0)) for plate in (base, bridge) if plate]
+    screwed, spacers = list[tuple[str, str, Circle]](), list[Member]()
+    for member, hole in ((one, hole) for one in fixed for hole in placed_holes(one)):
+        part = member.part
+        assert isinstance(part, Plate)
+        if same(hole.centre, member.at, L):  # for its shaft
+            continue
         holes.append(tapped(hole))
-        screwed.append((hole, part.name))
+        screwed.append((part.name, "the frame", hole))
         if part.low - top > SAME_LENGTH * L:
             # a ring twice as wide, turned from a rod: often it is higher than wide
             ring, bore = Circle("SHAFT", ORIGIN, 2.0 * hole.radius), hole._replace(centre=ORIGIN)

@@ -5,13 +5,10 @@ the rim. The locking disc reaches past the rim and leaves a horn next to the slo
 goes the mass that they give the wheel.
 """
 
-from __future__ import annotations
-
 import math
 from contextlib import suppress
-from functools import cache, lru_cache, partial, reduce
+from functools import lru_cache, reduce
 from operator import attrgetter
-from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
@@ -28,15 +25,11 @@ from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.outlines.crank_outline import arc_floor
 from geneva_cli.parts.outlines.cut_outlines import cut_lock, turned_walls, wheel_contour
 from geneva_cli.parts.outlines.outlines import wheel_hub, wheel_plate
-from geneva_cli.parts.sizes import KeySizes, Sizes, Unloaded
+from geneva_cli.parts.sizes import KeySizes, Layout, Sizes
 from geneva_cli.parts.slots.roller_paths import mouth, roller_paths
 from geneva_cli.spec.defaults import wall_min, wheel_material
 from geneva_cli.spec.tables import Size
 
-if TYPE_CHECKING:
-    from geneva_cli.loads.strength.part_loads import PartLoads
-
-Layout: TypeAlias = tuple[Assembly, Sizes]  # of one machine
 OF_AXLE = (  # keys that an internal wheel lacks, which is open in the middle
     *("wheel_bore_mm", "wheel_hub_mm", "wheel_hub_length_mm"),
     *("wheel_shaft_low_mm", "wheel_shaft_high_mm"),
@@ -50,41 +43,28 @@ def sized(mechanism: Mechanism) -> Layout | None:
     return None
 
 
+@lru_cache(maxsize=16)
 def machine_sizes(mechanism: Mechanism) -> Layout:
     """Return a machine's assembly and sizes. Raises GenevaError where they leave no parts."""
-    out = _machine_sizes(mechanism)
-    if isinstance(out, GenevaError):
-        raise out.with_traceback(None)  # or else it grows with each time
-    return out
+    where, sizes = unloaded(mechanism)
+    sizes = _loaded(where, sizes) if mechanism.spec.is_loaded else sizes
+    refuse_unfit(where, sizes)
+    return where, sizes
 
 
 @lru_cache(maxsize=16)
-def _machine_sizes(mechanism: Mechanism) -> Layout | GenevaError:
-    """Return a machine's assembly and sizes, or the error, which is asked for many times too."""
-    try:
-        of = unloaded(mechanism)
-        if not mechanism.spec.is_loaded:
-            refuse_unfit(of.assembly, of.sizes)
-            return of.assembly, of.sizes
-        from geneva_cli.loads.strength.part_loads import single_loads
-
-        return of.assembly, loaded(of, mechanism, single_loads(mechanism))
-    except GenevaError as error:
-        return error
-
-
-@lru_cache(maxsize=16)
-def unloaded(mechanism: Mechanism) -> Unloaded:
+def unloaded(mechanism: Mechanism) -> Layout:
     """Return a machine's parts without its load. Raises GenevaError where a lock does not fit."""
     where = assembly(mechanism)
-    sizes, space = _usual_sizes(where)
-    return Unloaded(where, sizes, space, cache(partial(cut_lock, where, sizes)))
+    return where, _usual_sizes(where)
 
 
-def loaded(of: Unloaded, mechanism: Mechanism, loads: PartLoads) -> Sizes:
-    """Return the sizes of a machine under its loads, as ``load_sizes``; raises as ``unloaded``."""
+def _loaded(where: Assembly, usual: Sizes) -> Sizes:
+    """Return the sizes of a machine under its loads, as ``load_sizes``."""
+    from geneva_cli.loads.strength.part_loads import single_loads
     from geneva_cli.parts.sized_by_load import load_sizes, needs_lock, stressed
 
+    mechanism = where.full
     link = pin = shaft = 0.0  # of the first of two wheels, as its load needs them
     if mechanism.first_wheel:
         from geneva_cli.parts.first_wheel import first_spec
@@ -96,25 +76,23 @@ def loaded(of: Unloaded, mechanism: Mechanism, loads: PartLoads) -> Sizes:
         if parts and not math.isnan(parts.arm.length):  # a crank without a pin has no arm
             link = max(parts.contact, float(parts.arm.thickness))
             pin, shaft = 0.5 * parts.pin, 0.5 * parts.crank_shaft.diameter
-    by = of.cut_lock() if of.sizes.lock and needs_lock(mechanism.spec) else None
-    out = load_sizes(of, by, mechanism, loads, link=link)
+    by = cut_lock(where, usual) if usual.lock and needs_lock(mechanism.spec) else None
+    out = load_sizes(where, usual, by, mechanism, single_loads(mechanism), link=link)
     out = mapped(np.ndarray.item, mapped(np.asarray, out))
-    out = out._replace(first_pin=pin, first_shaft=shaft)
-    refuse_unfit(of.assembly, out)
-    return out
+    return out._replace(first_pin=pin, first_shaft=shaft)
 
 
-def unloaded_alike(machine: Mechanism) -> Unloaded | None:
+def unloaded_alike(machine: Mechanism) -> Layout | None:
     """Return the parts without a load of m designs that move alike, NaN where a lock does not fit.
 
     None if no design has parts.
     """
     where = of_batch(assembly(taken(machine, 0)), machine)
     with marking() as marks:
-        sizes, space = _usual_sizes(where._replace(full=where.full._replace(spec=machine.spec)))
+        sizes = _usual_sizes(where._replace(full=where.full._replace(spec=machine.spec)))
     wrong: Mask = reduce(np.logical_or, marks, np.zeros((1, 1), dtype=bool))
     sizes = mapped(lambda x: choose(wrong, math.nan, x), sizes) if marks else sizes
-    return None if np.all(wrong) else Unloaded(where, sizes, space, partial(cut_lock, where, sizes))
+    return None if np.all(wrong) else (where, sizes)
 
 
 def of_batch(first: Assembly, machine: Mechanism) -> Assembly:
@@ -126,12 +104,12 @@ def of_batch(first: Assembly, machine: Mechanism) -> Assembly:
     return first._replace(mechanism=one, L=L)
 
 
-def fits(of: Unloaded, sizes: Sizes) -> Mask:
+def fits(where: Assembly, sizes: Sizes) -> Mask:
     """Return for which designs sizes under a load leave a wheel and a lock, (m, 1) or (1, 1)."""
     fit = np.atleast_2d(np.isfinite(sizes.rim))  # not that of a design without parts
     with marking() as marks:
         try:
-            refuse_unfit(of.assembly, sizes)
+            refuse_unfit(where, sizes)
         except GenevaError:  # the check of the parts reports the error
             return fit & False
     return fit & ~reduce(np.logical_or, marks, ~fit)
@@ -212,8 +190,8 @@ def wheel_body(mechanism: Mechanism) -> plates.MassProperties | None:
     return None
 
 
-def _usual_sizes(assembly: Assembly) -> tuple[Sizes, float]:
-    """Return the sizes without a load, and the radius about the crank's axis inside the relief.
+def _usual_sizes(assembly: Assembly) -> Sizes:
+    """Return the sizes without a load.
 
     Of m designs that differ in size alone, they are numbers or (m, 1).
     """
@@ -267,11 +245,11 @@ def _usual_sizes(assembly: Assembly) -> tuple[Sizes, float]:
     recess = choose(lock > 0.0, lock + allowed.lock_clearance_mm, 0.0)
     # in the order of ``Sizes``
     slots = r, w, rim, outer, bottom, end, arm, (near, reduce(larger, reaches))
-    locks = lock, recess, relief, wall, size.mouth_radius_mm, size.horn_tip_mm
+    locks = lock, recess, relief, wall, size.mouth_radius_mm, size.horn_tip_mm, within
     on_axle = axle, *rules.reach_and_hub(size, "wheel", axle, wall, end)
     on_crank = bore, *rules.reach_and_hub(size, "crank", bore, wall), pin, armed
     thick = size.thicknesses(rounded_below(L / 10.0))
-    return Sizes(*slots, *locks, *on_axle, *on_crank, *thick), within
+    return Sizes(*slots, *locks, *on_axle, *on_crank, *thick)
 
 
 def _crank_bore(spec: Spec, space: float, L: float) -> float:

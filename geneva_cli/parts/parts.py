@@ -6,7 +6,6 @@ A kind names its own in its record. What builds them is imported at its first us
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections import Counter
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, ClassVar, NamedTuple, Self, TypeAlias
 
@@ -15,7 +14,7 @@ from geneva_cli.geometry.shapes import Circle
 from geneva_cli.kept import cached_property, load_named
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.registry import FRONT, named, thing
-from geneva_cli.parts.shafts.bores import Screws, tapped
+from geneva_cli.parts.shafts.bores import Screwed, tapped
 from geneva_cli.parts.turn.turned_parts import TurnedParts
 
 if TYPE_CHECKING:
@@ -34,7 +33,7 @@ class Parts(TurnedParts):
     LAID_FLAT: ClassVar[tuple[str, ...]] = ()
 
     @property
-    def screws(self) -> tuple[Screws, ...]:
+    def screws(self) -> tuple[Screwed, ...]:
         """The screws between the parts; none without."""
         return ()
 
@@ -124,7 +123,7 @@ class FrameAndShafts(NamedTuple):
     plate: Plate
     shafts: tuple[Member, ...]
     spacers: tuple[Member, ...] = ()  # below the parts that are screwed to it
-    screwed: tuple[tuple[Circle, str], ...] = ()  # clearance holes of screws, and what they fix
+    screwed: tuple[Screwed, ...] = ()  # by screws whose threads are in it
     bridge: tuple[Member, ...] = ()  # one that bears the crank's shaft from above, or none
     unborne: tuple[tuple[str, str], ...] = ()  # shafts that do not reach it, and why
     mounts: tuple[Circle, ...] = ()  # holes about its corners
@@ -137,14 +136,12 @@ class FrameAndShafts(NamedTuple):
     @property
     def threads(self) -> tuple[Circle, ...]:
         """The tapped holes of the frame."""
-        return tuple(tapped(hole) for hole, _ in self.screwed)
+        return tuple(tapped(hole) for *_, hole in self.screwed)
 
     @property
-    def screws(self) -> tuple[Screws, ...]:
+    def screws(self) -> tuple[Screwed, ...]:
         """The screws that fix parts to the frame, and those of its mounting holes."""
-        kinds = Counter((part, hole.radius) for hole, part in self.screwed)
-        fixed = [Screws(part, n, 2.0 * r, "the frame") for (part, r), n in kinds.items()]
-        return (*fixed, *Screws.through("frame", self.mounts, "its base"))
+        return (*self.screwed, *(("frame", "its base", hole) for hole in self.mounts))
 
 
 class EdgedParts(Parts):
@@ -164,24 +161,14 @@ class EdgedParts(Parts):
     def wheel(self) -> Member:
         """The wheel or the rack."""
 
-    @property
-    @abstractmethod
-    def arm_plate(self) -> Plate | None:
-        """The crank's arm; None without one."""
-
     @cached_property
     def crank(self) -> Member:
         """The crank: locking disc or sectors, arm, rollers on their pins, hub."""
-        return self._crank(self.arm_plate)
-
-    @cached_property
-    def crank_without_arm(self) -> Member:
-        """The crank as it lies in the plane of the wheel or the rack."""
-        return self._crank(None)
+        return self.crank_with(arm=True)
 
     @abstractmethod
-    def _crank(self, arm: Plate | None) -> Member:
-        """Return the crank's parts in its own frame."""
+    def crank_with(self, arm: bool) -> Member:
+        """Return the crank in the machine; without its arm as it lies in the wheel's plane."""
 
     @property
     @abstractmethod

@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.kept import Known
 from geneva_cli.loads.impacts.shock_force import forces_N
 from geneva_cli.loads.load_case import centrifugal_N
 from geneva_cli.loads.strength import lock, pin_arm_key
@@ -39,7 +40,7 @@ from geneva_cli.parts import sizes as rules
 from geneva_cli.parts.assembly import Assembly, gear_plane, is_bridged, links_at
 from geneva_cli.parts.outlines.outlines import wheel_hub_length
 from geneva_cli.parts.shafts.bores import reach_or_bore
-from geneva_cli.parts.sizes import Sizes, Unloaded
+from geneva_cli.parts.sizes import Sizes
 from geneva_cli.spec.defaults import eye_about, key, roller_material, wheel_material
 
 
@@ -62,37 +63,26 @@ class Stressed(NamedTuple):
     crank_key: pin_arm_key.KeyDimensions
 
 
-class Sizing(NamedTuple):
-    """Sizes of m designs, and what they must hold; numbers, or (m, 1)."""
+@Known
+def planes_below(machine: Mechanism) -> tuple[tuple[int, bool], ...]:
+    """Return the planes of links, gears and a groove, in the way of the crank's shaft.
 
-    assembly: Assembly
-    sizes: Sizes
-    spec: Spec
-    # of links, gears and a groove, in the way of the crank's shaft; True below the arm
-    planes: tuple[tuple[int, bool], ...]
-    bridged: bool
-    space: float = 0.0  # radius about the crank's axis inside the relief
-    loads: PartLoads = PartLoads(*[0.0] * len(PartLoads._fields))
-
-
-def sizing(assembly: Assembly, sizes: Sizes) -> Sizing:
-    """Return the sizes of an assembly with what the dimensions of its parts depend on."""
-    machine, spec = assembly.full, assembly.full.spec
+    With each goes True if it is below the arm.
+    """
     planes = [(link.plane, False) for link in links_at(machine, np.zeros(1))]
-    planes += [(gear_plane(machine), False)] if spec.gears else []
+    planes += [(gear_plane(machine), False)] if machine.spec.gears else []
     if machine.engagements[0].groove is not None:  # its plate has its base below the groove
-        planes.append((3, False) if spec.drive_before else (2, True))
-    return Sizing(assembly, sizes, spec, tuple(planes), is_bridged(machine))
+        planes.append((3, False) if machine.spec.drive_before else (2, True))
+    return tuple(planes)
 
 
-def stressed(assembly: Assembly, sizes: Sizes) -> Stressed:
-    """Return the dimensions of a machine's stressed parts, for parts of these sizes."""
-    return dimensions(sizing(assembly, sizes))
+def stressed(assembly: Assembly, sizes: Sizes, own: Spec | None = None) -> Stressed:
+    """Return the dimensions of the stressed parts of m designs; numbers, or (m, 1).
 
-
-def dimensions(of: Sizing) -> Stressed:
-    """Return the dimensions of stressed parts of m designs; numbers, or (m, 1)."""
-    sizes, spec, size = of.sizes, of.spec, of.spec.size
+    ``own`` is the spec of all designs, by default the assembly's.
+    """
+    spec = own or assembly.full.spec
+    size = spec.size
     gap = size.allowances.pin_gap_mm
     thick, wide, hub_mm = sizes.arm_thickness, sizes.wheel_thickness, 0.0
     contact, armed = value_or(size.face_width_mm, wide), np.asarray(sizes.arm_bore) > 0.0
@@ -101,21 +91,21 @@ def dimensions(of: Sizing) -> Stressed:
     # the lowest face of what is below the wheel
     lowest = smaller(-hub_mm, -gap - choose(armed, thick, 0.0))
     first = thick if spec.drive.ONE_ARM else sizes.link_thickness
-    for plane, under_arm in of.planes:
+    for plane, under_arm in planes_below(assembly.full):
         low, _ = rules.plane_span(plane, gap, first, sizes.link_thickness, size.washer_mm)
         lowest = smaller(lowest, low - thick if under_arm else low)
     # from the middle of the wheel's thickness to the frame's upper face
     on_wheel = on_crank = 0.5 * wide - lowest + size.washer_mm
-    if of.bridged:
+    if is_bridged(assembly.full):
         over = rules.bridge_low(size, sizes) - 0.5 * wide
         on_crank = choose(sizes.crank_bore > 0.0, over, on_crank)
     long, hole = sizes.reaches[1], rules.hole_radius(size, sizes.pin)
     bored = reach_or_bore(size, "crank", sizes.arm_bore)
     # some of the disc is left at the axis, or else its sectors stand on the hub
-    whole = np.logical_and(of.assembly.sign > 0.0, of.assembly.L - sizes.rim > sizes.relief)
+    whole = np.logical_and(assembly.sign > 0.0, assembly.L - sizes.rim > sizes.relief)
     standing = choose(whole, 0.0, sizes.lock)
     hub = rules.arm_hub(size, bored, sizes.arm_bore, sizes.wall_min, standing)
-    passing = sizes.passing_eye(of.assembly.L - long)
+    passing = sizes.passing_eye(assembly.L - long)
     eye = half_or(size.arm_eye_mm, eye_about(hole, sizes.wall_min, passing))
     offset = 0.5 * (contact + thick) + gap
     rows = np.broadcast_arrays(long, hub, eye, bored, hole, thick, offset)
@@ -167,7 +157,8 @@ def needs_lock(spec: Spec) -> bool:
 
 
 def load_sizes(
-    of: Unloaded,
+    assembly: Assembly,
+    sizes: Sizes,
     by: Lock | None,
     machine: Mechanism,
     loads: PartLoads,
@@ -176,11 +167,11 @@ def load_sizes(
 ) -> Sizes:
     """Return the sizes of m designs under their loads, numbers or (m, 1).
 
-    ``of`` are those without loads, ``by`` their locks, ``bent_MPa`` the stress of ``horn_MPa`` if
-    computed already, ``link`` the thickness that a first wheel needs. Loads without a bound change
-    no size.
+    ``sizes`` are those without loads, ``by`` their locks, ``bent_MPa`` the stress of ``horn_MPa``
+    if computed already, ``link`` the thickness that a first wheel needs. Loads without a bound
+    change no size.
     """
-    spec, size, sizes = machine.spec, machine.spec.size, of.sizes
+    spec, size, usual = machine.spec, machine.spec.size, sizes
     rows = np.zeros((machine.designs, 1)) + np.reshape(loads, (len(loads), -1, 1))
     bounded = np.isfinite(rows).all(axis=0)
     if not bounded.any():
@@ -209,33 +200,32 @@ def load_sizes(
             wheel_thickness=wide, lock_thickness=disc, arm_thickness=arm, link_thickness=bar
         )
     wide, eye = sizes.wheel_thickness, math.inf
-    if of.assembly.sign > 0.0:
+    if assembly.sign > 0.0:
         # about the pin, where it passes the largest hub
         hub = np.maximum(sizes.wheel_hub, rules.LARGEST_HUB * sizes.slot_end)
-        passing = of.assembly.L - sizes.reaches[1] - hub - sizes.wall_min
+        passing = assembly.L - sizes.reaches[1] - hub - sizes.wall_min
         eye = choose(np.greater(sizes.arm_bore, 0.0), passing, eye)
     sizes = sizes._replace(pin=pin_that_holds(machine, sizes.pin, wide, sizes.roller, eye, loads))
-    case = sizing(of.assembly, sizes)._replace(spec=spec, space=of.space, loads=loads)
     done = ~(np.greater(sizes.arm_bore, 0.0) & np.greater(sizes.pin, 0.0))  # without an arm
     if size.arm_thickness_mm is not None or done.all():
-        out = _bored(case._replace(sizes=_bored(case, "wheel")), "crank")
+        out = _bored(assembly, _bored(assembly, sizes, spec, loads, "wheel"), spec, loads, "crank")
     else:
         # a thicker arm, up to twice the wheel, is better for a key than a thicker shaft
         thicknesses = [*trials_from(wide, 2.0 * wide).T[..., None]]
         count, out = len(thicknesses) if size.crank_keyway else 0, sizes
         for k, thick in enumerate(thicknesses + thicknesses[:count]):
             bar = sizes.link_thickness if linked else thick
-            one = case._replace(sizes=sizes._replace(arm_thickness=thick, link_thickness=bar))
-            one = one._replace(sizes=_bored(one, "wheel"))
-            one = one._replace(sizes=_bored(one, "crank", k >= count))
-            out = choose_record(done, out, one.sizes) if k else one.sizes
-            parts = dimensions(one)
+            one = sizes._replace(arm_thickness=thick, link_thickness=bar)
+            one = _bored(assembly, one, spec, loads, "wheel")
+            one = _bored(assembly, one, spec, loads, "crank", k >= count)
+            out = choose_record(done, out, one) if k else one
+            parts = stressed(assembly, one, spec)
             arm_MPa = parameter(pin_arm_key.arm_stress_MPa(parts.arm, loads.wheel_N))
             holds = keeps(arm_MPa, "at most", allowed)
             done = done | (holds & key_holds(spec, parts.crank_key, loads.crank_Nm))
             if done.all():
                 break
-    return out if bounded.all() else choose_record(bounded, out, of.sizes)
+    return out if bounded.all() else choose_record(bounded, out, usual)
 
 
 def _first(holds: Truth, trials: Number) -> float:
@@ -246,14 +236,16 @@ def _first(holds: Truth, trials: Number) -> float:
     return parameter(np.take_along_axis(every, fit.argmax(axis=1)[:, None], 1))
 
 
-def _bored(case: Sizing, part: str, keyed: bool = True) -> Sizes:
+def _bored(
+    assembly: Assembly, sizes: Sizes, spec: Spec, loads: PartLoads, part: str, keyed: bool = True
+) -> Sizes:
     """Return the sizes with the first bore of a part whose shaft holds, and if ``keyed`` its key.
 
     The crank's goes through the disc if a shaft that holds fits there. Otherwise the shaft ends in
     the arm, whose bore may be larger, unless links are in its way.
     """
-    sizes, spec, size, loads = case.sizes, case.spec, case.spec.size, case.loads
-    own, through = vars(size)[f"{part}_bore_mm"], getattr(sizes, f"{part}_bore")
+    size, through = spec.size, getattr(sizes, f"{part}_bore")
+    own = vars(size)[f"{part}_bore_mm"]
     if part == "wheel":
         fixed = own is not None or spec.shaft.wheel_diameter_mm is not None
         # a third of the wheel up to its slots is left as a wall
@@ -261,7 +253,7 @@ def _bored(case: Sizing, part: str, keyed: bool = True) -> Sizes:
         force, torque = loads.wheel_shaft_N, loads.wheel_Nm
     else:
         fixed = not (size.arm_bore_mm is spec.shaft.crank_diameter_mm is None)
-        space = 0.6 * case.space  # a larger bore leaves no space for its default hub, of 1.5 bores
+        space = 0.6 * sizes.space  # a larger bore leaves no space for its default hub, of 1.5 bores
         force, torque = loads.crank_N, loads.crank_Nm
     if fixed:
         return sizes
@@ -270,7 +262,7 @@ def _bored(case: Sizing, part: str, keyed: bool = True) -> Sizes:
     d = trials_from(2.0 * through, 2.0 * most, bores=True)
     goes_on = d > 0.0
     # past links and gears the shaft may have no other way out
-    if part != "wheel" and not case.planes:
+    if part != "wheel" and not planes_below(assembly.full):
         left = sizes.reaches[0] - rules.hole_radius(size, sizes.pin)  # half of it stays as a wall
         ends = trials_from(2.0 * sizes.arm_bore, left, bores=True)
         ends = np.where(known, 0.0, ends)
@@ -284,7 +276,7 @@ def _bored(case: Sizing, part: str, keyed: bool = True) -> Sizes:
     if part != "wheel":
         changes = np.greater(sizes.arm_bore, 0.0) & (d > 0.0)
         trial["arm_bore"] = np.where(changes, 0.5 * d, sizes.arm_bore)
-    parts = dimensions(case._replace(sizes=sizes._replace(**trial)))
+    parts = stressed(assembly, sizes._replace(**trial), spec)
     lever = getattr(parts, f"{part}_shaft").overhang / 1000.0
     bent, turned = spec.shaft.bending_factor * force * lever, spec.shaft.torsion_factor * torque
     moment = parameter(np.hypot(bent, turned))  # both are greatest at once

@@ -1,11 +1,9 @@
 """The sizes of a machine's parts, mm, and rules for hubs, bores, eyes and pins of all kinds."""
 
-from __future__ import annotations
-
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from functools import reduce
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -18,9 +16,6 @@ from geneva_cli.parts.shafts.bores import bore_of, has_shape, reach_or_bore
 from geneva_cli.spec.defaults import eye_about
 from geneva_cli.spec.tables import Size, Thicknesses
 from geneva_cli.spec.workshops import Allowances
-
-if TYPE_CHECKING:
-    from geneva_cli.loads.tolerance.locking import Lock
 
 HUB = 1.6  # outside diameter of a hub, as a multiple of its bore
 CLEARANCES = Allowances._fields[:-1]  # without their source
@@ -44,6 +39,7 @@ class Sizes(NamedTuple):
     wall_min: float
     mouth_radius: float = 0.0  # of the rounded corners of straight slots' mouths
     horn_tip: float = 0.0  # width of the flats to which thinner horns are cut back
+    space: float = 0.0  # radius about the crank's axis inside the relief
     # a load may change those below
     wheel_bore: float = 0.0
     wheel_reach: float = 0.0  # of the bore with its keyway, from the axis
@@ -72,15 +68,7 @@ class Sizes(NamedTuple):
         return choose(self.outer > 0.0, math.inf, away - hub)
 
 
-class Unloaded(NamedTuple):
-    """The parts of a machine as they are without a load."""
-
-    assembly: Assembly
-    sizes: Sizes
-    space: float  # radius about the crank's axis inside the relief, mm
-    cut_lock: Callable[[], Lock]  # which no load changes; for sizes with a lock
-
-
+Layout: TypeAlias = tuple[Assembly, Sizes]  # of one machine, or of m designs
 Span: TypeAlias = tuple[float, float]  # lower and upper face, or two radii, mm
 # The sizes of a machine's parts by keys of ``[size]``, mm and diameters as the keys say; and those
 # of the keys that the spec leaves out and the load chooses.

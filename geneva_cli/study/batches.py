@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
@@ -14,7 +14,6 @@ from geneva_cli.motion.machine_spec import BEFORE, Spec
 from geneva_cli.motion.many import many, may_vary
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array, Whole
-from geneva_cli.spec.schema import fields
 from geneva_cli.study.fields import Cell, Rows, cells_of
 from geneva_cli.verdict.quantities.groups import GROUP_OF, Designs
 
@@ -37,29 +36,20 @@ def batch_machines(specs: Sequence[Spec]) -> Iterator[Batch]:
 
     A spec that cannot be built is in none of them.
     """
-    each, shapes = split(specs), dict[object, list[int]]()
-    for i, (shape, _) in enumerate(each):
-        shapes.setdefault(shape, []).append(i)
-    for members in shapes.values():
-        wide = [each[i][1] for i in members]
-        varied = {k: np.array([own[k] for own in wide]) for k in wide[0]}
-        yield from built(specs[members[0]], varied, np.array(members))
+    return SpecGroups(specs).machines(np.arange(len(specs)))
 
 
-def batch_rows(
-    rows: Rows, keys: Sequence[str], read: Callable[[Sequence[Cell]], Spec]
-) -> Iterator[Batch]:
-    """Batch machines of rows of values of some keys, each with the numbers of its rows.
+def batch_rows(rows: Rows, read: Callable[[Sequence[Cell]], Spec]) -> Iterator[Batch]:
+    """Batch machines of rows of values of keys, each with the numbers of its rows.
 
     ``read`` makes the spec of a row, which takes longer than the row's share of a batch: it is
     called for the first rows of a batch only. Rows that share their words are machines of one kind,
     which tells which of their numbers may be arrays; the rows of a batch share the others too.
     """
-    each = rows.columns
     numbers = [
-        k
-        for k, column in enumerate(each)
-        if not (isinstance(column, list) and any(isinstance(cell, str) for cell in column))
+        key
+        for key, column in rows.columns.items()
+        if not (column.dtype == object and any(isinstance(cell, str) for cell in column))
     ]
 
     def first_spec(members: Whole) -> Spec | None:
@@ -68,30 +58,26 @@ def batch_rows(
                 return read(rows.row(i))
         return None
 
-    def groups(members: Whole, wide: Sequence[int]) -> Iterator[Whole]:
+    def groups(members: Whole, wide: Sequence[str]) -> Iterable[Whole]:
         """The members in groups that are equal in all columns but these."""
-        if len(wide) == len(each):
-            yield members
-            return
-        codes = np.zeros(len(members), dtype=np.intp)
-        for k, column in enumerate(rows.taken(members).columns):
-            if k not in wide:
-                known: dict[object, int] = {}
-                own = [known.setdefault(cell, len(known)) for cell in cells_of(column)]
-                codes = np.unique(codes * len(known) + own, return_inverse=True)[1]
-        order = np.argsort(codes, kind="stable")
-        yield from np.split(members[order], np.flatnonzero(np.diff(codes[order])) + 1)
+        shared = [cells_of(rows.columns[key][members]) for key in rows.columns if key not in wide]
+        if not shared:
+            return [members]
+        alike: dict[object, list[int]] = {}
+        for i, cells in zip(members.tolist(), zip(*shared, strict=True), strict=True):
+            alike.setdefault(cells, []).append(i)
+        return map(np.array, alike.values())
 
     for kind in groups(np.arange(len(rows)), numbers):
         wide = []
         if spec := first_spec(kind):
-            for k in numbers:
+            for key in numbers:
                 with suppress(GenevaError):  # the key belongs to another kind of machine
-                    wide += [k] if may_vary(spec, keys[k]) else []
+                    wide += [key] if may_vary(spec, key) else []
         for members in groups(kind, wide) if wide else ():
             if spec := spec if members is kind else first_spec(members):
                 own = rows.taken(members).columns
-                varied = {keys[k]: np.asarray(own[k]) for k in wide}
+                varied = {key: np.array(own[key].tolist()) for key in wide}
                 yield from built(spec, varied, members)
 
 
@@ -115,30 +101,49 @@ _SHARED = [
 ]
 
 
-def split(specs: Sequence[Spec]) -> list[tuple[Any, dict[str, float]]]:
-    """Of each spec the values that specs of one batch must share, and its own numbers."""
-    # of each kind of machine the keys, their tables and attributes, and whether they may be arrays
-    keys: dict[Any, list[tuple[str, str, str, bool]]] = {}
-    each = []
-    for spec in specs:
-        before, tables = type(spec.drive_before), vars(spec)
-        kinds = (type(spec.wheel), type(spec.drive), before, spec.motion and spec.motion.law)
-        if kinds not in keys:
-            keys[kinds] = []
-            for table in ("wheel", "drive", BEFORE, "motion"):  # where machines of a target differ
-                place, part = table.replace(".", "_"), spec.part(table)
-                for field in fields(type(part)) if part else ():
-                    name = f"{table}.{field.key}"
-                    keys[kinds].append((name, place, field.attribute, may_vary(spec, name)))
-        own, shape = {}, [kinds, *(tables[name] for name in _SHARED)]
-        for name, place, attribute, varies in keys[kinds]:
-            value = vars(tables[place])[attribute]
-            if varies and isinstance(value, (int, float)) and not isinstance(value, bool):
-                own[name] = value
-            else:
-                shape.append((name, value))
-        each.append((tuple(shape), own))
-    return each
+class SpecGroups:
+    """Specs in groups that can be batches: with equal values of all that may not be an array."""
+
+    def __init__(self, specs: Sequence[Spec]) -> None:
+        self.specs = specs
+        self._own: list[dict[str, float]] = []  # of each spec the numbers that may vary
+        may, groups, each = dict[object, bool](), dict[object, int](), list[int]()
+        for spec in specs:
+            before, law = type(spec.drive_before), spec.motion and spec.motion.law
+            kinds = type(spec.wheel), type(spec.drive), before, law
+            own, shape = dict[str, float](), [kinds, *map(vars(spec).get, _SHARED)]
+            for table in ("wheel", "drive", BEFORE, "motion"):  # where specs of a target differ
+                for key, value in spec.table(table).items():
+                    name = f"{table}.{key}"
+                    if (kinds, name) not in may:
+                        may[kinds, name] = may_vary(spec, name)
+                    is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
+                    if is_number and may[kinds, name]:
+                        own[name] = value
+                    else:
+                        shape.append((name, value))
+            self._own.append(own)
+            each.append(groups.setdefault(tuple(shape), len(groups)))
+        self._group = np.array(each, dtype=np.intp)
+
+    def machines(self, of: Whole, keys: Mapping[str, Array] = {}) -> Iterator[Batch]:
+        """Batch machines of specs by their numbers (n,), each with the indices of its numbers.
+
+        ``keys`` are values (n,) in place of the specs' own; NaN for a key that a spec keeps, and
+        infinite where there is no machine.
+        """
+        group = self._group[of]
+        for one in dict.fromkeys(group.tolist()):
+            which = np.flatnonzero(group == one)
+            own = [self._own[i] for i in of[which].tolist()]
+            varied = {key: np.array([one[key] for one in own]) for key in own[0]}
+            for key in varied.keys() & keys.keys():
+                value = keys[key][which]
+                varied[key] = np.where(np.isnan(value), varied[key], value)
+            able = np.isfinite([*varied.values()]).all(axis=0)
+            if able.any():
+                varied = {key: value[able] for key, value in varied.items()}
+                yield from built(self.specs[of[which[0]]], varied, which[able])
 
 
 def columns(machine: Mechanism, names: Sequence[str], count: int) -> list[Array]:

@@ -32,13 +32,14 @@ def compare(
     picks: Sequence[str] = (),
     ratio: bool = False,
     varied: bool = False,
+    differing: bool = False,
 ) -> Table:
     """Return the comparison: ``quantity``, one column for each design, and ``differs`` for several.
 
     ``picks`` are the quantities to show. Without them all that need no parts are shown, and the
     keys of wheel, drives and motion in which the specs differ, unless their names say what is
-    ``varied``. ``ratio`` divides numbers by those of the first design. Numbers differ if they do so
-    by more than rounding.
+    ``varied``. ``ratio`` divides numbers by those of the first design. With ``differing`` there are
+    only rows whose cells differ, numbers by more than rounding.
     """
     picked = pick(picks) if picks else None
     each: list[dict[str, Cell]] = []
@@ -63,7 +64,7 @@ def compare(
         differs = not all(same(c, cells[0]) for c in cells[1:])
         if quantity not in GROUP_OF and (varied or not differs):
             continue  # a key that the designs share, or that the columns' names show
-        if any(c is not None for c in cells):
+        if any(c is not None for c in cells) and (differs or not differing):
             if ratio:
                 cells[1:] = [over(cell, cells[0]) for cell in cells[1:]]
             rows.append((quantity, *cells, differs))
@@ -71,12 +72,6 @@ def compare(
     if len(designs) == 1:  # nothing to differ from
         names, rows = names[:-1], [row[:-1] for row in rows]
     return rows_table(names, rows, mixed=True).replaced(reading=Reading(designs=True))
-
-
-def differing(table: Table) -> Table:
-    """The rows of a comparison whose cells differ; none of a single design."""
-    rows = [row for row in table.rows() if row[-1]] if "differs" in table.names else []
-    return rows_table(table.names, rows, mixed=True).replaced(reading=table.reading)
 
 
 def over(cell: Cell, first: Cell) -> Cell:

@@ -8,24 +8,22 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from functools import partial
-from typing import NamedTuple, TypeAlias, TypeVar
+from typing import NamedTuple, TypeAlias
 
 from geneva_cli.answer import Answer, Summary
 from geneva_cli.design import CURVES, Design
 from geneva_cli.drawings.catalogue import without_sheet
 from geneva_cli.drawings.parts_list import single_parts
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.motion.machine_spec import Spec
+from geneva_cli.motion.machine_spec import BEFORE, Spec
 from geneva_cli.output import animate, draw, draw_sheet, show, show_document, show_text, usual
 from geneva_cli.parts.chosen import Chosen
 from geneva_cli.parts.projection import Missing
-from geneva_cli.spec.schema import Points, SpecTable, fields
+from geneva_cli.spec.schema import Points
 from geneva_cli.specfile.writer import inserted, quoted, spec_lines
 from geneva_cli.study.summary.load_lines import title_of
 from geneva_cli.table import Reading, record_table, rows_table
 from geneva_cli.verdict.warnings import gears_without_teeth
-
-T = TypeVar("T", bound=SpecTable)
 
 
 class ExportFile(NamedTuple):
@@ -127,28 +125,17 @@ def _write(design: Design, name: str, path: str) -> None:
 
 def _spec_files(design: Design) -> Iterator[ExportFile]:
     """Yield the spec with all settings and sizes, and the points that it names, in one folder."""
-    spec, points = design.sized.spec, list[Points]()
-    spec = spec.replace(drive=_named_here(spec.drive, points))
-    if spec.drive_before:
-        spec = spec.replace(drive_before=_named_here(spec.drive_before, points))
-    if spec.motion:
-        law = _named_here(spec.motion.law, points)
-        spec = spec.replace(motion=spec.motion.replace(law=law))
-    for own in points:
-        text = "".join(f"{x!r},{y!r}\n" for x, y in own.pairs)
-        yield ExportFile(own.file, "points that the spec names", partial(show_text, text))
-    text = "the design, with all its settings and sizes"
-    yield ExportFile("spec.toml", text, partial(show_text, written(spec, design.chosen)))
-
-
-def _named_here(table: T, points: list[Points]) -> T:
-    """A table whose points have names in the folder, with which they are added to ``points``."""
-    for field in fields(type(table)):
-        value = vars(table)[field.attribute]
-        if isinstance(value, Points):
-            points.append(Points(value.pairs, f"points-{len(points) + 1}.csv"))
-            table = table.replace(**{field.attribute: points[-1]})
-    return table
+    spec, points = design.sized.spec, dict[str, Points]()
+    for table in ("drive", BEFORE, "motion"):
+        for key, value in spec.table(table).items():
+            if isinstance(value, Points):
+                name = f"points-{len(points) + 1}.csv"
+                points[f"{table}.{key}"] = Points(value.pairs, name)
+                text = "".join(f"{x!r},{y!r}\n" for x, y in value.pairs)
+                yield ExportFile(name, "points that the spec names", partial(show_text, text))
+    text = written(spec.with_keys(points), design.chosen)
+    content = "the design, with all its settings and sizes"
+    yield ExportFile("spec.toml", content, partial(show_text, text))
 
 
 def of_sizes(design: Design, as_json: bool) -> Answer:

@@ -7,98 +7,91 @@ which go from a computation to a file without a list for each row.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import chain
 from operator import attrgetter
-from typing import NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array, Mask, Whole
 from geneva_cli.parts.parts import Parts, parts_of
+from geneva_cli.study.sweep.constraints import Constraint
 from geneva_cli.table import Table
 from geneva_cli.verdict.quantities.groups import GROUP_OF, QuantityGroup
 from geneva_cli.verdict.quantities.quantity_names import in_batch, whole_name
 
 Cell: TypeAlias = float | int | str | bool | None
-# Numbers, where infinity is no value, or cells of all sorts.
-Column: TypeAlias = "Array | Whole | list[Cell]"
+# Numbers, where infinity is no value, or objects: cells of all sorts.
+Column: TypeAlias = "np.ndarray[Any, Any]"
 
 
 class Rows:
-    """Rows of equal columns; iteration yields a list of cells for each row."""
+    """Rows of equal columns by their names; iteration yields a list of cells for each row."""
 
-    def __init__(self, columns: Sequence[Column]) -> None:
-        self.columns = list(columns)
+    def __init__(self, columns: Mapping[str, Column]) -> None:
+        self.columns = dict(columns)
 
     def __len__(self) -> int:
-        return len(self.columns[0])
+        return len(next(iter(self.columns.values())))
 
     def __iter__(self) -> Iterator[list[Cell]]:
-        return map(list, zip(*map(cells_of, self.columns), strict=True))
+        return map(list, zip(*map(cells_of, self.columns.values()), strict=True))
 
     def row(self, i: int) -> list[Cell]:
         """The cells of one row."""
-        return [cells_of(column[i : i + 1])[0] for column in self.columns]
+        return [cells_of(column[i : i + 1])[0] for column in self.columns.values()]
 
-    def numbers(self, at: int) -> Array:
+    def numbers(self, name: str) -> Array:
         """A column as numbers (n,), NaN for cells that hold none; True and False are 1 and 0."""
-        column = self.columns[at]
-        if isinstance(column, list):
+        column = self.columns[name]
+        if column.dtype == object:
             return np.array([float(v) if isinstance(v, (int, float)) else math.nan for v in column])
         return np.where(np.isinf(column), np.nan, column)
 
     def taken(self, which: Mask | Whole) -> Rows:
         """Some of the rows, by a mask (n,) or by their numbers."""
-        numbers = np.flatnonzero(which) if which.dtype == bool else which
-        each = numbers.tolist() if any(isinstance(c, list) for c in self.columns) else []
-        return Rows(
-            [[c[i] for i in each] if isinstance(c, list) else c[numbers] for c in self.columns]
-        )
+        return Rows({name: column[which] for name, column in self.columns.items()})
 
-    def replaced(self, which: Whole, rows: Sequence[Sequence[Cell]]) -> Rows:
+    def replaced(self, which: Whole, rows: Iterable[Sequence[Cell]]) -> Rows:
         """The rows with those of these numbers replaced."""
         changed: list[Sequence[Cell]] = [*self]
         for i, row in zip(which.tolist(), rows, strict=True):
             changed[i] = row
-        return rows_of(changed)
+        return rows_of(self.columns, changed)
 
 
-def rows_of(rows: Sequence[Sequence[Cell]]) -> Rows:
-    """Rows from the cells of each row, at least one."""
-    return Rows([column_of(cells) for cells in zip(*rows, strict=True)])
+def rows_of(names: Iterable[str], rows: Sequence[Sequence[Cell]]) -> Rows:
+    """Rows of named columns from the cells of each row, at least one."""
+    return Rows(dict(zip(names, map(column_of, zip(*rows, strict=True)), strict=True)))
 
 
 def joined(several: Sequence[Rows]) -> Rows:
     """The rows of several, at least one, with equal columns."""
-    out: list[Column] = []
-    for columns in zip(*[rows.columns for rows in several], strict=True):
-        arrays = [column for column in columns if not isinstance(column, list)]
-        if len(arrays) == len(columns) and len({array.dtype for array in arrays}) == 1:
-            out.append(np.concatenate(arrays))
-        else:
-            out.append([cell for column in columns for cell in cells_of(column)])
+    out = dict[str, Column]()
+    for name in several[0].columns:
+        columns = [rows.columns[name] for rows in several]
+        is_alike = len({column.dtype for column in columns}) == 1
+        own = columns if is_alike else [column_of(cells_of(c), object) for c in columns]
+        out[name] = np.concatenate(own)
     return Rows(out)
 
 
-def column_of(cells: Sequence[Cell]) -> Column:
-    """A column of cells: an array if all are floats or None, or all are whole numbers."""
+def column_of(cells: Sequence[Cell], kind: type | None = None) -> Column:
+    """A column of cells: of floats if all are floats or None, of whole numbers, or of objects."""
     types = {*map(type, cells)}
-    if float in types and types <= {float, type(None)}:
+    if kind is None and float in types and types <= {float, type(None)}:
         return np.array([math.inf if v is None else v for v in cells], dtype=float)
-    if types == {int}:  # all of them: an array of whole numbers has no place for None
-        whole = np.array(cells)
-        return whole if whole.dtype == np.intp else list(cells)  # of more than 63 bits
-    return list(cells)
+    # an array of whole numbers has no place for None, nor for more than 63 bits
+    column = np.array(cells, dtype=kind or (None if types == {int} else object))
+    return column if column.dtype in (np.intp, object) else column.astype(object)
 
 
 def cells_of(column: Column) -> list[Cell]:
     """The cells of a column as plain Python values, None for no value."""
-    if isinstance(column, list):
-        return column
     cells: list[Cell] = column.tolist()
-    for i in np.flatnonzero(np.isinf(column)).tolist():
+    for i in np.flatnonzero(np.isinf(column)).tolist() if column.dtype == float else ():
         cells[i] = None
     return cells
 
@@ -138,23 +131,14 @@ class Pick(NamedTuple):
         """The values of the quantities for a machine; None if one does not apply."""
         return self.of_parts(parts_of(mechanism))
 
-    def of_parts(
-        self,
-        parts: Parts,
-        known: Sequence[Cell] | None = None,
-        keeps: Callable[[Mapping[str, Cell]], bool] = lambda cells: True,
-    ) -> list[Cell]:
+    def of_parts(self, parts: Parts, bounds: Iterable[Constraint] = ()) -> list[Cell]:
         """The values of the quantities for a machine's parts; None if one does not apply.
 
-        ``known`` are those of ``batched``, if a batch has computed them. The parts are not made if
-        the other values do not keep ``keeps``: what needs parts is then None.
+        The parts are not made if another value breaks a bound: what needs parts is then None.
         """
-        own = dict(zip(self.batched, known or (), strict=False))
-        groups = Pick(tuple(name for name in self.names if name not in own)).groups
-        cells = values(parts, [group for group in groups if not group.makes_parts]) | own
-        slow = [group for group in groups if group.makes_parts]
-        if slow and keeps(cells):
-            cells |= values(parts, slow)
+        cells = values(parts, [group for group in self.groups if not group.makes_parts])
+        if all(bound.kept(cells[bound.name]) for bound in bounds if bound.name in cells):
+            cells |= values(parts, [group for group in self.groups if group.makes_parts])
         return [cells.get(name) for name in self.names]
 
 

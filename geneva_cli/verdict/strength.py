@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from functools import lru_cache
 
 import numpy as np
@@ -64,24 +64,20 @@ class Strength:
         """Length of the contact line; None if it is not known."""
         return only(self.load.contact_mm)
 
-    def warnings(self) -> list[Notice]:
+    def warnings(self) -> Iterator[Notice]:
         """A note on the limits of a known stress."""
-        load = self.load
-        if self["strength.horn.stress_MPa"] is None or not load.horn_sizes:
-            return []
-        stout, recess = 0.0, 0.0  # thickness at the mouth over the recess's radius, and that
-        for horn in load.sides(self.mechanism, *load.horn_sizes):
-            stout, recess = max((stout, recess), (float(horn.stoutness[0]), float(horn.recess_mm)))
-        if stout <= STOUT:
-            return []
-        return [
-            Notice(
+        known, stout, recess = self["strength.horn.stress_MPa"] is not None, 0.0, 0.0
+        for horn in self.load.sides(self.mechanism, *self.load.horn_sizes or ()) if known else ():
+            # thickness at the mouth over the recess's radius, and that
+            thick, own = horn.points(horn.at.mouth_deg)[1].item(), float(horn.recess_mm)
+            stout, recess = max((stout, recess), (thick / own, own))
+        if stout > STOUT:
+            yield Notice(
                 "stout-horns",
                 "horn_stress_MPa is that of a slender beam, but the horns are thick: "
                 f"{stout:.3g} times their recess's radius ({recess:.4g} mm) at the mouth. The "
                 "stress is 7 % too small for horns of half that radius, more for thicker ones",
             )
-        ]
 
     def reason(self, name: str) -> str | None:
         """The keys that a value of ``NEEDY`` needs, in words.
@@ -138,9 +134,9 @@ class Strength:
         if not (locked or math.isfinite(load.force_N[0])):
             needs.append(BOUND)
         # on a sharp edge a contact stress has no bound
-        sharp = locked and load.lock and np.isnan(load.lock.approach_deg)
-        if sharp and name != "lock_horn_stress_MPa" and not needs and load.lock:
-            return _EDGE if load.lock.on == "corner" else _SHORT
+        sharp = locked and load.lock and np.isnan(load.lock["approach_deg"][0])
+        if sharp and name != "lock_horn_stress_MPa" and not needs and load.lock_sizes:
+            return _EDGE if load.lock_sizes[1].contact().on == "corner" else _SHORT
         return " and ".join(needs) or None
 
     def missing(self, among: Sequence[str]) -> list[str]:

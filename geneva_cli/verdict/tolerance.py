@@ -17,9 +17,12 @@ import numpy as np
 from geneva_cli.errors import GenevaError, Notice, cut
 from geneva_cli.loads.impacts.entry import arm_mm
 from geneva_cli.loads.tolerance import locking, motion_error, random_machines
-from geneva_cli.loads.tolerance.random_machines import Spread, spread
+from geneva_cli.loads.tolerance.locking import Effect
+from geneva_cli.loads.tolerance.random_machines import Draws, Spread, spread
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.registry import thing
+from geneva_cli.numerics.arrays import Mask
+from geneva_cli.numerics.jet import Jet
 from geneva_cli.parts.outlines.cut_outlines import cut_arcs
 from geneva_cli.parts.parts import Parts
 from geneva_cli.spec.rules import POSITIVE, require_mm
@@ -27,7 +30,13 @@ from geneva_cli.table import Table, record_table, rows_table
 
 SAME = 1e-6  # fraction of the centre distance, or radians: nearer radii and angles are equal
 # The locks of a machine as it is cut, one for each shape, and the clearance that they need.
-Locks: TypeAlias = tuple[Sequence[locking.CutLock], float | None]
+Locks: TypeAlias = tuple[Sequence[Effect], float | None]
+# The reasons why effects are unknown.
+UNKNOWN = {
+    "dwell_position": "no drawn locking disc holds the wheel at rest",
+    "motion_play": "curved slots are computed for a path without errors",
+    "entry_jump": "the law, not the path, sets how the roller enters",
+}
 ANGLES = ("worst", "rss", "mean", "std", "p997")
 
 
@@ -70,7 +79,7 @@ def needed_mm(
     """The clearances per side that slot and lock need; without ``parts`` only the slot's."""
     locks, lock_mm = cut_locks(parts, sizes) if parts else ([], None)
     ends = locking.corners(list(sizes.values()))
-    play = min((float(np.min(lock(ends).angle.c[0])) for lock in locks), default=0.0)
+    play = min((np.min(lock(ends)[0].c[0]).item() for lock in locks), default=0.0)
     L, most = mechanism.center_distance_mm, 0.0
     for one in mechanism.engagements:
         fraction = sizes["crank_radius_mm"] / arm_mm(mechanism, one)
@@ -92,7 +101,7 @@ def needed_mm(
 
 def worst_dwell_deg(mechanism: Mechanism, parts: Parts) -> float | None:
     """The greatest error of the resting wheel's angle within the tolerances, degrees."""
-    use = motion_error.used(mechanism)
+    use = locking.used(mechanism.spec)
     _refuse_large(mechanism, use)
     loosest = _loosest_lock(mechanism, parts, use)
     return math.degrees(loosest[1]) if loosest else None
@@ -100,16 +109,21 @@ def worst_dwell_deg(mechanism: Mechanism, parts: Parts) -> float | None:
 
 def _loosest_lock(
     mechanism: Mechanism, parts: Parts, use: dict[str, float]
-) -> tuple[locking.CutLock, float] | None:
-    """The lock that lets the wheel turn farthest, and its greatest error with the slot's, radians.
+) -> tuple[Effect, float] | None:
+    """The error of the wheel in the lock that lets it turn farthest, and the greatest, radians.
 
     None if no drawn lock holds the wheel.
     """
-    locks = cut_locks(parts.built, use)[0] if mechanism.spec.is_turned else []
-    ends = locking.corners(list(use.values()))
-    each = [(lock, float(np.max(lock(ends).angle.derivatives()[0]))) for lock in locks]
-    lock, most = max(each, key=lambda one: one[1], default=(None, 0.0))
-    return (lock, most + use["slot_angle_deg"]) if lock else None
+    ends, best = locking.corners(list(use.values())), None
+    for lock in cut_locks(parts.built, use)[0] if mechanism.spec.is_turned else []:
+
+        def error(by: locking.Deviations, lock: Effect = lock) -> tuple[Jet, Mask]:
+            angle, jams = lock(by)
+            return angle + by.slot_angle_deg, jams
+
+        most = np.max(error(ends)[0].c[0]).item()
+        best = (error, most) if best is None or most > best[1] else best
+    return best
 
 
 def _refuse(mechanism: Mechanism, samples: int, seed: int) -> None:
@@ -151,53 +165,45 @@ def tolerance_table(
     if radius_mm is not None:
         require_mm("--radius", radius_mm, POSITIVE)
     _refuse(mechanism, samples, seed)
-    spec, use = mechanism.spec, motion_error.used(mechanism)
-    given = locking.tolerances(spec)
+    spec, use = mechanism.spec, locking.used(mechanism.spec)
+    given, sizes = spec.tolerance.as_dict(), list(use.values())
     warnings = [
         Notice("tolerance-left-out", f"{name} is left out: {reason}")
         for name, reason in locking.without_effect(spec).items()
         if given[name]
     ]
     _refuse_large(mechanism, use)
-    sizes, loosest, unknown = list(use.values()), None, list[str]()
+    draws = Draws(tuple(sizes), spec.tolerance.distribution == "normal", seed)
+    # of angles: the effects whose spreads are shown, with their greatest sizes in radians
+    shown, drawn = dict[str, tuple[Effect, float]](), dict[str, Effect]()
+    unknown, at_deg, jump = list[str](), None, list[float | None]([None] * 4)
     try:
-        loosest = _loosest_lock(mechanism, parts, use)
+        if loosest := _loosest_lock(mechanism, parts, use):
+            shown["dwell_position"], drawn["dwell_position"] = loosest, loosest[0]
     except GenevaError as error:
         unknown.append(f"no parts: {error}")
-    ends, motions = locking.corners(sizes), motion_error.motion_errors(mechanism)
-    each = motion_error.entry_jumps(mechanism)
-    jumps = max(each, key=lambda one: float(np.max(one(ends)[0])), default=None)
-    draws = random_machines.Draws(tuple(sizes), spec.tolerance.distribution == "normal", seed)
-    likely = random_machines.likely_place(draws, samples, motions) if motions else None
-    drawn = random_machines.random_machines(draws, samples, loosest and loosest[0], likely, jumps)
+    if motions := motion_error.motion_errors(mechanism):
+        each = [
+            (one, one.greatest(sizes).T, one.greatest(sizes, squared=True).T) for one in motions
+        ]
+        one, ((most, place, _),), _ = max(each, key=lambda row: row[1][0, 0])
+        at_deg = mechanism.shown_deg(one.engagement.mid_deg + place.item())
+        one, _, ((_, place, side),) = max(each, key=lambda row: row[2][0, 0])
+        shown["motion_play"] = one.at(place, side), most
+        drawn["motion_play"] = random_machines.likely_effect(draws, samples, motions)
+    ends, worst_jump = locking.corners(sizes), -1.0
+    for own in motion_error.entry_jumps(mechanism):
+        if (worst := np.max(own(ends)[0].c[0]).item()) > worst_jump:
+            drawn["entry_jump"], worst_jump = own, worst
+    errors, masks = random_machines.random_errors(draws, samples, drawn.values())
     angles = dict[str, Spread | None].fromkeys(("dwell_position", "motion_play"))
-    at_deg, jump = None, list[float | None]([None] * 4)
-    if loosest:
-        lock, worst = loosest
-        found = spread(lambda by: lock(by).angle + by.slot_angle_deg, sizes, worst, drawn.dwell)
-        angles["dwell_position"] = found
-    else:
-        unknown.append("dwell_position is not known: no drawn locking disc holds the wheel at rest")
-    if motions:
-        errors = [(one, one.greatest(ends)) for one in motions]
-        roots = [(one, one.greatest_rss(sizes)) for one in motions]
-        one, farthest = max(errors, key=lambda error: float(error[1][0, 0]))
-        at_deg = mechanism.shown_deg(one.engagement.mid_deg + float(farthest[1, 0]))
-        other, root = max(roots, key=lambda root: float(root[1][0, 0]))
-        place, side, worst = float(root[1, 0]), float(root[2, 0]), float(farthest[0, 0])
-        found = spread(lambda by: other(by, place, side) * side, sizes, worst, drawn.motion)
-        angles["motion_play"] = found
-    else:
-        unknown.append(
-            "motion_play is not known: curved slots are computed for a path without errors"
-        )
-    if jumps:
-        worst_jump = motion_error.entry_jumps_worst(mechanism, use)
-        assert worst_jump is not None  # there are slots to enter
-        jump = [float(drawn.jump.mean()), float(drawn.jump.std()), float(worst_jump[0])]
-        jump.append(drawn.missed)
-    else:
-        unknown.append("entry_jump is not known: the law, not the path, sets how the roller enters")
+    for (name, (effect, most)), drawn_ones in zip(shown.items(), errors, strict=False):
+        angles[name] = spread(effect, sizes, most, drawn_ones)
+    jams = masks[: len(shown)].any(axis=0).mean().item() if shown else None
+    if "entry_jump" in drawn:
+        jump = [errors[-1].mean().item(), errors[-1].std().item(), worst_jump]
+        jump.append(masks[-1].mean().item())
+    unknown += [f"{name} is not known: {why}" for name, why in UNKNOWN.items() if name not in drawn]
     warnings += [Notice("not-known", text) for text in unknown]
     clearances = _clearances(mechanism, parts, use, warnings)
     known = [name for name, of in angles.items() if of]
@@ -216,7 +222,7 @@ def tolerance_table(
     values |= {"motion_play.at_deg": at_deg, "contributions": _contributions(angles, given)}
     for end, value in zip(("mean", "std", "worst", "missed_share"), jump, strict=True):
         values[f"entry_jump.{end}"] = value
-    values |= clearances | {"clearances.jam_share": drawn.jams, "warnings": tuple(warnings)}
+    values |= clearances | {"clearances.jam_share": jams, "warnings": tuple(warnings)}
     return record_table(values, spec.title)
 
 

@@ -1,7 +1,7 @@
 """All warnings about a design: here those about loads, numbers, keys, parts and their turn."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from operator import attrgetter
 from typing import TYPE_CHECKING
 
@@ -31,12 +31,13 @@ STEEP_DEG = 60.0  # a pressure angle that friction of 0.58 would hold, more than
 def warnings(parts: Parts) -> list[Notice]:
     """Warnings about the motion, the loads and the parts of a machine, in this order."""
     mechanism = parts.mechanism
-    of_loads, of_strength = list[Notice](), list[Notice]()
+    of_loads: Iterable[Notice] = ()
+    of_strength: Iterable[Notice] = ()
     if mechanism.spec.is_loaded:  # machines without a load do not import what these need
         from geneva_cli.loads.cycle import cycle_warnings
         from geneva_cli.verdict.strength import strength
 
-        of_loads, of_strength = [*cycle_warnings(mechanism)], strength(mechanism).warnings()
+        of_loads, of_strength = cycle_warnings(mechanism), strength(mechanism).warnings()
     return [
         *motion_warnings(mechanism),
         *of_loads,

@@ -9,7 +9,6 @@ from geneva_cli.geometry.plates import Shell
 from geneva_cli.geometry.sphere import (
     Cap,
     Region,
-    Rotation,
     SphereArc,
     convex_hull,
     cross,
@@ -64,10 +63,7 @@ def test_the_excess_of_a_triangle():
 
 def test_a_shell():
     """A whole cap's frustum of a cone between two spheres, and a hollow ball's 2/5."""
-    two = [
-        cap(math.pi / 2.0),
-        cap(math.pi / 2.0).turned(Rotation((1, 0, 0), (0, -1, 0), (0, 0, -1))),
-    ]
+    two = [Cap((0.0, 0.0, sense), 0.5 * math.pi).region for sense in (1.0, -1.0)]
     ball = Shell("ball", "WHEEL", tuple(two), 3.0, 5.0)
     assert ball.volume == pytest.approx(4.0 / 3.0 * math.pi * (125.0 - 27.0), rel=1e-14)
     wanted = 0.4 * ball.volume * (5.0**5 - 3.0**5) / (5.0**3 - 3.0**3)

@@ -1,16 +1,16 @@
 """The lock under a torque: geometry by mpmath and by the parts' own turn, contact by its field."""
 
 import math
+from types import SimpleNamespace
 
 import mpmath
-import numpy as np
 import pytest
 import repo
 from plane_stress import horn as in_plane_stress
 from words import Spec, Wheel
 
 from geneva_cli import load
-from geneva_cli.loads.strength.lock import LockUnderTorque, bending, loaded_locks
+from geneva_cli.loads.strength.lock import bending, loaded_locks
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.motion.mechanism import build
 from geneva_cli.parts.parts import parts_of
@@ -27,8 +27,7 @@ def answer(spec):
     found = loaded_locks(mechanism, s.half_width, by(s, mechanism.spec), s.wheel_thickness)
     if found is None:
         return None, s, mechanism
-    on, *rows = found
-    return LockUnderTorque(on, *(np.asarray(row).item() for row in rows)), s, mechanism
+    return SimpleNamespace(**{k: row.item() for k, row in found.items()}), s, mechanism
 
 
 def by(s, spec):
@@ -77,9 +76,10 @@ def test_the_play_is_that_of_the_parts(name, on):
 
 def plays_as_its_parts(design, on="disc's end"):
     design = design.with_("size.face_width_mm", 20.0).with_("load.dwell_torque_Nm", 5.0)
-    found = strength(design.mechanism).load.lock
-    assert found.on == on
-    assert parts_of(design.mechanism).turn.dwell.deg == pytest.approx(found.play_deg, rel=3e-6)
+    load = strength(design.mechanism).load
+    assert load.lock_sizes[1].contact().on == on
+    play_deg = load.lock["play_deg"].item()
+    assert parts_of(design.mechanism).turn.dwell.deg == pytest.approx(play_deg, rel=3e-6)
 
 
 def test_force_and_pressure_hold_the_torque():

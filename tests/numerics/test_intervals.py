@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from sampling import some
 
-from geneva_cli.numerics.arrays import library, narrowed, piece_of
+from geneva_cli.numerics.arrays import library, piece_of
 from geneva_cli.numerics.intervals import Interval, Undecided
 from geneva_cli.numerics.spline import at_rest
 
@@ -16,7 +16,6 @@ ONE_OF = {
     "sin": mpmath.sin,
     "cos": mpmath.cos,
     "sqrt": lambda x: mpmath.sqrt(abs(x)),
-    "asin": lambda x: mpmath.asin(x / 10),
 }
 
 
@@ -24,30 +23,18 @@ def holds(interval, value):
     return mpmath.mpf(float(interval.low)) <= value <= mpmath.mpf(float(interval.high))
 
 
-@pytest.mark.parametrize(
-    "ask",
-    [
-        lambda x: x < 0.7,
-        lambda x: x <= 0.7,
-        lambda x: x > 0.7,
-        lambda x: x == 0.7,
-        lambda x: x < Interval(0.9, 2.0),
-        lambda x: library(x).copysign(1.0, x - 0.7),
-        lambda x: library(x).atan2(x - 0.7, x - 0.8),
-        lambda x: x.piece([0.7]),
-    ],
-)
-def test_an_open_comparison_is_refused(ask):
-    with pytest.raises(Undecided):
-        ask(Interval(0.5, 1.0))
+def test_a_comparison_is_refused():
+    for ask in (lambda x: x < 0.7, lambda x: x >= 0.7, lambda x: x == 0.7, lambda x: x != 0.7):
+        with pytest.raises(TypeError):
+            ask(Interval(0.5, 1.0))
 
 
-def test_a_decided_comparison_is_answered():
+def test_a_decided_piece_is_answered():
     x = Interval(0.5, 1.0)
-    assert x < 1.5 and x <= 1.5 and x > 0.25 and x >= 0.25 and x != 2.0
-    assert Interval(0.5, 0.5) == 0.5
     assert x.piece([0.25, 2.0]) == piece_of(0.7, [0.25, 2.0]) == 1
     assert Interval(0.5, math.nextafter(1.0, 2.0)).piece([1.0]) == 0
+    with pytest.raises(Undecided):
+        x.piece([0.7])
 
 
 @pytest.mark.long
@@ -63,21 +50,14 @@ def test_every_operation_holds_the_exact_values():
             assert holds(x * x, u * u) and holds(x**3, u**3) and holds(abs(x), abs(u))
             assert holds(2.0 - x, 2 - u) and holds(x / y, u / v) and holds(1.0 / y, 1 / v)
             for name, exact in ONE_OF.items():
-                of = {"sqrt": abs(x), "asin": x / 10.0}.get(name, x)
+                of = abs(x) if name == "sqrt" else x
                 assert holds(getattr(library(x), name)(of), exact(u)), name
             assert holds(library(x).hypot(x, y), mpmath.sqrt(u * u + v * v))
-            try:
-                angle = library(x).atan2(y, x)
-            except Undecided:
-                assert x.low <= 0.0 and y.low <= 0.0 <= y.high
-            else:
-                assert holds(angle, mpmath.atan2(v, u))
 
 
 @pytest.mark.parametrize(
     ("ask", "answers"),
     [
-        (lambda x: x < 1.0, [1.0, math.nan, 0.0]),
         (lambda x: x.piece([0.25, 1.0]), [1.0, math.nan, 2.0]),
         (lambda x: x.pieces([0.25, 1.0]), [0.0, math.nan, 0.0]),
     ],
@@ -98,15 +78,3 @@ def test_intervals_in_several_pieces_of_a_spline_are_evaluated_together():
     for k, (low, high) in enumerate(ends.T.tolist()):
         for whole, alone in zip(together, spline(Interval(low, high), 3), strict=True):
             assert (whole.low[k], whole.high[k]) == (alone.low, alone.high)
-
-
-def test_a_rising_function_is_as_narrow_as_its_ends():
-    """x - x²/4 rises on [0, 1], to 3/4; its formula alone reaches from -1/4 to 1."""
-
-    def f(x):
-        return x - x * x * 0.25
-
-    x = Interval(0.0, 1.0)
-    found = narrowed(f(x), f, x)
-    assert found.low <= 0.0 and 0.75 <= found.high < 0.75 + 1e-15
-    assert found.low > -1e-300 and f(x).high >= 1.0

@@ -96,6 +96,7 @@ def test_every_part_of_every_design(design):
         require_closed(mesh)
         if isinstance(solid, Shell):
             require_near_spheres(mesh, solid, tolerance)
+            assert mesh.euler_number == 2 * (1 - len(solid.holes))  # no slits between regions
             continue
         true = face(solid)
         walls = mesh.area_faces[abs(mesh.face_normals[:, 2]) < 0.5].sum()

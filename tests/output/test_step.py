@@ -8,16 +8,14 @@ import math
 import pytest
 import repo
 from step_witness import File, Solid, references
-from witness import mp
 
 from geneva_cli import Design, External
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Group, Member, Plate, moments
-from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Line, about, backwards, closed
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Line, backwards, closed
 from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.output.inks import INKS
-from geneva_cli.output.splines import pieces
 from geneva_cli.output.step import chunks
 from geneva_cli.output.step.entities import real, words
 
@@ -147,33 +145,6 @@ def test_colours():
         found.append("#" + "".join(f"{round(255 * c):02x}" for c in file.values(colours[0])[1:]))
     layers = ("WHEEL", "CRANK", "ARM", "ROLLER", "ROLLER", "SHAFT", "SHAFT", "FRAME")
     assert found == [INKS[layer].rgb for layer in layers]
-
-
-def test_a_short_arc_is_part_of_the_spline_beside_it():
-    """No farther from its circle than 1e-12 of the radius, in 50 digits; a longer one stays."""
-
-    def beside(sweep, radius=50.0):
-        arc = about((0.0, radius), radius, -0.5 * math.pi - sweep, sweep)  # ends at 0, along x
-        return pieces([arc, Cubic((0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (3.0, 1.0))])
-
-    for sweep in (0.01, 4.0 * math.atan(0.0136)):
-        (joined,) = beside(sweep)
-        first = [mp.matrix(p) for p in joined.poles[:3]]
-        h = joined.knots[1] / joined.knots[2]
-        last = (1 - h) * first[2] + h * mp.matrix(joined.poles[3])  # where both meet
-        assert mp.norm(last) < 1e-13
-        control = (first[0], first[1], first[2], last)
-        # the pole where they meet is left out, and lies between its neighbours
-        for k in range(21):
-            t = mp.mpf(k) / 20
-            share = (1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t**2 * (1 - t), t**3
-            x, y = (sum(c * p[i] for c, p in zip(share, control, strict=True)) for i in (0, 1))
-            assert abs(mp.hypot(x, y - 50) - 50) < 50e-12
-    assert [type(one).__name__ for one in beside(0.06)] == ["Arc", "Spline"]
-    # nor where a corner is between them
-    corner = [about((0.0, 50.0), 50.0, -1.58, 0.01), Cubic((0.0, 0.0), (1.0, 1.0), (2, 1), (3, 1))]
-    corner[0] = corner[0]._replace(end=(0.0, 0.0))
-    assert [type(one).__name__ for one in pieces(corner)] == ["Arc", "Spline"]
 
 
 def test_titles_in_any_script():

@@ -81,7 +81,7 @@ def test_sectors_are_where_gears_mesh():
     for gear, towards in zip(bars.gears, (math.pi, 0.0), strict=True):
         toothed = [
             piece
-            for piece in gear.plate.outline.segments
+            for piece in gear.part.outline.segments
             if isinstance(piece, Arc) and piece.radius == pytest.approx(60.0)
         ]
         ends = {round(math.degrees(math.atan2(p.start[1], p.start[0]) - towards)) % 360
@@ -91,14 +91,14 @@ def test_sectors_are_where_gears_mesh():
 
 def test_a_ring_is_round_its_pitch_circle():
     of = Design(External(6), RING)
-    (_, ring) = drawn_links(of.mechanism, of.parts.outlines).gears
-    (pitch, *bolts) = ring.plate.holes
+    ring = drawn_links(of.mechanism, of.parts.outlines).gears[1].part
+    (pitch, *bolts) = ring.holes
     # c = 1 - 2z/(z - 2) = -2: the planet has R0/2 and the ring three times that, R0 = 0.52 L
-    assert (ring.bore.radius, pitch.radius) == (0.0, pytest.approx(78.0, rel=1e-14))
+    assert (ring.bore, pitch.radius) == (None, pytest.approx(78.0, rel=1e-14))
     assert len(bolts) == 4
     assert all(pitch.radius < math.hypot(*b.centre) - b.radius for b in bolts)
-    assert all(math.hypot(*b.centre) + b.radius < ring.outer for b in bolts)
-    whole = disc(ring.outer, 10.0) - disc(pitch.radius, 10.0)
+    assert all(math.hypot(*b.centre) + b.radius < ring.outline.radius for b in bolts)
+    whole = disc(ring.outline.radius, 10.0) - disc(pitch.radius, 10.0)
     far = math.hypot(*bolts[0].centre)
     holes = 4.0 * disc(bolts[0].radius, 10.0)
     holes[1] += holes[0] * far * far * 1e-6

@@ -19,9 +19,8 @@ from geneva_cli.geometry.shapes import Arc
 from geneva_cli.parts.links.link_plates import drawn_links
 from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.outlines.crank_outline import arc_floor, reliefs, widened
-from geneva_cli.parts.outlines.cut_outlines import cut_arcs, cut_lock, drawn
+from geneva_cli.parts.outlines.cut_outlines import cut_arcs, cut_lock, drawn, horn_corners
 from geneva_cli.parts.shafts.arm_and_shafts import crank_arm
-from geneva_cli.parts.slots.roller_paths import horn_corners
 from geneva_cli.spec.tables import Size
 
 L = 100.0

@@ -12,6 +12,7 @@ from words import load
 
 from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.parts.turn.full_turn import DRIVING, full_turn
+from geneva_cli.parts.turn.turned_parts import play_of
 from geneva_cli.verdict.checks import TURNING, applicable
 
 DESIGNS = repo.DESIGNS
@@ -131,7 +132,7 @@ def test_the_wheel_is_held_at_every_position(tmp_path: Path, name: str) -> None:
     found = machine(tmp_path, f"[wheel]\n{keys}{bore}\n")
     turn = full_turn(found)
     assert turn.hand_over.deg == pytest.approx(play, rel=1e-3)
-    p = turn.play
+    p, _ = play_of(found, fits=True)
     either = np.maximum(p.back, p.on)
     i = int(np.argmax(np.where(p.guided, 0.0, either)))
     # all the way to there the wheel is free, and a little farther it is not

@@ -52,7 +52,7 @@ def test_a_stopped_sweep_goes_on(tmp_path):
     assert os.listdir(tmp_path) == ["rows.csv"]
     state = tmp_path / "rows.csv.geneva"
     plan = request(SPEC, GRID)
-    rows = next(plan.blocks()).columns
+    rows = next(plan.blocks()).columns.values()
     with suppress(KeyboardInterrupt), growing(plan.names, plan.key, str(file)) as left:
         for start, stop in ((0, 2), (2, 3)):
             left.append([column[start:stop] for column in rows])

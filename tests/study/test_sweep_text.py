@@ -116,13 +116,13 @@ def test_objectives():
 def test_a_grid_is_the_product_in_order():
     found = plan(GRID, None, 0)
     whole = list(itertools.product(*[a.values for a in GRID]))
-    assert [*map(tuple, found.rows(0, len(found)))] == whole
-    assert [*map(tuple, found.rows(7, 11))] == whole[7:11]
+    assert [*map(tuple, found.designs(0, len(found)))] == whole
+    assert [*map(tuple, found.designs(7, 11))] == whole[7:11]
 
 
 def test_a_cloud_fills_its_box_and_takes_words_alike():
     axes = [VariedKey("drive.A", (-0.5, 0.9), span=True), axis("wheel.z=3..6")]
-    rows = plan(axes, 4096, 7).rows(0, 4096)
+    rows = [*plan(axes, 4096, 7).designs(0, 4096)]
     A = np.array([a for a, _ in rows])
     assert -0.5 <= A.min() < -0.49 and 0.89 < A.max() <= 0.9
     # Sobol: each quarter of the second axis holds a quarter of a power of two, exactly
@@ -132,9 +132,9 @@ def test_a_cloud_fills_its_box_and_takes_words_alike():
 def test_a_cloud_is_the_same_wherever_it_is_cut():
     axes = [VariedKey("drive.A", (0.0, 1.0), span=True), axis("wheel.z=3,4")]
     found = plan(axes, 2 * BLOCK + 9, 3)
-    whole = found.rows(0, len(found))
-    assert found.rows(BLOCK - 5, BLOCK + 5) == whole[BLOCK - 5 : BLOCK + 5]
-    assert found.rows(len(found) - 3, len(found)) == whole[-3:]
+    whole = [*found.designs(0, len(found))]
+    assert [*found.designs(BLOCK - 5, BLOCK + 5)] == whole[BLOCK - 5 : BLOCK + 5]
+    assert [*found.designs(len(found) - 3, len(found))] == whole[-3:]
     assert len({*map(tuple, whole)}) == len(whole)
 
 

@@ -12,7 +12,7 @@ from geneva_cli import Design, External, Internal, Size, Spherical, Tolerance
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.tolerance import motion_error as errors
-from geneva_cli.loads.tolerance.locking import Deviations, Lock, deviations, slope_of
+from geneva_cli.loads.tolerance.locking import Deviations, Lock, deviations, slope_of, used
 from geneva_cli.motion.laws.law import Motion
 from geneva_cli.motion.laws.standard import Cycloidal
 from geneva_cli.motion.many import many
@@ -60,7 +60,7 @@ def told(design, samples=4096, **more):
 def test_play_of_the_lock_is_that_of_a_whole_turn(name):
     """Found there from the outlines, in steps, without knowing what stops the wheel."""
     design = load(str(ROOT / "designs" / f"{name}.toml")).with_("size.lock_clearance_mm", 0.05)
-    found = [lock(at()).angle.c[0] for lock in flat_locks(design.parts, EXACT)[0]]
+    found = [lock(at())[0].c[0] for lock in flat_locks(design.parts, EXACT)[0]]
     # parts that overlap by rounding, 1e-9 L, still touch there: as much more clearance
     assert math.degrees(max(found)) == pytest.approx(design.parts.turn.dwell.deg, rel=1e-5)
 
@@ -85,7 +85,7 @@ def test_slopes_of_the_lock(half, sign):
         way = [float(name == other) for other in Deviations._fields]
         true = mp.diff(lambda h, w=way: play(h * w[0], h * w[5], h * w[6]), 0)
         # the angle is a small difference of large ones, and so is the slope by L
-        assert abs(lock(slope_of(i)).angle.c[1] - true) < 1e-13
+        assert abs(lock(slope_of(i))[0].c[1] - true) < 1e-13
 
 
 # The motion ----------------------------------------------------------------------------------
@@ -203,10 +203,12 @@ def test_jumps_of_cranks_as_built_are_those_of_each_alone():
     """Too short to reach the slot's axis, as derived, and too long."""
     design, R = Design(External(6), size=Size(100.0), tolerance=ALL), np.array([49.9, 50.0, 50.2])
     batch = many(design.spec, {"size.crank_radius_mm": R}).machine
-    jumps = errors.entry_jumps_worst(batch, errors.used(batch))
+    jumps = errors.entry_jumps_worst(batch, used(batch.spec))
     for radius, jump in zip(R.tolist(), jumps, strict=True):
         one = design.with_("size.crank_radius_mm", radius).mechanism
-        assert errors.entry_jumps_worst(one, errors.used(one)) == pytest.approx(jump, rel=1e-12)
+        assert errors.entry_jumps_worst(one, errors.used(one.spec)) == pytest.approx(
+            jump, rel=1e-12
+        )
 
 
 def test_machines_that_do_not_go_together_are_counted():
@@ -225,7 +227,7 @@ def test_clearances_that_still_turn():
     found = told(MACHINES[0])
     [lock] = flat_locks(MACHINES[0].parts, EXACT)[0]
     # the tightest lock gives way by so much at the mouth, cos 30 deg of 100 mm off
-    yields = lock(at(center_distance_mm=-0.02, lock_radius_mm=0.015, recess_radius_mm=-0.01)).angle
+    yields = lock(at(center_distance_mm=-0.02, lock_radius_mm=0.015, recess_radius_mm=-0.01))[0]
     mouth = 100.0 * math.cos(math.pi / 6)
     across = 0.03 + 0.02 * math.sin(math.pi / 6)
     across += mouth * (math.sin(math.radians(0.02)) - math.sin(yields.c[0]))
@@ -344,8 +346,8 @@ def test_plays_in_motion_are_the_greatest_over_it(distribution):
     assert found["motion_play.p997_deg"] == pytest.approx(p997, rel=1e-3)
     batch = many(machine.spec, {"tolerance.slot_angle_deg": np.array([0.008, 0.02])})
     plays = errors.motion_plays(batch.machine)
-    assert plays.rss_deg[0] == found["motion_play.rss_deg"]
-    assert plays.rss_deg[1] == pytest.approx(free + math.hypot(0.02, *parts[1:]), rel=1e-6)
+    assert plays["rss_deg"][0] == found["motion_play.rss_deg"]
+    assert plays["rss_deg"][1] == pytest.approx(free + math.hypot(0.02, *parts[1:]), rel=1e-6)
 
 
 @pytest.mark.long

@@ -46,8 +46,7 @@ def run(
         table = load_extra("servo", "against")(specs[0], settings, command.words_in(against))
     else:
         designs = compare.designs_of(specs, settings, vary, reverse)
-        table = compare.compare(designs, command.words_in(pick), ratio, bool(vary))
-        table = compare.differing(table) if differing else table
+        table = compare.compare(designs, command.words_in(pick), ratio, bool(vary), differing)
     show(table, output, format, specs)
     for path in specs:
         command.say(path, load(path, settings).ideal_notes)

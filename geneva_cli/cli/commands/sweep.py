@@ -82,8 +82,8 @@ def run(
     else:
         names = plan.names
         blocks = [*outcome.rows(_tracked(plan, 0))]
-        columns = joined(blocks).columns if blocks else [[] for _ in names]
-        table = Table(names, [cells_of(column) for column in columns])
+        columns = map(cells_of, joined(blocks).columns.values()) if blocks else ([] for _ in names)
+        table = Table(names, [*columns])
         show(table, output, format, plan.inputs)
     for note in outcome.notes():
         tell(f"{spec}: {note}")
@@ -112,7 +112,8 @@ def _write_rows(plan: "Sweep", outcome: "Outcome", output: str, resume: bool, wh
                 digest = Digest(plan, output)
             blocks = plan.blocks(rows.done) if shows_all else _tracked(plan, rows.done)
             for block in outcome.rows(blocks):
-                rows.append(block.columns)
+                columns = block.columns.values()
+                rows.append([c.tolist() if c.dtype == object else c for c in columns])
                 if digest:
                     digest.add(block)
     for table in digest.tables() if digest else ():

@@ -65,8 +65,8 @@ def run(
       geneva synth --motion-deg 180 --z 6 --check 0
       geneva synth --dwell-s 0.8.. --cycle 1.5 --z 8 --check 0
     """
-    options = locals()
-    from geneva_cli.study.synth.reading import OPTIONS, read_frame, read_target
+    typed = locals()
+    from geneva_cli.study.synth.reading import read_frame, read_target
 
     if settings and not from_:
         raise GenevaError("--set goes with --from: it changes a key of that spec")
@@ -75,8 +75,7 @@ def run(
     if write is not None and write < 1:
         raise GenevaError(f"--write {cut(write)}: rows are numbered from 1")
     frame = read_frame(from_, settings) if from_ else None
-    wanted = {name: text for name, text in options.items() if name in OPTIONS}
-    target = read_target(frame=frame, subject_to=subject_to, **wanted)
+    target = read_target(frame, **typed)
     if write is None:
         _show(target, check, buildable, output, format)
     else:

@@ -2,12 +2,13 @@
 
 import math
 from collections.abc import Sequence
+from itertools import pairwise
 
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.packing import Block
 from geneva_cli.drawings.sheet.paper import table
 from geneva_cli.drawings.sheet.sized import Fits
-from geneva_cli.drawings.sheet.view import View, grouped, times
+from geneva_cli.drawings.sheet.view import View, grouped, times, turns
 from geneva_cli.drawings.sheet.wheel_views import bolted, bored, circle_of, draw_hub
 from geneva_cli.geometry.plates import Member, Plate
 from geneva_cli.geometry.shapes import ORIGIN, Arc, Circle, Contour, Point, at, legs
@@ -44,7 +45,12 @@ def draw_disc(view: View, parts: FlatParts) -> View:
         else:
             far = length(math.hypot(*at(arc, 0.5)))
             reliefs.setdefault((sized.plain(arc.radius, "R "), far), []).append(arc)
-    _gaps(view, sizes.lock, locking)  # first, as their legs have no other place
+    # between locking arcs that do not adjoin: first, as their legs have no other place
+    ends = sorted(map(legs, locking))
+    gaps = (
+        (end, end + (start - end) % math.tau) for (_, end), (start, _) in pairwise(ends + ends[:1])
+    )
+    view.angles(gaps, sizes.lock, most=math.tau - SAME_ON_SHEET)
     view.diameter(locking, view.fits.made("lock", sizes.lock))
     for (radius, far), some in reliefs.items():
         view.radius(some, times(len(some), radius))
@@ -53,17 +59,6 @@ def draw_disc(view: View, parts: FlatParts) -> View:
             view.radial(middle, times(len(some), far))
     bolted(view, screwed)
     return view
-
-
-def _gaps(view: View, lock: float, locking: list[Arc]) -> None:
-    """Draw the angles between the locking arcs that do not adjoin."""
-    ends, gaps = sorted(map(legs, locking)), []
-    for (_, end), (start, _) in zip(ends, [*ends[1:], *ends[:1]], strict=True):
-        wide = (start - end) % math.tau
-        if SAME_ON_SHEET < wide < math.tau - SAME_ON_SHEET:
-            gaps.append((degrees(wide), (end, end + wide)))
-    for text, pairs in grouped(gaps):
-        view.angular(pairs, lock, lock, text)
 
 
 def draw_arm(view: View, parts: FlatParts, arm: CrankArm) -> View:
@@ -81,7 +76,7 @@ def draw_arm(view: View, parts: FlatParts, arm: CrankArm) -> View:
     angles = sorted(math.atan2(p.centre[1], p.centre[0]) for p in arm.pins)
     reach = max(math.hypot(*p.centre) for p in arm.pins) + arm.eye
     # the rest of a turn, and a straight line, need no dimension
-    view.steps(angles, reach, most=math.pi - SAME_ON_SHEET)
+    view.angles(turns(angles), reach, most=math.pi - SAME_ON_SHEET)
     bored(view, [arm.bore], "crank", radius)
     hole = view.fits.made("pin hole", arm.pins[0].radius)
     view.diameter(arm.pins, times(len(arm.pins), hole))

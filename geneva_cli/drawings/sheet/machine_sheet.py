@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from geneva_cli.drawings.part_drawings import machine
+from geneva_cli.drawings.part_drawings import assembly
 from geneva_cli.drawings.parts_list import part_rows
 from geneva_cli.drawings.sheet import crank_views, sized
 from geneva_cli.drawings.sheet.packing import Block
@@ -39,7 +39,7 @@ class Face(NamedTuple):
 def sheet(parts: FlatParts) -> Sheet:
     """Return the drawing sheet of a machine. Raises GenevaError where no scale fits on one."""
     mechanism, L = parts.mechanism, parts.mechanism.center_distance_mm
-    drawn, sizes = machine(parts).shapes, parts.outlines.sizes
+    drawn, sizes = assembly(parts).shapes, parts.outlines.sizes
     every = [one.part for one in parts.members]
     rows: list[dict[str, Any]] = list(part_rows(mechanism.spec, every))
     largest = max(row[f"size_{axis}_mm"] for row in rows for axis in "xy")
@@ -47,9 +47,8 @@ def sheet(parts: FlatParts) -> Sheet:
     apart = [one for part in every for one in plates(part) if one.layer in ("WHEEL", "ARM")]
     boxes = [shapes.bounds(plate.outline) for plate in (*apart, *plates(every[-1]))]
     area = sum((box.x1 - box.x0) * (box.y1 - box.y0) for box in boxes)
-    items: dict[Plate, int] = {}  # the number of each kind of plate in the list
-    for i, kind in enumerate(alike(every), 1):
-        items |= {one: i for one in kind if isinstance(one, Plate)}
+    # the number of each kind of plate in the list
+    items = {one: i for i, kind in enumerate(alike(every), 1) for one in kind}
     # chords of 1.5 mm on a part of 500 mm: spans are within 0.1 mm on any paper
     faces = cut_faces(parts.members, 500.0 / largest)
     marked = {items[face.plate] for face in faces}
@@ -88,15 +87,16 @@ def sheet(parts: FlatParts) -> Sheet:
         view.balloons(tips)
         return view.block()
 
+    @cache
     def views(scale: float) -> list[Block]:
         return [*(view.block() for view in _views(rows, parts, scale)), *tables]
 
-    def rest(scale: float) -> Iterator[list[Block]]:
+    def blocks(scale: float) -> Iterator[list[Block]]:
         half = smaller(scale, 2.0)
         for of_cut, of_whole in ((scale, scale), (scale, half), (half, half)):
-            yield [section(of_cut), whole(of_whole)]
+            yield [*views(scale), section(of_cut), whole(of_whole)]
 
-    return on_paper(mechanism.spec, rows, largest, area, views, rest)
+    return on_paper(mechanism.spec, rows, largest, area, blocks)
 
 
 def _views(rows: list[dict[str, Any]], parts: FlatParts, scale: float) -> Iterator[View]:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from itertools import takewhile
+from itertools import product
 from typing import NamedTuple, TypeAlias
 
 from geneva_cli.geometry.shapes import Contour, Point, Shape, placed
 from geneva_cli.geometry.sheet import Label, Measure
 
-APART = (8.0, 12.0, 18.0, 27.0, 40.0)  # mm between blocks that are tried
+APART = (8.0, 12.0, 18.0, 27.0, 40.0)  # mm between blocks that are tried, as wide as they allow
 Box: TypeAlias = tuple[float, float, float, float]  # x0, y0, x1, y1
 
 
@@ -40,25 +40,17 @@ class Block(NamedTuple):
         def point(p: Point) -> Point:
             return p[0] + dx, p[1] + dy
 
-        measures = []
-        for one in self.measures:
-            lines = placed(Contour("", one.lines, closed=False), (dx, dy)).segments
-            label = one.label._replace(at=point(one.label.at))
-            arrows = tuple(arrow._replace(tip=point(arrow.tip)) for arrow in one.arrows)
-            moved = one._replace(points=tuple(map(point, one.points)), lines=lines)
-            measures.append(moved._replace(label=label, arrows=arrows))
+        def moved(measure: Measure) -> Measure:
+            lines = placed(Contour("", measure.lines, closed=False), (dx, dy)).segments
+            label = measure.label._replace(at=point(measure.label.at))
+            arrows = tuple(arrow._replace(tip=point(arrow.tip)) for arrow in measure.arrows)
+            points = tuple(map(point, measure.points))
+            return measure._replace(points=points, lines=lines, label=label, arrows=arrows)
+
         shapes = tuple(placed(one, (dx, dy)) for one in self.shapes)
         labels = tuple(label._replace(at=point(label.at)) for label in self.labels)
         corners = *point((self.x0, self.y0)), *point((self.x1, self.y1))
-        return Block(*corners, shapes, labels, tuple(measures))
-
-
-def is_overfull(blocks: Sequence[Block], area: Box) -> bool:
-    """Return True if blocks need more than an area, so that ``packed`` cannot place them."""
-    x0, y0, x1, y1 = area
-    apart = 7.9  # mm, a little less than ``packed`` keeps between blocks, and to the edge
-    needed = sum((block.width + apart) * (block.height + apart) for block in blocks)
-    return needed > (x1 - x0 - apart) * (y1 - y0 - apart)
+        return Block(*corners, shapes, labels, tuple(map(moved, self.measures)))
 
 
 def packed(blocks: Sequence[Block], taken: Sequence[Block], area: Box) -> list[Block] | None:
@@ -69,11 +61,12 @@ def packed(blocks: Sequence[Block], taken: Sequence[Block], area: Box) -> list[B
         lambda block: -block.width,
     )
     for order in orders:
-        # mm between blocks, as wide as they allow
-        tries = (
-            packed_apart(blocks, taken, area, order, mm) for mm in (8.0, 12.0, 18.0, 27.0, 40.0)
-        )
-        *_, widest = None, *takewhile(lambda placed: placed is not None, tries)
+        widest = None
+        for apart in APART:
+            placed = packed_apart(blocks, taken, area, order, apart)
+            if placed is None:
+                break
+            widest = placed
         if widest is not None:
             return widest
     return None
@@ -89,17 +82,15 @@ def packed_apart(
     """Return the blocks as ``packed`` does, the least by ``order`` first, ``apart`` mm apart."""
     x0, y0, x1, y1 = area
     placed: dict[int, Block] = {}
-    around = [(b.x0, b.y0, b.x1, b.y1) for b in taken]
-    gap = 0.999 * apart
+    around, gap = [block[:4] for block in taken], 0.999 * apart
     for i in sorted(range(len(blocks)), key=lambda k: order(blocks[k])):
         block = blocks[i]
         lefts = sorted({x0 + apart, *(box[2] + apart for box in around)})
         tops = sorted({y1 - apart, *(box[1] - apart for box in around)}, reverse=True)
-        for top, left in ((top, left) for top in tops for left in lefts):
+        for top, left in product(tops, lefts):
             low, right = top - block.height, left + block.width
-            if right > x1 - apart or low < y0 + apart:
-                continue
-            if all(
+            inside = right <= x1 - apart and low >= y0 + apart
+            if inside and all(
                 right + gap <= a or c + gap <= left or top + gap <= b or d + gap <= low
                 for a, b, c, d in around
             ):

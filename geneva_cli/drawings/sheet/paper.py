@@ -7,7 +7,7 @@ most. The sheet is the smallest that fits. Above 1:1 the largest part is no wide
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
-from geneva_cli.drawings.sheet.packing import Block, is_overfull, packed
+from geneva_cli.drawings.sheet.packing import Block, packed
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry import sheet
 from geneva_cli.geometry.shapes import Point, Shape
@@ -48,15 +48,13 @@ def on_paper(
     rows: list[dict[str, Any]],
     largest: float,
     area: float,
-    views: Callable[[float], list[Block]],
-    rest: Callable[[float], Iterable[list[Block]]],
+    blocks: Callable[[float], Iterable[list[Block]]],
 ) -> sheet.Sheet:
     """Return the sheet with blocks at the largest scale at which all fit on it.
 
     ``rows`` are its list of items. ``largest`` is the greatest length that is drawn, mm. ``area``,
-    mm², is the least area that some of it needs. ``views`` returns what is always on it at a scale.
-    ``rest`` yields alternatives of what is added, the best first. Raises GenevaError where no scale
-    fits.
+    mm², is the least area that some of it needs. ``blocks`` yields alternatives of what is on it at
+    a scale, the best first. Raises GenevaError where no scale fits.
     """
     items = _items(rows)
     wide_most, high_most = FORMATS["A1"]
@@ -64,15 +62,12 @@ def on_paper(
         most = 170.0 if scale > 1.0 else wide_most  # mm: an enlarged part is no wider than a hand
         if scale * largest > most or scale * scale * area > wide_most * high_most:
             continue
-        parts = views(scale)
         for name, (wide, high) in FORMATS.items():
             right, inside = wide - MARGIN, (LEFT, MARGIN, wide - MARGIN, high - MARGIN)
-            if is_overfull(parts, inside):
-                continue
             corner = _title_block(spec, rows, scale, name).moved(right - TITLE_WIDTH, MARGIN)
             fixed = [corner, items.moved(right - items.width, corner.y1)]
-            for one in rest(scale):
-                placed = packed([*parts, *one], fixed, inside)
+            for one in blocks(scale):
+                placed = packed(one, fixed, inside)
                 if placed is None:
                     continue
                 whole = [*fixed, *placed]

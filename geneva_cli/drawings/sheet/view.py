@@ -89,12 +89,15 @@ class View:
                     texts.add(text)
                     self.linear(base, p, turn, text, notes[k])
 
-    def steps(
-        self, angles: Sequence[float], reach: float, off: str = "", most: float = math.tau
+    def angles(
+        self,
+        pairs: Iterable[tuple[float, float]],
+        reach: float,
+        off: str = "",
+        most: float = math.tau,
     ) -> None:
-        """Draw the angles, below ``most``, from each direction to the next in a whole turn."""
-        pairs = zip(angles, [*angles[1:], angles[0] + math.tau], strict=True)
-        shown = ((degrees(b - a) + off, (a, b)) for a, b in pairs if b - a < most)
+        """Draw the angles, above 0 and below ``most``, from the first of two directions on."""
+        shown = ((degrees(b - a) + off, (a, b)) for a, b in pairs if SAME_ON_SHEET < b - a < most)
         for text, some in grouped(shown):
             self.angular(some, reach, reach, text)
 
@@ -195,6 +198,11 @@ class View:
 
     def _at(self, p: Point) -> Point:
         return self.scale * p[0], self.scale * p[1]
+
+
+def turns(angles: Sequence[float]) -> Iterator[tuple[float, float]]:
+    """Return each direction and the next one, through a whole turn."""
+    return zip(angles, [*angles[1:], angles[0] + math.tau], strict=True)
 
 
 def _short_first(rows: Iterable[Iterator[Measure]]) -> Iterator[Measure]:

@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 
 from geneva_cli.drawings.part_drawings import pitch_lines
 from geneva_cli.drawings.sheet import sized
-from geneva_cli.drawings.sheet.view import View, grouped, times
+from geneva_cli.drawings.sheet.view import View, grouped, times, turns
 from geneva_cli.geometry import shapes
 from geneva_cli.geometry.plates import Plate, plates
 from geneva_cli.geometry.sheet import CENTRE, HIDDEN, OUTLINE
@@ -15,7 +15,7 @@ from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.outlines.outlines import Outlines, dial_circle, wheel_holes
 from geneva_cli.parts.projection import outlines_of
 from geneva_cli.parts.shafts.bores import bore_of
-from geneva_cli.spec.written import degrees, length
+from geneva_cli.spec.written import length
 
 
 def draw_wheel(view: View, parts: FlatParts) -> View:
@@ -65,8 +65,7 @@ def draw_wheel(view: View, parts: FlatParts) -> View:
             view.notes.append(f"{many}, {width} wide: flanks as in the wheel's dxf")
         else:
             _slot(view, slots[engagement], sizes.half_width, width)
-    up = 0.5 * math.pi
-    view.linear((0.0, -reach), (0.0, reach), up, sized.plain(2.0 * reach, "Ø "))
+    view.linear((0.0, -reach), (0.0, reach), 0.5 * math.pi, sized.plain(2.0 * reach, "Ø "))
     _steps(view, outlines, sorted(angles), reach)
     own = [arc for arc in arcs if math.hypot(*arc.centre) < SAME_ON_SHEET]
     view.radii(own, besides=reach)
@@ -136,11 +135,10 @@ def _slot(view: View, slots: list[shapes.Contour], half_width: float, width: str
 def _steps(view: View, parts: Outlines, angles: list[float], reach: float) -> None:
     """Draw the angles from slot to slot, and from a slot to a recess."""
     deviation = parts.assembly.mechanism.spec.tolerance.slot_angle_deg
-    view.steps(angles, reach, f" ±{deviation:g}°" if deviation else "")
+    view.angles(turns(angles), reach, f" ±{deviation:g}°" if deviation else "")
     rests = parts.assembly.rests if parts.sizes.recess else ()
     halves = ((min((rest - angle) % math.tau for angle in angles), rest) for rest in rests)
-    for text, pairs in grouped((degrees(half), (rest - half, rest)) for half, rest in halves):
-        view.angular(pairs, reach, reach, text)
+    view.angles(((rest - half, rest) for half, rest in halves), reach)
 
 
 def draw_frame(

@@ -10,15 +10,12 @@ from __future__ import annotations
 import math
 from bisect import bisect_left
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Self, cast
+from typing import Self, cast
 
 from flint import arb
 
 from geneva_cli.numerics.arrays import Enclosed, Number
-from geneva_cli.numerics.intervals import EnclosedLibrary, Undecided
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Library
+from geneva_cli.numerics.intervals import Undecided
 
 
 def _operator(f: Callable[[arb, arb], arb]) -> Callable[[Ball, Ball | float], Ball]:
@@ -125,7 +122,7 @@ def _of_one(f: Callable[[arb], arb]) -> Callable[[object, Ball | float], Ball]:
     return lambda _, x: Ball(f(arb_of(x)))
 
 
-class _Balls(EnclosedLibrary):
+class _Balls:
     """The functions of ``math``, of balls."""
 
     sin, cos, sqrt, asin = map(_of_one, (arb.sin, arb.cos, arb.sqrt, arb.asin))
@@ -134,8 +131,17 @@ class _Balls(EnclosedLibrary):
     def pi(self) -> Ball:
         return Ball(arb.pi())
 
+    def hypot(self, x: Ball, y: Ball) -> Ball:
+        return self.sqrt(x**2 + y**2)
+
+    def degrees(self, x: Ball) -> Ball:
+        return x * (180.0 / self.pi)
+
+    def copysign(self, x: Ball, y: float) -> Ball:
+        return abs(x) if y > 0.0 else -abs(x)
+
     def atan2(self, y: Ball | float, x: Ball | float) -> Ball:
         return Ball(arb.atan2(arb_of(y), arb_of(x)))
 
 
-Ball.library = cast("Library", _Balls())
+Ball.library = _Balls()

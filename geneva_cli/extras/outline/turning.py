@@ -9,7 +9,7 @@ import numpy as np
 
 from geneva_cli.extras.outline.contact import Contact, contacts
 from geneva_cli.extras.outline.machine import DrawnMachine, crank_jet, drawn_machine
-from geneva_cli.loads.impacts.shock_force import Impacts, impulse_Nms, with_force
+from geneva_cli.loads.impacts.shock_force import Impacts, hardest, impulse_Nms
 from geneva_cli.loads.strength.pin_arm_key import PinSize, pin_diameter_mm
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.roots import boundary
@@ -228,5 +228,5 @@ def struck_by(mechanism: Mechanism, result: Turned) -> Struck | None:
         off = abs(float(touching.crank.radius[0]) - radius)
         if width and touching.is_known[0] and off < SAME * radius + machine.free.slack:
             pin = PinSize(sizes.pin_mm or pin_diameter_mm(mechanism), width)
-    shown = np.array([[place.shown_deg(crank_deg)], [jump]])
-    return Struck(with_force(mechanism, shown, pin), push.begin, push.begin_wheel)
+    shown = np.array([[place.shown_deg(crank_deg)], [jump], [np.nan]])
+    return Struck(hardest(mechanism, [shown], pin), push.begin, push.begin_wheel)

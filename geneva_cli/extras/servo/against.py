@@ -8,7 +8,8 @@ own rotor, too.
 
 import math
 from collections.abc import Sequence
-from itertools import pairwise
+
+import numpy as np
 
 from geneva_cli.design import Design, load
 from geneva_cli.drives.crank import Crank
@@ -126,22 +127,18 @@ def _values(design: Design, name: str) -> dict[str, Cell]:
 def _servo_rms_Nm(design: Design) -> float:
     """The root mean square of a servo's motor torque over a cycle."""
     motor, first, law = design.spec.motor, design.timings[0], LAWS["servo"]
-    unit = math.radians(first.index_deg or 0.0) / first.motion_s**2
     inertia, resisting = inertia_kgm2(design.spec), sum(resisting_torques_Nm(design.spec))
-    turns = -resisting / inertia if inertia else 0.0  # where the load begins to drive
-    mean = 0.0
-    for low, high in pairwise((0.0, *law.breaks, 1.0)):
-        middle, slope = map(float, law(0.5 * (low + high), 3).derivatives()[2:])
-        rise = 0.5 * slope * (high - low)
-        ends = [(middle - rise) * unit, (middle + rise) * unit]
-        inner = [turns] if min(ends) < turns < max(ends) else []
-        for one, two in pairwise((ends[0], *inner, ends[1])):
-            drives = inertia * 0.5 * (one + two) + resisting > 0.0
-            eta = 1.0 / motor.gear_efficiency if drives else motor.gear_efficiency
-            a, b = (
-                (inertia * x + resisting) * eta / motor.ratio + motor.inertia_kgm2 * motor.ratio * x
-                for x in (one, two)
-            )
-            share = (two - one) / (ends[1] - ends[0]) if inner else 1.0
-            mean += share * (high - low) * (a * a + a * b + b * b) / 3.0
+    unit = math.radians(first.index_deg or 0.0) / first.motion_s**2
+    # the acceleration follows lines, and the torque too, but where the load begins to drive
+    u = np.array([0.0, *law.breaks, 1.0])
+    a = unit * np.asarray(law(u, 2).derivatives()[2])
+    load = inertia * a + resisting
+    i = np.flatnonzero(load[:-1] * load[1:] < 0.0)
+    u, a = (np.insert(x, i + 1, x[i] - load[i] * np.diff(x)[i] / np.diff(load)[i]) for x in (u, a))
+    load = inertia * a + resisting
+    drives = load[:-1] + load[1:] > 0.0
+    eta = np.where(drives, 1.0 / motor.gear_efficiency, motor.gear_efficiency)
+    rotor = motor.inertia_kgm2 * motor.ratio * a
+    one, two = (load[x] * eta / motor.ratio + rotor[x] for x in (slice(-1), slice(1, None)))
+    mean = float((np.diff(u) * (one * one + one * two + two * two)).sum()) / 3.0
     return math.sqrt(mean * first.motion_s / first.cycle_s)

@@ -67,9 +67,8 @@ def cam(
 def words(rows: int, error_deg: float, tolerance_deg: float | None) -> tuple[str, bool]:
     """A cam's rows and error in words, and True if it meets a tolerance that was given."""
     text = f"{rows} rows, greatest error {rounded_up(error_deg)} degrees of the wheel"
-    if tolerance_deg is None or error_deg <= tolerance_deg:
-        return text, True
-    return f"{text}, more than --tolerance {tolerance_deg:g}", False
+    is_met = tolerance_deg is None or error_deg <= tolerance_deg
+    return text + ("" if is_met else f", more than --tolerance {tolerance_deg:g}"), is_met
 
 
 def rounded_up(error_deg: float) -> str:
@@ -107,19 +106,16 @@ def _pieces(mechanism: Mechanism, count: int, tolerance_deg: float) -> Table:
 
     Source: Hermite interpolation; value, velocity and acceleration are the true ones at both ends.
     """
-    begins, coefficients, errors = [], [], []
+    rows, again = list[Array](), np.arange(count)[:, None]
     for stretch in stretches(mechanism):
-        nodes, states, error = _halved(stretch, tolerance_deg)
-        begins.append(nodes[:-1])
-        coefficients.append(_quintic(np.diff(nodes), *states))
-        errors.append(error)
-    powers, again = np.concatenate(coefficients, axis=1), np.arange(count)[:, None]
-    begin = (again * mechanism.period_deg + np.concatenate(begins)).ravel()
+        nodes, states, errors = _halved(stretch, tolerance_deg)
+        rows.append(np.vstack([nodes[:-1], _quintic(np.diff(nodes), *states), errors]))
+    begins, constants, *others = np.hstack(rows)
+    begin = (again * mechanism.period_deg + begins).ravel()
     end = np.append(begin[1:], count * mechanism.period_deg)
-    constant = (again * _step_deg(mechanism) + powers[0]).ravel()
-    others = [np.tile(one, count) for one in (*powers[1:], np.concatenate(errors))]
+    constant = (again * _step_deg(mechanism) + constants).ravel()
     names = ("begin_deg", "end_deg", *(f"c{k}" for k in range(6)), "error_deg")
-    return Table(names, [begin, end, constant, *others])
+    return Table(names, [begin, end, constant, *(np.tile(one, count) for one in others)])
 
 
 def _points(mechanism: Mechanism, count: int, tolerance_deg: float) -> tuple[Array, float]:

@@ -4,12 +4,10 @@ import math
 from collections.abc import Callable, Iterator
 from functools import partial
 
-import numpy as np
-
 from geneva_cli.kinds.gear_sector.motion import GearSector
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Array
+from geneva_cli.numerics.arrays import Array, N, larger, library
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.study.synth.families.family import Family, is_compatible, natural_deg
 from geneva_cli.study.target import BARE, Target
@@ -39,22 +37,19 @@ def sectors(target: Target, wheel: Gearing) -> Iterator[Family]:
 
 def _sectors(target: Target, z: int, at: Array) -> dict[str, Array]:
     """Gear sectors between slots of half angles b."""
-    half = at.tolist()
-    motions = [sector_motion(z, b) for b in half]
-    sectors = np.array([sector_deg(z, b) for b in half])
-    return {"drive.sector_deg": sectors, **target.speeds(1, motions)}
+    return {"drive.sector_deg": sector_deg(z, at), **target.speeds(1, sector_motion(z, at))}
 
 
-def sector_deg(z: int, b: float) -> float:
+def sector_deg(z: int, b: N) -> N:
     """Return the crank angle that gears drive between slots of half angle b: D = (2 pi/z - 2b)/u.
 
     Here u = l/(1-l) and l = sin b, with which the gears take over without a jump.
     """
-    short = 2.0 * math.sin(0.5 * (0.5 * math.pi - b)) ** 2  # 1 - l
-    l = math.sin(b)
-    return 2.0 * (math.pi / z - b) * short / l / DEGREE if l else math.inf
+    m = library(b)
+    short, l = 2.0 * m.sin(0.5 * (0.5 * math.pi - b)) ** 2, m.sin(b)  # 1 - l, and l
+    return 2.0 * (math.pi / z - b) * short / larger(l, 1e-300) / DEGREE
 
 
-def sector_motion(z: int, b: float) -> float:
+def sector_motion(z: int, b: N) -> N:
     """Return the motion of slots of half angle b with gears between them: 180 deg - 2b + D."""
     return 180.0 - 2.0 * b / DEGREE + sector_deg(z, b)

@@ -15,16 +15,9 @@ KINDS = (
         wheel="kinds.linear.motion:Linear",
         parts="kinds.linear.parts:RackParts",
         front="parts.flat_parts:FrontParts",
-        drawings={
-            "slot": "kinds.linear.drawings:slot",
-            "wheel": "drawings.part_drawings:wheel",
-            "crank": "drawings.part_drawings:crank",
-            "arm": "kinds.linear.drawings:arm",
-            "frame": "drawings.part_drawings:frame",
-            "guide": "kinds.linear.drawings:guide",
-            "assembly": "kinds.linear.drawings:assembly",
-            "plate": "drawings.parts_list:plate",
-        },
+        drawings=dict.fromkeys(("slot", "arm", "guide", "assembly"), "kinds.linear.drawings")
+        | dict.fromkeys(("wheel", "crank", "frame"), "drawings.part_drawings")
+        | {"plate": "drawings.parts_list"},
         tables={"slot": "parts.slots.slot_profile:profile_table"},
         dimensions="kinds.linear.drawings:dimensions",
         sizes="kinds.linear.rack:key_sizes",

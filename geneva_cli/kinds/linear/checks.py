@@ -18,7 +18,6 @@ from geneva_cli.loads.contact import QuantityValue
 from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.load_peaks import load_peaks
 from geneva_cli.numerics.arrays import value_or
-from geneva_cli.numerics.jet import Jet
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.spec.defaults import wall_min
 from geneva_cli.verdict.checks import Check, compared
@@ -102,7 +101,7 @@ def guide(of: Designs) -> Columns:
     return dict(zip(names, np.array(rows).T, strict=True))
 
 
-def _end_force(side: float, i: Instant[Jet]) -> QuantityValue[Jet]:
+def _end_force(side: float, i: Instant) -> QuantityValue:
     """The squared force at one end of a guide, 1 or -1, as a quantity of ``load_peaks``."""
     guide = i.case.guide
     assert isinstance(guide, RackGuide)

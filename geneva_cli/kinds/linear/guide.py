@@ -20,7 +20,7 @@ from geneva_cli.loads.contact import Contact, LoadCase, lesser
 from geneva_cli.loads.strength.pin_arm_key import pin_diameter_mm
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import choose, larger, value_or
-from geneva_cli.numerics.jet import Number, V
+from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.spec.defaults import eye_about, wall_min
 
 
@@ -67,7 +67,7 @@ class RackGuide(NamedTuple):
     middle: float  # x of its middle from the deepest roller
     half: float  # half its length
 
-    def lever(self, case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
+    def lever(self, case: LoadCase, at: Contact, drives: Number, slides: Number) -> Jet:
         """Lever of the force on a rack about its guide's middle, over L, for a roller that drives.
 
         It is M/F of this file's head, over d. The crank turns against the rack,
@@ -79,12 +79,12 @@ class RackGuide(NamedTuple):
         height = drives * case.radius - at.along / at.spin
         return lever - height * (case.friction * slides * drives)
 
-    def leaning(self, case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
+    def leaning(self, case: LoadCase, at: Contact, drives: Number, slides: Number) -> Jet:
         """A value above 0 where the rack bears on opposite sides of its guide's ends: smooth."""
         lever = self.lever(case, at, drives, slides)
         return lever * lever - (case.friction * self.half) ** 2
 
-    def drag(self, case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
+    def drag(self, case: LoadCase, at: Contact, drives: Number, slides: Number) -> Jet:
         """Friction in a rack's guide over the pin's force: nu (|N1| + |N2|)/F.
 
         The forces at both ends add up to mu F across the travel, and their moment about the guide's

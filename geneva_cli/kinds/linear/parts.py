@@ -25,7 +25,7 @@ from geneva_cli.parts.gears.gear_pair import gear_pair, gear_shafts, gear_span
 from geneva_cli.parts.parts import EdgedParts, FrameAndShafts, NamedBuilds
 from geneva_cli.parts.projection import NamedParts
 from geneva_cli.parts.shafts.arm_and_shafts import Shaft, rollers, shaft_ends
-from geneva_cli.parts.shafts.bores import Screws, bolt_radius, bore_of, reach_or_bore, tapped
+from geneva_cli.parts.shafts.bores import Screwed, bolt_radius, bore_of, reach_or_bore, tapped
 from geneva_cli.parts.sized_by_load import ShaftSize, Stressed, key_of, shaft_of
 from geneva_cli.parts.turn.turn_certificate import FlatPairs
 from geneva_cli.parts.turn.turned_parts import TurnedShape
@@ -102,10 +102,11 @@ class RackParts(EdgedParts):
         refuse_size(least < needed, "arm_bore_mm", f"{text}pin_mm or lock_bolt_mm")
         return Plate("arm", "ARM", arm.outline, holes, high - sizes.thick.arm, high)
 
-    def _crank(self, arm: Plate | None) -> Member:
-        """The crank's parts in the arm's frame; the locking sector stands on the arm."""
+    def crank_with(self, arm: bool) -> Member:
+        """Return the crank; its locking sector stands on the arm."""
         size, sizes, thick = self.mechanism.spec.size, self.sizes, self.sizes.thick
-        stands, members = -size.allowances.pin_gap_mm, [Member(arm)] if arm else []
+        stands, plate = -size.allowances.pin_gap_mm, self.arm_plate if arm else None
+        members = [Member(plate)] if plate else []
         ends, centres = (stands - thick.arm, thick.wheel), [(sizes.arm, 0.0)]
         members += rollers(self.mechanism, centres, sizes.pin, *ends)
         sector = rack.locking_sector(sizes)
@@ -161,8 +162,8 @@ class RackParts(EdgedParts):
         if not sizes.bore:
             bored.insert(0, hole_without_shaft(mechanism.spec.shaft.crank_diameter_mm, axis, L))
         rows = zip(("guide rail", "guide wall"), _screws(sizes), strict=True)
-        screwed = tuple((hole, name) for name, row in rows for hole in row)
-        within = [*bored, *(tapped(hole) for hole, _ in screwed)]
+        screwed = tuple((name, "the frame", hole) for name, row in rows for hole in row)
+        within = [*bored, *(tapped(hole) for *_, hole in screwed)]
         holes = [one for one in within if one.radius]
         eye = max(L / 20.0, 3.0 * wall_min(size, L))  # it leaves walls around mounting holes
         frame, mounts = mounted_plate(holes, within, eye, (plain, top))
@@ -175,12 +176,12 @@ class RackParts(EdgedParts):
             raise GenevaError(reason, ("drive", "kind"))
 
     @property
-    def screws(self) -> tuple[Screws, ...]:
+    def screws(self) -> tuple[Screwed, ...]:
         """The screws of locking sector, guide bar, and what is fixed to the frame."""
         spec = self.mechanism.spec
         bolts = rack.lock_bolts(spec.size, self.sizes) if self.arm_plate else []
-        own = Screws.through("locking sector", bolts, "the arm")
-        own += Screws.through("rack", self._bar_bolts, "nuts under the guide bar")
+        own = [("locking sector", "the arm", hole) for hole in bolts]
+        own += [("rack", "nuts under the guide bar", hole) for hole in self._bar_bolts]
         return (*own, *(() if spec.no_parts else self.framed.screws))
 
     @property

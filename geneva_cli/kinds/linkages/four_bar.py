@@ -7,7 +7,7 @@ at an angle from the line AB. The wheel's centre is solved for.
 
 from collections.abc import Mapping
 from functools import reduce
-from typing import Annotated, Any, ClassVar, Self
+from typing import Annotated, Any, ClassVar, Self, cast
 
 from geneva_cli.errors import refuse_text
 from geneva_cli.kinds.linkages.link_path import Guide, LinkPath
@@ -16,6 +16,33 @@ from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.pivots import Dimension, Joint, Layout
 from geneva_cli.numerics.arrays import larger, library, smaller
 from geneva_cli.spec.rules import POSITIVE, OneOf, Range
+
+
+class CouplerPath(LinkPath):
+    """The path of a point of the coupler.
+
+    d is the vector from A to the rocker's pivot, D = d² and N = sqrt(4 b² D - (b² + D - c²)²). The
+    unit vector from A towards B is e = d k, k = ((D + b² - c²) + i N) / (2 b D). Its numbers are
+    crank, ground, coupler, rocker, and the point's coordinates on the coupler: a, g, b, c, p, q.
+    """
+
+    side = 1  # on which the coupler is of the crank's line, or -1
+
+    @property
+    def guide(self) -> Guide:
+        """The rocker, which pushes or pulls."""
+        _, g, b, c, _, _ = self.numbers
+        return Guide(b, 1.0 / c, g / c, 0.0)
+
+    def pose(self, crank: Any) -> tuple[Any, Any, Any]:
+        """The coupler for directions of the crank, whose end B is on a circle."""
+        a, g, b, c, _, _ = self.numbers
+        x, y = g - a * crank.real, -a * crank.imag
+        D = x * x + y * y
+        # N² as a product (Heron); products of real numbers take half the time of complex ones
+        N = library(D).sqrt(((b + c) ** 2 - D) * (D - (b - c) ** 2)) * self.side
+        scale, level = 0.5 / (b * D), D + (b - c) * (b + c)
+        return scale * (x * level - y * N), scale * (y * level + x * N), N * (0.5 / (b * c))
 
 
 class FourBar(Linkage, kw_only=True):
@@ -36,6 +63,7 @@ class FourBar(Linkage, kw_only=True):
     NAME: ClassVar[str] = "four-bar"
     WORDS: ClassVar[str] = "a point of a four-bar linkage"
     CARRIER: ClassVar[str] = "coupler"
+    PATH: ClassVar[type[LinkPath]] = CouplerPath
     LENGTHS: ClassVar[Mapping[str, str]] = {
         "crank a": "crank_mm",
         "ground g": "ground_mm",
@@ -77,36 +105,8 @@ class FourBar(Linkage, kw_only=True):
         return "rocker", (end, self.ground_mm), (Joint.PIN, Joint.PIN), 3
 
     @property
-    def roller_path(self) -> "CouplerPath":
+    def roller_path(self) -> LinkPath:
         """Path of the coupler point that carries the roller."""
-        lengths = (self.crank_mm, self.ground_mm, self.coupler_mm, self.rocker_mm)
-        path = CouplerPath(*lengths, reach_mm=self.point_mm, angle_deg=self.point_deg)
+        path = cast(CouplerPath, super().roller_path)
         path.side = 1 if self.branch == "+" else -1
         return path
-
-
-class CouplerPath(LinkPath):
-    """The path of a point of the coupler.
-
-    d is the vector from A to the rocker's pivot, D = d² and N = sqrt(4 b² D - (b² + D - c²)²). The
-    unit vector from A towards B is e = d k, k = ((D + b² - c²) + i N) / (2 b D). Its numbers are
-    crank, ground, coupler, rocker, and the point's coordinates on the coupler: a, g, b, c, p, q.
-    """
-
-    side = 1  # on which the coupler is of the crank's line, or -1
-
-    @property
-    def guide(self) -> Guide:
-        """The rocker, which pushes or pulls."""
-        _, g, b, c, _, _ = self.numbers
-        return Guide(b, 1.0 / c, g / c, 0.0)
-
-    def pose(self, crank: Any) -> tuple[Any, Any, Any]:
-        """The coupler for directions of the crank, whose end B is on a circle."""
-        a, g, b, c, _, _ = self.numbers
-        x, y = g - a * crank.real, -a * crank.imag
-        D = x * x + y * y
-        # N² as a product (Heron); products of real numbers take half the time of complex ones
-        N = library(D).sqrt(((b + c) ** 2 - D) * (D - (b - c) ** 2)) * self.side
-        scale, level = 0.5 / (b * D), D + (b - c) * (b + c)
-        return scale * (x * level - y * N), scale * (y * level + x * N), N * (0.5 / (b * c))

@@ -4,7 +4,6 @@ The crank turns fully (Grashof), no joint is farther from its axis than allowed,
 usual size passes the wheel on its way back.
 """
 
-import cmath
 import math
 from collections.abc import Iterator, Sequence
 from itertools import islice
@@ -16,16 +15,15 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.kinds.linkages import four_bar_search as search
 from geneva_cli.kinds.linkages.four_bar import FourBar
 from geneva_cli.kinds.linkages.path_wheels import driven
-from geneva_cli.kinds.linkages.tangent_pairs import Pairs, sampled
+from geneva_cli.kinds.linkages.tangent_pairs import sampled
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.study.synth.families.family import Family, is_compatible, natural_deg
 from geneva_cli.study.synth.family_search import Places
 from geneva_cli.study.target import AllowedSpan, Target
 
-_LENGTHS = ("crank_mm", "ground_mm", "coupler_mm", "rocker_mm")
-_EXAMPLE: Any = dict(zip(_LENGTHS, (40.0, 90.0, 100.0, 100.0), strict=True))
-_EXAMPLE |= {"point_mm": 161.5, "point_deg": -36.1, "entry_deg": 123.3}
+_SIDES: Any = {"crank_mm": 40.0, "ground_mm": 90.0, "coupler_mm": 100.0, "rocker_mm": 100.0}
+_EXAMPLE = FourBar(**_SIDES, point_mm=161.5, point_deg=-36.1, entry_deg=123.3)
 
 
 def four_bars(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
@@ -45,7 +43,7 @@ def _task(target: Target, wheel: Gearing) -> search.WheelGoal | None:
     free = target.free_motions(1, natural_deg(wheel))
     if free is None:
         return None
-    if not is_compatible(_machine(target, wheel, FourBar(**_EXAMPLE), free.low)):
+    if not is_compatible(_machine(target, wheel, _EXAMPLE, free.low)):
         return None
     frame = target.own
     radius_mm = frame.size.roller_radius_mm
@@ -87,26 +85,22 @@ def _spec(target: Target, goal: search.Goal, places: Places, number: int) -> Spe
     one = places.take(slice(number, number + 1))
     with np.errstate(all="ignore"):
         machine = search.four_bars_at(goal, one.of, one.at)
-    links, (entry, motion, sense, w) = machine.links, machine.drive
-    wheel = goal.wheels[one.of[0]].wheel
-    own = _machine(target, wheel, FourBar(**_EXAMPLE), math.degrees(float(motion[0, 0])))
-    scale = target.own.given_distance_mm / float(machine.distance[0])
-    at = complex(w[0, 0]) * scale
-    lengths = [float(np.ravel(x)[0]) * scale for x in links.numbers[:4]]
-    sides: Any = dict(zip(_LENGTHS, lengths, strict=True))
+    scale, pair = target.own.given_distance_mm / machine.distance, machine.pair
+    *lengths, x, y = (np.array(machine.path.numbers) * scale)[:, 0].tolist()
+    sides: Any = dict(zip(_SIDES, lengths, strict=True))
+    entry, exit_ = pair.phi[:, 0].tolist()
     try:
-        keys = FourBar(
+        drive = FourBar(
             **sides,
-            point_mm=abs(at),
-            point_deg=math.degrees(cmath.phase(at)),
-            entry_deg=math.degrees(math.remainder(float(entry[0, 0]), math.tau)),
-            n_rpm=own.drive.n_rpm,
+            point_mm=math.hypot(x, y),
+            point_deg=math.degrees(math.atan2(y, x)),
+            entry_deg=math.degrees(math.remainder(entry, math.tau)),
         )
     except GenevaError:
         return None
-    path, phi = keys.roller_path, np.vstack((entry, entry + motion))
-    wheels = driven(path, Pairs(np.zeros(1, dtype=int), phi, sense[0]), sampled(path, 1))
-    return own.replace(drive=keys) if len(wheels.distance) else None
+    path, wheel = drive.roller_path, goal.wheels[one.of[0]].wheel
+    drives = len(driven(path, pair._replace(which=np.arange(1)), sampled(path, 1)).distance)
+    return _machine(target, wheel, drive, math.degrees(exit_ - entry)) if drives else None
 
 
 def _machine(target: Target, wheel: Gearing, drive: FourBar, motion_deg: float) -> Spec:

@@ -13,19 +13,20 @@ the solution.
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.kinds.linkages.four_bar import CouplerPath
 from geneva_cli.kinds.linkages.link_path import LinkPath
-from geneva_cli.kinds.linkages.path_wheels import top
-from geneva_cli.kinds.linkages.tangent_pairs import complex_of
+from geneva_cli.kinds.linkages.path_wheels import PathWheels, centre_of, top
+from geneva_cli.kinds.linkages.tangent_pairs import Pairs, complex_of
 from geneva_cli.motion.peak_search import ORDERS
 from geneva_cli.motion.timing import Timing, timing
 from geneva_cli.motion.wheels.gearing import Gearing
-from geneva_cli.numerics.arrays import Array, Complex, Number, Whole, mapped, parameter
-from geneva_cli.numerics.jet import Jet, atan2, sin_cos
+from geneva_cli.numerics.arrays import Array, Complex, Mask, Whole, parameter
+from geneva_cli.numerics.jet import Jet, turning
 from geneva_cli.study.sweep.constraints import Constraint
 from geneva_cli.study.synth.family_search import Places, Zoom, sampled, zoom
 from geneva_cli.study.target import AllowedSpan, Target
@@ -57,24 +58,11 @@ class Goal(NamedTuple):
     sign: float = 1.0
 
 
-class CouplerDrive(NamedTuple):
-    """A wheel's drive, (n, 1): entry and motion in radians, sense, and the roller's place."""
-
-    entry: Array
-    motion: Array
-    sense: Array
-    w: Complex
-
-    def of(self, which: Whole) -> CouplerDrive:
-        """The drives of some of the wheels."""
-        return mapped(lambda column: column[which], self)
-
-
 class FourBars(NamedTuple):
-    """Machines of the search; violations and costs of all places, infinite without a machine."""
+    """Machines of the search; violations and costs are infinite without a machine."""
 
-    links: CouplerPath
-    drive: CouplerDrive
+    path: CouplerPath  # of the roller, with numbers (n,)
+    pair: Pairs
     distance: Array
     violation: Array
     cost: Array
@@ -92,11 +80,8 @@ def search_four_bars(goal: Goal) -> list[Places]:
     samplings = min(max(300 // slots, SAMPLINGS[0]), SAMPLINGS[1])
     parents, children = 4, 12  # the best places of a wheel, and the closer samples near each
 
-    def coarse(of: Whole, at: Array) -> tuple[Array, Array]:
-        return four_bars_at(goal, of, at, COARSE)[-2:]
-
-    def fine(of: Whole, at: Array) -> tuple[Array, Array]:
-        return four_bars_at(goal, of, at)[-2:]
+    def coarse(of: Whole, at: Array, samples: int = COARSE) -> tuple[Array, Array]:
+        return four_bars_at(goal, of, at, samples)[-2:]
 
     def offsets(number: int) -> Array:
         return np.column_stack((_spread(children, number) - 0.5, np.zeros(children)))
@@ -111,7 +96,7 @@ def search_four_bars(goal: Goal) -> list[Places]:
         near = Zoom(offsets, 0.3, closer, samplings, around=(3,))
         several = zoom(coarse, first.best(parents), near, keep=parents).joined(first)
         # fine samples remove those that fail between the coarse ones
-        kept = sampled(fine, several.of, several.at)
+        kept = sampled(partial(coarse, samples=FINE), several.of, several.at)
         kept = kept.take(kept.violation == 0.0).best(parents + OTHERS)
     return [kept.take(kept.of == i) for i in range(wheels)]
 
@@ -128,56 +113,48 @@ def _spread(count: int, start: int = 0) -> Array:
 def four_bars_at(goal: Goal, of: Whole, at: Array, places: int = FINE) -> FourBars:
     """The machines at places of the cube, for wheels by their numbers."""
     rows = [(w.wheel.step.b, *w.motion, w.roller, float(w.wheel.z)) for w in goal.wheels]
-    half, low, high, radius, slots = np.array(rows).T[:, of, None]
-    u = at.T[:, :, None]
+    (b, low, high, roller, slots), u = np.array(rows).T[:, of], at.T
     sense = np.where(u[5] > 0.5, 1.0, -1.0)
     # coupler and rocker are 1/4 to 4 times as long as the ground link
     sides = np.stack((np.ones(u[0].shape), *(4.0 ** (2.0 * x - 1.0) for x in u[:2])))
     longest = np.minimum(sides.min(axis=0), sides.sum(axis=0) - 2.0 * sides.max(axis=0))
     # the crank is 0.05 to 0.97 times as long as the longest that turns fully
     lengths = (longest * (0.05 + (0.97 - 0.05) * u[2]), *sides)
-    links = CouplerPath(*map(parameter, lengths), reach_mm=0.0, angle_deg=0.0)
+    path = CouplerPath(*map(parameter, lengths), reach_mm=0.0, angle_deg=0.0)
     # the gentlest is often at an end of a range: a sixth of all places is at either
-    degrees = low + (high - low) * np.clip(1.5 * u[4] - 0.25, 0.0, 1.0)
-    entry, motion = math.tau * u[3], np.radians(degrees)
-    w = coupler_point(links, entry, entry + motion, half, sense)
-    drive = CouplerDrive(entry, motion, sense, w)
-    # the further tests run on few places
-    able = np.flatnonzero((longest > 0.0) & np.isfinite(drive.w))
-    links, drive = links.of(able), drive.of(able)
+    motion_deg = low + (high - low) * np.clip(1.5 * u[4] - 0.25, 0.0, 1.0)
+    entry = math.tau * u[3]
+    pair = Pairs(of, np.stack((entry, entry + np.radians(motion_deg))), sense)
+    w = coupler_point(path, pair, b)
+    path.numbers = *path.numbers[:4], parameter(w.real), parameter(w.imag)
     # coarse samples miss the nearest places, which a larger roller makes up for
-    roller = radius[able] * (1.15 if places < FINE else 1.0)
+    roller = roller * (1.15 if places < FINE else 1.0)
     names = (goal.least, *(bound.name for bound in goal.bounds))
     order = max([2, *(ORDERS.get(name.partition(".")[0], 0) for name in names)])
-    which, rates, distance, reach = _driven(links, drive, half[able], roller, order, places)
-    able = able[which]
-    costs = Costs(goal.target, (360.0 / slots[able])[:, 0], rates, degrees[able, 0])
+    drives, rates, distance, reach = _driven(path, pair, b, roller, order, places)
+    costs = Costs(goal.target, 360.0 / slots, rates, motion_deg)
     cost = goal.sign * costs.of(goal.least)
-    within = (reach <= goal.target.space * distance) & np.isfinite(cost)
-    out = np.full((2, len(of)), np.inf)
-    out[:, able] = np.where(within, costs.broken(goal.bounds), np.inf), cost
-    return FourBars(links.of(which), drive.of(which), distance, *out)
+    drives &= (longest > 0.0) & (reach <= goal.target.space * distance) & np.isfinite(cost)
+    violation, cost = np.where(drives, (costs.broken(goal.bounds), cost), np.inf)
+    return FourBars(path, pair, distance, violation, cost)
 
 
-def _coupler(links: LinkPath, phi: Array, order: int) -> tuple[Complex, Complex]:
-    """The crank's pin and the coupler's unit vector with their derivatives, (order + 1, ...)."""
-    angle = Jet.variable(phi, order)
-    return complex_of(*links.joint(*sin_cos(angle))), complex_of(*links.link(angle))
-
-
-def coupler_point(links: LinkPath, entry: Array, end: Array, b: Number, sense: Array) -> Complex:
-    """The roller's place w that makes a motion, (n, 1).
+def coupler_point(path: LinkPath, pair: Pairs, b: Array) -> Complex:
+    """The roller's place w on the coupler that makes a motion, (n,).
 
     NaN if there is none, or if the chord does not run from entry to exit.
     """
-    (one, u_one), (two, u_two) = (_coupler(links, phi, 1) for phi in (entry, end))
-    turn = np.exp(1j * sense * (0.5 * math.pi - b))
-    v, u = one[1], u_one[1]
+    crank = np.exp(1j * pair.phi)
+    (x, y), _, (*_, rate, _) = path.turn(crank, 1)
+    along, pin = x + 1j * y, path.numbers[0] * crank
+    (p, p_end), (v, v_end) = pin, 1j * pin
+    (e, e_end), (u, u_end) = along, 1j * rate * along
+    turn = np.exp(1j * pair.sense * (0.5 * math.pi - b))
     circles = []
-    for p, e, k in (two[1], u_two[1], turn * turn), (two[0] - one[0], u_two[0] - u_one[0], turn):
-        # Im((p + w e)(v + w u)* k) = A |w|² + Im(d w) + C
-        d = e * v.conj() * k - (p * u.conj() * k).conj()
-        circles.append(((e * u.conj() * k).imag, d, (p * v.conj() * k).imag))
+    for q, f, k in (v_end, u_end, turn * turn), (p_end - p, e_end - e, turn):
+        # Im((q + w f)(v + w u)* k) = A |w|² + Im(d w) + C
+        d = f * v.conj() * k - (q * u.conj() * k).conj()
+        circles.append(((f * u.conj() * k).imag, d, (q * v.conj() * k).imag))
     (A, d, C), (A2, d2, C2) = circles
     # The line through both points: Im(D w) + E = 0
     D, E = A2 * d - A * d2, A2 * C - A * C2
@@ -185,63 +162,56 @@ def coupler_point(links: LinkPath, entry: Array, end: Array, b: Number, sense: A
     at_rest = ((-v / u - foot) * direction.conj()).real
     total = -(2.0 * A * (foot * direction.conj()).real + (d * direction).imag) / A
     w = foot + (total - at_rest) * direction
-    chord, speed = two[0] + w * u_two[0] - (one[0] + w * u_one[0]), v + w * u
+    chord, speed = p_end + w * e_end - (p + w * e), v + w * u
     ahead = (chord * (speed / np.abs(speed)).conj() * turn).real > 0.0
     return np.where(ahead, w, np.nan)
 
 
 def _driven(
-    links: LinkPath, drive: CouplerDrive, b: Array, roller: Array, order: int, places: int
-) -> tuple[Whole, list[Array], Array, Array]:
-    """Numbers of the wheels that are driven, at samples, and let the roller pass on its way back.
+    path: LinkPath, pair: Pairs, b: Array, roller: Array, order: int, places: int
+) -> tuple[Mask, list[Array], Array, Array]:
+    """A mask of the wheels that are driven, at samples, and let the roller pass on its way back.
 
-    Also their angles' derivatives to an order, (m, places + 1) each; centre distances; and the
-    greatest distances of joints and roller from the crank's axis. ``roller`` is its radius over L.
+    Also their velocities with derivatives to an order, (n, places + 1) each; centre distances; and
+    the greatest distances of joints and roller from the crank's axis. ``roller`` is its radius
+    over L.
     """
-    entry, motion, sense, w = drive
-    pin, along = _coupler(links, entry + motion * (np.arange(places + 1) / places), order)
-    path = pin + w * along
-    p, q, v = path[0, :, :1], path[0, :, -1:], path[1, :, :1]
-    rho = np.abs(q - p) / (2.0 * np.sin(b))
-    centre = p + rho * (v / np.abs(v))  # the tangents at both ends meet there
-    ray, L = path[0] - centre, np.abs(centre)
-    near, turning = np.abs(ray), (ray.conj() * path[1]).imag
-    drives = (turning[:, 1:-1] * sense > 0.0).all(axis=1) & (near[:, 1:-1] < rho).all(axis=1)
+    entry, exit_ = pair.phi
+    crank = np.exp(1j * np.linspace(entry, exit_, places + 1))
+    at = complex_of(*path.about(crank)(0.0, order))
+    _, joint, at[0] = path.joints(crank)
+    wheels = PathWheels(pair, *centre_of(at[:, [0, -1]]))
+    rho, L = wheels.distance, np.abs(wheels.centre)
+    near, turns = wheels.driven(*at[:2])
+    drives = ((turns > 0.0) & (near < rho))[1:-1].all(axis=0)
     half_wall = 1.0 / 400.0  # of the least wall between two slots, over the centre distance
-    drives &= (near.min(axis=1, keepdims=True) * np.sin(b) >= (roller + half_wall) * L)[:, 0]
-    which = np.flatnonzero(drives)
-    # the way back is tested for these only
-    links, (entry, motion, sense, w) = links.of(which), drive.of(which)
-    away = np.arange(1, 2 * places) / (2 * places)  # the way back has twice the motion's samples
-    back, back_along = _coupler(links, entry + motion + (math.tau - motion) * away, 0)
-    returns = back[0] + w * back_along[0]
+    drives &= near.min(axis=0) * np.sin(b) >= (roller + half_wall) * L
+    # the way back has twice the motion's samples
+    back = np.linspace(exit_, entry + math.tau, 2 * places + 1)[1:-1]
+    _, joint_back, returns = path.joints(np.exp(1j * back))
     # Lengths over the distance of the slots' mouths from the wheel's axis; a slot points along the
     # real axis. The wheel ends at hypot(1, r), where slots as wide as the roller leave corners.
-    r, half = (roller * L / rho)[which], b[which]
-    place = (returns - centre[which]) / (p - centre)[which]
-    d, angle = np.abs(place), np.abs((np.angle(place) + half) % (2.0 * half) - half)
+    r, place = roller * L / rho, (returns - wheels.centre) / (at[0, 0] - wheels.centre)
+    d, angle = np.abs(place), np.abs((np.angle(place) + b) % (2.0 * b) - b)
     ahead, across = d * np.cos(angle), d * np.sin(angle)
     corner = np.where(ahead >= 1.0, np.hypot(ahead - 1.0, r - across), r - across)
     # in front of a slot its mouth's corner is nearest, else the rim
     gap = np.where(across < r * ahead, corner, d - np.hypot(1.0, r)) - r
     touch = 1e-6  # a roller that leaves its slot is this near to it
-    passes = np.all((gap >= -touch) & (d > 1.0), axis=1)
-    _, ground, coupler, *_ = links.numbers
-    joints = pin[0, which] + coupler * along[0, which], back[0] + coupler * back_along[0]
-    moving = [np.abs(z).max(axis=1) for z in (*joints, path[0, which], returns)]
-    reach = np.maximum.reduce([np.ravel(ground), *moving])
-    kept = which[passes]
-    rays = [ray[kept], *(path[k, kept] / math.factorial(k) for k in range(1, order + 1))]
-    angles = atan2(Jet([z.imag for z in rays]), Jet([z.real for z in rays]))
-    return kept, [np.asarray(d) for d in angles.derivatives()], L[kept, 0], reach[passes]
+    drives &= ((gap >= -touch) & (d > 1.0)).all(axis=0)
+    moving = [np.abs(z).max(axis=0) for z in (joint, at[0], joint_back, returns)]
+    at[0] -= wheels.centre
+    rays = [one.T / math.factorial(k) for k, one in enumerate(at)]
+    rates = turning(Jet([z.real for z in rays]), Jet([z.imag for z in rays])).derivatives()
+    return drives, [*rates], L, np.maximum.reduce([path.numbers[1], *moving])
 
 
 class Costs(NamedTuple):
-    """Samples of n motions: derivatives (n, places), steps and motion angles, degrees, (n,)."""
+    """Samples of n motions: velocities with derivatives (n, places), steps and motions, degrees."""
 
     target: Target
     index_deg: Array
-    derivatives: list[Array]
+    rates: list[Array]
     motion_deg: Array
 
     def of(self, name: str) -> Array:
@@ -251,9 +221,9 @@ class Costs(NamedTuple):
             dwell = 360.0 - self.motion_deg
             times = timing(self.motion_deg, dwell, self.index_deg, self._n_rpm())  # type: ignore[arg-type]
             return np.broadcast_to(times._asdict()[quantity], self.motion_deg.shape)
-        value = self.derivatives[ORDERS[group]]
+        value = self.rates[ORDERS[group] - 1]
         if group == "power":
-            value = value * self.derivatives[1]
+            value = value * self.rates[0]
         end = _end(quantity)
         size = top(np.abs(value)) if end is None else np.abs(value[:, end])
         if quantity in SPEED_POWERS:

@@ -121,11 +121,6 @@ class LinkPath(Batchable, ABC):
         )
         return some
 
-    def joint(self, sine: Jet, cosine: Jet) -> tuple[Jet, Jet]:
-        """Crank pin A (x, y)."""
-        a, *_ = self.numbers
-        return cosine * a, sine * a
-
     def link(self, angle: Jet) -> tuple[Jet, Jet]:
         """Unit vector along the link, from A towards B, for the crank's angle in radians."""
         m = library(angle.c[0])
@@ -212,10 +207,10 @@ class LinkReactions(NamedTuple):
     def __call__(self, turn: Jet, path: Vector, loads: Loads) -> Held:
         """Reactions of the crank's shaft, equal to those at A, and of the third body."""
         angle = turn + self.middle
-        (ax, ay), (ex, ey) = self.path.joint(*sin_cos(angle)), self.path.link(angle)
-        (*_, p, q), (length, bend, nx, ny) = self.path.numbers, self.path.guide
+        (sine, cosine), (ex, ey) = sin_cos(angle), self.path.link(angle)
+        (a, *_, p, q), (length, bend, nx, ny) = self.path.numbers, self.path.guide
         arm, point = (ex * length, ey * length), (ex * p - ey * q, ex * q + ey * p)
-        normal = (ax + arm[0]) * -bend + nx, (ay + arm[1]) * -bend + ny
+        normal = (cosine * a + arm[0]) * -bend + nx, (sine * a + arm[1]) * -bend + ny
         # from A, over L, and from the path's axes to the machine's
         place, held, direction = (
             ((x * self.x + y * self.y) / self.L, (y * self.x - x * self.y) * (self.sense / self.L))

@@ -28,7 +28,8 @@ class Linkage(Drive, kw_only=True):
 
     LOCKS: ClassVar[bool] = False
     CARRIER: ClassVar[str]  # link that carries the roller
-    LENGTHS: ClassVar[Mapping[str, str]]  # their keys by their names
+    LENGTHS: ClassVar[Mapping[str, str]]  # their keys by their names, the roller's the last
+    PATH: ClassVar[type[LinkPath]]
     entry_deg: Annotated[
         float | None, Range(-360.0, 360.0), "crank angle near entry, to choose among several wheels"
     ] = None
@@ -43,9 +44,10 @@ class Linkage(Drive, kw_only=True):
         refuse_text(wrong, ("drive", "crank_mm"), text, limit=limit)
 
     @property
-    @abstractmethod
     def roller_path(self) -> LinkPath:
         """The roller's path about the crank's axis."""
+        *lengths, reach_mm = (vars(self)[key] for key in self.LENGTHS.values())
+        return self.PATH(*lengths, reach_mm=reach_mm, angle_deg=vars(self)["point_deg"])
 
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
         """The engagement of the wheel that the path can drive: the gentlest, or by ``entry_deg``.

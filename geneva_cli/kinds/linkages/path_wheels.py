@@ -39,7 +39,7 @@ class PathWheels(NamedTuple):
 
 def driven(path: LinkPath, found: tangents.Pairs, samples: tangents.Samples) -> PathWheels:
     """The wheels of pairs whose roller stays in its slot, at samples of the path and even ones."""
-    wheels = PathWheels(found, *_centre(tangents.points_at(path.of(found.which), found.phi)))
+    wheels = PathWheels(found, *centre_of(tangents.points_at(path.of(found.which), found.phi)))
     counts = np.bincount(samples.which)
     own, first = counts[found.which], (np.cumsum(counts) - counts)[found.which]
     begin = np.cumsum(own) - own  # in a list of all samples of each pair
@@ -74,7 +74,7 @@ def _even(phi: Array, turn: Array, count: int) -> Complex:
     return rows[: count - 1]
 
 
-def _centre(ends: Complex) -> tuple[Complex, Array]:
+def centre_of(ends: Complex) -> tuple[Complex, Array]:
     """The wheel's centre, and its distance from entry and exit (m,), from points (3, 2, m)."""
     (p, q), (t, u) = ends[0], ends[1] / np.abs(ends[1])
     rho = np.abs(q - p) / np.abs(t + u)
@@ -102,7 +102,7 @@ def chosen(path: LinkPath, b: Array, wanted: Array | None = None) -> Array:
     found = tangents.pairs(path, samples, b)
     if wanted is None:
         some, (entry, exit_) = path.of(found.which), found.phi
-        wheels = PathWheels(found, *_centre(tangents.points_at(some, found.phi)))
+        wheels = PathWheels(found, *centre_of(tangents.points_at(some, found.phi)))
         far, turns = wheels.driven(*tangents.points(some, _even(entry, exit_ - entry, EVEN), 1))
         cost = np.nan_to_num(top((turns / far**2).T), nan=np.inf)
     else:
@@ -160,7 +160,7 @@ def _engagement(
     ends, at[:2] = ends + last, at[:2] + last * at[1:]
     half, late = (plain(0.5 * (ends[1] + k * ends[0])) for k in (-1.0, 1.0))
     # from the roller's place in the middle: the roller at both ends, and the centre
-    centre, _ = _centre(at)
+    centre, _ = centre_of(at)
     axis = -(tangents.points_at(flat, middle)[0] + centre)  # from the wheel's to the crank's
     L, s, rays = plain(np.abs(axis)), plain(sense), at[0] - centre
     half_way = (rays / np.abs(rays)).sum(axis=0)

@@ -17,6 +17,25 @@ from geneva_cli.numerics.arrays import library
 from geneva_cli.spec.rules import LENGTH, POSITIVE, Range
 
 
+class SlidingRod(LinkPath):
+    """The path of a point of the connecting rod.
+
+    Its numbers are crank, rod, height, and the point's coordinates on the rod: a, b, h, p, q.
+    """
+
+    @property
+    def guide(self) -> Guide:
+        """The slider's line, across which it pushes."""
+        return Guide(self.numbers[1], 0.0, 0.0, 1.0)
+
+    def pose(self, crank: Any) -> tuple[Any, Any, Any]:
+        """The rod for directions of the crank, whose end B is on a line."""
+        a, b, h, _, _ = self.numbers
+        y = (h - a * crank.imag) / b
+        x = library(y).sqrt((1.0 - y) * (1.0 + y))
+        return x, y, -x
+
+
 class SliderCrank(Linkage, kw_only=True):
     """A point of a connecting rod carries the roller.
 
@@ -32,6 +51,7 @@ class SliderCrank(Linkage, kw_only=True):
     NAME: ClassVar[str] = "slider-crank"
     WORDS: ClassVar[str] = "a point of a slider-crank"
     CARRIER: ClassVar[str] = "rod"
+    PATH: ClassVar[type[LinkPath]] = SlidingRod
     LENGTHS: ClassVar[Mapping[str, str]] = {
         "crank a": "crank_mm",
         "rod b": "rod_mm",
@@ -67,28 +87,3 @@ class SliderCrank(Linkage, kw_only=True):
         foot = 1j * self.height_mm
         ahead = self.crank_mm + self.rod_mm + foot
         return "guide", (foot, ahead, end), (Joint.NONE, Joint.NONE, Joint.SLIDE), 3
-
-    @property
-    def roller_path(self) -> "SlidingRod":
-        """Path of the rod's point that carries the roller."""
-        lengths = (self.crank_mm, self.rod_mm, self.height_mm)
-        return SlidingRod(*lengths, reach_mm=self.point_mm, angle_deg=self.point_deg)
-
-
-class SlidingRod(LinkPath):
-    """The path of a point of the connecting rod.
-
-    Its numbers are crank, rod, height, and the point's coordinates on the rod: a, b, h, p, q.
-    """
-
-    @property
-    def guide(self) -> Guide:
-        """The slider's line, across which it pushes."""
-        return Guide(self.numbers[1], 0.0, 0.0, 1.0)
-
-    def pose(self, crank: Any) -> tuple[Any, Any, Any]:
-        """The rod for directions of the crank, whose end B is on a line."""
-        a, b, h, _, _ = self.numbers
-        y = (h - a * crank.imag) / b
-        x = library(y).sqrt((1.0 - y) * (1.0 + y))
-        return x, y, -x

@@ -21,7 +21,7 @@ from geneva_cli.motion.wheels import classic
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import of_each, radians, sin_cos_pi
 from geneva_cli.numerics.arrays import Number, choose, choose_record, library
-from geneva_cli.numerics.jet import Array, Displacement, Jet, atan2, rotation, sine_versine_of
+from geneva_cli.numerics.jet import Array, Displacement, Jet, rotation, sine_versine_of, turning
 from geneva_cli.spec.rules import POSITIVE, Z_MAX, Range
 
 
@@ -115,7 +115,7 @@ class FirstWheelRotation(NamedTuple):
         """sin d and 1 - cos d of its rotation d since then, ``tau`` input radians later."""
         along, across = classic.PinTravel(self.pose, rotation)(tau, max(order, 1))
         along = along + self.pose.along
-        rate = atan2(across, along).derivative()
+        rate = turning(along, across)
         return sine_versine_of(rate, across.c[0], along.c[0], order)
 
 

@@ -12,11 +12,7 @@ KINDS = (
         "shells",
         adds_to="spherical",
         parts="kinds.spherical.parts:SphereParts",
-        drawings={
-            "wheel": "kinds.spherical.drawings:wheel",
-            "crank": "kinds.spherical.drawings:crank",
-            "assembly": "kinds.spherical.drawings:assembly",
-        },
+        drawings=dict.fromkeys(("wheel", "crank", "assembly"), "kinds.spherical.drawings"),
         dimensions="kinds.spherical.drawings:dimensions",
         sizes="kinds.spherical.sizes:key_sizes",
         details="kinds.spherical.parts:screw_sizes",

@@ -73,10 +73,10 @@ class _Sweep(NamedTuple):
 def _shaft_gaps(parts: SphereParts) -> Iterator[float]:
     """Yield the gaps of hubs and shafts to parts about the other axis, mm along a sphere."""
     ball, arm, sectors = parts.ball, parts.arm, parts.shape.crank
-    wheel, crank = ([p for p in plates(m.part) if p.layer != "ROLLER"] for m in parts.members[:2])
-    for shaft in parts.shafts:
-        (wheel if shaft.frame is None else crank).extend(plates(shaft.part))
-    on_wheel, on_crank = ([s for p in some for s in _round(p)] for some in (wheel, crank))
+    on_wheel, on_crank = list[_Sweep](), list[_Sweep]()
+    for member in parts.members:
+        for plate in (p for p in plates(member.part) if p.layer != "ROLLER"):
+            (on_crank if member.frame else on_wheel).extend(_round(plate))
     # what arm, locking sectors and rollers sweep about the crank's axis
     low, high = ball.arm - ball.roller, ball.arm + ball.roller
     out = ball.arm_span_mm[1] if arm else ball.span_mm[1]

@@ -7,6 +7,8 @@ degrees it is a cylinder.
 Layers: WHEEL and CRANK are cut; ROLLER is the hole of a roller; PITCH is the rollers' path.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Iterator
 from itertools import chain
@@ -18,11 +20,12 @@ from geneva_cli.geometry import fit, shapes
 from geneva_cli.geometry.plates import Group, Member, Part, Plate
 from geneva_cli.geometry.sheet import Annotations, Drawing
 from geneva_cli.geometry.sphere import Region, SphereArc
+from geneva_cli.geometry.sphere_arcs import azimuth, polar
 from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.kinds.spherical.parts import SphereParts
 from geneva_cli.kinds.spherical.regions import edge, locked, rollers
 from geneva_cli.motion.pivots import Dimension
-from geneva_cli.numerics.arrays import Array
+from geneva_cli.numerics.arrays import Array, Complex, within_half_turn
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.projection import Missing, or_missing, titled
 from geneva_cli.spec.written import length
@@ -52,10 +55,9 @@ class Cone(NamedTuple):
         """The angle of the whole cone, laid flat."""
         return 360.0 * abs(math.cos(self.polar))
 
-    def point(self, polar: float, azimuth: float) -> shapes.Point:
-        """Return the point of the flat cone, mm, that a point of the sphere is projected to."""
-        points, _ = self._flat(*(np.array([v]) for v in (polar, azimuth, 0.0, 0.0)))
-        return float(points[0, 0]), float(points[0, 1])
+    def points(self, polar: Array | float, azimuth: Array) -> list[shapes.Point]:
+        """Return the points of the flat cone, mm, that n points of the sphere are projected to."""
+        return [(p.real, p.imag) for p in self._flat(np.array(polar), azimuth)[0].tolist()]
 
     def region(self, layer: shapes.Layer, region: Region, about: float) -> shapes.Contour:
         """Return a region laid flat, whose azimuths are within half a turn of ``about``."""
@@ -63,10 +65,12 @@ class Cone(NamedTuple):
 
     def segments(self, arc: SphereArc, about: float) -> list[shapes.Segment]:
         """Return an arc of the sphere on the flat cone."""
-        ends = []
-        for x, y, z in (arc.start, arc.end):
-            azimuth = about + math.remainder(math.atan2(y, x) - about, math.tau)
-            ends.append(self.point(math.atan2(math.hypot(x, y), z), azimuth))
+
+        def near(points: Array) -> Array:
+            return about + within_half_turn(azimuth(points) - about)
+
+        both = np.array((arc.start, arc.end))
+        ends = self.points(polar(both), near(both))
         # a meridian: a great circle is at 90 degrees from its axis
         if not arc.axis[2] and abs(math.cos(arc.angle)) < 1e-12:
             return [shapes.Line(*ends)]
@@ -74,13 +78,13 @@ class Cone(NamedTuple):
             return [self.level(ends[0], ends[1], math.copysign(arc.sweep, arc.axis[2]))]
 
         def curve(turn: Array) -> tuple[Array, Array]:
-            (x, y, z), (dx, dy, dz) = (v.T for v in arc.at(turn))
-            across = np.hypot(x, y)
-            azimuth = about + np.remainder(np.arctan2(y, x) - about + math.pi, math.tau) - math.pi
-            d_polar = z * (x * dx + y * dy) / across - across * dz
-            d_azimuth = (x * dy - y * dx) / (across * across)
-            points, rates = self._flat(np.arctan2(across, z), azimuth, d_polar, d_azimuth)
-            return points, rates / np.hypot(*rates.T)[:, None]
+            at, rates = arc.at(turn)
+            points, outwards, sideways = self._flat(polar(at), near(at))
+            (x, y, _), (dx, dy, dz) = at.T, rates.T
+            tangents = sideways * (x * dy - y * dx) / np.hypot(x, y) - outwards * dz
+            tangents /= np.abs(tangents)
+            on, ahead = (np.column_stack((v.real, v.imag)) for v in (points, tangents))
+            return on, ahead
 
         return [*fit.KINDS[self.curves](curve, 0.0, arc.sweep, self.tolerance_mm)]
 
@@ -89,22 +93,15 @@ class Cone(NamedTuple):
         bulge = math.tan(0.25 * azimuth * math.cos(self.polar))
         return shapes.Arc(start, end, bulge) if abs(bulge) > SAME_ANGLE else shapes.Line(start, end)
 
-    def _flat(
-        self, polar: Array, azimuth: Array, d_polar: Array, d_azimuth: Array
-    ) -> tuple[Array, Array]:
-        """Return points and their derivatives, (n, 2)."""
-        ratio = math.cos(self.polar)
-        off = polar - self.polar
-        beyond = self.radius_mm * np.tan(off)  # along the cone, from the circle of contact
-        turn, wide = ratio * azimuth, self.radius_mm * math.sin(self.polar)
-        c, s = np.cos(turn), np.sin(turn)
-        # (1 - cos)/ratio and sin/ratio, which are 0 and the azimuth on a cylinder
-        x = beyond * c - wide * azimuth * np.sin(0.5 * turn) * np.sinc(0.5 * turn / math.pi)
-        y = beyond * s + wide * azimuth * np.sinc(turn / math.pi)
-        along, across = self.radius_mm / np.cos(off) ** 2 * d_polar, wide + ratio * beyond
-        across = across * d_azimuth
-        rates = along * c - across * s, along * s + across * c
-        return np.column_stack((x, y)), np.column_stack(rates)
+    def _flat(self, polar: Array, azimuth: Array) -> tuple[Complex, Complex, Complex]:
+        """Return points of the flat cone, x + iy, and their derivatives by both angles."""
+        R, ratio, off = self.radius_mm, math.cos(self.polar), polar - self.polar
+        beyond, wide = R * np.tan(off), R * math.sin(self.polar)  # along the cone, from its circle
+        half = np.exp(0.5j * ratio * azimuth)
+        turn, chord = half * half, azimuth * half * np.sinc(0.5 * ratio * azimuth / math.pi)
+        # the chord is (turn - 1) / (i ratio), and on a cylinder the azimuth
+        points = beyond * turn + 1j * wide * chord
+        return points, turn * R / np.cos(off) ** 2, 1j * turn * (wide + ratio * beyond)
 
 
 def cone_of(parts: SphereParts, name: str) -> Cone:
@@ -133,8 +130,7 @@ def assembly(parts: SphereParts) -> Drawing:
     """Return both laid flat, side by side; the solid is the machine at input angle 0."""
     title, left, right = titled(parts.mechanism), wheel_flat(parts), crank_flat(parts)
     # wheel and crank are 0.1 of the sphere's radius apart
-    shift = 0.1 * parts.ball.radius_mm + max(shapes.bounds(shape).x1 for shape in left)
-    shift -= min(shapes.bounds(shape).x0 for shape in right)
+    shift = 0.1 * parts.ball.radius_mm + shapes.bounds_of(left).x1 - shapes.bounds_of(right).x0
     moved = [shapes.placed(shape, (shift, 0.0)) for shape in right]
     whole = Group(title, parts.members)
     return _drawing(parts, title, [*left, *moved], whole)._replace(look=Annotations())
@@ -143,13 +139,13 @@ def assembly(parts: SphereParts) -> Drawing:
 def _titled(parts: SphereParts, name: str) -> str:
     """Return a part's title with its cone's shape and position for the workshop."""
     cone = cone_of(parts, name)
-    sphere = f"the {length(cone.radius_mm)} mm sphere"
-    at = f"touches {sphere} {math.degrees(cone.polar):.6g} deg from the {name}'s axis"
-    text = f"cylinder that {at}"
+    kind, apex = "cylinder", ""
     if abs(math.cos(cone.polar)) >= SAME_ANGLE:
-        text = f"cone that {at}, {length(abs(cone.apex_mm))} mm from its apex; sector "
-        text += f"{cone.sector_deg:.6g} deg"
-    return titled(parts.mechanism, f"{name}, flat: {text}")
+        kind, apex = "cone", f", {length(abs(cone.apex_mm))} mm from its apex; sector "
+        apex += f"{cone.sector_deg:.6g} deg"
+    at = f"the {length(cone.radius_mm)} mm sphere {math.degrees(cone.polar):.6g} deg"
+    text = f"{name}, flat: {kind} that touches {at} from the {name}'s axis{apex}"
+    return titled(parts.mechanism, text)
 
 
 def _drawing(parts: SphereParts, title: str, drawn: list[shapes.Shape], shells: Part) -> Drawing:
@@ -172,9 +168,9 @@ def wheel_flat(parts: SphereParts) -> list[shapes.Shape]:
     for at in (2 * k * b for k in range(ball.z)):
         # the edge about a slot, half-way to the adjacent slots on either side
         outer += shapes.joined(chain(*(cone.segments(arc, at) for arc in edge(ball, at))))
-        path = shapes.Line(*(cone.point(polar, at) for polar in ends))
+        path = shapes.Line(*cone.points(np.array(ends), np.array((at, at))))
         pitch.append(shapes.Contour("PITCH", (path,), closed=False))
-    inner = [cone.point(ball.inner, (2 * k - 1) * b) for k in range(ball.z + 1)][::-1]
+    inner = cone.points(ball.inner, b * (2.0 * np.arange(ball.z, -1.0, -1.0) - 1.0))
     back = [cone.level(p, q, -2.0 * b) for p, q in zip(inner, inner[1:], strict=False)]
     first, last = outer[0].start, outer[-1].end
     outer += [shapes.Line(last, inner[0]), *back, shapes.Line(inner[-1], first)]
@@ -190,8 +186,8 @@ def crank_flat(parts: SphereParts) -> list[shapes.Shape]:
     ]
     rolling = zip(rollers(ball), ball.rollers, strict=True)
     drawn += [cone.region("ROLLER", one, about) for one, about in rolling]
-    ends = cone.point(ball.arm, 0.0), cone.point(ball.arm, math.tau)
-    drawn.append(shapes.Contour("PITCH", (cone.level(*ends, math.tau),), closed=False))
+    ends = cone.points(ball.arm, np.array((0.0, math.tau)))
+    drawn.append(shapes.Contour("PITCH", (cone.level(ends[0], ends[1], math.tau),), closed=False))
     return drawn
 
 

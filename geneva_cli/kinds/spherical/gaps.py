@@ -2,8 +2,9 @@
 
 All walls lead to the sphere's centre: gaps are angles there, returned as arc lengths on the sphere,
 mm. A point at an angle r from an axis moves at most sin r times the angle by which its part turns
-about it. A roller's path is exact: an arc about the crank's axis while the wheel rests, and a piece
-of the meridian in its own slot.
+about it. A roller's path is exact: an arc about the crank's axis while the wheel rests. In its own
+slot it moves along the meridian in the middle, and the feet of the perpendiculars from there to
+both walls are on them: the gap is the slot's clearance.
 """
 
 from __future__ import annotations
@@ -13,11 +14,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from geneva_cli.geometry.sphere import POLE, Region, place
-from geneva_cli.geometry.sphere_arcs import Circle, SphereArcs, from_circle, short_arcs
+from geneva_cli.geometry.sphere import Region, place
+from geneva_cli.geometry.sphere_arcs import SphereArcs, azimuth, from_circle, polar, short_arcs
 from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.kinds.spherical.regions import QUARTER, edge
-from geneva_cli.kinds.spherical.stops import ProjectedMotion, SphereMotion, SphereStops, polar
+from geneva_cli.kinds.spherical.stops import ProjectedMotion, SphereMotion, SphereStops
 from geneva_cli.motion.pivots import turned_points
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.assembly import Assembly
@@ -76,38 +77,25 @@ class SpherePairs(FlatPairs):
         Outside, the gap is that in the middle, less the roller's travel in the wheel's frame.
         """
         ball, gaps, pose, pins = self.ball, self.gaps, on.at_middle, on.at_middle.pins[:, number]
-        centre, gap = turned_points(pins, -pose.wheel), gaps.rollers(pose)[:, number]
+        L, centre, gap = ball.radius_mm, turned_points(pins, -pose.wheel), gaps.rollers(pose)
+        gap = gap[:, number]
         if span:
-            middle = gaps.pose(np.array([0.5 * (span[0] + span[1])]))
-            x, y, _ = turned_points(middle.pins[:, number], -middle.wheel)[0]
-            out = np.array((x, y, 0.0)) / math.hypot(x, y)
-            circle = Circle(np.array((-out[1], out[0], 0.0)), np.array(POLE), out, QUARTER)
-            # the distance from the wheel's axis changes by no more than the roller moves
-            return gap, self._along(circle, centre, math.sin(ball.arm) * on.crank, gap)
+            # it runs along the slot's middle, from which both walls are equally far up to the mouth
+            return gap, np.full(len(gap), L * (ball.half_width - ball.roller))
         away = polar(centre)
         # the wheel is within its rim's circle
-        beyond = ball.radius_mm * (away - ball.rim - ball.roller)
-        gap = np.maximum(gap, beyond)
-        travel = math.sin(ball.arm) * on.crank + np.sin(away) * on.wheel
-        least = gap - ball.radius_mm * travel
-        which = np.flatnonzero(least < self.target)
-        if window.rests and len(which):
+        gap = np.maximum(gap, L * (away - ball.rim - ball.roller))
+        least = gap - L * (math.sin(ball.arm) * on.crank + np.sin(away) * on.wheel)
+        some = np.flatnonzero(least < self.target)
+        if window.rests and len(some):
             # the crank's axes in the frame of the resting wheel
             lead = gaps.assembly.wheel(np.array([window.start]))
-            x, y, axis = turned_points(gaps.plane_motion.crank_frame, -lead)
-            circle = Circle(axis, x, y, ball.arm)
-            closer = self._along(circle, centre[which], on.crank[which], gap[which])
-            least[which] = np.maximum(least[which], closer)
+            frame, half = turned_points(gaps.plane_motion.crank_frame, -lead), on.crank[some]
+            seen = centre[some] @ frame.T
+            middle, aside = azimuth(seen), np.abs(polar(seen) - ball.arm)
+            # an arc that is shorter than its middle's distance from the edge does not cross it
+            short = math.sin(ball.arm) * half + aside < ball.roller + gap[some] / L
+            free = from_circle(gaps.wheel, frame, ball.arm, middle[short], half[short])
+            some, free = some[short], L * (free - aside[short] - ball.roller)
+            least[some] = np.maximum(least[some], free)
         return gap, least
-
-    def _along(self, circle: Circle, centre: Array, half: Array, gap: Array) -> Array:
-        """Return the gap of a roller whose centre moves along a circle, mm."""
-        off, middle = circle.seen(centre)
-        aside = np.abs(off - circle.angle)
-        from_wheel = self.ball.roller + gap / self.ball.radius_mm
-        # An arc that is shorter than its middle's distance from the edge does not cross it.
-        short = math.sin(circle.angle) * half + aside < from_wheel
-        least = np.full(len(gap), -math.inf)
-        away = from_circle(self.gaps.wheel, circle, middle[short], half[short])
-        least[short] = self.ball.radius_mm * (away - aside[short] - self.ball.roller)
-        return least

@@ -43,11 +43,6 @@ class SphereHorn(NamedTuple):
         """The recess's radius."""
         return self.radius_mm * np.sin(self.recess)
 
-    @property
-    def stoutness(self) -> Array:
-        """Thickness at the mouth over the recess's radius, (m,)."""
-        return np.ravel(self.thickness(self.polar(self.at.mouth_deg)) / self.recess_mm)
-
     def points(self, input_deg: Number) -> Points:
         """Places of the roller, or sections, at input angles (m, k); infinitely thick elsewhere."""
         t, L, w = self.polar(input_deg), self.radius_mm, self.half_width

@@ -16,8 +16,8 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 from geneva_cli.kinds.spherical.parts import SphereParts
-from geneva_cli.loads.tolerance.locking import ROUNDING, Deviations, LockPlay, positive_root
-from geneva_cli.numerics.arrays import array, choose
+from geneva_cli.loads.tolerance.locking import ROUNDING, Deviations, positive_root
+from geneva_cli.numerics.arrays import Mask, array, choose
 from geneva_cli.numerics.jet import Jet, atan2, sqrt
 from geneva_cli.parts.parts import Parts
 from geneva_cli.verdict.tolerance import SAME, Locks
@@ -30,7 +30,7 @@ class SphereLock(NamedTuple):
 
     >>> from geneva_cli.loads.tolerance.locking import deviations
     >>> lock = SphereLock(100.0, 0.5 * math.pi, 0.4, 0.401, 0.5 * math.pi, 0.5 * math.pi)
-    >>> round(lock(deviations([0.0] * 7)).angle.c[0], 12)
+    >>> round(lock(deviations([0.0] * 7))[0].c[0], 12)
     0.001
     """
 
@@ -48,26 +48,24 @@ class SphereLock(NamedTuple):
         cosine = math.cos(self.corner) - math.cos(S) * math.cos(rho)
         return math.acos(max(-1.0, min(1.0, cosine / (math.sin(S) * math.sin(rho)))))
 
-    def __call__(self, by: Deviations) -> LockPlay:
-        """Play of the wheel to one side."""
+    def __call__(self, by: Deviations) -> tuple[Jet, Mask]:
+        """Play of the wheel to one side, radians: 0 where sector and recess do not fit together."""
         lock = by.lock_radius_mm / self.radius_mm + math.sin(self.lock)
         recess = by.recess_radius_mm / self.radius_mm + math.sin(self.recess)
         lock_cosine, recess_cosine = (positive_root(1.0 - a * a) for a in (lock, recess))
         if self.reach <= self.half:
-            near, high = math.cos(self.corner), math.sin(self.corner)
-            still = 0.0 * lock
-            angle = self._azimuth(still + near, still + high, recess_cosine)
-            angle = angle - self._azimuth(still + near, still + high, lock_cosine)
+            cosine, sine = (0.0 * lock + f(self.corner) for f in (math.cos, math.sin))
+            there = self._azimuth(cosine, sine, lock_cosine)
         else:
             up, ahead = math.cos(self.axes), math.sin(self.axes)
             x = lock_cosine * ahead - lock * (math.cos(self.half) * up)
             y = lock * math.sin(self.half)
-            z = lock_cosine * up + lock * (math.cos(self.half) * ahead)
-            angle = self._azimuth(z, sqrt(x * x + y * y), recess_cosine) - atan2(y, x)
+            cosine = lock_cosine * up + lock * (math.cos(self.half) * ahead)
+            sine, there = sqrt(x * x + y * y), atan2(y, x)
+        angle = self._azimuth(cosine, sine, recess_cosine) - there
         jams = (array((recess - lock).c[0]) < -ROUNDING) | (array(angle.c[0]) < -ROUNDING)
         one = bool(jams) if jams.ndim == 0 else jams
-        free = Jet([choose(one, c * 0.0, c) for c in angle.c])
-        return LockPlay(free, jams)
+        return Jet([choose(one, c * 0.0, c) for c in angle.c]), jams
 
     def _azimuth(self, cosine: Jet, sine: Jet, from_crank: Jet) -> Jet:
         """Azimuth chi, from the cosine and sine of p, and the cosine of a."""

@@ -90,7 +90,7 @@ class SphereParts(Parts):
             members.append(Member(sector))
         if arm:
             cap = Shell("arm", "ARM", (arm.boundary,), *ball.arm_span_mm, arm.holes)
-            hub, bore = Circle("ARM", ORIGIN, arm.hub), arm.bore.shape("BORE", arm.keyway)
+            hub, bore = Circle("ARM", ORIGIN, arm.hub), arm.bore.hole()
             hub_plate = Plate("arm's hub", "ARM", hub, (bore,), *ball.arm_span_mm)
             members += [Member(cap), Member(hub_plate)]
         bored = ball.pin_mm + 0.5 * size.allowances.shaft_fit_mm
@@ -109,22 +109,21 @@ class SphereParts(Parts):
         ball, size, arm = self.ball, self.mechanism.spec.size, self.arm
         (inside, outside), (under, over) = ball.span_mm, ball.arm_span_mm
         lowest = outside - ball.shafts_end_mm(size) - (over - under)
-        members = []
-
-        def add(part: str, bore: Bore, ends: tuple[float, float], keyway: float) -> None:
-            own = Shaft(f"{part}'s shaft", part, bore, *ends, ORIGIN, keyway).member.part
-            assert isinstance(own, Plate)
-            frame = None if part == "wheel" else regions.at_mid_motion(ball)
-            # heights become distances inwards
-            inwards = own._replace(low=outside - own.high, high=outside - own.low)
-            members.append(Member(inwards, frame=frame))
-
+        own, members = list[tuple[str, Bore, float, float]](), list[Member]()
         if ball.bore_mm:
             hub = ball.hub_mm > ball.bore_mm
-            ends = shaft_ends(size, "wheel", lowest if hub else 0.0, outside - inside)
-            add("wheel", bore_of(size, "wheel", ball.bore_mm), ends, ball.half_step)
+            bore = bore_of(size, "wheel", ball.bore_mm)._replace(direction=ball.half_step)
+            own.append(("wheel", bore, lowest if hub else 0.0, outside - inside))
         if arm:
-            add("crank", arm.bore, shaft_ends(size, "crank", lowest, outside - under), arm.keyway)
+            own.append(("crank", arm.bore, lowest, outside - under))
+        for part, bore, low, high in own:
+            ends = shaft_ends(size, part, low, high)
+            plate = Shaft(f"{part}'s shaft", part, bore, *ends, ORIGIN).member.part
+            assert isinstance(plate, Plate)
+            # heights become distances inwards
+            inwards = plate._replace(low=outside - plate.high, high=outside - plate.low)
+            frame = None if part == "wheel" else regions.at_mid_motion(ball)
+            members.append(Member(inwards, frame=frame))
         return tuple(members)
 
     @property
@@ -167,9 +166,7 @@ def shell_body(mechanism: Mechanism) -> MassProperties:
     """Return mass and inertia of the wheel's shell and hub, in closed form."""
     size, sizes = mechanism.spec.size, ball(mechanism)
     density = wheel_material(mechanism.spec).density_kgm3
-    shell, hub = wheel_shell(sizes), wheel_hub(size, sizes)
-    mass = density * shell.volume * plates.MM**3
-    rim = MassProperties(mass, (0.0, 0.0), density * shell.inertia(POLE) * plates.MM**5)
+    rim, hub = plates.mass_properties(wheel_shell(sizes), density), wheel_hub(size, sizes)
     return plates.added(rim, plates.mass_properties(hub, density)) if hub else rim
 
 

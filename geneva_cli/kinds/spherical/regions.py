@@ -13,7 +13,6 @@ has flat faces and the bore; it sits in a round hole about the crank's axis.
 
 import math
 from collections.abc import Sequence
-from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -21,7 +20,7 @@ import numpy as np
 from geneva_cli.errors import GenevaError, refuse_size
 from geneva_cli.geometry import sphere
 from geneva_cli.geometry.sphere import POLE, Cap, Region, Rotation, SphereArc, opposite, place
-from geneva_cli.geometry.sphere_arcs import RoundHole, least_wall
+from geneva_cli.geometry.sphere_arcs import RoundHole, azimuth, least_wall, polar
 from geneva_cli.kinds.spherical.ball import Ball, refuse_above, refuse_wide
 from geneva_cli.motion.pivots import turned_points
 from geneva_cli.numerics.arrays import Array, within_half_turn
@@ -101,31 +100,31 @@ def sectors(ball: Ball) -> list[Region]:
     """Return the locking sectors of the crank, outside the region that the wheel sweeps."""
     spare = min(0.25 * (ball.recess - ball.lock) + 0.1 * ball.roller, 0.1 * ball.lock)
     # A sector's inner edge is a fifth of its outer one, or farther out where the wheel needs that.
-    least = 0.2 * ball.lock
-    spans, most = locked(ball), (1.0 - 0.05) * ball.lock  # a thinner ring would hold nothing
-    polar, azimuth = swept(ball) if spans else (np.zeros((1, 1)), np.zeros((1, 1)))
-    near = polar < ball.lock * (1.0 - SAME_ANGLE)
+    least, most = 0.2 * ball.lock, (1.0 - 0.05) * ball.lock  # a thinner ring would hold nothing
+    spans = locked(ball)
+    if not spans:
+        return []
+    levels, places = swept(ball)
+    near = levels < ball.lock * (1.0 - SAME_ANGLE)
 
     def sector(start: float, end: float) -> Region:
-        middle = 0.5 * (start + end)
-        off = np.abs(within_half_turn(np.stack([azimuth + t - middle for t in ball.rollers])))
+        middle, turns = 0.5 * (start + end), np.array(ball.rollers)[:, None, None]
+        off = np.abs(within_half_turn(places + turns - middle)).min(axis=0)
+        # a point that is near at one position counts at the adjacent ones too
+        off = np.pad(np.where(near, off, math.inf), ((1, 1), (0, 0)), constant_values=math.inf)
+        off = np.minimum.reduce((off[:-2], off[1:-1], off[2:]))
 
-        @cache
         def nearest(half: float) -> float:
             """Return the polar angle that the wheel leaves free, over half a range of azimuths."""
-            inside = near & (off < half * (1.0 - SAME_ANGLE))
-            # a point that is inside at one position counts at the adjacent ones too
-            inside[:, 1:] |= inside[:, :-1]
-            inside[:, :-1] |= inside[:, 1:]
-            reached = min(ball.lock, float((polar * inside).max(initial=0.0)))
-            return max(reached + spare, least)
+            reached = float(levels[off < half * (1.0 - SAME_ANGLE)].max(initial=0.0))
+            return max(min(ball.lock, reached) + spare, least)
 
         half = widest(0.5 * (end - start), lambda half: nearest(half) <= most)
         if half is None:
             text = "the wheel sweeps over the whole locking sector: another lock_radius_mm may "
             raise GenevaError(text + "leave part of it; 0 omits it", ("size", "lock_radius_mm"))
         high, low, ends = ball.lock, nearest(half), (middle - half, middle + half)
-        far, inner = ([place(polar, a) for a in ends] for polar in (high, low))
+        far, inner = ([place(level, a) for a in ends] for level in (high, low))
         sides = [(-math.sin(a), math.cos(a), 0.0) for a in ends]
         boundary = (
             SphereArc(POLE, high, far[0], far[1]),
@@ -149,7 +148,7 @@ def locked(ball: Ball) -> list[tuple[float, float]]:
 
 def rollers(ball: Ball) -> list[Region]:
     """Return the rollers' cones."""
-    return [Cap(place(ball.arm, azimuth), ball.roller).region for azimuth in ball.rollers]
+    return [Cap(place(ball.arm, turn), ball.roller).region for turn in ball.rollers]
 
 
 def at_mid_motion(ball: Ball) -> Rotation:
@@ -166,18 +165,17 @@ def swept(ball: Ball) -> tuple[Array, Array]:
     """
     frame, wheel = np.array(at_mid_motion(ball)), edge_points(ball, 100)
     # the wheel turns by half a step either way: the position nearest to the crank's axis counts
-    off = np.maximum(np.abs(np.arctan2(wheel[:, 1], wheel[:, 0])) - ball.half_step, 0.0)
+    off = np.maximum(np.abs(azimuth(wheel)) - ball.half_step, 0.0)
     nearest = math.sin(ball.axes) * np.hypot(wheel[:, 0], wheel[:, 1]) * np.cos(off)
     nearest += math.cos(ball.axes) * wheel[:, 2]
     wheel = wheel[nearest > math.cos(ball.lock) - SAME_ANGLE]
     turns = np.linspace(-ball.half_motion, ball.half_motion, 361)
-    x, y, _ = (turned_points(np.array(place(ball.arm, 0.0)), -turns) @ frame).T
+    pins = turned_points(np.array(place(ball.arm, 0.0)), -turns) @ frame
     # the wheel's slot is under the roller
-    seen = wheel @ (turned_points(np.eye(3), np.arctan2(y, x)[:, None]) @ frame.T)
+    seen = wheel @ (turned_points(np.eye(3), azimuth(pins)[:, None]) @ frame.T)
     # the limit is below the locking edge's angle, so that points along the edge do not count
     comes = seen[..., 2].max(axis=0) > math.cos((1.0 - 0.5 * SAME_ANGLE) * ball.lock)
-    x, y, up = np.moveaxis(seen[:, comes], -1, 0)
-    return np.arctan2(np.hypot(x, y), up), np.arctan2(y, x) + turns[:, None]
+    return polar(seen[:, comes]), azimuth(seen[:, comes]) + turns[:, None]
 
 
 class CapArm(NamedTuple):
@@ -185,7 +183,6 @@ class CapArm(NamedTuple):
 
     boundary: Region
     bore: Bore
-    keyway: float  # azimuth about the crank's axis
     hub: float
     pins: tuple[RoundHole, ...]
     bolts: tuple[RoundHole, ...]  # equally many of each locking sector
@@ -227,8 +224,9 @@ def _arm(ball: Ball, sectors: Sequence[Region], size: Size, bolts_each: int) -> 
     limit = under * math.sin(ball.arm - RoundHole(POLE, hole).angle(under))
     why = "the hub, about arm_bore_mm, cuts the pin's hole"
     refuse_above("arm_hub_mm", 2.0 * hub, 2.0 * limit, why)
-    form = bore_of(size, "crank", ball.arm_bore_mm)
-    pins = tuple(RoundHole(place(ball.arm, azimuth), hole) for azimuth in ball.rollers)
+    keyway = next((0.5 * (a + b) for a, b in locked(ball)), 0.5 * ball.rollers[-1] + math.pi)
+    form = bore_of(size, "crank", ball.arm_bore_mm)._replace(direction=keyway)
+    pins = tuple(RoundHole(place(ball.arm, turn), hole) for turn in ball.rollers)
     bolts = _bolts(ball, sectors, size, bolts_each)
     cap, eye, bolted = ball.cap(hub, form.reach, wall), eye / L, wall + 2.0 * size.edge_mm
     caps = [Cap(POLE, cap), *(Cap(pin.axis, eye) for pin in pins)]
@@ -238,9 +236,8 @@ def _arm(ball: Ball, sectors: Sequence[Region], size: Size, bolts_each: int) -> 
     for k, sector in enumerate(sectors if bolts else []):
         of_sector = bolts[k * bolts_each : (k + 1) * bolts_each]
         walls.append(least_wall(sector, of_sector, ball.lock_span_mm[0]))
-    keyway = next((0.5 * (a + b) for a, b in locked(ball)), 0.5 * ball.rollers[-1] + math.pi)
     reach = max(math.acos(sphere.dot(one.middle, POLE)) + one.angle for one in caps)
-    return CapArm(boundary, form, keyway, hub, pins, bolts, cap, eye, reach, min(walls))
+    return CapArm(boundary, form, hub, pins, bolts, cap, eye, reach, min(walls))
 
 
 def _bolts(ball: Ball, sectors: Sequence[Region], size: Size, count: int) -> tuple[RoundHole, ...]:
@@ -257,5 +254,5 @@ def _bolts(ball: Ball, sectors: Sequence[Region], size: Size, count: int) -> tup
     holes = []
     for (low, high), azimuths in zip(rings, directions, strict=False):
         far = 0.5 * (low + high) if own is None else math.asin(min(1.0, 0.5 * own / L))
-        holes += [RoundHole(place(far, azimuth), r) for azimuth in azimuths if r]
+        holes += [RoundHole(place(far, turn), r) for turn in azimuths if r]
     return tuple(holes)

@@ -4,8 +4,10 @@ They follow one another as on a plane (``load_sizes``).
 """
 
 import math
+from collections.abc import Iterable
 from contextlib import suppress
 from functools import lru_cache
+from itertools import chain, takewhile
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinds.spherical.ball import Ball, flat_radius, hub_about, usual_ball
@@ -28,9 +30,8 @@ from geneva_cli.spec.defaults import eye_about, wall_min, wheel_material
 from geneva_cli.study.synth.suiting import LOCK, SIZES, USUAL, with_roller
 
 
-@lru_cache(maxsize=16)
 def sized_ball(mechanism: Mechanism) -> Ball | None:
-    """Return the cached sizes of a spherical machine; None where it has no parts."""
+    """Return the sizes of a spherical machine; None where it has no parts."""
     with suppress(GenevaError):  # the check of the parts reports the error
         return None if mechanism.spec.no_parts else ball(mechanism)
     return None
@@ -69,8 +70,9 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
     return known, keys_by_load(mechanism, bool(sizes.recess))
 
 
+@lru_cache(maxsize=16)
 def ball(mechanism: Mechanism) -> Ball:
-    """Return the sizes of a spherical machine.
+    """Return the cached sizes of a spherical machine.
 
     Those that the spec leaves out are as large as its load needs; a load without a bound leaves the
     usual ones. Raises GenevaError, naming the key, where they leave no wheel or no lock.
@@ -123,20 +125,14 @@ def _wheel_bored(mechanism: Mechanism, ball: Ball) -> Ball:
     fixed = size.wheel_bore_mm is not None or spec.shaft.wheel_diameter_mm is not None
     if fixed or not ball.bore_mm:
         return ball
-    held = spec.shaft.torsion_factor * dwell_torque_Nm(mechanism).item()
-
     # a hub with flat faces stays in its shell, a hundredth short of the outer sphere
     widest = min(end - wall_min(size, L), 0.99 * flat_radius(*ball.span_mm))
     most = min(end * 2.0 / 3.0, rules.within_hub(size, "wheel"))
-    for d in sizes_from(2.0 * ball.bore_mm, 2.0 * most, bores=True):
-        trial = ball._replace(bore_mm=0.5 * d, hub_mm=hub_about(size, L, 0.5 * d, end))
-        if trial.hub_mm > widest:
-            break
-        ball, parts = trial, sphere_stressed(spec, trial)
-        moment = max(_moment_Nm(first_alike(mechanism), "wheel", parts.wheel_shaft.overhang), held)
-        if load.shaft_and_key_hold(spec, "wheel", parts, moment, single_loads(mechanism).wheel_Nm):
-            break
-    return ball
+    held = spec.shaft.torsion_factor * dwell_torque_Nm(mechanism).item()
+    bores = (0.5 * d for d in sizes_from(2.0 * ball.bore_mm, 2.0 * most, bores=True)[1:])
+    trials = (ball._replace(bore_mm=r, hub_mm=hub_about(size, L, r, end)) for r in bores)
+    fitting = takewhile(lambda trial: trial.hub_mm <= widest, trials)
+    return _held(mechanism, "wheel", chain((ball,), fitting), held)
 
 
 def _crank_bored(mechanism: Mechanism, ball: Ball, keyed: bool) -> Ball:
@@ -149,11 +145,9 @@ def _crank_bored(mechanism: Mechanism, ball: Ball, keyed: bool) -> Ball:
     wall = wall_min(size, ball.radius_mm)
 
     def fits(trial: Ball) -> bool:
-        if trial.arm_bore_mm <= ball.arm_bore_mm:
-            return True
         # the standard has no keys for the largest shafts
-        key = sphere_stressed(spec, trial).crank_key
-        if size.crank_keyway is not None and math.isnan(float(key.shaft)):
+        parts = sphere_stressed(spec, trial)
+        if size.crank_keyway is not None and math.isnan(float(parts.crank_key.shaft)):
             return False
         # the arm's hub fits: about its bore, in the arm, and past pins and wheel
         bored = reach_or_bore(size, "crank", trial.arm_bore_mm)
@@ -164,24 +158,27 @@ def _crank_bored(mechanism: Mechanism, ball: Ball, keyed: bool) -> Ball:
         within = bored + wall <= hub <= min(to_pins, 0.99 * flat_radius(under, over))
         return within and trial.cap(hub, bored, wall) <= passing
 
-    sizes = ball
-    for d in sizes_from(2.0 * ball.arm_bore_mm, over, bores=True):
-        trial = ball._replace(arm_bore_mm=0.5 * d)
-        if not fits(trial):
-            break
-        sizes, parts = trial, sphere_stressed(spec, trial)
-        moment = _moment_Nm(first_alike(mechanism), "crank", parts.crank_shaft.overhang)
-        torque = single_loads(mechanism).crank_Nm
-        if load.shaft_and_key_hold(spec, "crank", parts, moment, torque, keyed):
-            break
-    return sizes
+    bores = sizes_from(2.0 * ball.arm_bore_mm, over, bores=True)[1:]
+    fitting = takewhile(fits, (ball._replace(arm_bore_mm=0.5 * d) for d in bores))
+    return _held(mechanism, "crank", chain((ball,), fitting), keyed=keyed)
 
 
-@lru_cache(maxsize=64)
-def _moment_Nm(mechanism: Mechanism, part: str, overhang_mm: float) -> float:
-    """Return the greatest equivalent torque of a shaft; it needs a search of the whole cycle."""
-    squares = shaft_squares(mechanism, {part: overhang_mm})
-    return math.sqrt(squares[part].max.item()) if squares else 0.0
+def _held(
+    mechanism: Mechanism, part: str, trials: Iterable[Ball], held: float = 0.0, keyed: bool = True
+) -> Ball:
+    """Return the first sizes whose shaft, and key, of a part hold, or else the last.
+
+    The equivalent torque is at least ``held``, N m.
+    """
+    torque = getattr(single_loads(mechanism), f"{part}_Nm")
+    for trial in trials:
+        parts = sphere_stressed(mechanism.spec, trial)
+        lever = getattr(parts, f"{part}_shaft").overhang
+        squares = shaft_squares(first_alike(mechanism), {part: lever})
+        moment = max(math.sqrt(squares[part].max.item()) if squares else 0.0, held)
+        if load.shaft_and_key_hold(mechanism.spec, part, parts, moment, torque, keyed):
+            break
+    return trial
 
 
 def sphere_stressed(spec: Spec, ball: Ball) -> load.Stressed:

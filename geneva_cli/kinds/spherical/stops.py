@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from geneva_cli.geometry.sphere_arcs import SphereArcs
+from geneva_cli.geometry.sphere_arcs import SphereArcs, azimuth, polar
 from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.kinds.spherical.regions import at_mid_motion
 from geneva_cli.motion.pivots import PlaneMotion, turned_points
@@ -80,13 +80,3 @@ class SphereStops(Stops):
     def lean(self, level: Array, side: Branches, close: float) -> Array:
         """Return the sine of the pressure angle where a round side touches; projected it stays."""
         return super().lean(level, side, 0.0)
-
-
-def polar(points: Array) -> Array:
-    """Return the angles of directions (..., 3) from z."""
-    return np.arctan2(np.hypot(points[..., 0], points[..., 1]), points[..., 2])
-
-
-def azimuth(points: Array) -> Array:
-    """Return the angles of directions (..., 3) about z, from x."""
-    return np.arctan2(points[..., 1], points[..., 0])

@@ -39,6 +39,9 @@ class WheelStop(NamedTuple):
     face_mm: float  # along the face, from the contact to the nearer mouth; negative in the mouth
     overlap_mm: float  # of the circles of disc and face, if nothing stopped them
     crank_deg: float  # of the crank at its last stop, from the middle of that engagement
+    # under ``winding_torque_Nm``, between disc and face; None without a key that they need
+    force_N: float | None
+    contact_stress_MPa: float | None
 
     @property
     def turns(self) -> float:
@@ -63,7 +66,8 @@ def wheel_stop(outlines: Outlines) -> WheelStop | None:
     last = assembly.to_input(math.degrees(crank))
     stops = assembly.to_input(-math.degrees(crank)), 360.0 * (z - 1) + last, 360.0 * (z // 2)
     lengths = L * math.sin(delta), ra * (half_face - abs(from_middle)), rk + ra - L
-    return WheelStop(*stops, *lengths, math.degrees(crank))
+    contact = _contact(outlines, L * math.sin(delta))
+    return WheelStop(*stops, *lengths, math.degrees(crank), *contact)
 
 
 def clearances_before(outlines: Outlines, stop: WheelStop, past_deg: float = 0.0) -> Array:
@@ -82,15 +86,11 @@ def stop(parts: Parts) -> Values:
     spec, stops = parts.mechanism.spec, None
     with suppress(GenevaError):  # ``parts.none`` gives the reason
         stops = wheel_stop(parts.outlines) if spec.wheel.stopped and spec.is_flat else None
-    if stops is None:
-        return {}
-    names = "turns", "first_deg", "last_deg", "overlap_mm", "lever_mm"
-    force, stress = stop_contact(parts.outlines, stops)
-    own: Values = {name: getattr(stops, name) for name in names}
-    return {**own, "force_N": force, "contact_stress_MPa": stress}
+    names = "turns first_deg last_deg overlap_mm lever_mm force_N contact_stress_MPa"
+    return {name: getattr(stops, name) for name in names.split()} if stops else {}
 
 
-def stop_contact(outlines: Outlines, stop: WheelStop) -> tuple[float | None, float | None]:
+def _contact(outlines: Outlines, lever_mm: float) -> tuple[float | None, float | None]:
     """Return force, N, and Hertz stress, MPa, under ``winding_torque_Nm``; None without a key.
 
     A sharp end of the disc has no stress. The face is an arc about the wheel's axis. So the force
@@ -102,7 +102,7 @@ def stop_contact(outlines: Outlines, stop: WheelStop) -> tuple[float | None, flo
     size, torque = spec.size, spec.load.winding_torque_Nm
     if torque is None:
         return None, None
-    force = 1e3 * torque / stop.lever_mm
+    force = 1e3 * torque / lever_mm
     if size.face_width_mm is None or size.lock_edge_mm is None:
         return force, None
     material = wheel_material(spec)
@@ -138,4 +138,4 @@ def standing(names: Collection[str], parts: FlatParts) -> Iterator[Check]:
         return
     why = "not known: it needs lock_edge_mm in [size], for a sharp end has no stress, and "
     why += "winding_torque_Nm"
-    yield compared(name, stop_contact(outlines, stop)[1], "at most", limit, why=why)
+    yield compared(name, stop.contact_stress_MPa, "at most", limit, why=why)

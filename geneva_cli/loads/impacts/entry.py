@@ -7,18 +7,28 @@ are in units of the input's, input angles in degrees from the engagement's own m
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.loads.impacts.shock_force import Impacts, harder, shown, with_force
+from geneva_cli.loads.impacts.shock_force import Impacts, hardest, shown
 from geneva_cli.loads.strength.pin_arm_key import PinSize
 from geneva_cli.motion.batch import taken
 from geneva_cli.motion.engagement import Anchor, Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE, radians
-from geneva_cli.numerics.arrays import Array, Mask, N, Number, Whole, choose, library, parameter
+from geneva_cli.numerics.arrays import (
+    Array,
+    Mask,
+    N,
+    Number,
+    Whole,
+    array,
+    choose,
+    library,
+    parameter,
+)
 from geneva_cli.numerics.jet import Jet, sqrt
 from geneva_cli.numerics.roots import find_roots
 
@@ -82,10 +92,66 @@ class RestingAxis(NamedTuple):
             tau = tau - slope / bend
         return tau
 
-    def distance(self, tau: Array) -> tuple[Array, Array]:
-        """Distance of the true path from the axis ``tau`` radians after entry, and its slope."""
-        value, slope = self.anchor.displacement(tau, 1)[1].derivatives()
+
+class _Approach(NamedTuple):
+    """A roller with errors of R and L that comes to the slot's axis, or to a corner of its mouth.
+
+    Positions are along the axis, across it from the axis, and along the wheel's own axis.
+    """
+
+    axis: RestingAxis
+    crank: Number
+    center: Number
+    corner: tuple[Number, Number, Number] | None = None
+    reach: Number = 0.0  # distance of the roller's centre at which it touches the corner
+
+    def roller(self, tau: Array) -> tuple[Jet, Jet, Jet]:
+        """Roller centre ``tau`` radians of the input after the true entry."""
+        (axis, crank, center, *_), longer = self, 1.0 + self.crank
+        slot, anchor = axis.engagement.through.slot, axis.anchor
+        x, y = anchor.displacement(tau, 1)
+        x = (x + anchor.along) * longer - (crank - center) * axis.along
+        y = (y - axis.offset(crank, center)) * longer
+        if slot.height is None:
+            return x, y, x * 0.0
+        z = slot.height(radians(anchor.input_deg) + tau, 1) * longer - crank * slot.height.hub
+        far = sqrt(x * x + y * y + z * z)
+        return x / far, y / far, z / far
+
+    def gap(self, tau: Array) -> tuple[Array, Array]:
+        """The distance from the axis, or the squared one beyond the corner's, and its slope."""
+        place = self.roller(tau)
+        if self.corner is None:
+            return array(place[1].c[0]), array(place[1].c[1])
+        x, y, z = (p - c for p, c in zip(place, self.corner, strict=True))
+        value, slope = (x * x + y * y + z * z - self.reach**2).derivatives()
         return value, slope
+
+    def contacts(self, places: Array, passed: Mask) -> FirstContacts:
+        """The contacts before the first places (m, k) that are passed; NaN if there is none.
+
+        The roller's centre P and the point C that it meets keep their distance along the normal n
+        at the speed n . P' / n . (z x C).
+        """
+        out, first = np.full((len(places), 1), np.nan), np.argmax(passed, axis=1)
+        there = np.flatnonzero(passed.any(axis=1) & (first > 0))
+        ends = np.sort([places[there, first[there] - k] for k in (0, 1)], axis=0)
+
+        def gap(x: Array, live: Whole) -> tuple[Array, Array]:
+            value, slope = taken(self, there[live]).gap(x[:, None])
+            return value[:, 0], slope[:, 0]
+
+        out[there, 0] = find_roots(gap, *ends)
+        engagement, place = self.axis.engagement, self.roller(out)
+        point: list[Number] = [p.c[0] for p in place]
+        normal: list[Number] = [0.0, 1.0, 0.0]
+        if self.corner is not None:
+            normal = [p - c for p, c in zip(point, self.corner, strict=True)]
+            point = [*self.corner]
+        supplied = sum(n * p.c[1] for n, p in zip(normal, place, strict=True))
+        turned = normal[1] * point[0] - normal[0] * (point[1] - engagement.through.slot.offset)
+        at_deg = engagement.entry_deg + out / DEGREE
+        return FirstContacts(np.ravel(at_deg), np.ravel(supplied / turned))
 
 
 def first_contacts(axis: RestingAxis, crank: Number, center: Number = 0.0) -> FirstContacts:
@@ -97,9 +163,9 @@ def first_contacts(axis: RestingAxis, crank: Number, center: Number = 0.0) -> Fi
     # The roller comes from one side, ``before``. At a true entry it stays on that side (a circle)
     # or crosses to the other (a path with an inflection).
     span = 0.5 * axis.engagement.through.motion_deg * DEGREE
-    before, turn = axis.distance(np.atleast_2d(-1e-3 * span))[0], axis.turn
-    offset = np.atleast_2d(axis.offset(crank, center)) + 0.0 * before
-    left = offset - axis.distance(turn)[0]
+    before = array(axis.anchor.displacement(np.atleast_2d(-1e-3 * span), 0)[1].c[0])
+    turn, offset = axis.turn, np.atleast_2d(axis.offset(crank, center)) + 0.0 * before
+    roller = _Approach(axis, crank + 0.0 * offset, center + 0.0 * offset)
     with np.errstate(all="ignore"):
         sense = np.where(offset * before > 0.0, -1.0, np.where(offset > 0.0, 1.0, np.nan))
         if (built := axis.engagement.through.built) is not None:  # the crossing that is its entry
@@ -109,88 +175,9 @@ def first_contacts(axis: RestingAxis, crank: Number, center: Number = 0.0) -> Fi
         passed = np.zeros((len(offset), far.shape[-1]), dtype=bool)
         for side in (-1.0, 1.0):  # many errors of one machine have its path in common
             if (sense == side).any():
-                beyond = axis.distance(turn + side * far)[0] - offset
-                passed |= (sense == side) & (beyond * left >= 0.0)
-
-    def less(tau: Array, which: Whole) -> tuple[Array, Array]:
-        value, slope = taken(axis, which).distance(tau)
-        return value - offset[which], slope
-
-    tau = _first_roots(less, turn + sense * far, passed)
-    along, across = axis.anchor.displacement(tau, 1)
-    moved = (center - crank) / (1.0 + crank) * axis.along
-    jump = across.derivatives()[1] / (along.derivatives()[0] + axis.anchor.along + moved)
-    return FirstContacts(np.ravel(axis.engagement.entry_deg + tau / DEGREE), np.ravel(jump))
-
-
-def _first_roots(
-    f: Callable[[Array, Whole], tuple[Array, Array]], places: Array, passed: Mask
-) -> Array:
-    """The roots before the first places (m, k) that are passed, (m, 1); NaN if there is none."""
-    out, first = np.full((len(places), 1), np.nan), np.argmax(passed, axis=1)
-    there = np.flatnonzero(passed.any(axis=1) & (first > 0))
-    ends = np.sort([places[there, first[there] - k] for k in (0, 1)], axis=0)
-
-    def one_each(x: Array, live: Whole) -> tuple[Array, Array]:
-        value, slope = f(x[:, None], there[live])
-        return value[:, 0], slope[:, 0]
-
-    out[there, 0] = find_roots(one_each, *ends)
-    return out
-
-
-class _Corner(NamedTuple):
-    """A corner of the mouth, and the roller that meets it with errors of R and L."""
-
-    axis: RestingAxis
-    crank: Number
-    center: Number
-    reach: Number  # distance of the roller's centre at which they touch
-    place: tuple[Number, Number, Number]
-
-    def roller(self, tau: Array) -> tuple[Jet, Jet, Jet]:
-        """Roller centre ``tau`` radians of the input after the true entry."""
-        axis, longer = self.axis, 1.0 + self.crank
-        slot, anchor = axis.engagement.through.slot, axis.anchor
-        x, y = anchor.displacement(tau, 1)
-        x = (x + anchor.along) * longer - (self.crank - self.center) * axis.along
-        y = (y - axis.offset(self.crank, self.center)) * longer - slot.offset
-        if slot.height is None:
-            return x, y, x * 0.0
-        z = slot.height(radians(anchor.input_deg) + tau, 1) * longer - self.crank * slot.height.hub
-        far = sqrt(x * x + y * y + z * z)
-        return x / far, y / far, z / far
-
-    def gap(self, tau: Array) -> tuple[Array, Array]:
-        """Squared distance of centre and corner minus that at contact, and its slope."""
-        x, y, z = (p - c for p, c in zip(self.roller(tau), self.place, strict=True))
-        value, slope = (x * x + y * y + z * z - self.reach**2).derivatives()
-        return value, slope
-
-    def contact(self, along: Number, top: Number) -> tuple[Array, Array]:
-        """Radians after the true entry of the first contact, and the jump, (m, 1); NaN without any.
-
-        The roller comes from outside, and has passed once its centre is in the mouth, whose middle
-        is at ``along`` and ``top``. Centre P and corner C keep their distance at the speed
-        (P - C) . P' / (P - C) . (z x C).
-        """
-        engagement = self.axis.engagement.through
-        span = 0.5 * engagement.motion_deg * DEGREE
-        x, _, z = self.roller(np.atleast_2d(0.0 * span))
-        # its distance outside, and its speed outwards
-        out, speed = (
-            x - along if engagement.slot.height is None else x * top - z * along
-        ).derivatives()
-        places = -out / speed - span * OCTAVES[::-1]
-        meets = self.gap(places)[0] <= -1e-16  # of L²: nearer to 0 it is rounding
-        places = np.broadcast_to(places, meets.shape)
-        tau = _first_roots(lambda x, which: taken(self, which).gap(x), places, meets)
-        supplied = turned = 0.0 * tau
-        direction = -self.place[1], self.place[0], 0.0
-        for p, c, w in zip(self.roller(tau), self.place, direction, strict=True):
-            value, rate = p.derivatives()
-            supplied, turned = supplied + (value - c) * rate, turned + (value - c) * w
-        return tau, supplied / turned
+                beyond = roller.gap(turn + side * far)[0]
+                passed |= (sense == side) & (beyond * roller.gap(turn)[0] <= 0.0)
+        return roller.contacts(turn + sense * far, passed)
 
 
 def mouth_contacts(
@@ -218,18 +205,23 @@ def mouth_contacts(
     if slot.height is not None:
         top = slot.height(radians(axis.anchor.input_deg), 0).c[0]
         reach = 2.0 * np.sin(0.5 * reach)  # a chord
-    found = []
+    found, outwards = list[FirstContacts](), 0.5 * axis.engagement.through.motion_deg * DEGREE
     with np.errstate(all="ignore"):
         for side in (1.0, -1.0):  # first the corner on the side to which the wheel turns
-            place: tuple[Number, Number, Number] = along, side * wide - slot.offset, 0.0
+            place: tuple[Number, Number, Number] = along, side * wide, 0.0
             if slot.height is not None:
                 m, own = library(wide), parameter(wide)
                 place = along * m.cos(own), side * m.sin(own), top * m.cos(own)
-            found.append(_Corner(axis, crank, center, reach, place).contact(along, top))
-        (one, forwards), (other, backwards) = found
-        tau = np.fmin(one, other)
-        jump = np.where(tau == one, forwards, backwards)
-    return FirstContacts(np.ravel(axis.engagement.entry_deg + tau / DEGREE), np.ravel(jump))
+            # it comes from outside, and has passed once its centre is in the mouth
+            coming = _Approach(axis, crank, center, place, reach)
+            x, _, z = coming.roller(np.atleast_2d(0.0 * outwards))
+            out, speed = (x - along if slot.height is None else x * top - z * along).derivatives()
+            places = -out / speed - outwards * OCTAVES[::-1]
+            meets = coming.gap(places)[0] <= -1e-16  # of L²: nearer to 0 it is rounding
+            found.append(coming.contacts(np.broadcast_to(places, meets.shape), meets))
+    (one, forwards), (other, backwards) = found
+    at_deg = np.fmin(one, other)
+    return FirstContacts(at_deg, np.where(at_deg == one, forwards, backwards))
 
 
 def entry_impacts(mechanism: Mechanism, pin: PinSize | None = None) -> Impacts:
@@ -243,15 +235,14 @@ def entry_impacts(mechanism: Mechanism, pin: PinSize | None = None) -> Impacts:
     lost = 0.5 * (tolerance.roller_diameter_mm + tolerance.slot_width_mm)
     spare = parameter(np.maximum(size.allowances.slot_clearance_mm - lost, 0.0)) / L
     sizes = mechanism.roller_radius_mm / L, spare, size.mouth_radius_mm / L
-    best = np.full((2, 1), np.nan)
+    each = list[Array]()
     as_built = any(one.built for one in mechanism.engagements)  # it strikes without errors, too
     for axis in [] if as_built else RestingAxis.each(mechanism):
         errors = [*_errors(mechanism, axis)]
         every = [first_contacts(axis, *error) for error in errors]
         every += [mouth_contacts(axis, *error, sizes) for error in errors]
-        for contacts in every:
-            best = harder(best, shown(mechanism, axis.engagement, *contacts))
-    return with_force(mechanism, best, pin)
+        each += [shown(mechanism, axis.engagement, *one, np.array(np.nan)) for one in every]
+    return hardest(mechanism, each, pin)
 
 
 def _errors(mechanism: Mechanism, axis: RestingAxis) -> Iterator[tuple[float, float]]:

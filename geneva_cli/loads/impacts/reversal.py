@@ -11,8 +11,8 @@ from functools import reduce
 import numpy as np
 
 from geneva_cli.loads.contact import LoadCase, contact
-from geneva_cli.loads.impacts.shock_force import Impacts, harder, shown, with_force
-from geneva_cli.loads.load_case import inertia_kgm2, load_case, resisting_torques_Nm
+from geneva_cli.loads.impacts.shock_force import Impacts, hardest, shown
+from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_functions import LoadFunctions
 from geneva_cli.loads.strength.pin_arm_key import PinSize
 from geneva_cli.motion.batch import taken
@@ -20,7 +20,7 @@ from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import braking
 from geneva_cli.numerics import arrays
-from geneva_cli.numerics.angles import DEGREE, omega
+from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.roots import find_roots
 from geneva_cli.numerics.tolerances import ROUNDED
@@ -60,8 +60,6 @@ def impacts_of(
     """
     which, begin = at
     out: Array = np.full((2, len(begin)), np.nan)
-    if not len(begin):
-        return begin, begin
     follows = np.append(which[1:] == which[:-1], False)
     until = np.where(follows, np.append(begin[1:], 0.0), np.nan)
     motions, start, drags = taken(engagement.motion, which), begin[:, None], drag[which]
@@ -110,20 +108,17 @@ def impacts_of(
     return begin + out[0] / DEGREE, out[1]
 
 
-def drag_over(mechanism: Mechanism) -> float:
-    """M_r / (I w²) of the spec's load; infinite without an inertia, as then nothing coasts."""
-    inertia, w = inertia_kgm2(mechanism.spec), omega(mechanism.spec.drive.n_rpm)
-    heavy = inertia > 0.0
-    drag = sum(resisting_torques_Nm(mechanism.spec)) / (arrays.choose(heavy, inertia, 1.0) * w * w)
-    out: float = arrays.choose(heavy, drag, math.inf)
-    return out
+def drag_over(case: LoadCase) -> float:
+    """M_r / (I w²) of a load; infinite without an inertia, as then nothing coasts."""
+    heavy = case.inertia_Nm > 0.0
+    drag = case.resists_Nm / arrays.choose(heavy, case.inertia_Nm, 1.0)
+    return arrays.choose(heavy, drag, math.inf)
 
 
 def lasting_drag_Nm(mechanism: Mechanism) -> float:
     """Torque to add for the roller to stay on one wall: I w² max(-psi2) - M_r."""
-    inertia, w = inertia_kgm2(mechanism.spec), omega(mechanism.spec.drive.n_rpm)
-    most = reduce(arrays.larger, map(braking, mechanism.engagements))
-    return arrays.larger(inertia * w * w * most - sum(resisting_torques_Nm(mechanism.spec)), 0.0)
+    case, most = load_case(mechanism), reduce(arrays.larger, map(braking, mechanism.engagements))
+    return arrays.larger(case.inertia_Nm * most - case.resists_Nm, 0.0)
 
 
 def reversal_impacts(mechanism: Mechanism, pin: PinSize | None = None) -> Impacts:
@@ -139,22 +134,13 @@ def reversal_impacts(mechanism: Mechanism, pin: PinSize | None = None) -> Impact
     play_mm = (
         arrays.choose(given == 0.0, WORKSHOPS[spec.size.process].slot_play_mm, given) + 0.5 * both
     )
-    drag = drag_over(mechanism)
-    none = (drag == np.inf) | (play_mm == 0.0)
-    if arrays.all_true(none):
+    drag = drag_over(case)
+    if arrays.all_true((drag == np.inf) | (play_mm == 0.0)):
         return Impacts(*np.full((5, mechanism.designs), np.nan))
-    best, numbers = np.full((3, 1), np.nan), (mechanism.center_distance_mm, drag, play_mm)
-    rows = [np.broadcast_to(x, (mechanism.designs, 1)) for x in (*numbers, case.radius)]
-    for engagement in mechanism.engagements:
-        own = _reversal(engagement, *rows)
-        best = harder(best, shown(mechanism, engagement, *own))
-    *impacts, edge = best
-    hit = with_force(mechanism, np.array(impacts), pin)
-    if case.hertz is None:
-        return hit
-    with np.errstate(divide="ignore"):  # a wall as sharp as the roller
-        square = hit.force_N * np.ravel(case.hertz) / np.maximum(edge, 0.0)
-    return hit._replace(contact_stress_MPa=np.sqrt(square))
+    numbers = mechanism.center_distance_mm, drag, play_mm, case.radius
+    rows = [np.broadcast_to(x, (mechanism.designs, 1)) for x in numbers]
+    each = (shown(mechanism, one, *_reversal(one, *rows)) for one in mechanism.engagements)
+    return hardest(mechanism, each, pin)
 
 
 def _reversal(
@@ -191,14 +177,13 @@ def arrival(mechanism: Mechanism) -> tuple[float, float] | None:
     at the exit e. So the wheel reaches its dwell if m <= -psi''(e) and if m is at most
     2 (psi'(s) (e - s) - (psi(e) - psi(s))) / (e - s)².
     """
-    (engagement, *_), spec = mechanism.engagements, mechanism.spec
-    if not engagement.paired or not spec.is_loaded:
+    engagement = mechanism.engagements[0]
+    if not engagement.paired or not mechanism.spec.is_loaded:
         return None
-    w, motion = omega(spec.drive.n_rpm), engagement.motion
+    case, motion = load_case(mechanism), engagement.motion
     begin, exit_deg = motion.breaks_deg[-2], engagement.exit_deg
     start, u = motion(begin, 1).derivatives()[:2]
     end, _, last = motion(exit_deg, 2).derivatives()[:3]
     span = (exit_deg - begin) * DEGREE
     late = 2.0 * (u * span - (end - start)) / (span * span)
-    most = inertia_kgm2(spec) * w * w * max(0.0, min(-last, late))
-    return sum(resisting_torques_Nm(spec)), most
+    return case.resists_Nm, case.inertia_Nm * max(0.0, min(-last, late))

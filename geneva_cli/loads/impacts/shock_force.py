@@ -10,11 +10,12 @@ proportional to the 0.9th power of the materials' softness.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.loads.load_case import MM, contact_modulus_GPa, inertia_kgm2
+from geneva_cli.loads.load_case import MM, contact_modulus_GPa, inertia_kgm2, load_case
 from geneva_cli.loads.strength.pin_arm_key import PinSize, stiffness_N_mm
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
@@ -41,24 +42,27 @@ class Impacts(NamedTuple):
 
 
 def shown(mechanism: Mechanism, engagement: Engagement, at_deg: Array, *others: Array) -> Array:
-    """Displayed input angles, jumps, and what else there is of impacts: (2 or more, m)."""
+    """Displayed input angles, jumps, and what else there is of an engagement's impacts, as rows."""
     places = mechanism.shown_deg(parameter(engagement.mid_deg + at_deg[:, None]))
     return np.stack(np.broadcast_arrays(np.ravel(places), *others))
 
 
-def harder(one: Array, other: Array) -> Array:
-    """The harder of two impacts in each design; the first if they are equal."""
-    more = abs(other[1]) > np.nan_to_num(abs(one[1]), nan=-1.0)
-    return np.where(more, other, one)
+def hardest(mechanism: Mechanism, each: Iterable[Array], pin: PinSize | None) -> Impacts:
+    """The hardest impact of m designs, with its force and moment; the first of equal ones.
 
-
-def with_force(mechanism: Mechanism, impacts: Array, pin: PinSize | None) -> Impacts:
-    """Impacts with their forces and moments, from angles and jumps (2, m)."""
-    at_deg, jump = impacts[0], impacts[1, :, None]
-    moment = np.ravel(impulse_Nms(mechanism, jump))
-    force = np.nan if pin is None else forces_N(mechanism, jump, pin)
+    ``each`` has displayed input angles, jumps, and the edges of the walls that strike, as
+    ``Instant`` has them: (3, m). Without the ``pin`` forces are not known.
+    """
+    best, hertz = np.full((3, mechanism.designs), np.nan), load_case(mechanism).hertz
+    for rows in each:
+        best = np.where(abs(rows[1]) > np.nan_to_num(abs(best[1]), nan=-1.0), rows, best)
+    at_deg, jump, edge = best
+    moment = np.ravel(impulse_Nms(mechanism, jump[:, None]))
+    force = np.nan if pin is None else forces_N(mechanism, jump[:, None], pin)
+    with np.errstate(divide="ignore"):  # a wall as sharp as the roller
+        square = force * np.ravel(np.nan if hertz is None else hertz) / np.maximum(edge, 0.0)
     moment = np.where(moment == 0.0, np.nan, moment)
-    return Impacts(*np.broadcast_arrays(at_deg, impacts[1], force, moment, np.nan))
+    return Impacts(*np.broadcast_arrays(at_deg, jump, force, moment, np.sqrt(square)))
 
 
 def impulse_Nms(mechanism: Mechanism, jump: N) -> N:

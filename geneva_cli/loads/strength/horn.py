@@ -17,12 +17,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from functools import lru_cache, partial
+from functools import lru_cache
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from geneva_cli.loads.contact import NEAR_CUSP, contact, contact_values
+from geneva_cli.loads.contact import NEAR_CUSP, contact
 from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.load_case import first_alike, load_case
 from geneva_cli.motion.batch import designs_in, taken
@@ -30,7 +30,7 @@ from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.path_and_slot import pitch
 from geneva_cli.numerics.arrays import Number, Whole, array, blocks, joined, mapped, parameter
-from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.jet import Array, Jet
 from geneva_cli.numerics.tolerances import TIE
 
 STOUT = 0.5  # thickness at the mouth over the recess's radius, beyond which a horn is no beam
@@ -153,11 +153,6 @@ class Horn(NamedTuple):
         stress = np.einsum("imp,ims->mps", of_roller, own)
         return np.where(sections[0][:, None] > roller[0][..., None], stress, 0.0)
 
-    @property
-    def stoutness(self) -> Array:
-        """Thickness at the mouth over the recess's radius, (m,)."""
-        return np.ravel(self.points(self.at.mouth_deg)[1] / self.recess_mm)
-
 
 # Horns of a mechanism and its sizes; those of a sphere have the members that are used of a Horn.
 Sides: TypeAlias = Callable[..., Sequence[Any]]
@@ -243,18 +238,18 @@ def _sampled(
     all_places = (slot.entry_deg if start < 0.0 else slot.exit_deg) * samples[0]
     x = all_places - side.at.ahead_deg
     x = x[0] if len(x) == 1 else x  # as (k,) in half the time
-    at = contact_values(contact(side.at.whole, x, reactions=False))
-    at = at if first is row else mapped(partial(_picked, row=row), at)
+    at = contact(side.at.whole, x, reactions=False)
+    if first is not row:
+        at = mapped(lambda jet: jet and Jet([_picked(array(jet.c[0]), row)]), at)
     with np.errstate(all="ignore"):
-        # with signs of the horn that bears: elsewhere the force on it is 0
+        # with signs of the horn that bears: the force is below 0 where it is on the other one
         loads = Instant(case, at, -side.at.end, None, 1.0)
-        bears = np.asarray(loads.wheel_torque_Nm) * side.at.end < 0.0  # or else the other horn
-        force = np.where(bears & (loads.grip > 0.0), np.abs(loads.force_N), 0.0)
-    force = np.atleast_2d(np.where(np.isfinite(force), force, 0.0))
+        force = np.where(array(loads.grip.c[0]) > 0.0, loads.force_N.c[0], 0.0)
+    force = np.atleast_2d(np.where(np.isfinite(force), np.maximum(force, 0.0), 0.0))
     own = np.flatnonzero(force.any(axis=0))  # elsewhere it is 0
     own = own if len(own) else np.arange(1)
     # a mouth is away from the axis, but for internal wheels
-    rub = case.friction * mechanism.spec.wheel.SIGN * loads.slides * at.touches
+    rub = case.friction * mechanism.spec.wheel.SIGN * loads.slides * at.touches.c[0]
     rub = np.broadcast_to(rub, (m, x.shape[-1]))[first]
     force, places, rub = force[:, own], all_places[:, own], rub[:, own]
     points = side.points(np.hstack((places, side.at.mouth_deg * samples[1])))

@@ -19,7 +19,7 @@ after wear, and the pressure is as the sine of the angle from the line of centre
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -28,7 +28,7 @@ from geneva_cli.loads.load_case import contact_modulus_GPa, hertz_MPa
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.motion.batch import designs_in, taken
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.arrays import all_true, blocks, parameter, value_or
+from geneva_cli.numerics.arrays import all_true, blocks, value_or
 from geneva_cli.numerics.jet import Array, Number
 from geneva_cli.spec.defaults import wheel_material
 
@@ -38,19 +38,12 @@ if TYPE_CHECKING:
 SHEAR = 1.2  # of a rectangular section: energy of its shear stress over that of the mean stress
 
 
-class LockUnderTorque(NamedTuple):
-    """Locks of m designs under a torque, (m,) each; NaN for values that are not known."""
-
-    on: str  # part where disc and recess touch, as in ``LockContact``
-    torque_Nm: float
-    force_N: float
-    contact_stress_MPa: float  # Hertz; NaN for a sharp edge, and without clearance
-    pressure_MPa: float  # after wear
-    horn_stress_MPa: float  # bending
-    play_deg: float
-    approach_deg: float
-    bending_deg: float
-    deflection_deg: float  # sum of all three parts; NaN if the approach is not known
+# Values of a lock: Hertz's contact stress is NaN for a sharp edge, and without clearance; the
+# pressure is that after wear. The deflection is the sum of play, approach and bending.
+VALUES = (
+    *("torque_Nm", "force_N", "contact_stress_MPa", "pressure_MPa", "horn_stress_MPa"),
+    *("play_deg", "approach_deg", "bending_deg", "deflection_deg"),
+)
 
 
 def dwell_torque_Nm(mechanism: Mechanism) -> Array:
@@ -72,8 +65,11 @@ def held_force_N(mechanism: Mechanism, by: Lock | None) -> Array:
 
 def loaded_locks(
     mechanism: Mechanism, half_width_mm: float, by: Lock, width_mm: Number
-) -> LockUnderTorque | None:
-    """Locks of m designs, of sizes (m, 1); NaN without a torque or a lock, None if none has one."""
+) -> dict[str, Array] | None:
+    """The ``VALUES`` of locks of m designs, of sizes (m, 1): (m,) each, NaN if unknown.
+
+    None if no design has a torque.
+    """
     load, width = mechanism.spec.load, width_mm
     torque = value_or(load.dwell_torque_Nm, load.torque_Nm)
     if all_true(torque == 0.0):
@@ -108,7 +104,7 @@ def loaded_locks(
     rows = known, force, stress, pressure, bent_MPa * line, play, near, turned, play + near + turned
     every = np.reshape(np.broadcast_arrays(*rows), (len(rows), -1))
     every[:, np.isnan(every[1])] = np.nan  # without a force nothing is known
-    return LockUnderTorque(touch.on, *map(parameter, every))
+    return dict(zip(VALUES, every, strict=True))
 
 
 def horn_MPa(
@@ -119,7 +115,7 @@ def horn_MPa(
 
     own = known or greatest_stress(horns, machine, (half_width, by.recess))
     held = loaded_locks(machine, half_width, by, 1.0)
-    rows = np.broadcast_arrays(own.stress_MPa, *([held.horn_stress_MPa] if held else []))
+    rows = np.broadcast_arrays(own.stress_MPa, *([held["horn_stress_MPa"]] if held else []))
     return np.fmax(0.0, np.fmax.reduce(rows))
 
 

@@ -48,7 +48,7 @@ class ShaftLoad(NamedTuple):
     bending: float = 1.0  # Kb
     torsion: float = 1.0  # Kt
 
-    def __call__(self, i: Instant[Jet]) -> QuantityValue[Jet]:
+    def __call__(self, i: Instant) -> QuantityValue:
         """The square, at an instant."""
         on_wheel, lever = self.part == "wheel", self.overhang_m
         if self.on_sphere:
@@ -68,7 +68,7 @@ class ShaftLoad(NamedTuple):
         return QuantityValue(square * (self.bending * self.bending) + turned * turned, i.grip)
 
 
-def sphere_moments(i: Instant[Jet], on_wheel: bool, overhang_m: Number) -> tuple[Jet, Jet]:
+def sphere_moments(i: Instant, on_wheel: bool, overhang_m: Number) -> tuple[Jet, Jet]:
     """Squared bending moment of a shaft of a sphere, and its torque; the overhang beyond L."""
     at, L = i.at, i.case.L
     # the shaft's axis by its cosines along u, m and y

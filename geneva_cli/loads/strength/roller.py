@@ -22,7 +22,6 @@ from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array, array, parameter
 from geneva_cli.numerics.extremes import Stretches
-from geneva_cli.numerics.jet import Jet
 
 LIFE_EXPONENT = 10.0 / 3.0  # p, of line contact
 
@@ -50,7 +49,7 @@ def passage(engagement: Engagement, case: LoadCase, half: float = 0.0) -> SlotPa
     own = half * pieces.x.sum(axis=0) >= 0.0
     pieces = Stretches._make(row[..., own] for row in pieces)
 
-    def functions(here: Instant[Jet], _: object) -> tuple[Array, ...]:
+    def functions(here: Instant, _: object) -> tuple[Array, ...]:
         """Speed along the slot with its sign, |v_s|, N |v_s| and N^p |v_s|."""
         L, touches = here.case.L, array(here.at.touches.c[0])
         rubs = abs(here.slip.derivatives()[0]) * L

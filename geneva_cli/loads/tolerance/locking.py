@@ -41,15 +41,6 @@ class Deviations(NamedTuple):
 AS_DRAWN = Deviations(*[Jet((0.0,))] * len(Deviations._fields))  # without any
 
 
-def tolerances(spec: Spec) -> dict[str, float]:
-    """Plus or minus of each dimension, in millimetres and radians."""
-    values = spec.tolerance.as_dict()
-    return {
-        name: radians(values[name]) if name.endswith("_deg") else values[name]
-        for name in Deviations._fields
-    }
-
-
 def without_effect(spec: Spec) -> dict[str, str]:
     """Dimensions whose deviations have no effect in a machine, with the reason."""
     why = {}
@@ -58,6 +49,13 @@ def without_effect(spec: Spec) -> dict[str, str]:
     if not spec.wheel.FLAT:
         why["center_distance_mm"] = "the shafts meet, whatever the sphere's radius"
     return why
+
+
+def used(spec: Spec) -> dict[str, float]:
+    """Plus or minus of each dimension, mm and radians, 0 without effect; (m, 1) for m designs."""
+    values = spec.tolerance.as_dict() | dict.fromkeys(without_effect(spec), 0.0)
+    values["slot_angle_deg"] = radians(values["slot_angle_deg"])
+    return {name: values[name] for name in Deviations._fields}
 
 
 def deviations(values: Sequence[Number]) -> Deviations:
@@ -71,23 +69,17 @@ def slope_of(number: int) -> Deviations:
 
 
 def corners(sizes: Sequence[float]) -> Deviations:
-    """Every combination of the ends of the nonzero tolerances: (2**n,), or (2**n, m, 1) of m."""
+    """Every combination of the ends of n nonzero tolerances: (2**n, 1 or m, 1) for m designs."""
     ends = [(0.0,) if arrays.all_true(size == 0.0) else (-size, size) for size in sizes]
-    return deviations([np.array(column) for column in zip(*product(*ends), strict=True)])
+    columns = zip(*product(*ends), strict=True)
+    return deviations([np.reshape(column, (len(column), -1, 1)) for column in columns])
 
 
-class LockPlay(NamedTuple):
-    """The wheel's play to one side, radians; 0 if disc and recess do not fit together."""
+class Effect(Protocol):
+    """What deviations cause, such as the play of a lock."""
 
-    angle: Jet
-    jams: arrays.Mask  # True if they do not fit together
-
-
-class CutLock(Protocol):
-    """A lock of parts as they are cut."""
-
-    def __call__(self, by: Deviations, /) -> LockPlay:
-        """Play of the wheel to one side."""
+    def __call__(self, by: Deviations, /) -> tuple[Jet, arrays.Mask]:
+        """Errors of machines, and a mask of those that do not fit together."""
 
 
 class LockContact(NamedTuple):
@@ -116,8 +108,8 @@ class Lock(NamedTuple):
         a = (self.L**2 + self.recess**2 - self.corner**2) / (2.0 * self.L * self.recess)
         return arrays.library(a).acos(arrays.larger(-1.0, arrays.smaller(1.0, self.sign * a)))
 
-    def __call__(self, by: Deviations) -> LockPlay:
-        """Play of the wheel to one side."""
+    def __call__(self, by: Deviations) -> tuple[Jet, arrays.Mask]:
+        """Play of the wheel to one side, radians: 0 where disc and recess do not fit together."""
         L, off, far = self.L, by.center_distance_mm, self.corner - self.sign * self.edge
         lock, recess = by.lock_radius_mm + self.lock, by.recess_radius_mm + self.recess
         away, spare = off + L, recess - lock
@@ -139,7 +131,7 @@ class Lock(NamedTuple):
         jams = (left < -ROUNDING * L) | (arrays.array(angle.c[0]) < -ROUNDING)
         least = np.cos(arrays.smaller(self.reach, self.half))
         angle = _chosen((nearer > np.maximum(spare.c[0], 0.0) * least) & ~jams, on_recess, angle)
-        return LockPlay(_chosen(jams, angle * 0.0, angle), jams)
+        return _chosen(jams, angle * 0.0, angle), jams
 
     def contact(self) -> LockContact:
         """Contact of disc and recess after the play is used up, without deviations."""
@@ -162,7 +154,7 @@ class Lock(NamedTuple):
         radius = np.where(loose, np.where(arcs, between, ended), math.inf)[()]
         on = np.where(arcs, "recess", np.where(corner, "corner", "disc's end"))[()]
         # without clearance rounding may make it negative
-        play = np.maximum(self(AS_DRAWN).angle.c[0], 0.0)
+        play = np.maximum(self(AS_DRAWN)[0].c[0], 0.0)
         return LockContact(cast("str", on), *map(arrays.parameter, (phi, play, radius)))
 
 

@@ -8,7 +8,7 @@ slot's axis has a jump of 0: its roller meets the mouth instead.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from itertools import product
 from typing import NamedTuple
 
@@ -16,6 +16,7 @@ import numpy as np
 
 from geneva_cli.loads.impacts.entry import RestingAxis, arm_mm, first_contacts
 from geneva_cli.loads.tolerance import locking
+from geneva_cli.loads.tolerance.locking import Effect, used
 from geneva_cli.motion.batch import taken
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.machine_spec import Spec
@@ -69,40 +70,33 @@ class MotionError(NamedTuple):
         margin = np.minimum((nearest - self.clearance) / times - play, self.arm / times)
         return arrays.parameter(margin if margin.size > 1 else float(margin[0, 0]))
 
-    def greatest(self, by: locking.Deviations) -> arrays.Array:
-        """Greatest error of any of the machines, the first axis of ``by``, of n designs: (3, n).
+    def at(self, input_deg: float, side: float) -> Effect:
+        """The error at one place, towards a side, and which rollers do not fit into their slots."""
 
-        The rows are the error in radians, the input angle, and the side.
+        def error(by: locking.Deviations) -> tuple[Jet, arrays.Mask]:
+            # mm: less is rounding
+            return self(by, input_deg, side) * side, arrays.array(self.play_mm(by).c[0]) < -1e-12
+
+        return error
+
+    def greatest(self, sizes: Sequence[float], squared: bool = False) -> arrays.Array:
+        """Greatest error of any machine with deviations up to these sizes, of n designs: (3, n).
+
+        The rows are the error in radians, the input angle, and the side. Of ``squared`` effects it
+        is the nominal error and the root of the sum of their squares.
         """
-        values = [np.atleast_1d(jet.c[0]) for jet in by]
-        each = locking.deviations([np.reshape(z, (len(z), -1, 1)) for z in values])
+        ends = locking.corners(sizes)
+        effects = [(locking.slope_of(i), size) for i, size in enumerate(sizes) if np.any(size)]
 
-        def worst(at: arrays.Array, side: float) -> arrays.Array:
-            return np.asarray((arrays.array(self(each, at, side).c[0]) * side).max(axis=0))
-
-        return self._greatest(worst)
-
-    def greatest_rss(self, sizes: Sequence[float]) -> arrays.Array:
-        """The nominal error and the root of the squared effects of dimensions of these sizes.
-
-        It is at its greatest, with the rows of ``greatest``.
-        """
-        which = [i for i, size in enumerate(sizes) if np.any(size)]
-
-        def root(at: arrays.Array, side: float) -> arrays.Array:
-            squares = 0.0 * at
-            for i in which:
-                slope = arrays.array(self(locking.slope_of(i), at, side).c[1]) * sizes[i]
-                squares = squares + slope * slope
+        def of(at: arrays.Array, side: float) -> arrays.Array:
+            if not squared:
+                return np.asarray((arrays.array(self(ends, at, side).c[0]) * side).max(axis=0))
+            slopes = [arrays.array(self(by, at, side).c[1]) * size for by, size in effects]
             nominal = abs(arrays.array(self(locking.AS_DRAWN, at, side).c[0]))
-            return np.asarray(nominal + np.sqrt(squares))
+            return np.asarray(nominal + np.sqrt(sum(slope * slope for slope in slopes)))
 
-        return self._greatest(root)
-
-    def _greatest(self, of: Callable[[arrays.Array, float], arrays.Array]) -> arrays.Array:
-        """Greatest of a function of input angles (n, k) and a side, in each design."""
         entry, exit_ = np.ravel(self.engagement.entry_deg), np.ravel(self.engagement.exit_deg)
-        best: arrays.Array | None = None
+        best = np.full((3, 1), -np.inf)
         for side in (1.0, -1.0):
             low, high = entry, exit_
             # eleven more samplings, each about the greatest of the last and a tenth as wide
@@ -112,10 +106,9 @@ class MotionError(NamedTuple):
                 at, every = np.broadcast_to(at, off.shape), np.arange(len(off))
                 i = np.argmax(off, axis=1)
                 here = np.array((off[every, i], at[every, i], np.full(len(off), side)))
-                best = here if best is None else np.where(here[0] > best[0], here, best)
+                best = np.where(here[0] > best[0], here, best)
                 step = (at[:, 1] - at[:, 0]) * count / 20.0
                 low, high = np.maximum(entry, here[1] - step), np.minimum(exit_, here[1] + step)
-        assert best is not None
         return best
 
 
@@ -127,50 +120,30 @@ def motion_errors(mechanism: Mechanism) -> list[MotionError]:
     return [MotionError(e, L, arm_mm(mechanism, e), clearance) for e in mechanism.engagements]
 
 
-class MotionPlays(NamedTuple):
-    """Greatest errors of wheels during a motion, each at its own place: (m,) each.
+def motion_plays(mechanism: Mechanism) -> dict[str, arrays.Array]:
+    """Greatest errors of m designs, (m,) by their names; none for curved slots.
 
     NaN if tolerances are all 0, or too wide for a machine.
     """
-
-    worst_deg: arrays.Array
-    rss_deg: arrays.Array
-    at_deg: arrays.Array
-
-
-def used(mechanism: Mechanism) -> dict[str, float]:
-    """Plus or minus of each dimension, 0 if it has no effect; (m, 1) for m designs."""
-    return locking.tolerances(mechanism.spec) | dict.fromkeys(
-        locking.without_effect(mechanism.spec), 0.0
-    )
-
-
-def motion_plays(mechanism: Mechanism) -> MotionPlays | None:
-    """Greatest errors of m designs; None for curved slots, which are solved for."""
-    if mechanism.engagements[0].slot.curved:
-        return None
-    m, machines = mechanism.designs, 2 ** sum(bool(np.any(x)) for x in used(mechanism).values())
+    sizes, rows = used(mechanism.spec).values(), np.zeros((0, mechanism.designs))
+    machines = 2 ** sum(bool(np.any(size)) for size in sizes)
     # a million places of machines with deviations are computed together
     group = max(1, (1 << 20) // (machines * MOTION_SAMPLES))
-    return arrays.joined(
-        [_plays(taken(mechanism, b), b.stop - b.start) for b in arrays.blocks(m, group)]
-    )
+    if not mechanism.engagements[0].slot.curved:
+        blocks = arrays.blocks(mechanism.designs, group)
+        rows = np.hstack([_plays(taken(mechanism, block)) for block in blocks])
+    return dict(zip(("worst_deg", "rss_deg"), rows, strict=False))
 
 
-def _plays(mechanism: Mechanism, n: int) -> MotionPlays:
-    use = used(mechanism)
-    sizes = list(use.values())
-    best, (rss, shown) = np.full(n, -1.0), np.zeros((2, n))
-    known = sum(sizes) > np.zeros((n, 1))
-    both = use["center_distance_mm"] + use["crank_radius_mm"]
-    for engagement, error in zip(mechanism.engagements, motion_errors(mechanism), strict=True):
-        worst, place, _ = (np.resize(row, n) for row in error.greatest(locking.corners(sizes)))
-        at_deg = mechanism.shown_deg(arrays.parameter(engagement.mid_deg + place[:, None]))
-        shown = np.where(worst > best, np.ravel(at_deg), shown)
-        best, rss = np.maximum(best, worst), np.maximum(rss, error.greatest_rss(sizes)[0])
-        known = known & (both < error.margin_mm(mechanism.spec, use))
-    rows = np.where(known[:, 0], (np.degrees(best), np.degrees(rss), shown), np.nan)
-    return MotionPlays(*rows)
+def _plays(mechanism: Mechanism) -> arrays.Array:
+    use, rows = used(mechanism.spec), np.zeros((2, mechanism.designs))
+    sizes, both = [*use.values()], use["center_distance_mm"] + use["crank_radius_mm"]
+    known = np.ravel(sum(sizes) > 0.0)
+    for error in motion_errors(mechanism):
+        each = error.greatest(sizes)[0], error.greatest(sizes, squared=True)[0]
+        rows = np.maximum(rows, np.stack(np.broadcast_arrays(*each)))
+        known = known & np.ravel(both < error.margin_mm(mechanism.spec, use))
+    return np.where(known, np.degrees(rows), np.nan)
 
 
 class EntryJump(NamedTuple):
@@ -180,14 +153,14 @@ class EntryJump(NamedTuple):
     L: float
     arm: float
 
-    def __call__(self, by: locking.Deviations) -> tuple[arrays.Array, arrays.Mask]:
+    def __call__(self, by: locking.Deviations) -> tuple[Jet, arrays.Mask]:
         """Sizes of the jumps, over the input's speed, and a mask of machines that miss the axis."""
         crank, center = by.crank_radius_mm.c[0] / self.arm, by.center_distance_mm.c[0] / self.L
         crank, center = (np.reshape(x, (-1, 1)) for x in (crank, center))
         off = np.ravel(self.axis.offset(crank, center)) != 0.0
         as_drawn = np.ravel(self.axis.engagement.through.jumps[0])
         jump = np.where(off, first_contacts(self.axis, crank, center).jump, as_drawn)
-        return np.nan_to_num(abs(jump)), off & np.isnan(jump)
+        return Jet((np.nan_to_num(abs(jump)),)), off & np.isnan(jump)
 
 
 def entry_jumps(mechanism: Mechanism) -> list[EntryJump]:
@@ -200,5 +173,5 @@ def entry_jumps_worst(mechanism: Mechanism, use: Mapping[str, float]) -> arrays.
     """Greatest jump at entry for any of the deviations, over the input's speed: (m,)."""
     ends = [(-use[name], use[name]) for name in ("center_distance_mm", "crank_radius_mm")]
     corners = [locking.deviations([*end, *[0.0] * 5]) for end in product(*ends)]
-    jumps = [one(by)[0] for one in entry_jumps(mechanism) for by in corners]
+    jumps = [one(by)[0].c[0] for one in entry_jumps(mechanism) for by in corners]
     return np.max(np.broadcast_arrays(*jumps), axis=0) if jumps else None

@@ -19,13 +19,13 @@ import numpy as np
 from geneva_cli.motion.batch import selection
 from geneva_cli.motion.engagement import WheelMotion
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Complex, Mask, Whole, joined, matrix_product
+from geneva_cli.numerics.arrays import Complex, Mask, Whole, blocks, joined, matrix_product
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.quadrature import rule
 
 Rates: TypeAlias = Callable[[Array, Whole], Array]
 
-legendre, chebyshev = np.polynomial.legendre, np.polynomial.chebyshev
+legendre = np.polynomial.legendre
 NODES = 32  # of Gauss's rule on a panel
 TERMS = 20  # of Legendre's series that are kept
 MOST = 200  # panels between two knots of a motion: with more, its series are of noise
@@ -52,7 +52,6 @@ class Panels(NamedTuple):
     series: Array  # (2, p, term): s' and s'' by u as Legendre series
     jumps: Mask  # (m,) True where the motion begins or ends with a velocity
     greatest: Array  # greatest size of either derivative, (2, m)
-    variation: Array  # total variation of either between nodes, with those at the ends
 
     @property
     def half(self) -> Array:
@@ -90,19 +89,11 @@ def motion_shapes(motion: WheelMotion, m: int = 1) -> Panels:
     in_order = np.lexsort((edges[0], number))
     number, (left, right), values = number[in_order], edges[:, in_order], values[:, in_order]
     series = matrix_product(values, SERIES.T)
-    # the last node before each panel, or rest
-    begins = np.append(True, number[1:] != number[:-1])
-    before = np.where(begins, 0.0, np.roll(values[..., -1], 1, axis=1))
-    rises = np.abs(values[..., 0] - before) + np.abs(np.diff(values)).sum(axis=2)
-    rises += np.where(np.append(begins[1:], True), np.abs(values[..., -1]), 0.0)
-    variation = np.zeros((2, len(breaks)))
-    for row, rise in zip(variation, rises, strict=True):
-        np.add.at(row, number, rise)
     # A velocity of 1e-12 of the greatest one is rounding. Only a crank as built starts and stops
     # the wheel with a jump of velocity.
     at_ends = rates(np.broadcast_to([0.0, 1.0], (m, 2)), np.arange(m))[0]
     jumps = np.abs(at_ends).max(axis=1) > 1e-12 * greatest[0]
-    return Panels(number, left, right, series[..., :TERMS], jumps, greatest, variation)
+    return Panels(number, left, right, series[..., :TERMS], jumps, greatest)
 
 
 def _refined(of: Rates, breaks: Array) -> tuple[Whole, Array, Array, Array]:
@@ -216,49 +207,37 @@ def _sums(y: Complex, series: Array) -> Complex:
 def greatest_accelerations(panels: Panels, motion: Whole, swing: Oscillator) -> Array:
     """The greatest size of each load's acceleration by u over the step: (n,).
 
-    The load is at rest at entry. A shape's second derivative is integrated over pieces of its
-    panels, which are short enough for the swing to have few terms on each.
+    The load is at rest at entry. A shape's second derivative is integrated over equal pieces of its
+    panels, one panel of each motion after the other.
     """
-    most, omega, p = np.zeros(len(motion)), 2.0 * np.pi * swing.ratio, swing.p
-    of, panel, first = panels.paired(motion)
-    # Panels are cut so that |p h| is at most 2, with h half a piece's width: a dozen terms suffice.
-    count = np.maximum(np.ceil(omega[of] * panels.half[panel] / 2.0), 1.0).astype(np.intp)
-    last = np.cumsum(count)
-    begin = last[first] - count[first]
-    total = np.append(begin[1:], last[-1]) - begin
+    most, omega, rate = np.zeros(len(motion)), 2.0 * np.pi * swing.ratio, swing.p
+    _, panel, first = panels.paired(motion)
+    count = np.diff(np.append(first, len(panel)))
     # the load lags by a jump of the wheel's velocity at entry, where there is one
     begins_at = (panels.series[0, panel[first]] * (-1.0) ** np.arange(TERMS)).sum(axis=1)
     z = np.where(panels.jumps[motion], -begins_at, 0.0).astype(complex)
-    active, start = np.arange(len(motion)), 0
-    while len(active):
-        wide = max(1, 4096 // len(active))  # 4096 pieces at a time fit in the cache
-        at = start + np.arange(min(wide, int(total[active].max()) - start))
-        there = at < total[active][:, None]
-        number = (begin[active][:, None] + at)[there]
-        pair = np.searchsorted(last, number, side="right")
-        place, cut = number - last[pair] + count[pair], count[pair]
-        half, rate = panels.half[panel[pair]] / cut, p[of[pair]]
-        series = panels.series[1, panel[pair]].T[:, :, None]
-        u = (2.0 * place[:, None] + 1.0 + X) / cut[:, None] - 1.0
-        bent = legendre.legval(u, series, tensor=False)
-        # z' = p z - s'': contribution of a piece, seen from its left end
-        back = np.exp(-(rate * half)[:, None] * (1.0 + X))
-        added = -half[:, None] * matrix_product(bent * back, _INTEGRALS.T)
-        ahead = np.exp((rate * half)[:, None] * (1.0 + _ENDS))
-        own, whole = np.zeros((2, *there.shape), dtype=complex)
-        whole += 1.0
-        own[there], whole[there] = added[:, -1], ahead[:, -1]
-        begins, end = np.empty_like(own), z[active]
-        for k in range(len(at)):  # each piece ends at whole (z + own) from its own start z
-            begins[:, k] = end
-            end = whole[:, k] * (end + own[:, k])
-        z[active] = end
-        swung = ahead * (begins[there][:, None] + added)
-        w = omega[of[pair]][:, None]
-        real, r = rate.real[:, None], swung.imag / rate.imag[:, None]
-        _take_most(most, 2.0 * real * (swung.real + real * r) - w * w * r, of[pair])
-        start += len(at)
-        active = active[total[active] > start]
+    for k in range(count.max()):
+        of = np.flatnonzero(count > k)
+        own, p, w = panel[first[of] + k], rate[of, None, None], omega[of, None, None]
+        # |p h| is at most 2, with h half a piece's width: a dozen terms suffice for the swing
+        pieces = max(1, math.ceil((omega[of] * panels.half[own]).max() / 2.0))
+        half = (panels.half[own] / pieces)[:, None, None]
+        back, ahead = np.exp(-(p * half) * (1.0 + X)), np.exp((p * half) * (1.0 + _ENDS))
+        for some in blocks(pieces, max(1, 4096 // len(of))):  # these fit in the cache
+            at = np.arange(some.start, some.stop)
+            u = (2.0 * at[:, None] + 1.0 + X) / pieces - 1.0
+            values = legendre.legvander(u, TERMS - 1)
+            bent = np.einsum("kxt,nt->nkx", values, panels.series[1, own])
+            # z' = p z - s'': contribution of a piece, seen from its left end
+            added = -half * matrix_product(bent * back, _INTEGRALS.T)
+            begins = np.empty((len(of), len(at), 1), dtype=complex)
+            for i in range(len(at)):  # each piece ends at ahead (z + added) from its own start z
+                begins[:, i, 0] = z[of]
+                z[of] = ahead[:, 0, -1] * (z[of] + added[:, i, -1])
+            swung = ahead * (begins + added)
+            r = swung.imag / p.imag
+            load = 2.0 * p.real * (swung.real + p.real * r) - w * w * r
+            _take_most(most, load.reshape(-1, len(_ENDS)), of.repeat(len(at)))
     return most
 
 
@@ -268,15 +247,20 @@ def _take_most(most: Array, load: Array, of: Whole) -> None:
     np.maximum.at(most, of, size.max(axis=1))
     # a sample may be 2 % below its piece's maximum
     near = np.flatnonzero(size.max(axis=1) >= most[of] * (1.0 - 0.02))
-    series = matrix_product(load[near, :NODES], SERIES.T).T
+    tops = _tops(load[near, :NODES], X[size[near, :NODES].argmax(axis=1)])[1]
+    np.maximum.at(most, of[near], np.abs(tops))
+
+
+def _tops(values: Array, x: Array) -> tuple[Array, Array]:
+    """The places of extremes in [-1, 1] of functions (n, NODES) near x (n,), and their values."""
+    series = matrix_product(values, SERIES.T).T
     slope = legendre.legder(series)
     bend = legendre.legder(slope)
-    x = X[size[near, :NODES].argmax(axis=1)]
-    for _ in range(8):  # Newton steps from the greatest sample of a piece to its maximum
+    for _ in range(6 if len(x) else 0):  # Newton steps
         turn, rate = (legendre.legval(x, c, tensor=False) for c in (bend, slope))
         step = np.divide(rate, turn, out=np.zeros_like(x), where=turn != 0.0)
         x = np.clip(x - step, -1.0, 1.0)
-    np.maximum.at(most, of[near], np.abs(legendre.legval(x, series, tensor=False)))
+    return x, np.asarray(legendre.legval(x, series, tensor=False), dtype=float)
 
 
 def local_maxima(shares: Callable[[Array], Array], station: int, low: float, high: float) -> Array:
@@ -290,18 +274,7 @@ def local_maxima(shares: Callable[[Array], Array], station: int, low: float, hig
     ratio = np.linspace(low - reach, high + reach, count + 3)  # one beyond each end
     share = shares(ratio)[station]
     middle = ratio[1:-1][(share[1:-1] >= share[:-2]) & (share[1:-1] > share[2:])]
-    degree = 12  # of the polynomial between two samples about a maximum: exact to a double there
-    nodes = np.cos(np.pi * (np.arange(degree + 1) + 0.5) / (degree + 1))
-    places = middle[:, None] + reach * nodes
+    places = middle[:, None] + reach * X
     square = shares(places.ravel())[station].reshape(places.shape) ** 2
-    # at Chebyshev's nodes his coefficients are sums over them
-    vander: Array = chebyshev.chebvander(nodes, degree).astype(float)
-    slope = chebyshev.chebder((matrix_product(square, vander) * (2.0 / (degree + 1))).T)
-    bend = chebyshev.chebder(slope)
-    x = np.zeros(len(middle))
-    for _ in range(6):  # Newton steps
-        turn, rate = (chebyshev.chebval(x, c, tensor=False) for c in (bend, slope))
-        step = np.divide(rate, turn, out=np.zeros_like(x), where=turn < 0.0)
-        x = np.clip(x - step, -1.0, 1.0)
-    ratios = middle + reach * x
+    ratios = middle + reach * _tops(square, np.zeros(len(middle)))[0]
     return ratios[(ratios >= low) & (ratios <= high)]

@@ -1,12 +1,14 @@
 """The motion laws in closed form: those of VDI 2143, MCV50, scca, and Krasniqi's sine group."""
 
+from functools import reduce
+from operator import mul
 from typing import Annotated, ClassVar
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.laws.law import Law, from_velocity
 from geneva_cli.motion.laws.sine_constant_cosine import breaks, first_half
 from geneva_cli.numerics.arrays import library
-from geneva_cli.numerics.jet import Jet, Number, sin, sin_cos
+from geneva_cli.numerics.jet import Jet, Number, sin, sin_cos, taylor
 from geneva_cli.spec.rules import Range
 
 
@@ -147,7 +149,22 @@ class ModifiedConstantVelocity(_ScaledLaw):
     FRACTIONS: ClassVar[tuple[float, float, float]] = (0.25, 0.75, 0.5)
 
 
-class Polynomial345(Law):
+class _Polynomial(Law):
+    """A law with ds/du in proportion to (u (1-u))^n, n = 2 or 3."""
+
+    TERMS: ClassVar[tuple[float, ...]]  # of s over u^(n+1), the constant first
+
+    def first(self, u: Number, order: int) -> Jet:
+        n = len(self.TERMS)
+
+        def velocity(u: Jet) -> Jet:
+            w = u * (1.0 - u)
+            return reduce(mul, (n - 1) * [w]) * (n * self.TERMS[0])
+
+        return from_velocity(u, order, lambda u: u**n * taylor(u, self.TERMS, 0)[0], velocity)
+
+
+class Polynomial345(_Polynomial):
     """Polynomial 3-4-5: ds/du = 30 u² (1-u)².
 
     Acceleration starts and ends at 0.
@@ -158,16 +175,10 @@ class Polynomial345(Law):
 
     NAME: ClassVar[str] = "3-4-5"
     ABOUT: ClassVar[str] = "polynomial of degree 5; no jump in acceleration"
-
-    def first(self, u: Number, order: int) -> Jet:
-        def velocity(u: Jet) -> Jet:
-            w = u * (1.0 - u)
-            return w * w * 30.0
-
-        return from_velocity(u, order, lambda u: u**3 * (10.0 - u * (15.0 - 6.0 * u)), velocity)
+    TERMS: ClassVar[tuple[float, ...]] = (10.0, -15.0, 6.0)
 
 
-class Polynomial4567(Law):
+class Polynomial4567(_Polynomial):
     """Polynomial 4-5-6-7: ds/du = 140 u³ (1-u)³.
 
     Jerk starts and ends at 0.
@@ -178,16 +189,7 @@ class Polynomial4567(Law):
 
     NAME: ClassVar[str] = "4-5-6-7"
     ABOUT: ClassVar[str] = "polynomial of degree 7; no jump in jerk"
-
-    def first(self, u: Number, order: int) -> Jet:
-        def position(u: Number) -> Number:
-            return u**4 * (35.0 - u * (84.0 - u * (70.0 - 20.0 * u)))
-
-        def velocity(u: Jet) -> Jet:
-            w = u * (1.0 - u)
-            return w * w * w * 140.0
-
-        return from_velocity(u, order, position, velocity)
+    TERMS: ClassVar[tuple[float, ...]] = (35.0, -84.0, 70.0, -20.0)
 
 
 class SineGroup(Law):

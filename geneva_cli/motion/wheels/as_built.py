@@ -45,11 +45,6 @@ class RestingSlot(NamedTuple):
         """Position of the crossing along the slot's axis, from the wheel's centre."""
         return library(self.angle).cos(self.angle) + self.beyond
 
-    @property
-    def velocity(self) -> float:
-        """Velocity that the crank gives the wheel at the crossing, by the crank's angle."""
-        return -self.sign * self.beyond / self.along
-
     def is_inside(self, e: float, rim: float) -> Truth:
         """True if the crossing of a slot of offset e is not beyond the rim."""
         m = library(e, rim, self.along)

@@ -34,20 +34,17 @@ class OffsetSlotMotion(StraightSlotMotion):
         super().__init__(path, place.step.b, mirrored=False)
         self.e, self.deepest = place.e, place.deepest
 
-    def __call__(self, input_deg: Number, order: int = 3, angle: bool = True) -> Jet:
+    def __call__(self, input_deg: Number, order: int = 3) -> Jet:
         entry, _, exit_ = self.path.anchors
-        pieces = [
-            partial(self._from_end, entry, order=order, angle=angle),
-            partial(self._inside, order=order, angle=angle),
-            partial(self._from_end, exit_, order=order, angle=angle),
-        ]
+        first, last = (partial(self._from_end, end, order) for end in (entry, exit_))
+        pieces = first, partial(self._inside, order), last
         return piecewise(input_deg, self.path.cuts, pieces)
 
     def rate(self, input_deg: Number, order: int = 2) -> Jet:
-        return self(input_deg, order + 1, angle=False)
+        return self(input_deg, order + 1).derivative()
 
-    def _from_end(self, anchor: Anchor, x: Number, order: int, angle: bool) -> Jet:
-        """Wheel angle or rate near entry or exit.
+    def _from_end(self, anchor: Anchor, order: int, x: Number) -> Jet:
+        """Wheel angle near entry or exit.
 
         The pin is at (along, -e) in the slot's frame there. The slot's axis passes the pin at (s,
         -e) with s² = rho² - e². The excess of s over ``along`` is written so that it vanishes with
@@ -60,22 +57,18 @@ class OffsetSlotMotion(StraightSlotMotion):
         s = sqrt(square)
         gain = more / (s + along)
         rate = turning(along, across, gain * e, square + e * e)
-        if not angle:
-            return rate
         a, b, g, s0 = along.c[0], across.c[0], gain.c[0], s.c[0]
         value = library(a, b, e).atan2(b * s0 - g * e, a * s0 - (b - e) * e) + anchor.wheel
         return integral(rate, value)
 
-    def _inside(self, x: Number, order: int, angle: bool) -> Jet:
-        """Wheel angle or rate near mid-motion: the pin's direction minus the slot's angle to it."""
+    def _inside(self, order: int, x: Number) -> Jet:
+        """Wheel angle near mid-motion: the pin's direction minus the slot's angle to it."""
         e, deepest = enclosed(x, (self.e, self.deepest))
         mid = self.path.middle
         toward, across = _since(mid, x, order)
         s, rho2 = _depth(e, deepest, toward)
         along = toward + mid.along
         rate = turning(along, across, s * e, rho2)
-        if not angle:
-            return rate
         m, u, depth = library(across.c[0], toward.c[0], e), toward.c[0], s.c[0]
         value = m.atan2(across.c[0], along.c[0]) + mid.wheel
         # atan2(e, deepest) - atan2(e, s)

@@ -66,9 +66,6 @@ def _pages(items: Iterable[Item], foot: str) -> list[pdf.Page]:
             if head := group[0].head:
                 content, y = head.draw(y), y - head.high
         for one in group:
-            if content and y - one.high < BOTTOM:  # a group higher than a page
-                contents.append(content)
-                content, y = "", TOP
             content += one.draw(y)
             y -= one.high
         group = []
@@ -257,7 +254,7 @@ def _drawing(drawn: Drawing) -> Item:
             out += "".join(f"{traced(shape)}S\n" for shape in shown.shapes if shape.layer == name)
         out += f"{SOFT} RG {SOFT} rg 0.16 w [] 0 d\n"
         out += "".join(f"{traced(one)}S\n" for one in (*noted.lines, *noted.scale_bar))
-        out += "".join(pdf.triangle([at(corner) for corner in head]) for head in noted.heads)
+        out += "".join(pdf.triangle([*map(at, head.corners)]) for head in noted.heads)
         return out + "".join(pdf.words(text, at(place), SMALL) for place, text in noted.texts)
 
     return Item(scale * (noted.box.y1 - noted.box.y0) + 2.0 * margin, draw)

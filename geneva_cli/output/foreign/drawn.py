@@ -3,6 +3,7 @@
 import cmath
 import math
 from collections.abc import Callable, Sequence
+from itertools import pairwise
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -72,30 +73,24 @@ def _ellipse(own: Ellipse) -> Traced:
 
 
 def _bezier(poles: Sequence[complex]) -> list[Line | Arc]:
-    if len(poles) == 2:
-        poles = (poles[0], *poles, poles[1])
-    elif len(poles) == 3:
-        a, b, c = poles
-        poles = (a, a + 2.0 * (b - a) / 3.0, c + 2.0 * (b - c) / 3.0, c)
-    p, q, r, s = poles
-    size = max(abs(x - p) for x in poles)
+    start, *_, end = poles
+    chord, size = end - start, max(abs(pole - start) for pole in poles)
     if size == 0.0:
         return []
-    chord = s - p
-    bend = max(abs(((x - p) * chord.conjugate()).imag) for x in (q, r))
+    bend = max(abs(((pole - start) * chord.conjugate()).imag) for pole in poles)
     if abs(chord) and bend <= 1e-9 * size * abs(chord):  # all poles on the chord
-        return [Line((p.real, p.imag), (s.real, s.imag))]
+        return [Line((start.real, start.imag), (end.real, end.imag))]
     # the tangents where the first or the last handle has no length
-    ahead = next(x for x in (q, r, s) if x != p) - p
-    behind = s - next(x for x in (r, q, p) if x != s)
+    ahead = next(pole for pole in poles if pole != start) - start
+    behind = end - next(pole for pole in reversed(poles) if pole != end)
 
     def curve(t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        u = 1.0 - t
-        points = p * u**3 + 3.0 * q * u * u * t + 3.0 * r * u * t * t + s * t**3
-        rate = (q - p) * u * u + 2.0 * (r - q) * u * t + (s - r) * t * t
-        near = np.where(t < 0.5, ahead, behind)
-        rate = np.where(np.abs(rate) > 1e-12 * size, rate, near)
-        return _pairs(points), _pairs(rate / np.abs(rate))
+        points = [pole + 0.0 * t for pole in poles]
+        while len(points) > 2:  # de Casteljau's construction
+            points = [a + t * (b - a) for a, b in pairwise(points)]
+        p, q = points
+        rate = np.where(np.abs(q - p) > 1e-12 * size, q - p, np.where(t < 0.5, ahead, behind))
+        return _pairs(p + t * (q - p)), _pairs(rate / np.abs(rate))
 
     return list(arcs(curve, 0.0, 1.0, CURVE_MM))
 

@@ -12,7 +12,7 @@ import numpy as np
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.geometry.fit import arcs
 from geneva_cli.geometry.shapes import Arc, Line
-from geneva_cli.output.ezdxf_alone import Document, readfile
+from geneva_cli.output.ezdxf_alone import ConstructionEllipse, Document, readfile
 from geneva_cli.output.foreign.drawn import CURVE_MM, Drawn, Ellipse, Traced, traced
 
 # $INSUNITS: millimetres in one unit
@@ -106,42 +106,36 @@ def _entities(document: Document, entities: Iterable[Any], depth: int) -> Iterat
 
 def _pieces(kind: str, entity: Any, unit: float) -> Traced:
     """Return an entity's pieces, mm, as ``traced``; a unit of the drawing has ``unit`` mm."""
-    dxf, points = entity.dxf, list[tuple[float, ...]]()  # x, y, bulge
-    is_flat, is_closed = kind in ("CIRCLE", "ARC"), False
+    dxf = entity.dxf
+    # as seen from above: the entity may be in a plane seen from below
+    up = dxf.get("extrusion", (0.0, 0.0, 1.0))
+    if kind in ("ARC", "CIRCLE", "LWPOLYLINE", "POLYLINE") and abs(abs(up[2]) - 1.0) > 1e-9:
+        raise GenevaError(f"{kind} does not lie in the drawing's plane")
     if kind == "SPLINE":
         return _spline(entity.construction_tool(), unit), False
+    if kind == "LINE":
+        return traced((_complex(dxf.start), _complex(dxf.end)), lambda z: unit * z)
+    if kind in ("ELLIPSE", "ARC", "CIRCLE"):
+        if kind == "ELLIPSE":
+            tool = entity.construction_tool()
+        else:
+            angles = (dxf.start_angle, dxf.end_angle) if kind == "ARC" else ()
+            tool = ConstructionEllipse.from_arc(dxf.center, dxf.radius, up, *angles)
+        axes = _complex(tool.center), _complex(tool.major_axis), _complex(tool.minor_axis)
+        sweep = (tool.end_param - tool.start_param) % math.tau or math.tau
+        return traced(Ellipse(*axes, tool.start_param, sweep), lambda z: unit * z)
     if kind == "LWPOLYLINE":
-        points, is_flat, is_closed = [*entity.get_points("xyb")], True, entity.closed
-    elif kind == "POLYLINE":
+        points, is_closed = [*entity.get_points("xyb")], entity.closed
+    else:
         if entity.is_poly_face_mesh or entity.is_polygon_mesh:
             raise GenevaError("POLYLINE is a mesh, not an outline")
         # 16: points of the frame of a fitted curve
-        corners = [v for v in entity.vertices if not v.dxf.flags & 16]
-        points = [(v.dxf.location.x, v.dxf.location.y, v.dxf.bulge) for v in corners]
-        is_flat, is_closed = entity.is_2d_polyline, entity.is_closed
-    # as seen from above: the entity may be in a plane seen from below
-    up = dxf.get("extrusion", (0.0, 0.0, 1.0))[2] if is_flat else 1.0
-    if abs(abs(up) - 1.0) > 1e-9:
-        raise GenevaError(f"{kind} does not lie in the drawing's plane")
-
-    def frame(z: complex) -> complex:
-        return unit * (z if up > 0.0 else -z.conjugate())
-
-    if kind == "LINE":
-        return traced((_complex(dxf.start), _complex(dxf.end)), frame)
-    if kind == "ELLIPSE":
-        tool = entity.construction_tool()
-        axes = _complex(tool.center), _complex(tool.major_axis), _complex(tool.minor_axis)
-        sweep = (tool.end_param - tool.start_param) % math.tau or math.tau
-        return traced(Ellipse(*axes, tool.start_param, sweep), frame)
-    if kind in ("CIRCLE", "ARC"):
-        start, end = (dxf.start_angle, dxf.end_angle) if kind == "ARC" else (0.0, 360.0)
-        sweep = math.radians((end - start) % 360.0) or math.tau
-        axes = _complex(dxf.center), dxf.radius + 0j, dxf.radius * 1j
-        return traced(Ellipse(*axes, math.radians(start), sweep), frame)
-    ends = [(frame(_complex(p)), up * float(p[2])) for p in [*points, *points[: 1 * is_closed]]]
-    pairs = (((p.real, p.imag), (q.real, q.imag), bulge) for (p, bulge), (q, _) in pairwise(ends))
-    return [Arc(p, q, bulge) if bulge else Line(p, q) for p, q, bulge in pairs], True
+        corners = [v.dxf for v in entity.vertices if not v.dxf.flags & 16]
+        points = [(v.location.x, v.location.y, v.bulge) for v in corners]
+        is_closed = entity.is_closed
+    ends = [((unit * up[2] * x, unit * y), up[2] * b) for x, y, b in points]
+    pairs = pairwise([*ends, *ends[: 1 * is_closed]])
+    return [Arc(p, q, bulge) if bulge else Line(p, q) for (p, bulge), (q, _) in pairs], True
 
 
 def _complex(v: Any) -> complex:

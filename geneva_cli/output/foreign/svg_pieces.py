@@ -5,7 +5,7 @@ from __future__ import annotations
 import cmath
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from itertools import pairwise
 from xml.etree import ElementTree
 
@@ -23,6 +23,17 @@ GAP = r"[\s,]*"
 COUNTS = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "S": 4, "Q": 4, "T": 2, "A": 7, "Z": 0}
 _forms = {letter: [f"({NUMBER})"] * count for letter, count in COUNTS.items()}
 _forms["A"][3:5] = ["([01])"] * 2
+# a frame by the numbers of its transform
+TRANSFORMS: dict[str, Callable[..., Frame]] = {
+    "matrix": lambda a, b, c, d, e, f: (
+        lambda z: complex(a * z.real + c * z.imag + e, b * z.real + d * z.imag + f)
+    ),
+    "translate": lambda x, y=0.0: lambda z: z + complex(x, y),
+    "scale": lambda x, y=None: lambda z: complex(x * z.real, (x if y is None else y) * z.imag),
+    "rotate": lambda turn, x=0.0, y=0.0: (
+        lambda z: complex(x, y) + cmath.rect(1.0, math.radians(turn)) * (z - complex(x, y))
+    ),
+}
 FORMS = {letter: re.compile(GAP.join(["", *form, ""])) for letter, form in _forms.items()}
 
 
@@ -77,12 +88,11 @@ def _shapes(
     layers = {element.get("id", "").lower(), element.get("class", "").lower()}
     if hidden or layers & LAYERS or _name(element) in HIDDEN:
         return
-    text = element.get("transform", "")
-    for function, values in re.findall(r"(\w+)\s*\(([^)]*)\)", text):
+    for text, name, values in re.findall(r"((\w+)\s*\(([^)]*)\))", element.get("transform", "")):
         try:
-            frame = _within(frame, _transform(function, _numbers(values)))
-        except (IndexError, TypeError):
-            raise GenevaError(f'transform="{cut(text, 100)}" cannot be read') from None
+            frame = _within(frame, TRANSFORMS[name](*_numbers(values)))
+        except (KeyError, TypeError):
+            raise GenevaError(f"the transform {cut(text, 100)} is not known") from None
     yield element, frame
     for child in element:
         if isinstance(child.tag, str):
@@ -91,22 +101,6 @@ def _shapes(
 
 def _within(outer: Frame, inner: Frame) -> Frame:
     return lambda z: outer(inner(z))
-
-
-def _transform(name: str, v: list[float]) -> Frame:
-    if name == "matrix" and len(v) == 6:
-        a, b, c, d, e, f = v
-        return lambda z: complex(a * z.real + c * z.imag + e, b * z.real + d * z.imag + f)
-    if name == "translate":
-        shift = complex(v[0], *v[1:2])
-        return lambda z: z + shift
-    if name == "scale":
-        x, y = v[0], v[1] if len(v) > 1 else v[0]
-        return lambda z: complex(x * z.real, y * z.imag)
-    if name == "rotate":
-        turn, at = cmath.exp(1j * math.radians(v[0])), complex(*v[1:3])
-        return lambda z: at + turn * (z - at)
-    raise GenevaError(f"transform {cut(name, 20)}() is not known")
 
 
 def _lengths(element: ElementTree.Element, keys: str) -> list[float]:
@@ -149,14 +143,11 @@ def _path(data: str) -> Iterator[Curve]:
     for letter, v in _commands(data):
         kind, base = letter.upper(), at if letter.islower() else 0j
         pole = at
-        if kind == "Z":
-            end = first
-        elif kind == "H":
-            end = complex(v[0] + base.real, at.imag)
+        if kind == "H":
+            v = [*v, (at - base).imag]
         elif kind == "V":
-            end = complex(at.real, v[0] + base.imag)
-        else:
-            end = base + complex(*v[-2:])
+            v = [(at - base).real, *v]
+        end = first if kind == "Z" else base + complex(*v[-2:])
         if kind == "M":
             first = end
         elif kind in "CSQT":

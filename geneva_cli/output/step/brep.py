@@ -13,7 +13,7 @@ from itertools import pairwise
 from geneva_cli.geometry.plates import Plate, Shell, with_material_left
 from geneva_cli.geometry.shapes import Arc, Circle, Line, Point
 from geneva_cli.geometry.sphere import POLE, SphereArc, Vector, cross, opposite, square_to, unit
-from geneva_cli.output.solid_part import plate_contours, require_thick
+from geneva_cli.output.solid_part import plate_contours
 from geneva_cli.output.splines import Piece, Spline, pieces
 from geneva_cli.output.step.entities import AHEAD, DIRECTION, ORIGIN, Entities, listed, real
 
@@ -113,7 +113,6 @@ def _unit(line: Line) -> Point:
 
 def shell_solid(file: Entities, shell: Shell) -> str:
     """Write a shell, and return its MANIFOLD_SOLID_BREP."""
-    require_thick(shell)
     edges = _Edges(file, shell)
     arcs = {arc.key for region in shell.regions for arc in region.boundary}
     bored = []

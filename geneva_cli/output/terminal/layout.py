@@ -16,7 +16,6 @@ from geneva_cli.table import for_people
 BOLD, DIM, PLAIN = "\x1b[1m", "\x1b[2m", "\x1b[0m"
 READABLE = 100  # letters of the longest line of prose that is easy to read
 PROSE = 28  # letters to which a column of prose is narrowed before another column is omitted
-NUMBER = 11  # letters of the widest number, -123456.789 mm
 
 
 class Window(NamedTuple):

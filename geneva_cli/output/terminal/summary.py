@@ -13,9 +13,8 @@ LABEL_MAX = 20  # letters; a longer label stands above its text
 SIGNS = {PASSES: "✓", WARNS: "!", FAILS: "✗"}
 INKS = {PASSES: "\x1b[32m", WARNS: "\x1b[33m", FAILS: "\x1b[31m"}  # green, yellow, red
 DIM = "\x1b[2m"
-# a unit behind a number, from which it is not separated; units of several words
+# a unit behind a number, from which it is not separated
 UNIT = re.compile(r"(?<=\d) (N m s|N m|N|kg m²|kg|rad/s²?|MPa|J|W|kW|mm|µm|deg|rpm|%)(?!\w)")
-UNITS = ("N m s", "N m", "kg m²")
 ASCII = {"✓": "ok", "✗": "x", "°": " deg", "²": "2", "³": "3", "Ø": "dia."}
 
 
@@ -64,9 +63,7 @@ def chunks(summaries: Iterable[Summary], output: str, is_seen: bool) -> Iterator
 
 def _wrapped(text: str, width: int, unicode: bool) -> list[str]:
     """A text in lines; a value is not separated from its power of ten or its unit."""
-    text = UNIT.sub(rf"{NO_BREAK}\1", text)
-    for unit in UNITS:
-        text = text.replace(f"{NO_BREAK}{unit}", f"{NO_BREAK}{unit.replace(' ', NO_BREAK)}")
+    text = UNIT.sub(lambda match: match[0].replace(" ", NO_BREAK), text)
     text = NO_BREAK.join(map(clean, text.split(NO_BREAK)))
     if not unicode:
         lowered = {raised: plain for plain, raised in RAISED.items()}

@@ -8,7 +8,7 @@ from typing import Any
 from geneva_cli.errors import clean
 from geneva_cli.names import heading, spoken
 from geneva_cli.output.terminal import layout
-from geneva_cli.output.terminal.layout import BOLD, DIM, NUMBER, ShownColumn, Window
+from geneva_cli.output.terminal.layout import BOLD, DIM, ShownColumn, Window
 from geneva_cli.output.text import GAP, WIDTH, apart, width_of, without_noise
 from geneva_cli.table import Table
 
@@ -59,9 +59,7 @@ def _values(record: Table, window: Window) -> Iterator[str]:
             current = group
         # A long value stands below its label if fewer than 30 letters are free behind it.
         if len(texts) == 1 and (width_of(texts[0]) <= free or free >= 30):
-            first, *more = layout.wrapped(texts[0], free)
-            yield f"{label}{' ' * (width - width_of(label))}{GAP}{first}"
-            yield from (" " * (width + len(GAP)) + line for line in more)
+            yield from layout.row((label, texts[0]), (width, free), (True, True))
             continue
         yield label
         indent = " " * (len(label) - len(label.lstrip()) + len(GAP))
@@ -76,38 +74,30 @@ def rows_of(table: Table, window: Window) -> Iterator[str]:
 
     A single row that does not fit is a value a line.
     """
-    blocks = table.blocks()
-    first = next(blocks, [])  # it determines the layout, which later rows follow
-    if not first:
+    rows = [*table.rows()]
+    if not rows:
         yield from ["no rows"] if table.names else []
         return
-    all_columns = _columns(table, first)
+    all_columns = _columns(table, rows)
     columns, once = (all_columns, []) if window.whole else _sorted_out(all_columns, table)
     if once:
         yield from layout.paragraphs(f"In every row: {'; '.join(once)}.", window)
         yield ""
-    is_long = len(table) > len(first)
-    if is_long:
-        columns = [c if c.is_text else c._replace(cells=[*c.cells, "0" * NUMBER]) for c in columns]
     order = [*table.reading.first, *(n for n in table.names if n not in table.reading.first)]
     width = 1_000_000 if window.wide else window.columns  # a million letters: without a limit
     kept, sizes = layout.fitting(columns, order, width)
     lost = [column for column in columns if column not in kept]
-    if lost and len(first) == 1 and not table.reading.designs:
+    if lost and len(rows) == 1 and not table.reading.designs:
         yield from _values(table, window)
         return
-    if not is_long and not table.mixed:
+    if not table.mixed:
         pointed = [column._replace(cells=_aligned(column.cells)) for column in kept]
         if wider := layout.widths(pointed, width):
             sizes, kept = wider, pointed
     yield from layout.heads(kept, sizes, window.styled)
-    is_text, names = [column.is_text for column in kept], {column.name for column in kept}
-    for texts in zip(*(column.cells[: len(first)] for column in kept), strict=True):
+    is_text = [column.is_text for column in kept]
+    for texts in zip(*(column.cells for column in kept), strict=True):
         yield from layout.row(texts, sizes, is_text)
-    for block in blocks:
-        cells = [column.cells for column in _columns(table, block) if column.name in names]
-        for texts in zip(*cells, strict=True):
-            yield from layout.row(texts, sizes, is_text)
     if lost:
         rest = sorted((column.name for column in lost), key=order.index)
         one = "1 more column" if len(rest) == 1 else f"{len(rest)} more columns"
@@ -130,8 +120,8 @@ def _aligned(texts: Sequence[str]) -> Sequence[str]:
     return padded if max(map(len, padded)) <= max(map(len, texts)) + 3 else texts
 
 
-def _columns(table: Table, block: list[tuple[Any, ...]]) -> list[ShownColumn]:
-    rows = block if table.mixed else list(without_noise(block))
+def _columns(table: Table, rows: list[Any]) -> list[ShownColumn]:
+    rows = rows if table.mixed else [*without_noise(rows)]
     naming = ("quantity", "dimension", "check")  # columns whose cells are names with units
     # the unit of each row's values, from its column of units or from the row's name
     by_row = [""] * len(rows)

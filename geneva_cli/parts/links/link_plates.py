@@ -22,7 +22,7 @@ from geneva_cli.motion.pivots import Joint, Link, Teeth
 from geneva_cli.numerics.tolerances import SAME_LENGTH, bore_radius
 from geneva_cli.parts.assembly import links_at, same, turn_deg
 from geneva_cli.parts.links import links as linkage
-from geneva_cli.parts.links.links import Gear, LinkAxis, Links, LinkSizes
+from geneva_cli.parts.links.links import LinkAxis, Links, LinkSizes
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.shafts.arm_and_shafts import bore_at
 from geneva_cli.parts.shafts.bores import BoltCircle, Bore, bolt_circle, round_bore, screw_radius
@@ -58,11 +58,13 @@ def drawn_links(mechanism: Mechanism, parts: Outlines | None = None) -> Links:
         of_wheel = parts.sizes.wheel_bore if on_wheel and parts else 0.0
         known = (sizes.crank_shaft or 0.0) if on_crank else of_wheel
         axes.append(_with_shaft(axis, bars, links, sizes, known, mechanism))
-    gears = []
+    gears, bolts = [], None
     for link in (one for one in links if one.radius_mm):
         at = linkage.point_at_zero(*linkage.places(link))
         bore = next(axis.bore for axis in axes if same(axis.at, at, L))
-        gears.append(link_gear(link, at, bore, sizes, mechanism))
+        gear, own = _gear(link, at, bore, sizes, mechanism)
+        gears.append(gear)
+        bolts = own if own.holes else bolts
     kinds = {kind for link in linked if link.plane == 1 for kind in link.kinds}
     pin_low = None
     if kinds & {Joint.ROLLER, Joint.CARRIED}:
@@ -72,9 +74,11 @@ def drawn_links(mechanism: Mechanism, parts: Outlines | None = None) -> Links:
         cut += [_bored(bar, axes, sizes, L), *bar.blocks]
     roller = mechanism.roller_radius_mm
     joined = *_pins(linked, sizes, SAME_LENGTH * L), *_rollers(linked, sizes, roller)
-    standing = frozenset(link.name for link in linked if link.kinds[0] is Joint.NONE)
+    fixed = (link for link in links if link.teeth.fixed or link.kinds[0] is Joint.NONE)
+    standing = frozenset(link.name for link in fixed)
     blocks = frozenset(block.part.name for bar in bars for block in bar.blocks)
-    return Links(sizes, tuple(cut), joined, tuple(gears), pin_low, standing, blocks, tuple(axes))
+    named = standing, blocks
+    return Links(sizes, tuple(cut), joined, tuple(gears), pin_low, *named, tuple(axes), bolts)
 
 
 def _axes(links: Iterable[Link], near: float) -> Iterator[LinkAxis]:
@@ -215,8 +219,10 @@ def _rollers(links: Iterable[Link], sizes: LinkSizes, roller: float) -> Iterator
                 yield Member(Plate(f"{link.name}'s pin", "ROLLER", pin, (), below, high), where)
 
 
-def link_gear(link: Link, at: Point, on: Bore, sizes: LinkSizes, mechanism: Mechanism) -> Gear:
-    """Return the gear of a link that is a pitch circle, on a shaft; bored round if it is fixed."""
+def _gear(
+    link: Link, at: Point, on: Bore, sizes: LinkSizes, mechanism: Mechanism
+) -> tuple[Member, BoltCircle]:
+    """Return a gear on a shaft, bored round if it is fixed, and the screws that then fix it."""
     teeth, L, radius = link.teeth, mechanism.center_distance_mm, link.radius_mm
     if teeth.fixed:
         on = Bore(on.around, on.loose)
@@ -235,14 +241,15 @@ def link_gear(link: Link, at: Point, on: Bore, sizes: LinkSizes, mechanism: Mech
         # the first at 45 degrees, off the line on which the shafts lie
         screws = bolt_circle(mechanism.spec.size, "gear", L, (inner, outer), 0.25 * math.pi)
         holes += screws.holes
-    plate = Plate(link.name, "PITCH", outline, tuple(holes), *sizes.span(link.plane))
+    bore, span = None if teeth.inside else on, sizes.span(link.plane)
+    plate = Plate(link.name, "PITCH", outline, tuple(holes), *span, bore)
     wall = min(radius - hub, plate_wall(plate))
     # the key that sets its bore, unless its bolts are in the way
     key = {0.0: "wheel_bore_mm", L: "crank_bore_mm"}.get(math.hypot(*at), "link_bore_mm")
     key = "gear_bolt_circle_mm" if screws.holes and hub < radius else key
     text = f"no blank of the {link.name} is left: its holes reach {-wall:.4g} mm too far; change "
     refuse_size(wall <= 0.0, key, text + key)
-    return Gear(at, radius, Bore(0.0) if teeth.inside else on, teeth, plate, screws)
+    return Member(plate, at), screws
 
 
 def _gear_sectors(radius: float, hub: float, teeth: Teeth) -> shapes.Contour:

@@ -9,21 +9,22 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
+from itertools import product
 from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.geometry.plates import Member, Plate
+from geneva_cli.geometry.plates import Member, Part, Plate
 from geneva_cli.geometry.shapes import Circle, Contour
 from geneva_cli.motion.pivots import Joint, Link
-from geneva_cli.numerics.arrays import Array
+from geneva_cli.numerics.arrays import Array, value_or
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import gear_plane, links_at, same, turn_deg
-from geneva_cli.parts.links.links import LinkAxis, Links, LinkSizes, joined, placed_holes, places
+from geneva_cli.parts.links.links import LinkAxis, Links, joined, placed_holes, places
 from geneva_cli.parts.outlines.outlines import Outlines, wheel_hub_length
 from geneva_cli.parts.shafts.arm_and_shafts import bore_at, wheel_shaft_ends
-from geneva_cli.parts.shafts.bores import bore_of
+from geneva_cli.parts.shafts.bores import Bore, bore_of
 from geneva_cli.parts.sizes import Span
 
 
@@ -37,8 +38,9 @@ def carried(bars: Links, axis: LinkAxis, others: Iterable[Member], L: float) -> 
             found.append(member.part)
             names.discard(member.part.name)
     for gear in bars.gears:
-        if gear.plate.name in names and not gear.teeth.inside:
-            found.append(gear.plate)
+        assert isinstance(gear.part, Plate)
+        if gear.part.name in names and gear.part.bore:
+            found.append(gear.part)
     return [(plate.low, plate.high) for plate in found]
 
 
@@ -65,12 +67,14 @@ class Meeting(NamedTuple):
 
 
 class Round(NamedTuple):
-    """A round part that passes through some planes."""
+    """A round part below the wheel: the heights between which it may meet links, and its path."""
 
     name: str
-    planes: set[int]
+    low: float
+    high: float
     path: Array | complex  # complex positions, one at each input angle, or one for all
     radius: float
+    carries: Iterable[str] = ()  # names of the links that turn on it
 
 
 def planes(
@@ -80,111 +84,106 @@ def planes(
 
     The second gap is that of the crank's shaft to its bearings, None where it is free.
     """
-    mechanism, L = parts.assembly.full, parts.assembly.L
+    mechanism, sizes, near = parts.assembly.full, bars.sizes, SAME_LENGTH * parts.assembly.L
     turn = turn_deg(mechanism)  # the error of a gap is quadratic in their distance
-    every = links_at(mechanism, turn)
-    met = list(_gears(parts, bars, [link for link in every if link.radius_mm], turn))
-    links = [link for link in every if not link.radius_mm]
-    carries, shaft, overlaps = _crank_shaft(parts, links, bars, turn)
-    low = mechanism.spec.size.crank_shaft_low_mm
-    ends = math.inf if low is None else low + SAME_LENGTH * L
-    reached = {link.plane for link in links if bars.sizes.span(link.plane)[1] > ends}
-    rounds = [*_on_wheel(parts, links, bars.sizes), *_posts(parts, bars, spacers)]
-    for path, both in joined(links, SAME_LENGTH * L):  # spacers on pins
-        name = f"the pin of {' and '.join(link.name for link in both)}"
-        between = {*range(both[0].plane + 1, both[-1].plane)} - {link.plane for link in both}
-        rounds.append(Round(name, between, path, bars.sizes.ring))
-    if carries:  # the shaft in the planes that it must cross, or that the spec extends it to
-        crossed = {*range(min(carries) + 1, max(carries | reached) + 1)}
-        rounds.append(shaft._replace(planes=crossed - carries))
-    for link in links:
-        met += [_meeting(bars, link, one, turn) for one in rounds if link.plane in one.planes]
+    every, on_wheel = links_at(mechanism, turn), _on_wheel(parts)
+    links, met = [link for link in every if not link.radius_mm], list[Meeting]()
+    if not mechanism.first_wheel:
+        for gear, link in zip(bars.gears, (one for one in every if one.radius_mm), strict=True):
+            met += _to_gear(gear.part, link, on_wheel, turn, near)
+    shaft, overlaps = _crank_shaft(parts, links, bars, turn)
+    low = value_or(mechanism.spec.size.crank_shaft_low_mm, math.inf)  # to which the spec extends it
+    rounds = [*on_wheel, *_posts(parts, bars, spacers), shaft._replace(low=min(shaft.low, low))]
+    for path, both in joined(links, near):  # spacers on pins
+        names = [link.name for link in both]
+        span = sizes.span(both[-1].plane)[1], sizes.span(both[0].plane)[0]
+        rounds.append(Round(f"the pin of {' and '.join(names)}", *span, path, sizes.ring, names))
+    for link, one in product(links, rounds):
+        if link.name not in one.carries and _overlap(sizes.span(link.plane), one) > near:
+            met.append(_meeting(bars, link, one, turn))
     through = parts.sizes.crank_bore > 0.0  # the locking disc
     return min(met, default=None), None if through else min(overlaps, default=None)
 
 
+def _overlap(span: Span, one: Round) -> float:
+    """Return the height that a plane shares with a round part, negative where it shares none."""
+    return min(span[1], one.high) - max(span[0], one.low)
+
+
 def crank_stop(parts: Outlines, bars: Links) -> float | None:
     """Return the height at which a link stops the crank's shaft downwards; None if none does."""
-    mechanism = parts.assembly.full
-    turn = turn_deg(mechanism)
-    links = [link for link in links_at(mechanism, turn) if not link.radius_mm]
-    carries, _, overlaps = _crank_shaft(parts, links, bars, turn)
-    if next(overlaps, None) is None:
-        return None
-    return bars.sizes.span(max(carries))[0] if max(carries) else -bars.sizes.gap
+    turn = turn_deg(parts.assembly.full)
+    links = [link for link in links_at(parts.assembly.full, turn) if not link.radius_mm]
+    shaft, overlaps = _crank_shaft(parts, links, bars, turn)
+    return shaft.low if next(overlaps, None) else None
 
 
 def _crank_shaft(
-    parts: Outlines, links: list[Link], bars: Links, turn: Array
-) -> tuple[set[int], Round, Iterator[Meeting]]:
-    """Return the planes, 0 the wheel's, of parts on the crank's shaft; it; overlaps below them."""
+    parts: Outlines, links: Iterable[Link], bars: Links, turn: Array
+) -> tuple[Round, Iterator[Meeting]]:
+    """Return the crank's shaft between the parts on it, and its overlaps with links below them."""
     L, sizes, machine = parts.assembly.L, bars.sizes, parts.assembly.full
-    carries = {1} if parts.has_arm else set[int]()
+    on_axis, lows = list[str](), list[float]()  # of what it carries
     for link in links:
-        on_axis = np.abs(places(link)[0] - L).max() < SAME_LENGTH * L
-        if link.kinds[0] is Joint.SHAFT and on_axis:
-            carries.add(link.plane)
+        if link.kinds[0] is Joint.SHAFT and np.abs(places(link)[0] - L).max() < SAME_LENGTH * L:
+            on_axis.append(link.name)
+            lows.append(sizes.span(link.plane)[0])
     if machine.spec.gears and machine.gear_shaft == machine.crank_shaft:
-        carries.add(gear_plane(machine))
-    if parts.sizes.crank_bore > 0.0:  # it passes the locking disc
-        carries.add(0)
-    radius = sizes.crank_shaft or bars.shaft((L, 0.0), L)
-    wide = bore_at(machine, (L, 0.0), radius).around
-    shaft = Round("the crank's shaft", set(), complex(L), wide)
-    below = (link for link in links if link.plane > max(carries, default=math.inf))
+        lows.append(sizes.span(gear_plane(machine))[0])
+    lows += [sizes.span(1)[0]] if parts.has_arm else []
+    lows += [-sizes.gap] if parts.sizes.crank_bore > 0.0 else []  # it passes the locking disc
+    wide = bore_at(machine, (L, 0.0), sizes.crank_shaft or bars.shaft((L, 0.0), L)).around
+    span = min(lows, default=-math.inf), max(lows, default=-math.inf)
+    shaft = Round("the crank's shaft", *span, complex(L), wide, on_axis)
+    below = (link for link in links if sizes.span(link.plane)[0] < shaft.low)
     met = (_meeting(bars, link, shaft, turn) for link in below)
-    return carries, shaft, (one for one in met if one.gap < 0.0)
+    return shaft, (one for one in met if one.gap < 0.0)
 
 
-def _gears(parts: Outlines, bars: Links, gears: list[Link], turn: Array) -> Iterator[Meeting]:
-    """Yield the gaps of gears to the wheel's hub and shaft, which pass through their plane."""
-    if parts.assembly.full.first_wheel:
-        return
-    for gear, link in zip(bars.gears, gears, strict=True):
-        away = np.abs(places(link)[0])
-        on_shaft = bool(away.max() < SAME_LENGTH * parts.assembly.L)
-        # a shaft fills the gear's bore, a hub does not
-        own = gear.bore
-        wide = own._replace(radius=own.radius + own.loose).around
-        for one in _on_wheel(parts, [link], bars.sizes):
-            if not one.planes or (on_shaft and one.radius <= wide):
-                continue
-            gaps = away + (wide - one.radius) if on_shaft else away - gear.outer - one.radius
+def _to_gear(
+    plate: Part, link: Link, rounds: Iterable[Round], turn: Array, near: float
+) -> Iterator[Meeting]:
+    """Yield the gaps of a gear to the wheel's hub and shaft."""
+    assert isinstance(plate, Plate)
+    away, own = np.abs(places(link)[0]), plate.bore or Bore(0.0)
+    on_shaft, outline = bool(away.max() < near), plate.outline
+    # a shaft fills the gear's bore, a hub does not
+    wide = own._replace(radius=own.radius + own.loose).around
+    outer = outline.radius if isinstance(outline, Circle) else link.radius_mm
+    for one in rounds:
+        meets = _overlap((plate.low, plate.high), one) > near
+        if meets and not (on_shaft and one.radius <= wide):
+            gaps = away + (wide if on_shaft else -outer) - one.radius
             least = int(np.argmin(gaps))
-            yield Meeting(float(gaps[least]), float(turn[least]), gear.plate.name, one.name)
+            yield Meeting(float(gaps[least]), float(turn[least]), plate.name, one.name)
 
 
 def _posts(parts: Outlines, bars: Links, spacers: Iterable[Member]) -> Iterator[Round]:
     """Yield the pivots and spacers between the frame and links, in the planes of a drive below."""
     mechanism, L = parts.assembly.full, parts.assembly.L
-    lowest, links = gear_plane(mechanism), links_at(mechanism, np.zeros(1))
-    planes = {link.name: link.plane for link in links}
-    below = {plane for plane in planes.values() if plane >= lowest}
+    lowest = gear_plane(mechanism)
+    planes = {link.name: link.plane for link in links_at(mechanism, np.zeros(1))}
+    below = -math.inf, bars.sizes.span(lowest)[1]
     for axis in bars.axes:
         own = same(axis.at, (0.0, 0.0), L) or same(axis.at, (L, 0.0), L)  # of wheel or crank
         if axis.stands and not own and max(planes[name] for name in axis.names) < lowest:
             name = f"the pivot of {axis.names[0]}"
-            yield Round(name, below, complex(*axis.at), axis.bore.radius)
+            yield Round(name, *below, complex(*axis.at), axis.bore.radius)
     for one in spacers:
         assert isinstance(one.part, Plate) and isinstance(one.part.outline, Circle)
         radius = one.part.outline.radius
-        yield Round(f"the {one.part.name}", below, complex(*one.at), radius)
+        yield Round(f"the {one.part.name}", *below, complex(*one.at), radius)
 
 
-def _on_wheel(parts: Outlines, links: list[Link], sizes: LinkSizes) -> Iterator[Round]:
-    """Yield the wheel's hub in the planes that it reaches, and its shaft in those below."""
-    if parts.assembly.sign < 0.0:
-        return
+def _on_wheel(parts: Outlines) -> list[Round]:
+    """Return the wheel's hub and shaft below it; none of an internal wheel."""
     size, bore = parts.assembly.mechanism.spec.size, parts.sizes.wheel_bore
     shaft = bore_of(size, "wheel", bore).around if bore else 0.0
     hub = parts.sizes.wheel_hub if size.has_hub("wheel") else 0.0
-    reach = -wheel_hub_length(size, parts.sizes)
-    low, _ = wheel_shaft_ends(parts, -math.inf)
-    left, near = {link.plane for link in links}, SAME_LENGTH * parts.assembly.L
-    for name, radius, end in (("hub", hub, reach), ("shaft", shaft, low)):
-        planes = {plane for plane in left if radius and end < sizes.span(plane)[1] - near}
-        left -= planes
-        yield Round(f"the wheel's {name}", planes, 0j, radius)
+    ends = -wheel_hub_length(size, parts.sizes), wheel_shaft_ends(parts, -math.inf)[0]
+    rows = zip(("hub", "shaft"), ends, (hub, shaft), strict=True)
+    outside = parts.assembly.sign > 0.0
+    return [Round(f"the wheel's {name}", low, 0.0, 0j, r) for name, low, r in rows if r and outside]
 
 
 def _meeting(bars: Links, link: Link, one: Round, turn: Array) -> Meeting:

@@ -15,7 +15,7 @@ from geneva_cli.errors import refuse_size
 from geneva_cli.geometry.plates import Member, Plate
 from geneva_cli.geometry.shapes import Circle, Point, placed
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.pivots import Joint, Link, Teeth
+from geneva_cli.motion.pivots import Joint, Link
 from geneva_cli.numerics.arrays import Array, half_or
 from geneva_cli.numerics.tolerances import bore_radius, rounded_radius
 from geneva_cli.parts.assembly import links_at, same
@@ -87,43 +87,22 @@ class LinkAxis(NamedTuple):
     one_piece: frozenset[str] = frozenset()  # names of the links that have no bore for it
 
 
-class Gear(NamedTuple):
-    """A gear about its axis: pitch circle, bore (of radius 0 for none or a ring), and plate."""
-
-    at: Point
-    radius: float
-    bore: Bore
-    teeth: Teeth
-    plate: Plate
-    screws: BoltCircle  # between a gear that stands still and the frame
-
-    @property
-    def member(self) -> Member:
-        """The blank in the machine, at input angle 0."""
-        return Member(self.plate, self.at)
-
-    @property
-    def outer(self) -> float:
-        """The greatest distance of the outline from its axis."""
-        outline = self.plate.outline
-        return outline.radius if isinstance(outline, Circle) else self.radius
-
-
 class Links(NamedTuple):
     """The links of a machine at input angle 0.
 
     ``cut`` are links and blocks as plates, ``joined`` the pins, washers and rollers between them,
-    ``gears`` the gears as blanks.
+    ``gears`` the round gears as blanks, each with the bore of its shaft; a ring has none.
     """
 
     sizes: LinkSizes = NO_SIZES
     cut: tuple[Member, ...] = ()
     joined: tuple[Member, ...] = ()
-    gears: tuple[Gear, ...] = ()
+    gears: tuple[Member, ...] = ()
     pin_low: float | None = None  # lower end of the pin on a link that carries the wheel's roller
-    standing: frozenset[str] = frozenset()  # names of the links that are fixed to the frame
+    standing: frozenset[str] = frozenset()  # names of links and gears that are fixed to the frame
     blocks: frozenset[str] = frozenset()  # names of the blocks that slide in a link
     axes: tuple[LinkAxis, ...] = ()  # axes that links and gears turn about
+    bolts: BoltCircle | None = None  # of the gear that is fixed to the frame
 
     @property
     def plates(self) -> list[Plate]:

@@ -22,7 +22,6 @@ from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.shafts.bores import bore_of
 from geneva_cli.parts.sizes import Sizes, reach_and_hub
-from geneva_cli.parts.slots.roller_paths import horn_corners
 
 # radii of the corners of each kind of slot's mouth at entry and exit, mm
 Mouths: TypeAlias = Mapping[Engagement, tuple[float, float]]
@@ -133,7 +132,7 @@ Swept: TypeAlias = Callable[[int], tuple[Array, Array]]
 
 
 def crank_contours(
-    assembly: Assembly, sizes: Sizes, relief: str, swept: Swept, spare: float = 0.0
+    assembly: Assembly, sizes: Sizes, relief: str, mouths: Mouths, swept: Swept, spare: float
 ) -> list[Contour]:
     """Return the locking disc with one kind of relief: ``"arc"`` or ``"sector"``.
 
@@ -144,7 +143,7 @@ def crank_contours(
         return _rings(assembly, sizes, swept, spare)
     around = reliefs(assembly)
     if relief == "sector":
-        around = widened(assembly, sizes, horn_corners(assembly, sizes))
+        around = widened(assembly, sizes, mouths)
     segments, locking = list[Segment](), dict(sectors(around))
     text = f"reliefs leave no locking disc: use fewer rollers, or below {sizes.roller:g} mm"
     refuse_size(not locking, "roller_radius_mm", text)

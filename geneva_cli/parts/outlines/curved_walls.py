@@ -202,19 +202,10 @@ def _crossing(last: WallPlace, following: WallPlace) -> tuple[float, float] | No
         i = place.i + place.sense * np.arange(behind, ahead + 1)
         samples.append(i[(i >= 0) & (i < len(place.wall.t))])
     one, two = samples
-    p, q = last.wall.points[one], following.wall.points[two]
-    d, e = np.diff(p, axis=0), np.diff(q, axis=0)
-    off = q[None, :-1] - p[:-1, None]
-    cross = d[:, None, 0] * e[None, :, 1] - d[:, None, 1] * e[None, :, 0]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        s = (off[..., 0] * e[None, :, 1] - off[..., 1] * e[None, :, 0]) / cross
-        t = (off[..., 0] * d[:, None, 1] - off[..., 1] * d[:, None, 0]) / cross
-    i, j = np.nonzero((s >= 0.0) & (s <= 1.0) & (t >= 0.0) & (t <= 1.0))
-    if not len(i):
-        return None
-    best = int(np.argmax(i))
-    last = last._replace(i=int(one[i[best]]))
-    following = following._replace(i=int(two[j[best]]))
+    off = last.wall.points[one][:, None] - following.wall.points[two]
+    near = np.unravel_index(np.argmin((off * off).sum(axis=-1)), off.shape[:2])
+    last = last._replace(i=int(one[near[0]]))
+    following = following._replace(i=int(two[near[1]]))
     a, b = last.t, following.t
     for _ in range(50):
         (px, py), u, p_speed = last.course(a)

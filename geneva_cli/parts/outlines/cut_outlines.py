@@ -59,9 +59,9 @@ def _drawn(assembly: Assembly, sizes: Sizes) -> Outlines:
     requested = assembly.mechanism.spec.size.relief
     last, whole, spare = requested or "sector", crank_outline.is_whole(assembly, sizes), 0.0
     takes_arcs = not requested and crank_outline.takes_arcs(assembly, sizes)
-    swept = cache(lambda i: bare.swept(i, SWEPT_DEG))
+    mouths, swept = horn_corners(assembly, sizes), cache(lambda i: bare.swept(i, SWEPT_DEG))
     for relief in (*(("arc",) if takes_arcs else ()), *[last] * 6):
-        crank = crank_outline.crank_contours(assembly, sizes, relief, swept, spare)
+        crank = crank_outline.crank_contours(assembly, sizes, relief, mouths, swept, spare)
         gaps, least = bare.with_crank(crank), 0.0
         if whole and relief == last:
             break
@@ -80,13 +80,14 @@ def _drawn(assembly: Assembly, sizes: Sizes) -> Outlines:
     return unlocked._replace(crank=crank, relief=relief, gaps=gaps)
 
 
+@lru_cache(maxsize=KEPT)
 def cut_lock(assembly: Assembly, sizes: Sizes) -> Lock:
     """Return the lock: the narrowest arc of the crank, and the corner that leaves the most play.
 
     Beyond the crank's axis the wheel leaves less than a sector between two reliefs.
     """
     L, lock, recess, flat = assembly.L, sizes.lock, sizes.recess, sizes.horn_tip
-    mouths = paths.horn_corners(assembly, sizes)
+    mouths = horn_corners(assembly, sizes)
     whole, halves = crank_outline.is_whole(assembly, sizes), list[float]()
     around = crank_outline.reliefs(assembly)
     # arcs end where the motions do
@@ -174,10 +175,38 @@ def slot_walls(
         middle = (bottom - w, 0.0)
         quarter = math.tan(math.pi / 8.0)  # the bulge of a quarter of a circle
         inwards, outwards = Arc(first.end, middle, -quarter), Arc(middle, last.start, -quarter)
-        begin = shapes.turned(Contour("", (first, inwards)), -apart).segments
+        begin = shapes.placed(Contour("", (first, inwards)), turn=-apart).segments
         between = shapes.about(ORIGIN, middle[0], -apart, 2.0 * apart)
-        pieces = (*begin, between, *shapes.turned(Contour("", (outwards, last)), apart).segments)
-    return shapes.turned(Contour("WHEEL", shapes.joined(pieces), closed=False), angle)
+        after = shapes.placed(Contour("", (outwards, last)), turn=apart).segments
+        pieces = (*begin, between, *after)
+    return shapes.placed(Contour("WHEEL", shapes.joined(pieces), closed=False), turn=angle)
+
+
+def horn_corners(assembly: Assembly, sizes: Sizes) -> dict[Engagement, tuple[float, float]]:
+    """Return the distances from the axis of each slot's horns, mm, before and after a motion.
+
+    They are those of its mouth's corners where the roller comes and goes, or of tips cut to flats.
+    """
+    mouths = [*map(partial(paths.mouth, assembly, r=sizes.roller), assembly.kinds)]
+    least = paths.least_mouth(assembly, sizes) if assembly.sign > 0.0 else 0.0
+    out = {}
+    for kind, rim in zip(assembly.kinds, mouths, strict=True):
+        if kind.slot.curved:
+            out[kind] = (max(rim + sizes.rim - max(mouths), least),) * 2
+            continue
+        first, *_, last = slot_walls(assembly, sizes, kind, 0.0).segments
+        ends = []
+        for end in (-1.0, 1.0):
+            centre = paths.rest(assembly, kind, end)
+            nearer = math.dist(first.start, centre) < math.dist(last.end, centre)
+            wall = Line(first.end, first.start) if nearer else Line(last.start, last.end)
+            at = max(math.hypot(*wall.end), least)
+            if sizes.recess and sizes.horn_tip:
+                flat = paths.tip(wall, centre, sizes.recess, sizes.horn_tip)
+                at = math.hypot(*flat.end) if flat else at
+            ends.append(at)
+        out[kind] = ends[0], ends[1]
+    return out
 
 
 def wheel_contour(
@@ -193,7 +222,7 @@ def wheel_contour(
     """
     around, walls, rims = assembly.slots, list[list[Segment]](), list[list[Segment]]()
     for engagement, direction in around:
-        walls.append([*shapes.turned(slots[engagement], direction).segments])
+        walls.append([*shapes.placed(slots[engagement], turn=direction).segments])
     for i, (_, start) in enumerate(around):
         following = (i + 1) % len(around)
         before, after = walls[i], walls[following]
@@ -206,25 +235,21 @@ def wheel_contour(
             if off < span or span == 0.0:
                 break
         rims.append(_rim(assembly, sizes, before, after, start + off))
-    if sizes.mouth_radius:
-        for i, rim in enumerate(rims):
-            _round_mouth(assembly, sizes, walls[i], rim)
-            after = walls[(i + 1) % len(walls)]
-            wall, back = [*shapes.mirrored(after[:1])], [*shapes.mirrored(rim)]
-            _round_mouth(assembly, sizes, wall, back)
-            after[:1], rim[:] = shapes.mirrored(wall), shapes.mirrored(back)
+    for i, rim in enumerate(rims if sizes.mouth_radius else ()):
+        after = walls[(i + 1) % len(walls)]
+        ring = [walls[i][-1], *rim, after[0]]
+        # a mouth that is extended has its corner at the rim
+        for k in (len(ring) - 2 - _is_extension(rim[-1]), _is_extension(rim[0]) + 0):
+            ring[k : k + 2] = paths.rounded(ring[k], ring[k + 1], sizes.mouth_radius, assembly.sign)
+        walls[i][-1], *rim[:], after[0] = ring
     cut = tuple(map(partial(Contour, "WHEEL", closed=False), map(tuple, walls)))
     pieces = chain.from_iterable(chain(*zip(walls, rims, strict=True)))
     return shapes.closed("WHEEL", pieces), cut
 
 
-def _round_mouth(assembly: Assembly, sizes: Sizes, wall: list[Segment], rim: list[Segment]) -> None:
-    """Round the corner of a wall and a rim; of a mouth that is extended, it is at the rim."""
-    first = rim[0]
-    if isinstance(first, Arc) and math.hypot(*first.centre) > 0.1 * first.radius:
-        rim[:2] = paths.rounded(first, rim[1], sizes.mouth_radius, assembly.sign)
-    else:
-        wall[-1], *rim[:1] = paths.rounded(wall[-1], first, sizes.mouth_radius, assembly.sign)
+def _is_extension(piece: Segment) -> bool:
+    """Return True for an arc that is not about the wheel's axis."""
+    return isinstance(piece, Arc) and math.hypot(*piece.centre) > 0.1 * piece.radius
 
 
 def _rim(

@@ -7,15 +7,17 @@ the part that it fixes, and its thread is in the part below.
 
 import math
 from bisect import bisect_right
-from collections.abc import Iterable, Sequence
+from collections import Counter
+from collections.abc import Iterable, Iterator
 from functools import partial
 from itertools import starmap
 from operator import attrgetter
-from typing import NamedTuple, Self
+from typing import NamedTuple, TypeAlias
 
 from geneva_cli.errors import GenevaError, refuse_size
 from geneva_cli.geometry import shapes
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Line, Shape
+from geneva_cli.motion.pivots import Dimension
 from geneva_cli.numerics.angles import of_each
 from geneva_cli.numerics.arrays import half_or, value_or
 from geneva_cli.numerics.tolerances import ROUNDED
@@ -206,34 +208,21 @@ class BoltCircle(NamedTuple):
     holes: tuple[Circle, ...]
 
 
-class Screws(NamedTuple):
-    """Equal screws: the part that they fix, their clearance hole, and the part with the thread."""
+# a screw: the part that it fixes, the part with its thread, and the hole that it passes
+Screwed: TypeAlias = tuple[str, str, Circle]
 
-    fixed: str
-    number: int
-    hole_mm: float  # diameter
-    tapped: str
 
-    @classmethod
-    def through(cls, fixed: str, holes: Sequence[Circle], into: str) -> list[Self]:
-        """Return the screws that fix a part by equal holes; none without holes."""
-        return [cls(fixed, len(holes), 2.0 * holes[0].radius, into)] if holes else []
+def listed(screws: Iterable[Screwed]) -> Iterator[Dimension]:
+    """Yield the number and thread of equal screws; the hole where no screw is so thin.
 
-    @property
-    def name(self) -> str:
-        """What a list calls them."""
-        return f"screws of the {self.fixed}, tapped in {self.tapped}"
-
-    @property
-    def text(self) -> str:
-        """Their number and thread; the hole where no screw is so thin.
-
-        >>> Screws("dial", 4, 5.5, "the dial").text, Screws("dial", 4, 1.0, "the dial").text
-        ('4 × M5', '4 holes of 1 mm')
-        """
-        one = screw_through(self.hole_mm)
-        what = f"× M{one.thread:g}" if one else f"holes of {self.hole_mm:g} mm"
-        return f"{self.number} {what}"
+    >>> [*listed(("dial", "the dial", Circle("BORE", ORIGIN, 2.75)) for _ in range(4))]
+    [Dimension(name='screws of the dial, tapped in the dial', value='4 × M5', unit='')]
+    """
+    kinds = Counter((fixed, into, hole.radius) for fixed, into, hole in screws)
+    for (fixed, into, radius), number in kinds.items():
+        one = screw_through(2.0 * radius)
+        what = f"× M{one.thread:g}" if one else f"holes of {2.0 * radius:g} mm"
+        yield Dimension(f"screws of the {fixed}, tapped in {into}", f"{number} {what}")
 
 
 def screw_through(hole_mm: float) -> Screw | None:

@@ -6,7 +6,7 @@ s = sqrt(k² - (d - t)²) before the centre. With ``mouth_radius_mm`` an arc rou
 """
 
 import math
-from functools import lru_cache, partial
+from functools import lru_cache
 
 import numpy as np
 
@@ -97,48 +97,6 @@ def least_mouth(assembly: Assembly, sizes: Lengths) -> float:
     """Return the radius to which lower mouths are extended, mm."""
     reach = assembly.L - sizes.recess
     return reach + 0.2 * (sizes.rim - reach)
-
-
-def horn_corners(assembly: Assembly, sizes: Lengths) -> dict[Engagement, tuple[float, float]]:
-    """Return the distances from the axis of each slot's horns, mm, before and after a motion.
-
-    They are those of its mouth's corners where the roller comes and goes, or of tips cut to flats.
-    """
-    r, flat, recess = sizes.roller, sizes.horn_tip, sizes.recess
-    widest = [*map(partial(mouth, assembly, r=r), assembly.kinds)]
-    shift = sizes.rim - max(widest)
-    least = least_mouth(assembly, sizes) if assembly.sign > 0.0 else 0.0
-    out = {}
-    for kind, wide in zip(assembly.kinds, widest, strict=True):
-        ends = []
-        for end in (-1.0, 1.0):
-            at = math.hypot(*corner(assembly, kind, end, r)) if kind.slot.offset else wide
-            at = max(at + shift, least)
-            if flat and recess:
-                wall = _wall_of_horn(assembly, kind, end, sizes.half_width, at)
-                cut = tip(wall, rest(assembly, kind, end), recess, flat)
-                at = math.hypot(*cut.end) if cut else at
-            ends.append(at)
-        out[kind] = ends[0], ends[1]
-    return out
-
-
-def _wall_of_horn(
-    assembly: Assembly, kind: Engagement, end: float, half_width: float, corner_mm: float
-) -> Line:
-    """Return a slot's wall beside its horn before (-1) or after (1) a motion, out to its corner."""
-    x, y = kind.slot(kind.end_deg(end), 0)
-    u, v = kind.slot(0.0, 0)
-    L, centre = assembly.L, rest(assembly, kind, end)
-    start = L * float(u.c[0]), L * float(v.c[0])
-    run = L * float(x.c[0]) - start[0], L * float(y.c[0]) - start[1]
-    ux, uy = run[0] / math.hypot(*run), run[1] / math.hypot(*run)
-    off = (centre[1] - start[1]) * ux - (centre[0] - start[0]) * uy
-    side = math.copysign(half_width, off)
-    x0, y0 = start[0] - side * uy, start[1] + side * ux
-    level = math.sqrt(max(corner_mm * corner_mm - (y0 * ux - x0 * uy) ** 2, 0.0))
-    along = assembly.sign * level - (x0 * ux + y0 * uy)
-    return Line((x0, y0), (x0 + along * ux, y0 + along * uy))
 
 
 def rest(assembly: Assembly, engagement: Engagement, end: float) -> tuple[float, float]:

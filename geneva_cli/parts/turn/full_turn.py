@@ -16,7 +16,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.numerics.arrays import Array, rising
 from geneva_cli.numerics.roots import boundary_by_sections
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG, SAME_LENGTH
-from geneva_cli.parts.turn.turned_parts import Play, TurnedParts, play_of, wheel_stops, windows
+from geneva_cli.parts.turn.turned_parts import TurnedParts, play_of, wheel_stops, windows
 
 POSITIONS = 10_000  # at most: about 0.1 s of the parts alone; a turn that needs more is not proved
 DIP = 1e-9  # mm: gaps that differ by less count as equal
@@ -66,7 +66,6 @@ class FullTurn(NamedTuple):
     push: Most
     contact: tuple[float, float]
     free_deg: float
-    play: Play
 
     @property
     def smallest(self) -> Gap:
@@ -121,7 +120,7 @@ def full_turn(parts: TurnedParts) -> FullTurn:
             known.add(engagement)
             contact = max(contact, _contact(parts, i, own), key=itemgetter(0))
     met, free_deg = (contact[0], assembly.shown_deg(contact[1])), math.degrees(assembly.half_step)
-    return FullTurn(gaps, dwell, hand_over, motion, ahead, behind, push, met, free_deg, play)
+    return FullTurn(gaps, dwell, hand_over, motion, ahead, behind, push, met, free_deg)
 
 
 def _most(values: Array, at: Array, first: First) -> Most:

@@ -261,19 +261,12 @@ def path_travel(engagement: Engagement, L: float, turn_deg: float) -> Travel:
         return Travel(np.array((-0.5, 0.5)) * turn_deg, rates, L, turn_deg)
     from geneva_cli.numerics.intervals import curve_rates
 
-    edges = cells(engagement, -0.5 * turn_deg, 0.5 * turn_deg)
-    start, end = edges[:-1], edges[1:]
-    if groove is None:
-        return Travel(edges, curve_rates(engagement.path, start, end), L, turn_deg)
-    from geneva_cli.motion.groove_path import path_in_dwell
+    edges, path = cells(engagement, -0.5 * turn_deg, 0.5 * turn_deg), engagement.path
+    if groove is not None:
+        from geneva_cli.motion.groove_path import path_over_turn
 
-    moving = (engagement.entry_deg <= start) & (end <= engagement.exit_deg)
-    later = np.where(start < engagement.entry_deg, 360.0, 0.0)  # in the dwell after the motion
-    rates = np.empty((2, len(start)))
-    rates[:, moving] = curve_rates(engagement.path, start[moving], end[moving])
-    start, end, curve = start + later, end + later, partial(path_in_dwell, groove)
-    rates[:, ~moving] = curve_rates(curve, start[~moving], end[~moving])
-    return Travel(edges, rates, L, turn_deg)
+        path = partial(path_over_turn, groove, path)
+    return Travel(edges, curve_rates(path, edges[:-1], edges[1:]), L, turn_deg)
 
 
 def cells(engagement: Engagement, start: float, end: float) -> Array:

@@ -30,6 +30,7 @@ class MachineTurn:
         self.passages = self.assembly.motions
         self.start = self.passages[0].entry
         self.end = self.start + self.turn_deg
+        self.ahead = math.pi if mechanism.spec.wheel.SIGN > 0.0 else 0.0  # of the crank, mid-motion
         self._links: dict[bytes, tuple[Link, ...]] = {}
 
     def wheel(self, place: AxisPlace) -> Track:
@@ -55,9 +56,9 @@ class MachineTurn:
         return places[number % len(places)]
 
     def crank_from_mid(self) -> Track:
-        """The crank's angle from its place at mid-motion, radians."""
-        crank, ahead = self.crank(), math.pi if self.mechanism.spec.wheel.SIGN > 0.0 else 0.0
-        return crank._replace(value=tuple(v - ahead for v in crank.value))
+        """The first crank's angle from its place at mid-motion, radians."""
+        crank = self.crank(self.on_crank(0))
+        return crank._replace(value=tuple(v - self.ahead for v in crank.value))
 
     def steady(self, speed: float, zero_deg: float) -> Track:
         """The angle, radians, of what turns at a speed over the input's, from 0 at an angle."""
@@ -76,21 +77,16 @@ class MachineTurn:
 
         return self._sampled(angle, ANGLE_ERROR, sense * math.tau * turns)
 
-    def crank(self, place: AxisPlace | None = None) -> Track:
-        """The direction of a crank's first roller about the crank's axis, radians.
-
-        Without a place it is the first crank.
-        """
-        behind, turned = (place.behind_deg, place.turn) if place else (0.0, 0.0)
+    def crank(self, place: AxisPlace) -> Track:
+        """The direction of the first roller of a crank about the crank's axis, radians."""
         one, sign = self.passages[0], self.mechanism.spec.wheel.SIGN
         sense = one.engagement.crank_sense
-        ahead = math.pi if sign > 0.0 else 0.0
         gain = -sign * (sense or 1.0) * math.tau
         rate = gain / self.turn_deg
-        turned -= rate * behind  # cranks turn at one rate, also if that varies
+        turned = place.turn - rate * place.behind_deg  # cranks turn at one rate, if that varies too
 
         def angle(x: Array) -> Array:
-            even = ahead + rate * (x - one.mid)
+            even = self.ahead + rate * (x - one.mid)
             if sense:
                 at = self.assembly.from_mid(x, one.mid)
                 return turned + (even + rate * (one.engagement.own_deg(at) - at))
@@ -132,11 +128,9 @@ class MachineTurn:
         return self._links[key]
 
     def _place(self, place: Callable[[Array], Array]) -> Place:
-        def along(i: int) -> Track:
-            error = 2e-6 * self.L  # of joints and rollers: less than a screen shows
-            return self._sampled(lambda x: place(x)[:, i], error)
-
-        return along(0), along(1)
+        error = 2e-6 * self.L  # of joints and rollers: less than a screen shows
+        along = (lambda x: place(x)[:, 0]), (lambda x: place(x)[:, 1])
+        return self._sampled(along[0], error), self._sampled(along[1], error)
 
     def _sampled(
         self,

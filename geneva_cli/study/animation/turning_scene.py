@@ -164,27 +164,27 @@ def _states(design: Design, turn: MachineTurn) -> Iterator[page.Phase]:
         rest += f", held by a {design.spec.wheel.held_by}"
     else:
         rest += f", locked by the {holder.split()[-1]}" if holder else "; nothing holds it"
-    if design.spec.drive.wheels_on_carrier > 1:
-        (only,), places = turn.passages, design.mechanism.wheel_places
-        for place in places:
-            a, b = place.behind_deg, place.behind_deg + only.engagement.motion_deg
-            yield page.Phase(a, b, True, f"the finger turns wheel {place.number} on the carrier")
-            yield page.Phase(
-                b, a + turn.turn_deg / len(places), False, "all wheels rest on the carrier"
-            )
-        return
-    cranks = len(design.mechanism.crank_places)
-    for i, (one, after) in enumerate(itertools.zip_longest(turn.passages, turn.passages[1:])):
+    moves, wheels = list[page.Phase](), design.mechanism.wheel_places
+    for i, one in enumerate(turn.passages):
         which = f"roller {i + 1}" if len(turn.passages) > 1 else "the roller"
-        if cranks > 1:
+        if len(design.mechanism.crank_places) > 1:
             which = f"crank {turn.on_crank(i).number}"
         if one.engagement.paired:
             which = "a roller, then gears, then a roller"
-        a, b = one.entry - turn.start, one.exit - turn.start
-        yield page.Phase(a, b, True, f"{which} moves the {design.mechanism.output.noun}")
-        end = after.entry - turn.start if after else turn.turn_deg
-        if end > b + 1e-9:
-            yield page.Phase(b, end, False, rest)
+        text = f"{which} moves the {design.mechanism.output.noun}"
+        moves.append(page.Phase(one.entry - turn.start, one.exit - turn.start, True, text))
+    if len(wheels) > 1:
+        rest, (first, *_) = "all wheels rest on the carrier", moves
+        moves = []
+        for place in wheels:
+            text = f"the finger turns wheel {place.number} on the carrier"
+            a = place.behind_deg
+            moves.append(page.Phase(a, a + first.end, True, text))
+    ends = [*(one.start for one in moves[1:]), turn.turn_deg]
+    for move, end in zip(moves, ends, strict=True):
+        yield move
+        if end > move.end + 1e-9:
+            yield page.Phase(move.end, end, False, rest)
 
 
 def _box(

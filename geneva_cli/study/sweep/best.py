@@ -1,6 +1,7 @@
 """The best design of a sweep: a scan of all designs, then a local refinement."""
 
 from collections.abc import Iterable, Sequence
+from itertools import compress
 
 import numpy as np
 
@@ -9,7 +10,7 @@ from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.progress import Meter
 from geneva_cli.spec.schema import TEXT_MAX
 from geneva_cli.specfile.writer import quoted, spec_lines
-from geneva_cli.study.fields import Cell, Column, Rows, joined, rows_of
+from geneva_cli.study.fields import Rows, joined, rows_of
 from geneva_cli.study.sweep.constraints import Objective, is_number
 from geneva_cli.study.sweep.request import Outcome
 from geneva_cli.study.sweep.run import Sweep
@@ -40,9 +41,9 @@ def best_spec(outcome: Outcome, goal: Objective, row_blocks: Iterable[Rows]) -> 
         why = [*outcome.nearness.phrases()] or [f"no design has a value of {goal.name}"]
         raise GenevaError(f"--best: none of {outcome.all:,} designs is feasible: {'; '.join(why)}")
     # the best of them suffice; at last onto the bounds that bind
-    each = [search.refined(row) for row in [*starts][: 3 if sweep.is_batched else 1]]
-    refined = search.foremost(rows_of(each), 1).row(0)
-    keys = search.refined(refined, reach=2e-3)[: len(sweep.keys)]
+    first = range(min(len(starts), 3 if sweep.is_batched else 1))
+    refined = joined([search.refined(starts.taken(np.array([i]))) for i in first])
+    keys = search.refined(search.foremost(refined, 1), reach=2e-3).row(0)[: len(sweep.keys)]
     best = sweep.row(keys)  # computed again as a single design: this row is the result
     values = {n: float(v) for n, v in zip(sweep.names, best, strict=True) if is_number(v)}
     spec = (machine := sweep.machine(keys)).spec
@@ -76,18 +77,17 @@ class _SweepSearch:
     """The rows of a sweep for an optimiser, with free keys as fractions of their spans."""
 
     def __init__(self, sweep: Sweep, goal: Objective) -> None:
-        self.sweep, self.sign = sweep, goal.sign
-        self.at = sweep.names.index(goal.name)
-        self.bounds = [(sweep.names.index(c.name), c) for c in sweep.bounds]
-        self.free = [i for i, a in enumerate(sweep.plan.axes) if a.span]
-        ends = [sweep.plan.axes[i].values for i in self.free]
-        self.low, self.high = np.array(ends, dtype=float).reshape(-1, 2).T
+        self.sweep, self.goal = sweep, goal
+        free = {a.key: a.values for a in sweep.plan.axes if a.span}
+        self.free = [*free]
+        self.low, self.high = np.array([*free.values()], dtype=float).reshape(-1, 2).T
         self.most = MOST if sweep.is_batched else MOST_ALONE
         self.is_cut_short = False  # True once the optimiser has reached that number
 
     def margins(self, rows: Rows) -> Array:
         """The relative margins to the bounds (b, n); -FAR for a design without the quantity."""
-        each = [np.nan_to_num(c.margin(rows.numbers(i)), nan=-FAR) for i, c in self.bounds]
+        bounds = self.sweep.bounds
+        each = [np.nan_to_num(c.margin(rows.numbers(c.name)), nan=-FAR) for c in bounds]
         return np.reshape(each, (len(each), len(rows)))
 
     def merits(self, rows: Rows) -> tuple[Array, Array]:
@@ -95,16 +95,16 @@ class _SweepSearch:
 
         The costs are the objective (n,), signed so that it is minimised; infinite without it.
         """
-        costs = np.nan_to_num(self.sign * rows.numbers(self.at), nan=np.inf)
+        costs = np.nan_to_num(self.goal.sign * rows.numbers(self.goal.name), nan=np.inf)
         kept = np.isfinite(costs)
-        for i, c in self.bounds:
-            kept &= c.kept_by(rows.numbers(i))
+        for c in self.sweep.bounds:
+            kept &= c.kept_by(rows.numbers(c.name))
         short = np.maximum(0.0, -self.margins(rows)).sum(axis=0) + FAR * np.isinf(costs)
         return np.where(kept, 0.0, np.maximum(short, 1e-9)), costs
 
     def fractions(self, rows: Rows) -> Array:
         """The free keys of designs as fractions of their spans (n, k): 0 is low, 1 is high."""
-        here = [rows.numbers(i) for i in self.free]
+        here = [rows.numbers(key) for key in self.free]
         return (np.reshape(here, (len(here), len(rows))).T - self.low) / (self.high - self.low)
 
     def foremost(self, rows: Rows, most: int) -> Rows:
@@ -116,8 +116,8 @@ class _SweepSearch:
         violations, costs = self.merits(rows)
         order = np.lexsort((costs, violations))
         if self.free:
-            fixed = [i for i in range(len(self.sweep.keys)) if i not in self.free]
-            choices = [tuple(row[i] for i in fixed) for row in rows]
+            kept = [key in self.sweep.keys and key not in self.free for key in rows.columns]
+            choices = [tuple(compress(row, kept)) for row in rows]
             thirds = np.minimum(self.fractions(rows) * 3.0, 2.0).astype(int).tolist()
             places = [*zip(choices, map(tuple, thirds), strict=True)]
             order = _first_of_each(order, places)
@@ -149,32 +149,30 @@ class _SweepSearch:
         found = found.take(found.cost <= found.cost[0] + 0.01 * abs(found.cost[0]))
         return self.sweep.rows_of(self.moved(rows.taken(found.of), found.at))
 
-    def moved(self, rows: Rows, at: Array) -> list[Column]:
+    def moved(self, rows: Rows, at: Array) -> Rows:
         """The keys of designs, with the free ones at the fractions (n, k)."""
-        keys = rows.columns[: len(self.sweep.keys)]
         values = self.low + np.clip(at, 0.0, 1.0) * (self.high - self.low)
-        for i, own in zip(self.free, values.T, strict=True):
-            keys[i] = own
-        return keys
+        free = dict(zip(self.free, values.T, strict=True))
+        return Rows({key: free.get(key, rows.columns[key]) for key in self.sweep.keys})
 
-    def refined(self, start: Sequence[Cell], reach: float = 0.05) -> list[Cell]:
-        """The best design among a start and all that the optimiser evaluates from there.
+    def refined(self, first: Rows, reach: float = 0.05) -> Rows:
+        """The best design among the first one and all that the optimiser evaluates from there.
 
         ``reach`` is the optimiser's first step as a fraction of the spans.
         """
         if not self.free:
-            return [*start]
+            return first
         from scipy.optimize import NonlinearConstraint, minimize
 
-        meter, first = Meter("designs near the best", self.most), rows_of([start])
+        meter = Meter("designs near the best", self.most)
         scale = abs(self.merits(first)[1][0]) or 1.0
         evaluated: dict[bytes, Rows] = {}
 
         def rows(x: Array) -> Rows:
             place = x.tobytes()
             if place not in evaluated:
-                keys = Rows(self.moved(first, x[None])).row(0)
-                evaluated[place] = rows_of([self.sweep.row(keys)])
+                keys = self.moved(first, x[None]).row(0)
+                evaluated[place] = rows_of(self.sweep.names, [self.sweep.row(keys)])
                 meter.report(len(evaluated))
             return evaluated[place]
 
@@ -185,12 +183,13 @@ class _SweepSearch:
             return self.margins(rows(x))[:, 0]
 
         rounding = 1e-13  # fraction of a bound, so that rounding does not leave a design outside
+        bounds = [NonlinearConstraint(margins, rounding, np.inf)] if self.sweep.bounds else []
         minimize(
             cost,
             self.fractions(first)[0],
             method="COBYQA",
             bounds=[(0.0, 1.0)] * len(self.free),
-            constraints=[NonlinearConstraint(margins, rounding, np.inf)] if self.bounds else [],
+            constraints=bounds,
             # a bound that binds is met to the last step
             options={"maxfev": self.most, "initial_tr_radius": reach, "final_tr_radius": 1e-12},
         )
@@ -198,7 +197,7 @@ class _SweepSearch:
         self.is_cut_short |= len(evaluated) >= self.most
         kept = [r for r in (first, *evaluated.values()) if self.merits(r)[0][0] == 0.0]
         inside = [r for r in kept if (self.margins(r) >= 0.0).all()]
-        return min(inside or kept, key=lambda r: float(self.merits(r)[1][0])).row(0)
+        return min(inside or kept, key=lambda r: float(self.merits(r)[1][0]))
 
 
 def _first_of_each(order: Whole, groups: Sequence[object]) -> Whole:

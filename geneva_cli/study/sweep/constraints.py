@@ -69,38 +69,36 @@ class Nearness:
     """The distance of a sweep's designs from some bounds, updated as their rows arrive.
 
     For each bound ``kept`` counts the designs that keep it, and ``nearest`` is the value nearest to
-    it, or None if no design has the quantity.
+    it, or NaN if no design has the quantity.
     """
 
-    def __init__(self, bounds: Sequence[tuple[int, Constraint]]) -> None:
-        self.bounds = bounds  # with the number of each one's column
+    def __init__(self, bounds: Sequence[Constraint]) -> None:
+        self.bounds = bounds
         self.kept = [0] * len(bounds)
-        self.nearest: list[float | None] = [None] * len(bounds)
+        self.nearest = [math.nan] * len(bounds)
 
-    def add(self, numbers: Callable[[int], Array]) -> None:
+    def add(self, numbers: Callable[[str], Array]) -> None:
         """Count the rows that keep each bound, and keep the nearest values.
 
-        ``numbers`` returns the numbers (n,) of a column, NaN for cells without one.
+        ``numbers`` returns the numbers (n,) of a quantity, NaN for rows without one.
         """
-        for k, (i, c) in enumerate(self.bounds):
-            values = numbers(i)
+        for k, c in enumerate(self.bounds):
+            values = numbers(c.name)
             self.kept[k] += int(c.kept_by(values).sum())
-            before = self.nearest[k]
-            known = values[~np.isnan(values)].tolist() + ([] if before is None else [before])
-            if known:
-                self.nearest[k] = max(known) if c.sign == ">=" else min(known)
+            nearer = np.fmax if c.sign == ">=" else np.fmin  # of a NaN and a number the number
+            self.nearest[k] = float(nearer.reduce(np.append(values, self.nearest[k])))
 
     def phrases(self) -> Iterator[str]:
         """A phrase for each bound: how many designs keep it, or the nearest value.
 
         Where no design keeps one bound, others may not have been computed.
         """
-        some = any(x is not None for x in self.nearest)
-        for (_, c), count, nearest in zip(self.bounds, self.kept, self.nearest, strict=True):
-            if nearest is not None:
+        none = all(map(math.isnan, self.nearest))
+        for c, count, nearest in zip(self.bounds, self.kept, self.nearest, strict=True):
+            if not math.isnan(nearest):
                 near = "" if count else f" (nearest {nearest:.6g})"
                 yield f"{c} is kept by {count:,}{near}"
-            elif not some:
+            elif none:
                 yield f"no design has a value of {c.name}"
 
 

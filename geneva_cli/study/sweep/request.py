@@ -11,7 +11,7 @@ from geneva_cli.specfile.reader import read
 from geneva_cli.study.fields import Cell, Pick, Rows, cells_of
 from geneva_cli.study.fields import pick as pick_of
 from geneva_cli.study.sweep import constraints
-from geneva_cli.study.sweep.run import DEFAULT, Sweep, plan, sweep, with_values
+from geneva_cli.study.sweep.run import DEFAULT, ERROR, Sweep, plan, sweep, with_values
 from geneva_cli.study.sweep.values import axis, refuse_twice
 from geneva_cli.table import Table, rows_table
 
@@ -91,8 +91,8 @@ class Outcome:
         self.sweep = sweep
         self.all = self.failed = self.left = 0
         self._first = ""  # why the first of them cannot be built
-        self.nearness = constraints.Nearness([(sweep.names.index(c.name), c) for c in sweep.bounds])
-        self._unknown = {sweep.names.index(o.name): o.name for o in sweep.objectives}
+        self.nearness = constraints.Nearness(sweep.bounds)
+        self._unknown = [o.name for o in sweep.objectives]
 
     def rows(self, row_blocks: Iterable[Rows]) -> Iterator[Rows]:
         """The rows of the sweep, counted: all of them, or those that it chooses."""
@@ -104,16 +104,15 @@ class Outcome:
     def counted(self, row_blocks: Iterable[Rows]) -> Iterator[Rows]:
         """All rows, counted."""
         for rows in row_blocks:
-            errors = cells_of(rows.columns[-1])
+            errors = cells_of(rows.columns[ERROR])
             self.all += len(rows)
             failed = len(errors) - errors.count(None)
             self.failed += failed
             if failed and not self._first:
                 self._first = next(str(error) for error in errors if error is not None)
             self.nearness.add(rows.numbers)
-            for i in list(self._unknown):
-                if np.isfinite(rows.numbers(i)).any():
-                    del self._unknown[i]
+            known = [name for name in self._unknown if np.isfinite(rows.numbers(name)).any()]
+            self._unknown = [name for name in self._unknown if name not in known]
             yield rows
 
     def notes(self) -> Iterator[str]:
@@ -126,7 +125,7 @@ class Outcome:
         if sweep.goal:
             return
         if self.all and not self.left:
-            unknown = [f"no design has a value of {name}" for name in self._unknown.values()]
+            unknown = [f"no design has a value of {name}" for name in self._unknown]
             reasons = dict.fromkeys([*unknown, *self.nearness.phrases()])
             yield f"none of {self.all:,} rows is left: {'; '.join(reasons)}"
         if any(group.table.startswith(OF_SIZES) for group in sweep.pick.groups):
@@ -164,14 +163,13 @@ class Digest:
         def numbered(i: int) -> tuple[Cell, ...]:
             return (self.count + i + 1, *rows.row(i))
 
-        names = self.sweep.names
         self.first += map(numbered, range(min(len(rows), 2 * ROWS - len(self.first))))
         for name in () if self.goal else self.sweep.pick.names:  # the first with a number
-            cells = cells_of(rows.columns[names.index(name)])
+            cells = cells_of(rows.columns[name])
             if any(constraints.is_number(cell) and not isinstance(cell, bool) for cell in cells):
                 self.goal = self.goal or constraints.Objective(1.0, name)
         if self.goal:
-            costs = self.goal.sign * rows.numbers(names.index(self.goal.name))
+            costs = self.goal.sign * rows.numbers(self.goal.name)
             best = np.argsort(costs, kind="stable")[:ROWS].tolist()  # NaN comes last
             self.best += [(costs[i], numbered(i)) for i in best if not np.isnan(costs[i])]
             self.best = sorted(self.best, key=lambda one: one[0])[:ROWS]

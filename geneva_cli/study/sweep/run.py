@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import math
 import os
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from functools import partial
 from itertools import chain
@@ -23,7 +23,7 @@ from geneva_cli.numerics.sobol import DIMENSIONS, sobol
 from geneva_cli.specfile.columns import digest
 from geneva_cli.specfile.reader import Setting, Text, setting
 from geneva_cli.study.batches import Batch, batch_rows, numbers
-from geneva_cli.study.fields import Cell, Column, Pick, Rows, joined, pick
+from geneva_cli.study.fields import Cell, Pick, Rows, joined, pick
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.sweep.constraints import Constraint, Objective, front
 from geneva_cli.study.sweep.values import POINTS_MAX, VariedKey
@@ -50,12 +50,8 @@ class SweepPlan(NamedTuple):
     def __len__(self) -> int:
         return self.random or math.prod(len(a.values) for a in self.axes)
 
-    def rows(self, start: int, stop: int) -> list[list[Cell]]:
-        """The values of the keys of the designs ``start`` to ``stop - 1``."""
-        return [*Rows(self.columns(start, stop))]
-
-    def columns(self, start: int, stop: int) -> list[Column]:
-        """The values of each key in the designs ``start`` to ``stop - 1``."""
+    def designs(self, start: int, stop: int) -> Rows:
+        """The designs ``start`` to ``stop - 1``: a column for each key."""
         if self.random:
             # Points that fill the cube more evenly than random ones, drawn in whole blocks: equal
             # wherever a run begins.
@@ -63,10 +59,10 @@ class SweepPlan(NamedTuple):
             dimensions, blocks = len(self.axes), range(first, stop, BLOCK)
             points = np.hstack([sobol(dimensions, self.seed, k, BLOCK) for k in blocks])
             own = points[:, start - first : stop - first]
-            return [a.between(x) for a, x in zip(self.axes, own, strict=True)]
+            return Rows({a.key: a.between(x) for a, x in zip(self.axes, own, strict=True)})
         counts = [len(a.values) for a in self.axes]
         each = np.unravel_index(np.arange(start, stop), counts)
-        return [a.column(at) for a, at in zip(self.axes, each, strict=True)]
+        return Rows({a.key: a.column(at) for a, at in zip(self.axes, each, strict=True)})
 
 
 def plan(axes: Sequence[VariedKey], random: int | None, seed: int) -> SweepPlan:
@@ -137,14 +133,15 @@ class Sweep(NamedTuple):
         return bool(self.pick.names) and self.pick.batched == self.pick.names
 
     @property
-    def _makes_parts(self) -> bool:
-        return any(group.makes_parts for group in self.pick.groups)
+    def _needed(self) -> tuple[Constraint, ...]:
+        """The bounds that a row must keep; a search needs others too, to come nearer."""
+        return () if self.goal else self.bounds
 
     def blocks(self, done: int = 0) -> Iterator[Rows]:
         """The rows in blocks and in order; the first ``done`` rows are skipped."""
         if self.is_batched:  # larger ones take less time, and keep two processes busy if many
             size = BLOCK if len(self.plan) < 32 * BLOCK else 2 * BLOCK
-        elif not self._makes_parts:
+        elif not any(group.makes_parts for group in self.pick.groups):
             size = 64
         else:
             # Parts are slow: eight tasks keep several processes busy. Four designs or more share
@@ -156,53 +153,42 @@ class Sweep(NamedTuple):
         yield from mapped(partial(self._block, size), starts, count)
 
     def _block(self, size: int, start: int) -> Rows:
-        return self.rows_of(self.plan.columns(start, min(start + size, len(self.plan))))
+        return self.rows_of(self.plan.designs(start, min(start + size, len(self.plan))))
 
-    def rows_of(self, keys: Sequence[Column]) -> Rows:
-        """The rows of designs from the columns of their keys."""
-        designs, known = Rows(keys), self.known(keys)
-        columns: dict[str, Column] = dict(zip(self.pick.batched, known, strict=True))
-        none: Column = [None] * len(designs)
-        rows = Rows([*keys, *(columns.get(name, none) for name in self.pick.names), none])
+    def rows_of(self, designs: Rows) -> Rows:
+        """The rows of designs from the values of their keys."""
+        known, none = self.known(designs), np.full(len(designs), None)
+        columns = designs.columns | dict.fromkeys((*self.pick.names, ERROR), none)
+        rows = Rows(columns | dict(zip(self.pick.batched, known, strict=True)))
         whole: Mask = np.logical_not(np.isnan(known).any(axis=0))
         left: Mask = ~whole if self.is_batched else np.full(len(designs), True)
-        for bound in () if self.goal else self.bounds:  # a search needs all to come nearer
-            if bound.name in columns:  # nobody needs the others of a design that breaks it
-                left &= bound.kept_by(rows.numbers(self.names.index(bound.name))) | ~whole
-        alone = self._rows_alone(designs.taken(left), Rows([whole[left].tolist(), *known[:, left]]))
-        return rows.replaced(np.flatnonzero(left), [*alone]) if left.any() else rows
+        for bound in self._needed:
+            if bound.name in self.pick.batched:  # nobody needs the others if a design breaks it
+                left &= bound.kept_by(rows.numbers(bound.name)) | ~whole
+        alone = self._rows_alone(designs.taken(left))
+        return rows.replaced(np.flatnonzero(left), alone) if left.any() else rows
 
-    def known(self, keys: Sequence[Column]) -> Array:
+    def known(self, designs: Rows) -> Array:
         """The quantities of ``pick.batched`` (q, n) of designs, NaN where a batch lacks them."""
-        return numbers(self._batches(Rows(keys)), self.pick.batched, len(keys[0]))
+        return numbers(self._batches(designs), self.pick.batched, len(designs))
 
     def _batches(self, designs: Rows) -> Iterator[Batch]:
         def spec(values: Sequence[Cell]) -> Spec:
             return with_values(self.text, self.keys, values).spec()
 
-        return batch_rows(designs, self.keys, spec)
+        return batch_rows(designs, spec)
 
-    def _rows_alone(self, designs: Rows, known: Rows) -> Iterator[list[Cell]]:
-        """The rows of designs, each computed alone.
-
-        ``known`` says whether a batch knows all its quantities of a design, and these.
-        """
+    def _rows_alone(self, designs: Rows) -> Iterator[list[Cell]]:
+        """The rows of designs, each computed alone."""
         from geneva_cli.parts.parts import parts_of  # most sweeps of a batch need no parts
 
         for start in range(0, len(designs), KEPT):
-            part = np.arange(start, min(start + KEPT, len(designs)))
             last: Parts | None = None
-            some = designs.taken(part)
-            each = zip(some, self._machines(some), known.taken(part), strict=True)
-            for values, machine, (whole, *cells) in each:
+            some = designs.taken(np.arange(start, min(start + KEPT, len(designs))))
+            for values, machine in zip(some, self._machines(some), strict=True):
                 if machine:
                     last = last.following(machine) if last else parts_of(machine)
-                yield self.row(values, last if machine else None, cells if whole else None)
-
-    def _keeps(self, cells: Mapping[str, Cell]) -> bool:
-        """Return False for a design whose parts nobody needs, as it breaks a bound."""
-        known = () if self.goal else self.bounds  # a search needs them to come nearer
-        return all(bound.kept(cells[bound.name]) for bound in known if bound.name in cells)
+                yield self.row(values, last if machine else None)
 
     def _machines(self, designs: Rows) -> list[Mechanism | None]:
         """The machine of each row, None if it cannot be built."""
@@ -210,8 +196,8 @@ class Sweep(NamedTuple):
         for i, values in enumerate(designs):
             with suppress(GenevaError):  # its row says why
                 machines[i] = self.machine(values)
-        # the loads of their checks are those of batches
-        for members, batch in self._batches(designs) if self._makes_parts else ():
+        # their quantities, and the loads of their checks, are those of batches
+        for members, batch in self._batches(designs):
             own = [one for i in members.tolist() if (one := machines[i])]
             if len(own) == len(members) > 1:
                 from geneva_cli.verdict.quantities.under_load import share
@@ -219,22 +205,16 @@ class Sweep(NamedTuple):
                 share(batch, own)
         return machines
 
-    def row(
-        self,
-        values: Sequence[Cell],
-        parts: Parts | None = None,
-        known: Sequence[Cell] | None = None,
-    ) -> list[Cell]:
+    def row(self, values: Sequence[Cell], parts: Parts | None = None) -> list[Cell]:
         """The row of the design with these values of the keys, computed alone.
 
-        ``parts`` are those of its machine, if they are made, and ``known`` the quantities of
-        ``pick.batched`` from a batch.
+        ``parts`` are those of its machine, if they are made.
         """
         from geneva_cli.parts.parts import parts_of
 
         try:
             parts = parts or parts_of(self.machine(values))
-            return [*values, *self.pick.of_parts(parts, known, self._keeps), None]
+            return [*values, *self.pick.of_parts(parts, self._needed), None]
         except GenevaError as error:
             return [*values, *[None] * len(self.pick.names), str(error)]
 
@@ -247,26 +227,23 @@ class Sweep(NamedTuple):
 
     def chosen(self, row_blocks: Iterable[Rows]) -> Iterator[Rows]:
         """The rows that keep all bounds and, of these, the Pareto front."""
-        bounds = [(self.names.index(c.name), c) for c in self.bounds]
-        signed = [(self.names.index(o.name), o.sign) for o in self.objectives]
-        best, size, count = list[Rows](), 0, 0  # the front so far, its size; all rows since then
+        best, size = list[Rows](), 0  # the front so far, its size, and rows since then
 
         def foremost() -> Rows:
             rows = joined(best)
-            return rows.taken(front(np.column_stack([s * rows.numbers(i) for i, s in signed])))
+            each = [o.sign * rows.numbers(o.name) for o in self.objectives]
+            return rows.taken(front(np.column_stack(each)))
 
         for rows in row_blocks:
-            for i, c in bounds:
-                rows = rows.taken(c.kept_by(rows.numbers(i)))
-            if not signed:
-                if len(rows):
-                    yield rows
-                continue
-            best.append(rows)  # a row that the front dominates never returns
-            count += len(rows)
-            if count >= 2 * size:  # not for a few rows more, if the front is long
-                best = [foremost()]
-                size = count = len(best[0])
+            for bound in self.bounds:
+                rows = rows.taken(bound.kept_by(rows.numbers(bound.name)))
+            if self.objectives:
+                best.append(rows)  # a row that the front dominates never returns
+                if sum(map(len, best)) >= 2 * size:  # not for a few rows more than a long front
+                    best = [foremost()]
+                    size = len(best[0])
+            elif len(rows):
+                yield rows
         if best and len(rows := foremost()):
             yield rows
 
@@ -278,11 +255,11 @@ def sweep(text: Text, plan: SweepPlan, picks: Sequence[str] = DEFAULT) -> Sweep:
     run, size = Sweep(text, plan, Pick(names)), len(plan)
     count, reasons = min(size, 1000), list[str]()  # designs of the sample
     # the middle design comes first: most ranges have one that can be built
-    middle = [*Rows([a.between(np.array([0.5])) for a in plan.axes])]
+    middle = [*Rows({a.key: a.between(np.array([0.5])) for a in plan.axes})]
     starts, some = [i * size // count for i in range(count)], 1
     if plan.random:  # its first ones, at once
         starts, some = [0], count
-    sample = (values for at in starts for values in plan.rows(at, at + some))
+    sample = chain.from_iterable(plan.designs(at, at + some) for at in starts)
     for values in chain(middle, sample):
         try:
             run.machine(values)

@@ -19,7 +19,8 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.arrays import Array, Mask, Whole, joined
 from geneva_cli.numerics.tolerances import ROUNDED
-from geneva_cli.study.batches import built, columns, split
+from geneva_cli.study.batches import SpecGroups
+from geneva_cli.study.batches import numbers as quantities
 from geneva_cli.study.sweep.constraints import Objective
 from geneva_cli.study.synth.families.family import Family
 from geneva_cli.study.target import Target
@@ -76,13 +77,13 @@ def sampled(evaluate: Evaluate, of: Whole, at: Array) -> Places:
     return Places(of, at, *evaluate(of, at))
 
 
-def tops(evaluate: Evaluate, tasks: int, line: Array, most: int) -> Places:
+def tops(evaluate: Evaluate, tasks: Whole, line: Array, most: int) -> Places:
     """The places of a line that are better than both neighbours, at most ``most`` of each task."""
-    at = np.tile(line, tasks)[:, None]
-    every = sampled(evaluate, np.repeat(np.arange(tasks), len(line)), at)
+    at = np.tile(line, len(tasks))[:, None]
+    every = sampled(evaluate, np.repeat(tasks, len(line)), at)
     rank = np.empty(len(at), dtype=int)
     rank[np.lexsort((every.cost, every.violation))] = np.arange(len(at))
-    wide = np.pad(rank.reshape(tasks, -1), ((0, 0), (1, 1)), constant_values=len(at))
+    wide = np.pad(rank.reshape(-1, len(line)), ((0, 0), (1, 1)), constant_values=len(at))
     beside = np.minimum(wide[:, :-2], wide[:, 2:]).ravel()
     return every.take((rank < beside) & np.isfinite(every.violation)).best(most)
 
@@ -155,31 +156,26 @@ def _done(best: Places, live: Mask, violation: Array, cost: Array, patient: bool
 LINE = Zoom(lambda number: QUARTERS, 1.0 / GRID, 0.25, 20)
 
 
-def best(
-    families: Sequence[Family], target: Target, how_near: bool = False
-) -> tuple[list[Spec], list[Spec]]:
-    """The best machine of each family: those that keep the bounds, and the others.
+def best(families: Sequence[Family], target: Target, how_near: bool = False) -> list[Spec]:
+    """The best machine of each family that keeps the bounds.
 
-    The others break the bounds least, with ``how_near`` to the last digit.
+    With ``how_near`` there is one of each family, if need be that which breaks the bounds least.
     """
-    searched = [i for i, f in enumerate(families) if f.is_free and math.isnan(f.best)]
-    # numbers by those of their families, and whether they keep the bounds
-    numbers = {i: (f.low if math.isnan(f.best) else f.best, True) for i, f in enumerate(families)}
+    searched = [i for i, f in enumerate(families) if f.is_free]
+    numbers = {i: f.low for i, f in enumerate(families) if not f.is_free}
     if searched:
         free = FamilyCosts([families[i] for i in searched], target)
         found = _best_places(free, how_near)
-        own = free.numbers(found.of, found.at[:, 0]).tolist()
-        best = zip(own, (found.violation < BROKEN).tolist(), strict=True)
-        numbers = {i: one for i, one in numbers.items() if i not in searched}
-        numbers |= zip((searched[of] for of in found.of.tolist()), best, strict=True)
-    out: tuple[list[Spec], list[Spec]] = ([], [])
-    for i, (x, keeps) in sorted(numbers.items()):
+        found = found.take(how_near | (found.violation < BROKEN))
+        own = free.numbers(found.of, found.at[:, 0])
+        numbers |= zip((searched[of] for of in found.of.tolist()), own.tolist(), strict=True)
+    out: list[Spec] = []
+    for i, x in sorted(numbers.items()):
         f = families[i]
         if not abs(x - f.known) <= 1e-4 * (f.high - f.low):  # it is not of another family
-            values = f.keys(np.array([x])) if f.keys and math.isnan(f.best) else {}
+            values = f.keys(np.array([x])) if f.keys else {}
             with suppress(GenevaError):  # no machine at a number
-                spec = f.spec.with_keys({key: float(v[0]) for key, v in values.items()})
-                out[not keeps].append(spec)
+                out.append(f.spec.with_keys({key: float(v[0]) for key, v in values.items()}))
     return out
 
 
@@ -189,17 +185,14 @@ def _best_places(free: FamilyCosts, how_near: bool) -> Places:
     plain = (free.plain - free.low) / (free.high - free.low)
     inside = (plain >= 0.0) & (plain <= 1.0)
     nearest = sampled(free, every[inside], plain[inside, None])
-    done = nearest.take((nearest.cost == 0.0) & (nearest.violation == 0.0) & free.is_nearest)
-    left = np.setdiff1d(every, done.of)
-    if not len(left):
-        return done
-    first = tops(lambda of, at: free(left[of], at), len(left), np.arange(GRID + 1) / GRID, TRACKS)
-    first = first._replace(of=left[first.of])
-    tracks = first.joined(nearest.take(np.isin(nearest.of, left))).best(TRACKS)
+    is_best = (nearest.cost == 0.0) & (nearest.violation == 0.0) & free.is_nearest
+    left = np.setdiff1d(every, nearest.of[is_best])
+    grid = tops(free, left, np.arange(GRID + 1) / GRID, TRACKS)
     # at equal costs the plain crank's place, which may be another family's machine
     settled = np.where(np.isfinite(nearest.cost), SETTLED * np.abs(nearest.cost), 0.0)
     plainly = nearest._replace(cost=nearest.cost - settled)
-    return zoom(free, tracks, LINE, patient=how_near).joined(done, plainly).best(1)
+    tracks = grid.joined(nearest.take(np.isin(nearest.of, left))).best(TRACKS)
+    return zoom(free, tracks, LINE, patient=how_near).joined(plainly).best(1)
 
 
 class FamilyCosts:
@@ -219,10 +212,7 @@ class FamilyCosts:
         self.names = [self.goal.name, *(b.name for b in (*self.bounds, *self.soft))]
         each = [(f.low, f.high, f.plain) for f in families]
         self.low, self.high, self.plain = np.array(each).T
-        own = split([f.spec for f in families])
-        shapes = {shape: i for i, (shape, _) in enumerate(own)}
-        self._own = [values for _, values in own]
-        self._shape = np.array([shapes[shape] for shape, _ in own])
+        self.groups = SpecGroups([f.spec for f in families])
 
     def numbers(self, of: Whole, at: Array) -> Array:
         """The numbers (n,) of families at places of the unit cube, without the cube's rounding."""
@@ -233,37 +223,23 @@ class FamilyCosts:
     def __call__(self, of: Whole, at: Array) -> tuple[Array, Array]:
         """Violations and costs at places (n, 1) of families, (n,) each."""
         numbers = self.numbers(of, at[:, 0])
-        values = self._values(of, numbers)
-        cost = self.goal.sign * values[:, 0]
+        keys = dict[str, Array]()
+        for i in np.unique(of).tolist():
+            some, keys_of = of == i, self.families[i].keys
+            assert keys_of
+            for key, value in keys_of(numbers[some]).items():
+                own = keys.setdefault(key, np.full(len(of), math.nan))
+                own[some] = np.where(np.isnan(value), math.inf, value)
+        goal, *others = quantities(self.groups.machines(of, keys), self.names, len(of))
+        cost = self.goal.sign * goal
         if self.is_nearest:
             far = np.abs(numbers - self.plain[of])
             cost = np.where(np.isnan(far), cost, far)
         violation = np.zeros(len(of))
-        for i, bound in enumerate((*self.bounds, *self.soft)):
-            margin = bound.margin(values[:, i + 1])
+        for i, (bound, own) in enumerate(zip((*self.bounds, *self.soft), others, strict=True)):
+            margin = bound.margin(own)
             rounding = np.where(margin >= -ROUNDED * (bound.bound != 0.0), 1e-300, -margin)
             weight = 1.0 if i < len(self.bounds) else SOFT
             violation += weight * np.where(margin >= 0.0, 0.0, np.minimum(rounding, 1e9))
-        known = np.isfinite(values[:, 0]) & ~np.isnan(violation)
+        known = np.isfinite(goal) & ~np.isnan(violation)
         return np.where(known, violation, math.inf), np.where(known, cost, math.inf)
-
-    def _values(self, of: Whole, numbers: Array) -> Array:
-        """The goal and the bounded quantities, (n, names); NaN without a machine."""
-        out = np.full((len(of), len(self.names)), math.nan)
-        shape = self._shape[of]
-        for kind in np.unique(shape).tolist():
-            which = np.flatnonzero(shape == kind)
-            own = [self._own[i] for i in of[which].tolist()]
-            varied = {key: np.array([one[key] for one in own]) for key in own[0]}
-            for i in np.unique(of[which]).tolist():
-                some, keys = of[which] == i, self.families[i].keys
-                assert keys
-                for key, value in keys(numbers[which][some]).items():
-                    varied[key] = varied[key].astype(float)
-                    varied[key][some] = value
-            able = np.isfinite(list(varied.values())).all(axis=0)
-            if able.any():
-                which, varied = which[able], {key: value[able] for key, value in varied.items()}
-                for members, machine in built(self.families[of[which[0]]].spec, varied, which):
-                    out[members] = np.column_stack(columns(machine, self.names, len(members)))
-        return out

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from itertools import compress
+from typing import Any
 
 from geneva_cli.errors import GenevaError, cut, few, nearest
 from geneva_cli.motion.machine_spec import Spec
@@ -21,32 +21,21 @@ SPANS = {
     "dwell_s": (POSITIVE, "a dwell of", " s"),
     "cycle": (Range(1e-6, 1e6), "a cycle of", " s"),
 }
-# options of ``geneva synth`` that ``read_target`` takes by their names, as they are typed
-OPTIONS = (*SPANS, *("z", "internal", "external", "spherical", "rollers", "law", "sort", "space"))
 
 
-def read_target(
-    *,
-    z: str = "",
-    internal: bool = False,
-    external: bool = False,
-    spherical: bool = False,
-    rollers: int | None = None,
-    law: str = "modified-sine",
-    frame: Spec | None = None,
-    sort: str = "",
-    subject_to: Sequence[str] = (),
-    space: str = "",
-    **wanted: str,
-) -> Target:
-    """Return the requirement that the options state as text; an empty text is an option not given.
+def read_target(frame: Spec | None = None, **typed: Any) -> Target:
+    """Return the requirement of a frame and of the options of ``geneva synth``, by their names.
 
-    ``wanted`` are those of ``SPANS``: numbers, fractions (``1/3``) or ranges (``0.8..``).
+    ``typed`` are texts, but for ``subject_to``, ``rollers`` and the gearings, as the command has
+    them; others of its options are not read. Those of ``SPANS`` are numbers, fractions (``1/3``) or
+    ranges (``0.8..``); an empty one is not given.
     """
+    z, law, sort, space = map(typed.get, ("z", "law", "sort", "space"))
+    rollers, subject_to = typed.get("rollers"), typed.get("subject_to", ())
     spans = {
-        name: span(f"--{name.replace('_', '-')}", wanted[name], rule)
+        name: span(f"--{name.replace('_', '-')}", typed[name], rule)
         for name, (rule, *_) in SPANS.items()
-        if wanted.get(name)
+        if typed.get(name)
     }
     if not (spans or subject_to or frame):
         raise GenevaError(
@@ -58,16 +47,16 @@ def read_target(
     options = dict.fromkeys([b.name for b in bounds], "--subject-to")
     refuse_unsound(bounds, options, "only numbers are bound")
     phrases += [str(bound) for bound in bounds]
-    gearings = tuple(compress(GEARINGS, (external, internal, spherical)))
+    gearings = tuple(filter(typed.get, GEARINGS))
     if rollers is not None and not 1 <= rollers <= ROLLERS_MAX:
         raise GenevaError(f"--rollers {cut(rollers)}: it must be at least 1, at most {ROLLERS_MAX}")
     words = ", ".join(phrases) or "the spec alone"
     target = Target(
         words if words.startswith("tau") else words[:1].upper() + words[1:],
-        _slots(z, frame),
+        _slots(z or "", frame),
         gearings or GEARINGS,
         rollers,
-        _laws(law),
+        _laws(law or "modified-sine"),
         spans,
         frame,
         objective(sort, "--sort") if sort else None,

@@ -189,24 +189,19 @@ def _group(task: tuple[Kind, Target], names: Sequence[str], how_near: bool) -> l
     if not in_batch(target.names):
         # the search cannot see them: they are computed for the best of several pieces of a family
         families = pieces(families, 120)
-    specs, near = best(families, target, how_near)
-    # the bounds that do not depend on the roller; what no batch computes may keep them
-    bounds = [b for b in target.bounds if in_batch([b.name]) and not b.name.startswith("loads.")]
-    values = numbers(batch_machines(specs), [b.name for b in bounds], len(specs))
-    keeps = np.full(len(specs), True)
-    for bound, own in zip(bounds, values, strict=True):
-        keeps &= bound.kept_by(own) | np.isnan(own)
-    shown = [specs[i] for i in np.flatnonzero(keeps).tolist()]
-    if how_near:
-        shown += [*(specs[i] for i in np.flatnonzero(~keeps).tolist()), *near]
-    found = rows(target, [*dict.fromkeys(shown)])
-    if names and in_batch(names):
-        values = numbers(batch_machines([row.spec for row in found]), names, len(found))
-        for row, own in zip(found, values.T.tolist(), strict=True):
-            if not any(map(math.isnan, own)):  # else it needs its own machine
-                cells = (None if math.isinf(x) else x for x in own)
-                row.cells.update(zip(names, cells, strict=True))
-    return found
+    found = rows(target, [*dict.fromkeys(best(families, target, how_near))])
+    known = [name for name in names if in_batch([name])]
+    values = numbers(batch_machines([row.spec for row in found]), known, len(found))
+    for row, own in zip(found, values.T.tolist(), strict=True):
+        if not any(map(math.isnan, own)):  # else it needs its own machine
+            row.cells.update(zip(known, (None if math.isinf(x) else x for x in own), strict=True))
+    # loads depend on the roller, which may be another
+    bounds = [b for b in target.bounds if b.name in known and not b.name.startswith("loads.")]
+    return [
+        row
+        for row in found
+        if how_near or all(b.kept(row.cells[b.name]) for b in bounds if b.name in row.cells)
+    ]
 
 
 def _bounded(target: Target, found: list[MachineRow]) -> list[MachineRow]:
@@ -220,9 +215,10 @@ def _bounded(target: Target, found: list[MachineRow]) -> list[MachineRow]:
     known = [row for row in found if row.cells.keys() >= {*names}]
     kept = [row for row in known if all(b.kept(row.cells[b.name]) for b in bounds)]
     if not kept:
-        nearness = Nearness([*enumerate(bounds)])
+        nearness = Nearness(bounds)
         if known:
-            nearness.add(rows_of([[row.cells[b.name] for b in bounds] for row in known]).numbers)
+            each = [[row.cells[name] for name in names] for row in known]
+            nearness.add(rows_of(names, each).numbers)
         why = "; ".join(nearness.phrases())
         raise GenevaError(f"--subject-to: none of {len(found)} machines keeps all bounds: {why}")
     return kept

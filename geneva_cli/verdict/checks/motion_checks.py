@@ -213,10 +213,10 @@ def within_tolerances(names: Collection[str], parts: Parts) -> Iterator[Check]:
         yield compared(name, worst, "at most", limit, why=why)
     if machine.spec.tolerance.is_given and machine.output.turns:
         # a spec without tolerances is checked without their modules
-        from geneva_cli.loads.tolerance.motion_error import used
+        from geneva_cli.loads.tolerance.locking import used
         from geneva_cli.verdict.tolerance import needed_mm
 
-        slot_mm, lock_mm = needed_mm(machine, parts, used(machine))
+        slot_mm, lock_mm = needed_mm(machine, parts, used(machine.spec))
         yield compared("tolerance_slot_mm", own.slot_clearance_mm, "at least", slot_mm)
         if lock_mm is not None:  # a disc holds the wheel
             yield compared("tolerance_lock_mm", own.lock_clearance_mm, "at least", lock_mm)

@@ -9,7 +9,7 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.plates import least_wall, plate_wall
-from geneva_cli.geometry.shapes import Arc, Circle, Line, Segment, backwards, closed, turned
+from geneva_cli.geometry.shapes import Arc, Circle, Line, Segment, backwards, closed, placed
 from geneva_cli.loads.load_case import farthest_mm
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.path_and_slot import opposites
@@ -63,7 +63,7 @@ def _between_slots(outlines: Outlines) -> float:
     around, near, L = outlines.assembly.slots, math.inf, outlines.assembly.L
     for i, (engagement, direction) in enumerate(around):
         following, ahead = around[(i + 1) % len(around)]
-        slot_walls = turned(outlines.slots[engagement], direction)
+        slot_walls = placed(outlines.slots[engagement], turn=direction)
         (u, v), (x, y) = slot_walls.segments[-1].end, slot_walls.segments[0].start
         mouth: Segment = Line((u, v), (x, y))
         if engagement.apart > 0.0:  # along the rim for a pair, which a chord might cut
@@ -71,7 +71,9 @@ def _between_slots(outlines: Outlines) -> float:
             mouth = Arc((u, v), (x, y), -math.tan(0.25 * back))
         slot = closed(slot_walls.layer, [*slot_walls.segments, mouth])
         inside = Polyarc([backwards(slot) if outlines.assembly.sign > 0.0 else slot])
-        points = Polyarc([turned(outlines.slots[following], ahead)]).samples(1e-6 * L, 0.01 * L)
+        points = Polyarc([placed(outlines.slots[following], turn=ahead)]).samples(
+            1e-6 * L, 0.01 * L
+        )
         near = min(near, float(inside.signed(points).min()))
         if len(outlines.slots) == 1:  # all are alike
             break

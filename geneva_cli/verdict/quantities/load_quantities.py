@@ -3,6 +3,7 @@
 import numpy as np
 
 from geneva_cli.loads import load_peaks
+from geneva_cli.loads.contact import OF_MOTION
 from geneva_cli.loads.impacts.entry import entry_impacts
 from geneva_cli.loads.impacts.reversal import lasting_drag_Nm, reversal_impacts
 from geneva_cli.loads.impacts.shock_force import Impacts
@@ -11,8 +12,6 @@ from geneva_cli.loads.positive_drive import positive_drives
 from geneva_cli.numerics.arrays import Array, Number
 from geneva_cli.verdict.quantities.groups import Columns, Designs
 from geneva_cli.verdict.quantities.under_load import UnderLoad
-
-OF_MOTION = ("omega_rad_s", "alpha_rad_s2", "sliding_m_s")  # known without a load
 
 
 def greatest(of: Designs) -> Columns:
@@ -96,14 +95,13 @@ def _impact(of: Designs, impacts: Impacts, **more: Array) -> Columns:
 
 def tolerances(of: Designs) -> Columns:
     """The worst effects of tolerances on the motion, and on the velocity at entry."""
-    from geneva_cli.loads.tolerance.motion_error import entry_jumps_worst, motion_plays, used
+    from geneva_cli.loads.tolerance.locking import used
+    from geneva_cli.loads.tolerance.motion_error import entry_jumps_worst, motion_plays
 
-    plays = motion_plays(of.machine) if of.machine.output.turns else None
-    if plays is None:
-        return {}
-    out: dict[str, Number | None] = {f"motion_play.{n}": v for n, v in plays._asdict().items()}
-    if "entry_jump.worst" in of.requested("tolerance"):
-        jumps = entry_jumps_worst(of.machine, used(of.machine))
-        known = np.isfinite(plays.worst_deg)
+    plays = motion_plays(of.machine) if of.machine.output.turns else {}
+    out: dict[str, Number | None] = {f"motion_play.{name}": row for name, row in plays.items()}
+    if plays and "entry_jump.worst" in of.requested("tolerance"):
+        jumps = entry_jumps_worst(of.machine, used(of.spec))
+        known = np.isfinite(plays["worst_deg"])
         out["entry_jump.worst"] = None if jumps is None else np.where(known, jumps, np.nan)
     return out

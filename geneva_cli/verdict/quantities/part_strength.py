@@ -21,7 +21,7 @@ from geneva_cli.numerics.arrays import Array, Number, array, mapped
 from geneva_cli.spec.defaults import roller_material, wheel_material
 from geneva_cli.spec.tables import Material
 from geneva_cli.spec.workshops import Stock
-from geneva_cli.verdict.quantities.groups import GROUP_OF, Columns, Designs
+from geneva_cli.verdict.quantities.groups import Columns, Designs
 from geneva_cli.verdict.quantities.under_load import UnderLoad, as_numbers
 
 
@@ -82,10 +82,9 @@ def lock(of: Designs) -> Columns:
     state, allowed = of.once(UnderLoad).lock, of.spec.limits.lock_stress_max_MPa
     if state is None:
         return {"allowed_MPa": allowed}
-    _, *rows = state
-    most = np.fmax(state.contact_stress_MPa, state.pressure_MPa)
-    most = most * np.where(np.isfinite(state.approach_deg), 1.0, np.nan)
-    return dict(zip(state._fields[1:], rows, strict=True)) | judged(most, allowed)
+    most = np.fmax(state["contact_stress_MPa"], state["pressure_MPa"])
+    most = most * np.where(np.isfinite(state["approach_deg"]), 1.0, np.nan)
+    return state | judged(most, allowed)
 
 
 def shafts(of: Designs) -> Columns:
@@ -170,12 +169,8 @@ def pressure_speed(of: Designs) -> Columns:
 
 
 def bending(of: Designs) -> Columns:
-    """The stresses of pin and horn, as the registry has them."""
-    out: dict[str, Number | None] = {}
-    for part in ("pin", "horn"):
-        group = GROUP_OF[name := f"strength.{part}.stress_MPa"]
-        out[f"{part}_stress_MPa"] = group.columns(of.requesting(group.names))[name]
-    return out
+    """The stresses of pin and horn."""
+    return {f"{one.__name__}_stress_MPa": of.once(one).get("stress_MPa") for one in (pin, horn)}
 
 
 def wear(of: Designs) -> Columns:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from functools import cache, partial
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 
@@ -25,11 +25,18 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.registry import thing
 from geneva_cli.numerics import arrays
 from geneva_cli.numerics.arrays import Array, Record, mapped, parameter
+from geneva_cli.parts.assembly import is_bridged
 from geneva_cli.parts.machine_sizes import fits, of_batch, sized, unloaded, unloaded_alike
+from geneva_cli.parts.outlines.cut_outlines import cut_lock
 from geneva_cli.parts.shafts.bores import has_shape
-from geneva_cli.parts.sized_by_load import Stressed, dimensions, load_sizes, needs_lock, sizing
-from geneva_cli.parts.sizes import Sizes as PartSizes
-from geneva_cli.parts.sizes import Unloaded
+from geneva_cli.parts.sized_by_load import (
+    Stressed,
+    load_sizes,
+    needs_lock,
+    planes_below,
+    stressed,
+)
+from geneva_cli.parts.sizes import Layout
 from geneva_cli.spec.defaults import roller_material
 from geneva_cli.verdict.quantities.groups import Designs, single
 
@@ -49,23 +56,19 @@ class UnderLoad:
     @cached_property
     def force_N(self) -> Array:
         """The greatest force on a roller, along the wall's normal."""
-        if self.machine.spec.size.pin_mm is not None or np.isnan(self.loaded).all():
-            return self._peak("pin_force_N")
+        if np.isnan(self.loaded).all():
+            return self.loaded
         return self.part_loads.pin_N * self.loaded  # a search that sizes need, too
 
     @cached_property
     def pv_W_m2(self) -> Array:
         """The greatest contact pressure times sliding speed; it needs a face width."""
-        return self._peak("pv_W_m2")
-
-    def _peak(self, name: str) -> Array:
-        """The greatest size of a load; NaN without a load."""
         if np.isnan(self.loaded).all():
             return self.loaded
-        return load_peaks(self.machine, [name])[name].max * self.loaded
+        return load_peaks(self.machine, ["pv_W_m2"])["pv_W_m2"].max * self.loaded
 
     @cached_property
-    def _each(self) -> list[Unloaded | None]:
+    def _each(self) -> list[Layout | None]:
         """The parts of each design, or of all, without loads; None for one without flat parts."""
         spec = self.machine.spec
         if self.designs.single:
@@ -87,8 +90,8 @@ class UnderLoad:
     @property
     def _alike(self) -> bool:
         """True if designs that are not built yet move alike, and differ in plain sizes at most."""
-        is_plain = self.machine.spec.is_flat and not (self.designs.are_built or self._shaped)
-        return is_plain and self._moves_alike
+        differ = self.designs.are_built or self._shaped or not self._moves_alike
+        return not differ and self.machine.spec.is_flat
 
     @cached_property
     def _shaped(self) -> bool:
@@ -97,7 +100,7 @@ class UnderLoad:
         return (has_shape(size, "wheel") or has_shape(size, "crank")) and designs_in(size) > 1
 
     @cached_property
-    def _unloaded(self) -> Unloaded | None:
+    def _unloaded(self) -> Layout | None:
         """The parts of the designs without loads, NaN for one without flat parts; None for none."""
         if not self.designs.single and self._alike:
             with suppress(GenevaError):
@@ -106,17 +109,17 @@ class UnderLoad:
         of = next(filter(None, self._each), None)
         if of is None or len(self._each) == 1:
             return of
-        rows = batched([one and (one.sizes, one.space) for one in self._each], as_numbers)
-        sizes, space = cast("tuple[PartSizes, float]", rows)
-        where = of_batch(of.assembly, self.machine)
-        return of._replace(assembly=where, sizes=sizes, space=space)
+        sizes = batched([one and one[1] for one in self._each], as_numbers)
+        assert sizes
+        return of_batch(of[0], self.machine), sizes
 
     @cached_property
     def lock_sizes(self) -> tuple[float, Lock] | None:
         """Half the slot's width, and the lock in its narrowest sector, mm (m, 1)."""
         each = list[tuple[float, Lock] | None]()
         for of in self._each:
-            each.append((of.sizes.half_width, of.cut_lock()) if of and of.sizes.lock else None)
+            locked = of and of[1].lock
+            each.append((of[1].half_width, cut_lock(*of)) if of and locked else None)
         return batched(each, as_numbers) if len(each) > 1 else each[0]
 
     @cached_property
@@ -126,7 +129,7 @@ class UnderLoad:
         of_kind = thing(self.machine.spec.wheel.NAME, "horn_sizes")
         if of_kind:
             return batched([of_kind(one) for one in self.designs.each], as_numbers)
-        sizes = self._unloaded and self._unloaded.sizes
+        sizes = self._unloaded and self._unloaded[1]
         if sizes is None or not np.max(np.nan_to_num(sizes.lock)) > 0.0:
             return None
         return arrays.choose(sizes.lock > 0.0, sizes.half_width, np.nan), sizes.recess
@@ -152,7 +155,7 @@ class UnderLoad:
         return greatest_stress(horns, self.machine, self.horn_sizes)
 
     @cached_property
-    def lock(self) -> lock.LockUnderTorque | None:
+    def lock(self) -> dict[str, Array] | None:
         """The lock under the torque that it holds in the dwell; None if no design has one."""
         sizes, width = self.lock_sizes, self.contact_mm
         if sizes is None or width is None:
@@ -168,21 +171,21 @@ class UnderLoad:
         of_kind = thing(machine.spec.wheel.NAME, "stressed") is not None
         if self.designs.single and not of_kind:
             one = sized(machine)
-            return one and mapped(np.ravel, dimensions(sizing(*one)))
+            return one and mapped(np.ravel, stressed(*one))
         is_own = is_own or of_kind or bool(machine.first_wheel) or self._shaped
         of = None if is_own else self._unloaded
         # links, gears and a groove, which may be in the way of shafts
-        if of and sizing(of.assembly, of.sizes).planes and not self._alike:
-            each = filter(None, self._each)
-            is_own = len({sizing(one.assembly, one.sizes)[3:5] for one in each}) > 1
+        if of and planes_below(of[0].full) and not self._alike:
+            every = [one[0].full for one in self._each if one]
+            is_own = len({(planes_below(one), is_bridged(one)) for one in every}) > 1
         if is_own or of is None:
             return batched([*map(_stressed, self.designs.each)]) if is_own else None
         locks, bent = self.lock_sizes if needs_lock(machine.spec) else None, None
         if locks and size.wheel_thickness_mm is size.face_width_mm is None:
             bent = lock.horn_MPa(machine, *locks, self._flat_horns)
-        sizes = load_sizes(of, locks and locks[1], machine, self.part_loads, bent)
-        parts = dimensions(sizing(of.assembly, sizes)._replace(spec=machine.spec))
-        fit = np.where(np.ravel(fits(of, sizes)), np.ones(machine.designs), np.nan)
+        sizes = load_sizes(*of, locks and locks[1], machine, self.part_loads, bent)
+        parts = stressed(of[0], sizes, machine.spec)
+        fit = np.where(np.ravel(fits(of[0], sizes)), np.ones(machine.designs), np.nan)
         return mapped(lambda row: np.ravel(row) * fit, parts)
 
     @property
@@ -229,7 +232,7 @@ class UnderLoad:
         return single_loads(self.machine) if self.designs.single else part_loads(self.machine)
 
 
-def _bare(one: Mechanism) -> Unloaded | None:
+def _bare(one: Mechanism) -> Layout | None:
     """The parts of a machine without its load; None without flat parts."""
     with suppress(GenevaError):  # the check of the parts reports the error
         return unloaded(one) if one.spec.is_flat else None
@@ -244,7 +247,7 @@ def _stressed(one: Mechanism) -> Stressed | None:
         return None
     if of_kind is None:
         flat = sized(one)
-        return flat and dimensions(sizing(*flat))
+        return flat and stressed(*flat)
     with suppress(GenevaError):  # the check of the parts reports the error
         return of_kind(one)
     return None

@@ -6,7 +6,7 @@ import pytest
 from test_parts_by_hand import L
 
 from geneva_cli import Design, Size, Spherical
-from geneva_cli.geometry.plates import solids
+from geneva_cli.geometry.plates import moments, solids
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.verdict.checks import single_check
 
@@ -17,7 +17,6 @@ def test_the_crank_of_a_sphere():
     Their circle's diameter is across the sphere of the machine, whose radius is L. Half of the
     wheel's thickness is inside of that sphere.
     """
-
     bolts = {"lock_bolts": 2, "lock_bolt_circle_mm": 60.0, "lock_bolt_mm": 2.0}
     pins = {"shaft_fit_mm": 0.2, "pin_mm": 6.0, "press_fit_mm": 0.1, "pin_gap_mm": 0.5}
     size = Size(L, 6.0, washer_mm=0.25, **pins, **bolts)
@@ -38,6 +37,18 @@ def test_the_crank_of_a_sphere():
     # a cap about a hub leaves a wall as thick as the hub's, or the least one
     for bore, edge in ((50.0, 70.0), (59.0, 62.0)):
         assert parts.ball.cap(60.0, bore, 2.0) == pytest.approx(math.asin(edge / 105.5))
+
+
+def test_the_keyways_of_a_shaft_and_its_hub_face_each_other():
+    keys = dict.fromkeys(("wheel_keyway", "crank_keyway"), "DIN 6885-1")
+    size = Size(L, wheel_bore_mm=16.0, wheel_hub_mm=34.0, arm_bore_mm=12.0, **keys)
+    members = parts_of(Design(Spherical(6), size=size).mechanism).members
+    every = {one.name: one for member in members for one in solids(member.part)}
+    for part, hub, way in (("wheel", "wheel's", math.pi / 6.0), ("crank", "arm's", math.pi)):
+        ahead = moments(every[f"{hub} hub"].holes[0]).centroid
+        behind = moments(every[f"{part}'s shaft"].outline).centroid  # its slot takes some away
+        away = [math.remainder(math.atan2(y, x) - way, math.tau) for x, y in (ahead, behind)]
+        assert [abs(one) for one in away] == pytest.approx([0.0, math.pi])
 
 
 @pytest.mark.parametrize(

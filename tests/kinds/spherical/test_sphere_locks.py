@@ -33,9 +33,9 @@ def test_play_of_a_lock_on_a_sphere_is_that_of_a_whole_turn(axes_deg, rollers):
     """Found there from the regions' arcs, whose overlap by 1e-9 L still counts as touching."""
     design, lock = on_sphere(axes_deg, rollers)
     assert (lock.reach <= lock.half + 1e-9) == ((axes_deg, rollers) in ROUND[0:3:2])
-    play = lock(at())
-    assert not play.jams
-    assert math.degrees(play.angle.c[0]) == pytest.approx(design.parts.turn.dwell.deg, rel=2e-6)
+    play, jams = lock(at())
+    assert not jams
+    assert math.degrees(play.c[0]) == pytest.approx(design.parts.turn.dwell.deg, rel=2e-6)
 
 
 @pytest.mark.parametrize("axes_deg, rollers", ROUND)
@@ -67,10 +67,10 @@ def test_slopes_of_a_lock_on_a_sphere(axes_deg, rollers):
         return abs(mp.findroot(far, 0.001))
 
     # the smallest of both, that of no slope, is the difference of two azimuths of about 1
-    assert abs(lock(at(lock_radius_mm=0.01)).angle.c[0] - play(0.01, 0)) < 1e-14
+    assert abs(lock(at(lock_radius_mm=0.01))[0].c[0] - play(0.01, 0)) < 1e-14
     for i, way in ((5, (1, 0)), (6, (0, 1))):
         true = mp.diff(lambda h, w=way: play(h * w[0], h * w[1]), 0)
-        assert abs(lock(slope_of(i)).angle.c[1] - true) < 1e-13
+        assert abs(lock(slope_of(i))[0].c[1] - true) < 1e-13
 
 
 @pytest.mark.long

@@ -82,8 +82,8 @@ class _LawLine(NamedTuple):
         keys = partial(_keys, target, natural, self.m)
         own = free.allows(natural)
         if not (own and free.exact):
-            best = math.nan if is_searched else longest
-            yield Family(self.spec(longest), keys, free.low, longest, natural, best=best)
+            spec = self.spec(longest)
+            yield Family(spec, keys, free.low, longest, natural) if is_searched else Family(spec)
         if own:
             yield Family(self.spec(natural))
 

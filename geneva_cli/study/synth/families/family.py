@@ -19,8 +19,7 @@ class Family(NamedTuple):
 
     ``spec`` is one of them. ``keys`` returns the values (n,) of its keys at numbers (n,) between
     ``low`` and ``high``; NaN where there is no machine. At ``plain`` a machine moves as the plain
-    crank does. At ``known`` it is a machine of another family. At ``best`` it is the best, which is
-    ``spec``. Those are NaN if there is none.
+    crank does. At ``known`` it is a machine of another family. Those are NaN if there is none.
     """
 
     spec: Spec
@@ -29,7 +28,6 @@ class Family(NamedTuple):
     high: float = math.nan
     plain: float = math.nan
     known: float = math.nan
-    best: float = math.nan
 
     @property
     def is_free(self) -> bool:
