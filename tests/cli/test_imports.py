@@ -109,6 +109,11 @@ ROWS = [
 OWN = {
     "--help": "cli cli.app cli.command errors progress streams manual",
     "--version": "cli cli.app cli.command errors progress streams",
+    # no spec, no registry of kinds, no record of either: of the wheels their closed forms alone
+    "table --z 6": "cli cli.app cli.command errors progress streams table cli.commands "
+    "motion motion.wheels cli.commands.table motion.wheels.classic motion.timing "
+    "kept extras output study output.text study.survey "
+    "numerics motion.timing numerics.angles numerics.arrays spec spec.rules",
 }
 
 # Modules of the program that a run of an unloaded wheel imports, at most: a few more than today.

@@ -1,14 +1,10 @@
-"""A progress bar on standard error, with the remaining time."""
+"""A progress bar on standard error, by Rich, with the remaining time."""
 
-import sys
 import time
-from datetime import timedelta
+from typing import Any
 
-from geneva_cli.streams import columns
-
-AFTER_S = 1.0  # shorter work shows no bar
+AFTER_S = 1.0  # shorter work shows no bar, and does without Rich
 EVERY_S = 0.1  # nobody reads faster updates
-LONG = 30  # letters of the bar itself
 
 
 class Bar:
@@ -16,28 +12,52 @@ class Bar:
 
     def __init__(self, what: str, total: int) -> None:
         self.what, self.total = what, total
-        self.start = time.monotonic()
-        self.next = self.start + AFTER_S
-        self.shown = ""
+        self.next = time.monotonic() + AFTER_S
+        self.shown: Any = None
 
     def update(self, done: int) -> None:
         """Draw the bar if it is time to."""
-        now = time.monotonic()
-        if now < self.next or not done:
+        if time.monotonic() < self.next:
             return
-        self.next = now + EVERY_S
-        left = timedelta(seconds=round((now - self.start) * (self.total - done) / done))
-        full, empty = "━╌" if sys.stderr.encoding.startswith("utf") else "#-"
-        drawn = (full * (LONG * done // self.total)).ljust(LONG, empty)
-        self._draw(f"{drawn} {done}/{self.total} {self.what}, {left} left"[: columns() - 1])
+        if self.shown is None:
+            self.shown = _started(self.what, self.total)
+        self.shown.update(self.shown.task_ids[0], completed=done, refresh=True)
+        self.next = time.monotonic() + EVERY_S
 
     def close(self) -> None:
         """Remove the bar."""
         if self.shown:
-            self._draw("")
-            print(end="\r", file=sys.stderr, flush=True)
+            self.shown.stop()
 
-    def _draw(self, line: str) -> None:
-        """Replace the line that is shown; no escapes, which some consoles of Windows lack."""
-        print(end=f"\r{line.ljust(len(self.shown))}", file=sys.stderr, flush=True)
-        self.shown = line
+
+def _started(what: str, total: int) -> Any:
+    from rich.console import Console
+    from rich.progress import (
+        BarColumn,
+        MofNCompleteColumn,
+        Progress,
+        TextColumn,
+        TimeRemainingColumn,
+    )
+
+    class Screen(Console):
+        """The terminal, whose cursor stays: a run that is killed could not give it back."""
+
+        def show_cursor(self, show: bool = True) -> bool:
+            return False
+
+    shown = Progress(
+        BarColumn(30),
+        MofNCompleteColumn(),
+        TextColumn(f"{what},"),
+        TimeRemainingColumn(),
+        TextColumn("left"),
+        console=Screen(stderr=True),
+        transient=True,
+        auto_refresh=False,  # no thread, as processes are forked meanwhile
+        redirect_stdout=False,
+        redirect_stderr=False,
+    )
+    shown.add_task(what, total=total)
+    shown.start()
+    return shown
