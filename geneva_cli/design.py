@@ -61,9 +61,7 @@ def load(path: str, settings: Iterable[str] = (), reverse: bool = False) -> Desi
     >>> load("designs/side-crank-z6.toml", ["drive.A=0.3"]).spec.drive.A
     0.3
     """
-    from geneva_cli.specfile.reader import read
-
-    text = read(path, settings)
+    text: Text = load_named("specfile.reader:read")(path, settings)
     design = Design.of(text.spec(), text)
     return design.backwards if reverse else design
 
@@ -595,9 +593,7 @@ class Design:
         >>> Design(External(6)).cutter("wheel", 12.0)[0].partition(": an ")[2]
         'inner radius of 5 mm is narrower; use a smaller one'
         """
-        from geneva_cli.drawings.catalogue import require_cut
-
-        require_cut(part, "--cutter")
+        load_named("drawings.catalogue:require_cut")(part, "--cutter")
         return load_named("geometry.offsets:judged")(self.drawing(part), cutter_mm)
 
     @question

@@ -18,17 +18,17 @@ def run(folder, *words):
 
 
 def put(path, block):
-    """Write a block of the page: a new file, text at a file's end, or a line of a list."""
+    """Write a block of the page: a new file, text at a file's end, or lines of a list."""
     if not path.exists():
         path.parent.mkdir(exist_ok=True)
         path.write_text(block, encoding="utf-8")
         return
     text, (first, *lines) = path.read_text(encoding="utf-8"), block.splitlines()
-    if lines[0] == "    ...":  # the last line belongs behind the first one of the file
+    if lines[0] == "    ...":  # the others belong behind the first one of the file
         head = re.search(rf"(?m)^{re.escape(first)}\n", text).end()
         if first.startswith("class"):  # and behind its docstring
-            head = text.index("    TABLE", head)
-        text = f"{text[:head]}{lines[-1]}\n{text[head:]}"
+            head = text.index('    """\n\n', head) + 9
+        text = "\n".join((text[:head].rstrip("\n"), *lines[1:], text[head:]))
     else:
         text = f"{text}\n\n{block}"
     path.write_text(text, encoding="utf-8")
