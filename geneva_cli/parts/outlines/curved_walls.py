@@ -207,7 +207,7 @@ def _crossing(last: WallPlace, following: WallPlace) -> tuple[float, float] | No
     last = last._replace(i=int(one[near[0]]))
     following = following._replace(i=int(two[near[1]]))
     a, b = last.t, following.t
-    for _ in range(50):
+    for _ in range(16):  # Newton's steps; walls that do not cross use them all
         (px, py), u, p_speed = last.course(a)
         (qx, qy), v, q_speed = following.course(b)
         x, y = qx - px, qy - py
