@@ -156,7 +156,8 @@ class _Intervals:
 
     def sqrt(self, x: Interval | float) -> Interval:
         low, high = _ends(x)
-        return _outwards(np.sqrt(low), np.sqrt(high))
+        with np.errstate(invalid="ignore"):  # no bound where it reaches below 0
+            return _outwards(np.sqrt(low), np.sqrt(high))
 
     def hypot(self, x: Interval, y: Interval) -> Interval:
         return self.sqrt(x**2 + y**2)

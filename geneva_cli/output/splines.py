@@ -40,7 +40,8 @@ def pieces(segments: Iterable[Segment]) -> list[Piece]:
     for segment in segments:
         run = curve[-1] if curve else None
         interval = _interval(*run[-1], segment) if isinstance(run, list) else 0.0
-        if isinstance(segment, Cubic) and isinstance(run, list) and interval:
+        # parameters that are less even lose digits
+        if isinstance(segment, Cubic) and isinstance(run, list) and 0.01 < interval < 100.0:
             run.append((segment, interval))
         else:
             curve.append([(segment, 1.0)] if isinstance(segment, Cubic) else segment)
