@@ -86,6 +86,13 @@ class LinkDisplacement(NamedTuple):
         )
 
 
+class Direction(NamedTuple):
+    """A complex unit vector of numbers that have no complex ones, as enclosures."""
+
+    real: float
+    imag: float
+
+
 Place: TypeAlias = tuple[Any, Any]
 Turn: TypeAlias = tuple[float, float, float, float, float]  # first numbers of a displacement
 
@@ -123,8 +130,9 @@ class LinkPath(Batchable, ABC):
 
     def link(self, angle: Jet) -> tuple[Jet, Jet]:
         """Unit vector along the link, from A towards B, for the crank's angle in radians."""
-        m = library(angle.c[0])
-        (x, y), _, turn = self.turn(m.cos(angle.c[0]) + 1j * m.sin(angle.c[0]))
+        m, path = library(angle.c[0]), copy.copy(self)
+        path.numbers = enclosed(angle.c[0], self.numbers)
+        (x, y), _, turn = path.turn(Direction(m.cos(angle.c[0]), m.sin(angle.c[0])))
         if not angle.order:
             return Jet((x,)), Jet((y,))
         s, v, _ = rotated(turn, *sine_versine(Jet((0.0, *angle.c[1:]))))

@@ -234,6 +234,15 @@ def test_friction_that_holds_the_wheel_is_not_proved():
     assert math.isinf(greatest(machine.mechanism, "pin_force_N").max)
 
 
+@pytest.mark.parametrize("name", ["four-bar-z4", "slider-crank"])
+def test_the_input_of_a_linkage_takes_the_power_of_the_inertia(name):
+    machine = design(name).with_("load.inertia_kgm2", 0.01)
+    power, torque = (certificate(machine.mechanism, one) for one in ("power", LOADS[-1]))
+    assert power.open is torque.open is None
+    w = machine.spec.drive.n_rpm * math.pi / 30.0
+    assert torque.low == pytest.approx(0.01 * w * w * power.low, rel=1e-13)
+
+
 def test_the_command_for_loads(tmp_path):
     file = tmp_path / "spec.toml"
     loaded = "[load]\ninertia_kgm2 = 0.4\ntorque_Nm = 15\nfriction = 0.1\n"
