@@ -61,6 +61,24 @@ def remainder(values: Array) -> Array:
     return np.asarray(np.abs(product(SERIES[-3:], values)).max(axis=-2))
 
 
+def root(terms: Array, low: Array, high: Array, start: Array, slope: Array) -> Array:
+    """The zero of each series (terms, m) between ``low`` and ``high``, where its signs differ.
+
+    ``start`` is a place near it, and ``slope`` an estimate of the slope there. The search goes by
+    secants; the function itself is evaluated afterwards.
+    """
+    rises, t, value = at(terms, high) > 0.0, start, at(terms, start)
+    for _ in range(3):
+        below = (value < 0.0) == rises
+        low, high = np.where(below, t, low), np.where(below, high, t)
+        new = t - value / slope
+        new = np.where((low <= new) & (new <= high), new, 0.5 * (low + high))
+        there = at(terms, new)
+        slope, t, value = (there - value) / (new - t), new, there
+    new = t - value / slope
+    return np.where((low <= new) & (new <= high), new, t)
+
+
 BLOCK = 1024  # rows sampled at a time: that many fit in the processor's cache
 AT_END = 1e-9  # fraction of a row: a zero this near to an end, such as a motion's, is the end's own
 LATER_TERMS = 4.0  # times the last terms of a series: a bound on all later terms
@@ -252,7 +270,9 @@ class Cutter:
         if not len(own):
             return unsure, *none
         a, b, low, high = g[cell, own], g[cell + 1, own], GRID[cell], GRID[cell + 1]
-        t, which = low + (high - low) * a / (a - b), some[own]
+        chord = (b - a) / (high - low)
+        terms = series(q.take(own, axis=1))
+        t, which = root(terms, low, high, low - a / chord, chord), some[own]
         kept = (t > part[0, which] + AT_END) & (t < part[1, which] - AT_END)
         return unsure, which[kept], t[kept]
 

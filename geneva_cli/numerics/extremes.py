@@ -310,6 +310,12 @@ class _Extremes:
                 at_end = np.flatnonzero((x == some.ends).any(axis=0))
                 self.add(*record_taken((some.number, some.design, x, v), at_end))
             step = np.nan_to_num(some.uphill[live] * slope / np.abs(bend))
+            # at rest where the function has the other extreme: inwards, by less each time
+            rests = np.abs(slope) <= 1e-6 * np.abs(bend) * near[live]
+            away = rests & (some.uphill[live] * bend > 0.0)
+            middle = 0.5 * some.ends[:, live].sum(axis=0)
+            step = np.where(away, np.sign(middle - x[live]) * 0.1 * near[live], step)
+            near[live] *= np.where(away, 0.3, 1.0)
             step = np.clip(step, -near[live], near[live])
             step = np.clip(x[live] + step, *some.ends[:, live]) - x[live]
             short = np.abs(step) <= 1e-3 * near[live]
