@@ -1,7 +1,7 @@
 """CSV with every digit: reading a number back gives the number that was written."""
 
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import groupby
+from itertools import groupby, repeat
 from typing import Any
 
 from geneva_cli.errors import clean
@@ -30,20 +30,30 @@ def text_of(columns: Sequence[Any], infinity: str = "inf") -> str:
 
     ``infinity`` stands for infinite numbers of arrays.
     """
-    parts: list[Iterable[str]] = []
+    parts: list[str | Sequence[str]] = []  # one text for all rows, or one for each
     for is_numbers, group in groupby(columns, _is_numbers):
         own = [*group]
         parts += [_number_lines(own, infinity)] if is_numbers else map(_fields, own)
-    return "".join([",".join(row) + "\n" for row in zip(*parts, strict=True)])
+    varied = [k for k, part in enumerate(parts) if not isinstance(part, str)]
+    if len(varied) == 1:  # the usual sweep: numbers, and no error; rows need no work of Python
+        (k,) = varied
+        before = ",".join([*map(str, parts[:k]), ""])
+        after = ",".join(["", *map(str, parts[k + 1 :])]) + "\n"
+        return before + (after + before).join(parts[k]) + after
+    each = [repeat(part, len(columns[0])) if isinstance(part, str) else part for part in parts]
+    return "".join([",".join(row) + "\n" for row in zip(*each, strict=True)])
 
 
 def _is_numbers(column: Any) -> bool:
     return not isinstance(column, (list, tuple)) and column.dtype == "float64"
 
 
-def _fields(column: Any) -> Iterator[str]:
-    """The field of each cell."""
-    return map(_field, column if isinstance(column, (list, tuple)) else column.tolist())
+def _fields(column: Any) -> str | Sequence[str]:
+    """The field of each cell, or one field for all."""
+    cells = column if isinstance(column, (list, tuple)) else column.tolist()
+    if len({*map(type, cells)}) == 1 and cells.count(cells[0]) == len(cells):
+        return _field(cells[0])
+    return [*map(_field, cells)]
 
 
 def _number_lines(columns: Sequence[Any], infinity: str) -> list[str]:
