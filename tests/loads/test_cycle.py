@@ -10,7 +10,7 @@ from load_states import integrals
 from typer.testing import CliRunner
 from words import Drive, Motion, Spec, Wheel, load
 
-from geneva_cli import Design, External, Load, Shaft, Size, Spherical
+from geneva_cli import Design, External, Load, NoncircularGears, Shaft, Size, Spherical
 from geneva_cli.cli.app import app
 from geneva_cli.loads.cycle import Cycle, back_driven_deg
 from geneva_cli.loads.load_tables import reversals_deg, summaries
@@ -182,6 +182,17 @@ def test_a_row_at_either_end_has_the_sliding_beside_it(law):
     slides = cycle.extremes["sliding_m_s"]
     assert (rows <= slides.max).all()
     assert (rows >= slides.min).all()
+
+
+def test_two_changes_of_the_wall_near_each_other_are_found():
+    """Between them the wheel drives; so the roller slides most at the exit, on its first wall."""
+    drive = NoncircularGears(n_rpm=43.142026952680055, A=0.662432371170093)
+    carried = Load(1.119759070451892, 11.059624638270671, efficiency=0.9678628151540175)
+    cycle = Design(External(6), drive, load=carried).cycle
+    (engagement,) = cycle.mechanism.engagements
+    x = np.linspace(engagement.entry_deg, engagement.exit_deg, 1001)
+    rows = cycle.states(x, ["sliding_m_s"])[0]
+    assert cycle.extremes["sliding_m_s"].max == pytest.approx(rows.max(), rel=1e-12) == rows[-1]
 
 
 def test_each_null_names_its_key():
