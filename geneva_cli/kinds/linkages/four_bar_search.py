@@ -126,7 +126,7 @@ def four_bars_at(goal: Goal, of: Whole, at: Array, places: int = FINE) -> FourBa
     entry = math.tau * u[3]
     pair = Pairs(of, np.stack((entry, entry + np.radians(motion_deg))), sense)
     w = coupler_point(path, pair, b)
-    path.numbers = *path.numbers[:4], parameter(w.real), parameter(w.imag)
+    path = path.having((*path.numbers[:4], parameter(w.real), parameter(w.imag)))
     # coarse samples miss the nearest places, which a larger roller makes up for
     roller = roller * (1.15 if places < FINE else 1.0)
     names = (goal.least, *(bound.name for bound in goal.bounds))
@@ -145,8 +145,8 @@ def coupler_point(path: LinkPath, pair: Pairs, b: Array) -> Complex:
     NaN if there is none, or if the chord does not run from entry to exit.
     """
     crank = np.exp(1j * pair.phi)
-    (x, y), _, (*_, rate, _) = path.turn(crank, 1)
-    along, pin = x + 1j * y, path.numbers[0] * crank
+    (x, y), (px, py), (*_, rate, _) = path.turn(crank, 1)
+    along, pin = x + 1j * y, px + 1j * py
     (p, p_end), (v, v_end) = pin, 1j * pin
     (e, e_end), (u, u_end) = along, 1j * rate * along
     turn = np.exp(1j * pair.sense * (0.5 * math.pi - b))

@@ -8,7 +8,15 @@ from typing import Any, NamedTuple, Self, TypeAlias, cast
 
 from geneva_cli.drives.pushed import pushed
 from geneva_cli.numerics.angles import sin_cos_deg
-from geneva_cli.numerics.arrays import Array, Batchable, Complex, Which, enclosed, library
+from geneva_cli.numerics.arrays import (
+    Array,
+    Batchable,
+    Complex,
+    Enclosed,
+    Which,
+    enclosed,
+    library,
+)
 from geneva_cli.numerics.jet import (
     Held,
     Jet,
@@ -122,16 +130,20 @@ class LinkPath(Batchable, ABC):
 
     def of(self, which: Which | tuple[Which, int]) -> Self:
         """Paths of some of the designs; with numbers (n,) for ``which, 0``."""
-        some = copy.copy(self)
-        some.numbers = tuple(
-            cast(float, cast("Array", x)[which]) if is_array(x) else x for x in self.numbers
-        )
-        return some
+        numbers = (cast("Array", x)[which] if is_array(x) else x for x in self.numbers)
+        return self.having(cast("tuple[float, ...]", tuple(numbers)))
+
+    def having(self, numbers: tuple[float, ...]) -> Self:
+        """The path with other numbers."""
+        other = copy.copy(self)
+        other.numbers = numbers
+        return other
 
     def link(self, angle: Jet) -> tuple[Jet, Jet]:
         """Unit vector along the link, from A towards B, for the crank's angle in radians."""
-        m, path = library(angle.c[0]), copy.copy(self)
-        path.numbers = enclosed(angle.c[0], self.numbers)
+        m, path = library(angle.c[0]), self
+        if isinstance(angle.c[0], Enclosed):  # the rounding of what its numbers make counts, too
+            path = self.having(enclosed(angle.c[0], self.numbers))
         (x, y), _, turn = path.turn(Direction(m.cos(angle.c[0]), m.sin(angle.c[0])))
         if not angle.order:
             return Jet((x,)), Jet((y,))
@@ -171,11 +183,8 @@ class LinkPath(Batchable, ABC):
 
         The direction is a complex unit vector, and so is the velocity, if it is known.
         """
-        (x, y), _, turn = self.turn(crank)
-        pin, arm = (
-            self.numbers[0] * crank,
-            (x + 1j * y) * (self.numbers[-2] + 1j * self.numbers[-1]),
-        )
+        (x, y), (px, py), turn = self.turn(crank)
+        pin, arm = px + 1j * py, (x + 1j * y) * (self.numbers[-2] + 1j * self.numbers[-1])
         if velocity is None:
             velocity = 1j * (pin + turn[3] * arm)
         factors = velocity, -pin, -1j * arm, -arm
