@@ -5,7 +5,7 @@ details, which a load changes only through wheel and crank.
 """
 
 import re
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from contextlib import suppress
 from typing import NamedTuple
 
@@ -43,7 +43,6 @@ NAMES = {
     "size.link_thickness_mm": ("links {:g} thick", "{0.crank_Nm:.4g} N m on the first wheel"),
 }
 
-BY_LOAD = "by load: "
 Values = dict[str, float | str]
 
 
@@ -115,8 +114,8 @@ def chosen(mechanism: Mechanism, details: Values | None = None) -> dict[str, Cho
         # what the meaning of a key says of its default, without a load
         rule = field.meaning.partition("default")[2].lstrip(": ").partition(";")[0]
         why = f"default {re.sub(',? or by load$', '', rule)}"
-        if key in keys and ("arm_bore_mm" in values or key != "arm_thickness_mm"):
-            why = f"{BY_LOAD}{NAMES[f'size.{key}'][1].format(loads)}"
+        if _is_by_load(key, keys, values):
+            why = f"by load: {NAMES[f'size.{key}'][1].format(loads)}"
         elif rule.endswith("by process") and size.process:
             why = f"by process {size.process}"
         out[f"size.{key}"] = Chosen(values[key], why)
@@ -130,11 +129,18 @@ def by_load(mechanism: Mechanism) -> dict[str, Chosen]:
     >>> by_load(heavy.mechanism)["size.pin_mm"]
     Chosen(value=7.0, why='by load: 2000 N on the pin')
     """
-    every, out = chosen(mechanism) if mechanism.spec.is_loaded else {}, dict[str, Chosen]()
-    for key in filter(every.__contains__, NAMES):
-        if every[key].why.startswith(BY_LOAD):
-            out[key] = every[key]
+    if not mechanism.spec.is_loaded:
+        return {}
+    (values, keys), every, out = key_sizes(mechanism), chosen(mechanism), dict[str, Chosen]()
+    for name in filter(every.__contains__, NAMES):
+        if _is_by_load(name.removeprefix("size."), keys, values):
+            out[name] = every[name]
     return out
+
+
+def _is_by_load(key: str, keys: Collection[str], values: Mapping[str, float | str]) -> bool:
+    """Return True for one of the ``keys`` of loaded parts; a crank without an arm has no arm's."""
+    return key in keys and ("arm_bore_mm" in values or key != "arm_thickness_mm")
 
 
 def _is_written(mechanism: Mechanism, key: str, values: Mapping[str, float | str]) -> bool:
