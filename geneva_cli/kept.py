@@ -52,8 +52,12 @@ class Known(Generic[K, T]):
     def __call__(self, of: K) -> T:
         """The result of the function, computed at the first call."""
         key = self.key(of) if self.key else of
-        later = self._later.pop(key, type(None))
-        result = self._kept.pop(key, None) or later() or self.compute(of)
+        result = self._kept.pop(key, None)
+        if result is None:
+            later = self._later.pop(key, None)
+            result = later() if later else None
+        if result is None:
+            result = self.compute(of)
         self._kept[key] = result
         for old in [*self._kept][:-KEPT]:  # another thread may have removed it
             self._kept.pop(old, None)

@@ -18,8 +18,11 @@ from geneva_cli.spec.schema import shown
 CRANK = "drives.crank:Crank"  # the drive of a spec without one
 _CRANK, _PIN_PATH = "motion.compatible:of_transmission", "motion.compatible:of_pin_path"
 # Of flat parts, and of links and gears in front of a crank.
-_DRAWN = "slot wheel crank arm links first-wheel first-crank frame assembly gears groove "
-_DRAWINGS = dict.fromkeys(f"{_DRAWN}groove-plate".split(), "drawings.part_drawings")
+_DRAWN = (
+    *("slot", "wheel", "crank", "arm", "links", "first-wheel", "first-crank", "frame"),
+    *("assembly", "gears", "groove", "groove-plate"),
+)
+_DRAWINGS = dict.fromkeys(_DRAWN, "drawings.part_drawings")
 _DRAWINGS["plate"] = "drawings.parts_list"
 _TABLES = {
     "slot": "parts.slots.slot_profile:profile_table",

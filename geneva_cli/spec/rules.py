@@ -34,7 +34,7 @@ class Range(NamedTuple):
     def __str__(self) -> str:
         low = f"{'above' if self.ends[0] == '(' else 'at least'} {self.low:.12g}"
         high = f"{'below' if self.ends[1] == ')' else 'at most'} {self.high:.12g}"
-        ends = [low] * math.isfinite(self.low) + [high] * math.isfinite(self.high)
+        ends = [text for text, end in ((low, self.low), (high, self.high)) if math.isfinite(end)]
         text = ", ".join(ends) or "a finite number"
         if 0.0 < self.low < 1e-6:  # a bound that only keeps the arithmetic finite
             text = f"above 0 ({self.low:g} to {self.high:g})"

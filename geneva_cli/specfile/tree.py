@@ -16,7 +16,8 @@ from geneva_cli.spec.tables import LISTS, PLAIN
 
 TABLES = ["wheel", "drive", "motion"]
 for _name in PLAIN:
-    TABLES += {_name.partition(".")[0]} - {*TABLES}
+    if _name.partition(".")[0] not in TABLES:
+        TABLES.append(_name.partition(".")[0])
 
 # Other names of a size: here the pin's radius is that of the roller on it.
 ALSO_CALLED = {"pin_radius_mm": "roller_radius_mm", "crank_pin_radius_mm": "roller_radius_mm"}
