@@ -34,7 +34,7 @@ NEEDED = {
     "lock_stress_max_MPa": _CONTACT,
     "stop_stress_max_MPa": _CONTACT,
     "lock_deflection_max_deg": _CONTACT,
-    "roller_life_min_h": ("dynamic_capacity_N", "material.roller", "the roller's capacity"),
+    "roller_life_min_h": ("dynamic_capacity_N", "material_roller", "the roller's capacity"),
 }
 
 
@@ -126,8 +126,9 @@ class Spec(SpecTable):
         vars(self)["unbalanced"] = any(map(attrgetter("to_one_side"), self.mass))
         limits = vars(self.limits)
         for limit, (key, of, what) in NEEDED.items():
-            if limits[limit] is not None and self.table(of)[key] is None:
-                raise GenevaError(f"{limit} needs {what}: set {key} in [{of}]", ("limits", limit))
+            if limits[limit] is not None and vars(vars(self)[of])[key] is None:
+                text = f"{limit} needs {what}: set {key} in [{of.replace('_', '.')}]"
+                raise GenevaError(text, ("limits", limit))
         if self.limits.product_acceleration_max_m_s2 is not None and not self.product.lies:
             key = "product_acceleration_max_m_s2"
             raise GenevaError(
@@ -270,13 +271,14 @@ DRIVES = KindTable("drive", _DRIVE, registry.DRIVES, registry.drive)
 LAWS = KindTable("motion", _LAW, registry.LAWS, registry.law, fields(Motion))
 
 
-def drives_before(names: Collection[str] = registry.DRIVES) -> KindTable:
-    """[drive.before] for some kinds of drives, whose shared keys stand in [drive]."""
-    word = DRIVES.word._replace(default=None, meaning="drive that turns the input shaft of [drive]")
-    return DRIVES._replace(table=BEFORE, word=word, names=names, without=fields(Drive))
+# whose shared keys stand in [drive]
+_front = _DRIVE._replace(default=None, meaning="drive that turns the input shaft of [drive]")
+DRIVES_BEFORE = DRIVES._replace(table=BEFORE, word=_front, without=fields(Drive))
+# every table whose keys depend on a word, in the order of a file
+KINDS = {"wheel": WHEELS, "drive": DRIVES, BEFORE: DRIVES_BEFORE, "motion": LAWS}
 
 
 def kind_tables() -> list[KindTable]:
-    """Every table whose keys depend on a word, in the order of a file; it imports all drives."""
+    """The tables of ``KINDS``, with the drives that may be before others; it imports all drives."""
     before = [name for name in registry.DRIVES if registry.drive(name).IN_FRONT]
-    return [WHEELS, DRIVES, drives_before(before), LAWS]
+    return [of._replace(names=before) if of is DRIVES_BEFORE else of for of in KINDS.values()]
