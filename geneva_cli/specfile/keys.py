@@ -83,10 +83,7 @@ def about(word: str) -> Sequence[Key]:
 
 def tables_with(key: str) -> dict[str, str]:
     """The tables that have a key, each with the key's meaning in it."""
-    # no kind has a key of a plain table, and to ask all kinds takes a twentieth of a run
-    each = ((name, field) for name, table in PLAIN.items() for field in fields(table))
-    plain = {name: field.meaning for name, field in each if field.key == key}
-    return plain or {k.whole_table: k.meaning for k in all_keys() if k.key == key and k.table}
+    return {k.whole_table: k.meaning for k in all_keys() if k.key == key and k.table}
 
 
 def is_whole(name: str) -> bool:
