@@ -320,10 +320,7 @@ def _number(place: tuple[str, ...], field: Field, value: float) -> float:
     elif 0.0 < abs(value) < TINY:  # no reader of the rule would think of such numbers
         fault += f"; sizes below {TINY:g} are not computed"
     elif value in field.rule:
-        try:
-            return value if whole else float(value)
-        except OverflowError:
-            fault = "is too large a number"
+        return value if whole else float(value)
     raise GenevaError(f"{field.key} = {shown(value)} {fault} ({field.meaning})", place)
 
 
