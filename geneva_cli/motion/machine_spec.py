@@ -18,7 +18,7 @@ from geneva_cli.numerics.arrays import Truth, all_true
 from geneva_cli.spec import tables
 from geneva_cli.spec.rules import OneOf
 from geneva_cli.spec.schema import Field, SpecTable, fields, refuse_kind
-from geneva_cli.spec.tables import LISTS, PLAIN, Z_DRAWN, Accept, Mass
+from geneva_cli.spec.tables import LISTS, Z_DRAWN, Accept, Mass
 
 BEFORE = "drive.before"  # table of the drive that turns the input shaft of [drive]
 # limits that need a load
@@ -38,16 +38,14 @@ NEEDED = {
 }
 
 
-# Fields of ``Spec`` that hold a table, their type, and an example for the error message.
-_TABLE_TYPES: dict[str, tuple[type, str]] = {
-    "wheel": (Gearing, "External(6)"),
-    "drive": (Drive, "Crank(n_rpm=60)"),
-    "drive_before": (Drive, "SideCrank(A=0.6)"),
-    "motion": (Motion, "Motion(Cycloidal())"),
+# examples of objects, for error messages; of tables their classes
+EXAMPLES = {
+    "wheel": "External(6)",
+    "drive": "Crank(n_rpm=60)",
+    "drive_before": "SideCrank(A=0.6)",
+    "motion": "Motion(Cycloidal())",
 }
-for _name, _table in PLAIN.items():
-    if _name not in LISTS:
-        _TABLE_TYPES[_name.replace(".", "_")] = (_table, f"{_table.__name__}(...)")
+NO_TABLE = ("mass", "title", "path", "files")  # fields of ``Spec`` that hold no table
 
 
 class Spec(SpecTable):
@@ -95,15 +93,14 @@ class Spec(SpecTable):
     def __post_init__(self) -> None:
         if vars(self)["drive"] is None:
             vars(self)["drive"] = load_named(CRANK)()
-        for name, (kind, example) in _TABLE_TYPES.items():
-            value = vars(self)[name]
-            is_left_out = value is None and name in ("drive_before", "motion")
-            if not (is_left_out or isinstance(value, kind)):
-                refuse_kind(value, name, kind, example)
         vars(self)["mass"] = tuple(self.mass)
-        for one in self.mass:
-            if not isinstance(one, Mass):
-                raise GenevaError('mass must be a list of objects like Mass("disc", ...)')
+        for body in self.mass:
+            if not isinstance(body, Mass):
+                refuse_kind(body, "mass", Mass, 'Mass("disc", ...)')
+        for name, one in self._parameters.items():
+            value, kind = vars(self)[name], cast("Any", one.type)
+            if name not in NO_TABLE and not isinstance(value, kind):
+                refuse_kind(value, name, kind, EXAMPLES.get(name, ""))
         # the centre distance follows from the crank radius where only that is set
         size, radius, L = self.size, self.size.crank_radius_mm, None
         if radius is not None and size.center_distance_mm is None:

@@ -358,9 +358,10 @@ def unknown(key: str, table: str, known: Sequence[str], hint: str = "") -> Genev
     return GenevaError(text, (*table.split("."), key))
 
 
-def refuse_kind(value: object, name: str, kind: type, example: str) -> None:
+def refuse_kind(value: object, name: str, kind: Any, example: str = "") -> None:
     """Raise GenevaError for a name or a class where an object of a kind is needed."""
     if not isinstance(value, kind):
+        example = example or f"{kind.__name__}(...)"
         raise GenevaError(f"{name} must be an object like {example}, not {cut(repr(value))}")
 
 
