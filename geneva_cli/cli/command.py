@@ -117,8 +117,6 @@ class Command(PlainValues, TyperCommand):
 
             spec, settings = ctx.params.pop("spec"), ctx.params.pop("settings")
             ctx.params["design"] = load(spec, settings, ctx.params.pop("reverse", False))
-        elif "context" in self.kinds:
-            ctx.params["context"] = ctx
         return super().invoke(ctx)
 
     def collect_usage_pieces(self, ctx: Any) -> list[str]:
@@ -207,8 +205,7 @@ def _infos(params: Sequence[Parameter], lists: Sequence[str]) -> list[Parameter]
             key = option.replace("-", "_") or names.lower().replace("...", "s")
             each[key] = names, re.sub(r"\n +", " ", meaning), heading
     for param in params:
-        if param.annotation != typer.Context:
-            own[param] = each.pop(param.name.rstrip("_"), SHARED.get(param.name, ()))
+        own[param] = each.pop(param.name.rstrip("_"), SHARED.get(param.name, ()))
     rest = iter(each.values())
     for param, shown in own.items():
         names, meaning, *panel = shown or next(rest)
