@@ -49,8 +49,8 @@ def _shape(shape: Shape, name: str) -> str:
 
 def _data(value: Any) -> Any:
     """Records and tuples as the page's script reads them, numbers to ten digits."""
-    if hasattr(value, "_asdict"):
-        own = value._asdict().items()
+    if fields := vars(type(value)).get("_fields"):
+        own = zip(fields, value, strict=True)
         return {name: _data(one) for name, one in own if name not in NOT_DATA}
     if isinstance(value, tuple):
         return [*map(_data, value)]

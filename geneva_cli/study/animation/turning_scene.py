@@ -1,7 +1,5 @@
 """The scene of a design: bodies, links, forces and states over one turn."""
 
-import cmath
-import itertools
 import math
 from collections.abc import Iterator
 from contextlib import suppress
@@ -11,7 +9,8 @@ import numpy as np
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Plate
-from geneva_cli.geometry.shapes import Circle, Contour, Line, Shape, at, bounds, polygon
+from geneva_cli.geometry.shapes import ORIGIN, Circle, Shape, at, bounds, placed, polar, polygon
+from geneva_cli.geometry.sheet import line
 from geneva_cli.motion.drive import Gears
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
@@ -203,10 +202,8 @@ def _box(
         circles += [(page.value_at(x, t), page.value_at(y, t), r) for (x, y), r in places]
         for bar, plate in plates:
             x, y, angle = page.pose(bar, plate, t)
-            own, turned = bounds(plate.shapes[0]), cmath.rect(1.0, angle)
-            corners = itertools.product((own.x0, own.x1), (own.y0, own.y1))
-            ends = [complex(x, y) + complex(*corner) * turned for corner in corners]
-            circles += [(z.real, z.imag, 0.0) for z in ends]
+            own = bounds(placed(plate.shapes[0], (x, y), angle))
+            circles += [(own.x0, own.y0, 0.0), (own.x1, own.y1, 0.0)]
     x, y, r = np.array(circles).T
     return min(x - r), min(y - r), max(x + r), max(y + r)
 
@@ -224,18 +221,16 @@ class WheelScene:
 
     def bodies(self, shapes: tuple[Shape, ...], turn: MachineTurn) -> Iterator[page.Body]:
         """All wheels; without shapes, as symbols."""
-        one, machine = turn.passages[0], turn.mechanism
+        one, z = turn.passages[0], turn.mechanism.spec.wheel.z
         # distances of the first roller from the wheel's axis in its slot
-        reach = np.hypot(
-            *turn.assembly.pin(0, np.linspace(one.entry, one.exit, 181), drives=True).T
-        )
+        pins = turn.assembly.pin(0, np.linspace(one.entry, one.exit, 181), drives=True)
+        reach = np.hypot(*pins.T)
         least, most = float(reach.min()), float(reach.max())
         if not shapes:  # a disc with a line along each slot
-            angles = np.arange(machine.spec.wheel.z) * math.tau / machine.spec.wheel.z
-            along = [(math.cos(a), math.sin(a)) for a in angles.tolist()]
-            ends = [((least * c, least * s), (most * c, most * s)) for c, s in along]
-            lines = [Contour("WHEEL", (Line(*both),), closed=False) for both in ends]
-            shapes, dot = (Circle("WHEEL", (0.0, 0.0), 1.02 * most), *lines), 1.01 * least
+            turns = (math.tau * k / z for k in range(z))
+            ends = ((polar(ORIGIN, least, a), polar(ORIGIN, most, a)) for a in turns)
+            lines = (line("WHEEL", *both) for both in ends)
+            shapes, dot = (Circle("WHEEL", ORIGIN, 1.02 * most), *lines), 1.01 * least
         else:
             dot = 0.78 * least
         # a dot behind the end of the first slot tells the slots apart
