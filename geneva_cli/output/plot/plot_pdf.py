@@ -5,7 +5,18 @@ from collections.abc import Iterator
 from geneva_cli.figure import Figure
 from geneva_cli.output.inks import LIGHT, colour, dashes
 from geneva_cli.output.letters import western
-from geneva_cli.output.pdf import BEGIN, INK, Page, number, pdf_text, point, tint, wide, words
+from geneva_cli.output.pdf import (
+    BEGIN,
+    INK,
+    Page,
+    moved,
+    number,
+    pdf_text,
+    point,
+    tint,
+    wide,
+    words,
+)
 from geneva_cli.output.plot import plot_layout as layout
 from geneva_cli.output.plot.plot_layout import Lines, Path, Words
 
@@ -21,33 +32,30 @@ def chunks(figure: Figure) -> Iterator[str]:
     tall = mm * sum(block.high for block in parts)
     content, top = BEGIN, tall
     for block in parts:
-        content += drawn(block, 0.0, mm, top)
+        content += moved(drawn(block), 0.0, top, mm)
         top -= mm * block.high
     yield from pdf_text(western(figure.title), [Page(mm * layout.PAGE, tall, content, fonts=2)])
 
 
-def drawn(block: layout.FigureBlock, left: float, scale: float, top: float) -> str:
-    """Return the operators of a part of a figure, mm, from a height downwards."""
+def drawn(block: layout.FigureBlock) -> str:
+    """Return the operators of a part of a figure, px, from the height 0 downwards."""
 
     def text(one: Words) -> str:
-        size = scale * one.size
-        before = {"end": 1.0, "middle": 0.5}.get(one.look, 0.0) * wide(one.text, size)
-        x, y = left + scale * one.place[0] - before, top - scale * one.place[1]
-        return words(one.text, (x, y), size, one.look == "bold", INK)
+        before = {"end": 1.0, "middle": 0.5}.get(one.look, 0.0) * wide(one.text, one.size)
+        at = one.place[0] - before, -one.place[1]
+        return words(one.text, at, one.size, one.look == "bold", INK)
 
     def path(places: Path) -> str:
-        at = (point((left + scale * x, top - scale * y)) for x, y in places)
-        first, *rest = dict.fromkeys(at)  # of one place it is a dot, as ends are round
-        return f"{first} m\n" + "".join(f"{p} l\n" for p in rest or [first])
+        first, *rest = dict.fromkeys(point((x, -y)) for x, y in places)
+        return f"{first} m\n" + "".join(f"{p} l\n" for p in rest or [first])  # a dot of one place
 
     def lines(one: Lines) -> str:
         ink = {"rest": LIGHT.rest, "grid": LIGHT.grid, "axis": LIGHT.axis}.get(one.kind)
         ink = tint(ink or colour(one.number, LIGHT))
         if one.kind == "rest":
             return f"{ink} rg\n" + "".join(f"{path(places)}f\n" for places in one.paths)
-        dashed = dashes(one.number if one.kind in ("curve", "sample") else 0)
-        dash, width = " ".join(number(scale * x) for x in dashed), WIDTHS.get(one.kind, POINTS)
-        look = f"{ink} RG {number(scale * width)} w [{dash}] 0 d\n"
+        dash = " ".join(map(number, dashes(one.number if one.kind in ("curve", "sample") else 0)))
+        look = f"{ink} RG {WIDTHS.get(one.kind, POINTS)} w [{dash}] 0 d\n"
         return look + "".join(f"{path(places)}S\n" for places in one.paths)
 
     return "".join(text(one) if isinstance(one, Words) else lines(one) for one in block.marks)
