@@ -17,6 +17,7 @@ from geneva_cli.output.letters import western
 from geneva_cli.output.notes import LETTERS, notes
 from geneva_cli.output.plot import plot_layout, plot_pdf
 from geneva_cli.output.svg import opacity, rings
+from geneva_cli.output.terminal.layout import wrapped
 
 WIDTH, HEIGHT = 210.0, 297.0
 LEFT, TOP, BOTTOM = 16.0, 281.0, 20.0
@@ -27,6 +28,8 @@ MARK = 4.0  # before a text of a list
 PAD = 1.3  # left and right of a cell's text
 SPACE = 0.55  # above and below it
 STEP = LEADING * SMALL
+# in a word longer than a line: behind a sign, and behind any letter from the 24th on
+BREAKS = r"(?<=[_./-])|(?<=\w{24})"
 SOFT, LINE, BAND = "0.35 0.39 0.43", "0.8 0.83 0.86", "0.95 0.96 0.97"
 RED, AMBER, GREEN = "0.7 0.15 0.12", "0.48 0.31 0", "0.1 0.42 0.2"
 
@@ -67,7 +70,7 @@ def _pages(items: Iterable[Item], foot: str) -> list[pdf.Page]:
         group = []
     out, low = [], 11.0
     if pdf.wide(foot, SMALL) > WIDE - 30.0:
-        foot = foot[: _fits(foot, SMALL, WIDE - 30.0, False) - 1] + "…"
+        foot = _lines(foot, SMALL, WIDE - 34.0)[0] + " …"
     for i, text in enumerate(contents, 1):
         which = f"{i} / {len(contents)}"
         end = pdf.words(foot, (LEFT, low), SMALL, ink=SOFT)
@@ -248,28 +251,5 @@ def _rule(x: float, y: float, long: float, width: float = 0.15) -> str:
 
 
 def _lines(text: str, size: float, width_mm: float, bold: bool = False) -> list[str]:
-    """A text broken into lines that fit a width; a longer word is cut."""
-    out: list[str] = []
-    line = ""
-    for word in filter(None, clean(text).split(" ")):
-        whole = f"{line} {word}" if line else word
-        if pdf.wide(whole, size, bold) <= width_mm:
-            line = whole
-            continue
-        if line:
-            out.append(line)
-        while pdf.wide(word, size, bold) > width_mm and len(word) > 1:
-            fits = _fits(word, size, width_mm, bold)
-            out.append(word[:fits])
-            word = word[fits:]
-        line = word
-    return [*out, line] if line or not out else out
-
-
-def _fits(word: str, size: float, width_mm: float, bold: bool) -> int:
-    """The number of letters that fit, up to a sign such as an underscore if one is near the end."""
-    many = 1
-    while many < len(word) and pdf.wide(word[: many + 1], size, bold) <= width_mm:
-        many += 1
-    place = max(word.rfind(sign, 1, many) for sign in "_./-") + 1
-    return place if place > 0.4 * many else many
+    """A text broken into lines that fit a width."""
+    return wrapped(clean(text), width_mm, lambda part: pdf.wide(part, size, bold), BREAKS)
