@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from functools import cache, partial
@@ -11,20 +12,17 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError, marking
 from geneva_cli.kept import cached_property
-from geneva_cli.loads.impacts.reversal import reversal_impacts
-from geneva_cli.loads.impacts.shock_force import forces_N
-from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_peaks import load_peaks
 from geneva_cli.loads.strength import lock, pin_arm_key
 from geneva_cli.loads.strength.horn import HornStress, Sides, Sizes, greatest_stress, horns
-from geneva_cli.loads.strength.part_loads import PartLoads, part_loads, single_loads
+from geneva_cli.loads.strength.part_loads import PartLoads, part_loads, pin_forces_N, single_loads
 from geneva_cli.loads.strength.pin_arm_key import PinSize
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.motion.batch import designs_in, taken
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.registry import thing
 from geneva_cli.numerics import arrays
-from geneva_cli.numerics.arrays import Array, Record, mapped, parameter
+from geneva_cli.numerics.arrays import Array, Number, Record, mapped, parameter
 from geneva_cli.parts.assembly import is_bridged
 from geneva_cli.parts.machine_sizes import fits, of_batch, sized, unloaded, unloaded_alike
 from geneva_cli.parts.outlines.cut_outlines import cut_lock
@@ -49,16 +47,11 @@ class UnderLoad:
         self.loaded = of.loaded
         # the function that returns the horns: those of a flat wheel for most kinds
         self.sides: Sides = thing(of.spec.wheel.NAME, "horns") or horns
-        # the force on a roller over that along the wall's normal, (m, 1)
-        friction = load_case(of.machine).friction
-        self.rubbed = parameter(arrays.library(friction).hypot(1.0, friction))
 
     @cached_property
     def force_N(self) -> Array:
         """The greatest force on a roller, along the wall's normal."""
-        if np.isnan(self.loaded).all():
-            return self.loaded
-        return self.part_loads.pin_N * self.loaded  # a search that sizes need, too
+        return self.part_loads.pin_N * self.loaded
 
     @cached_property
     def pv_W_m2(self) -> Array:
@@ -196,14 +189,12 @@ class UnderLoad:
             return width
         return parameter(np.reshape(self.parts.contact, (-1, 1)))
 
-    def pin_N(self, pin: PinSize) -> Array:
-        """The greatest force on a roller with its friction, in the cycle or by impact, (m, 1)."""
-        jump = reversal_impacts(self.machine).jump[:, None]
-        force = self.force_N[:, None] * self.rubbed
-        if np.isnan(jump).all():
-            return force
-        struck = forces_N(self.machine, jump, pin)[:, None]
-        return np.maximum(force, np.nan_to_num(struck * self.rubbed))
+    def pin_stresses(self, pin: PinSize) -> tuple[Number, Number, Number]:
+        """Bending, shear and equivalent stress of a roller's pin, (m, 1), MPa."""
+        force = pin_forces_N(self.machine, self.part_loads, pin) * self.loaded[:, None]
+        return pin_arm_key.pin_stress_MPa(
+            self.machine.spec.size, pin.contact_mm, pin.diameter_mm, force
+        )
 
     @cached_property
     def pin(self) -> PinSize | None:
@@ -217,8 +208,8 @@ class UnderLoad:
         usual = PinSize(pin_arm_key.pin_diameter_mm(self.machine), width)
         if size.pin_mm is not None:
             return usual
-        stress = pin_arm_key.pin_stress_MPa(size, width, usual.diameter_mm, self.pin_N(usual))[2]
         # where the usual pin holds, it is drawn
+        stress = self.pin_stresses(usual)[2]
         holds = ~(stress > roller_material(self.machine.spec).allowed_MPa)
         if np.all(holds) or self.parts is None:
             return usual
@@ -228,7 +219,9 @@ class UnderLoad:
 
     @cached_property
     def part_loads(self) -> PartLoads:
-        """The greatest loads on arm, keys and shafts."""
+        """The greatest loads on arm, keys and shafts; NaN without a load."""
+        if np.isnan(self.loaded).all():
+            return PartLoads(*[math.nan] * len(PartLoads._fields))
         return single_loads(self.machine) if self.designs.single else part_loads(self.machine)
 
 
