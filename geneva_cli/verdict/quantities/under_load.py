@@ -64,13 +64,12 @@ class UnderLoad:
     def _each(self) -> list[Layout | None]:
         """The parts of each design, or of all, without loads; None for one without flat parts."""
         spec = self.machine.spec
-        if self.designs.single:
-            return [unloaded(self.machine) if sized(self.machine) else None]
         if self.designs.are_built:
-            return [*map(_bare, self.designs.each)]
+            return [unloaded(one) if sized(one) else None for one in self.designs.each]
         # designs that differ in speed and loads have the same
         is_one = self._moves_alike and designs_in((spec.size, spec.shaft)) == 1
-        return [_bare(taken(self.machine, i)) for i in range(1 if is_one else self.machine.designs)]
+        count = 1 if is_one else self.machine.designs
+        return [sized(taken(self.machine, i), loaded=False) for i in range(count)]
 
     @cached_property
     def _moves_alike(self) -> bool:
@@ -158,14 +157,11 @@ class UnderLoad:
     @cached_property
     def parts(self) -> Stressed | None:
         """The dimensions of stressed parts, (m,); None if no design has parts, or a load."""
-        machine, size, is_own = self.machine, self.machine.spec.size, self.designs.are_built
+        machine, size = self.machine, self.machine.spec.size
         if not machine.spec.is_loaded:
             return None
         of_kind = thing(machine.spec.wheel.NAME, "stressed") is not None
-        if self.designs.single and not of_kind:
-            one = sized(machine)
-            return one and mapped(np.ravel, stressed(*one))
-        is_own = is_own or of_kind or bool(machine.first_wheel) or self._shaped
+        is_own = self.designs.are_built or of_kind or bool(machine.first_wheel) or self._shaped
         of = None if is_own else self._unloaded
         # links, gears and a groove, which may be in the way of shafts
         if of and planes_below(of[0].full) and not self._alike:
@@ -223,13 +219,6 @@ class UnderLoad:
         if np.isnan(self.loaded).all():
             return PartLoads(*[math.nan] * len(PartLoads._fields))
         return single_loads(self.machine) if self.designs.single else part_loads(self.machine)
-
-
-def _bare(one: Mechanism) -> Layout | None:
-    """The parts of a machine without its load; None without flat parts."""
-    with suppress(GenevaError):  # the check of the parts reports the error
-        return unloaded(one) if one.spec.is_flat else None
-    return None
 
 
 def _stressed(one: Mechanism) -> Stressed | None:
