@@ -165,7 +165,7 @@ def part_loads(mechanism: Mechanism) -> PartLoads:
 
 def pin_forces_N(mechanism: Mechanism, loads: PartLoads, pin: PinSize) -> Array:
     """The greatest forces on pins (m, k) with friction, in the cycle or by impact."""
-    force, jump = (np.reshape(row, (-1, 1)) for row in (loads.pin_N, loads.pin_jump))
+    force, jump = np.reshape((loads.pin_N, loads.pin_jump), (2, -1, 1))
     if jump.any():
         force = np.fmax(force, forces_N(mechanism, jump, pin))
     return np.asarray(force * np.hypot(1.0, load_case(mechanism).friction))

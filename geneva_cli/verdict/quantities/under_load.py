@@ -24,7 +24,7 @@ from geneva_cli.motion.registry import thing
 from geneva_cli.numerics import arrays
 from geneva_cli.numerics.arrays import Array, Number, Record, mapped, parameter
 from geneva_cli.parts.assembly import is_bridged
-from geneva_cli.parts.machine_sizes import fits, of_batch, sized, unloaded, unloaded_alike
+from geneva_cli.parts.machine_sizes import fits, of_batch, sized, unloaded_alike
 from geneva_cli.parts.outlines.cut_outlines import cut_lock
 from geneva_cli.parts.shafts.bores import has_shape
 from geneva_cli.parts.sized_by_load import (
@@ -65,7 +65,7 @@ class UnderLoad:
         """The parts of each design, or of all, without loads; None for one without flat parts."""
         spec = self.machine.spec
         if self.designs.are_built:
-            return [unloaded(one) if sized(one) else None for one in self.designs.each]
+            return [*map(partial(sized, loaded=False), self.designs.each)]
         # designs that differ in speed and loads have the same
         is_one = self._moves_alike and designs_in((spec.size, spec.shaft)) == 1
         count = 1 if is_one else self.machine.designs
