@@ -281,13 +281,6 @@ def array(x: Number) -> Array:
     return numpy.asarray(x)
 
 
-def read_only(*arrays: Array) -> tuple[Array, ...]:
-    """Arrays that are cached, and cannot be written to from now on."""
-    for one in arrays:
-        one.flags.writeable = False
-    return arrays
-
-
 def larger(a: N, b: N) -> N:
     """The larger of two numbers, element by element for arrays."""
     return choose(b > a, b, a)
