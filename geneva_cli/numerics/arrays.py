@@ -111,9 +111,7 @@ def enclosed(x: Number, numbers: Record) -> Record:
     if not isinstance(x, Enclosed):
         return numbers
     kept = (int, str, tuple, type(None), Enclosed)
-    out: list[object] = []
-    for one in numbers:
-        out.append(one if isinstance(one, kept) else x.exact(cast("float", one)))
+    out = [one if isinstance(one, kept) else x.exact(cast("float", one)) for one in numbers]
     return record_of(numbers, out)
 
 
