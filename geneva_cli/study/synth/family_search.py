@@ -31,7 +31,6 @@ SETTLED = 1e-11  # fraction of a cost: samples nearer to the best than this are 
 # Violations, and costs, of places (n, d) of tasks by their numbers; infinite without a machine.
 Evaluate: TypeAlias = Callable[[Whole, Array], "tuple[Array, Array]"]
 SOFT = 1e-60  # weight of the limits of a frame, which matter less than any bound
-BROKEN = 1e-40  # a violation below it is of such limits, or rounding
 GRID, TRACKS = 24, 3  # intervals of a span, sampled first; the best places that are improved
 QUARTERS = np.array([-3.0, -2.0, -1.0, 1.0, 2.0, 3.0])[:, None] / 4.0
 
