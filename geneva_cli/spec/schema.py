@@ -116,9 +116,6 @@ class SpecTable:
     def __setattr__(self, name: str, value: object) -> None:
         raise dataclasses.FrozenInstanceError(f"cannot assign to field {name!r}")
 
-    def __delattr__(self, name: str) -> None:
-        raise dataclasses.FrozenInstanceError(f"cannot delete field {name!r}")
-
     def __post_init__(self) -> None:
         own = vars(self)
         for field in fields(type(self)):

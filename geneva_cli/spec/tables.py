@@ -382,15 +382,12 @@ class Product(SpecTable, table="product"):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        fault, radius, pitch = "", self.radius_mm, self.pitch_mm
-        if (self.sprocket_teeth is None) != (pitch is None):
-            fault = "a sprocket needs sprocket_teeth and pitch_mm"
-        elif radius is not None and pitch is not None:
-            fault = "set either radius_mm, or sprocket_teeth and pitch_mm"
-        elif radius is None and pitch is None and self.friction is not None:
-            fault = "friction needs the product's place: set radius_mm"
-        if fault:
-            raise GenevaError(fault, (self.TABLE,))
+        radius, pitch = self.radius_mm, self.pitch_mm
+        twice = radius is not None and pitch is not None
+        unplaced = self.friction is not None and not self.lies
+        if twice or unplaced or (self.sprocket_teeth is None) != (pitch is None):
+            text = "the product's place is radius_mm, or sprocket_teeth and pitch_mm: set one"
+            raise GenevaError(text, (self.TABLE,))
 
     @property
     def lies(self) -> bool:
