@@ -528,9 +528,9 @@ class Accept(SpecTable, names=ACCEPTED, of=Reason, table="accept"):
             reason = vars(self)[attribute]
             if reason is not None:
                 reasons[name] = reason
-            if reason is not None and not reason.strip():
-                text = f'{name} needs the reason for accepting it, as {name} = "agreed"'
-                raise GenevaError(text, (self.TABLE, name))
+                if not reason.strip():
+                    text = f'{name} needs the reason for accepting it, as {name} = "agreed"'
+                    raise GenevaError(text, (self.TABLE, name))
 
     def applied(self, notices: Iterable[Notice]) -> list[Notice]:
         """The warnings, the accepted ones with their reason."""
