@@ -294,7 +294,13 @@ def _points(place: tuple[str, ...], field: Field, value: Any) -> Points:
         except (TypeError, ValueError):
             text = f"{field.key}: points must be pairs of numbers u,s"
             raise GenevaError(text, place) from None
-    field.rule.check(value.pairs, value.file or field.key, place)
+    rule, pairs, name = field.rule, value.pairs, value.file or field.key
+    for i in range(len(pairs)):
+        if fault := rule.fault(pairs, i):
+            raise GenevaError(f"{name}, point {i + 1}: {fault}", place)
+    if len(pairs) < rule.POINTS_MIN:
+        text = f"{name}: {len(pairs)} points; at least {rule.POINTS_MIN} are needed"
+        raise GenevaError(text, place)
     return value
 
 
