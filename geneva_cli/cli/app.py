@@ -22,9 +22,7 @@ from geneva_cli.errors import GenevaError, clean, cut
 from geneva_cli.streams import leave, open_streams
 
 FAULT = 70  # exit status; EX_SOFTWARE of sysexits.h, and no status of a design or a user's error
-REPORT = (
-    "please report it in the issues of geneva-cli, with the spec; GENEVA_DEBUG=1 shows where it is"
-)
+REPORT = "please report it in the issues of geneva-cli, with the spec and GENEVA_DEBUG=1"
 NO_PAGER = "--no-pager"
 
 

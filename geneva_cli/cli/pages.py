@@ -79,15 +79,14 @@ def keys_page() -> str:
             )
             for key in keys
         ]
-        title = f"[{table}]" if table else "Above the tables"
-        head = ("key", "unit", "value", "default", "meaning")
-        parts.append(f"## {title}\n\n{_table(head, rows)}")
+        rows.insert(0, ("key", "unit", "value", "default", "meaning"))
+        parts.append(f"## {f'[{table}]' if table else 'Above the tables'}\n\n{_table(rows)}")
     return "\n".join(parts)
 
 
 def quantities_page() -> str:
     """Every quantity: names, unit and the first sentence of its meaning."""
-    rows = []
+    rows = [("name", "unit", "meaning")]
     for entry in explained.entries():
         if entry.page == "quantities":
             unit = entry.unit or next(filter(None, map(unit_of, entry.names)), "")
@@ -95,13 +94,14 @@ def quantities_page() -> str:
             unit = "" if unit.startswith("that of") else unit
             names = ", ".join(f"`{name}`" for name in entry.names)
             rows.append((names, unit, meaning))
-    return explained.head("quantities") + _table(("name", "unit", "meaning"), rows)
+    return explained.head("quantities") + _table(rows)
 
 
-def _table(head: tuple[str, ...], rows: Sequence[tuple[str, ...]]) -> str:
-    lines = [head, ("---",) * len(head), *rows]
-    escaped = ([cell.replace("|", r"\|") for cell in line] for line in lines)
-    return "".join(f"| {' | '.join(line)} |\n" for line in escaped)
+def _table(rows: Sequence[tuple[str, ...]]) -> str:
+    """A table, whose first row is the head."""
+    head, *others = (" | ".join(cell.replace("|", r"\|") for cell in row) for row in rows)
+    lines = [head, " | ".join(["---"] * len(rows[0])), *others]
+    return "".join(f"| {line} |\n" for line in lines)
 
 
 PRINTED: dict[str, Callable[[], str]] = {
