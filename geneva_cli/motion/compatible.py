@@ -183,9 +183,8 @@ def refuse_tolerances(spec: Spec, L: float, ratio: float) -> None:
     slot = roller + 2.0 * spec.size.allowances.slot_clearance_mm
     disc = arm if lock is None else choose(lock == 0.0, arm, lock)
     for key in ("lock_radius_mm", "recess_radius_mm"):
-        text = f"{key} = {{value:g}}: this machine has no locking disc; remove it"
-        wrong = unlocked & (given[key] != 0.0)
-        refuse_text(wrong, ("tolerance", key), text, value=given[key])
+        text = f"{key}: this machine has no locking disc; remove it"
+        refuse_text(unlocked & (given[key] != 0.0), ("tolerance", key), text)
     for key, below, what in (
         ("center_distance_mm", L, "the centre distance"),
         ("crank_radius_mm", arm, "the crank's radius"),

@@ -127,8 +127,6 @@ class SpecTable:
         if not (isinstance(other, SpecTable) and type(other) is type(self)):
             return NotImplemented
         own, others, names = vars(self), vars(other), type(self)._parameters
-        if self is other:
-            return True
         return [*map(own.__getitem__, names)] == [*map(others.__getitem__, names)]
 
     def __hash__(self) -> int:
