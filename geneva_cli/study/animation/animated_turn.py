@@ -2,7 +2,7 @@
 
 import cmath
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from functools import partial
 from itertools import pairwise, product
 from typing import Any
@@ -16,7 +16,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import AxisPlace, turned_points
 from geneva_cli.numerics.angles import distinct
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.output.scene import Bar, CarriedShapes, Place, Push, Track
+from geneva_cli.output.scene import Place, Push, Track
 from geneva_cli.parts.assembly import assembly, links_at
 
 STILL = Track((0.0, 360.0), ((0.0,),))  # of what stands at the angle 0
@@ -104,18 +104,14 @@ class MachineTurn:
         numbers = range(len(self.assembly.rollers))
         return tuple(self._place(partial(self.centre, number)) for number in numbers)
 
-    def bars(self, plates: Mapping[str, tuple[CarriedShapes, ...]]) -> tuple[Bar, ...]:
-        """The links with their plates, which are given by the links' names."""
+    def joint(self, link: int, number: int) -> Place:
+        """The place of a joint of a link, both by their numbers."""
 
-        def joint(i: int, j: int, x: Array) -> Array:
-            own = links_at(self.mechanism, self.assembly.from_mid(x, 0.0))[i].joints[j]
-            return np.column_stack([c + 0.0 * x for c in own])
+        def place(x: Array) -> Array:
+            own = links_at(self.mechanism, self.assembly.from_mid(x, 0.0))[link]
+            return np.column_stack([c + 0.0 * x for c in own.joints[number]])
 
-        bars = []
-        for i, link in enumerate(links_at(self.mechanism, np.zeros(1))):
-            joints = tuple(self._place(partial(joint, i, j)) for j in range(len(link.joints)))
-            bars.append(Bar(link.name, joints, link.radius_mm, plates.get(link.name, ())))
-        return tuple(bars)
+        return self._place(place)
 
     def _place(self, place: Callable[[Array], Array]) -> Place:
         error = 2e-6 * self.L  # of joints and rollers: less than a screen shows
