@@ -20,7 +20,7 @@ from geneva_cli.verdict.quantities.groups import only
 
 SETTLED = 1e-9  # radians: the wheel rests where it rested a turn before
 TRIALS = 8  # places of rest that are tried over the free range
-HALVINGS = 10  # of the space between two of them
+HALVINGS = 10  # of the space between two of them, and of the range of slacks
 LOOSE = 1e-5  # radians: a smaller range of places of rest is one place
 HELD_MIDDLE = ("detent", "pin")  # they put the wheel back to the middle of its dwell
 SENSES = (1, -1)
@@ -28,7 +28,6 @@ LATE = 1e-3  # radians: a push that moves the wheel less is not counted as an im
 JUST = 1e-12  # radians after a push begins
 SAME = 1e-3  # of the roller's radius: the arc that touches is the roller's, less the slack
 MOST = 0.02  # of L, and at most half a roller's radius: with more slack it is another wheel
-CLOSE = 1.02  # of the greatest slack with which it jams: closer is not asked
 
 
 class SenseResult(NamedTuple):
@@ -171,10 +170,8 @@ def least_slack_mm(result: Turned) -> float | None:
         return low
     if high <= low or not turns(high):
         return None
-    while high > CLOSE * low:
-        middle = math.sqrt(low * high)
-        low, high = (low, middle) if turns(middle) else (middle, high)
-    return high
+    least = boundary(lambda x: turns(math.exp(x)), math.log(high), math.log(low), HALVINGS)
+    return math.exp(least)
 
 
 class Struck(NamedTuple):
