@@ -55,20 +55,20 @@ def drawn_scene(design: Design) -> Scene:
     # the real velocity in place of all ideal curves, with both ends of each push
     figure = shown.figure
     panel = next(panel for panel in figure.panels if panel.y.name == "velocity")
-    ends = [time(x) for push in turn.pushes for x in inside(push)]
-    ends = [x for end in ends for x in (end - 1e-4, end, end + 1e-4)]
+    at = [start + time(x) for push in turn.pushes for x in inside(push)]
+    at = [x for end in at for x in (end - 1e-4, end, end + 1e-4)]
     even = np.linspace(*figure.window, SAMPLES)
-    x = np.unique(np.clip(np.append(even, start + np.array(ends)), *figure.window)).tolist()
+    x = np.unique(np.clip(np.append(even, at), *figure.window)).tolist()
     real = motion(design.mechanism, 2, x)
     angle, rate = (np.asarray(real[name]) for name in ("wheel_deg", "velocity"))
     curve = Curve(panel.curves[0].number, panel.curves[0].name, ((x, rate.tolist()),))
-    columns = np.array((np.array(x) - start, np.radians(angle), np.radians(rate)))
-    at, value, slope = map(tuple, columns.tolist())
+    turns = np.radians(angle)
+    lines = np.column_stack((turns[:-1] + turns[1:], np.diff(turns))) / 2.0
+    ends = tuple(at - start for at in x)
+    track = Track(ends, tuple(map(tuple, lines.tolist())), turn.gained)
     own, other, *_ = shown.bodies
     bodies = (
-        own._replace(
-            shapes=_layered(machine.wheel, "WHEEL"), angle=Track(at, value, slope, turn.gained)
-        ),
+        own._replace(shapes=_layered(machine.wheel, "WHEEL"), angle=track),
         other._replace(shapes=_layered(machine.crank, "CRANK")),
     )
     return shown._replace(
