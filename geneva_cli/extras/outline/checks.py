@@ -94,7 +94,8 @@ def _turns(result: Turned, mechanism: Mechanism) -> Check:
         index = abs(math.degrees(worst.first.gained))
         why = (
             f"the crank turns, but the wheel goes on by {index:.4g}° only: no roller finds a "
-            "slot; check [size], wheel_turn_deg and crank_turn_deg in [outline]"
+            "slot; check [size], wheel_turn_deg and crank_turn_deg in [outline], and the "
+            "drawings' units"
         )
     else:
         return Check("turns", z, "at least", z, True, _summary(result))
