@@ -19,14 +19,13 @@ from geneva_cli.motion.engagement import WheelMotion
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Complex, Mask, Whole, blocks, matrix_product
 from geneva_cli.numerics.jet import Array
-from geneva_cli.numerics.quadrature import rule
 
 legendre = np.polynomial.legendre
 NODES = 32  # of Gauss's rule on a panel
 TERMS = 20  # of Legendre's series that are kept
 MOST = 200  # panels between two knots of a motion: with more, its series are of noise
 
-X, _weights = rule(NODES)
+X, _weights = legendre.leggauss(NODES)
 # values at the nodes -> coefficients of Legendre's series
 _series = legendre.legvander(X, NODES - 1) * _weights[:, None] * (np.arange(NODES) + 0.5)
 SERIES: Array = _series.T.astype(float)
