@@ -172,11 +172,9 @@ def first_contacts(axis: RestingAxis, crank: Number, center: Number = 0.0) -> Fi
             off = (abs(turn) > 1e-9) | np.logical_not(built.crosses)
             sense = np.where(off, np.where(turn > 1e-9, -1.0, 1.0), sense)
         far = span * np.append(0.0, OCTAVES)
-        passed = np.zeros((len(offset), far.shape[-1]), dtype=bool)
-        for side in (-1.0, 1.0):  # many errors of one machine have its path in common
-            if (sense == side).any():
-                beyond = roller.gap(turn + side * far)[0]
-                passed |= (sense == side) & (beyond * roller.gap(turn)[0] <= 0.0)
+        # many errors of one machine have its path in common
+        back, ahead = (roller.gap(turn + side * far)[0] for side in (-1.0, 1.0))
+        passed = np.where(sense > 0.0, ahead, back) * roller.gap(turn)[0] <= 0.0
         return roller.contacts(turn + sense * far, passed)
 
 
