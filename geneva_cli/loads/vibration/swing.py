@@ -25,9 +25,12 @@ NODES = 32  # of Gauss's rule on a panel
 TERMS = 20  # of Legendre's series that are kept
 MOST = 200  # panels between two knots of a motion: with more, its series are of noise
 
-X, _weights = legendre.leggauss(NODES)
+X, _ = legendre.leggauss(NODES)
+_values = legendre.legvander(X, NODES - 1)
+# by Christoffel's sum, which has more digits than the function's own weights
+WEIGHTS: Array = 1.0 / (_values**2 * (np.arange(NODES) + 0.5)).sum(axis=1)
 # values at the nodes -> coefficients of Legendre's series
-_series = legendre.legvander(X, NODES - 1) * _weights[:, None] * (np.arange(NODES) + 0.5)
+_series = _values * WEIGHTS[:, None] * (np.arange(NODES) + 0.5)
 SERIES: Array = _series.T.astype(float)
 # values at a panel's nodes -> integrals from -1 to each node, and to 1
 _ENDS = np.append(X, 1.0)
@@ -132,7 +135,7 @@ def residual_swing(panels: Panels, motion: Whole, swing: Oscillator) -> Complex:
         every = np.flatnonzero(order == k)
         some, p = swing.of(every), swing.p[every]
         # Gauss's rule is exact to a double up to |p h| = 10
-        for _, left, added in _pushes(panels, k, motion[every], some, 10.0, _INTEGRALS[-1:].T):
+        for _, left, added in _pushes(panels, k, motion[every], some, 10.0, WEIGHTS[:, None]):
             swung = (np.exp(p[:, None] * (1.0 - left)) * added[..., 0]).sum(axis=1)
             # By parts: one more derivative, if it vanishes at both ends, gains a factor p.
             out[every] -= swung * p ** (2 - k) / p.imag
@@ -159,19 +162,10 @@ def greatest_accelerations(panels: Panels, motion: Whole, swing: Oscillator) -> 
         swung = ahead * (begins - added)
         r = swung.imag / p.imag
         load = 2.0 * p.real * (swung.real + p.real * r) - w * w * r
-        every = np.arange(len(motion)).repeat(added.shape[1])
-        _take_most(most, load.reshape(-1, len(_ENDS)), every)
+        at_nodes = load[..., :NODES].reshape(-1, NODES)  # maxima lie between them
+        tops = _tops(at_nodes, X[np.abs(at_nodes).argmax(axis=1)])[1].reshape(len(motion), -1)
+        most = np.max(np.abs(np.column_stack((most, tops, load[..., -1]))), axis=1)
     return most
-
-
-def _take_most(most: Array, load: Array, of: Whole) -> None:
-    """Update ``most`` with |load|, known at nodes and right ends, and its maxima between them."""
-    size = np.abs(load)
-    np.maximum.at(most, of, size.max(axis=1))
-    # a sample may be 2 % below its piece's maximum
-    near = np.flatnonzero(size.max(axis=1) >= most[of] * (1.0 - 0.02))
-    tops = _tops(load[near, :NODES], X[size[near, :NODES].argmax(axis=1)])[1]
-    np.maximum.at(most, of[near], np.abs(tops))
 
 
 def _tops(values: Array, x: Array) -> tuple[Array, Array]:
