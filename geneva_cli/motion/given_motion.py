@@ -212,9 +212,9 @@ class Backwards(Law):
     def __post_init__(self) -> None:
         super().__post_init__()
         # a law's class declares these, and finds in its keys if it varies; this one has none
-        own = {"NAME": f"{self.of.NAME}, backwards", "TURNS_BACK": self.of.TURNS_BACK}
-        vars(self).update(own, ANALYTIC=self.of.ANALYTIC, varies=self.of.varies)
-        vars(self)["symmetric"] = self.of.symmetric
+        vars(self)["NAME"] = f"{self.of.NAME}, backwards"
+        for name in ("ANALYTIC", "varies", "symmetric"):
+            vars(self)[name] = getattr(self.of, name)
 
     @property
     def breaks(self) -> tuple[float, ...]:

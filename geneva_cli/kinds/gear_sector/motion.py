@@ -117,10 +117,9 @@ class _SectorMotion(WheelMotion):
 
     @property
     def seams_deg(self) -> tuple[float, ...]:
-        before, after = self.entry_deg - self.inner.entry_deg, self.exit_deg - self.inner.exit_deg
-        places = {at + before for at in self.inner.seams_deg if at + before < -self.half_sector}
-        places |= {at + after for at in self.inner.seams_deg if at + after > self.half_sector}
-        return tuple(sorted(places | {*self.breaks_deg}))
+        half = self.half_sector
+        inner = {at + math.copysign(half, at) for at in self.inner.seams_deg if at}
+        return tuple(sorted(inner | {*self.breaks_deg}))
 
     def slot_deg(self, input_deg: Number) -> Number:
         """Crank angle in the slot's own motion; 0 while the gears drive."""

@@ -196,7 +196,6 @@ class SineGroup(Law):
 
     NAME: ClassVar[str] = "sine-group"
     ABOUT: ClassVar[str] = "four sines; no jump up to snap; lambda tilts it, |lambda| <= 1/8"
-    TURNS_BACK: ClassVar[str] = "the sine group turns back for |lambda| > 1/8"
     lambda_: Annotated[float, Range(-10.0, 10.0), "shape parameter of the sine-group law"] = 0.0
 
     def __post_init__(self) -> None:
