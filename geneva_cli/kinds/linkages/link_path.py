@@ -8,15 +8,7 @@ from typing import Any, NamedTuple, Self, TypeAlias, cast
 
 from geneva_cli.drives.pushed import pushed
 from geneva_cli.numerics.angles import sin_cos_deg
-from geneva_cli.numerics.arrays import (
-    Array,
-    Batchable,
-    Complex,
-    Enclosed,
-    Which,
-    enclosed,
-    library,
-)
+from geneva_cli.numerics.arrays import Array, Batchable, Complex, Enclosed, Which, enclosed, library
 from geneva_cli.numerics.jet import (
     Held,
     Jet,
