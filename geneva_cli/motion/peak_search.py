@@ -48,7 +48,7 @@ def spans(motion: WheelMotion, m: int) -> list[tuple[Array, Array]]:
     0 is exact. The value at a break itself belongs to the part before it, so that the part after it
     begins at least one double later.
     """
-    begin, *inner, last = (np.broadcast_to(x, (m, 1)) for x in motion.breaks_deg)
+    begin, *inner, last, _ = np.broadcast_arrays(*motion.breaks_deg, np.empty((m, 1)))
     blur, out = motion.breaks_to * (last - begin), []
     for x in inner:
         clear = np.where(x == 0.0, 0.0, blur)
