@@ -17,7 +17,7 @@ from geneva_cli.motion.engagement import Engagement, Slot, WheelMotion
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Teeth
 from geneva_cli.motion.wheels import classic
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import Array, Batchable, larger, library, size
+from geneva_cli.numerics.arrays import Array, Batchable, choose, larger, library, size
 from geneva_cli.numerics.jet import Jet, Number, Path, Vector, piecewise
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.spec.rules import Range
@@ -163,5 +163,4 @@ class _SectorSlot(_SectorPath, Slot):
         return lever * slot + (1.0 - slot) / (1.0 + self.motion.u), place * slot
 
     def touches(self, input_deg: Number) -> Number:
-        slot = size(input_deg) >= self.motion.half_sector
-        return float(slot) if isinstance(slot, bool) else slot.astype(float)
+        return choose(size(input_deg) >= self.motion.half_sector, 1.0, 0.0)
