@@ -135,8 +135,8 @@ def peak_values(
 
 def index_gained(of: Designs) -> Columns:
     """The wheel angle beyond its rest at which a roller as built leaves the rim, degrees."""
-    # all rollers leave alike
-    return {"index_gained_deg": np.degrees(np.ravel(of.machine.engagements[0].gained))}
+    built = of.machine.engagements[0].built  # all rollers leave alike
+    return {"index_gained_deg": np.degrees(np.ravel(np.nan if built is None else built.gained))}
 
 
 def product(of: Designs) -> Columns:
