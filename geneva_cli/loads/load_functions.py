@@ -52,7 +52,9 @@ class LoadFunctions:
         names: Sequence[str],
         own: Own = None,
         more: Sequence[str] = (),
+        kinds: Sequence[str] = (),
     ) -> None:
+        """Signs that matter are those of ``kinds``; or else those of the load, and ``more``."""
         self.engagement, self.case, self.names = engagement, case, names
         self.n = np.size(case.design)
         matters = {
@@ -65,7 +67,8 @@ class LoadFunctions:
             "edge": engagement.slot.curved and case.hertz is not None,
         }
         every = *SIGN_FUNCTIONS, "wanted"
-        self.kinds = [kind for kind in every if matters.get(kind) or kind in more]
+        own_kinds = [kind for kind in every if matters.get(kind) or kind in more]
+        self.kinds = [*kinds] or own_kinds
         self.signs, self.wanted = len(self.kinds), len(names)
         self.poled: Sequence[int] = (self.kinds.index("edge"),) if "edge" in self.kinds else ()
         # where links carry the roller, bearings and guide need the reactions of joints
