@@ -26,7 +26,6 @@ if TYPE_CHECKING:
 # and no roller is more accurate, nor are curved walls.
 CONTACT = 2e-6
 AROUND = 5  # parts into which an interval is divided about a peak
-SMALL = 1e-3  # degrees: the interval over which a roller's speed is computed
 MOST = 4  # intervals that are divided in a round for one peak
 
 
@@ -124,15 +123,15 @@ class Play(NamedTuple):
     """The wheel's play back and on, degrees, at ascending input angles.
 
     A slot that drives from one wall has play one way only. A roller's centre is past its mouth's
-    corners where ``guided``. ``speed`` is the roller's in the wheel's frame, mm per degree. The
-    pushes are pressure angles, degrees, where a roller stops the wheel; 0 where the lock does.
+    corners where ``guided``. ``rollers`` are in the wheel's frame. The pushes are pressure angles,
+    degrees, where a roller stops the wheel; 0 where the lock does.
     """
 
     input_deg: Array
     back: Array
     on: Array
     guided: Mask
-    speed: Array
+    rollers: Array  # (m, 2, n), mm, or directions (m, 3, n)
     back_push: Array
     on_push: Array
 
@@ -179,11 +178,12 @@ def play_of(parts: TurnedParts, fits: bool) -> tuple[Play, Array]:
         # Where the play shrinks as the crank turns, a roller at the mouth of its slot pushes the
         # wheel's corner along their common normal. A play that ends abruptly means that a corner
         # blocks: 90 degrees.
-        travel = 0.5 * (play.speed[1:] + play.speed[:-1]) * np.diff(play.input_deg)
+        steps = np.linalg.norm(np.diff(play.rollers), axis=1)
+        travel = parts.gaps.plane_motion.scale * steps.max(axis=0)
         free, pushes = ~(play.guided[:-1] | play.guided[1:]), np.zeros(len(travel))
         for edge, push in ((play.back, play.back_push), (play.on, play.on_push)):
             closing = lever * np.radians(-np.diff(edge))
-            # a rim that moves more than 30 times the roller's travel is not pushed by the roller
+            # a rim that moves more than 30 times a roller's travel is not pushed by the roller
             angle = np.where(closing > 30.0 * travel, 90.0, push[1:])
             known = free & (np.radians(edge[:-1]) > least) & (closing > 0.0)
             pushes = np.maximum(pushes, np.where(known, angle, 0.0))
@@ -205,26 +205,19 @@ def play_of(parts: TurnedParts, fits: bool) -> tuple[Play, Array]:
 
 def _play_at(parts: TurnedParts, every: list[Window], at: Array, fits: bool, least: float) -> Play:
     """Return the play at input angles (n,), in the motions and dwells of the turn."""
-    assembly, gaps = parts.assembly, parts.gaps
-    leads, pressures = wheel_stops(parts, at, fits)
+    gaps = parts.gaps
+    pose, (leads, pressures) = gaps.pose(at), wheel_stops(parts, at, fits)
     resting, guided = np.zeros(len(at), dtype=bool), np.zeros(len(at), dtype=bool)
-    speed, last = np.zeros(len(at)), assembly.start_deg + assembly.turn_deg
     for start, end, motion, rests, _ in every:
         here = (at >= start - SAME_INPUT_DEG) & (at <= end + SAME_INPUT_DEG)
-        if not here.any():
-            continue
-        low = np.maximum(at[here] - SMALL, assembly.start_deg)
-        high = np.minimum(at[here] + SMALL, last)
-        before, after = np.split(gaps.in_wheel(motion, np.concatenate((low, high))), 2)
-        moved = np.linalg.norm(after - before, axis=1) / (high - low)
-        speed[here] = np.maximum(speed[here], moved)
         if rests:
             resting |= here
-        else:
-            guided[here] |= parts.past_mouth(motion, at[here]) > -SAME_INPUT_DEG * assembly.L
+        elif here.any():
+            guided[here] |= parts.past_mouth(motion, at[here]) > -SAME_INPUT_DEG * gaps.assembly.L
+    rollers = gaps.plane_motion.into(pose.pins, pose.wheel[:, None]).transpose(1, 2, 0)
     back, on = np.degrees(leads)
     back_push, on_push = np.where(leads > least, np.degrees(pressures), 0.0)
-    return Play(at, back, on, guided & ~resting, speed, back_push, on_push)
+    return Play(at, back, on, guided & ~resting, rollers, back_push, on_push)
 
 
 def _peaks(
