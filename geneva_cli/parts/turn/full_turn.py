@@ -96,12 +96,9 @@ def full_turn(parts: TurnedParts) -> FullTurn:
     pairs += [LOCK] if parts.locked else []
     gaps = dict(zip(pairs, map(partial(_least, parts, at=at, first=first), pairs), strict=True))
     fits = min(gaps.values()).mm >= -parts.close
-    resting, dwell = [], Most(0.0, first(np.zeros(1)))
-    for start, end, _, rests, _ in every:
-        resting += [0.5 * (start + end)] if rests else []
-    if resting:
-        leads, _ = wheel_stops(parts, np.array(resting), fits)
-        dwell = _most(np.degrees(leads.max(axis=0)), np.array(resting), first)
+    resting = np.array([0.5 * (one.start + one.end) for one in every if one.rests])
+    leads, _ = wheel_stops(parts, resting, fits)
+    dwell = _most(np.degrees(leads.max(axis=0)), resting, first)
     play, push_deg = play_of(parts, fits)
     either, both = np.maximum(play.back, play.on), np.minimum(play.back, play.on)
     inside = play.guided
@@ -111,14 +108,10 @@ def full_turn(parts: TurnedParts) -> FullTurn:
     ahead = _most(play.on[inside], guided_deg, first)
     behind = _most(play.back[inside], guided_deg, first)
     push = _most(push_deg, play.input_deg[:-1], first)
-    # of each kind of motion, the first contact that is farthest off its slot's middle
-    contact, begin, known = (-math.inf, 0.0), 0, set()
-    for i, (engagement, _) in enumerate(assembly.motions):
-        own = slice(begin, begin + len(engagement.passages))
-        begin = own.stop
-        if engagement not in known:
-            known.add(engagement)
-            contact = max(contact, _contact(parts, i, own), key=itemgetter(0))
+    # of the first motion of each kind, the first contact that is farthest off its slot's middle
+    kinds = [engagement for engagement, _ in assembly.motions]
+    each = (_contact(parts, kinds.index(kind)) for kind in dict.fromkeys(kinds))
+    contact = max(each, key=itemgetter(0))
     met, free_deg = (contact[0], assembly.shown_deg(contact[1])), math.degrees(assembly.half_step)
     return FullTurn(gaps, dwell, hand_over, motion, ahead, behind, push, met, free_deg)
 
@@ -150,9 +143,7 @@ def _positions(parts: TurnedParts) -> Array:
         raise GenevaError(f"{text}: use a larger roller or horn")
     even = np.interp(np.linspace(0.0, total[-1], count + 1), total, grid)
     # A rim that is too large collides for less than a degree about entry and exit.
-    ends = []
-    for engagement, mid in assembly.motions:
-        ends += [mid + engagement.entry_deg, mid + engagement.exit_deg]
+    ends = [end for one in assembly.motions for end in (one.entry, one.exit)]
     offsets = np.geomspace(0.01, 15.0, 24)  # degrees of the input, on either side
     near = (np.array(ends)[:, None] + np.concatenate((-offsets, [0.0], offsets))).ravel()
     near = assembly.start_deg + (near - assembly.start_deg) % assembly.turn_deg
@@ -197,13 +188,15 @@ def _least(parts: TurnedParts, pair: str, at: Array, first: First) -> Gap:
     return Gap(size, first(np.append(begins, places[finest <= size + parts.close])), pair)
 
 
-def _contact(parts: TurnedParts, motion: int, own: slice) -> tuple[float, float]:
-    """Return the first contact of a motion's ``own`` rollers: offset, mm, and input angle.
+def _contact(parts: TurnedParts, motion: int) -> tuple[float, float]:
+    """Return the first contact of a motion's own rollers: offset, mm, and input angle.
 
     It is at entry or, in reverse, at exit: where the roller comes nearer to the rim's inside.
     """
     assembly, gaps, close = parts.assembly, parts.gaps, parts.close
     engagement, mid = assembly.motions[motion]
+    before = sum(len(one.passages) for one, _ in assembly.motions[:motion])
+    own = slice(before, before + len(engagement.passages))
     ends = engagement.exit_deg, engagement.entry_deg
     ahead = float(engagement.reach(ends[0])) - float(engagement.reach(ends[1]))
     # the mouth of an offset slot has a corner for each end, and the rim is at the farther one

@@ -139,10 +139,10 @@ class Play(NamedTuple):
 def windows(parts: TurnedParts) -> list[Window]:
     """Return the motions and dwells of a turn."""
     assembly, motions, out = parts.assembly, parts.assembly.motions, []
-    for i, (engagement, behind) in enumerate(motions):
-        after, later = motions[(i + 1) % len(motions)]
-        turns = assembly.turn_deg if i + 1 == len(motions) else 0.0
-        entry, exit_ = behind + engagement.entry_deg, behind + engagement.exit_deg
+    for i, one in enumerate(motions):
+        (engagement, _), entry, exit_ = one, one.entry, one.exit
+        following = motions[(i + 1) % len(motions)].entry
+        following += assembly.turn_deg if i + 1 == len(motions) else 0.0
         spans: tuple[tuple[float, float, int | None], ...] = ((entry, exit_, i),)
         if engagement.paired:
             # between two rollers gears drive the wheel, from the deepest position to the other's
@@ -151,7 +151,6 @@ def windows(parts: TurnedParts) -> list[Window]:
             meets = entry + (assembly.rollers[last].mid - entry) % assembly.turn_deg
             spans = (entry, leaves, first), (leaves, meets, None), (meets, exit_, last)
         out.append(Window(entry, exit_, i, False, spans))
-        following = later + turns + after.entry_deg
         if following - exit_ > SAME_INPUT_DEG:
             out.append(Window(exit_, following, i, True, ((exit_, following, None),)))
     return out
