@@ -100,13 +100,10 @@ def full_turn(parts: TurnedParts) -> FullTurn:
     leads, _ = wheel_stops(parts, resting, fits)
     dwell = _most(np.degrees(leads.max(axis=0)), resting, first)
     play, push_deg = play_of(parts, fits)
-    either, both = np.maximum(play.back, play.on), np.minimum(play.back, play.on)
     inside = play.guided
-    hand_over = _most(either[~inside], play.input_deg[~inside], first)
-    guided_deg = play.input_deg[inside]
-    motion = _most(both[inside], guided_deg, first)
-    ahead = _most(play.on[inside], guided_deg, first)
-    behind = _most(play.back[inside], guided_deg, first)
+    hand_over = _most(play.ways.max(axis=0)[~inside], play.input_deg[~inside], first)
+    sides = play.ways.min(axis=0), *play.ways[::-1]
+    motion, ahead, behind = (_most(one[inside], play.input_deg[inside], first) for one in sides)
     push = _most(push_deg, play.input_deg[:-1], first)
     # of the first motion of each kind, the first contact that is farthest off its slot's middle
     kinds = [engagement for engagement, _ in assembly.motions]

@@ -120,20 +120,18 @@ class TurnedParts(ABC):
 
 
 class Play(NamedTuple):
-    """The wheel's play back and on, degrees, at ascending input angles.
+    """The wheel's play back and on, degrees (2, n), at ascending input angles.
 
     A slot that drives from one wall has play one way only. A roller's centre is past its mouth's
     corners where ``guided``. ``rollers`` are in the wheel's frame. The pushes are pressure angles,
-    degrees, where a roller stops the wheel; 0 where the lock does.
+    degrees (2, n), where a roller stops the wheel; 0 where the lock does.
     """
 
     input_deg: Array
-    back: Array
-    on: Array
+    ways: Array
     guided: Mask
     rollers: Array  # (m, 2, n), mm, or directions (m, 3, n)
-    back_push: Array
-    on_push: Array
+    pushes: Array
 
 
 def windows(parts: TurnedParts) -> list[Window]:
@@ -179,13 +177,12 @@ def play_of(parts: TurnedParts, fits: bool) -> tuple[Play, Array]:
         # blocks: 90 degrees.
         steps = np.linalg.norm(np.diff(play.rollers), axis=1)
         travel = parts.gaps.plane_motion.scale * steps.max(axis=0)
-        free, pushes = ~(play.guided[:-1] | play.guided[1:]), np.zeros(len(travel))
-        for edge, push in ((play.back, play.back_push), (play.on, play.on_push)):
-            closing = lever * np.radians(-np.diff(edge))
-            # a rim that moves more than 30 times a roller's travel is not pushed by the roller
-            angle = np.where(closing > 30.0 * travel, 90.0, push[1:])
-            known = free & (np.radians(edge[:-1]) > least) & (closing > 0.0)
-            pushes = np.maximum(pushes, np.where(known, angle, 0.0))
+        closing = lever * np.radians(-np.diff(play.ways))
+        # a rim that moves more than 30 times a roller's travel is not pushed by the roller
+        angle = np.where(closing > 30.0 * travel, 90.0, play.pushes[:, 1:])
+        free = ~(play.guided[:-1] | play.guided[1:])
+        known = free & (np.radians(play.ways[:, :-1]) > least) & (closing > 0.0)
+        pushes = np.where(known, angle, 0.0).max(axis=0)
         if not left:
             break
         # where the play closes fastest, with the neighbours
@@ -214,9 +211,8 @@ def _play_at(parts: TurnedParts, every: list[Window], at: Array, fits: bool, lea
         elif here.any():
             guided[here] |= parts.past_mouth(motion, at[here]) > -SAME_INPUT_DEG * gaps.assembly.L
     rollers = gaps.plane_motion.into(pose.pins, pose.wheel[:, None]).transpose(1, 2, 0)
-    back, on = np.degrees(leads)
-    back_push, on_push = np.where(leads > least, np.degrees(pressures), 0.0)
-    return Play(at, back, on, guided & ~resting, rollers, back_push, on_push)
+    pushes = np.where(leads > least, np.degrees(pressures), 0.0)
+    return Play(at, np.degrees(leads), guided & ~resting, rollers, pushes)
 
 
 def _peaks(
@@ -231,10 +227,10 @@ def _peaks(
     # walls hold up to a pressure angle of 84 degrees, whose cosine is 1/10: a smaller play between
     # the walls of a slot may be that of their tolerance alone
     held = math.degrees(10.0 * parts.close / lever)
-    either, both = math.degrees(least), np.minimum(play.back, play.on)
-    edges = np.array((play.back, play.back, play.on, play.on, both, both))
+    either, both = math.degrees(least), play.ways.min(axis=0)
+    edges = np.repeat((*play.ways, both), 2, axis=0)
     where = np.array((play.guided, ~play.guided) * 3)
-    above = np.array(((either,), (either,), (either,), (either,), (held,), (either,)))
+    above = np.reshape((either, either, either, either, held, either), (6, 1))
     # beyond half a step the place is lost
     known = where & (edges < math.degrees(parts.assembly.half_step)) & (edges > above)
     value = np.where(known, edges, -1.0)
@@ -245,8 +241,7 @@ def _peaks(
     order = np.lexsort((-value[row, top], row))  # in each row the greatest first
     row, top = row[order], top[order]
     top = top[np.arange(len(row)) - np.searchsorted(row, row) < MOST]
-    ends = np.array((play.back, play.on))
-    most = np.maximum(ends[:, :-1], ends[:, 1:]).min(axis=0)
+    most = np.maximum(play.ways[:, :-1], play.ways[:, 1:]).min(axis=0)
     floor = max(held, both[play.guided].max(initial=0.0))
     change = np.flatnonzero(play.guided[:-1] & play.guided[1:] & (most > floor))
     return top - 1, top, change[np.argsort(-most[change], kind="stable")][:MOST]
