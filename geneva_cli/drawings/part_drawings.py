@@ -190,8 +190,7 @@ def _turns(parts: Outlines) -> Iterator[Arc]:
     if not mechanism.spec.drive.ONE_ARM:
         yield from _link_turns(parts)
         return
-    step = math.remainder(float(np.diff(assembly.crank(np.array([-0.5, 0.5])))[0]), math.tau)
-    sense = math.copysign(1.0, step)
+    sense = -assembly.sign  # the wheel turns counterclockwise
     # an internal wheel's crank turns within the wheel, so its arrow is near its shaft
     far = max(roller_paths(assembly)[2]) + 2.0 * sizes.roller
     radius = far + BEYOND * assembly.L if assembly.sign > 0.0 else 0.5 * sizes.arm
