@@ -52,12 +52,6 @@ class BallGaps(Gaps):
         pins = self.plane_motion.from_crank(self._rollers, turn)
         return Pose(self.assembly.wheel(input_deg), turn, pins)
 
-    def in_wheel(self, motion: int, input_deg: Array, lead: Array | float = 0.0) -> Array:
-        """Return the centre of a motion's roller in the wheel's frame, mm, (n, 3)."""
-        pose = self.pose(input_deg)
-        centre = self.plane_motion.into(pose.pins[:, motion], pose.wheel + lead)
-        return self.ball.radius_mm * centre
-
 
 class SpherePairs(FlatPairs):
     """Pairs of parts on a sphere, with gaps bounded up to ``target`` mm."""

@@ -193,7 +193,7 @@ def _contact(parts: TurnedParts, motion: int) -> tuple[float, float]:
     assembly, gaps, close = parts.assembly, parts.gaps, parts.close
     engagement, mid = assembly.motions[motion]
     before = sum(len(one.passages) for one, _ in assembly.motions[:motion])
-    own = slice(before, before + len(engagement.passages))
+    own = range(before, before + len(engagement.passages))
     ends = engagement.exit_deg, engagement.entry_deg
     ahead = float(engagement.reach(ends[0])) - float(engagement.reach(ends[1]))
     # the mouth of an offset slot has a corner for each end, and the rim is at the farther one
@@ -216,14 +216,16 @@ def _contact(parts: TurnedParts, motion: int) -> tuple[float, float]:
     place = np.array([x])
     if parts.past_mouth(motion, place)[0] >= 0.0:  # a wall meets it, no corner
         return 0.0, x
-    roller = gaps.in_wheel(motion, place, rest - assembly.wheel(place))
+    number, moves = own[-1] if later else own[0], gaps.plane_motion
+    (roller,) = moves.scale * moves.into(gaps.pose(place).pins[:, number], rest)
     # 720 chords are within 1e-6 of the centre distance, half of what counts as touching
-    whole = mid + np.linspace(engagement.entry_deg, engagement.exit_deg, 721)
-    line = gaps.in_wheel(motion, whole)
+    passage, behind = assembly.rollers[number]
+    pose = gaps.pose(behind + np.linspace(passage.entry_deg, passage.exit_deg, 721))
+    line = moves.scale * moves.into(pose.pins[:, number], pose.wheel)
     begins, step = line[:-1], np.diff(line, axis=0)
     # a roller that stops takes steps of no length
     square = np.maximum((step * step).sum(axis=1), 1e-300)
-    along = np.clip(((roller[0] - begins) * step).sum(axis=1) / square, 0.0, 1.0)
-    off = float(np.linalg.norm(begins + along[:, None] * step - roller[0], axis=1).min())
+    along = np.clip(((roller - begins) * step).sum(axis=1) / square, 0.0, 1.0)
+    off = float(np.linalg.norm(begins + along[:, None] * step - roller, axis=1).min())
     off -= parts.sizes.half_width - parts.sizes.roller
     return off if off > parts.contact else 0.0, x

@@ -69,14 +69,6 @@ class Gaps:
         crank = assembly.crank(input_deg, pins[:, 0])
         return Pose(assembly.wheel(input_deg), crank, pins)
 
-    def in_wheel(self, motion: int, input_deg: Array, lead: Array | float = 0.0) -> Array:
-        """Return the centre of a motion's roller in the frame of the wheel, mm, (n, 2).
-
-        The wheel is turned on by ``lead`` radians.
-        """
-        turn = self.assembly.wheel(input_deg) + lead
-        return self.plane_motion.into(self.assembly.pin(motion, input_deg, drives=True), turn)
-
     def to_wheel(self, points: Array) -> Array:
         """Return the distance of points in the wheel's frame from its outline, as ``signed``."""
         if self.pitch:  # a rack is drawn about its middle alone
