@@ -104,9 +104,7 @@ class Target(NamedTuple):
         spans = dict(self.spans)
         for bound in self.bounds:
             if name := names.get(bound.name):
-                low, high = spans.get(name, AllowedSpan())
-                least, most = bound.span
-                spans[name] = AllowedSpan(max(low, least), min(high, most))
+                spans[name] = spans.get(name, AllowedSpan()).within(AllowedSpan(*bound.span))
         left = tuple(bound for bound in self.bounds if bound.name not in names)
         narrowed = self._replace(spans=spans, bounds=left)
         return self if narrowed.allows_any_motion(1) else narrowed
@@ -124,24 +122,18 @@ class Target(NamedTuple):
         """The range of motion angles that each requirement leaves for m rollers, with its name."""
         spans, turn, cycle = self.spans, 360.0 / m, self.cycle_s(m)
         options = {name: f"--{name.replace('_', '-')} {_typed(s)}" for name, s in spans.items()}
-        speed = options.get("cycle", "the spec's n_rpm" if self.frame else "")
-        if "motion_deg" in spans:
-            yield options["motion_deg"], spans["motion_deg"]
-        if "tau" in spans:
-            yield options["tau"], AllowedSpan(*(360.0 * tau / m for tau in spans["tau"]))
-        if "k" in spans:
-            yield options["k"], AllowedSpan(*(360.0 * _tau(k) / m for k in spans["k"]))
-        if "dwell_deg" in spans:
-            yield options["dwell_deg"], spans["dwell_deg"].mirrored(turn)
-        for name in ("motion_s", "dwell_s") if speed else ():
-            if name in spans:
-                span = spans[name].over(cycle).times(turn)
-                span = span.mirrored(turn) if name == "dwell_s" else span
-                yield f"{options[name]} with {speed}", span
+        speed = options.pop("cycle", "the spec's n_rpm" if self.frame else "")
         if "motion_s" in spans and "dwell_s" in spans:
             k = spans["motion_s"].over(spans["dwell_s"])
-            words = f"{options['motion_s']} with {options['dwell_s']}"
-            yield words, AllowedSpan(*(turn * _tau(x) for x in k))
+            yield f"{options['motion_s']} with {options['dwell_s']}", _of_k(k).times(turn)
+        for name, option in options.items():
+            span, is_time = spans[name], name.endswith("_s")
+            if is_time and not speed:
+                continue
+            span = span.over(cycle) if is_time else _of_k(span) if name == "k" else span
+            span = span if name.endswith("_deg") else span.times(turn)
+            span = span.mirrored(turn) if name.startswith("dwell") else span
+            yield f"{option} with {speed}" if is_time else option, span
 
     def allows_any_motion(self, m: float) -> bool:
         """Return True if any motion angle is allowed."""
@@ -223,23 +215,21 @@ class Target(NamedTuple):
         return [*several, *behind]
 
     def _contradiction(self, m: float) -> str:
-        for name, s in self.spans.items():
-            if s.empty:
-                return f"--{name}: nothing is at least {s.low:.7g} and at most {s.high:.7g}"
-        demands = list(self.demands(m))
-        for i, (one, first) in enumerate(demands):
-            if first.high * m <= MOTION_MIN or first.low * m >= 360.0 - MOTION_MIN:
+        """The reason why no machine has m motions in a turn; empty if one may."""
+        left, names = AllowedSpan(), list[str]()
+        for name, demand in self.demands(m):
+            left = left.within(demand)
+            names.append(name)
+            if left.empty or left.high * m <= MOTION_MIN or left.low * m >= 360.0 - MOTION_MIN:
                 several = f" of {m} rollers" if m > 1 else ""
-                limit = f"above 0 and below {360.0 / m:.7g} deg (tau below 1)"
-                return f"{one}: a motion{several} must be {limit}"
-            for other, second in demands[:i]:
-                if first.within(second).empty:
-                    return f"{other} and {one}: no machine does both"
+                limits = f"above 0 and below {360.0 / m:.7g} deg"
+                return f"{' and '.join(names)}: no motion{several} {limits} does so"
         return ""
 
 
-def _tau(k: float) -> float:
-    return max(k, 0.0) / (1.0 + k) if k < math.inf else 1.0
+def _of_k(k: AllowedSpan) -> AllowedSpan:
+    """The range of tau for one of k."""
+    return AllowedSpan(*(max(x, 0.0) / (1.0 + x) if x < math.inf else 1.0 for x in k))
 
 
 def _typed(s: AllowedSpan) -> str:

@@ -92,7 +92,7 @@ class Trial(NamedTuple):
 
 def short(value: float, spare: float) -> float:
     """The number with the fewest digits that differs from a value by at most ``spare``."""
-    rounded = (float(f"{value:.{digits}g}") for digits in range(1, 13))
+    rounded = (float(f"{value:.{digits}g}") for digits in range(1, 17))
     return next((number for number in rounded if abs(number - value) <= spare), value)
 
 

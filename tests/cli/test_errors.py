@@ -65,7 +65,12 @@ HUGE = [
 
 UNKNOWN = [
     key("table", "[whel]\n", 1, "unknown table", "whel", '"wheel"'),
-    case("key-at-the-top", "z = 6\n", 1, "z belongs to [wheel]; write it below that line"),
+    case(
+        "key-at-the-top",
+        "z = 6\n",
+        1,
+        "z belongs to [wheel] (number of slots); write",
+    ),
     case("key", "[wheel]\nz = 6\nzz = 7\n", 3, "unknown key zz", '"z"'),
     key("gearing-as-a-key", "internal = true\n", 1, 'did you mean gearing = "internal"?'),
     key("inches", '[size]\ncenter_distance_mm = 8"\n', 2, 'write "8 in"'),

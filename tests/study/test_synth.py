@@ -161,7 +161,7 @@ def test_every_row_as_a_spec_is_the_row(options, tmp_path):
         ({}, ["no requirement", "--tau", "--subject-to"]),
         (
             {"tau": "0.3", "motion_deg": "240"},
-            ["--tau 0.3", "--motion-deg 240", "no machine does both"],
+            ["--tau 0.3", "--motion-deg 240", "below 360 deg does so"],
         ),
         ({"tau": "1.2"}, ["--tau 1.2", "below 1"]),
         ({"motion_deg": "200", "rollers": 2}, ["--motion-deg 200", "2 rollers", "below 180 deg"]),
@@ -172,7 +172,7 @@ def test_every_row_as_a_spec_is_the_row(options, tmp_path):
         ),
         (
             {"dwell_deg": "100..", "motion_deg": "90..", "rollers": 2},
-            ["100..", "no machine does both"],
+            ["100..", "no motion of 2 rollers"],
         ),
         (
             {"tau": "0.3", "subject_to": ["dwell_s >= 0.8", "timing.dwell_s <= 0.7"]},

@@ -8,12 +8,12 @@ import numpy as np
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.motion.mechanism import build
 from geneva_cli.specfile.reader import read
-from geneva_cli.study.fields import Cell, Pick, Rows, cells_of
+from geneva_cli.study.fields import Pick, Rows, cells_of, joined
 from geneva_cli.study.fields import pick as pick_of
 from geneva_cli.study.sweep import constraints
 from geneva_cli.study.sweep.run import DEFAULT, ERROR, Sweep, plan, sweep, with_values
 from geneva_cli.study.sweep.values import axis, refuse_twice
-from geneva_cli.table import Table, rows_table
+from geneva_cli.table import Table
 
 # tables of quantities that depend on the sizes of the parts
 OF_SIZES = ("parts", "strength", "life", "checks", "tolerance")
@@ -153,39 +153,39 @@ class Digest:
     def __init__(self, sweep: Sweep, place: str = "-o FILE.csv") -> None:
         self.sweep, self.place, self.count = sweep, place, 0
         self.goal = sweep.objectives[0] if sweep.objectives else None
-        # rows behind their numbers, counted from 1; of the best behind their costs
-        self.first: list[tuple[Cell, ...]] = []
-        self.best: list[tuple[float, tuple[Cell, ...]]] = []
+        self.first, self.best = list[Rows](), list[Rows]()  # none yet, or one
 
     def add(self, rows: Rows) -> None:
-        """Add rows, which are numbered in their order."""
-
-        def numbered(i: int) -> tuple[Cell, ...]:
-            return (self.count + i + 1, *rows.row(i))
-
-        self.first += map(numbered, range(min(len(rows), 2 * ROWS - len(self.first))))
+        """Add rows, which are numbered in their order from 1."""
+        numbers = np.arange(self.count, self.count + len(rows)) + 1
+        rows, self.count = Rows({"row": numbers, **rows.columns}), self.count + len(rows)
+        self.first = [_head(joined([*self.first, _head(rows, 2 * ROWS)]), 2 * ROWS)]
         for name in () if self.goal else self.sweep.pick.names:  # the first with a number
             cells = cells_of(rows.columns[name])
             if any(constraints.is_number(cell) and not isinstance(cell, bool) for cell in cells):
                 self.goal = self.goal or constraints.Objective(1.0, name)
         if self.goal:
-            costs = self.goal.sign * rows.numbers(self.goal.name)
-            best = np.argsort(costs, kind="stable")[:ROWS].tolist()  # NaN comes last
-            self.best += [(costs[i], numbered(i)) for i in best if not np.isnan(costs[i])]
-            self.best = sorted(self.best, key=lambda one: one[0])[:ROWS]
-        self.count += len(rows)
+            self.best = [self._best(joined([*self.best, self._best(rows)]))]
+
+    def _best(self, rows: Rows) -> Rows:
+        """The rows with the best values, the best first."""
+        assert self.goal
+        costs = self.goal.sign * rows.numbers(self.goal.name)
+        order = np.argsort(costs, kind="stable")[:ROWS]
+        return rows.taken(order[~np.isnan(costs[order])])
 
     def tables(self) -> Iterator[Table]:
         """One table with all rows if they are few; otherwise the first rows and the best."""
-        titled = [(self.first, "")]
+        titled = [(rows, "") for rows in self.first]
         if self.count > 2 * ROWS:
             title = f"The first {ROWS} rows. All {self.count:,} rows: {self.place}"
-            titled = [(self.first[:ROWS], title)]
-            if self.goal:
-                title = f"The {len(self.best)} rows with the {self.goal}"
-                titled.append(([row for _, row in self.best], title))
-        names = ("row", *self.sweep.names)
+            titled = [(_head(self.first[0], ROWS), title)]
+            titled += [(rows, f"The {len(rows)} rows with the {self.goal}") for rows in self.best]
         for rows, title in titled:
-            kept = [i for i in range(len(names)) if any(row[i] is not None for row in rows)]
-            shown = [tuple(row[i] for i in kept) for row in rows]
-            yield rows_table([names[i] for i in kept], shown, title)
+            columns = {name: cells_of(column) for name, column in rows.columns.items()}
+            kept = {n: cells for n, cells in columns.items() if cells.count(None) < len(cells)}
+            yield Table(tuple(kept), [*kept.values()], title=title)
+
+
+def _head(rows: Rows, most: int) -> Rows:
+    return rows.taken(np.arange(min(len(rows), most)))

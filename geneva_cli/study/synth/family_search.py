@@ -31,7 +31,6 @@ SETTLED = 1e-11  # fraction of a cost: samples nearer to the best than this are 
 # Violations, and costs, of places (n, d) of tasks by their numbers; infinite without a machine.
 Evaluate: TypeAlias = Callable[[Whole, Array], "tuple[Array, Array]"]
 SOFT = 1e-60  # weight of the limits of a frame, which matter less than any bound
-BROKEN = 1e-40  # a violation below it is of such limits, or rounding
 GRID, TRACKS = 24, 3  # intervals of a span, sampled first; the best places that are improved
 QUARTERS = np.array([-3.0, -2.0, -1.0, 1.0, 2.0, 3.0])[:, None] / 4.0
 
@@ -88,14 +87,12 @@ def tops(evaluate: Evaluate, tasks: Whole, line: Array, most: int) -> Places:
     return every.take((rank < beside) & np.isfinite(every.violation)).best(most)
 
 
-def zoom(
-    evaluate: Evaluate, best: Places, how: Zoom, keep: int = 0, patient: bool = False
-) -> Places:
+def zoom(evaluate: Evaluate, best: Places, how: Zoom, keep: int = 0) -> Places:
     """Improve places by samples ever closer to them.
 
-    Each place is improved alone until samples near it are equally good. With ``keep`` that many
-    places of each task are kept together, and all samplings are made. Without ``patient`` a place
-    is given up where no small step can keep the bounds.
+    Each place is improved alone until samples near it are equally good, or until no small step can
+    keep the bounds. With ``keep`` that many places of each task are kept together, and all
+    samplings are made.
     """
     track = best.of if keep else np.arange(len(best.of))
     step, live = how.step, np.full(len(track), True)
@@ -116,7 +113,7 @@ def zoom(
             live = np.full(len(track), True)
         else:
             violation, cost = near.violation.reshape(-1, k), near.cost.reshape(-1, k)
-            live[live] = ~_done(best, live, violation, cost, patient)
+            live[live] = ~_done(best, live, violation, cost)
     return best
 
 
@@ -128,7 +125,7 @@ def _first(places: Places, group: Whole, count: int) -> Whole:
     return which
 
 
-def _done(best: Places, live: Mask, violation: Array, cost: Array, patient: bool) -> Mask:
+def _done(best: Places, live: Mask, violation: Array, cost: Array) -> Mask:
     """Mask of the live places that need no closer samples, from their last ones (n, k)."""
     own = best.take(live)
     with np.errstate(invalid="ignore"):
@@ -145,8 +142,6 @@ def _done(best: Places, live: Mask, violation: Array, cost: Array, patient: bool
         np.minimum.at(least, best.of, np.where(best.violation < ROUNDING, best.cost, math.inf))
         beaten = own.cost - 4.0 * spread > least[own.of]
         beaten |= broken & np.isfinite(least[own.of])
-        if patient:
-            return settled | beaten
         # the violation is more than twice what a step near it changes
         hopeless = broken & (own.violation > 2.0 * (violation.max(axis=1) - own.violation))
         return settled | beaten | hopeless
@@ -156,17 +151,13 @@ def _done(best: Places, live: Mask, violation: Array, cost: Array, patient: bool
 LINE = Zoom(lambda number: QUARTERS, 1.0 / GRID, 0.25, 20)
 
 
-def best(families: Sequence[Family], target: Target, how_near: bool = False) -> list[Spec]:
-    """The best machine of each family that keeps the bounds.
-
-    With ``how_near`` there is one of each family, if need be that which breaks the bounds least.
-    """
+def best(families: Sequence[Family], target: Target) -> list[Spec]:
+    """The best machine of each family, or that which breaks the bounds least."""
     searched = [i for i, f in enumerate(families) if f.is_free]
     numbers = {i: f.low for i, f in enumerate(families) if not f.is_free}
     if searched:
         free = FamilyCosts([families[i] for i in searched], target)
-        found = _best_places(free, how_near)
-        found = found.take(how_near | (found.violation < BROKEN))
+        found = _best_places(free)
         own = free.numbers(found.of, found.at[:, 0])
         numbers |= zip((searched[of] for of in found.of.tolist()), own.tolist(), strict=True)
     out: list[Spec] = []
@@ -179,7 +170,7 @@ def best(families: Sequence[Family], target: Target, how_near: bool = False) -> 
     return out
 
 
-def _best_places(free: FamilyCosts, how_near: bool) -> Places:
+def _best_places(free: FamilyCosts) -> Places:
     """The best place of each family, from the plain crank's and the tops of a grid."""
     every = np.arange(len(free.families))
     plain = (free.plain - free.low) / (free.high - free.low)
@@ -192,7 +183,7 @@ def _best_places(free: FamilyCosts, how_near: bool) -> Places:
     settled = np.where(np.isfinite(nearest.cost), SETTLED * np.abs(nearest.cost), 0.0)
     plainly = nearest._replace(cost=nearest.cost - settled)
     tracks = grid.joined(nearest.take(np.isin(nearest.of, left))).best(TRACKS)
-    return zoom(free, tracks, LINE, patient=how_near).joined(plainly).best(1)
+    return zoom(free, tracks, LINE).joined(plainly).best(1)
 
 
 class FamilyCosts:

@@ -142,8 +142,8 @@ def search(target: Target) -> list[MachineRow]:
     """The machines that meet the requirement, in order; no part has been turned yet."""
     narrowed = target.with_times()
     narrowed.refuse_contradictions()
-    # if there are none, the error message says how near they come
-    every = _all_groups(narrowed, target.names, False) or _all_groups(target, target.names, True)
+    # without bounds on times there may be some, whose error message says how near they come
+    every = _all_groups(narrowed, target.names) or _all_groups(target, target.names)
     if not every:
         raise GenevaError(_out_of_reach(target))
     # without a search for the goal or a bound a family has several rows: the first of each kind,
@@ -159,11 +159,11 @@ def search(target: Target) -> list[MachineRow]:
     return out
 
 
-def _all_groups(target: Target, names: Sequence[str], how_near: bool) -> list[MachineRow]:
+def _all_groups(target: Target, names: Sequence[str]) -> list[MachineRow]:
     """The rows of all independent groups of machines, in order, from all cores.
 
     They are straight slots, and laws, of each gearing; those of kinds. Each has some of the numbers
-    of slots. With ``how_near`` those that break the bounds are among them.
+    of slots.
     """
     count = max(len(target.z) // GROUP, 1)
     ends = [-(-len(target.z) * i // count) for i in range(count + 1)]
@@ -177,11 +177,11 @@ def _all_groups(target: Target, names: Sequence[str], how_near: bool) -> list[Ma
     # a small search ends before a second process has started
     is_small = len(target.gearings) * len(target.z) * len(target.laws) <= 6
     workers = 1 if is_small else min(len(tasks), cores())
-    done = mapped(partial(_group, names=names, how_near=how_near), tasks, workers)
+    done = mapped(partial(_group, names=names), tasks, workers)
     return [row for found in tracked(done, "groups of machines", len(tasks)) for row in found]
 
 
-def _group(task: tuple[Kind, Target], names: Sequence[str], how_near: bool) -> list[MachineRow]:
+def _group(task: tuple[Kind, Target], names: Sequence[str]) -> list[MachineRow]:
     """The rows of a group."""
     kind, target = task
     wheels = [gearing(name)(z) for name in target.gearings for z in target.z]
@@ -189,31 +189,30 @@ def _group(task: tuple[Kind, Target], names: Sequence[str], how_near: bool) -> l
     if not in_batch(target.names):
         # the search cannot see them: they are computed for the best of several pieces of a family
         families = pieces(families, 120)
-    found = rows(target, [*dict.fromkeys(best(families, target, how_near))])
+    found = rows(target, [*dict.fromkeys(best(families, target))])
     known = [name for name in names if in_batch([name])]
     values = numbers(batch_machines([row.spec for row in found]), known, len(found))
     for row, own in zip(found, values.T.tolist(), strict=True):
         if not any(map(math.isnan, own)):  # else it needs its own machine
             row.cells.update(zip(known, (None if math.isinf(x) else x for x in own), strict=True))
-    # loads depend on the roller, which may be another
-    bounds = [b for b in target.bounds if b.name in known and not b.name.startswith("loads.")]
-    return [
-        row
-        for row in found
-        if how_near or all(b.kept(row.cells[b.name]) for b in bounds if b.name in row.cells)
-    ]
+    return found
 
 
 def _bounded(target: Target, found: list[MachineRow]) -> list[MachineRow]:
     """The rows, with the requested quantities, that keep the bounds."""
     names, bounds = target.names, target.bounds
-    alone = [row for row in found if not row.cells.keys() >= {*names}]
+
+    def keeps(row: MachineRow) -> bool:
+        """True if a row keeps all bounds, as far as their values are known."""
+        return all(b.kept(row.cells[b.name]) for b in bounds if b.name in row.cells)
+
+    alone = [row for row in found if keeps(row) and not row.cells.keys() >= {*names}]
     specs = [row.spec for row in alone]
     rest = mapped(partial(_values, Pick(names)), specs, min(cores(), len(alone)))
     for row, cells in zip(alone, tracked(rest, "machines computed", len(alone)), strict=True):
         row.cells.update(zip(names, cells or (), strict=False))
     known = [row for row in found if row.cells.keys() >= {*names}]
-    kept = [row for row in known if all(b.kept(row.cells[b.name]) for b in bounds)]
+    kept = [*filter(keeps, known)]
     if not kept:
         nearness = Nearness(bounds)
         if known:

@@ -23,6 +23,7 @@ from geneva_cli.study.batches import built
 from geneva_cli.study.synth.families.family import Family, natural_deg
 from geneva_cli.study.synth.suiting import suiting
 from geneva_cli.study.target import OPEN_END, AllowedSpan, Target
+from geneva_cli.verdict.advice import short
 
 MORE = 4  # rollers that are tried where nothing demands more
 PARTS, ROUNDS = 4, 5  # of a range of motions: its division, and how often a part is divided again
@@ -95,14 +96,13 @@ def _longest(lines: Sequence[_LawLine]) -> list[float]:
     found = np.where(able, high, math.nan)
     is_tried = np.array([not own.is_extra for own in lines])
     left, top, step = np.flatnonzero(~able & (low < high) & is_tried), high, (high - low) / PARTS
-    for number in range(ROUNDS):
-        count = PARTS - (number > 0)  # the end of a part that is divided again can be built
-        tried = top[left, None] - step[left, None] * np.arange(1, count + 1)
-        each = [lines[i] for i in left.tolist() for _ in range(count)]
+    for _ in range(ROUNDS):
+        tried = top[left, None] - step[left, None] * np.arange(1, PARTS + 1)
+        each = [lines[i] for i in left.tolist() for _ in range(PARTS)]
         able = _buildable(each, tried.ravel()).reshape(tried.shape)
         some = able.any(axis=1)
-        found[left[some]] = tried[some, able[some].argmax(axis=1)]
-        left = left if number else left[some]
+        left = left[some]
+        found[left] = tried[some, able[some].argmax(axis=1)]
         top, step = found + step, step / PARTS
     longest: list[float] = found.tolist()
     return longest
@@ -130,9 +130,5 @@ def _keys(target: Target, natural: float, m: int, at: Array) -> dict[str, Array]
 
 def _alpha0(natural: float, motion: float) -> float:
     """The extra dwell: of all numbers within rounding that of fewest digits."""
-    middle, spare = natural - motion, 2e-15 * natural
-    for digits in range(17) if abs(middle) > spare else ():
-        x = float(f"{middle:.{digits}e}")
-        if abs(x - middle) <= spare:
-            return x
-    return 0.0 if abs(middle) <= spare else middle
+    extra, spare = natural - motion, 2e-15 * natural
+    return short(extra, spare) if abs(extra) > spare else 0.0
