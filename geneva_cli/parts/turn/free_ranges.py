@@ -99,9 +99,7 @@ class Ranges:
         row, start, end = union(row, start - shift - SAME, end - shift + SAME)
         # with the copies a period before and after, those that cross an end of the period merge
         copy = np.repeat((0.0, -period, period), len(row))
-        row = np.concatenate((row, row, row))
-        start, end = (np.concatenate((each, each, each)) + copy for each in (start, end))
-        row, start, end = union(row, start, end)
+        row, start, end = union(np.tile(row, 3), np.tile(start, 3) + copy, np.tile(end, 3) + copy)
         self.intervals = row, start, end
         self.ends = np.searchsorted(row, np.arange(count + 1)).tolist()
         self.low, self.high = start.tolist(), end.tolist()
