@@ -256,10 +256,8 @@ def sweep(text: Text, plan: SweepPlan, picks: Sequence[str] = DEFAULT) -> Sweep:
     count, reasons = min(size, 1000), list[str]()  # designs of the sample
     # the middle design comes first: most ranges have one that can be built
     middle = [*Rows({a.key: a.between(np.array([0.5])) for a in plan.axes})]
-    starts, some = [i * size // count for i in range(count)], 1
-    if plan.random:  # its first ones, at once
-        starts, some = [0], count
-    sample = chain.from_iterable(plan.designs(at, at + some) for at in starts)
+    starts = (i * size // count for i in range(count))
+    sample = chain.from_iterable(plan.designs(at, at + 1) for at in starts)
     for values in chain(middle, sample):
         try:
             run.machine(values)
