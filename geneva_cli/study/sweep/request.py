@@ -104,12 +104,10 @@ class Outcome:
     def counted(self, row_blocks: Iterable[Rows]) -> Iterator[Rows]:
         """All rows, counted."""
         for rows in row_blocks:
-            errors = cells_of(rows.columns[ERROR])
+            errors = [str(cell) for cell in cells_of(rows.columns[ERROR]) if cell is not None]
             self.all += len(rows)
-            failed = len(errors) - errors.count(None)
-            self.failed += failed
-            if failed and not self._first:
-                self._first = next(str(error) for error in errors if error is not None)
+            self.failed += len(errors)
+            self._first = self._first or next(iter(errors), "")
             self.nearness.add(rows.numbers)
             known = [name for name in self._unknown if np.isfinite(rows.numbers(name)).any()]
             self._unknown = [name for name in self._unknown if name not in known]
