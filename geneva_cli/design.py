@@ -27,7 +27,7 @@ from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.spec import tables
 from geneva_cli.spec.rules import Range, plain, require_mm
-from geneva_cli.spec.schema import SHOWN_MAX, refuse_keywords, shortly
+from geneva_cli.spec.schema import refuse_keywords, shortly
 from geneva_cli.table import Table, record_table
 
 if TYPE_CHECKING:
@@ -175,18 +175,9 @@ class Design:
         """The design as a Python expression, without default values.
 
         >>> Design(External(6), SideCrank(A=0.6), title="feed")
-        Design(External(z=6), SideCrank(A=0.6), title='feed')
+        Design(wheel=External(z=6), drive=SideCrank(A=0.6), title='feed')
         """
-        arguments = []
-        for i, name in enumerate([*type(self).__init__.__annotations__][:-1]):
-            if not (value := vars(self.spec)[name]):
-                continue
-            text = f"{value!r}" if isinstance(value, (str, tuple)) else shortly(value)
-            if i < 3:  # wheel, drive and motion, which need no name
-                arguments.append(text)
-            elif not text.endswith("()"):
-                arguments.append(f"{name}={cut(text, SHOWN_MAX)}")
-        return f"Design({', '.join(arguments)})"
+        return f"Design{shortly(self.spec.replace(path='', files=())).removeprefix('Spec')}"
 
     def with_(self, key: str, value: Any) -> Design:
         """Return the design with one key changed, ``table.key`` as in the file; None: its default.

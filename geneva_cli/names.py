@@ -76,6 +76,10 @@ LONG_WORDS = {
     "Vm": "Vm, peak velocity of the motion curve",
     "Qm": "Qm, torque factor of the motion curve",
     "worst": "worst case",
+    "wheel_deg": "wheel angle",
+    "rack_mm": "travel of the rack",
+    "omega": "wheel's velocity",
+    "alpha": "wheel's acceleration",
     "ratio": "ratio R/L",
     "none": "not known, because",
     "turns": "turns at the worst of the tolerances",
@@ -142,3 +146,9 @@ def heading(name: str) -> str:
     """A name in one line, its unit behind a comma."""
     words, unit = spoken(name)
     return f"{words}, {unit}" if unit else words
+
+
+def capital(text: str) -> str:
+    """A text that begins with a capital, unless it begins with a symbol."""
+    is_symbol = len(text.partition(",")[0].partition("_")[0]) < 2
+    return text if is_symbol else text[:1].upper() + text[1:]

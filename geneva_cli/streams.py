@@ -128,24 +128,16 @@ class _Messages(io.TextIOWrapper):
         lines = [cut(line, 4000) for line in text.split("\n")]
         # A carriage return or an escape begins a movement of the cursor.
         if max(map(len, lines)) > NARROWEST and self.isatty() and not {"\r", "\x1b"} & set(text):
-            lines = [part for line in lines for part in _broken(line, columns())]
+            lines = [part for line in lines for part in _broken(line)]
         super().write("\n".join(lines))
         return len(text)
 
 
-def columns() -> int:
-    """The width of the terminal that shows messages, in letters."""
-    try:
-        width = int(os.environ.get("COLUMNS", ""))
-    except ValueError:  # unset, or no number
-        width = 0
-    return width if width > 0 else os.get_terminal_size(2).columns or 80
+def _broken(line: str) -> list[str]:
+    import shutil  # only where somebody looks at a long message
+    from textwrap import wrap
 
-
-def _broken(line: str, width: int) -> list[str]:
-    from textwrap import wrap  # only where somebody looks at a long message
-
-    width = max(width, NARROWEST)
+    width = max(shutil.get_terminal_size().columns, NARROWEST)
     return wrap(
         line, width, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False
     ) or [line]

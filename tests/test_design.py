@@ -277,7 +277,7 @@ def test_a_design_shows_itself_as_python_writes_it():
         shown = repr(made)
         if "..." not in shown:  # points of a table are cut
             assert eval(shown, names).spec == made.spec, shown
-    assert repr(Design(External(6))) == "Design(External(z=6), Crank())"
+    assert repr(Design(External(6))) == "Design(wheel=External(z=6), drive=Crank())"
     assert max(len(repr(made)) for made in every) < 500
 
 

@@ -166,7 +166,7 @@ def beside_designs(text):
 
 # The drive whose line a template leaves out; wheels that a record names; a key of a wheel.
 ASKS = {
-    "motion.compatible": ["spec.wheel.NAME not in able"],
+    "motion.compatible": ["spec.wheel.NAME not in kind.gearings"],
     "specfile.template": ["name != Crank.NAME"],
 }
 # Keys and tables of a kind that stand in the core.

@@ -60,19 +60,11 @@ class LazyGroup(PlainValues, TyperGroup):
                 raise
             _fail(_usage("geneva", error))
 
-    def format_help(self, ctx: Any, formatter: Any) -> None:
-        """Write examples, the commands, the manual and, last, the options."""
-        self.format_usage(ctx, formatter)
-        self.format_help_text(ctx, formatter)
+    def format_help_text(self, ctx: Any, formatter: Any) -> None:
+        """Write what it is, examples, the commands by task and the manual; options follow."""
+        super().format_help_text(ctx, formatter)
         with formatter.section("Examples"):
             formatter.write("\n".join([*EXAMPLES, ""]))
-        self.format_commands(ctx, formatter)
-        records = [param.get_help_record(ctx) for param in self.get_params(ctx)]
-        with formatter.section("Options"):
-            formatter.write_dl([record for record in records if record])
-
-    def format_commands(self, ctx: Any, formatter: Any) -> None:
-        """Write the commands by task."""
         widest = max(map(len, COMMANDS))
         for name, group in GROUPS.items():
             with formatter.section(name):
@@ -84,6 +76,9 @@ class LazyGroup(PlainValues, TyperGroup):
                 text = f"  {name.replace(': ', ', ')}: {', '.join(topics)}"
                 shorten = partial(textwrap.shorten, placeholder=" ...", break_on_hyphens=False)
                 formatter.write(f"  {shorten(text, formatter.width - 2)}\n")
+
+    def format_commands(self, ctx: Any, formatter: Any) -> None:
+        """Write nothing behind the options: the commands stand before them."""
 
     def resolve_command(self, ctx: Any, args: list[str]) -> Any:
         """The real command behind a stub."""

@@ -113,8 +113,10 @@ class Command(PlainValues, TyperCommand):
         choice.columns = words_in(columns) if columns else []
         choice.wide = ctx.params.pop("wide", False)
         if "design" in self.kinds:
-            own = {name: ctx.params.pop(name, False) for name in ("spec", "reverse", "settings")}
-            ctx.params["design"] = _design(**own)
+            from geneva_cli.design import load
+
+            spec, settings = ctx.params.pop("spec"), ctx.params.pop("settings")
+            ctx.params["design"] = load(spec, settings, ctx.params.pop("reverse", False))
         elif "context" in self.kinds:
             ctx.params["context"] = ctx
         return super().invoke(ctx)
@@ -227,11 +229,8 @@ def _infos(params: Sequence[Parameter], lists: Sequence[str]) -> list[Parameter]
     return infos
 
 
-def _design(spec: str, reverse: bool = False, settings: tuple[str, ...] = ()) -> Any:
-    """The design of a command that has one."""
-    from geneva_cli.design import load
-
-    return load(spec, settings, reverse)
+def _design(spec: str, reverse: bool = False, settings: tuple[str, ...] = ()) -> None:
+    """Parameters in place of a design."""
 
 
 def words_in(text: str) -> list[str]:

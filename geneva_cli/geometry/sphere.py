@@ -14,7 +14,6 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.numerics.quadrature import rule
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 
 Vector: TypeAlias = tuple[float, float, float]
@@ -116,7 +115,7 @@ class Region(NamedTuple):
         harmonics of degree 2.
         """
         # 24 points are exact: the integrands are of the second degree in sine and cosine
-        nodes, weights = rule(24)
+        nodes, weights = np.polynomial.legendre.leggauss(24)
         second: Array = np.eye(3) * self.area / 3.0
         for arc in self.boundary:
             half = 0.5 * arc.sweep

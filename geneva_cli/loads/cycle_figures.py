@@ -8,39 +8,14 @@ from geneva_cli.errors import GenevaError, Notice, cut, few, nearest
 from geneva_cli.figure import Axis, Curve, Figure, Panel
 from geneva_cli.loads.cycle import Cycle
 from geneva_cli.loads.cycle_curves import MOTION_QUANTITIES, Drawn, drawn, rests
-from geneva_cli.loads.load_tables import no_load
+from geneva_cli.loads.load_tables import SHOWN_QUANTITIES, no_load
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.motion_table import first_entry_deg
+from geneva_cli.names import capital, described, spoken
 
 MACHINES_MAX = 6  # machines in one figure that the eye can tell apart
-AXES = (
-    Axis("wheel_deg", "Wheel angle", "deg"),
-    Axis("rack_mm", "Travel of the rack", "mm"),
-    Axis("velocity", "Speed of the wheel, relative to the input"),
-    Axis("acceleration", "Acceleration of the wheel, relative to the input"),
-    Axis("jerk", "Jerk of the wheel, relative to the input"),
-    Axis("power", "Speed times acceleration, relative to the input"),
-    Axis("omega_rad_s", "Wheel's velocity", "rad/s"),
-    Axis("alpha_rad_s2", "Wheel's acceleration", "rad/s²"),
-    Axis("wheel_torque_Nm", "Torque on the wheel", "N m"),
-    Axis("rack_speed_m_s", "Speed of the rack", "m/s"),
-    Axis("rack_acceleration_m_s2", "Acceleration of the rack", "m/s²"),
-    Axis("rack_force_N", "Force on the rack", "N"),
-    Axis("pin_force_N", "Pin force", "N"),
-    Axis("contact_stress_MPa", "Contact stress", "MPa"),
-    Axis("sliding_m_s", "Sliding of the roller", "m/s"),
-    Axis("input_torque_Nm", "Torque on the input", "N m"),
-    Axis("power_W", "Power of the input", "W"),
-    Axis("wheel_bearing_N", "Force on the wheel's bearings", "N"),
-    Axis("crank_bearing_N", "Force on the crank's bearings", "N"),
-    Axis("pv_W_m2", "Pressure times sliding", "W/m²"),
-    Axis("guide_force_N", "Force on the guide", "N"),
-    Axis("wheel_near_bearing_N", "Wheel's nearer bearing", "N"),
-    Axis("wheel_far_bearing_N", "Wheel's farther bearing", "N"),
-    Axis("crank_near_bearing_N", "Crank's nearer bearing", "N"),
-    Axis("crank_far_bearing_N", "Crank's farther bearing", "N"),
-)
-AXIS_BY_NAME = {axis.name: axis for axis in AXES}
+# all that have curves
+QUANTITIES = ("wheel_deg", "rack_mm", *MOTION_QUANTITIES, *SHOWN_QUANTITIES)
 # besides the wheel's angle or the rack's travel
 USUAL_QUANTITIES = ("velocity", "acceleration", "jerk", "pin_force_N", "input_torque_Nm", "power_W")
 
@@ -58,10 +33,10 @@ def figure(cycles: Mapping[str, Cycle], pick: Sequence[str] = ()) -> tuple[Figur
             f"{len(cycles)} designs in one figure; at most {MACHINES_MAX} can be told apart"
         )
     for name in pick:
-        if name not in AXIS_BY_NAME:
+        if name not in QUANTITIES:
             raise GenevaError(
-                f"--pick {cut(name)}: no quantity of a cycle{nearest(name, AXIS_BY_NAME)}; "
-                f"it must be one of {few(name, AXIS_BY_NAME)}"
+                f"--pick {cut(name)}: no quantity of a cycle{nearest(name, QUANTITIES)}; "
+                f"it must be one of {few(name, QUANTITIES)}"
             )
     outputs = tuple(dict.fromkeys(cycle.mechanism.output.column for cycle in cycles.values()))
     requested = tuple(dict.fromkeys(pick)) or (*outputs, *USUAL_QUANTITIES)
@@ -105,12 +80,11 @@ def _why(cycle: Cycle) -> str:
 def _panel(
     name: str, machines: Sequence[Mechanism], designs: Mapping[str, Mapping[str, Drawn]]
 ) -> Panel:
-    """The curves of a quantity; its label names the part that moves, if it is the same in all."""
-    axis, output = AXIS_BY_NAME[name], machines[0].output
-    if all(machine.output.noun == output.noun for machine in machines):
-        label = axis.label.replace("wheel, relative to the input", f"wheel, {output.invariants}")
-        label = label.replace("wheel", output.noun).replace("Wheel", output.noun.capitalize())
-        axis = axis._replace(label=label)
+    """The curves of a quantity; the label of an invariant says of what, if that is one in all."""
+    label, unit = capital(described(name)[0]), spoken(name)[1]
+    if name in MOTION_QUANTITIES:
+        of = {f" of the {m.output.noun}, {m.output.invariants}" for m in machines}
+        label += of.pop() if len(of) == 1 else ", relative to the input"
     curves: list[Curve] = []
     ends: list[float] = []
     for number, (design, own) in enumerate(designs.items()):
@@ -120,4 +94,4 @@ def _panel(
                 marks = (max(marks, key=lambda m: math.inf if m.y is None else abs(m.y)),)
             curves.append(Curve(number, design, tuple(pieces), marks))
             ends += bounds or ()
-    return Panel(axis, tuple(curves), (min(ends), max(ends)) if ends else None)
+    return Panel(Axis(name, label, unit), tuple(curves), (min(ends), max(ends)) if ends else None)

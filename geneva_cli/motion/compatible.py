@@ -7,8 +7,8 @@ tolerances, whatever the kind.
 import math
 from collections.abc import Iterator
 from functools import partial, reduce
-from operator import and_, or_
-from typing import TypeAlias
+from operator import and_
+from typing import TypeAlias, cast
 
 from geneva_cli.errors import GenevaError, refuse, refuse_text
 from geneva_cli.kept import load_named
@@ -16,9 +16,9 @@ from geneva_cli.motion.drive import Drive
 from geneva_cli.motion.kind import Kind
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.registry import KINDS
-from geneva_cli.numerics.arrays import choose, smaller
+from geneva_cli.numerics.arrays import Truth, choose, smaller
 from geneva_cli.spec.rules import is_array
-from geneva_cli.spec.schema import SpecTable, fields
+from geneva_cli.spec.schema import SpecTable
 
 SAME_RATIO = 1e-6  # values of R/L that differ by less are the same, written with few digits
 # keys below twice the centre distance, and below twice the crank's arm
@@ -32,6 +32,10 @@ _IN_CRANK = (
 # kinds of a spec, in the text of a conflict
 GEARING, KIND = 'gearing = "{spec.wheel.NAME}"', 'kind = "{spec.drive.NAME}"'
 BEFORE = 'kind = "{spec.drive_before.NAME}"'
+ONE_ROLLER = "drive.rollers drive.roller_angles_deg wheel.steps_deg"  # unset for one roller
+HORNS = "size.mouth_radius_mm size.horn_tip_mm"  # of a wheel with a recess behind every slot
+BELOW = "{key} = {value:g}: it must be below {below:.6g}, {what}"
+UNBALANCED = "set count to 2 or more, or radius_mm = 0"  # what to do
 
 
 # A combination that makes no machine if the first member is true (in a batch an array); the key to
@@ -52,20 +56,14 @@ def _conflicts(spec: Spec) -> Iterator[Conflict]:
     """The rules of a drive before another, of the kinds in the spec, and of sizes and a limit."""
     if spec.drive_before is not None:
         yield from _of_drive_before(spec, spec.drive_before)
-    # the rules of the drive come first, then those of its wheel, then those of what adds to it
-    for field in ("drive", "wheel", ""):
-        for kind in KINDS:
-            own = "drive" if kind.drive else "wheel" if kind.wheel else ""
-            if kind.refuses and field == own and concerns(kind, spec):
-                yield from load_named(kind.refuses)(spec)
-    size, wheel = spec.size, spec.wheel
-    has_horns = wheel.FLAT and spec.output.turns
-    for key in ("mouth_radius_mm", "horn_tip_mm"):
-        is_cut, place = getattr(size, key) > 0.0, ("size", key)
-        text = f"{key} is for external and internal wheels, not {GEARING}: remove it"
-        yield is_cut & (not has_horns), place, text
-        text = f"{key} is for wheels with a recess behind every slot: remove it, or stop"
-        yield is_cut & wheel.stopped, place, text
+    for kind in KINDS:
+        if kind.gearings and kind.name == spec.drive.NAME:
+            text = f"{KIND} drives an {' or '.join(kind.gearings)} wheel, not {GEARING}"
+            yield spec.wheel.NAME not in kind.gearings, ("wheel", "gearing"), text
+        if kind.refuses and concerns(kind, spec):
+            yield from load_named(kind.refuses)(spec)
+    if not (spec.wheel.FLAT and spec.output.turns):
+        yield from unset(spec, HORNS, f"is for external and internal wheels, not {GEARING}")
     if spec.limits.dwell_position_max_deg is not None:
         sizes = [key for key in spec.tolerance.as_dict() if key != "distribution"]
         exact = reduce(and_, (getattr(spec.tolerance, key) == 0.0 for key in sizes))
@@ -79,11 +77,27 @@ def concerns(kind: Kind, spec: Spec) -> bool:
         return True
     for key in kind.keys:
         table, _, name = key.partition(".")
-        of = vars(spec)[table]
-        value, default = vars(of).get(name), getattr(type(of), name, None)
-        if value is not default and (is_array(value) or value != default):
+        own = is_set(vars(spec)[table], name)
+        if is_array(own) or own:
             return True
     return False
+
+
+def is_set(table: SpecTable, key: str = "") -> Truth:
+    """True if a key of a table, or any, differs from its default; for a batch an array."""
+    kind, out = type(table), cast("Truth", False)
+    for name in (key,) if key else kind._parameters:
+        out = out | (vars(table).get(name) != getattr(kind, name, None))
+    return out
+
+
+def unset(spec: Spec, keys: str, why: str) -> Iterator[Conflict]:
+    """Rules of tables and keys, as ``load.mass_kg``, that must not be set; why is behind each."""
+    for word in keys.split():
+        table, _, key = word.partition(".")
+        of, place = vars(spec)[table], (table, key) if key else (table,)
+        if of is not None:
+            yield is_set(of, key), place, f"{key or f'[{table}]'} {why}: remove it"
 
 
 def _of_drive_before(spec: Spec, before: Drive) -> Iterator[Conflict]:
@@ -92,16 +106,11 @@ def _of_drive_before(spec: Spec, before: Drive) -> Iterator[Conflict]:
     text = f"{BEFORE} cannot turn the shaft of another drive: remove [drive.before]"
     yield not before.IN_FRONT, (*key, "kind"), text
     yield drive.FIRST, key, f"{BEFORE} cannot stand before {KIND}: {drive.FIRST}"
-    text = "n_rpm, rollers and roller_angles_deg: set them in [drive], not in [drive.before]"
-    yield is_set(before, Drive), key, text
+    for name in Drive._parameters:
+        text = f"{name} is for [drive]: set it there, not in [drive.before]"
+        yield is_set(before, name), (*key, name), text
     text = f"the crank of {KIND} is on the shaft: set {BEFORE} in [drive] instead"
     yield drive.direct and not (spec.motion or len(drive.cranks) > 1), key, text
-
-
-def is_set(table: SpecTable, kind: type[SpecTable] | None = None) -> object:
-    """True if a key of a table, or of its base, differs from its default; for a batch an array."""
-    keys = fields(kind or type(table))
-    return reduce(or_, (getattr(table, key.attribute) != key.default for key in keys))
 
 
 def is_geared(spec: Spec) -> bool:
@@ -115,18 +124,12 @@ def refuse_sizes(spec: Spec, L: float, ratio: float) -> None:
     size, r, distance = spec.size, spec.size.roller_radius(L), f"the {spec.wheel.DISTANCE}"
     radius, given = size.crank_radius_mm, size.center_distance_mm
     if radius is not None and given is not None:  # a crank as built, of a kind that needs its R/L
-        text = (
-            "crank_radius_mm = {radius:.9g} and center_distance_mm = {L:.9g} have R/L = "
-            "{given:.6g}, but this machine needs {ratio:.6g}; straight slots of an external or "
-            "internal wheel on a crank or a side-crank are taken as built: crank_radius_mm = "
-            "{own:.9g}, or center_distance_mm = {fitting_mm:.9g}, or leave one of them out"
-        )
+        text = "crank_radius_mm and center_distance_mm have R/L = {given:.9g}, but this machine "
+        text += "needs {ratio:.9g}: set crank_radius_mm = {own:.9g}, or leave one of them out"
         if spec.motion is not None:
             text += "; or set ratio = {given:.9g} in [motion]"
-        values = {"radius": radius, "L": L, "given": radius / L, "ratio": ratio, "own": ratio * L}
-        values["fitting_mm"] = spec.drive.distance_mm(spec.wheel, spec.motion, radius)
-        off = abs(radius / L - ratio) > SAME_RATIO
-        refuse_text(off, ("size", "crank_radius_mm"), text, **values)
+        off, place = abs(radius / L - ratio) > SAME_RATIO, ("size", "crank_radius_mm")
+        refuse_text(off, place, text, given=radius / L, ratio=ratio, own=ratio * L)
     farthest = "the roller's greatest distance from the wheel's axis"
     if not spec.output.turns:  # a rack has no axis: where its roller is farthest from the deepest
         farthest = f"twice {distance}"
@@ -157,8 +160,8 @@ def refuse_sizes(spec: Spec, L: float, ratio: float) -> None:
             value = allowed.get(key, own)
             if value is not None:
                 by = "" if own is not None else f'; the value comes from process = "{size.process}"'
-                text = f"{key} = {{value:g}}: it must be below {{below:.6g}}, {meaning}{by}"
-                refuse_text(value >= below, ("size", key), text, value=value, below=below)
+                values = {"key": key, "value": value, "below": below, "what": meaning + by}
+                refuse_text(value >= below, ("size", key), BELOW, **values)
     face, thick, edge = size.face_width_mm, size.wheel_thickness_mm, size.edge_mm
     if face is not None and thick is not None:
         text = "wheel_thickness_mm = {thick:g}: use at least {least:g}, face_width_mm and two edges"
@@ -196,94 +199,58 @@ def refuse_tolerances(spec: Spec, L: float, ratio: float) -> None:
         ("lock_radius_mm", disc, "the locking disc's radius, or the crank's"),
         ("recess_radius_mm", disc, "the locking disc's radius, or the crank's"),
     ):
-        text, value = f"{key} = ±{{value:g}}: it must be below {{below:.6g}}, {what}", given[key]
-        refuse_text(value >= below, ("tolerance", key), text, value=value, below=below)
-
-
-def other_wheels(spec: Spec) -> Conflict:
-    """A wheel of another kind than those that the drive can drive."""
-    able = next(kind.gearings for kind in KINDS if kind.drive and kind.name == spec.drive.NAME)
-    text = f"{KIND} drives an {' or '.join(able)} wheel, not {GEARING}"
-    return spec.wheel.NAME not in able, ("wheel", "gearing"), text
-
-
-def several_rollers(spec: Spec) -> Iterator[Conflict]:
-    """More than one roller, with a drive that carries one."""
-    text, several = f"{KIND} carries one roller only", spec.wheel.steps
-    yield spec.drive.rollers > 1, ("drive", "rollers"), text
-    yield several or spec.drive.roller_angles_deg, ("drive", "kind"), text
-
-
-def _not_radial(spec: Spec) -> Conflict:
-    text = f"{KIND} needs one roller and radial slots: remove offset_mm, steps_deg and "
-    wrong = spec.drive.roller_angles_deg or spec.wheel.skewed
-    return wrong, ("drive", "kind"), text + "roller_angles_deg"
+        values = {"key": key, "value": given[key], "below": below, "what": what}
+        refuse_text(given[key] >= below, ("tolerance", key), BELOW, **values)
 
 
 def of_pin_path(spec: Spec) -> Iterator[Conflict]:
     """Rules of a drive whose roller has a path of its own."""
-    yield _not_radial(spec)
-    yield other_wheels(spec)
-    text = f"{KIND} sets the path of the roller, and the slots are straight: remove law"
-    yield spec.motion is not None, ("motion", "law"), text
-    yield from several_rollers(spec)
+    why = f"is not for {KIND}, whose one roller enters equal, straight and radial slots"
+    yield from unset(spec, f"motion.law wheel.offset_mm {ONE_ROLLER}", why)
 
 
 def of_cam(spec: Spec) -> Iterator[Conflict]:
     """Rules of a roller in a groove that a law gives."""
-    yield _not_radial(spec)
-    yield other_wheels(spec)
+    why = f"is not for {KIND}, whose roller enters equal, radial slots"
+    yield from unset(spec, "wheel.offset_mm wheel.steps_deg drive.roller_angles_deg", why)
     text = f"{KIND} needs a law in [motion]: the groove is cut for it"
     yield spec.motion is None, ("drive", "kind"), text
 
 
 def of_transmission(spec: Spec) -> Iterator[Conflict]:
     """Rules of a roller on a crank: of the slots that a law gives, then of several rollers."""
-    drive, wheel, law = spec.drive, spec.wheel, spec.motion is not None
-    angles, rollers = ("drive", "roller_angles_deg"), ("drive", "rollers")
-    text = "{} is for straight slots, and a law makes curved slots: remove one of them"
-    yield law and wheel.steps, ("wheel", "steps_deg"), text.format("steps_deg")
-    yield law and wheel.skewed, ("wheel", "offset_mm"), text.format("offset_mm")
-    text = f"{GEARING} has straight slots only: remove law"
-    yield law and not wheel.FLAT, ("motion", "law"), text
+    drive, wheel, places = spec.drive, spec.wheel, ("drive", "roller_angles_deg")
+    if spec.motion:
+        yield not wheel.FLAT, ("motion", "law"), f"{GEARING} has straight slots only: remove law"
+        why = "is for straight slots; leave out law, which makes curved slots, or"
+        yield from unset(spec, "wheel.offset_mm wheel.steps_deg drive.roller_angles_deg", why)
+        text = "several rollers move the wheel differently, so one curved slot cannot serve them: "
+        text += "use rollers = 1, or straight slots (no law)"
+        yield drive.rollers > 1 and not drive.direct, ("drive", "rollers"), text
     placed = len(wheel.steps or drive.roller_angles_deg or ())
     text = f"each of the {placed} steps has a roller: roller_angles_deg needs as many angles"
-    yield wheel.steps and len(drive.roller_angles_deg or wheel.steps) != placed, angles, text
+    yield wheel.steps and len(drive.roller_angles_deg or wheel.steps) != placed, places, text
     what = "steps" if wheel.steps else "angles"
     text = f"rollers = {{spec.drive.rollers}}, but there are {placed} {what}: remove rollers"
-    yield placed and drive.rollers not in (1, placed), rollers, text
-    yield law and drive.roller_angles_deg, angles, "roller_angles_deg is for straight slots: remove"
-    text = "several rollers move the wheel differently, so one curved slot cannot serve them: use "
-    text += "rollers = 1, or straight slots (no law)"
-    yield law and drive.rollers > 1 and not drive.direct, rollers, text
+    yield placed and drive.rollers not in (1, placed), ("drive", "rollers"), text
 
 
 def of_crank(spec: Spec) -> Iterator[Conflict]:
     """Rules of a plain crank, or of several about one wheel."""
     yield from of_transmission(spec)
     drive, wheel, steps = spec.drive, spec.wheel, ("drive", "crank_steps")
-    places = drive.cranks
-    several = len(places) > 1
+    places, count = drive.cranks, len(drive.cranks)
     text = f"crank_steps needs an external wheel, not {GEARING}: remove crank_steps"
     able = wheel.FLAT and spec.output.turns and wheel.SIGN > 0.0
-    yield several and not able, steps, text
+    yield count > 1 and not able, steps, text
     text = "crank_steps must begin with 0 and hold different whole numbers below {spec.wheel.z}"
     broken = [*map(int, places)] != [*places]
-    wrong = broken or places[0] != 0.0 or len({*places}) < len(places)
+    wrong = broken or places[0] != 0.0 or len({*places}) < count
     yield wrong | (max(places) >= wheel.z), steps, text
-    if not several:
-        return
-    text = "a wheel of unequal steps looks different from each crank of crank_steps: remove one"
-    yield wheel.steps, ("wheel", "steps_deg"), text
-    text = "the cranks of crank_steps are equal and work in even turns: remove roller_angles_deg"
-    yield drive.roller_angles_deg, ("drive", "roller_angles_deg"), text
-    count = len(places)
-    text = f"crank_steps places {count} cranks with one roller each: set rollers = {count}"
-    yield drive.rollers != count, ("drive", "rollers"), text
-    text = (
-        "each crank of crank_steps pushes the wheel from another side, and would move a body off "
-    )
-    text += "its axis differently: set count to 2 or more, or radius_mm = 0"
-    yield spec.unbalanced, ("mass", "radius_mm"), text
-    text = "[tolerance] has no key for the places of the cranks of crank_steps: remove one of them"
-    yield is_set(spec.tolerance), ("tolerance",), text
+    if count > 1:
+        why = "is not for crank_steps, whose cranks are equal and work in even turns"
+        yield from unset(spec, "wheel.steps_deg drive.roller_angles_deg tolerance", why)
+        text = f"crank_steps places {count} cranks with one roller each: set rollers = {count}"
+        yield drive.rollers != count, ("drive", "rollers"), text
+        text = "each crank of crank_steps would move a body off the wheel's axis differently: "
+        yield spec.unbalanced, ("mass", "radius_mm"), text + UNBALANCED

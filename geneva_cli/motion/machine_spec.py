@@ -18,7 +18,7 @@ from geneva_cli.numerics.arrays import Truth, all_true
 from geneva_cli.spec import tables
 from geneva_cli.spec.rules import OneOf
 from geneva_cli.spec.schema import Field, SpecTable, fields, refuse_kind
-from geneva_cli.spec.tables import LISTS, PLAIN, Z_DRAWN, Accept, Mass
+from geneva_cli.spec.tables import LISTS, Z_DRAWN, Accept, Mass
 
 BEFORE = "drive.before"  # table of the drive that turns the input shaft of [drive]
 # limits that need a load
@@ -34,20 +34,18 @@ NEEDED = {
     "lock_stress_max_MPa": _CONTACT,
     "stop_stress_max_MPa": _CONTACT,
     "lock_deflection_max_deg": _CONTACT,
-    "roller_life_min_h": ("dynamic_capacity_N", "material.roller", "the roller's capacity"),
+    "roller_life_min_h": ("dynamic_capacity_N", "material_roller", "the roller's capacity"),
 }
 
 
-# Fields of ``Spec`` that hold a table, their type, and an example for the error message.
-_TABLE_TYPES: dict[str, tuple[type, str]] = {
-    "wheel": (Gearing, "External(6)"),
-    "drive": (Drive, "Crank(n_rpm=60)"),
-    "drive_before": (Drive, "SideCrank(A=0.6)"),
-    "motion": (Motion, "Motion(Cycloidal())"),
+# examples of objects, for error messages; of tables their classes
+EXAMPLES = {
+    "wheel": "External(6)",
+    "drive": "Crank(n_rpm=60)",
+    "drive_before": "SideCrank(A=0.6)",
+    "motion": "Motion(Cycloidal())",
 }
-for _name, _table in PLAIN.items():
-    if _name not in LISTS:
-        _TABLE_TYPES[_name.replace(".", "_")] = (_table, f"{_table.__name__}(...)")
+NO_TABLE = ("mass", "title", "path", "files")  # fields of ``Spec`` that hold no table
 
 
 class Spec(SpecTable):
@@ -95,15 +93,14 @@ class Spec(SpecTable):
     def __post_init__(self) -> None:
         if vars(self)["drive"] is None:
             vars(self)["drive"] = load_named(CRANK)()
-        for name, (kind, example) in _TABLE_TYPES.items():
-            value = vars(self)[name]
-            is_left_out = value is None and name in ("drive_before", "motion")
-            if not (is_left_out or isinstance(value, kind)):
-                refuse_kind(value, name, kind, example)
         vars(self)["mass"] = tuple(self.mass)
-        for one in self.mass:
-            if not isinstance(one, Mass):
-                raise GenevaError('mass must be a list of objects like Mass("disc", ...)')
+        for body in self.mass:
+            if not isinstance(body, Mass):
+                refuse_kind(body, "mass", Mass, 'Mass("disc", ...)')
+        for name, one in self._parameters.items():
+            value, kind = vars(self)[name], cast("Any", one.type)
+            if name not in NO_TABLE and not isinstance(value, kind):
+                refuse_kind(value, name, kind, EXAMPLES.get(name, ""))
         # the centre distance follows from the crank radius where only that is set
         size, radius, L = self.size, self.size.crank_radius_mm, None
         if radius is not None and size.center_distance_mm is None:
@@ -126,8 +123,9 @@ class Spec(SpecTable):
         vars(self)["unbalanced"] = any(map(attrgetter("to_one_side"), self.mass))
         limits = vars(self.limits)
         for limit, (key, of, what) in NEEDED.items():
-            if limits[limit] is not None and self.table(of)[key] is None:
-                raise GenevaError(f"{limit} needs {what}: set {key} in [{of}]", ("limits", limit))
+            if limits[limit] is not None and vars(vars(self)[of])[key] is None:
+                text = f"{limit} needs {what}: set {key} in [{of.replace('_', '.')}]"
+                raise GenevaError(text, ("limits", limit))
         if self.limits.product_acceleration_max_m_s2 is not None and not self.product.lies:
             key = "product_acceleration_max_m_s2"
             raise GenevaError(
@@ -270,13 +268,14 @@ DRIVES = KindTable("drive", _DRIVE, registry.DRIVES, registry.drive)
 LAWS = KindTable("motion", _LAW, registry.LAWS, registry.law, fields(Motion))
 
 
-def drives_before(names: Collection[str] = registry.DRIVES) -> KindTable:
-    """[drive.before] for some kinds of drives, whose shared keys stand in [drive]."""
-    word = DRIVES.word._replace(default=None, meaning="drive that turns the input shaft of [drive]")
-    return DRIVES._replace(table=BEFORE, word=word, names=names, without=fields(Drive))
+# whose shared keys stand in [drive]
+_front = _DRIVE._replace(default=None, meaning="drive that turns the input shaft of [drive]")
+DRIVES_BEFORE = DRIVES._replace(table=BEFORE, word=_front, without=fields(Drive))
+# every table whose keys depend on a word, in the order of a file
+KINDS = {"wheel": WHEELS, "drive": DRIVES, BEFORE: DRIVES_BEFORE, "motion": LAWS}
 
 
 def kind_tables() -> list[KindTable]:
-    """Every table whose keys depend on a word, in the order of a file; it imports all drives."""
+    """The tables of ``KINDS``, with the drives that may be before others; it imports all drives."""
     before = [name for name in registry.DRIVES if registry.drive(name).IN_FRONT]
-    return [WHEELS, DRIVES, drives_before(before), LAWS]
+    return [of._replace(names=before) if of is DRIVES_BEFORE else of for of in KINDS.values()]

@@ -111,9 +111,7 @@ def enclosed(x: Number, numbers: Record) -> Record:
     if not isinstance(x, Enclosed):
         return numbers
     kept = (int, str, tuple, type(None), Enclosed)
-    out: list[object] = []
-    for one in numbers:
-        out.append(one if isinstance(one, kept) else x.exact(cast("float", one)))
+    out = [one if isinstance(one, kept) else x.exact(cast("float", one)) for one in numbers]
     return record_of(numbers, out)
 
 
@@ -279,13 +277,6 @@ def array(x: Number) -> Array:
     import numpy
 
     return numpy.asarray(x)
-
-
-def read_only(*arrays: Array) -> tuple[Array, ...]:
-    """Arrays that are cached, and cannot be written to from now on."""
-    for one in arrays:
-        one.flags.writeable = False
-    return arrays
 
 
 def larger(a: N, b: N) -> N:

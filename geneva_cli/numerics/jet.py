@@ -10,7 +10,7 @@ from math import comb, factorial
 from operator import add, sub
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, TypeVar, cast
 
-from geneva_cli.numerics.arrays import SINGLE, Enclosed, N, enclosed, library, piece_of, size
+from geneva_cli.numerics.arrays import SINGLE, Enclosed, Mask, N, enclosed, library, piece_of, size
 from geneva_cli.numerics.arrays import Array as Array
 from geneva_cli.numerics.arrays import Number as Number
 
@@ -305,19 +305,12 @@ def turning(x: Jet, y: Jet, less: Jet | None = None, square: Jet | None = None) 
 
     Or that less the derivative of a jet ``less`` in the numerator, and over another ``square``.
     """
-    a, b, out = x.c, y.c, []
-    if len(a) == 1:
+    if len(x.c) == 1:
         return Jet(())
-    for k in range(1, len(a)):  # the sum of (k - 2 i) (a[i] b[k - i] - b[i] a[k - i]), i below k/2
-        total = a[0] * b[k] - b[0] * a[k]
-        if k > 1:
-            total = total * k
-        for i in range(1, (k + 1) // 2):
-            more = a[i] * b[k - i] - b[i] * a[k - i]
-            total = total + (more * (k - 2 * i) if k - 2 * i > 1 else more)
-        out.append(total)
-    moment = Jet(out) if less is None else Jet(out) - less.derivative()
     low_x, low_y = x.lower, y.lower
+    moment = low_x * y.derivative() - low_y * x.derivative()
+    if less is not None:
+        moment = moment - less.derivative()
     return moment / (low_x * low_x + low_y * low_y if square is None else square.lower)
 
 
@@ -327,19 +320,14 @@ def piecewise(x: Number, cuts: Sequence[Number], pieces: Sequence[Callable[[Numb
         return pieces[piece_of(x, cast("Sequence[float]", cuts))](x)
     import numpy as np
 
-    angles = np.asarray(x)
-    none = np.zeros(angles.shape, np.int8)
-    index = sum(((angles > cut).astype(np.int8) for cut in cuts), none)
-    first, last = int(index.min(initial=len(pieces) - 1)), int(index.max(initial=0))
-    if first >= last:
-        return pieces[last](x)
+    angles, out = np.asarray(x), list[Number]()
+    past: Mask = np.full(angles.shape, True)  # the cut before
     with np.errstate(all="ignore"):  # outside their own part formulas may have no value
-        jets = {pieces[first]: pieces[first](x).c}
-        out = list(jets[pieces[first]])
-        for i in range(first + 1, last + 1):
-            here, piece = np.equal(index, i), pieces[i]
-            if here.any():
-                if piece not in jets:
-                    jets[piece] = piece(x).c
-                out = [np.where(here, b, a) for a, b in zip(out, jets[piece], strict=True)]
-    return Jet(out)
+        for piece, cut in zip(pieces, (*cuts, np.inf), strict=True):
+            beyond = angles > cut
+            if (past & ~beyond).any():
+                own = piece(x).c
+                both = zip(out, own, strict=True)
+                out = [np.where(past, b, a) for a, b in both] if out else [*own]
+            past = beyond
+    return Jet(out or pieces[-1](x).c)  # also of no angles

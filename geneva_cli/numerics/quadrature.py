@@ -9,32 +9,14 @@ from functools import cache
 from typing import TypeAlias
 
 import numpy as np
+from numpy.polynomial.legendre import leggauss, legvander
 
-from geneva_cli.numerics.arrays import Array, Mask, Whole, blocks, joined, matrix_product, read_only
+from geneva_cli.numerics.arrays import Array, Mask, Whole, blocks, joined, matrix_product
 
 Integrands: TypeAlias = Callable[[Array, Whole], Array]
 NODES = 20  # nodes of a rule that suffice for most loads between two cuts
 # Fraction of a design's integral that the last terms may have; the error is a tenth at most.
 LAST_TERMS = 2e-12
-
-
-def legendre(x: Array, degree: int) -> tuple[Array, Array]:
-    """The Legendre polynomials of ``degree`` - 1 and ``degree`` at some places."""
-    before, here = np.ones(len(x)), x
-    for k in range(2, degree + 1):
-        before, here = here, ((2 * k - 1) * x * here - (k - 1) * before) / k
-    return before, here
-
-
-@cache
-def rule(nodes: int) -> tuple[Array, ...]:
-    """Nodes in [-1, 1] and weights of Gauss-Legendre quadrature, by Newton's method."""
-    x = np.cos(np.pi * (np.arange(nodes) + 0.75) / (nodes + 0.5))
-    for _ in range(6):
-        before, here = legendre(x, nodes)
-        slope = nodes * (before - x * here) / ((1.0 - x) * (1.0 + x))
-        x = x - here / slope
-    return read_only(x, 2.0 / ((1.0 - x) * (1.0 + x) * slope * slope))
 
 
 def span_integrals(
@@ -94,7 +76,7 @@ def _parts(
         t = np.asfortranarray((0.5 * (low + high))[:, None] + half * node)
         # at the ends of a span itself a function may have no value
         inner = np.stack((low > 0.0, high < 1.0), axis=-1)
-        t[:, NODES:] = np.where(inner, t[:, NODES:], t[:, [NODES - 1, 0]])
+        t[:, NODES:] = np.where(inner, t[:, NODES:], t[:, [0, NODES - 1]])
         width = (b - a)[own, None]
         rate = width * half * (6.0 * t * (1.0 - t))
         t = t * t * (3.0 - 2.0 * t)
@@ -102,7 +84,7 @@ def _parts(
         value, apart = every[..., :NODES], every[..., NODES:]
         sums = matrix_product(value, terms)
         apart = np.where(inner, apart - matrix_product(value, at_ends), 0.0)
-        last = np.abs(np.concatenate((sums[..., 1:], (1.0 - node[0]) * apart), axis=-1))
+        last = np.abs(np.concatenate((sums[..., 1:], (1.0 + node[0]) * apart), axis=-1))
         last = last.max(axis=-1)
         rows.append((sums[..., 0], last, matrix_product(np.abs(value), terms[:, 0])))
     return joined(rows)
@@ -111,11 +93,11 @@ def _parts(
 @cache
 def _rule() -> tuple[Array, ...]:
     """Nodes in [-1, 1] and the ends; weights for the sum and the last terms, and for the ends."""
-    node, weight = rule(NODES)
-    before, last = legendre(node, NODES - 1)
+    node, weight = leggauss(NODES)
+    *_, before, last = legvander(node, NODES - 1).T
     # The last two terms together: every other term of an even or odd function is 0.
     terms = np.ones(NODES), (NODES - 1.5) * before, (NODES - 0.5) * last
     # the series at an end, by the sum of Christoffel and Darboux
     at_ends = [0.5 * NODES * last / (s - node) for s in (-1.0, 1.0)]
     ends = weight[:, None] * np.column_stack(at_ends)
-    return read_only(np.append(node, [-1.0, 1.0]), weight[:, None] * np.column_stack(terms), ends)
+    return np.append(node, [-1.0, 1.0]), weight[:, None] * np.column_stack(terms), ends

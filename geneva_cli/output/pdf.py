@@ -131,6 +131,11 @@ def box(x: float, y: float, long: float, high: float, ink: str) -> str:
     return f"{ink} rg {number(x)} {number(y)} {number(long)} {number(high)} re f\n"
 
 
+def moved(content: str, x: float, y: float, scale: float = 1.0) -> str:
+    """Operators with their origin at a point, and scaled."""
+    return f"q {scale:.9f} 0 0 {scale:.9f} {number(x)} {number(y)} cm\n{content}Q\n"
+
+
 def tint(rgb: str, fraction: float = 1.0) -> str:
     """A colour, or a fraction of it on white, as the operands of an operator."""
     parts = (int(rgb[i : i + 2], 16) / 255.0 for i in (1, 3, 5))

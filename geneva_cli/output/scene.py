@@ -11,22 +11,18 @@ from bisect import bisect_right
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from geneva_cli.figure import Figure
     from geneva_cli.geometry.shapes import Shape
-    from geneva_cli.numerics.arrays import N
 
 
 class Track(NamedTuple):
-    """A value that moves: cubics between knots with these values and slopes, per degree.
+    """A value that moves: a Chebyshev series between each two ``ends``, degrees from the start.
 
-    A single knot is a constant value. A turn of the scene adds ``gain``.
+    A turn of the scene adds ``gain``.
     """
 
-    at: tuple[float, ...]
-    value: tuple[float, ...]
-    slope: tuple[float, ...]
+    ends: tuple[float, ...]
+    series: tuple[tuple[float, ...], ...]
     gain: float = 0.0
 
 
@@ -34,22 +30,15 @@ def value_at(track: Track, t: float) -> float:
     """A track's value at an input angle, as the page's script computes it.
 
     >>> from geneva_cli.output.scene import Track, value_at
-    >>> value_at(Track((0.0, 2.0), (0.0, 8.0), (0.0, 12.0)), 1.0)  # t³
-    1.0
+    >>> value_at(Track((0.0, 2.0, 4.0), ((5.0,), (0.0, 0.0, 1.0))), 2.5)  # 2 u² - 1, u = -1/2
+    -0.5
     """
-    i = min(max(bisect_right(track.at, t) - 1, 0), len(track.at) - 2)
-    h = track.at[i + 1] - track.at[i]
-    if not h > 0.0:  # a single knot too, which is the last one
-        return track.value[i + 1]
-    u = min(1.0, max(0.0, (t - track.at[i]) / h))
-    return cubic(u, h, track.value[i : i + 2], track.slope[i : i + 2])
+    from numpy.polynomial.chebyshev import chebval
 
-
-def cubic(u: float, h: N, ends: Sequence[N], slopes: Sequence[N]) -> N:
-    """A cubic at a fraction of its step h, from its values and slopes at both ends."""
-    w = 1.0 - u
-    at_ends = w * w * (1.0 + 2.0 * u) * ends[0] + u * u * (1.0 + 2.0 * w) * ends[1]
-    return at_ends + u * w * h * (w * slopes[0] - u * slopes[1])
+    i = min(max(bisect_right(track.ends, t), 1), len(track.series))
+    a, b = track.ends[i - 1 : i + 1]
+    u = min(1.0, max(-1.0, (2.0 * t - a - b) / (b - a)))
+    return float(chebval(u, track.series[i - 1]))
 
 
 Place: TypeAlias = tuple[Track, Track]
@@ -57,20 +46,16 @@ Box: TypeAlias = tuple[float, float, float, float]  # least x and y, greatest x 
 
 
 class Body(NamedTuple):
-    """Shapes in its own frame, which turns about a point. A rack's frame moves along y instead."""
+    """Shapes in its own frame, which turns about a point. A rack's frame moves along y instead.
+
+    Its name is the id of its element on the page.
+    """
 
     name: str
     shapes: tuple[Shape, ...]
     centre: tuple[float, float]
     angle: Track  # counterclockwise
     travel: Track | None = None  # along y, mm
-
-
-class Rotation(NamedTuple):
-    """A rotation of everything in the picture about a fixed point, counterclockwise."""
-
-    centre: tuple[float, float]
-    angle: Track
 
 
 class CarriedShapes(NamedTuple):
@@ -140,5 +125,5 @@ class Scene(NamedTuple):
     # from the start: where the input stands still for so many seconds, in the middle of each dwell
     pauses: tuple[float, ...] = ()
     stop_s: float = 0.0
-    # rotation of the frame in which all positions are written: of a carrier
-    frame: Rotation | None = None
+    # a carrier, in whose frame all positions are written: its rotation
+    frame: Body | None = None

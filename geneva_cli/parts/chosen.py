@@ -5,7 +5,7 @@ details, which a load changes only through wheel and crank.
 """
 
 import re
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 from contextlib import suppress
 from typing import NamedTuple
 
@@ -27,6 +27,7 @@ from geneva_cli.spec.tables import Size
 
 # Not sizes of a part, or sizes whose mere presence makes one: a hub, a limit of `check`.
 LEFT_OUT = ("wheel_hub_mm", "crank_hub_mm", "wall_min_mm")
+BY_LOAD = "by load"  # the reason of a size that the load chose, before the load
 CRANK = "crank shaft {:g}", "{0.crank_N:.4g} N and {0.crank_Nm:.4g} N m on the crank's shaft"
 # What people call the sizes that a load chooses, the first one that is to be looked at first, and
 # what of the loads chooses them.
@@ -114,8 +115,9 @@ def chosen(mechanism: Mechanism, details: Values | None = None) -> dict[str, Cho
         # what the meaning of a key says of its default, without a load
         rule = field.meaning.partition("default")[2].lstrip(": ").partition(";")[0]
         why = f"default {re.sub(',? or by load$', '', rule)}"
-        if _is_by_load(key, keys, values):
-            why = f"by load: {NAMES[f'size.{key}'][1].format(loads)}"
+        # a crank without an arm has no arm's thickness
+        if key in keys and ("arm_bore_mm" in values or key != "arm_thickness_mm"):
+            why = f"{BY_LOAD}: {NAMES[f'size.{key}'][1].format(loads)}"
         elif rule.endswith("by process") and size.process:
             why = f"by process {size.process}"
         out[f"size.{key}"] = Chosen(values[key], why)
@@ -129,18 +131,11 @@ def by_load(mechanism: Mechanism) -> dict[str, Chosen]:
     >>> by_load(heavy.mechanism)["size.pin_mm"]
     Chosen(value=7.0, why='by load: 2000 N on the pin')
     """
-    if not mechanism.spec.is_loaded:
-        return {}
-    (values, keys), every, out = key_sizes(mechanism), chosen(mechanism), dict[str, Chosen]()
+    every = chosen(mechanism) if mechanism.spec.is_loaded else {}
+    out = dict[str, Chosen]()
     for name in filter(every.__contains__, NAMES):
-        if _is_by_load(name.removeprefix("size."), keys, values):
-            out[name] = every[name]
+        out |= {name: every[name]} if every[name].why.startswith(BY_LOAD) else {}
     return out
-
-
-def _is_by_load(key: str, keys: Collection[str], values: Mapping[str, float | str]) -> bool:
-    """Return True for one of the ``keys`` of loaded parts; a crank without an arm has no arm's."""
-    return key in keys and ("arm_bore_mm" in values or key != "arm_thickness_mm")
 
 
 def _is_written(mechanism: Mechanism, key: str, values: Mapping[str, float | str]) -> bool:

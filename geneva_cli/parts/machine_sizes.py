@@ -36,10 +36,11 @@ OF_AXLE = (  # keys that an internal wheel lacks, which is open in the middle
 )
 
 
-def sized(mechanism: Mechanism) -> Layout | None:
-    """Return ``machine_sizes``; None where no flat parts can be cut."""
+def sized(mechanism: Mechanism, loaded: bool = True) -> Layout | None:
+    """Return ``machine_sizes``, or those ``unloaded``; None where no flat parts can be cut."""
+    sizes = machine_sizes if loaded else unloaded
     with suppress(GenevaError):  # the check of the parts reports the error
-        return machine_sizes(mechanism) if mechanism.spec.is_flat else None
+        return sizes(mechanism) if mechanism.spec.is_flat else None
     return None
 
 
@@ -317,11 +318,8 @@ def refuse_unfit(assembly: Assembly, sizes: Sizes) -> None:
     text, wrong = "it must be larger: the slots reach {end:.6g} mm", sizes.outer <= end
     wrong = (wrong | (sizes.outer <= most)) & (not outside)
     refuse_size(wrong, "wheel_outer_radius_mm", text, sizes.outer, end=end)
-    text = "wheel_outer_radius_mm is for internal wheels only; here set wheel_radius_mm"
-    wrong = outside and size.wheel_outer_radius_mm is not None
-    refuse_size(wrong, "wheel_outer_radius_mm", text)
-    for key in () if outside else OF_AXLE:
-        text = f"{key}: an internal wheel is open in the middle; remove it"
+    for key in ("wheel_outer_radius_mm",) if outside else OF_AXLE:
+        text = f"{key}: an external wheel has no opening, an internal one no axle: remove it"
         refuse_size(value_or(vars(size)[key], 0.0) != 0.0, key, text)
     rules.refuse_bored_hub("wheel", sizes.wheel_hub, sizes.wheel_reach, sizes.wheel_bore)
     rules.refuse_bored_hub("crank", sizes.crank_hub, sizes.crank_reach, sizes.crank_bore)

@@ -16,10 +16,9 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.kept import Known
-from geneva_cli.loads.impacts.shock_force import forces_N
 from geneva_cli.loads.load_case import centrifugal_N
 from geneva_cli.loads.strength import lock, pin_arm_key
-from geneva_cli.loads.strength.part_loads import PartLoads, shear_MPa
+from geneva_cli.loads.strength.part_loads import PartLoads, pin_forces_N, shear_MPa
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
@@ -299,14 +298,9 @@ def pin_that_holds(
     contact = value_or(size.face_width_mm, wide)
     # the roller keeps three tenths of its radius as a wall about the hole for its pin
     most = np.minimum(0.7 * roller - 0.5 * size.allowances.shaft_fit_mm, eye)
-    trials, jump = trials_from(2.0 * usual, 2.0 * most), np.reshape(loads.pin_jump, (-1, 1))
-    struck_N = 0.0 * jump
-    if jump.any():
-        pins = [pin_arm_key.PinSize(parameter(d[:, None]), contact) for d in trials.T]
-        struck_N = np.column_stack([forces_N(mechanism, jump, pin) for pin in pins])
-    # with friction along the wall
-    whole_N = np.fmax(np.reshape(loads.pin_N, (-1, 1)), struck_N) * np.hypot(1.0, load.friction)
-    stress = pin_arm_key.pin_stress_MPa(size, contact, trials, whole_N)[2]
+    trials = trials_from(2.0 * usual, 2.0 * most)
+    force_N = pin_forces_N(mechanism, loads, pin_arm_key.PinSize(trials, contact))
+    stress = pin_arm_key.pin_stress_MPa(size, contact, trials, force_N)[2]
     allowed = roller_material(spec).allowed_MPa
     held = 0.5 * _first(keeps(parameter(stress), "at most", allowed), trials)
     if load.friction_at == "pin":  # loads with friction there depend on the usual one

@@ -18,7 +18,7 @@ class Range(NamedTuple):
     """
 
     low: float
-    high: float = math.inf
+    high: float
     ends: str = "[]"
     words: tuple[str, ...] = ()
 
@@ -34,8 +34,7 @@ class Range(NamedTuple):
     def __str__(self) -> str:
         low = f"{'above' if self.ends[0] == '(' else 'at least'} {self.low:.12g}"
         high = f"{'below' if self.ends[1] == ')' else 'at most'} {self.high:.12g}"
-        ends = [text for text, end in ((low, self.low), (high, self.high)) if math.isfinite(end)]
-        text = ", ".join(ends) or "a finite number"
+        text = f"{low}, {high}"
         if 0.0 < self.low < 1e-6:  # a bound that only keeps the arithmetic finite
             text = f"above 0 ({self.low:g} to {self.high:g})"
         for number, word in enumerate(self.words):
@@ -91,7 +90,6 @@ NOT_NEGATIVE = Range(0.0, 1e12)
 SPEED = Range(1e-9, 1e9)
 LENGTH = Range(-1e12, 1e12)
 TOOL_MM = Range(0.0, 1000.0, "(]")  # kerfs and cutters: no beam, no milling cutter is wider
-FINITE = Range(-math.inf, math.inf, "()")
 Z_MAX = 1_000_000  # most slots (and rollers) that are computed
 # types of usual keys
 Positive = Annotated[float | None, POSITIVE]

@@ -178,8 +178,9 @@ class SpecTable:
             if key not in known:
                 raise unknown(key, self.TABLE, tuple(known))
             if value is None:
-                require(type(self), [k for k in known if k != key])
                 value = known[key].default
+                if value is REQUIRED:
+                    raise missing(known[key], self.TABLE)
             changes[known[key].attribute] = value
         return self.replace(**changes)
 
@@ -319,10 +320,7 @@ def _number(place: tuple[str, ...], field: Field, value: float) -> float:
     elif 0.0 < abs(value) < TINY:  # no reader of the rule would think of such numbers
         fault += f"; sizes below {TINY:g} are not computed"
     elif value in field.rule:
-        try:
-            return value if whole else float(value)
-        except OverflowError:
-            fault = "is too large a number"
+        return value if whole else float(value)
     raise GenevaError(f"{field.key} = {shown(value)} {fault} ({field.meaning})", place)
 
 
@@ -360,18 +358,18 @@ def unknown(key: str, table: str, known: Sequence[str], hint: str = "") -> Genev
     return GenevaError(text, (*table.split("."), key))
 
 
-def refuse_kind(value: object, name: str, kind: type, example: str) -> None:
+def refuse_kind(value: object, name: str, kind: Any, example: str = "") -> None:
     """Raise GenevaError for a name or a class where an object of a kind is needed."""
     if not isinstance(value, kind):
+        example = example or f"{kind.__name__}(...)"
         raise GenevaError(f"{name} must be an object like {example}, not {cut(repr(value))}")
 
 
-def require(table: type[SpecTable], keys: Sequence[str], why: str = "") -> None:
-    """Raise GenevaError if a key without a default is missing."""
-    for field in fields(table):
-        if field.default is REQUIRED and field.key not in keys:
-            text = f"[{table.TABLE}] needs {field.key}{why}: {field.meaning}, {field.rule}"
-            raise GenevaError(text, tuple(table.TABLE.split(".")))
+def missing(field: Field, table: str, why: str = "") -> GenevaError:
+    """Error for a key without a default that is not set."""
+    rule = f", {field.rule}" if field.rule else ""
+    text = f"[{table}] needs {field.key}{why}: {field.meaning}{rule}"
+    return GenevaError(text, tuple(table.split(".")))
 
 
 def shown(value: Any) -> str:

@@ -64,9 +64,7 @@ class Size(SpecTable, table="size"):
     wheel_outer_radius_mm: Annotated[Positive, "internal: outer radius; default slots + 2 r"] = None
     slot_bottom_clearance_mm: Annotated[NotNegative, "roller to a slot's end; default r/20"] = None
     lock_radius_mm: Annotated[NotNegative, "locking disc's radius; 0 none; default by horns"] = None
-    relief: Annotated[
-        str | None, OneOf(("arc", "sector")), "its cut; default: the one that clears"
-    ] = None
+    relief: Annotated[str | None, OneOf(("arc", "sector")), "its cut; default: what clears"] = None
     relief_clearance_mm: Annotated[NotNegative, "wheel to relief's bottom; default L/200"] = None
     wall_min_mm: Annotated[NotNegative, "least wall; default L/200, or by process"] = None
     wheel_bore_mm: Annotated[NotNegative, "wheel's shaft; default up to L/6, or by load"] = None
@@ -85,9 +83,7 @@ class Size(SpecTable, table="size"):
     pin_mm: Annotated[NotNegative, "diameter of the roller's pin; default r, or by load"] = None
     press_fit_mm: Annotated[NotNegative, "pin minus its hole; default 0, or by process"] = None
     shaft_fit_mm: Annotated[NotNegative, "bores minus shafts; default 0, or by process"] = None
-    arm_bore_mm: Annotated[Positive, "crank's shaft in it; default crank_bore_mm, or by load"] = (
-        None
-    )
+    arm_bore_mm: Annotated[Positive, "crank's shaft in it; default crank_bore_mm or by load"] = None
     arm_hub_mm: Annotated[Positive, "width of the arm round its bore; default 1.6 bores"] = None
     arm_eye_mm: Annotated[Positive, "width of the arm round a pin; default up to 2 pins"] = None
     crank_keyway: Keyway = None

@@ -4,9 +4,7 @@ Both come from the reader's own definitions. The schema leaves some rules to `ge
 that need others, whole numbers written 6.0, nan, and the kind and range of a value with a unit.
 """
 
-import math
-import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import cache
 from typing import Any, NamedTuple
 
@@ -83,10 +81,7 @@ def about(word: str) -> Sequence[Key]:
 
 def tables_with(key: str) -> dict[str, str]:
     """The tables that have a key, each with the key's meaning in it."""
-    # no kind has a key of a plain table, and to ask all kinds takes a twentieth of a run
-    each = ((name, field) for name, table in PLAIN.items() for field in fields(table))
-    plain = {name: field.meaning for name, field in each if field.key == key}
-    return plain or {k.whole_table: k.meaning for k in all_keys() if k.key == key and k.table}
+    return {k.whole_table: k.meaning for k in all_keys() if k.key == key and k.table}
 
 
 def is_whole(name: str) -> bool:
@@ -113,6 +108,8 @@ def _key(table: str, field: Field, of: str | None = None) -> Key:
 FILE = "geneva.schema.json"  # the file that the first line of a new spec names
 Schema = dict[str, Any]
 TEXT: Schema = {"type": "string", "maxLength": TEXT_MAX}
+# by the brackets of a range
+BOUNDS = {"[": "minimum", "(": "exclusiveMinimum", "]": "maximum", ")": "exclusiveMaximum"}
 
 
 def schema() -> Schema:
@@ -141,9 +138,12 @@ def _closed(properties: Schema) -> Schema:
 
 
 def _table(keys: tuple[Field, ...]) -> Schema:
-    required = [key.key for key in keys if key.default is REQUIRED]
-    more = {"required": required} if required else {}
-    return {**_closed({key.key: {**_described(key), **_value(key)} for key in keys}), **more}
+    whole = _closed({key.key: {**_described(key), **_value(key)} for key in keys})
+    return whole | {"required": _required(keys)}
+
+
+def _required(keys: Iterable[Field]) -> list[str]:
+    return [key.key for key in keys if key.default is REQUIRED]
 
 
 def _cases(of: KindTable) -> Schema:
@@ -158,8 +158,7 @@ def _cases(of: KindTable) -> Schema:
     def case(own: tuple[Field, ...]) -> Schema:
         """Values of a kind's own keys; those of other kinds are refused."""
         values: Schema = dict.fromkeys(every, False) | {key.key: _value(key) for key in own}
-        required = [key.key for key in own if key.default is REQUIRED]
-        return {"properties": values, **({"required": required} if required else {})}
+        return {"properties": values, "required": _required(own)}
 
     without = {"not": {"required": [word.key]}}
     cases = [{"if": without, "then": case(keys[word.default] if word.default else ())}]
@@ -189,26 +188,14 @@ def _value(key: Field) -> Schema:
     if number:
         kinds += [_number(key.rule, whole=number is int), *with_unit]
     if LIST in key.types:
-        items = _any([_number(key.rule, whole=False), *with_unit])
+        items = {"anyOf": [_number(key.rule, whole=False), *with_unit]}
         kinds.append({"type": "array", "items": items, "minItems": 1, "maxItems": LIST_MAX})
     if str in key.types and (key.words or not number):
         kinds.append({"type": "string", "enum": list(key.words)} if key.words else TEXT)
-    return _any(kinds)
-
-
-def _any(kinds: list[Schema]) -> Schema:
-    return kinds[0] if len(kinds) == 1 else {"anyOf": kinds}
+    return {"anyOf": kinds}
 
 
 def _number(bounds: Range | OneOf, whole: bool) -> Schema:
     assert isinstance(bounds, Range)
-    bounded: Schema = {"type": "integer" if whole else "number"}
-    for word, bound, bracket in (
-        ("inimum", bounds.low, bounds.ends[0]),
-        ("aximum", bounds.high, bounds.ends[1]),
-    ):
-        if math.isinf(bound):  # inf is refused, and JSON has no such number
-            bounded["m" + word] = math.copysign(sys.float_info.max, bound)
-        else:
-            bounded[("exclusiveM" if bracket in "()" else "m") + word] = bound
-    return bounded
+    low, high = BOUNDS[bounds.ends[0]], BOUNDS[bounds.ends[1]]
+    return {"type": "integer" if whole else "number", low: bounds.low, high: bounds.high}

@@ -12,9 +12,8 @@ from geneva_cli.motion import registry
 from geneva_cli.names import SHORT_UNITS, UNITS, described, heading, spoken, unit_of
 from geneva_cli.specfile.keys import Key, all_keys
 
-TEXTS = ("formula", "source", "to_do")  # of an entry, as it has them
 UNIT_WORDS = {*UNITS.values(), *SHORT_UNITS.values(), "°"}  # behind a heading's comma
-CHECKS, INPUTS = "checks.", "inputs."  # beginnings of a report's names of checks and of keys
+BEGINNINGS = {"checks": "check", "inputs": "key"}  # of a report's names, and their groups
 
 
 class Meaning(NamedTuple):
@@ -28,6 +27,18 @@ class Meaning(NamedTuple):
     source: str | None = None
     to_do: str | None = None
     manual: str | None = None  # the commands that show its pages
+
+    @property
+    def sentence(self) -> str:
+        """The first sentence of the meaning."""
+        return self.meaning.partition(". ")[0].rstrip(".") + "."
+
+
+@cache
+def everything() -> tuple[Meaning, ...]:
+    """The meanings of all names that are explained, then those of the keys."""
+    explained = (_of_entry(entry, name) for entry in entries() for name in entry.names)
+    return (*explained, *map(_of_key, all_keys()))
 
 
 def meanings(word: str) -> list[Meaning]:
@@ -43,17 +54,17 @@ def meanings(word: str) -> list[Meaning]:
     exact = _lookup(word) or _lookup(word.casefold().replace(" ", "-"))
     if exact:
         return exact
-    wanted, known = _words(word), names()
+    wanted, known = _words(word), [one.name for one in everything()]
     printed = [name for name in known if wanted in _printed(name)]
     if not printed:  # a quantity with an ending, as pin force max
-        ends = [name for name in known if name.startswith(".")]
-        parts = {end: [words for words in _printed(end) if words <= wanted] for end in ends}
         printed = [
             name + end
-            for end, some in parts.items()
-            if some
+            for end in known
+            if end.startswith(".")
+            for words in _printed(end)
+            if words <= wanted
             for name in known
-            if any(own | words == wanted for own in _printed(name) for words in some)
+            if any(own | words == wanted for own in _printed(name))
         ]
     return list(dict.fromkeys(one for name in printed for one in _lookup(name)))
 
@@ -75,25 +86,24 @@ def _printed(name: str) -> frozenset[frozenset[str]]:
 
 
 def related(word: str) -> list[tuple[str, str, str]]:
-    """Group, name and a sentence of everything that a word is part of, as ``listed`` has them.
+    """Group, name and a sentence of everything that a word is part of.
 
     The word may be a group, such as ``checks``. Names and headings come before texts.
     """
-    everything = [*listed(), *(("key", key.name, key.meaning) for key in all_keys())]
-    if group := {**GROUPS, "keys": "key"}.get(word.casefold()):
-        return [one for one in everything if one[0] == group]
+    group = {**GROUPS, "keys": "key"}.get(word.casefold())
     wanted = _words(word.replace("_", " "))
-    texts = {one: (heading(one[1]), f"{one[1]} {one[2]}".casefold()) for one in everything}
-    found = [
-        one for place in (0, 1) for one in texts if all(w in texts[one][place] for w in wanted)
-    ]
-    return list(dict.fromkeys(found))
+    named, told = list[Meaning](), list[Meaning]()
+    for one in everything():
+        if one.group == group or (not group and all(w in heading(one.name) for w in wanted)):
+            named.append(one)
+        elif not group and all(w in f"{one.name} {one.sentence}".casefold() for w in wanted):
+            told.append(one)
+    return list(dict.fromkeys((one.group, one.name, one.sentence) for one in named + told))
 
 
 def unknown(word: str) -> GenevaError:
     """The error for a word that stands nowhere, with the nearest name."""
-    known = names()
-    known += [CHECKS + n for e in entries() if e.group == "check" for n in e.names]
+    known = [one.name for one in everything()]
     among = dict.fromkeys([*known, *(name.rpartition(".")[2] for name in known)])
     advice = "`geneva explain` lists what is explained"
     return GenevaError(f'"{cut(word)}" is not explained{nearest(word, among)}; {advice}')
@@ -103,24 +113,10 @@ def groups() -> list[tuple[str, int, str, str]]:
     """Each group of words: its name, how many they are, what they are, and three of them."""
     out = []
     for page, group in GROUPS.items():
-        own = [name for entry in entries() if entry.group == group for name in entry.names]
+        own = [one.name for one in everything() if one.group == group]
         some = dict.fromkeys(own[i * len(own) // 3] for i in range(3))
         out.append((page, len(own), TOPICS[page], ", ".join(some)))
     return out
-
-
-def listed() -> list[tuple[str, str, str]]:
-    """Everything that is explained: group, name, and a sentence."""
-    out = []
-    for entry in entries():
-        sentence = _of_entry(entry, entry.names[0]).meaning.partition(". ")[0].rstrip(".") + "."
-        out += [(entry.group, name, sentence) for name in entry.names]
-    return out
-
-
-def names() -> list[str]:
-    """Names of everything that is explained, and of the keys."""
-    return [name for e in entries() for name in e.names] + [key.name for key in all_keys()]
 
 
 def as_markdown(known_meanings: list[Meaning]) -> str:
@@ -144,20 +140,17 @@ def _wrapped(text: str) -> list[str]:
 
 
 def _lookup(word: str) -> list[Meaning]:
-    some = entries()
-    if word.startswith(CHECKS):
-        bare = word.removeprefix(CHECKS)
-        if own := [e for e in some if e.group == "check" and bare in e.names]:
-            return [_of_entry(entry, word) for entry in own]
-    key = word.removeprefix(INPUTS)
-    keys = [_of_key(k) for k in all_keys() if key in (k.key, k.name)]
-    if word.startswith(INPUTS):
-        return keys
-    if exact := [e for e in some if word in e.names or f".{word}" in e.names]:
-        return [_of_entry(entry, word) for entry in exact] + keys
+    known, (beginning, _, bare) = everything(), word.partition(".")
+    own = [one for one in known if one.group == BEGINNINGS.get(beginning)]
+    if own := [one for one in own if f".{one.name}".endswith(f".{bare}")]:
+        return own
+    last = [one for one in known if f".{one.name}".endswith(f".{word}")]
+    keys = [one for one in last if one.group == "key"]
+    if exact := [one for one in known if one.name.removeprefix(".") == word]:
+        return [*dict.fromkeys(exact + keys)]
     # a quantity with an ending such as .rms: the ending's meaning, then the quantity's
-    base, dot, end = word.rpartition(".")
-    ending = next((e for e in some if dot and f".{end}" in e.names), None)
+    base, _, end = word.rpartition(".")
+    ending = next((one for one in known if base and one.name == f".{end}"), None)
     if ending and (of := [m for m in _lookup(base) if m.group == "quantity"]):
         return [
             one._replace(
@@ -168,8 +161,8 @@ def _lookup(word: str) -> list[Meaning]:
             )
             for one in of
         ]
-    by_end = {e: [name for name in e.names if name.endswith(f".{word}")] for e in some}
-    return [_of_entry(entry, named[0]) for entry, named in by_end.items() if named] + keys
+    # several names of one thing have one meaning
+    return [*{(one.group, one.meaning): one for one in reversed(last)}.values()][::-1]
 
 
 def _of_entry(entry: Entry, name: str) -> Meaning:
@@ -185,16 +178,18 @@ def _of_entry(entry: Entry, name: str) -> Meaning:
     return Meaning(
         entry.group,
         name,
-        " ".join(text for text in (about, entry.meaning) if text),
-        unit=entry.unit or next((u for n in (name, *entry.names) if (u := unit_of(n))), None),
-        manual=", ".join(f"geneva help {topic}" for topic in entry.topics),
-        **{field: getattr(entry, field) or None for field in TEXTS},
+        f"{about} {entry.meaning}".strip(),
+        entry.unit or next((u for n in (name, *entry.names) if (u := unit_of(n))), None),
+        entry.formula or None,
+        entry.source or None,
+        entry.to_do or None,
+        ", ".join(f"geneva help {topic}" for topic in entry.topics),
     )
 
 
 def _of_key(key: Key) -> Meaning:
     """Meaning of a key of a spec, as in ``geneva keys``."""
     default = "required" if key.required else f"default {key.default}" if key.default else None
-    texts = (key.meaning, key.type, key.range, key.goes_with, default)
-    words = f"A key of the spec's [{key.table}]: " + "; ".join(text for text in texts if text) + "."
-    return Meaning("key", key.name, words, unit=key.unit, manual="geneva help keys")
+    texts = (key.type, key.range, key.goes_with, default, f"a key of [{key.table}]")
+    words = f"{key.meaning}: {'; '.join(text for text in texts if text)}."
+    return Meaning("key", key.name, words, key.unit, manual="geneva help keys")

@@ -34,6 +34,12 @@ EXAMPLES = _examples()
 DRIVES = tuple(name for name in registry.DRIVES if name != Crank.NAME)
 _others = [name for name in EXAMPLES if name not in DRIVES]
 KINDS = tuple(dict.fromkeys((*registry.GEARINGS, *_others, *DRIVES)))
+# keys that most people set
+USUAL: dict[str, dict[str, float]] = {
+    "drive": {"n_rpm": 60, "rollers": 1},
+    "size": {"center_distance_mm": 160, "roller_radius_mm": 9, "face_width_mm": 16},
+    "limits": {"acceleration_max": 1.5, "pin_force_max_N": 600},
+}
 
 
 def template(kind: str, schema: bool = True, whole: bool = True) -> str:
@@ -64,31 +70,26 @@ def template(kind: str, schema: bool = True, whole: bool = True) -> str:
     law_keys = [key for name in registry.LAWS for key in fields(registry.law(name))]
     before = registry.drive(str(own[BEFORE]["kind"])) if BEFORE in own else None
     for name, table in keys_of(gearing, drive, law_keys, before).items():
-        values = own.get(name, {})
         # An empty table of a list would be one more body, without any of its keys.
         head = f"# [[{name}]]" if name in LISTS else f"[{name}]"
-        block = [_line(f, values) for f in table] if whole else _usual(name, table, values, gearing)
+        block = _settings(name, table, own.get(name, {}), gearing, whole)
         lines += ["", head, *block] if block else []
     return "\n".join(lines) + "\n"
 
 
-def _usual(
-    name: str, table: list[Field], values: dict[str, Any], gearing: type[Gearing]
+def _settings(
+    name: str, table: list[Field], values: dict[str, Any], gearing: type[Gearing], whole: bool
 ) -> list[str]:
-    """The lines of the keys that an example sets, or that most people do, with usual values."""
-    usual_tables: dict[str, dict[str, float]] = {
-        "drive": {"n_rpm": 60, "rollers": 1},
-        "size": {"center_distance_mm": 160, "roller_radius_mm": 9, "face_width_mm": 16},
-        "load": gearing.USUAL_LOAD,
-        "limits": {"acceleration_max": 1.5, "pin_force_max_N": 600},
-    }
-    usual = usual_tables.get(name, {})
-    block = []
+    """The lines of the keys that an example sets; behind a # all others, or the usual ones."""
+    usual = {**USUAL, "load": gearing.USUAL_LOAD}.get(name, {})
+    known, block = values if whole else usual | values, []
     for field in table:
-        key, sign = field.key, "" if field.key in values else "# "
-        if key in values or key in usual:
-            setting = f"{sign}{key} = {quoted(values.get(key, usual.get(key)))}"
-            block.append((setting, _note(field.meaning, gearing.NAME)))
+        key, rule = field.key, f"; {field.rule}" if field.rule is not None else ""
+        if whole or key in known:
+            default = "..." if field.default in (None, REQUIRED) else quoted(field.default)
+            setting = f"{key} = {quoted(known[key]) if key in known else default}"
+            note = field.meaning + rule if whole else _note(field.meaning, gearing.NAME)
+            block.append((setting if key in values else f"# {setting}", note))
     return noted(block)
 
 
@@ -105,15 +106,6 @@ def example(kind: str) -> tuple[str, dict[str, Any]]:
     tree = tomli.loads(_text(f"{own['design']}.toml")) if "design" in own else {**own}
     before = tree.get("drive", {}).pop("before", None)
     return tree.pop("title"), tree | ({BEFORE: before} if before else {})
-
-
-def _line(field: Field, values: dict[str, Any]) -> str:
-    rule = f"; {field.rule}" if field.rule is not None else ""
-    note = f"  # {field.meaning}{rule}"
-    if field.key in values:
-        return f"{field.key} = {quoted(values[field.key])}{note}"
-    default = "..." if field.default in (None, REQUIRED) else quoted(field.default)
-    return f"# {field.key} = {default}{note}"
 
 
 def titles() -> dict[str, str]:

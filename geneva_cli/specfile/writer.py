@@ -7,13 +7,10 @@ from typing import Any
 
 from geneva_cli.motion.drive import Drive
 from geneva_cli.motion.laws.law import Motion
-from geneva_cli.motion.machine_spec import BEFORE, DRIVES, LAWS, WHEELS, Spec, drives_before
+from geneva_cli.motion.machine_spec import BEFORE, KINDS, Spec
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.spec.schema import Field, Points, fields
 from geneva_cli.spec.tables import LISTS, PLAIN
-
-# keys of the word that names the kind of a table
-WORDS = {"wheel": "gearing", "drive": "kind", BEFORE: "kind", "motion": "law"}
 
 
 def keys_of(
@@ -24,12 +21,12 @@ def keys_of(
 ) -> dict[str, list[Field]]:
     """Every key of a spec of these kinds, by table, in the order of a file."""
     slots, *wheel = fields(gearing)
-    front = drives_before()
+    front = KINDS[BEFORE]
     return {
-        "wheel": [slots, WHEELS.word, *wheel],
-        "drive": [DRIVES.word, *fields(drive)],
+        "wheel": [slots, KINDS["wheel"].word, *wheel],
+        "drive": [KINDS["drive"].word, *fields(drive)],
         **({BEFORE: [front.word, *front.keys_of(before)]} if before else {}),
-        "motion": [LAWS.word, *law_keys, *fields(Motion)],
+        "motion": [KINDS["motion"].word, *law_keys, *fields(Motion)],
         **{name: [*fields(table)] for name, table in PLAIN.items()},
     }
 
@@ -79,7 +76,7 @@ def values_of(spec: Spec, table: str) -> list[dict[str, Any]]:
     if part is None:  # a motion that straight slots give
         return []
     named: Any = part.law if isinstance(part, Motion) else part
-    own = {WORDS[table]: named.NAME} if table in WORDS else {}
+    own = {KINDS[table].word.key: named.NAME} if table in KINDS else {}
     own |= {k: v.file if isinstance(v, Points) else v for k, v in part.as_dict().items()}
     return [own]
 

@@ -9,7 +9,7 @@ from typing import Any
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError, cut, few
 from geneva_cli.figure import JOINED, LINE, POINTS, Axis, Curve, Figure, Panel
-from geneva_cli.loads.cycle_figures import AXIS_BY_NAME, LeftOut, figure
+from geneva_cli.loads.cycle_figures import QUANTITIES, LeftOut, figure
 from geneva_cli.numerics.tolerances import same
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.spec.tables import PLAIN
@@ -137,7 +137,7 @@ def of_designs(
 ) -> tuple[Figure, list[LeftOut]]:
     """The cycles of designs in one figure, and the quantities that it lacks, by their paths."""
     # acceleration.max is a value of the curve of acceleration
-    names = [next((x for x in name.split(".") if x in AXIS_BY_NAME), name) for name in pick]
+    names = [next((x for x in name.split(".") if x in QUANTITIES), name) for name in pick]
     curves, left_out = figure({name: design.cycle for name, design in designs.items()}, names)
     return curves, [(designs[name].spec.path, text) for name, text in left_out]
 

@@ -7,13 +7,12 @@ from typing import Any
 from geneva_cli.answer import SummaryLine
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
-from geneva_cli.loads.cycle_figures import AXIS_BY_NAME
 from geneva_cli.loads.load_peaks import LoadSummary
 from geneva_cli.loads.load_tables import no_load
 from geneva_cli.manual import read
 from geneva_cli.manual.explained import entries
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.names import described
+from geneva_cli.names import capital, described
 from geneva_cli.output.document import blocks as page
 from geneva_cli.output.document.blocks import Document, Fact, Grid, Heading, Prose, TextList
 from geneva_cli.output.text import only
@@ -141,8 +140,8 @@ def _loads(design: Design) -> Iterator[page.Block]:
     columns = [f"{_fact(x).name}{', °' * x.endswith('_at_deg')}" for x in LoadSummary._fields]
     rows: list[page.Row] = []
     for row in values["loads"]:
-        axis = AXIS_BY_NAME[row.pop("quantity")]
-        rows.append((axis.label, axis.unit, *row.values()))
+        fact = _fact(row.pop("quantity"))
+        rows.append((fact.name, fact.unit, *row.values()))
     yield Heading("Loads")
     caption = "Over the motions, and means over a whole period"
     yield Grid(caption, ("Quantity", "Unit", *columns), tuple(rows))
@@ -224,12 +223,6 @@ def _fact(name: str, value: Any = None) -> Fact:
     parts = [described(part) for part in name.split(".")]
     unit = next((unit for _, unit in reversed(parts) if unit), "")
     return Fact(capital(", ".join(words for words, _ in parts)), value, unit)
-
-
-def capital(text: str) -> str:
-    """A text that begins with a capital, unless it begins with a symbol."""
-    is_symbol = len(text.partition(",")[0].partition("_")[0]) < 2
-    return text if is_symbol else text[:1].upper() + text[1:]
 
 
 def _keys(spec: Spec) -> Iterator[tuple[str, Any, str, str, bool]]:

@@ -117,7 +117,7 @@ def quantities() -> set[str]:
         *vibration.SPECTRUM_COLUMNS,
         *survey.NAMES,
         *motion.motion_columns(load(str(repo.DESIGNS / "wandering-hours.toml")).mechanism),
-        *cycle_figures.AXIS_BY_NAME,
+        *cycle_figures.QUANTITIES,
         *CamFactors._fields,
     }
     out |= {"acceleration.exit", "jerk.exit", *law_values.LAW_COLUMNS, *SYNTH, ERROR}

@@ -120,11 +120,11 @@ CASES = [
     case("twice", WHEEL + SEVERAL, "[0, 0]", 5, "different"),
     case("inside", INSIDE + "[drive]\ncrank_steps = @\n", "[0, 3]", 5, "external"),
     case("angles", WHEEL + TWO + "roller_angles_deg = @", "[0, 150]", 6, "even turns", "remove"),
-    case("tolerance", WHEEL + TWO + "[tolerance]\nlock_radius_mm = @", "0.1", 6, "remove one"),
+    case("tolerance", WHEEL + TWO + "[tolerance]\nlock_radius_mm = @", "0.1", 6, "remove it"),
     case("body", WHEEL + TWO + BODY + "radius_mm = @", "50", 9, "count to 2"),
     # carousels
     case("many", WHEEL + ORBIT + "wheels = @", "3", 5, "wheels = 3", "120 deg", "at most 2"),
-    case("gears", WHEEL + ORBIT + "[support]\ngear_ratio = @", "2", 6, "set it to 1"),
+    case("gears", WHEEL + ORBIT + "[support]\ngear_ratio = @", "2", 6, "remove it"),
 ]
 
 # What no drive with a roller path of its own can turn.
@@ -132,8 +132,8 @@ CASES += [
     case(f"{kind}-{name}", text + spec, wrong, line, f'"{kind}"')
     for kind, spec in OWN_PATH.items()
     for name, text, wrong, line in (
-        ("offset", WHEEL + "offset_mm = @\n", "5", 5),
-        ("steps", WHEEL + "steps_deg = @\n", "[70, 50]", 5),
+        ("offset", WHEEL + "offset_mm = @\n", "5", 3),
+        ("steps", WHEEL + "steps_deg = @\n", "[70, 50]", 3),
         ("spherical", WHEEL + "gearing = @\n", '"spherical"', 3),
         ("internal", WHEEL + "gearing = @\n", '"internal"', 3),
     )

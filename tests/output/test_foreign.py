@@ -29,7 +29,7 @@ def svg(folder, body, head='width="100mm" height="100mm" viewBox="0 0 100 100"')
 
 
 def areas(drawn):
-    return sorted(abs(moments(loop.contour).area) for loop in loops(drawn.pieces))
+    return sorted(abs(moments(loop).area) for loop in loops(drawn.pieces))
 
 
 ENTITIES = {
@@ -139,8 +139,8 @@ def test_a_missing_block_is_named(tmp_path):
         ("a.stl", b"", "from a .dxf or .svg file"),
         ("a.svg", b"", "not an SVG file"),
         ("a.svg", b"<html/>", "no SVG file: its first element is <html>"),
-        ("a.svg", b'<svg><path d="M0 0 L 1"/></svg>', "needs 2 numbers"),
-        ("a.svg", b'<svg><path d="M0 0 K 1 3"/></svg>', "unknown letter"),
+        ("a.svg", b'<svg><path d="M0 0 L 1"/></svg>', 'path "M0 0 L 1" cannot be read: Not enough'),
+        ("a.svg", b'<svg><path d="M0 0 K 1 3"/></svg>', "letters of paths and numbers"),
         ("a.svg", b'<svg><circle r="1e400"/></svg>', "is no number"),
         ("a.svg", b'<svg><circle r="0"/></svg>', "no width"),
         ("a.svg", b'<svg><use href="#gone"/></svg>', "<use> is no outline"),

@@ -23,7 +23,7 @@ from geneva_cli.study.animation.turning_scene import scene
 
 pytestmark = pytest.mark.usefixtures("made_once")
 DESIGNS = sorted(design.stem for design in repo.DESIGNS.glob("*.toml"))
-# What the page promises: its knots keep to 1e-7, and 10 digits of an angle of some turns to 1e-8.
+# What the page promises: its series keep to 1e-7, and 10 digits of an angle of some turns to 1e-8.
 ANGLE = 1e-6
 # of the picture's size: a hundredth of a pixel
 PLACE = 1e-5
@@ -74,7 +74,7 @@ def test_the_wheel_and_the_rollers_are_where_the_core_has_them(name):
     design = design_of(name)
     engine, data = script(name)
     turn = MachineTurn(design.mechanism)
-    at = np.sort(np.random.default_rng(14).uniform(0.0, data["turn"], 60))
+    at = np.sort(np.random.default_rng(14).uniform(0.0, data["turn_deg"], 60))
     asked = json.dumps(at.tolist())
     track, unit = "angle", 1.0
     if not design.spec.output.turns:  # the travel, from mid-motion
@@ -96,8 +96,8 @@ def test_the_wheel_and_the_rollers_are_where_the_core_has_them(name):
 def test_what_is_said_of_the_wheel_is_what_it_does(name):
     """Where it is said to rest it rests; the stretches follow each other over the whole turn."""
     _, data = script(name)
-    ends = [0.0, *(state[1] for state in data["states"])]
-    starts = [*(state[0] for state in data["states"]), data["turn"]]
+    ends = [0.0, *(state["end"] for state in data["states"])]
+    starts = [*(state["start"] for state in data["states"]), data["turn_deg"]]
     assert np.allclose(starts, ends, atol=2e-3)
     motion = design_of(name).motion(721).to_dict()
     still = [
@@ -107,8 +107,8 @@ def test_what_is_said_of_the_wheel_is_what_it_does(name):
         )
         if v == a == 0.0
     ]
-    rests = sum(b - a for a, b, moves, _ in data["states"] if not moves)
-    whole, period = data["turn"], design_of(name).mechanism.period_deg
+    rests = sum(s["end"] - s["start"] for s in data["states"] if not s["moves"])
+    whole, period = data["turn_deg"], design_of(name).mechanism.period_deg
     # the wheels of a carousel move one after the other, and the page says when none does
     moves = (720 - len(still)) * getattr(design_of(name).spec.drive, "wheels", 1)
     assert rests * period / whole == pytest.approx(
@@ -189,8 +189,10 @@ def test_a_machine_with_stops_goes_back_and_forth_between_them():
     outlines = design_of("geneva-stop").parts.outlines
     gaps = Gaps(outlines.assembly, outlines.sizes, outlines.wheel, outlines.crank)
     for end in (low, high):
-        turns = math.floor(end / data["turn"])
-        ask = f"scene.bodies.map(b => afterTurns(b.angle, {end} - {turns} * scene.turn, {turns}))"
+        turns = math.floor(end / data["turn_deg"])
+        ask = (
+            f"scene.bodies.map(b => afterTurns(b.angle, {end} - {turns} * scene.turn_deg, {turns}))"
+        )
         wheel, crank, *_ = json.loads(engine.eval(f"JSON.stringify({ask})"))
         pose = Pose(np.array([wheel]), np.array([crank]), np.empty((1, 0, 2)))
         assert abs(gaps.locking(pose)[0]) < PLACE * data["size"]
@@ -202,11 +204,11 @@ def test_an_input_that_is_stopped_stands_once_in_each_dwell():
     engine, data = script_of("".join(page.chunks(scene(design))))
     assert data["pauses"] == pytest.approx([90.0, 270.0])  # the first dwell has no length
     turns, step, at, stood = 3, 7.3, 0.0, []
-    while at < turns * data["turn"]:
-        there = engine.eval(f"pauseBetween(scene.pauses, scene.turn, {at!r}, {at + step!r})")
+    while at < turns * data["turn_deg"]:
+        there = engine.eval(f"pauseBetween(scene.pauses, scene.turn_deg, {at!r}, {at + step!r})")
         stood += [there] if there is not None else []
         at = at + step if there is None else there
-    dwells = [k * data["turn"] + pause for k in range(turns) for pause in data["pauses"]]
+    dwells = [k * data["turn_deg"] + pause for k in range(turns) for pause in data["pauses"]]
     assert stood == pytest.approx(dwells)
     cycles = turns * math.fsum(one.cycle_s for one in design.timings)
     spent = turns * data["seconds"] + len(stood) * data["stop_s"]

@@ -63,19 +63,12 @@ def read(text):
         found = Drawn({}, {}, {}, pixel)
         for path in group.iter(f"{SVG}path"):
             kind = path.get("class").split()
-            if kind[0] == "curve" and "h" not in path.get("d"):
-                moves = [numbers(part) for part in path.get("d").split("M")[1:]]
-                found.curves[kind[1]] = [
-                    [at(*p) for p in zip(m[::2], m[1::2], strict=True)] for m in moves
-                ]
-            if kind[0] == "jump":
-                found.jumps[kind[1]] = [
-                    (at(x, a), at(x, b))
-                    for x, a, b in (numbers(part) for part in path.get("d").split("M")[1:])
-                ]
-        for dot in group.iter(f"{SVG}circle"):
-            place = at(float(dot.get("cx")), float(dot.get("cy")))
-            found.dots.setdefault(dot.get("class"), []).append(place)
+            moves = [numbers(part) for part in path.get("d").split("M")[1:]]
+            lines = [[at(*p) for p in zip(m[::2], m[1::2], strict=True)] for m in moves]
+            if kind[0] in ("curve", "jump"):
+                (found.curves if kind[0] == "curve" else found.jumps)[kind[1]] = lines
+            if kind[0] == "dot":
+                found.dots.setdefault(kind[1], []).extend(line[0] for line in lines)
         out[group.get("id")] = found
     return out
 
@@ -131,7 +124,7 @@ def test_entry_and_exit_jump_upright(pressed):
 def test_peaks_are_the_analysis_s(pressed):
     text = svg_of(pressed)
     panel = read(text)["acceleration"]
-    ((x, y),) = panel.dots["d0"]
+    ((x, y),) = panel.dots["c0"]
     assert (x, y) == pytest.approx((-22.903061866, 1.349637275902), abs=HALF_PIXEL)
     assert "peak 1.34964 at -22.90°" in text
     assert "max 3434.16 at -17.07°" in text

@@ -24,7 +24,7 @@ import shapely
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
 from geneva_cli.output import draw
-from geneva_cli.parts.turn.turned_parts import windows
+from geneva_cli.parts.turn.turned_parts import play_of, windows
 
 TURNS = 2
 STEPS = 7200  # a turn: a roller 50 mm from its axis moves 0.04 mm in one
@@ -213,7 +213,7 @@ def cranked(design, folder, larger=0.0):
         else:  # the crank's file lacks the part that carries it
             body = out.carry(np.zeros(len(path)), path)
             out.space.add(pymunk.Circle(body, radius + larger))
-    return out, proof.turn.play
+    return out, play_of(proof, proof.turn.smallest.mm >= -proof.close)[0]
 
 
 def beyond_play(machine, play, angles):

@@ -172,8 +172,8 @@ def overlaps(found, pressed):
 
 
 def carries(built):
-    """True if the machine has an arm, which carries rollers on pins; gears have none."""
-    return getattr(built, "arm", None) is not None
+    """True if an arm that carries rollers on pins is drawn: gears have none, a sphere's is not."""
+    return getattr(built, "arm", None) is not None and not hasattr(built, "ball")
 
 
 def main():

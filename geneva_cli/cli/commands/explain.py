@@ -27,7 +27,8 @@ def run(words: tuple[str, ...] = (), output: str = "-", format: str = "") -> Non
         show(shown.replaced(reading=Reading(("words", "such_as"))), output, format)
         return
     if not word:
-        show(rows_table(names, meanings.listed()), output, format)
+        rows = [(m.group, m.name, m.sentence) for m in meanings.everything() if m.group != "key"]
+        show(rows_table(names, rows), output, format)
         return
     entries = meanings.meanings(word)
     if not entries:

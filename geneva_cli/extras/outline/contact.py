@@ -43,41 +43,27 @@ class Contact(NamedTuple):
 
     def motion(self, crank_angle: Array) -> tuple[Array, ...]:
         """The wheel's angle, velocity, acceleration and jerk, by the crank's angle."""
-        crank, L, w = self.crank, self.L, np.maximum(self.wheel.far, 1e-300)
+        crank, wheel, w = self.crank, self.wheel, np.maximum(self.wheel.far, 1e-300)
         theta = Jet.variable(crank_angle, ORDER)
-        turned = (theta - theta.c[0]) * -self.sense
-        # the point that the crank carries, as the crank turns
-        x0, y0 = crank.far * np.cos(crank.ahead), crank.far * np.sin(crank.ahead)
-        radius = np.hypot(x0 - L, y0)
-        sine, cosine = sin_cos(turned + np.arctan2(y0, x0 - L))
-        x, y = cosine * radius + L, sine * radius
-        square, direction = x * x + y * y, atan2(y, x)
-        between = within_half_turn(crank.ahead - self.wheel.ahead)
-        # Two points: the angle between both, seen from the wheel's axis, follows from the
-        # triangle's sides. Below are 2 rho w times its cosine and sine.
-        d2 = crank.far**2 + w * w - 2.0 * crank.far * w * np.cos(between)
-        two = square + w * w - d2
-        # a point of the crank, at a constant distance from an edge of the wheel
-        h = x * 0.0 + crank.far * np.cos(between)
-        # A point of the wheel, and an edge of the crank whose distance from the crank's axis stays.
-        # The edge's normal through the wheel's axis points to its foot.
-        normal = turned + crank.ahead
-        own = crank.far - L * np.cos(crank.ahead)
-        edge = sin_cos(normal)[1] * L + own + (w * np.cos(between) - crank.far)
-        ahead, behind = np.where(between < 0.0, 1.0, -1.0), np.where(between > 0.0, -1.0, 1.0)
-        which = np.where(self.wheel.is_edge, 1, np.where(crank.is_edge, 2, 0))
-        forms = []
+        # what the crank carries: a point about its axis, or the normal of an edge
+        axis = np.where(crank.is_edge, 0.0, self.L)
+        own = np.where(crank.is_edge, 1.0, crank.far) * np.exp(1j * crank.ahead) - axis
+        sine, cosine = sin_cos((theta - theta.c[0]) * -self.sense + np.angle(own))
+        x, y = cosine * np.abs(own) + axis, sine * np.abs(own)
+        # The wheel's point is in a direction a with x cos a + y sin a = level, by the triangle of
+        # two points and their distance, or as far as the crank's edge. Or it is the normal of the
+        # wheel's edge, whose distance from the point stays.
+        square, between = x * x + y * y, within_half_turn(crank.ahead - wheel.ahead)
         with np.errstate(all="ignore"):
-            for start, along, across, sign in (
-                (direction, two, square * (4.0 * w * w) - two * two, ahead),
-                (direction, h, square - h * h, ahead),
-                (normal, edge, w * w - edge * edge, behind),
-            ):
-                # a root of at least the least number has derivatives
-                root = sqrt(Jet((np.maximum(across.c[0], 1e-300), *across.c[1:])))
-                forms.append((start + atan2(root, along) * sign).derivatives()[1:])
-            rates = [np.choose(which, [form[k] for form in forms]) for k in range(ORDER)]
-            stands = ~crank.is_edge & (radius < FIXED * L)
+            level = square * np.where(wheel.is_edge | crank.is_edge, 0.0, 0.5 / w)
+            level += x * np.where(crank.is_edge, self.L / w, 0.0)
+            level += np.hypot(x.c[0], y.c[0]) * np.cos(between) - level.c[0]
+            across = square - level * level
+            # a root of at least the least number has derivatives
+            root = sqrt(Jet((np.maximum(across.c[0], 1e-300), *across.c[1:])))
+            turn = atan2(y, x) + atan2(root, level) * np.where(between < 0.0, 1.0, -1.0)
+            rates = turn.derivatives()[1:]
+            stands = ~crank.is_edge & (np.abs(own) < FIXED * self.L)
             pushes = self.is_known & ~stands & (np.abs(rates[0]) <= 2.0 * STEEPEST)
         return self.turn, *[np.where(pushes, rate, 0.0) for rate in rates]
 

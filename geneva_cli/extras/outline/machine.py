@@ -3,14 +3,14 @@
 import math
 import os
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
 from geneva_cli.errors import GenevaError, Notice, below, cut
 from geneva_cli.geometry import shapes
 from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.geometry.loops import Loop, greatest_gap, loops, shown
+from geneva_cli.geometry.loops import greatest_gap, loops, shown
 from geneva_cli.geometry.plates import moments, total
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
@@ -22,6 +22,7 @@ from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.turn.free_ranges import FreeRanges, levels
 
 EXACT_MM, MOST_MM = 1e-6, 1e-3  # overlaps that count as touching: of exact arcs, of short lines
+Contours: TypeAlias = tuple[shapes.Contour, ...]
 OFF_AXIS = 0.05  # of L: farther from the origin is no wheel with a bolt or a slot less
 
 
@@ -29,8 +30,8 @@ class DrawnMachine(NamedTuple):
     """The outlines of wheel and crank in their own frames, and how the crank turns the wheel."""
 
     assembly: Assembly
-    wheel: tuple[shapes.Contour, ...]
-    crank: tuple[shapes.Contour, ...]  # all that lies in the wheel's plane, rollers too
+    wheel: Contours
+    crank: Contours  # all that lies in the wheel's plane, rollers too
     roller: shapes.Circle  # the first of them, in the crank's frame
     free: FreeRanges
     start: float  # crank angle in the middle of a dwell, radians from mid-motion
@@ -59,7 +60,7 @@ def drawn_machine(mechanism: Mechanism) -> DrawnMachine:
     wheel, crank = (_drawn(spec, part, notes) for part in ("wheel", "crank"))
     if not (wheel and crank):
         own = parts_of(mechanism).flat.outlines
-    theirs = tuple(loop.contour for loop in wheel[0]) if wheel else (own.wheel,)
+    theirs = wheel[0] if wheel else (own.wheel,)
     ours, roller = _with_rollers(crank[0] if crank else own.crank, mechanism, place)
     rounded = sum(drawn[1] for drawn in (wheel, crank) if drawn)
     slack = spec.outline.slack_mm or min(max(rounded, EXACT_MM), MOST_MM)
@@ -121,7 +122,7 @@ def _assembly(mechanism: Mechanism) -> Assembly:
     return assembly(mechanism)
 
 
-def _drawn(spec: Spec, part: str, notes: list[Notice]) -> tuple[tuple[Loop, ...], float] | None:
+def _drawn(spec: Spec, part: str, notes: list[Notice]) -> tuple[Contours, float] | None:
     """The outlines of a part's drawing in the frame of our own, mirrored about x and then turned.
 
     Beside them is how far rounding may overlap them, mm. None without a drawing.
@@ -147,22 +148,20 @@ def _drawn(spec: Spec, part: str, notes: list[Notice]) -> tuple[tuple[Loop, ...]
 
 
 def _with_rollers(
-    drawn: Sequence[Loop | shapes.Contour], mechanism: Mechanism, place: Assembly
-) -> tuple[tuple[shapes.Contour, ...], shapes.Circle]:
+    drawn: Sequence[shapes.Contour], mechanism: Mechanism, place: Assembly
+) -> tuple[Contours, shapes.Circle]:
     """The crank with its rollers, those that its drawing has or our own; and the first of them."""
-    circles = [_roller(one) if isinstance(one, Loop) else None for one in drawn]
-    rollers = [circle for circle in circles if circle]
-    others = [one for one, circle in zip(drawn, circles, strict=True) if not circle]
-    crank = [one.contour if isinstance(one, Loop) else one for one in others]
+    circles = {one: _roller(one) for one in drawn}
+    rollers = [circle for circle in circles.values() if circle]
+    crank = tuple(one for one in drawn if not circles[one])
     if not rollers:
         for i in range(len(place.rollers)):
             x, y = (place.pin(i, np.zeros(1))[0] - (place.L, 0.0)).tolist()
             centre = (-x, -y) if place.sign > 0.0 else (x, y)
             rollers.append(shapes.Circle("ROLLER", centre, mechanism.roller_radius_mm))
         # a drawn crank may have the rollers in its outline
-        is_drawn = any(isinstance(one, Loop) for one in drawn)
-        if is_drawn and Polyarc(crank).signed(np.array([rollers[0].centre]))[0] < 0.0:
-            return tuple(crank), rollers[0]
+        if crank and Polyarc(crank).signed(np.array([rollers[0].centre]))[0] < 0.0:
+            return crank, rollers[0]
     return (*crank, *map(_round, rollers)), rollers[0]
 
 
@@ -175,10 +174,10 @@ def _round(roller: shapes.Circle) -> shapes.Contour:
     return shapes.closed("ROLLER", shapes.two_arcs(roller, across + 1.0))
 
 
-def _roller(loop: Loop) -> shapes.Circle | None:
-    """An outline that is a full circle beside the crank's axis, as one."""
-    first, *others = loop.contour.segments
-    if loop.depth % 2 or not isinstance(first, shapes.Arc):
+def _roller(contour: shapes.Contour) -> shapes.Circle | None:
+    """An outline, not a hole, that is a full circle beside the crank's axis, as one."""
+    first, *others = contour.segments
+    if not isinstance(first, shapes.Arc) or first.bulge < 0.0:
         return None
     centre, radius = first.centre, first.radius
     is_round = math.hypot(*centre) > radius and all(

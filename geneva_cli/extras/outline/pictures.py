@@ -80,14 +80,11 @@ def drawn_scene(design: Design) -> Scene:
 
 
 def _track(at: Array, angle: Array, gained: float) -> Track:
-    """The wheel's angle at times, with slopes between those on both sides: no cubic overshoots."""
+    """The wheel's angle at times, and on a line between each two."""
     keep = np.append(np.diff(at) > 1e-6, True)
     at, angle = at[keep], angle[keep]
-    rate = np.diff(angle) / np.diff(at)
-    pairs = rate[:-1] * rate[1:]
-    mean = 2.0 * pairs / np.where(pairs > 0.0, rate[:-1] + rate[1:], 1.0)
-    slope = np.concatenate((rate[:1], np.where(pairs > 0.0, mean, 0.0), rate[-1:]))
-    return Track(tuple(at.tolist()), tuple(angle.tolist()), tuple(slope.tolist()), gained)
+    lines = np.column_stack((angle[:-1] + angle[1:], np.diff(angle))) / 2.0
+    return Track(tuple(at.tolist()), tuple(map(tuple, lines.tolist())), gained)
 
 
 def _states(pushed: Iterable[tuple[float, float]], whole: float) -> Iterator[Phase]:

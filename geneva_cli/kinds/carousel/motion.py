@@ -10,7 +10,14 @@ from typing import Annotated, ClassVar
 
 from geneva_cli.drives.transmission import Transmission
 from geneva_cli.errors import refuse_text
-from geneva_cli.motion.compatible import Conflict, of_transmission, other_wheels
+from geneva_cli.motion.compatible import (
+    KIND,
+    ONE_ROLLER,
+    UNBALANCED,
+    Conflict,
+    of_transmission,
+    unset,
+)
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.laws.law import Motion
 from geneva_cli.motion.machine_spec import Spec
@@ -63,21 +70,13 @@ class Carousel(Transmission, kw_only=True):
 
 def refuses(spec: Spec) -> Iterator[Conflict]:
     """Rules of wheels on a carrier."""
-    yield other_wheels(spec)
     yield from of_transmission(spec)
-    drive, kind = spec.drive, 'kind = "{spec.drive.NAME}"'
-    text = f"{kind} carries its wheels round at a constant speed: remove stop_s"
-    yield (drive.stop_s != 0.0, ("drive", "stop_s"), text)
-    text = f"{kind} needs balanced wheels, as a body off the axis would pull in another direction "
-    text += "in each motion: set count to 2 or more, or radius_mm = 0"
-    yield (spec.unbalanced, ("mass", "radius_mm"), text)
-    if drive.wheels_on_carrier > 1:
-        several = drive.rollers > 1 or spec.wheel.steps or drive.roller_angles_deg
-        text = "several wheels meet one finger, each in turn: remove rollers, roller_angles_deg "
-        yield (several, ("drive", "wheels"), text + "and steps_deg, or set wheels = 1")
+    why = f"is for a wheel at a fixed place, not for {KIND}, whose wheels orbit at constant speed"
+    yield from unset(spec, "drive.stop_s product.pitch_mm support.gear_ratio", why)
+    text = f"{KIND} needs balanced wheels, as a body off the axis would pull in another direction "
+    yield spec.unbalanced, ("mass", "radius_mm"), f"{text}in each motion: {UNBALANCED}"
+    if spec.drive.wheels_on_carrier > 1:
+        why = "is not for several wheels that meet one finger; set wheels = 1, or"
+        yield from unset(spec, ONE_ROLLER, why)
         text = "an internal wheel surrounds the finger, so that one alone fits: set wheels = 1"
-        yield (spec.wheel.SIGN < 0.0, ("drive", "wheels"), text)
-    text = f"a chain or belt needs a wheel on the ground, not {kind}: set radius_mm instead"
-    yield (spec.product.runs_straight, ("product", "pitch_mm"), text)
-    text = f"gear_ratio is for a table on the ground, not for {kind}: set it to 1"
-    yield (spec.support.gear_ratio != 1.0, ("support", "gear_ratio"), text)
+        yield spec.wheel.SIGN < 0.0, ("drive", "wheels"), text

@@ -8,7 +8,7 @@ from geneva_cli.geometry.sheet import Annotations, Drawing, LevelDistance
 from geneva_cli.kinds.linear.parts import RackParts
 from geneva_cli.kinds.linear.rack import rack_sizes, slot_walls
 from geneva_cli.motion.pivots import Dimension
-from geneva_cli.output.scene import Body, Box, Track
+from geneva_cli.output.scene import Body, Box
 from geneva_cli.parts import projection
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.study.animation.animated_turn import STILL, MachineTurn
@@ -70,9 +70,7 @@ class RackScene(WheelScene):
     def bodies(self, shapes: tuple[Shape, ...], turn: MachineTurn) -> Iterator[Body]:
         """Yield the rack, with a dot behind the end of its first slot to tell the slots apart."""
         mechanism = turn.mechanism
-        pinion, R = turn.wheel(mechanism.wheel_places[0]), mechanism.output.per_radian
-        values, slopes = (tuple(R * x for x in column) for column in (pinion.value, pinion.slope))
-        travel = Track(pinion.at, values, slopes, R * pinion.gain)
+        travel = turn.wheel(mechanism.wheel_places[0], mechanism.output.per_radian)
         sizes = rack_sizes(mechanism)
         behind = -(sizes.slot_bottom + sizes.half_width + 0.5 * sizes.back)
         mark = Circle("PITCH", (behind, 0.0), 0.15 * sizes.back)

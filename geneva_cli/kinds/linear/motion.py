@@ -12,7 +12,7 @@ import math
 from collections.abc import Iterator
 from typing import ClassVar
 
-from geneva_cli.motion.compatible import Conflict, is_set
+from geneva_cli.motion.compatible import Conflict, unset
 from geneva_cli.motion.engagement import Slot
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.path_and_slot import AnchoredPath, StraightSlotMotion
@@ -21,6 +21,13 @@ from geneva_cli.motion.wheels.classic import HalfStep, PinPose, middle
 from geneva_cli.motion.wheels.gearing import Gearing, Output, RollerPlace
 from geneva_cli.numerics.arrays import Array, N
 from geneva_cli.numerics.jet import Displacement, Jet, Number, Vector
+
+# tables and keys that a rack lacks, which has no shaft
+OF_A_SHAFT = (
+    "load.inertia_kgm2 load.torque_Nm load.dwell_torque_Nm support tolerance product "
+    "limits.index_play_max_deg limits.dwell_play_max_deg shaft.stiffness_Nm_rad "
+    "shaft.damping_ratio shaft.wheel_diameter_mm shaft.wheel_overhang_mm shaft.wheel_span_mm"
+)
 
 
 class Linear(Gearing):
@@ -171,27 +178,13 @@ class Sliding(PlaneMotion):
 
 def refuses(spec: Spec) -> Iterator[Conflict]:
     """Rules of a rack's load; and of tables and keys that only a wheel on a shaft has."""
-    load, turns = spec.load, spec.output.turns
-    text = "mass_kg and force_N are a rack's load, inertia_kgm2 and torque_Nm that of a wheel"
-    wrong = turns & ((load.mass_kg != 0.0) | (load.force_N != 0.0))
-    yield (wrong, ("load", "mass_kg"), text)
-    wrong = (not turns) & ((load.inertia_kgm2 != 0.0) | (load.torque_Nm != 0.0))
-    yield (wrong, ("load", "inertia_kgm2"), text)
-    text = "guide_friction is of the guide of a rack that a plain crank or gears drive: remove it"
-    wrong = not guided(spec) and load.guide_friction is not None
-    yield (wrong, ("load", "guide_friction"), text)
-    if turns:
+    if not guided(spec):
+        why = "is of the guide of a rack that a plain crank or gears drive"
+        yield from unset(spec, "load.guide_friction", why)
+    if spec.output.turns:
+        why = "is a rack's; the load of a wheel is inertia_kgm2 and torque_Nm"
+        yield from unset(spec, "load.mass_kg load.force_N", why)
         return
-    its = "is for a wheel on a shaft, and not available for a rack: remove it"
-    text = f"dwell_torque_Nm {its}"
-    yield (load.dwell_torque_Nm is not None, ("load", "dwell_torque_Nm"), text)
-    yield (spec.mass, ("mass",), f"[[mass]] {its}")
-    for table in ("support", "tolerance", "product"):
-        yield (is_set(getattr(spec, table)), (table,), f"[{table}] {its}")
-    shaft = "stiffness_Nm_rad damping_ratio wheel_diameter_mm wheel_overhang_mm wheel_span_mm"
-    for table, keys in (("limits", "index_play_max_deg dwell_play_max_deg"), ("shaft", shaft)):
-        values = getattr(spec, table)
-        for key in keys.split():
-            own = getattr(values, key)
-            set_ = own is not None and own != getattr(type(values), key)
-            yield (set_, (table, key), f"{key} {its}")
+    its = "is for a wheel on a shaft, and not available for a rack"
+    yield from unset(spec, OF_A_SHAFT, its)
+    yield spec.mass, ("mass",), f"[[mass]] {its}: remove it"

@@ -14,8 +14,7 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinds.linkages import four_bar_search as search
 from geneva_cli.kinds.linkages.four_bar import FourBar
-from geneva_cli.kinds.linkages.path_wheels import driven
-from geneva_cli.kinds.linkages.tangent_pairs import sampled
+from geneva_cli.kinds.linkages.path_wheels import driven, passed
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.study.synth.families.family import Family, is_compatible, natural_deg
@@ -99,7 +98,8 @@ def _spec(target: Target, goal: search.Goal, places: Places, number: int) -> Spe
     except GenevaError:
         return None
     path, wheel = drive.roller_path, goal.wheels[one.of[0]].wheel
-    drives = len(driven(path, pair._replace(which=np.arange(1)), sampled(path, 1)).distance)
+    wheels, _ = driven(path, pair._replace(which=np.arange(1)))
+    drives = len(passed(path, wheels).which)
     return _machine(target, wheel, drive, math.degrees(exit_ - entry)) if drives else None
 
 

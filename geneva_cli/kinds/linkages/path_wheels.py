@@ -37,41 +37,33 @@ class PathWheels(NamedTuple):
         return np.abs(ray), self.pair.sense * (ray.conj() * v).imag
 
 
-def driven(path: LinkPath, found: tangents.Pairs, samples: tangents.Samples) -> PathWheels:
-    """The wheels of pairs whose roller stays in its slot, at samples of the path and even ones."""
-    wheels = PathWheels(found, *centre_of(tangents.points_at(path.of(found.which), found.phi)))
-    counts = np.bincount(samples.which)
-    own, first = counts[found.which], (np.cumsum(counts) - counts)[found.which]
-    begin = np.cumsum(own) - own  # in a list of all samples of each pair
-    each = record_taken(wheels, np.repeat(np.arange(len(own)), own))
-    _, phi, at = record_taken(
-        samples, np.arange(len(each.distance)) + np.repeat(first - begin, own)
-    )
-    entry, exit_ = each.pair.phi
-    motion, since = exit_ - entry, phi - entry
-    since -= math.tau * np.floor(since / math.tau)
-    end = (
-        np.minimum(np.abs(since - motion), math.pi - np.abs(since - math.pi)) < tangents.SAME_ENTRY
-    )
-    far, turns = each.driven(*at[:2])
-    near = far < each.distance
-    good = np.where(since < motion, near & (turns > 0.0), ~near) | end
-    wheels = record_taken(wheels, np.logical_and.reduceat(good, begin))
-    some, (entry, exit_) = path.of(wheels.pair.which), wheels.pair.phi
+def driven(path: LinkPath, found: tangents.Pairs) -> tuple[PathWheels, Array]:
+    """The wheels of pairs that the roller turns one way within its slot; their peak velocities."""
+    some, (entry, exit_) = path.of(found.which), found.phi
+    ends = tangents.points_at(some, found.phi)
+    wheels = PathWheels(found, *centre_of(ends))
     far, turns = wheels.driven(*tangents.points(some, _even(entry, exit_ - entry, EVEN), 1))
-    *_, back = some.joints(_even(exit_, math.tau - (exit_ - entry), 2 * EVEN))
-    kept = (far < wheels.distance) & (turns > 0.0)
-    away = np.abs(back - wheels.centre) > wheels.distance
-    return record_taken(wheels, kept.all(axis=0) & away.all(axis=0))
+    moves = (far < wheels.distance) & (turns > 0.0)
+    # next to both ends: the tangent turns against the wheel, or not at all in a double root
+    leads = found.sense * tangents.turning_rate(ends) < 1e-9
+    kept = np.logical_and(moves.all(axis=0), leads.all(axis=0))
+    return record_taken(wheels, kept), top((turns / far**2).T)[kept]
+
+
+def passed(path: LinkPath, wheels: PathWheels) -> tangents.Pairs:
+    """The pairs of wheels that the roller does not reach on its way back."""
+    entry, exit_ = wheels.pair.phi
+    back = _even(exit_, math.tau - (exit_ - entry), 2 * EVEN)
+    *_, place = path.of(wheels.pair.which).joints(back)
+    return record_taken(wheels.pair, (np.abs(place - wheels.centre) > wheels.distance).all(axis=0))
 
 
 def _even(phi: Array, turn: Array, count: int) -> Complex:
     """Unit vectors at even crank angles within a turn from ``phi`` on, (count - 1, m)."""
-    step = turn / count
-    rows: Complex = np.exp(1j * (phi + step))[None]
-    while len(rows) < count:
-        rows = np.concatenate((rows, rows * np.exp(1j * len(rows) * step)))
-    return rows[: count - 1]
+    factors = np.empty((count - 1, len(phi)), dtype=complex)
+    factors[0], factors[1:] = np.exp(1j * (phi + turn / count)), np.exp(1j * turn / count)
+    np.cumprod(factors, axis=0, out=factors)
+    return factors
 
 
 def centre_of(ends: Complex) -> tuple[Complex, Array]:
@@ -98,28 +90,18 @@ def chosen(path: LinkPath, b: Array, wanted: Array | None = None) -> Array:
     It has the least peak velocity, or the entry nearest to that ``wanted``, radians (n,). Among
     equal wheels, as on a symmetric path, it is the one with the first entry.
     """
-    samples, out = tangents.sampled(path, len(b)), np.full((3, len(b)), np.nan)
-    found = tangents.pairs(path, samples, b)
-    if wanted is None:
-        some, (entry, exit_) = path.of(found.which), found.phi
-        wheels = PathWheels(found, *centre_of(tangents.points_at(some, found.phi)))
-        far, turns = wheels.driven(*tangents.points(some, _even(entry, exit_ - entry, EVEN), 1))
-        cost = np.nan_to_num(top((turns / far**2).T), nan=np.inf)
-    else:
-        off = found.phi[0] - wanted[found.which]
+    wheels, cost = driven(path, tangents.pairs(path, tangents.sampled(path, len(b)), b))
+    which, (entry, _), _ = wheels.pair
+    if wanted is not None:
+        off = entry - wanted[which]
         cost = np.abs(off - math.tau * np.round(off / math.tau))
-    while len(found.which):
-        which, entry = found.which, found.phi[0]
-        least = np.full(len(b), np.inf)
-        np.minimum.at(least, which, cost)
-        tied = np.flatnonzero(cost <= least[which] * (1.0 + SAME_PEAK))
-        order = tied[np.lexsort((entry[tied], which[tied]))]
-        first = order[np.append(True, np.diff(which[order]) != 0)]
-        best = driven(path, record_taken(found, first), samples).pair
+    left = np.lexsort((entry, np.round(np.log(cost) / SAME_PEAK), which))
+    out = np.full((3, len(b)), np.nan)
+    while len(left):
+        first = np.diff(which[left], prepend=-1) != 0
+        best = passed(path, record_taken(wheels, left[first]))
         out[:, best.which] = *best.phi, best.sense
-        left = np.isnan(out[0])[which]
-        left[first] = False
-        found, cost = record_taken(found, left), cost[left]
+        left = left[~first & np.isnan(out[0, which[left]])]
     return out
 
 

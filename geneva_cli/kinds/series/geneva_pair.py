@@ -13,7 +13,7 @@ from typing import Annotated, ClassVar, NamedTuple
 
 from geneva_cli.drives.pushed import CirclingPush, PushedCrank
 from geneva_cli.drives.transmission import LocalTransmission, Transmission
-from geneva_cli.motion.compatible import Conflict, of_transmission, several_rollers
+from geneva_cli.motion.compatible import KIND, ONE_ROLLER, Conflict, of_transmission, unset
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot, ShaftPlace
@@ -151,5 +151,5 @@ def _running(middle: classic.PinPose, a: float) -> classic.PinPose:
 
 def refuses(spec: Spec) -> Iterator[Conflict]:
     """Rules of a second crank, which has one roller."""
-    yield from several_rollers(spec)
+    yield from unset(spec, ONE_ROLLER, f"is not for {KIND}, which carries one roller")
     yield from of_transmission(spec)

@@ -9,7 +9,6 @@ proportional to the 0.9th power of the materials' softness.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
 from typing import NamedTuple
 
@@ -19,7 +18,7 @@ from geneva_cli.loads.load_case import MM, contact_modulus_GPa, load_case
 from geneva_cli.loads.strength.pin_arm_key import PinSize, stiffness_N_mm
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.arrays import Array, N, Number, Whole, parameter, size
+from geneva_cli.numerics.arrays import Array, N, Whole, parameter, size
 from geneva_cli.numerics.roots import find_roots
 from geneva_cli.spec.defaults import roller_material, wheel_material
 from geneva_cli.spec.workshops import Stock
@@ -57,7 +56,7 @@ def hardest(mechanism: Mechanism, each: Iterable[Array], pin: PinSize | None) ->
         best = np.where(abs(rows[1]) > np.nan_to_num(abs(best[1]), nan=-1.0), rows, best)
     at_deg, jump, edge = best
     moment = np.ravel(impulse_Nms(mechanism, jump[:, None]))
-    force = np.nan if pin is None else forces_N(mechanism, jump[:, None], pin)
+    force = np.nan if pin is None else forces_N(mechanism, jump[:, None], pin)[:, 0]
     with np.errstate(divide="ignore"):  # a wall as sharp as the roller
         square = force * np.ravel(np.nan if hertz is None else hertz) / np.maximum(edge, 0.0)
     moment = np.where(moment == 0.0, np.nan, moment)
@@ -71,64 +70,22 @@ def impulse_Nms(mechanism: Mechanism, jump: N) -> N:
 
 
 def forces_N(mechanism: Mechanism, jump: Array, pin: PinSize) -> Array:
-    """Greatest forces of elastic impacts, for jumps (m, 1): (m,); NaN without an inertia."""
-    work, press, bend = _struck(mechanism, jump, pin)
-
-    def over(force: Array, live: Whole) -> tuple[Array, Array]:
-        stored, slope = _energy(force, press[live], bend[live])
-        return stored - work[live], slope
-
-    force = find_roots(over, 0.0 * work, np.sqrt(2.0 * work / bend))
-    return np.where(np.ravel(load_case(mechanism).inertia_Nm) > 0.0, force, np.nan)
-
-
-def least_pin_mm(
-    mechanism: Mechanism,
-    jump: Array,
-    pin: PinSize,
-    stress_MPa: tuple[Number, Number],
-    allowed_MPa: Number,
-) -> Array:
-    """Diameters at which pins hold impacts, for jumps (m, 1); NaN without one: (m,).
-
-    ``stress_MPa`` are bending and shear of the ``pin`` under 1 N on the wall. A thicker pin is
-    struck harder, but the force that it allows grows as d³, or d² in shear, and the energy that it
-    stores: one diameter just holds.
-    """
-    work, press, bend = _struck(mechanism, jump, pin)
-    rows = stress_MPa[0], math.sqrt(3.0) * stress_MPa[1], allowed_MPa, pin.diameter_mm
-    bending, shear, allowed, usual = (np.broadcast_to(np.ravel(row), len(work)) for row in rows)
-
-    def over(d: Array, live: Whole) -> tuple[Array, Array]:
-        ratio = d / usual[live]
-        bent, sheared = bending[live] / ratio**3, shear[live] / ratio**2
-        force = allowed[live] / np.maximum(bent, sheared)
-        give = bend[live] / ratio**4
-        stored, slope = _energy(force, press[live], give)
-        grows = slope * force * np.where(bent > sheared, 3.0, 2.0)
-        weaker = 2.0 * give * force * force  # of a thicker pin, which bends less
-        return stored - work[live], (grows - weaker) / d
-
-    some = np.where(work > 0.0, 1.0, np.nan) * usual
-    return find_roots(over, 1e-4 * some, 1e4 * some)
-
-
-def _energy(force: Array, press: Array, bend: Array) -> tuple[Array, Array]:
-    """The energy that a force stores, N mm, and its slope, mm."""
-    pressed, bent = POWER * press * force**POWER, bend * force
-    return pressed * force / (1.0 + POWER) + 0.5 * bent * force, pressed + bent
-
-
-def _struck(mechanism: Mechanism, jump: Array, pin: PinSize) -> tuple[Array, Array, Array]:
-    """Energy of impacts, N mm, Palmgren's c, and 1/k of pin or teeth, mm/N: (m,) each."""
-    spec, width = mechanism.spec, pin.contact_mm
-    energy = 0.5 * load_case(mechanism).inertia_Nm * jump * jump / MM
+    """Greatest forces of elastic impacts, for jumps and pins (m, k); NaN without an inertia."""
+    spec, width, inertia = mechanism.spec, pin.contact_mm, load_case(mechanism).inertia_Nm
     steel = Stock()  # on steel: half of its plane strain modulus
     usual = 0.5 * steel.youngs_modulus_GPa / (1.0 - steel.poisson_ratio**2)
     soft = usual / contact_modulus_GPa(wheel_material(spec), roller_material(spec))
     # Palmgren's constant in mm, for 1 N on a line of 1 mm, steel on steel
-    press = 3.84e-5 * soft**POWER / width**WIDTH
+    palmgren = 3.84e-5 * soft**POWER / width**WIDTH
     modulus_GPa = roller_material(spec).youngs_modulus_GPa
-    bend = 1.0 / stiffness_N_mm(spec.size, width, pin.diameter_mm, modulus_GPa)
-    work, press, bend = (row[:, 0] for row in np.broadcast_arrays(energy, press, bend))
-    return work, press, bend
+    stiffness = stiffness_N_mm(spec.size, width, pin.diameter_mm, modulus_GPa)
+    rows = np.broadcast_arrays(0.5 * inertia * jump * jump / MM, palmgren, 1.0 / stiffness)
+    work, press, bend = map(np.ravel, rows)  # energy in N mm, Palmgren's c, and 1/k
+
+    def over(force: Array, live: Whole) -> tuple[Array, Array]:
+        pressed, bent = POWER * press[live] * force**POWER, bend[live] * force
+        stored = pressed * force / (1.0 + POWER) + 0.5 * bent * force
+        return stored - work[live], pressed + bent
+
+    force = find_roots(over, 0.0 * work, np.sqrt(2.0 * work / bend))
+    return np.where(inertia > 0.0, force.reshape(rows[0].shape), np.nan)

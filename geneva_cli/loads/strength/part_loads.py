@@ -28,10 +28,12 @@ import numpy as np
 from geneva_cli.kept import Known
 from geneva_cli.loads.contact import QuantityValue
 from geneva_cli.loads.impacts.reversal import reversal_impacts
+from geneva_cli.loads.impacts.shock_force import forces_N
 from geneva_cli.loads.instant import Instant, LoadQuantity
-from geneva_cli.loads.load_case import centrifugal_N, load_key
+from geneva_cli.loads.load_case import centrifugal_N, load_case, load_key
 from geneva_cli.loads.load_peaks import load_peaks
 from geneva_cli.loads.strength.lock import dwell_torque_Nm
+from geneva_cli.loads.strength.pin_arm_key import PinSize
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import PeakArray, greater
 from geneva_cli.numerics.arrays import N, parameter
@@ -159,6 +161,14 @@ def part_loads(mechanism: Mechanism) -> PartLoads:
     rows = force, jump, wheel, on_shaft, wheel_Nm, crank, crank_Nm
     out = PartLoads(*map(parameter, rows))
     return out.of(0) if isinstance(mechanism.design, int) else out
+
+
+def pin_forces_N(mechanism: Mechanism, loads: PartLoads, pin: PinSize) -> Array:
+    """The greatest forces on pins (m, k) with friction, in the cycle or by impact."""
+    force, jump = np.reshape((loads.pin_N, loads.pin_jump), (2, -1, 1))
+    if jump.any():
+        force = np.fmax(force, forces_N(mechanism, jump, pin))
+    return np.asarray(force * np.hypot(1.0, load_case(mechanism).friction))
 
 
 # The loads for which a machine is sized, cached for its sizes and their checks.

@@ -16,6 +16,7 @@ hole carries half the twist, as a couple of shear forces in its two walls. Notch
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
@@ -77,19 +78,16 @@ def torsion_MPa(torque_Nmm: Number, width: Number, height: Number) -> Array:
     return cast("Array", 3.0 * torque_Nmm / (a * b * b) * sides)
 
 
-def least_thickness_mm(arm: ArmDimensions, force_N: Array, allowed_MPa: Array) -> Array:
-    """The thickness at which an arm's stress equals the allowable one, mm; infinite for none.
+def thick(arm: ArmDimensions, thickness: Array) -> ArmDimensions:
+    """An arm of another thickness: the gap between it and the roller stays."""
+    offset = arm.offset + 0.5 * (thickness - arm.thickness)
+    return arm._replace(thickness=thickness, offset=offset)
 
-    The gap between arm and roller stays: the force is farther from a thicker arm's mid-plane.
-    """
-    face = arm.offset - 0.5 * arm.thickness
 
-    def holds(h: float) -> Truth:
-        thick = arm._replace(thickness=np.asarray(h), offset=face + 0.5 * h)
-        return np.asarray(arm_stress_MPa(thick, force_N) <= allowed_MPa)
-
-    most = parameter(32.0 * arm.thickness)
-    least = boundary(holds, most, 0.0 * most, 50)  # halvings: to 1e-13 of the thickness
+def least_size_mm(holds: Callable[[Array], Truth], usual: Number) -> Array:
+    """The size from which on parts hold, up to 32 times the usual one; infinite for none."""
+    most = np.asarray(32.0 * usual)
+    least = boundary(holds, most, 0.0 * most, 50)  # halvings: to 1e-13 of the size
     return np.where(holds(most), least, np.inf)
 
 
@@ -192,9 +190,3 @@ def pin_diameter_mm(mechanism: Mechanism) -> float:
         return parameter(np.array([[rounded_below(x)] for x in np.ravel(r)]))
     diameter: float = choose(size.pin_mm == 0.0, 2.0 * r, size.pin_mm)
     return diameter
-
-
-def least_diameter_mm(bending: Number, shear: Number, d: Number, allowed_MPa: Number) -> Number:
-    """Diameter at which a pin just holds a force under which it has these stresses at d, MPa."""
-    sheared = np.sqrt(math.sqrt(3.0) * shear / allowed_MPa)
-    return cast("Number", d * np.maximum(np.cbrt(bending / allowed_MPa), sheared))

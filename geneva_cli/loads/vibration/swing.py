@@ -1,17 +1,16 @@
-"""A load that vibrates on its shaft during a motion and after it, to 1e-16 of the step.
+"""A load that vibrates on its shaft during a motion and after it, to 2e-16 of the step.
 
 A motion's shape is the fraction s of the step by the fraction u of the motion's time. It is cut
 into panels, which are halved until Legendre series of s' and s'' have ended. The load vibrates as
 e^(p u), p = Omega (-zeta + i sqrt(1 - zeta²)), Omega = 2 pi lambda and lambda the period ratio. The
-residual is an integral of f e^(p (1 - u)), f being s' or s''. If |p h|, h being half of a panel's
-width, exceeds the number of its terms, the moments with Legendre's polynomials follow from the
-panel's ends by a recurrence (Filon's method); otherwise Gauss's rule has them.
+residual is an integral of f e^(p (1 - u)), f being s' or s'', by Gauss's rule over equal pieces of
+the panels.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -21,7 +20,6 @@ from geneva_cli.motion.engagement import WheelMotion
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Complex, Mask, Whole, blocks, joined, matrix_product
 from geneva_cli.numerics.jet import Array
-from geneva_cli.numerics.quadrature import rule
 
 Rates: TypeAlias = Callable[[Array, Whole], Array]
 
@@ -30,12 +28,10 @@ NODES = 32  # of Gauss's rule on a panel
 TERMS = 20  # of Legendre's series that are kept
 MOST = 200  # panels between two knots of a motion: with more, its series are of noise
 
-X, _weights = rule(NODES)
+X, _weights = legendre.leggauss(NODES)
 # values at the nodes -> coefficients of Legendre's series
 _series = legendre.legvander(X, NODES - 1) * _weights[:, None] * (np.arange(NODES) + 0.5)
 SERIES: Array = _series.T.astype(float)
-NODE, WEIGHT = rule(64)  # exact to a double for |p h| up to TERMS
-_VALUES: Array = legendre.legvander(NODE, TERMS - 1).T.astype(float)
 # values at a panel's nodes -> integrals from -1 to each node, and to 1
 _ENDS = np.append(X, 1.0)
 _INTEGRALS = matrix_product(
@@ -57,17 +53,6 @@ class Panels(NamedTuple):
     def half(self) -> Array:
         """Half the width of each panel."""
         return 0.5 * (self.right - self.left)
-
-    def paired(self, motion: Whole) -> tuple[Whole, Whole, Whole]:
-        """Pairs of an oscillator and a panel of its ``motion`` (n,), in order.
-
-        The result has the numbers of both, and the first pair of each oscillator.
-        """
-        ends = np.searchsorted(self.motion, np.arange(len(self.jumps) + 1))
-        count = (ends[1:] - ends[:-1])[motion]
-        first = np.cumsum(count) - count
-        of = np.repeat(np.arange(len(motion)), count)
-        return of, np.arange(len(of)) + np.repeat(ends[motion] - first, count), first
 
 
 def motion_shapes(motion: WheelMotion, m: int = 1) -> Panels:
@@ -144,100 +129,76 @@ class Oscillator(NamedTuple):
         return 2.0 * np.pi * self.ratio * (-zeta + 1j * np.sqrt(1.0 - zeta * zeta))
 
 
+def _pushes(
+    panels: Panels, order: int, motion: Whole, swing: Oscillator, most: float, integrals: Array
+) -> Iterator[tuple[Whole, Array, Array, Complex]]:
+    """Yield what a derivative adds to vibrations: numbers of oscillators, and pieces of a panel.
+
+    It is cut into k equal ones, with the half width h, (n, 1), so that |p h| is at most ``most``:
+    the ``integrals`` of f e^(p (left - u)) over them are (n, k, e), and their left ends (n, k).
+    One panel of each motion comes after the other.
+    """
+    ends = np.searchsorted(panels.motion, np.arange(len(panels.jumps) + 1))
+    first, last = ends[motion], ends[motion + 1]
+    for panel in range(max(last - first, default=0)):
+        of = np.flatnonzero(first + panel < last)
+        own, p = first[of] + panel, swing.p[of]
+        half = panels.half[own]
+        pieces = max(1, math.ceil((np.abs(p) * half).max() / most))
+        h = (half / pieces)[:, None]
+        back = np.exp(-(p[:, None] * h) * (1.0 + X))[:, None]
+        for some in blocks(pieces, max(1, 4096 // len(of))):  # these fit in the cache
+            at = np.arange(some.start, some.stop)
+            places = (2.0 * at[:, None] + 1.0 + X) / pieces - 1.0
+            polynomials = legendre.legvander(places, TERMS - 1)
+            values = np.einsum("kxt,nt->nkx", polynomials, panels.series[order - 1, own])
+            left = panels.left[own, None] + 2.0 * h * at
+            yield of, h, left, h[..., None] * matrix_product(values * back, integrals)
+
+
 def residual_swing(panels: Panels, motion: Whole, swing: Oscillator) -> Complex:
     """The residual vibration of each oscillator after a motion: (n,), over the step.
 
     It is (r' - p* r) / Im p at the end of a motion that begins without vibration, r being the
     load's angle minus the wheel's. ``motion`` (n,) are the oscillators' motions among the panels'.
     """
-    out = np.empty(len(motion), dtype=complex)
+    out = np.zeros(len(motion), dtype=complex)
     # the better derivative to integrate: rounding is proportional to its greatest value
     quick = 2.0 * np.pi * swing.ratio * panels.greatest[0, motion] > panels.greatest[1, motion]
     order = np.where(quick & ~panels.jumps[motion], 2, 1)
-    # some 4096 pairs of an oscillator and a panel at a time stay in the cache
-    together = max(1, 4096 * len(panels.jumps) // len(panels.motion))
     for k in (1, 2):
         every = np.flatnonzero(order == k)
-        for start in range(0, len(every), together):
-            at = every[start : start + together]
-            some = swing.of(at)
-            p = some.p
+        some, p = swing.of(every), swing.p[every]
+        # Gauss's rule is exact to a double up to |p h| = 10
+        for of, _, left, added in _pushes(panels, k, motion[every], some, 10.0, _INTEGRALS[-1:].T):
+            swung = (np.exp(p[of, None] * (1.0 - left)) * added[..., 0]).sum(axis=1)
             # By parts: one more derivative, if it vanishes at both ends, gains a factor p.
-            out[at] = -_integral(panels, k, motion[at], some) * p ** (2 - k) / p.imag
-    return out
-
-
-def _integral(panels: Panels, order: int, motion: Whole, swing: Oscillator) -> Complex:
-    """Integrate a derivative of each oscillator's motion against its vibration."""
-    of, panel, first = panels.paired(motion)
-    p, h = swing.p[of], panels.half[panel]
-    series, left, right = panels.series[order - 1, panel], panels.left[panel], panels.right[panel]
-    out: Complex = np.empty(len(of), dtype=complex)
-    large = np.abs(p) * h >= TERMS  # there the recurrence is stable
-    for here, whole in ((~large, False), (large, True)):
-        if not here.any():
-            continue
-        own, c = p[here], series[here]
-        after, q = np.exp(own * (1.0 - right[here])), own * h[here]
-        if whole:
-            before = np.exp(own * (1.0 - left[here]))
-            both = before * _sums(1.0 / q, c)
-            both = both - after * _sums(-1.0 / q, c * (-1.0) ** np.arange(TERMS))
-            out[here] = both / own
-        else:
-            swung = np.exp(q[:, None] * (1.0 - NODE)) * WEIGHT
-            out[here] = h[here] * after * (matrix_product(c, _VALUES) * swung).sum(axis=1)
-    return np.add.reduceat(out, first)
-
-
-def _sums(y: Complex, series: Array) -> Complex:
-    """Contributions of a panel's end, times p, to integrals of ``series``, from y = 1/(p h).
-
-    The moments with Legendre's polynomials are m_(n+1) = m_(n-1) + (2 n + 1) y m_n.
-    """
-    moments = np.empty((TERMS, len(y)), dtype=complex)
-    before, here = -np.ones_like(y), np.ones_like(y)
-    for n in range(TERMS):
-        moments[n] = here
-        before, here = here, before + (2.0 * n + 1.0) * y * here
-    out: Complex = np.einsum("tp,pt->p", moments, series)
+            out[every[of]] -= swung * p[of] ** (2 - k) / p[of].imag
     return out
 
 
 def greatest_accelerations(panels: Panels, motion: Whole, swing: Oscillator) -> Array:
     """The greatest size of each load's acceleration by u over the step: (n,).
 
-    The load is at rest at entry. A shape's second derivative is integrated over equal pieces of its
-    panels, one panel of each motion after the other.
+    The load is at rest at entry. With z' = p z - s'' each piece ends at e^(p h) (z - added).
     """
     most, omega, rate = np.zeros(len(motion)), 2.0 * np.pi * swing.ratio, swing.p
-    _, panel, first = panels.paired(motion)
-    count = np.diff(np.append(first, len(panel)))
     # the load lags by a jump of the wheel's velocity at entry, where there is one
-    begins_at = (panels.series[0, panel[first]] * (-1.0) ** np.arange(TERMS)).sum(axis=1)
+    first = np.searchsorted(panels.motion, motion)
+    begins_at = (panels.series[0, first] * (-1.0) ** np.arange(TERMS)).sum(axis=1)
     z = np.where(panels.jumps[motion], -begins_at, 0.0).astype(complex)
-    for k in range(count.max()):
-        of = np.flatnonzero(count > k)
-        own, p, w = panel[first[of] + k], rate[of, None, None], omega[of, None, None]
-        # |p h| is at most 2, with h half a piece's width: a dozen terms suffice for the swing
-        pieces = max(1, math.ceil((omega[of] * panels.half[own]).max() / 2.0))
-        half = (panels.half[own] / pieces)[:, None, None]
-        back, ahead = np.exp(-(p * half) * (1.0 + X)), np.exp((p * half) * (1.0 + _ENDS))
-        for some in blocks(pieces, max(1, 4096 // len(of))):  # these fit in the cache
-            at = np.arange(some.start, some.stop)
-            u = (2.0 * at[:, None] + 1.0 + X) / pieces - 1.0
-            values = legendre.legvander(u, TERMS - 1)
-            bent = np.einsum("kxt,nt->nkx", values, panels.series[1, own])
-            # z' = p z - s'': contribution of a piece, seen from its left end
-            added = -half * matrix_product(bent * back, _INTEGRALS.T)
-            begins = np.empty((len(of), len(at), 1), dtype=complex)
-            for i in range(len(at)):  # each piece ends at ahead (z + added) from its own start z
-                begins[:, i, 0] = z[of]
-                z[of] = ahead[:, 0, -1] * (z[of] + added[:, i, -1])
-            swung = ahead * (begins + added)
-            r = swung.imag / p.imag
-            load = 2.0 * p.real * (swung.real + p.real * r) - w * w * r
-            _take_most(most, load.reshape(-1, len(_ENDS)), of.repeat(len(at)))
+    # with |p h| of at most 2 a dozen terms suffice for the swing
+    for of, h, _, added in _pushes(panels, 2, motion, swing, 2.0, _INTEGRALS.T):
+        p, w = rate[of, None, None], omega[of, None, None]
+        ahead = np.exp((p * h[..., None]) * (1.0 + _ENDS))
+        begins: Complex = np.empty((*added.shape[:2], 1), dtype=complex)
+        for i in range(added.shape[1]):
+            begins[:, i, 0] = z[of]
+            z[of] = ahead[:, 0, -1] * (z[of] - added[:, i, -1])
+        swung = ahead * (begins - added)
+        r = swung.imag / p.imag
+        load = 2.0 * p.real * (swung.real + p.real * r) - w * w * r
+        _take_most(most, load.reshape(-1, len(_ENDS)), of.repeat(added.shape[1]))
     return most
 
 

@@ -12,7 +12,7 @@ from geneva_cli.kept import cached_property
 from geneva_cli.numerics.arrays import Truth, all_true, choose
 from geneva_cli.numerics.jet import Jet, Number, integral, piecewise
 from geneva_cli.numerics.roots import boundary
-from geneva_cli.spec.rules import FINITE, Range, is_array
+from geneva_cli.spec.rules import Range, is_array
 from geneva_cli.spec.schema import Field, SpecTable, fields, refuse_kind
 
 
@@ -100,7 +100,7 @@ class Motion(SpecTable, table="motion"):
     """
 
     law: Law
-    alpha0_deg: Annotated[float, FINITE, "extra dwell angle of the crank"] = 0.0
+    alpha0_deg: Annotated[float, Range(-360.0, 360.0), "extra dwell angle of the crank"] = 0.0
     ratio: Annotated[
         float | str | None,
         Range(0.0, 1.0, "()", ("matched",)),

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from functools import partial
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import zip_longest
 from typing import NamedTuple
 
 from geneva_cli.answer import FAILS, NO_BREAK, PASSES, WARNS
 from geneva_cli.errors import clean
-from geneva_cli.geometry.shapes import ORIGIN, Point, Shape, placed
+from geneva_cli.geometry.shapes import Point, Shape, placed
 from geneva_cli.geometry.sheet import Annotations, Drawing, extent, prepared
 from geneva_cli.output import pdf
 from geneva_cli.output.document import blocks
@@ -18,6 +17,7 @@ from geneva_cli.output.letters import western
 from geneva_cli.output.notes import LETTERS, notes
 from geneva_cli.output.plot import plot_layout, plot_pdf
 from geneva_cli.output.svg import opacity, rings
+from geneva_cli.output.terminal.layout import wrapped
 
 WIDTH, HEIGHT = 210.0, 297.0
 LEFT, TOP, BOTTOM = 16.0, 281.0, 20.0
@@ -28,19 +28,21 @@ MARK = 4.0  # before a text of a list
 PAD = 1.3  # left and right of a cell's text
 SPACE = 0.55  # above and below it
 STEP = LEADING * SMALL
+# in a word longer than a line: behind a sign, and behind any letter from the 24th on
+BREAKS = r"(?<=[_./-])|(?<=\w{24})"
 SOFT, LINE, BAND = "0.35 0.39 0.43", "0.8 0.83 0.86", "0.95 0.96 0.97"
 RED, AMBER, GREEN = "0.7 0.15 0.12", "0.48 0.31 0", "0.1 0.42 0.2"
 
 
 class Item(NamedTuple):
-    """An unbreakable part of a page; ``draw(top)`` are its operators from a height downwards.
+    """An unbreakable part of a page: its height, and its operators from the height 0 downwards.
 
     An item that ``keeps`` is on the page of the next one; ``head`` is repeated above it if a page
     begins with it.
     """
 
     high: float
-    draw: Callable[[float], str]
+    content: str
     keeps: bool = False
     head: Item | None = None
 
@@ -53,26 +55,22 @@ def chunks(document: blocks.Document) -> Iterator[str]:
 
 def _pages(items: Iterable[Item], foot: str) -> list[pdf.Page]:
     """Return items on as many A4 pages as they need, numbered."""
-    contents: list[str] = []
-    content, y = "", TOP
-    group: list[Item] = []
+    contents, y, group = [""], TOP, list[Item]()
     for item in items:
         group.append(item)
         if item.keeps:
             continue
-        if content and y - sum(one.high for one in group) < BOTTOM:
-            contents.append(content)
-            content, y = "", TOP
-            if head := group[0].head:
-                content, y = head.draw(y), y - head.high
+        if contents[-1] and y - sum(one.high for one in group) < BOTTOM:
+            contents.append("")
+            y = TOP
+            group[:0] = [head] if (head := group[0].head) else []
         for one in group:
-            content += one.draw(y)
+            contents[-1] += pdf.moved(one.content, 0.0, y)
             y -= one.high
         group = []
-    contents.append(content)
     out, low = [], 11.0
     if pdf.wide(foot, SMALL) > WIDE - 30.0:
-        foot = foot[: _fits(foot, SMALL, WIDE - 30.0, False) - 1] + "…"
+        foot = _lines(foot, SMALL, WIDE - 34.0)[0] + " …"
     for i, text in enumerate(contents, 1):
         which = f"{i} / {len(contents)}"
         end = pdf.words(foot, (LEFT, low), SMALL, ink=SOFT)
@@ -98,7 +96,9 @@ def _items(document: blocks.Document) -> Iterator[Item]:
 
 def _block(block: blocks.Block) -> Iterator[Item]:
     if isinstance(block, blocks.Heading):
-        yield Item(8.5 + HEAD, lambda top: _heading(block.text, top - 4.0 - HEAD), keeps=True)
+        y = -4.0 - HEAD
+        text = pdf.words(block.text, (LEFT, y), HEAD, bold=True)
+        yield Item(8.5 + HEAD, text + _rule(LEFT, y - 1.7, WIDE, 0.3), keeps=True)
     elif isinstance(block, blocks.Prose):
         rows = _lines(block.text, BODY, WIDE)
         for i, text in enumerate(rows):  # no single line of it on a page
@@ -118,12 +118,12 @@ def _block(block: blocks.Block) -> Iterator[Item]:
     elif isinstance(block, blocks.Curves):
         scale, parts = WIDE / plot_layout.PAGE, list(plot_layout.blocks(block.figure))
         for i, part in enumerate(parts):  # no title and no last panel stands alone
-            draw = partial(plot_pdf.drawn, part, LEFT, scale)
-            yield Item(scale * part.high, draw, keeps=i in (0, len(parts) - 2))
+            content = pdf.moved(plot_pdf.drawn(part), LEFT, 0.0, scale)
+            yield Item(scale * part.high, content, keeps=i in (0, len(parts) - 2))
 
 
 def _gap(high: float) -> Item:
-    return Item(high, lambda top: "")
+    return Item(high, "")
 
 
 def _line(
@@ -137,18 +137,9 @@ def _line(
 ) -> Item:
     """A line of text behind a mark, and a ``bar`` of a colour at the left edge."""
     high = LEADING * size
-
-    def draw(top: float) -> str:
-        y = top - size
-        before = pdf.box(LEFT, top - high, 1.6, high, bar) if bar else ""
-        before += pdf.words(mark, (LEFT + indent - MARK + 1.0, y), size) if mark else ""
-        return before + pdf.words(text, (LEFT + indent, y), size, bold, ink)
-
-    return Item(high, draw)
-
-
-def _heading(text: str, y: float) -> str:
-    return pdf.words(text, (LEFT, y), HEAD, bold=True) + _rule(LEFT, y - 1.7, WIDE, 0.3)
+    content = pdf.box(LEFT, -high, 1.6, high, bar) if bar else ""
+    content += pdf.words(mark, (LEFT + indent - MARK + 1.0, -size), size) if mark else ""
+    return Item(high, content + pdf.words(text, (LEFT + indent, -size), size, bold, ink))
 
 
 def _grid(table: blocks.Grid) -> Iterator[Item]:
@@ -207,21 +198,15 @@ def _row(
         _lines(text, SMALL, long - 2.0 * PAD + 1e-6, bold)
         for text, long in zip(texts, widths, strict=True)
     ]
-    high = max(map(len, cells)) * STEP + 2.0 * SPACE
-
-    def draw(top: float) -> str:
-        out = pdf.box(LEFT, top - high, sum(widths), high, BAND) if bold else ""
-        x = LEFT
-        for cell, is_right, long in zip(cells, right, widths, strict=True):
-            ink, heavy = (RED, True) if cell == [blocks.BAD] else (pdf.INK, bold)
-            for i, text in enumerate(cell):
-                at = x + (long - PAD - pdf.wide(text, SMALL, heavy) if is_right else PAD)
-                y = top - SPACE - 0.95 * SMALL - i * STEP
-                out += pdf.words(text, (at, y), SMALL, heavy, ink)
-            x += long
-        return out + _rule(LEFT, top - high, sum(widths))
-
-    return Item(high, draw)
+    high, x = max(map(len, cells)) * STEP + 2.0 * SPACE, LEFT
+    out = pdf.box(LEFT, -high, sum(widths), high, BAND) if bold else ""
+    for cell, is_right, long in zip(cells, right, widths, strict=True):
+        ink, heavy = (RED, True) if cell == [blocks.BAD] else (pdf.INK, bold)
+        for i, text in enumerate(cell):
+            at = x + (long - PAD - pdf.wide(text, SMALL, heavy) if is_right else PAD)
+            out += pdf.words(text, (at, -SPACE - 0.95 * SMALL - i * STEP), SMALL, heavy, ink)
+        x += long
+    return Item(high, out + _rule(LEFT, -high, sum(widths)))
 
 
 def _drawing(drawn: Drawing) -> Item:
@@ -234,30 +219,29 @@ def _drawing(drawn: Drawing) -> Item:
     across, tall = around.x1 - around.x0, around.y1 - around.y0
     scale = min((WIDE - 2.0 * margin) / across, tall_max / tall)
     noted = notes(look, around_shapes, "", SMALL / LETTERS / scale)
-    left = LEFT + 0.5 * (WIDE - scale * across)
 
-    def draw(top: float) -> str:
-        def at(p: Point) -> Point:
-            return left + scale * (p[0] - around.x0), top - margin + scale * (p[1] - around.y1)
+    def scaled(p: Point) -> Point:
+        return scale * p[0], scale * p[1]
 
-        def traced(shape: Shape) -> str:
-            return pdf.outline(placed(shape, at(ORIGIN), scale=scale))
+    def traced(shape: Shape) -> str:
+        return pdf.outline(placed(shape, scale=scale))
 
-        out, every = "", rings(shown.solid) if shown.solid else []
-        for layer, contours in every:
-            out += f"{pdf.tint(INKS[layer].rgb, opacity(layer))} rg\n"
-            out += "".join(map(traced, contours)) + "f*\n"
-        for name in shown.layers:
-            is_thin = name in CENTRE_LINES
-            out += f"{pdf.tint(INKS[name].rgb)} RG {0.16 if is_thin else 0.3} w"
-            out += f" [{'4 0.8 0.8 0.8' if is_thin else ''}] 0 d\n"
-            out += "".join(f"{traced(shape)}S\n" for shape in shown.shapes if shape.layer == name)
-        out += f"{SOFT} RG {SOFT} rg 0.16 w [] 0 d\n"
-        out += "".join(f"{traced(one)}S\n" for one in (*noted.lines, *noted.scale_bar))
-        out += "".join(pdf.triangle([*map(at, head.corners)]) for head in noted.heads)
-        return out + "".join(pdf.words(text, at(place), SMALL) for place, text in noted.texts)
-
-    return Item(scale * (noted.box.y1 - noted.box.y0) + 2.0 * margin, draw)
+    out = ""
+    for layer, contours in rings(shown.solid) if shown.solid else []:
+        out += f"{pdf.tint(INKS[layer].rgb, opacity(layer))} rg\n"
+        out += "".join(map(traced, contours)) + "f*\n"
+    for name in shown.layers:
+        is_thin = name in CENTRE_LINES
+        out += f"{pdf.tint(INKS[name].rgb)} RG {0.16 if is_thin else 0.3} w"
+        out += f" [{'4 0.8 0.8 0.8' if is_thin else ''}] 0 d\n"
+        out += "".join(f"{traced(shape)}S\n" for shape in shown.shapes if shape.layer == name)
+    out += f"{SOFT} RG {SOFT} rg 0.16 w [] 0 d\n"
+    out += "".join(f"{traced(one)}S\n" for one in (*noted.lines, *noted.scale_bar))
+    out += "".join(pdf.triangle([*map(scaled, head.corners)]) for head in noted.heads)
+    out += "".join(pdf.words(text, scaled(place), SMALL) for place, text in noted.texts)
+    left = LEFT + 0.5 * (WIDE - scale * across) - scale * around.x0
+    content = pdf.moved(out, left, -margin - scale * around.y1)
+    return Item(scale * (noted.box.y1 - noted.box.y0) + 2.0 * margin, content)
 
 
 def _rule(x: float, y: float, long: float, width: float = 0.15) -> str:
@@ -267,28 +251,5 @@ def _rule(x: float, y: float, long: float, width: float = 0.15) -> str:
 
 
 def _lines(text: str, size: float, width_mm: float, bold: bool = False) -> list[str]:
-    """A text broken into lines that fit a width; a longer word is cut."""
-    out: list[str] = []
-    line = ""
-    for word in filter(None, clean(text).split(" ")):
-        whole = f"{line} {word}" if line else word
-        if pdf.wide(whole, size, bold) <= width_mm:
-            line = whole
-            continue
-        if line:
-            out.append(line)
-        while pdf.wide(word, size, bold) > width_mm and len(word) > 1:
-            fits = _fits(word, size, width_mm, bold)
-            out.append(word[:fits])
-            word = word[fits:]
-        line = word
-    return [*out, line] if line or not out else out
-
-
-def _fits(word: str, size: float, width_mm: float, bold: bool) -> int:
-    """The number of letters that fit, up to a sign such as an underscore if one is near the end."""
-    many = 1
-    while many < len(word) and pdf.wide(word[: many + 1], size, bold) <= width_mm:
-        many += 1
-    place = max(word.rfind(sign, 1, many) for sign in "_./-") + 1
-    return place if place > 0.4 * many else many
+    """A text broken into lines that fit a width."""
+    return wrapped(clean(text), width_mm, lambda part: pdf.wide(part, size, bold), BREAKS)

@@ -24,12 +24,15 @@ def read_drawing(path: str) -> Drawn:
     if ending not in (".dxf", ".svg"):
         raise GenevaError(f"{shown}: an outline is read from a .dxf or .svg file")
     data = read_bytes(path, BYTES_MAX, "too large for an outline")
-    if ending == ".dxf":
-        from geneva_cli.output.foreign.dxf_pieces import read_dxf as read
-    else:
-        from geneva_cli.output.foreign.svg_pieces import read_svg as read
     try:
-        drawn = read(data)
+        if ending == ".dxf":
+            from geneva_cli.output.foreign.dxf_pieces import read_dxf
+
+            drawn = read_dxf(data, path)
+        else:
+            from geneva_cli.output.foreign.svg_pieces import read_svg
+
+            drawn = read_svg(data)
     except GenevaError as error:
         raise GenevaError(f"{shown}: {error}") from None
     if len(drawn.pieces) > PIECES_MAX:

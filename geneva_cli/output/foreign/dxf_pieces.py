@@ -1,8 +1,6 @@
 """The lines and arcs of a DXF file, of any version, in millimetres."""
 
 import math
-import os
-import tempfile
 from collections.abc import Iterable, Iterator
 from itertools import pairwise
 from typing import Any
@@ -34,13 +32,13 @@ KNOWN = ("LINE", "ARC", "CIRCLE", "LWPOLYLINE", "POLYLINE", "ELLIPSE", "SPLINE")
 DEEPEST = 16  # blocks in blocks
 
 
-def read_dxf(data: bytes) -> Drawn:
-    """Return the lines and arcs of a DXF file's model space.
+def read_dxf(data: bytes, path: str) -> Drawn:
+    """Return the lines and arcs of a DXF file's model space; ``data`` are the bytes at ``path``.
 
     Layers that are off, and those of centre lines and texts, are left out. Raises GenevaError for
     data that is no DXF file, and for an entity that is no outline.
     """
-    document = _document(data)
+    document = _document(path)
     # a file without a header gets the library's own, whose unit is the metre
     code = int(document.header.get("$INSUNITS", 0) or 0) if b"$INSUNITS" in data else 0
     if code and code not in UNITS:
@@ -67,18 +65,12 @@ def read_dxf(data: bytes) -> Drawn:
     return Drawn(tuple(pieces), notes, is_exact)
 
 
-def _document(data: bytes) -> Document:
-    # ezdxf finds the encoding, and text or binary, only of a file with a name
-    handle, path = tempfile.mkstemp(suffix=".dxf")
+def _document(path: str) -> Document:
     try:
-        with os.fdopen(handle, "wb") as file:
-            file.write(data)
         return readfile(path)
     except Exception as error:  # the library raises errors of all kinds for damaged data
-        reason = cut(str(error).replace(path, "the file").strip() or type(error).__name__, 200)
+        reason = cut(str(error).strip() or type(error).__name__, 200)
         raise GenevaError(f"not a DXF file that can be read: {reason}") from None
-    finally:
-        os.unlink(path)
 
 
 def _entities(document: Document, entities: Iterable[Any], depth: int) -> Iterator[Any]:

@@ -9,8 +9,11 @@ from collections.abc import Callable, Iterator
 from itertools import pairwise
 from xml.etree import ElementTree
 
+from fontTools.misc.transform import Identity, Transform
+from fontTools.svgLib.path.parser import parse_path
+
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.geometry.shapes import Arc, Line
+from geneva_cli.geometry.shapes import Arc, Line, Point
 from geneva_cli.output.foreign.drawn import Curve, Drawn, Ellipse, Frame, traced
 
 # millimetres in a unit of a length; a CSS pixel is 1/96 inch
@@ -18,23 +21,15 @@ UNITS = {"mm": 1.0, "cm": 10.0, "in": 25.4, "pt": 25.4 / 72.0, "pc": 25.4 / 6.0,
 HIDDEN = {"defs", "symbol", "clipPath", "mask", "marker", "pattern", "metadata", "title", "style"}
 LAYERS = {"center", "pitch", "dimension", "text", "engrave", "hidden"}  # ids of what bounds no part
 NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
-GAP = r"[\s,]*"
-# the numbers of each letter of a path; the flags of an arc may stand without a space between them
-COUNTS = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "S": 4, "Q": 4, "T": 2, "A": 7, "Z": 0}
-_forms = {letter: [f"({NUMBER})"] * count for letter, count in COUNTS.items()}
-_forms["A"][3:5] = ["([01])"] * 2
-# a frame by the numbers of its transform
-TRANSFORMS: dict[str, Callable[..., Frame]] = {
-    "matrix": lambda a, b, c, d, e, f: (
-        lambda z: complex(a * z.real + c * z.imag + e, b * z.real + d * z.imag + f)
-    ),
-    "translate": lambda x, y=0.0: lambda z: z + complex(x, y),
-    "scale": lambda x, y=None: lambda z: complex(x * z.real, (x if y is None else y) * z.imag),
+PATH = re.compile(r"[Mm][MZLHVCSQTAmzlhvcsqta\d\s.,eE+-]*")
+TRANSFORMS: dict[str, Callable[..., Transform]] = {
+    "matrix": lambda a, b, c, d, e, f: Transform(a, b, c, d, e, f),
+    "translate": Identity.translate,
+    "scale": Identity.scale,
     "rotate": lambda turn, x=0.0, y=0.0: (
-        lambda z: complex(x, y) + cmath.rect(1.0, math.radians(turn)) * (z - complex(x, y))
+        Identity.translate(x, y).rotate(math.radians(turn)).translate(-x, -y)
     ),
 }
-FORMS = {letter: re.compile(GAP.join(["", *form, ""])) for letter, form in _forms.items()}
 
 
 def read_svg(data: bytes) -> Drawn:
@@ -63,12 +58,16 @@ def read_svg(data: bytes) -> Drawn:
         unit = size / box[2]
     pieces: list[Line | Arc] = []
     is_exact = True
-    for element, frame in _shapes(root, lambda z: unit * z.conjugate()):  # its y axis points down
+    for element, frame in _shapes(root, Identity.scale(unit, -unit)):  # its y axis points down
         for curve in _curves(element):
-            own, exact = traced(curve, frame)
+            own, exact = traced(curve, _moves(frame))
             pieces += own
             is_exact &= exact
     return Drawn(tuple(pieces), notes, is_exact)
+
+
+def _moves(frame: Transform) -> Frame:
+    return lambda z: complex(*frame.transformPoint((z.real, z.imag)))
 
 
 def _name(element: ElementTree.Element) -> str:
@@ -80,8 +79,8 @@ def _numbers(text: str) -> list[float]:
 
 
 def _shapes(
-    element: ElementTree.Element, frame: Frame
-) -> Iterator[tuple[ElementTree.Element, Frame]]:
+    element: ElementTree.Element, frame: Transform
+) -> Iterator[tuple[ElementTree.Element, Transform]]:
     """Yield the shapes that are shown, with the transforms of their groups."""
     style = element.get("style", "").replace(" ", "") + ";"
     hidden = element.get("display") == "none" or "display:none" in style
@@ -90,17 +89,13 @@ def _shapes(
         return
     for text, name, values in re.findall(r"((\w+)\s*\(([^)]*)\))", element.get("transform", "")):
         try:
-            frame = _within(frame, TRANSFORMS[name](*_numbers(values)))
+            frame = frame.transform(TRANSFORMS[name](*_numbers(values)))
         except (KeyError, TypeError):
             raise GenevaError(f"the transform {cut(text, 100)} is not known") from None
     yield element, frame
     for child in element:
         if isinstance(child.tag, str):
             yield from _shapes(child, frame)
-
-
-def _within(outer: Frame, inner: Frame) -> Frame:
-    return lambda z: outer(inner(z))
 
 
 def _lengths(element: ElementTree.Element, keys: str) -> list[float]:
@@ -136,68 +131,58 @@ def _curves(element: ElementTree.Element) -> Iterator[Curve]:
         raise GenevaError(f"<{name}> is no outline: convert it to a path")
 
 
-def _path(data: str) -> Iterator[Curve]:
-    """Yield the curves of path data. Raises GenevaError, with the place, if it cannot be read."""
-    at = first = 0j
-    before = ("", 0j)  # the last letter, and the last pole of its curve
-    for letter, v in _commands(data):
-        kind, base = letter.upper(), at if letter.islower() else 0j
-        pole = at
-        if kind == "H":
-            v = [*v, (at - base).imag]
-        elif kind == "V":
-            v = [(at - base).real, *v]
-        end = first if kind == "Z" else base + complex(*v[-2:])
-        if kind == "M":
-            first = end
-        elif kind in "CSQT":
-            poles = [base + complex(*pair) for pair in zip(v[:-2:2], v[1:-2:2], strict=True)]
-            if kind in "ST":
-                alike = before[0] in ("CS" if kind == "S" else "QT")
-                poles.insert(0, 2.0 * at - before[1] if alike else at)
-            pole = poles[-1]
-            yield at, *poles, end
-        else:
-            yield _elliptical_arc(at, end, v) if kind == "A" else (at, end)
-        at, before = end, (kind, pole)
+class _Pen:
+    """The curves of a path, as a parser draws them."""
+
+    def __init__(self) -> None:
+        self.curves, self.at = list[Curve](), 0j
+
+    def moveTo(self, start: Point) -> None:
+        self.at = complex(*start)
+
+    def lineTo(self, *poles: Point) -> None:
+        ends = [complex(*pole) for pole in poles]
+        self.curves.append((self.at, *ends))
+        self.at = ends[-1]
+
+    def arcTo(self, rx: float, ry: float, turn: float, large: bool, on: bool, to: Point) -> None:
+        """Add an elliptical arc by its centre, from both ends as in SVG 1.1, appendix F.6.5."""
+        start, end, ahead = self.at, complex(*to), cmath.exp(1j * math.radians(turn))
+        if not (rx and ry) or start == end:
+            self.lineTo(to)
+            return
+        half = 0.5 * (start - end) / ahead
+        half = complex(
+            half.real / rx, half.imag / ry
+        )  # in the frame in which it is the unit circle
+        size = max(abs(half), 1.0)  # above 1 if it is too small to reach both ends
+        rx, ry, half = rx * size, ry * size, half / size
+        side = 1j if large == on else -1j
+        middle = half * side * math.sqrt(max(1.0 - abs(half) ** 2, 0.0)) / abs(half)
+        first, last = half - middle, -half - middle
+        sweep = cmath.phase(last / first)
+        sweep = sweep % math.tau if on else -(-sweep % math.tau)
+        centre = 0.5 * (start + end) + complex(middle.real * rx, middle.imag * ry) * ahead
+        own = Ellipse(centre, rx * ahead, ry * 1j * ahead, cmath.phase(first), sweep)
+        self.curves.append(own)
+        self.at = end
+
+    def closePath(self) -> None:
+        """Do nothing: the parser has drawn the last line."""
+
+    curveTo = qCurveTo = lineTo
+    endPath = closePath
 
 
-def _commands(data: str) -> Iterator[tuple[str, list[float]]]:
-    """Yield letters with their numbers; a letter may be left out where it repeats."""
-    text, place, letter = data.strip(), 0, ""
-    if text and text[0] not in "Mm":
-        raise GenevaError(f'a path must begin with M, not with "{cut(text, 20)}"')
-    while place < len(text):
-        if text[place].isalpha():
-            letter, place = text[place], place + 1
-        form = FORMS.get(letter.upper())
-        if form is None:
-            shown = cut(text[place - 1 : place + 20], 20)
-            raise GenevaError(f'a path has "{shown}": unknown letter')
-        numbers = form.match(text, place)
-        if not numbers:
-            raise GenevaError(
-                f'a path breaks off at "{cut(text[place : place + 20], 20)}", where {letter} '
-                f"needs {form.groups} numbers"
-            )
-        yield letter, [*map(float, numbers.groups())]
-        place = numbers.end()
-        letter = {"M": "L", "m": "l", "Z": "", "z": ""}.get(letter, letter)
-
-
-def _elliptical_arc(start: complex, end: complex, v: list[float]) -> Curve:
-    """Return an elliptical arc by its centre, from both ends as in SVG 1.1, appendix F.6.5."""
-    rx, ry, turn = abs(v[0]), abs(v[1]), cmath.exp(1j * math.radians(v[2]))
-    if not (rx and ry) or start == end:
-        return start, end
-    half = 0.5 * (start - end) / turn
-    half = complex(half.real / rx, half.imag / ry)  # in the frame in which it is the unit circle
-    size = max(abs(half), 1.0)  # above 1 if it is too small to reach both ends
-    rx, ry, half = rx * size, ry * size, half / size
-    side = 1j if bool(v[3]) == bool(v[4]) else -1j
-    middle = half * side * math.sqrt(max(1.0 - abs(half) ** 2, 0.0)) / abs(half)
-    first, last = half - middle, -half - middle
-    sweep = cmath.phase(last / first)
-    sweep = sweep % math.tau if v[4] else -(-sweep % math.tau)
-    centre = 0.5 * (start + end) + complex(middle.real * rx, middle.imag * ry) * turn
-    return Ellipse(centre, rx * turn, ry * 1j * turn, cmath.phase(first), sweep)
+def _path(data: str) -> list[Curve]:
+    """Return the curves of path data. Raises GenevaError for data that cannot be read."""
+    pen, data = _Pen(), data.strip()
+    try:
+        if data and not PATH.fullmatch(data):
+            raise ValueError("it must have M, then letters of paths and numbers")
+        parse_path(data, pen)
+    except (ValueError, IndexError) as error:
+        raise GenevaError(
+            f'a path "{cut(data, 40)}" cannot be read: {cut(str(error), 100)}'
+        ) from None
+    return pen.curves

@@ -1,11 +1,11 @@
-"""The layout of a figure: panels stacked over one x axis, for the pens of SVG and PDF.
+"""The layout of a figure: panels stacked over one x axis, as lines and texts for SVG and PDF.
 
 Lengths are in px of a page 820 px wide, y downwards.
 """
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import Literal, NamedTuple, Protocol, TypeAlias
+from collections.abc import Iterator, Sequence
+from typing import Literal, NamedTuple, TypeAlias
 
 from geneva_cli.errors import clean, cut
 from geneva_cli.figure import LINE, POINTS, Axis, Curve, Figure, Mark, Panel
@@ -14,7 +14,8 @@ from geneva_cli.output.letters import LETTER, width
 
 Point: TypeAlias = tuple[float, float]
 Path: TypeAlias = Sequence[Point]
-Kind: TypeAlias = Literal["grid", "axis", "curve", "sample", "jump", "points"]
+# rest: filled areas; points and dot, a peak: places
+Kind: TypeAlias = Literal["rest", "grid", "axis", "curve", "sample", "jump", "points", "dot"]
 Look: TypeAlias = Literal["start", "middle", "end", "bold"]  # a text's anchor; bold ones start
 
 PAGE = 820.0
@@ -28,13 +29,16 @@ SHOWN_DIGITS = 6  # a peak's value has these; an axis has more if labels are equ
 
 
 class Frame(NamedTuple):
-    """A panel's place on the page, and the range of values that it shows."""
+    """The size of a panel, ``LEFT`` and ``ABOVE`` in its block, and the values that it shows."""
 
-    top: float
     wide: float
     high: float
     window: tuple[float, float]
     span: tuple[float, float]
+
+    def at(self, x: float, y: float) -> Point:
+        """Place of a point of a curve."""
+        return self.x(x), self.y(y)
 
     def x(self, value: float) -> float:
         """Place of an x value."""
@@ -44,81 +48,70 @@ class Frame(NamedTuple):
     def y(self, value: float) -> float:
         """Place of a y value."""
         low, top = self.span
-        return self.top + (top - value) / (top - low) * self.high
+        return ABOVE + (top - value) / (top - low) * self.high
 
 
-class _Pen(Protocol):
-    """A surface to draw on; ``number`` is a curve's, and determines its look.
+class Lines(NamedTuple):
+    """Lines of a kind; ``number`` is a curve's, and determines its look."""
 
-    A panel begins and ends; ``rest`` shades a stretch at rest, ``dot`` marks a peak. Paths of
-    points are single places; a text stands on its base line.
-    """
+    kind: Kind
+    paths: Sequence[Path]
+    number: int = 0
 
-    def begin(self, name: str, frame: Frame) -> None: ...
-    def end(self) -> None: ...
-    def rest(self, x: float, y: float, wide: float, high: float) -> None: ...
-    def draw(self, kind: Kind, paths: Iterable[Path], number: int = 0) -> None: ...
-    def dot(self, number: int, place: Point) -> None: ...
-    def text(self, place: Point, text: str, size: float = TEXT, look: Look = "start") -> None: ...
+
+class Words(NamedTuple):
+    """A text that stands on its base line."""
+
+    place: Point
+    text: str
+    size: float = TEXT
+    look: Look = "start"
 
 
 class FigureBlock(NamedTuple):
-    """An unbreakable part of a figure: its height, and ``draw(pen, top)``."""
+    """An unbreakable part of a figure from its top downwards; a panel has a name and a frame."""
 
     high: float
-    draw: Callable[[_Pen, float], None]
+    marks: tuple[Lines | Words, ...]
+    name: str = ""
+    frame: Frame | None = None
 
 
 def blocks(figure: Figure) -> Iterator[FigureBlock]:
     """Yield the title with the legend, then each panel; the last panel has the axis."""
-    known = figure.curves()
-    legend, high = [], TITLE + 14.0
+    most = int((PAGE - 2.0 * RIGHT) / (LETTER * TITLE))
+    title = Words((RIGHT, TITLE + 8.0), cut(clean(figure.title).strip(), most), TITLE, "bold")
+    head, high, known = list[Lines | Words]([title]), TITLE + 14.0, figure.curves()
     if len(known) > 1:
-        x, y = RIGHT, TITLE + 14.0 + LINE_HEIGHT
+        x, high = RIGHT, high + LINE_HEIGHT
         for curve in known.values():
             name = cut(clean(curve.name), 48)
             needs = SAMPLE + 6.0 + TEXT * width(name) + 18.0
             if x > RIGHT and x + needs > PAGE - RIGHT:
-                x, y = RIGHT, y + LINE_HEIGHT + 2.0
-            legend.append((curve, x, y, name))
+                x, high = RIGHT, high + LINE_HEIGHT + 2.0
+            head += (*_sample(curve, x, high, SAMPLE), Words((x + SAMPLE + 6.0, high), name))
             x += needs
-        high = y
-
-    def head(pen: _Pen, top: float) -> None:
-        most = int((PAGE - 2.0 * RIGHT) / (LETTER * TITLE))
-        pen.text((RIGHT, TITLE + 8.0), cut(clean(figure.title).strip(), most), TITLE, "bold")
-        for curve, x, y, name in legend:
-            _sample(curve, x, y, SAMPLE, pen)
-            pen.text((x + SAMPLE + 6.0, y), name)
-
-    yield FigureBlock(high, head)
+    yield FigureBlock(high, tuple(head))
     # a panel's height, by the number of panels
     high = {1: 300.0, 2: 220.0, 3: 160.0}.get(len(figure.panels), 112.0)
     marked = any(curve.marks for panel in figure.panels for curve in panel.curves)
     wide = PAGE - LEFT - (MARKS if marked else RIGHT)
+    across = ticks(*figure.window, int(wide / 70.0), figure.x.unit)
     for panel in figure.panels:
-        yield _block(figure, panel, wide, high, bool(legend))
+        frame = Frame(wide, high, figure.window, padded(panel))
+        marks = [*_panel(figure, panel, frame, across), *_peaks(figure, panel, frame, len(known))]
+        below = _axis(figure, frame, across) if panel is figure.panels[-1] else ()
+        tall = ABOVE + high + (BELOW if below else 0.0)
+        yield FigureBlock(tall, (*marks, *below), panel.y.name, frame)
 
 
-def _block(figure: Figure, panel: Panel, wide: float, high: float, several: bool) -> FigureBlock:
-    """A panel of one curve or ``several``; the last has the axis."""
-    is_last = panel is figure.panels[-1]
-
-    def draw(pen: _Pen, top: float) -> None:
-        frame = Frame(top + ABOVE, wide, high, figure.window, padded(panel))
-        across = ticks(*figure.window, int(wide / 70.0), figure.x.unit)
-        pen.begin(panel.y.name, frame)
-        _panel(figure, panel, frame, across, pen)
-        _marks(figure, panel, frame, several, pen)
-        pen.end()
-        if is_last:
-            bottom = frame.top + high
-            for value, label in zip(across, labels(across), strict=True):
-                pen.text((frame.x(value), bottom + 15.0), label, look="middle")
-            text = named(figure.x) + (", dwells shaded" if figure.shaded else "")
-            pen.text((LEFT + 0.5 * wide, bottom + 34.0), text, look="middle")
-
-    return FigureBlock(ABOVE + high + (BELOW if is_last else 0.0), draw)
+def _axis(figure: Figure, frame: Frame, across: Sequence[float]) -> tuple[Words, ...]:
+    """The numbers and the name of the x axis."""
+    low = ABOVE + frame.high
+    shown = zip(across, labels(across), strict=True)
+    numbers = (Words((frame.x(v), low + 15.0), label, look="middle") for v, label in shown)
+    text = named(figure.x) + (", dwells shaded" if figure.shaded else "")
+    return *numbers, Words((LEFT + 0.5 * frame.wide, low + 34.0), text, look="middle")
 
 
 def padded(panel: Panel) -> tuple[float, float]:
@@ -128,54 +121,54 @@ def padded(panel: Panel) -> tuple[float, float]:
     return low - space, high + space
 
 
-def _sample(curve: Curve, x: float, y: float, long: float, pen: _Pen) -> None:
+def _sample(curve: Curve, x: float, y: float, long: float) -> Iterator[Lines]:
     middle = y - 0.35 * TEXT
     if curve.style != POINTS:
-        pen.draw("sample", [[(x, middle), (x + long, middle)]], curve.number)
+        yield Lines("sample", [[(x, middle), (x + long, middle)]], curve.number)
     if curve.style != LINE:
-        pen.draw("points", [[(x + 0.5 * long, middle)]], curve.number)
+        yield Lines("points", [[(x + 0.5 * long, middle)]], curve.number)
 
 
-def _panel(figure: Figure, panel: Panel, frame: Frame, across: list[float], pen: _Pen) -> None:
-    """Draw the grid, the axes with numbers and name, and the curves."""
+def _panel(
+    figure: Figure, panel: Panel, frame: Frame, across: Sequence[float]
+) -> Iterator[Lines | Words]:
+    """Yield the grid, the axes with numbers and name, and the curves."""
     up = ticks(*frame.span, int(frame.high / 24.0), panel.y.unit)
-    right, bottom = LEFT + frame.wide, frame.top + frame.high
-    for a, b in figure.shaded:
-        pen.rest(frame.x(a), frame.top, frame.x(b) - frame.x(a), frame.high)
-    level = [[(LEFT, frame.y(v)), (right, frame.y(v))] for v in up]
-    upright = [[(frame.x(v), frame.top), (frame.x(v), bottom)] for v in across]
-    pen.draw("grid", level + upright)
-    axes = [[(LEFT, frame.top), (LEFT, bottom), (right, bottom)]]
-    if frame.span[0] < 0.0 < frame.span[1]:
-        axes.append([(LEFT, frame.y(0.0)), (right, frame.y(0.0))])
-    pen.draw("axis", axes)
+    (a, b), (low, top) = frame.window, frame.span
+    rests = [[frame.at(*p) for p in ((c, low), (c, top), (d, top), (d, low))]
+             for c, d in figure.shaded]  # fmt: skip
+    yield Lines("rest", rests)
+    level = [[frame.at(a, v), frame.at(b, v)] for v in up]
+    yield Lines("grid", level + [[frame.at(v, top), frame.at(v, low)] for v in across])
+    axes = [[frame.at(a, top), frame.at(a, low), frame.at(b, low)]]
+    yield Lines("axis", axes + [[frame.at(a, 0.0), frame.at(b, 0.0)]] * (low < 0.0 < top))
     for value, label in zip(up, labels(up), strict=True):
-        pen.text((LEFT - 6.0, frame.y(value) + 0.35 * SMALL), label, SMALL, "end")
-    pen.text((LEFT, frame.top - 7.0), named(panel.y), look="bold")
+        yield Words((LEFT - 6.0, frame.y(value) + 0.35 * SMALL), label, SMALL, "end")
+    yield Words((LEFT, ABOVE - 7.0), named(panel.y), look="bold")
     for curve in panel.curves:
-        pieces = [[(frame.x(x), frame.y(y)) for x, y in zip(*p, strict=True)] for p in curve.pieces]
+        pieces = [list(map(frame.at, *piece)) for piece in curve.pieces]
         if curve.style != POINTS:
-            pen.draw("curve", pieces, curve.number)
+            yield Lines("curve", pieces, curve.number)
         if curve.style != LINE:
-            pen.draw("points", [[place] for piece in pieces for place in piece], curve.number)
+            points = dict.fromkeys(place for piece in pieces for place in piece)
+            yield Lines("points", [[place] for place in points], curve.number)
             continue
-        jumps = [((frame.x(x), frame.y(a)), (frame.x(x), frame.y(b))) for x, a, b in curve.jumps()]
+        jumps = [[frame.at(x, a), frame.at(x, b)] for x, a, b in curve.jumps()]
         visible = [jump for jump in jumps if abs(jump[1][1] - jump[0][1]) > 0.05]  # px
-        if visible:
-            pen.draw("jump", visible, curve.number)
+        yield Lines("jump", visible, curve.number)
 
 
-def _marks(figure: Figure, panel: Panel, frame: Frame, several: bool, pen: _Pen) -> None:
-    """Draw a dot at each peak; write its value and place to the right of the panel."""
-    x, y = LEFT + frame.wide + 12.0, frame.top + 0.8 * TEXT
+def _peaks(figure: Figure, panel: Panel, frame: Frame, known: int) -> Iterator[Lines | Words]:
+    """Yield a dot at each peak; its value and place to the right of the panel."""
+    x, y = LEFT + frame.wide + 12.0, ABOVE + 0.8 * TEXT
     for curve in panel.curves:
         for mark in curve.marks:
             if mark.y is not None:
-                pen.dot(curve.number, (frame.x(mark.x), frame.y(mark.y)))
-            if several:
-                _sample(curve, x, y, 0.8 * SAMPLE, pen)
+                yield Lines("dot", [[frame.at(mark.x, mark.y)]], curve.number)
+            if known > 1:
+                yield from _sample(curve, x, y, 0.8 * SAMPLE)
             words = mark_text(mark, "°" if figure.x.unit else "")
-            pen.text((x + (SAMPLE if several else 0.0), y), words)
+            yield Words((x + (SAMPLE if known > 1 else 0.0), y), words)
             y += LINE_HEIGHT
 
 

@@ -1,14 +1,28 @@
 """A figure as PDF: a page of its own, or panels on the pages of a document."""
 
-from collections.abc import Iterable, Iterator
-from typing import ClassVar
+from collections.abc import Iterator
 
 from geneva_cli.figure import Figure
 from geneva_cli.output.inks import LIGHT, colour, dashes
 from geneva_cli.output.letters import western
-from geneva_cli.output.pdf import BEGIN, INK, Page, box, number, pdf_text, point, tint, wide, words
+from geneva_cli.output.pdf import (
+    BEGIN,
+    INK,
+    Page,
+    moved,
+    number,
+    pdf_text,
+    point,
+    tint,
+    wide,
+    words,
+)
 from geneva_cli.output.plot import plot_layout as layout
-from geneva_cli.output.plot.plot_layout import TEXT, Frame, Kind, Look, Path, Point
+from geneva_cli.output.plot.plot_layout import Lines, Path, Words
+
+# of lines, px; of all others
+WIDTHS = {"grid": 0.5, "axis": 0.9, "curve": 1.6, "sample": 1.6, "jump": 0.8, "dot": 5.6}
+POINTS = 4.0
 
 
 def chunks(figure: Figure) -> Iterator[str]:
@@ -18,59 +32,30 @@ def chunks(figure: Figure) -> Iterator[str]:
     tall = mm * sum(block.high for block in parts)
     content, top = BEGIN, tall
     for block in parts:
-        content += drawn(block, 0.0, mm, top)
+        content += moved(drawn(block), 0.0, top, mm)
         top -= mm * block.high
     yield from pdf_text(western(figure.title), [Page(mm * layout.PAGE, tall, content, fonts=2)])
 
 
-def drawn(block: layout.FigureBlock, left: float, scale: float, top: float) -> str:
-    """Return the operators of a part of a figure, from a height downwards."""
-    pen = _PdfPen(left, scale, top)
-    block.draw(pen, 0.0)
-    return "".join(pen.out)
+def drawn(block: layout.FigureBlock) -> str:
+    """Return the operators of a part of a figure, px, from the height 0 downwards."""
 
+    def text(one: Words) -> str:
+        before = {"end": 1.0, "middle": 0.5}.get(one.look, 0.0) * wide(one.text, one.size)
+        at = one.place[0] - before, -one.place[1]
+        return words(one.text, at, one.size, one.look == "bold", INK)
 
-class _PdfPen:
-    """Operators of a page, in mm; y upwards."""
+    def path(places: Path) -> str:
+        first, *rest = dict.fromkeys(point((x, -y)) for x, y in places)
+        return f"{first} m\n" + "".join(f"{p} l\n" for p in rest or [first])  # a dot of one place
 
-    WIDTHS: ClassVar = {"grid": 0.5, "axis": 0.9, "curve": 1.6, "sample": 1.6, "jump": 0.8}
+    def lines(one: Lines) -> str:
+        ink = {"rest": LIGHT.rest, "grid": LIGHT.grid, "axis": LIGHT.axis}.get(one.kind)
+        ink = tint(ink or colour(one.number, LIGHT))
+        if one.kind == "rest":
+            return f"{ink} rg\n" + "".join(f"{path(places)}f\n" for places in one.paths)
+        dash = " ".join(map(number, dashes(one.number if one.kind in ("curve", "sample") else 0)))
+        look = f"{ink} RG {WIDTHS.get(one.kind, POINTS)} w [{dash}] 0 d\n"
+        return look + "".join(f"{path(places)}S\n" for places in one.paths)
 
-    def __init__(self, left: float, scale: float, top: float) -> None:
-        self.left, self.scale, self.top = left, scale, top
-        self.out: list[str] = []
-
-    def begin(self, name: str, frame: Frame) -> None:
-        pass  # a page has no groups
-
-    def end(self) -> None:
-        pass
-
-    def rest(self, x: float, y: float, wide: float, high: float) -> None:
-        (left, bottom), k = self._place((x, y + high)), self.scale
-        self.out.append(box(left, bottom, k * wide, k * high, tint(LIGHT.rest)))
-
-    def draw(self, kind: Kind, paths: Iterable[Path], number: int = 0) -> None:
-        ink = {"grid": LIGHT.grid, "axis": LIGHT.axis}.get(kind) or colour(number, LIGHT)
-        if kind == "points":
-            paths = dict.fromkeys(map(tuple, paths))
-        dashed = number if kind in ("curve", "sample") else 0
-        self._stroke(ink, self.WIDTHS.get(kind, 4.0), paths, dashed)
-
-    def dot(self, number: int, place: Point) -> None:
-        self._stroke(colour(number, LIGHT), 5.6, [[place]])
-
-    def text(self, place: Point, text: str, size: float = TEXT, look: Look = "start") -> None:
-        (x, y), size = self._place(place), self.scale * size
-        before = {"end": 1.0, "middle": 0.5}.get(look, 0.0) * wide(text, size)
-        self.out.append(words(text, (x - before, y), size, look == "bold", INK))
-
-    def _stroke(self, ink: str, width: float, paths: Iterable[Path], dashed: int = 0) -> None:
-        """Draw lines with round ends and a curve's dashes; a path of one place is a dot."""
-        dash = " ".join(number(self.scale * x) for x in dashes(dashed))
-        self.out.append(f"{tint(ink)} RG {number(self.scale * width)} w [{dash}] 0 d\n")
-        for path in paths:
-            first, *rest = dict.fromkeys(point(self._place(place)) for place in path)
-            self.out.append(f"{first} m\n" + "".join(f"{p} l\n" for p in rest or [first]) + "S\n")
-
-    def _place(self, place: Point) -> Point:
-        return self.left + self.scale * place[0], self.top - self.scale * place[1]
+    return "".join(text(one) if isinstance(one, Words) else lines(one) for one in block.marks)

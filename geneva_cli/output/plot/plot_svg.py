@@ -10,7 +10,7 @@ from geneva_cli.errors import GenevaError, clean
 from geneva_cli.figure import Figure
 from geneva_cli.output.inks import DARK, LIGHT, Paper, colour, dashes
 from geneva_cli.output.plot import plot_layout as layout
-from geneva_cli.output.plot.plot_layout import TEXT, Frame, Kind, Look, Path, Point
+from geneva_cli.output.plot.plot_layout import TEXT, FigureBlock, Lines, Words
 from geneva_cli.output.templates import filled
 from geneva_cli.table import in_decimals
 
@@ -19,9 +19,9 @@ WIDE = 1500  # pixels of a png: ten inches at 150 dots an inch
 
 def chunks(figure: Figure) -> Iterator[str]:
     """Yield the file's text."""
-    known, pen, tall = figure.curves(), _SvgPen(), 0.0
+    known, drawing, tall = figure.curves(), "", 0.0
     for block in layout.blocks(figure):
-        block.draw(pen, tall)
+        drawing += _drawn(block, tall)
         tall += block.high
     names = ", ".join(layout.named(panel.y) for panel in figure.panels)
     content = f"{names} by {layout.named(figure.x).lower()}"
@@ -31,7 +31,7 @@ def chunks(figure: Figure) -> Iterator[str]:
     parts = {"TITLE": title, "CONTENT": escape(content, quote=False), "DASHES": dashed}
     parts |= {"WIDE": _n(layout.PAGE), "TALL": _n(tall), "SIZE": _n(TEXT)}
     parts |= {"LIGHT": _style(LIGHT, known), "DARK": _style(DARK, known)}
-    yield filled("figure.svg", parts | {"DRAWING": "".join(pen.out)})
+    yield filled("figure.svg", parts | {"DRAWING": drawing})
 
 
 def png_chunks(figure: Figure) -> Iterator[bytes]:
@@ -57,10 +57,7 @@ def png_chunks(figure: Figure) -> Iterator[bytes]:
 
 
 def _style(paper: Paper, known: Iterable[int]) -> str:
-    own = "".join(
-        f".c{n} {{ stroke: {colour(n, paper)} }} .d{n} {{ fill: {colour(n, paper)} }}\n"
-        for n in known
-    )
+    own = "".join(f".c{n} {{ stroke: {colour(n, paper)} }}\n" for n in known)
     return (
         f".page {{ fill: {paper.page} }} text {{ fill: {paper.text} }}\n"
         f".rest {{ fill: {paper.rest} }} .grid {{ stroke: {paper.grid} }}"
@@ -68,60 +65,37 @@ def _style(paper: Paper, known: Iterable[int]) -> str:
     )
 
 
-class _SvgPen:
-    """Elements of an SVG."""
-
-    def __init__(self) -> None:
-        self.out: list[str] = []
-
-    def begin(self, name: str, frame: Frame) -> None:
-        # the last digits of a peak may differ between machines
-        x, y = (" ".join(f"{v:.12g}" for v in ends) for ends in (frame.window, frame.span))
-        self.out.append(
-            f'<g id="{escape(name)}" data-x="{x}" data-y="{y}" data-frame="{_n(layout.LEFT)}'
-            f' {_n(frame.top)} {_n(frame.wide)} {_n(frame.high)}">\n'
-        )
-
-    def end(self) -> None:
-        self.out.append("</g>\n")
-
-    def rest(self, x: float, y: float, wide: float, high: float) -> None:
-        self.out.append(
-            f'<rect class="rest" x="{_n(x)}" y="{_n(y)}" width="{_n(wide)}" height="{_n(high)}"/>\n'
-        )
-
-    def draw(self, kind: Kind, paths: Iterable[Path], number: int = 0) -> None:
-        if kind == "sample":
-            words = [f"M{_at(start)}h{_n(end[0] - start[0])}" for start, end in paths]
-        elif kind == "jump":
-            words = [f"M{_at(before)}V{_n(after[1])}" for before, after in paths]
-        elif kind == "points":
-            words = [f"M{at}h0" for at in dict.fromkeys(_at(place) for (place,) in paths)]
-        else:
-            words, last = [], ""  # a path that begins at the end of the one before continues it
-            for path in paths:
-                places = list(map(_at, path))
-                words += [] if places[0] == last else ["M" + places[0]]
-                words += [" " + place for place in places[1:]]
-                last = places[-1]
-        look = {"grid": "grid", "axis": "axis", "sample": f"curve c{number}"}
-        name = look.get(kind, f"{kind} c{number}")
-        self.out.append(f'<path class="{name}" d="{"".join(words)}"/>\n')
-
-    def dot(self, number: int, place: Point) -> None:
-        x, y = map(_n, place)
-        self.out.append(f'<circle class="d{number}" cx="{x}" cy="{y}" r="2.8"/>\n')
-
-    def text(self, place: Point, text: str, size: float = TEXT, look: Look = "start") -> None:
-        more = f' text-anchor="{look}"' if look in ("middle", "end") else ""
-        more += "" if size == TEXT else f' font-size="{_n(size)}"'
-        more += ' font-weight="bold"' if look == "bold" else ""
-        x, y = map(_n, place)
-        self.out.append(f'<text x="{x}" y="{y}"{more}>{escape(text, quote=False)}</text>\n')
+def _drawn(block: FigureBlock, top: float) -> str:
+    """The elements of a block whose top is at a height of the page; a panel is a group."""
+    out = "".join(_text(m, top) if isinstance(m, Words) else _path(m, top) for m in block.marks)
+    frame = block.frame
+    if not frame:
+        return out
+    # the last digits of a peak may differ between machines
+    x, y = (" ".join(f"{v:.12g}" for v in ends) for ends in (frame.window, frame.span))
+    place = layout.LEFT, top + layout.ABOVE, frame.wide, frame.high
+    data = f'data-x="{x}" data-y="{y}" data-frame="{" ".join(map(_n, place))}"'
+    return f'<g id="{escape(block.name)}" {data}>\n{out}</g>\n'
 
 
-def _at(place: Point) -> str:
-    return f"{_n(place[0])},{_n(place[1])}"
+def _path(lines: Lines, top: float) -> str:
+    words, last = list[str](), ""  # a path that begins at the end of the one before continues it
+    for path in lines.paths:
+        first, *more = (f"{_n(x)},{_n(top + y)}" for x, y in path)
+        more = more or [first]  # one place is a dot
+        words += [] if first == last else ["M" + first]
+        words += [f" {place}" for place in more]
+        last = more[-1]
+    name = lines.kind if lines.kind in ("rest", "grid", "axis") else f"{lines.kind} c{lines.number}"
+    return f'<path class="{name}" d="{"".join(words)}"/>\n' if words else ""
+
+
+def _text(words: Words, top: float) -> str:
+    more = f' text-anchor="{words.look}"' if words.look in ("middle", "end") else ""
+    more += "" if words.size == TEXT else f' font-size="{_n(words.size)}"'
+    more += ' font-weight="bold"' if words.look == "bold" else ""
+    place = f'x="{_n(words.place[0])}" y="{_n(top + words.place[1])}"'
+    return f"<text {place}{more}>{escape(words.text, quote=False)}</text>\n"
 
 
 def _n(value: float) -> str:

@@ -13,11 +13,11 @@
   const by = (id) => document.getElementById(id);
   const size = scene.size, degrees = 180 / Math.PI;
 
-  const centre = scene.bodies.find((b) => !b.id.startsWith("wheel"))?.centre ?? [0, 0];
+  const centre = scene.bodies.find((b) => !b.name.startsWith("wheel"))?.centre ?? [0, 0];
   set(by("centres"), { x1: 0, y1: 0, x2: centre[0], y2: -centre[1] });
   const bars = scene.bars.map((bar, number) => {
     const group = by("bars");
-    if (bar.plates.length) return { bar, plates: bar.plates.map((joint, i) => [joint, by(`link-${number}-${i}`)]) };
+    if (bar.plates.length) return { bar, plates: bar.plates.map(({ joint }, i) => [joint, by(`link-${number}-${i}`)]) };
     if (bar.radius) return { bar, rim: make("circle", group, { class: "rim", r: bar.radius }) };
     const kind = bar.joints.length > 2 ? "polygon" : "line";
     const shape = bar.joints.length > 1 ? make(kind, group) : null;
@@ -25,8 +25,8 @@
     return { bar, shape, joints: bar.joints.map(() => make("circle", by("rollers"), joint)) };
   });
   for (const { joints } of bars) for (const joint of joints ?? []) by("bars").append(joint);
-  const rollers = scene.rollers.map(() => make("circle", by("rollers"), { r: scene.radius }));
-  const most = Math.max(...scene.pushes.flatMap((p) => p[3].map((f, i) => Math.hypot(f, p[4][i]))), 0);
+  const rollers = scene.rollers.map(() => make("circle", by("rollers"), { r: scene.roller_radius }));
+  const most = Math.max(...scene.pushes.flatMap((p) => p.force_x.map((f, i) => Math.hypot(f, p.force_y[i]))), 0);
   const pushes = scene.pushes.map(() => ({
     line: make("line", by("pushes")),
     head: make("path", by("pushes"), { d: "M0,0L-10,-4.5L-10,4.5Z" }),
@@ -47,8 +47,8 @@
     const svg = make("svg", plot, { viewBox: "0 0 1000 100", preserveAspectRatio: "none" });
     const low = panel.low, span = panel.high - panel.low || 1;
     const x = (v) => (1000 * (v - from)) / (to - from), y = (v) => 96 - (92 * (v - low)) / span;
-    for (const [a, b, moves] of scene.states) {
-      const left = x(from + a), right = x(Math.min(from + b, to)); // the window may be shorter than the turn
+    for (const { start, end, moves } of scene.states) {
+      const left = x(from + start), right = x(Math.min(from + end, to)); // the window may be shorter than the turn
       if (moves || left >= right) continue;
       make("rect", svg, { class: "rest", x: left, width: right - left, y: 0, height: 100 });
     }
@@ -98,10 +98,10 @@
       const { centre: [x, y], angle } = scene.frame, turned = -afterTurns(angle, t, turns) * degrees;
       set(by("frame"), { transform: `rotate(${turned} ${x} ${-y})` });
     }
-    for (const { id, centre: [x, y], angle, travel } of scene.bodies) {
+    for (const { name, centre: [x, y], angle, travel } of scene.bodies) {
       const turned = -afterTurns(angle, t, turns) * degrees;
       const up = y + (travel ? afterTurns(travel, t, turns) : 0);
-      set(by(id), { transform: `translate(${x} ${-up}) rotate(${turned})` });
+      set(by(name), { transform: `translate(${x} ${-up}) rotate(${turned})` });
     }
     for (const { bar, rim, shape, joints, plates } of bars) {
       const at = bar.joints.map(([x, y]) => [valueAt(x, t), -valueAt(y, t)]);
@@ -134,9 +134,10 @@
     const x = inWindow(t);
     for (const { panel, value, cursor, x: place } of panels) {
       set(cursor, { x1: place(x), x2: place(x) });
-      value.textContent = Number(curveAt(panel, x).toPrecision(4));
+      const v = curveAt(panel, x), least = 1e-9 * (panel.high - panel.low); // less is rounding
+      value.textContent = Math.abs(v) > least ? Number(v.toPrecision(4)) : 0;
     }
-    const [, , moves, words] = stateAt(scene.states, t);
+    const { moves, words } = stateAt(scene.states, t);
     const { angle, travel } = scene.bodies[0];
     const output = travel
       ? `rack ${afterTurns(travel, t, 0).toFixed(2)} mm`
@@ -152,7 +153,7 @@
   }
 
   function go(to) {
-    t = Math.min(scene.turn, Math.max(0, to));
+    t = Math.min(scene.turn_deg, Math.max(0, to));
     show();
   }
   let playing = false, before = 0;
@@ -161,7 +162,7 @@
   for (const fraction of [0.02, 0.05, 0.1, 0.2, 0.5, 1, 2]) {
     speed.append(new Option(fraction === 1 ? "real time" : `${fraction} of real time`, fraction));
   }
-  const wanted = (60 * scene.seconds) / scene.turn; // a turn of the input in 6 s
+  const wanted = (60 * scene.seconds) / scene.turn_deg; // a turn of the input in 6 s
   const near = (o) => Math.abs(Math.log(o.value / wanted));
   [...speed.options].reduce((a, b) => (near(b) < near(a) ? b : a)).selected = true;
   function frame(now) {
@@ -173,16 +174,16 @@
       requestAnimationFrame(frame);
       return;
     }
-    const run = (sense * scene.turn * seconds) / scene.seconds, here = turns * scene.turn + t;
+    const run = (sense * scene.turn_deg * seconds) / scene.seconds, here = turns * scene.turn_deg + t;
     let next;
     [next, sense] = between(scene.stops, here + run, sense);
-    const pause = pauseBetween(scene.pauses, scene.turn, here, next);
+    const pause = pauseBetween(scene.pauses, scene.turn_deg, here, next);
     if (pause !== null) {
       next = pause;
       stands = scene.stop_s;
     }
-    turns = Math.floor(next / scene.turn);
-    go(next - turns * scene.turn);
+    turns = Math.floor(next / scene.turn_deg);
+    go(next - turns * scene.turn_deg);
     requestAnimationFrame(frame);
   }
   function play(on) {
@@ -193,14 +194,14 @@
     if (on) { before = performance.now(); requestAnimationFrame(frame); }
   }
   by("play").addEventListener("click", () => play(!playing));
-  by("input").max = scene.turn;
+  by("input").max = scene.turn_deg;
   by("input").addEventListener("input", (event) => { play(false); turns = 0; go(Number(event.target.value)); });
   document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.target.matches("select, summary")) return;
     const step = event.shiftKey ? 10 : 1;
     const keys = {
       ArrowRight: t + step, ArrowUp: t + step, ArrowLeft: t - step, ArrowDown: t - step,
-      Home: 0, End: scene.turn,
+      Home: 0, End: scene.turn_deg,
     };
     if (event.key === " ") play(!playing);
     else if (event.key in keys) { play(false); turns = 0; go(keys[event.key]); }

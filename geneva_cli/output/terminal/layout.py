@@ -6,7 +6,7 @@ Nothing is cut: a number keeps its width, and text is broken between words only.
 import os
 import re
 import shutil
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any, NamedTuple
 
 from geneva_cli.errors import clean
@@ -70,25 +70,30 @@ class ShownColumn(NamedTuple):
         return [*self.words.split(), self.unit, *cells]
 
 
-def wrapped(text: str, width: int) -> list[str]:
-    """A text in lines of at most ``width`` letters, broken between words.
+def wrapped(
+    text: str,
+    width: float,
+    measure: Callable[[str], float] = width_of,
+    breaks: str = r"(?<=[/,=])|(?<=::)",
+) -> list[str]:
+    """A text in lines of at most ``width``, broken between words.
 
     A longer word stays whole, but for a path or a list, which is broken behind a sign.
 
     >>> wrapped("a long text", 6)
     ['a long', 'text']
     """
-    if width_of(text) <= width:
+    if measure(text) <= width:
         return [text]
     lines: list[str] = []
     line: str | None = None
     for word in text.split(" "):
         parts = [word]
-        if width_of(word) > width:
-            parts = re.split(r"(?<=[/,=])|(?<=::)", word)  # behind a sign
+        if measure(word) > width:
+            parts = re.split(breaks, word)
         for i, part in enumerate(parts):
             longer = part if line is None else line + " " * (i == 0) + part
-            if line is not None and width_of(longer) > width:
+            if line is not None and measure(longer) > width:
                 lines += [line.rstrip()] if line.strip() else []
                 longer = part
             line = longer

@@ -14,15 +14,15 @@ from geneva_cli.numerics.arrays import Array, Mask
 from geneva_cli.parts.turn.free_ranges import FreeRanges, Range
 
 STEPS = 1440  # positions of a turn of the crank: a quarter of a degree apart
-MANY = 30000  # pairs of pieces above which positions are half a degree apart
 PARTS = 16  # parts into which a step is divided where the wheel begins or ends to move, or runs
 SLOW = 4.0  # velocity of the wheel, of the crank's, up to which a step is not divided
 # Velocity above which a corner blocks. The wheel's corner then moves within 2 degrees of the common
 # normal's right angle: friction stops such a push.
 STEEPEST = 30.0
 SHORTEST = 1e-10  # radians of the crank: a step that is not divided any more
-FACETED = 1e-4  # mm: outlines of short lines have a larger slack
 SAME = 1e-11  # radians of the wheel: a smaller move is rounding
+END = 1e-8  # radians of the crank: the end of a push, where the wheel hardly moves, is not closer
+PAUSE = 1e-5  # radians of the crank: after a shorter rest a push goes on
 
 Around: TypeAlias = Callable[[float], Range]  # the range about an angle of the wheel
 
@@ -42,12 +42,10 @@ class Push(NamedTuple):
 
 
 class Jam(NamedTuple):
-    """The angles of crank and wheel at which the wheel is stuck, and what is blocked then."""
+    """The angles of crank and wheel, radians, at which the wheel is stuck."""
 
     crank: float
     wheel: float
-    low: float
-    high: float
 
 
 class LazyTurn(NamedTuple):
@@ -83,10 +81,8 @@ class Turner:
     """Turns a wheel by its crank, whose free ranges are computed once, at ``steps`` positions."""
 
     def __init__(self, free: FreeRanges, start: float, steps: int = STEPS) -> None:
-        self.free, self.start = free, start
-        many = len(free.crank) * len(free.stops.outline) > MANY
-        self.steps = min(steps, STEPS // 2) if many else steps
-        self.ranges = free.at(start + math.tau * np.arange(self.steps) / self.steps)
+        self.free, self.start, self.steps = free, start, steps
+        self.ranges = free.at(start + math.tau * np.arange(steps) / steps)
 
     def rest(self, wheel: float) -> Range:
         """Return the range about an angle of the wheel where the crank's turn starts."""
@@ -97,7 +93,9 @@ class Turner:
 
         Without ``exact`` pushes begin and end on the grid.
         """
-        path, jam = _Path(self.free, way, exact), None
+        # 1e-13 radians with a slack of 1e-6 mm: events of facets are not known so closely
+        finest = max(1e-7 * self.free.slack, 1e-14) if exact else math.inf
+        path, jam = _Path(self.free, finest), None
         try:
             path.begin(self.start, self.rest(wheel), wheel)
             for k in range(1, self.steps + 1):
@@ -105,108 +103,58 @@ class Turner:
                 path.to(crank, partial(self.ranges.around, way * k % self.steps))
         except _Stuck as stuck:
             (jam,) = stuck.args
-        if path.begun is not None:
-            path.pushes.append(Push(*path.begun, *path.rows[-1][:2]))
+        pushes = tuple(Push(*begin, *end) for begin, end in path.pushes)
         crank_at, wheel_at, low, high = np.array(path.rows).reshape(-1, 4).T
-        return LazyTurn(crank_at, wheel_at, low, high, tuple(path.pushes), jam)
+        return LazyTurn(crank_at, wheel_at, low, high, pushes, jam)
 
 
 class _Path:
-    """The path of a wheel, as it comes about: crank, wheel, and the free range there."""
+    """The path of a wheel, as it comes about: crank, wheel, and the free range there.
 
-    def __init__(self, free: FreeRanges, way: int, exact: bool) -> None:
-        self.free, self.way, self.exact = free, way, exact
+    ``finest`` is the shortest step, radians of the crank, in which a push may begin or end.
+    """
+
+    def __init__(self, free: FreeRanges, finest: float) -> None:
+        self.free, self.finest, self.is_pushed = free, finest, False
         self.rows: list[tuple[float, float, float, float]] = []
-        self.pushes: list[Push] = []
-        self.begun: tuple[float, float] | None = None  # of the push that goes on
+        # crank and wheel where pushes begin, and where they have moved the wheel farthest
+        self.pushes: list[tuple[tuple[float, float], tuple[float, float]]] = []
 
     def begin(self, crank: float, rest: Range, wheel: float) -> None:
         """Start from a position, pushed out of an overlap of rounding."""
-        if not rest.is_free:
-            near = _pushed(rest, wheel)
-            if abs(near - wheel) > 1e-3:  # radians: more is no rounding
-                raise _Stuck(Jam(crank, wheel, rest.low, rest.high))
-            wheel, rest = near, Range(True, near, near)
-        self.rows.append((crank, wheel, rest.low, rest.high))
+        near = _pushed(rest, wheel)
+        if abs(near - wheel) > 1e-3:  # radians: more is no rounding
+            raise _Stuck(Jam(crank, wheel))
+        low, high = rest[1:] if rest.is_free else (near, near)
+        self.rows.append((crank, near, low, high))
 
     def to(self, crank: float, around: Around) -> None:
-        """Go on to the next position of the crank."""
-        good, wheel = self.rows[-1][:2]
-        there = around(wheel)
-        if there.is_free:
-            if self.begun is None:
-                self.rows.append((crank, wheel, there.low, there.high))
-            else:
-                self._release(crank, around)
-            return
-        if self.begun is None:
-            if self.exact:
-                # the crank angle from which on the wheel is not free, just before it
-                first, bad = good, crank
-                # 1e-13 radians with a slack of 1e-6 mm: events of facets are not known so closely
-                while abs(bad - good) > 1e-7 * self.free.slack:
-                    places = np.linspace(good, bad, PARTS + 1)
-                    ranges, i = self.free.at(places[1:-1]), 0
-                    while i < PARTS - 1 and ranges.around(i, wheel).is_free:
-                        i += 1
-                    if places[i] == good and places[i + 1] == bad:
-                        break
-                    good, bad = float(places[i]), float(places[i + 1])
-                if good != first:
-                    there = self.free.at(np.array([good])).around(0, wheel)
-                    self.rows.append((good, wheel, there.low, there.high))
-            self.begun = good, wheel
-        self._follow(crank, around)
-
-    def _follow(self, crank: float, around: Around) -> None:
-        """Go on to a crank angle to which the wheel is pushed."""
+        """Go on to a crank angle. A step is divided if a push begins or ends, or the wheel runs."""
         before, wheel = self.rows[-1][:2]
         step, there = abs(crank - before), around(wheel)
-        pushed = _pushed(there, wheel)
+        pushed, changes = _pushed(there, wheel), there.is_free is self.is_pushed
         steepest = STEEPEST if step < 1e-4 else SLOW
-        if abs(pushed - wheel) <= steepest * step + SAME:
-            self._add(crank, pushed, around)
+        runs = abs(pushed - wheel) > steepest * step + SAME
+        if runs and step < SHORTEST:
+            raise _Stuck(Jam(before, wheel))
+        if runs or (changes and step > max(self.finest, END * self.is_pushed)):
+            if there.is_free and abs(before - self.rows[-2][0]) < 2.0 * step:
+                del self.rows[-1]  # it may have been pushed farthest in the step before
+            places = np.linspace(self.rows[-1][0], crank, PARTS + 1)[1:]
+            ranges = self.free.at(places)
+            for i in range(PARTS):
+                self.to(float(places[i]), partial(ranges.around, i))
             return
-        if step < SHORTEST:
-            raise _Stuck(Jam(before, wheel, there.low, there.high))
-        places = np.linspace(before, crank, PARTS + 1)[1:]
-        ranges = self.free.at(places)
-        for i in range(PARTS):
-            self._follow(float(places[i]), partial(ranges.around, i))
-
-    def _add(self, crank: float, wheel: float, around: Around) -> None:
-        """Add a position that touches, with the free range on the other side."""
-        low, high = wheel, wheel
-        for at in (wheel, wheel - SAME, wheel + SAME):
-            there = around(at)
-            if there.is_free:
-                low, high = there.low, there.high
-                break
-        self.rows.append((crank, wheel, low, high))
-
-    def _release(self, crank: float, around: Around) -> None:
-        """End a push: where the wheel is moved farthest, before or after the last position."""
-        assert self.begun is not None
-        before, wheel = self.rows[-1][:2]
-        end, farthest, there = before, wheel, around
-        if self.exact:
-            low, high = self.rows[max(len(self.rows) - 2, 0)][0], crank
-            for _ in range(7 if self.free.slack < FACETED else 4):
-                places = np.linspace(low, high, PARTS + 1)
-                ranges = self.free.at(places)
-                moved = [_pushed(ranges.around(i, wheel), wheel) for i in range(PARTS + 1)]
-                k = max(range(PARTS + 1), key=lambda i: abs(moved[i] - wheel))
-                if abs(moved[k] - wheel) > abs(farthest - wheel) + SAME:
-                    end, farthest, there = float(places[k]), moved[k], partial(ranges.around, k)
-                k = int(np.argmin(np.abs(places - end)))
-                low, high = float(places[max(k - 1, 0)]), float(places[min(k + 1, PARTS)])
-        if end != before:
-            if (end - before) * self.way < 0.0:
-                del self.rows[-1]
-            self._add(end, farthest, there)
-        self.pushes.append(Push(*self.begun, end, farthest))
-        self.begun = None
-        self._add(crank, farthest, around)
+        rests = not self.pushes or abs(before - self.pushes[-1][1][0]) > PAUSE
+        if changes and not self.is_pushed and rests:
+            self.pushes.append(((before, wheel), (before, wheel)))
+        self.is_pushed = not there.is_free
+        if self.is_pushed and abs(pushed - self.pushes[-1][1][1]) > SAME:
+            self.pushes[-1] = self.pushes[-1][0], (crank, pushed)
+        # with the free range on the other side of a touching part
+        places_free = (around(at) for at in (pushed, pushed - SAME, pushed + SAME))
+        free = next((one for one in places_free if one.is_free), Range(True, pushed, pushed))
+        self.rows.append((crank, pushed, free.low, free.high))
 
 
 def _pushed(there: Range, wheel: float) -> float:

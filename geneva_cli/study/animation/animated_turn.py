@@ -2,21 +2,24 @@
 
 import cmath
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from functools import partial
-from itertools import pairwise
+from itertools import pairwise, product
+from typing import Any
 
 import numpy as np
+from numpy.polynomial.chebyshev import Chebyshev, chebtrim
 
 from geneva_cli.loads.cycle import Cycle
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.pivots import AxisPlace, Link, turned_points
+from geneva_cli.motion.pivots import AxisPlace, turned_points
+from geneva_cli.numerics.angles import distinct
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.output.scene import Bar, CarriedShapes, Place, Push, Track, cubic
+from geneva_cli.output.scene import Bar, CarriedShapes, Place, Push, Track
 from geneva_cli.parts.assembly import Passage, assembly, links_at
 from geneva_cli.parts.slots.slot_profile import pitch_at
 
-STILL = Track((0.0,), (0.0,), (0.0,))  # of what stands at the angle 0
+STILL = Track((0.0, 360.0), ((0.0,),))  # of what stands at the angle 0
 ANGLE_ERROR = 1e-7  # rad, of wheel and crank: a tenth of the page's own error
 
 
@@ -31,40 +34,34 @@ class MachineTurn:
         self.start = self.passages[0].entry
         self.end = self.start + self.turn_deg
         self.ahead = math.pi if mechanism.spec.wheel.SIGN > 0.0 else 0.0  # of the crank, mid-motion
-        self._links: dict[bytes, tuple[Link, ...]] = {}
+        # where the derivatives of angles and places jump, but for those of a drive
+        self.knots = sorted(
+            self.start + (x + place.behind_deg - self.start) % self.turn_deg
+            for one, place in product(self.passages, mechanism.wheel_places)
+            for x in (one.entry, one.mid, one.exit)
+        )
 
-    def wheel(self, place: AxisPlace) -> Track:
+    def wheel(self, place: AxisPlace, scale: float = 1.0) -> Track:
         """A wheel's angle, with a slot ahead of the crank's axis half-way through its first step.
 
-        A wheel behind the first one rests before.
+        A wheel behind the first one rests before. A rack's travel is the angle times a ``scale``.
         """
-        places, gain = list[float](), 0.0
-        for engagement, mid in self.passages:
-            motion, ahead = engagement.motion, mid + place.behind_deg
-            inside = (motion.entry_deg, *motion.breaks_deg, motion.exit_deg)
-            places += [ahead + x for x in inside]
-            gain += 2.0 * engagement.half_step
+        gain = math.fsum(2.0 * one.engagement.half_step for one in self.passages)
 
         def angle(x: Array) -> Array:
-            return place.turn + self.assembly.wheel(x - place.behind_deg)
+            return scale * (place.turn + self.assembly.wheel(x - place.behind_deg))
 
-        return self._sampled(angle, ANGLE_ERROR, gain, places)
+        return self.track(angle, scale * ANGLE_ERROR, scale * gain)
 
     def on_crank(self, number: int) -> AxisPlace:
         """The place of the crank that carries a roller."""
         places = self.mechanism.crank_places
         return places[number % len(places)]
 
-    def crank_from_mid(self) -> Track:
-        """The first crank's angle from its place at mid-motion, radians."""
-        crank = self.crank(self.on_crank(0))
-        return crank._replace(value=tuple(v - self.ahead for v in crank.value))
-
     def steady(self, speed: float, zero_deg: float) -> Track:
         """The angle, radians, of what turns at a speed over the input's, from 0 at an angle."""
-        rate = speed * math.pi / 180.0
-        begin, gain = rate * (self.start - zero_deg), rate * self.turn_deg
-        return Track((0.0, self.turn_deg), (begin, begin + gain), (rate, rate), gain)
+        gain = speed * math.radians(self.turn_deg)
+        return self.track(lambda x: speed * np.radians(x - zero_deg), ANGLE_ERROR, gain)
 
     def own_shaft(self, sense: float) -> Track:
         """The angle of the drive's own input shaft, radians, for a sense of rotation."""
@@ -75,15 +72,17 @@ class MachineTurn:
             ahead = (one.engagement.own_deg(at) - at + 180.0) % 360.0 - 180.0
             return sense * np.radians(x - one.mid + ahead)
 
-        return self._sampled(angle, ANGLE_ERROR, sense * math.tau * turns)
+        return self.track(angle, ANGLE_ERROR, sense * math.tau * turns)
 
-    def crank(self, place: AxisPlace) -> Track:
-        """The direction of the first roller of a crank about the crank's axis, radians."""
+    def crank(self, place: AxisPlace, zero: float = 0.0) -> Track:
+        """The direction of a crank's first roller about the crank's axis from ``zero``, radians."""
         one, sign = self.passages[0], self.mechanism.spec.wheel.SIGN
         sense = one.engagement.crank_sense
         gain = -sign * (sense or 1.0) * math.tau
         rate = gain / self.turn_deg
-        turned = place.turn - rate * place.behind_deg  # cranks turn at one rate, if that varies too
+        turned = (
+            place.turn - zero - rate * place.behind_deg
+        )  # cranks turn at one rate, if that varies too
 
         def angle(x: Array) -> Array:
             even = self.ahead + rate * (x - one.mid)
@@ -94,7 +93,7 @@ class MachineTurn:
             off: Array = (np.arctan2(v, u) - even + math.pi) % math.tau - math.pi
             return turned + (even + off)
 
-        return self._sampled(angle, ANGLE_ERROR, gain)
+        return self.track(angle, ANGLE_ERROR, gain)
 
     def centre(self, number: int, input_deg: Array) -> Array:
         """The centre of a roller by its number, mm, (n, 2)."""
@@ -109,49 +108,31 @@ class MachineTurn:
     def bars(self, plates: Mapping[str, tuple[CarriedShapes, ...]]) -> tuple[Bar, ...]:
         """The links with their plates, which are given by the links' names."""
 
-        def joint(i: int, j: int) -> Place:
-            return self._place(
-                lambda x: np.column_stack([c + 0.0 * x for c in self._links_at(x)[i].joints[j]])
-            )
+        def joint(i: int, j: int, x: Array) -> Array:
+            own = links_at(self.mechanism, self.assembly.from_mid(x, 0.0))[i].joints[j]
+            return np.column_stack([c + 0.0 * x for c in own])
 
         bars = []
         for i, link in enumerate(links_at(self.mechanism, np.zeros(1))):
-            joints = tuple(joint(i, j) for j in range(len(link.joints)))
+            joints = tuple(self._place(partial(joint, i, j)) for j in range(len(link.joints)))
             bars.append(Bar(link.name, joints, link.radius_mm, plates.get(link.name, ())))
         return tuple(bars)
 
-    def _links_at(self, input_deg: Array) -> tuple[Link, ...]:
-        """All links at input angles, cached: each joint's x and y are sampled at equal angles."""
-        key = input_deg.tobytes()
-        if key not in self._links:
-            self._links[key] = links_at(self.mechanism, self.assembly.from_mid(input_deg, 0.0))
-        return self._links[key]
-
     def _place(self, place: Callable[[Array], Array]) -> Place:
         error = 2e-6 * self.L  # of joints and rollers: less than a screen shows
-        along = (lambda x: place(x)[:, 0]), (lambda x: place(x)[:, 1])
-        return self._sampled(along[0], error), self._sampled(along[1], error)
+        return (
+            self.track(lambda x: place(x)[:, 0], error),
+            self.track(lambda x: place(x)[:, 1], error),
+        )
 
-    def _sampled(
-        self,
-        f: Callable[[Array], Array],
-        error: float,
-        gain: float = 0.0,
-        places: Sequence[float] = (),
-    ) -> Track:
-        """The track of a function over the whole turn, within ``error``.
-
-        It is smooth between ``places``, by default the entry, middle and exit of each passage.
-        """
-        each = [x for one in self.passages for x in (one.entry, one.mid, one.exit)]
-        inside = sorted(x for x in {*(places or each)} if self.start < x < self.end)
-        columns: tuple[list[float], ...] = ([], [], [])
-        for a, b in pairwise([self.start, *inside, self.end]):
-            knots, v, s = _knots(a, b, f, error)
-            for column, more in zip(columns, (knots - self.start, v, s), strict=True):
-                column += more.tolist()
-        at, value, slope = map(tuple, columns)
-        return Track(at, value, slope, gain)
+    def track(self, f: Callable[[Array], Array], error: float, gain: float = 0.0) -> Track:
+        """The track of a function over the whole turn, within ``error``."""
+        ends, series = [self.start], list[tuple[float, ...]]()
+        for a, b in pairwise(distinct([self.start, *self.knots, self.end], 1e-9)):
+            for end, terms in _series(a, b, f, error):
+                ends.append(end)
+                series.append(terms)
+        return Track(tuple(x - self.start for x in ends), tuple(series), gain)
 
 
 def pushes(cycle: Cycle, turn: MachineTurn) -> Iterator[Push]:
@@ -202,19 +183,15 @@ def _normals(one: Passage, local: Array, turn: MachineTurn, pin: Array) -> Array
     return np.column_stack((-direction[:, 1], direction[:, 0])) / np.hypot(*direction.T)[:, None]
 
 
-def _knots(
+def _series(
     a: float, b: float, f: Callable[[Array], Array], error: float
-) -> tuple[Array, Array, Array]:
-    """Knots, values and slopes: even steps, halved where the cubic is not within the error."""
-    knots, d = np.linspace(a, b, 5), min(1e-3, 0.1 * (b - a))  # degrees
-    while True:
-        left, right = np.maximum(knots - d, a), np.minimum(knots + d, b)
-        v, s, h = f(knots), (f(right) - f(left)) / (right - left), np.diff(knots)
-        off = np.zeros(len(h))
-        for u in (0.2, 0.5, 0.8):  # places in a step
-            between = cubic(u, h, (v[:-1], v[1:]), (s[:-1], s[1:]))
-            off = np.maximum(off, np.abs(f(knots[:-1] + u * h) - between))
-        wide = (off > error) & (h > 1e-3)  # degrees: knots are no nearer to each other
-        if not wide.any():
-            return knots, v, s
-        knots = np.sort(np.concatenate((knots, (knots[:-1] + 0.5 * h)[wide])))
+) -> Iterator[tuple[float, tuple[float, ...]]]:
+    """Ends and terms of series from a to b, degrees: one, or those of both halves."""
+    terms: Any = Chebyshev.interpolate(f, 32, (a, b)).coef
+    if b - a > 1e-3 and (abs(terms[-3:]) > error).any():
+        middle = 0.5 * (a + b)
+        yield from _series(a, middle, f, error)
+        yield from _series(middle, b, f, error)
+        return
+    terms[abs(terms) < 1e-3 * error] = 0.0
+    yield b, tuple(chebtrim(terms).tolist())

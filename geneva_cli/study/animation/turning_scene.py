@@ -1,7 +1,5 @@
 """The scene of a design: bodies, links, forces and states over one turn."""
 
-import cmath
-import itertools
 import math
 from collections.abc import Iterator
 from contextlib import suppress
@@ -11,7 +9,8 @@ import numpy as np
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Plate
-from geneva_cli.geometry.shapes import Circle, Contour, Line, Shape, at, bounds, polygon
+from geneva_cli.geometry.shapes import ORIGIN, Circle, Shape, at, bounds, placed, polar, polygon
+from geneva_cli.geometry.sheet import line
 from geneva_cli.motion.drive import Gears
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
@@ -45,7 +44,7 @@ def scene(design: Design) -> page.Scene:
     frame = None
     if mechanism.frame:  # the carrier makes whole turns
         x, y = centre = mechanism.center_distance_mm, 0.0
-        frame = page.Rotation(centre, turn.steady(mechanism.frame, 0.0))
+        frame = page.Body("frame", (), centre, turn.steady(mechanism.frame, 0.0))
         reach = max(math.dist(b.centre, centre) + max(map(_reach, b.shapes)) for b in parts)
         box = x - reach, y - reach, x + reach, y + reach
     pauses = []
@@ -108,7 +107,7 @@ def _bodies(design: Design, turn: MachineTurn) -> Iterator[page.Body]:
         carried = (*_shapes(design, "arm"), *_shapes(design, "crank"))
         carried = tuple(shape for shape in carried if shape.layer != "ROLLER")
         for place in turn.mechanism.crank_places:
-            name = f"crank {place.number}" if place.number > 1 else "crank"
+            name = f"crank-{place.number}" if place.number > 1 else "crank"
             yield page.Body(name, carried, place.at, turn.crank(place))
         yield page.Body("groove", _shapes(design, "groove"), (L, 0.0), STILL)
         if turn.mechanism.frame > 0.0:
@@ -131,9 +130,9 @@ def _gears(gears: Gears, turn: MachineTurn) -> Iterator[page.Body]:
 
     is_input = first or before is None
     driver = turn.steady(-sense, turn.passages[0].mid) if is_input else turn.own_shaft(-sense)
-    yield page.Body("driver gear", curve("driver"), (x + gears.distance_mm, 0.0), driver)
-    driven = turn.own_shaft(sense) if first else turn.crank_from_mid()
-    yield page.Body("driven gear", curve("driven"), (x, 0.0), driven)
+    yield page.Body("driver-gear", curve("driver"), (x + gears.distance_mm, 0.0), driver)
+    driven = turn.own_shaft(sense) if first else turn.crank(turn.on_crank(0), turn.ahead)
+    yield page.Body("driven-gear", curve("driven"), (x, 0.0), driven)
 
 
 def _shapes(design: Design, part: str) -> tuple[Shape, ...]:
@@ -197,15 +196,14 @@ def _box(
     """The bounding box of bodies at any angle, and of joints, rollers and links in the turn."""
     circles = [(*body.centre, max(map(_reach, body.shapes))) for body in parts]
     places = [(place, bar.radius) for bar in bars for place in bar.joints]
-    for (across, up), r in (*places, *((place, radius) for place in rollers)):
-        circles += [(end(across.value), end(up.value), r) for end in (min, max)]
-    for bar, k in itertools.product(bars, range(24)):
-        for plate in bar.plates:
-            x, y, angle = page.pose(bar, plate, turn_deg * k / 24)
-            own, turned = bounds(plate.shapes[0]), cmath.rect(1.0, angle)
-            corners = itertools.product((own.x0, own.x1), (own.y0, own.y1))
-            ends = [complex(x, y) + complex(*corner) * turned for corner in corners]
-            circles += [(z.real, z.imag, 0.0) for z in ends]
+    places += [(place, radius) for place in rollers]
+    plates = [(bar, plate) for bar in bars for plate in bar.plates]
+    for t in np.arange(0.0, turn_deg, 2.0).tolist():
+        circles += [(page.value_at(x, t), page.value_at(y, t), r) for (x, y), r in places]
+        for bar, plate in plates:
+            x, y, angle = page.pose(bar, plate, t)
+            own = bounds(placed(plate.shapes[0], (x, y), angle))
+            circles += [(own.x0, own.y0, 0.0), (own.x1, own.y1, 0.0)]
     x, y, r = np.array(circles).T
     return min(x - r), min(y - r), max(x + r), max(y + r)
 
@@ -223,24 +221,22 @@ class WheelScene:
 
     def bodies(self, shapes: tuple[Shape, ...], turn: MachineTurn) -> Iterator[page.Body]:
         """All wheels; without shapes, as symbols."""
-        one, machine = turn.passages[0], turn.mechanism
+        one, z = turn.passages[0], turn.mechanism.spec.wheel.z
         # distances of the first roller from the wheel's axis in its slot
-        reach = np.hypot(
-            *turn.assembly.pin(0, np.linspace(one.entry, one.exit, 181), drives=True).T
-        )
+        pins = turn.assembly.pin(0, np.linspace(one.entry, one.exit, 181), drives=True)
+        reach = np.hypot(*pins.T)
         least, most = float(reach.min()), float(reach.max())
         if not shapes:  # a disc with a line along each slot
-            angles = np.arange(machine.spec.wheel.z) * math.tau / machine.spec.wheel.z
-            along = [(math.cos(a), math.sin(a)) for a in angles.tolist()]
-            ends = [((least * c, least * s), (most * c, most * s)) for c, s in along]
-            lines = [Contour("WHEEL", (Line(*both),), closed=False) for both in ends]
-            shapes, dot = (Circle("WHEEL", (0.0, 0.0), 1.02 * most), *lines), 1.01 * least
+            turns = (math.tau * k / z for k in range(z))
+            ends = ((polar(ORIGIN, least, a), polar(ORIGIN, most, a)) for a in turns)
+            lines = (line("WHEEL", *both) for both in ends)
+            shapes, dot = (Circle("WHEEL", ORIGIN, 1.02 * most), *lines), 1.01 * least
         else:
             dot = 0.78 * least
         # a dot behind the end of the first slot tells the slots apart
         wheel = (*shapes, Circle("PITCH", (dot, 0.0), 0.012 * turn.L))
         for place in turn.mechanism.wheel_places:
-            name = f"wheel {place.number}" if place.number > 1 else "wheel"
+            name = f"wheel-{place.number}" if place.number > 1 else "wheel"
             yield page.Body(name, wheel, place.at, turn.wheel(place))
 
     def view(self, wheel: page.Body, box: page.Box, turn: MachineTurn) -> page.Box:

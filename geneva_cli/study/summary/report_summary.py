@@ -8,8 +8,7 @@ from typing import Any
 from geneva_cli.answer import Answer, Summary, SummaryLine, value_text
 from geneva_cli.design import Design
 from geneva_cli.errors import is_warning
-from geneva_cli.loads.cycle_figures import AXIS_BY_NAME
-from geneva_cli.names import spoken
+from geneva_cli.names import capital, described, spoken
 from geneva_cli.output.text import only
 from geneva_cli.study import verdicts
 from geneva_cli.study.summary import load_lines
@@ -35,20 +34,19 @@ def greatest_loads(design: Design) -> Table:
     checks = {check.name: check for check in design.checks}
     rows: list[tuple[Any, ...]] = []
 
-    def add(words: str, size: float, unit: str, at_deg: float | None, check: Check | None) -> None:
+    def add(name: str, size: float, at_deg: float | None, check: Check | None) -> None:
         bound = (check.must_be, check.limit, check.passes) if check else (None, None, None)
-        rows.append((words[:1].upper() + words[1:], size, unit, at_deg, *bound))
+        rows.append((capital(described(name)[0]), size, spoken(name)[1], at_deg, *bound))
 
     for name in LOADS if design.cycle.is_loaded else ():
-        axis, known = AXIS_BY_NAME[name], load_lines.greatest(design.loads[name])
+        known = load_lines.greatest(design.loads[name])
         stem, _, unit = name.rpartition("_")
         if known:  # else the row of its check says that it has no bound
-            add(axis.label, known[0], axis.unit, known[1], checks.pop(f"{stem}_max_{unit}", None))
+            add(name, *known, checks.pop(f"{stem}_max_{unit}", None))
     for name, check in checks.items():
-        words, unit = spoken(name)
-        shown = name in LIMITS or unit in UNITS or name == "pressure_angle_deg"
+        shown = name in LIMITS or spoken(name)[1] in UNITS or name == "pressure_angle_deg"
         if shown and check.value is not None:
-            add(words, check.value, unit, check.at_deg, check)
+            add(name, check.value, check.at_deg, check)
     first = ("load", "value", "limit", "unit", "must_be", "at_deg")
     return rows_table(COLUMNS, rows).replaced(reading=Reading(first, decide=("passes",)))
 

@@ -4,20 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from functools import partial
 from itertools import product
 
 import numpy as np
 
-from geneva_cli.loads.impacts.reversal import reversal_impacts
-from geneva_cli.loads.impacts.shock_force import least_pin_mm
 from geneva_cli.loads.load_case import centrifugal_N, load_case
 from geneva_cli.loads.strength import pin_arm_key
 from geneva_cli.loads.strength.lock import dwell_torque_Nm, held_force_N
 from geneva_cli.loads.strength.part_loads import shaft_squares, shear_MPa
 from geneva_cli.loads.strength.pin_arm_key import key_stress, shear_allowed_MPa
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.numerics.arrays import Array, Number, array, mapped
+from geneva_cli.numerics.arrays import Array, Number, Truth, array, mapped
 from geneva_cli.spec.defaults import roller_material, wheel_material
 from geneva_cli.spec.tables import Material
 from geneva_cli.spec.workshops import Stock
@@ -50,21 +47,21 @@ def pin(of: Designs) -> Columns:
     load, allowed = of.once(UnderLoad), _allowed(of, of.spec.material_roller, roller_material)
     if load.pin is None:
         return {"allowed_MPa": allowed}
-    d, width = load.pin
-    stresses = partial(pin_arm_key.pin_stress_MPa, of.spec.size, width, d)
-    bending, shear, stress = stresses(load.pin_N(load.pin))
-    out = judged(stress, allowed)
-    out |= {"diameter_mm": d, "bending_MPa": bending, "shear_MPa": shear, "stress_MPa": stress}
-    if allowed is not None:
-        bending, shear, _ = stresses(load.force_N[:, None] * load.rubbed)
-        least = np.ravel(pin_arm_key.least_diameter_mm(bending, shear, d, allowed))
-        jump = reversal_impacts(of.machine).jump
-        if not np.isnan(jump).all():
-            unit = stresses(load.rubbed)[:2]  # under 1 N on the wall
-            struck = least_pin_mm(of.machine, jump[:, None], load.pin, unit, allowed)
-            least = np.maximum(least, np.nan_to_num(struck))
-        out["least_diameter_mm"] = least
-    return out
+    bending, shear, stress = load.pin_stresses(load.pin)
+    rows = {"diameter_mm": load.pin.diameter_mm, "bending_MPa": bending, "shear_MPa": shear}
+    return rows | {"stress_MPa": stress} | judged(stress, allowed)
+
+
+def pin_diameter(of: Designs) -> Columns:
+    """The diameter at which the roller's pin just holds; a thicker one is struck harder."""
+    load, allowed = of.once(UnderLoad), _allowed(of, of.spec.material_roller, roller_material)
+    if (usual := load.pin) is None or allowed is None:
+        return {}
+
+    def holds(d: Array) -> Truth:
+        return np.asarray(load.pin_stresses(usual._replace(diameter_mm=d))[2] <= allowed)
+
+    return {"least_diameter_mm": pin_arm_key.least_size_mm(holds, usual.diameter_mm).ravel()}
 
 
 def horn(of: Designs) -> Columns:
@@ -141,8 +138,13 @@ def arm_thickness(of: Designs) -> Columns:
     load, steel = of.once(UnderLoad), array(wheel_material(of.spec).allowed_MPa).ravel()
     if load.parts is None:
         return {}
-    force = load.part_loads.wheel_N * of.loaded
-    return {"least_thickness_mm": pin_arm_key.least_thickness_mm(load.parts.arm, force, steel)}
+    own, force = load.parts.arm, load.part_loads.wheel_N * of.loaded
+
+    def holds(h: Array) -> Truth:
+        thick = pin_arm_key.thick(own, h)
+        return np.asarray(pin_arm_key.arm_stress_MPa(thick, force) <= steel)
+
+    return {"least_thickness_mm": pin_arm_key.least_size_mm(holds, own.thickness)}
 
 
 def keys(of: Designs) -> Columns:

@@ -66,7 +66,8 @@ tolerance report_sections:tolerances load_quantities:tolerances
   dwell_position.{worst_deg! rss_deg! p997_deg!} motion_play.{worst_deg rss_deg p997_deg!}
   entry_jump.{mean! worst} clearances.{slot_needed_mm! lock_needed_mm! turns!}
 strength.pin - part_strength:pin
-  diameter_mm bending_MPa shear_MPa stress_MPa allowed_MPa margin least_diameter_mm
+  diameter_mm bending_MPa shear_MPa stress_MPa allowed_MPa margin
+strength.pin - part_strength:pin_diameter least_diameter_mm
 strength.horn - part_strength:horn
   stress_MPa at_deg inwards_mm thickness_mm allowed_MPa margin
 strength.lock - part_strength:lock torque_Nm force_N contact_stress_MPa pressure_MPa

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from functools import cache, partial
@@ -11,22 +12,19 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError, marking
 from geneva_cli.kept import cached_property
-from geneva_cli.loads.impacts.reversal import reversal_impacts
-from geneva_cli.loads.impacts.shock_force import forces_N
-from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_peaks import load_peaks
 from geneva_cli.loads.strength import lock, pin_arm_key
 from geneva_cli.loads.strength.horn import HornStress, Sides, Sizes, greatest_stress, horns
-from geneva_cli.loads.strength.part_loads import PartLoads, part_loads, single_loads
+from geneva_cli.loads.strength.part_loads import PartLoads, part_loads, pin_forces_N, single_loads
 from geneva_cli.loads.strength.pin_arm_key import PinSize
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.motion.batch import designs_in, taken
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.registry import thing
 from geneva_cli.numerics import arrays
-from geneva_cli.numerics.arrays import Array, Record, mapped, parameter
+from geneva_cli.numerics.arrays import Array, Number, Record, mapped, parameter
 from geneva_cli.parts.assembly import is_bridged
-from geneva_cli.parts.machine_sizes import fits, of_batch, sized, unloaded, unloaded_alike
+from geneva_cli.parts.machine_sizes import fits, of_batch, sized, unloaded_alike
 from geneva_cli.parts.outlines.cut_outlines import cut_lock
 from geneva_cli.parts.shafts.bores import has_shape
 from geneva_cli.parts.sized_by_load import (
@@ -49,16 +47,11 @@ class UnderLoad:
         self.loaded = of.loaded
         # the function that returns the horns: those of a flat wheel for most kinds
         self.sides: Sides = thing(of.spec.wheel.NAME, "horns") or horns
-        # the force on a roller over that along the wall's normal, (m, 1)
-        friction = load_case(of.machine).friction
-        self.rubbed = parameter(arrays.library(friction).hypot(1.0, friction))
 
     @cached_property
     def force_N(self) -> Array:
         """The greatest force on a roller, along the wall's normal."""
-        if np.isnan(self.loaded).all():
-            return self.loaded
-        return self.part_loads.pin_N * self.loaded  # a search that sizes need, too
+        return self.part_loads.pin_N * self.loaded
 
     @cached_property
     def pv_W_m2(self) -> Array:
@@ -71,13 +64,12 @@ class UnderLoad:
     def _each(self) -> list[Layout | None]:
         """The parts of each design, or of all, without loads; None for one without flat parts."""
         spec = self.machine.spec
-        if self.designs.single:
-            return [unloaded(self.machine) if sized(self.machine) else None]
         if self.designs.are_built:
-            return [*map(_bare, self.designs.each)]
+            return [*map(partial(sized, loaded=False), self.designs.each)]
         # designs that differ in speed and loads have the same
         is_one = self._moves_alike and designs_in((spec.size, spec.shaft)) == 1
-        return [_bare(taken(self.machine, i)) for i in range(1 if is_one else self.machine.designs)]
+        count = 1 if is_one else self.machine.designs
+        return [sized(taken(self.machine, i), loaded=False) for i in range(count)]
 
     @cached_property
     def _moves_alike(self) -> bool:
@@ -165,14 +157,11 @@ class UnderLoad:
     @cached_property
     def parts(self) -> Stressed | None:
         """The dimensions of stressed parts, (m,); None if no design has parts, or a load."""
-        machine, size, is_own = self.machine, self.machine.spec.size, self.designs.are_built
+        machine, size = self.machine, self.machine.spec.size
         if not machine.spec.is_loaded:
             return None
         of_kind = thing(machine.spec.wheel.NAME, "stressed") is not None
-        if self.designs.single and not of_kind:
-            one = sized(machine)
-            return one and mapped(np.ravel, stressed(*one))
-        is_own = is_own or of_kind or bool(machine.first_wheel) or self._shaped
+        is_own = self.designs.are_built or of_kind or bool(machine.first_wheel) or self._shaped
         of = None if is_own else self._unloaded
         # links, gears and a groove, which may be in the way of shafts
         if of and planes_below(of[0].full) and not self._alike:
@@ -196,14 +185,12 @@ class UnderLoad:
             return width
         return parameter(np.reshape(self.parts.contact, (-1, 1)))
 
-    def pin_N(self, pin: PinSize) -> Array:
-        """The greatest force on a roller with its friction, in the cycle or by impact, (m, 1)."""
-        jump = reversal_impacts(self.machine).jump[:, None]
-        force = self.force_N[:, None] * self.rubbed
-        if np.isnan(jump).all():
-            return force
-        struck = forces_N(self.machine, jump, pin)[:, None]
-        return np.maximum(force, np.nan_to_num(struck * self.rubbed))
+    def pin_stresses(self, pin: PinSize) -> tuple[Number, Number, Number]:
+        """Bending, shear and equivalent stress of a roller's pin, (m, 1), MPa."""
+        force = pin_forces_N(self.machine, self.part_loads, pin) * self.loaded[:, None]
+        return pin_arm_key.pin_stress_MPa(
+            self.machine.spec.size, pin.contact_mm, pin.diameter_mm, force
+        )
 
     @cached_property
     def pin(self) -> PinSize | None:
@@ -217,8 +204,8 @@ class UnderLoad:
         usual = PinSize(pin_arm_key.pin_diameter_mm(self.machine), width)
         if size.pin_mm is not None:
             return usual
-        stress = pin_arm_key.pin_stress_MPa(size, width, usual.diameter_mm, self.pin_N(usual))[2]
         # where the usual pin holds, it is drawn
+        stress = self.pin_stresses(usual)[2]
         holds = ~(stress > roller_material(self.machine.spec).allowed_MPa)
         if np.all(holds) or self.parts is None:
             return usual
@@ -228,15 +215,10 @@ class UnderLoad:
 
     @cached_property
     def part_loads(self) -> PartLoads:
-        """The greatest loads on arm, keys and shafts."""
+        """The greatest loads on arm, keys and shafts; NaN without a load."""
+        if np.isnan(self.loaded).all():
+            return PartLoads(*[math.nan] * len(PartLoads._fields))
         return single_loads(self.machine) if self.designs.single else part_loads(self.machine)
-
-
-def _bare(one: Mechanism) -> Layout | None:
-    """The parts of a machine without its load; None without flat parts."""
-    with suppress(GenevaError):  # the check of the parts reports the error
-        return unloaded(one) if one.spec.is_flat else None
-    return None
 
 
 def _stressed(one: Mechanism) -> Stressed | None:

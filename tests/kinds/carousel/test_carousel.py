@@ -240,8 +240,8 @@ def test_only_one_wheel_moves_at_a_time(z, most):
 @pytest.mark.parametrize(
     ("tables", "text"),
     [
-        ({"product": Product(sprocket_teeth=20, pitch_mm=5.0)}, "on the ground"),
-        ({"support": Support(gear_ratio=2.0)}, "on the ground"),
+        ({"product": Product(sprocket_teeth=20, pitch_mm=5.0)}, "at a fixed place"),
+        ({"support": Support(gear_ratio=2.0)}, "at a fixed place"),
         ({"drive": Carousel(wheels=2, rollers=2)}, "one finger"),
         ({"wheel": Internal(6), "drive": Carousel(wheels=2)}, "surrounds"),
     ],

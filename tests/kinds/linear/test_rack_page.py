@@ -28,7 +28,7 @@ def test_a_rack_travels_as_the_roller_does_across_its_slots():
     ask = f"{at[:36].tolist()}.map(t => valueAt(scene.rollers[0][1], t))"
     roller = np.array(json.loads(engine.eval(f"JSON.stringify({ask})")))
     assert np.abs(roller - expected[:36] + 200.0).max() < PLACE * data["size"]
-    assert [state[3] for state in data["states"]] == [
+    assert [state["words"] for state in data["states"]] == [
         "the roller moves the rack",
         "the rack rests, locked by the ring",
     ]

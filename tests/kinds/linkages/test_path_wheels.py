@@ -9,7 +9,7 @@ from scipy.optimize import root
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinds.linkages.four_bar import FourBar
-from geneva_cli.kinds.linkages.path_wheels import chosen, driven
+from geneva_cli.kinds.linkages.path_wheels import chosen, driven, passed
 from geneva_cli.kinds.linkages.tangent_pairs import pairs, sampled
 
 PLACES = 480  # of the grid
@@ -114,8 +114,7 @@ def wheels(path, b):
     """Entries, exits and senses of all wheels of a path."""
     half = np.array([b])
     with np.errstate(all="ignore"):
-        samples = sampled(path, 1)
-        return driven(path, pairs(path, samples, half), samples).pair
+        return passed(path, driven(path, pairs(path, sampled(path, 1), half))[0])
 
 
 def listed(found):

@@ -129,7 +129,7 @@ def test_both_rollers_of_gear_sectors_have_their_own_phase():
         (External(6), Crank(), GEARS, None, 'set kind = "elliptical-gears" in .drive. instead'),
         (External(6), Carousel(), GEARS, None, "its carrier turns at a constant speed"),
         (External(4), PLANET, GenevaPair(first_z=4), None, "cannot turn the shaft of another"),
-        (External(4), PLANET, GEARS.replace(rollers=2), None, "set them in .drive., not in"),
+        (External(4), PLANET, GEARS.replace(rollers=2), None, "set it there, not in .drive.before"),
     ],
 )
 def test_what_cannot_stand_in_series_is_refused(wheel, drive, before, motion, message):
