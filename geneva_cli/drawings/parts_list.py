@@ -216,7 +216,7 @@ def _laid(whole: list[Plate]) -> list[Member]:
     placed = None
     while placed is None:
         area = (0.0, 0.0, side, side)
-        placed = packed_apart(blocks, (), area, lambda b: -b.width * b.height, APART)
+        placed = packed_apart(blocks, (), area, APART)
         # the bed grows by a tenth until all parts fit
         side *= 1.1
     return [

@@ -47,20 +47,19 @@ def on_paper(
     spec: Spec,
     rows: list[dict[str, Any]],
     largest: float,
-    area: float,
     blocks: Callable[[float], Iterable[list[Block]]],
 ) -> sheet.Sheet:
     """Return the sheet with blocks at the largest scale at which all fit on it.
 
-    ``rows`` are its list of items. ``largest`` is the greatest length that is drawn, mm. ``area``,
-    mm², is the least area that some of it needs. ``blocks`` yields alternatives of what is on it at
-    a scale, the best first. Raises GenevaError where no scale fits.
+    ``rows`` are its list of items. ``largest`` is the greatest length that is drawn, mm. ``blocks``
+    yields alternatives of what is on it at a scale, the best first. Raises GenevaError where no
+    scale fits.
     """
     items = _items(rows)
-    wide_most, high_most = FORMATS["A1"]
+    wide_most, _ = FORMATS["A1"]
     for scale in SCALES:
         most = 170.0 if scale > 1.0 else wide_most  # mm: an enlarged part is no wider than a hand
-        if scale * largest > most or scale * scale * area > wide_most * high_most:
+        if scale * largest > most:
             continue
         for name, (wide, high) in FORMATS.items():
             right, inside = wide - MARGIN, (LEFT, MARGIN, wide - MARGIN, high - MARGIN)
