@@ -109,7 +109,8 @@ class Command(PlainValues, TyperCommand):
         """Run the command; its tables have the columns of --columns."""
         from geneva_cli.output import choice
 
-        choice.columns = words_in(ctx.params.pop("columns", None) or "")
+        columns = ctx.params.pop("columns", None)
+        choice.columns = words_in(columns) if columns else []
         choice.wide = ctx.params.pop("wide", False)
         if "design" in self.kinds:
             from geneva_cli.design import load

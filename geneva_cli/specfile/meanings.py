@@ -190,5 +190,5 @@ def _of_key(key: Key) -> Meaning:
     """Meaning of a key of a spec, as in ``geneva keys``."""
     default = "required" if key.required else f"default {key.default}" if key.default else None
     texts = (key.type, key.range, key.goes_with, default, f"a key of [{key.table}]")
-    words = f"{key.meaning}: {'; '.join(text for text in texts if text)}."
+    words = f"{key.meaning} ({'; '.join(text for text in texts if text)})."
     return Meaning("key", key.name, words, key.unit, manual="geneva help keys")
