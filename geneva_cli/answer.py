@@ -1,9 +1,12 @@
 """The answer of a command: summaries for people above a table, and the data for programs."""
 
 import math
-from typing import NamedTuple, TypeAlias
+import re
+from collections.abc import Mapping
+from typing import Any, NamedTuple, TypeAlias
 
 from geneva_cli.errors import clean
+from geneva_cli.names import spoken
 from geneva_cli.table import NO_BOUND, Table, for_people
 
 Value: TypeAlias = float | int | str | bool | None
@@ -65,3 +68,16 @@ def value_text(
     if bare or not unit or isinstance(value, str) or text == NO_BOUND:
         return text
     return f"{text}°" if unit in ("deg", "°") else f"{text} {unit}"
+
+
+def phrases(values: Mapping[str, Any], *texts: str) -> str:
+    """Texts with values in place of their names in braces; one with an unknown value is left out.
+
+    >>> phrases({"force_N": 53.17, "at_deg": None}, "force {force_N}", " at {at_deg}")
+    'force 53.17 N'
+    """
+    name, out = re.compile(r"{([\w.]+)}"), ""
+    for text in texts:
+        if all(values[known] is not None for known in name.findall(text)):
+            out += name.sub(lambda m: value_text(values[m[1]], spoken(m[1])[1]), text)
+    return out

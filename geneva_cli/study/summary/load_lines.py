@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
-from geneva_cli.answer import WARNS, Answer, Summary, SummaryLine, value_text
+from geneva_cli.answer import WARNS, Answer, Summary, SummaryLine, phrases, value_text
 from geneva_cli.design import Design
 from geneva_cli.errors import open_warnings
 from geneva_cli.loads.load_peaks import LoadSummary
@@ -36,16 +36,12 @@ def load_lines(design: Design) -> Iterator[SummaryLine]:
     yield motor_line(design)
     yield from cycle_lines(design)
     if design.spec.drive.stop_s:  # what braking and starting the rotor in each dwell takes
-        known, took = design.strength.table("input_stop"), list[str]()
-        for what, name in (("stops with", "brake_torque_Nm"), ("starts with", "start_torque_Nm")):
-            if (torque := known[name]) is not None:
-                took.append(f"{what} {value_text(torque, 'N m')}")
-        text = "not known: set inertia_kgm2 in [motor]"
+        known, text = design.strength.table("input_stop"), "not known: set inertia_kgm2 in [motor]"
         if known["inertia_kgm2"] is not None:
-            energy, power = value_text(known["energy_J"], "J"), value_text(known["power_W"], "W")
-            took.append(f"{energy} each time, {power}")
-            text = ", ".join(took)
-            text += "; set brake_s and start_s in [drive] for both torques" * (len(took) < 3)
+            torques = "stops with {brake_torque_Nm}, ", "starts with {start_torque_Nm}, "
+            text = phrases(known, *torques, "{energy_J} each time, {power_W}")
+            if known["brake_torque_Nm"] is None or known["start_torque_Nm"] is None:
+                text += "; set brake_s and start_s in [drive] for both torques"
         yield SummaryLine("brake", text)
     yield from flywheel_line(design)
     yield from chosen_lines(design.chosen_by_load, design.spec.path)
@@ -57,9 +53,9 @@ def flywheel_line(design: Design) -> Iterator[SummaryLine]:
     whole, add = sizing["flywheel_kgm2"], sizing["flywheel_to_add_kgm2"]
     if whole is not None:
         variation = value_text(100.0 * (design.spec.motor.speed_variation or 0.0), "%")
-        text = f"{value_text(whole, 'kg m²')} on the input for a speed variation of {variation}"
-        text += "" if add == whole else f", {value_text(add)} of it besides the motor"
-        yield SummaryLine("flywheel", text)
+        more = "" if add == whole else ", {flywheel_to_add_kgm2} of it besides the motor"
+        text = "{flywheel_kgm2} on the input for a speed variation of "
+        yield SummaryLine("flywheel", phrases(sizing, text) + variation + phrases(sizing, more))
 
 
 def cycle_lines(design: Design) -> Iterator[SummaryLine]:
@@ -81,12 +77,9 @@ def cycle_lines(design: Design) -> Iterator[SummaryLine]:
     yield SummaryLine("pin", f"{_greatest(loads, 'pin_force_N')}; contact stress {stress}")
     impact = design.strength.table("shock.reversal")  # of the roller on the other wall of its slot
     if impact["jump"] is not None and impact["at_deg"] is not None:
-        text = f"speed jumps by {value_text(impact['jump'])} of the input's"
-        if impact["force_N"] is not None:
-            text = value_text(impact["force_N"], "N")
-        text += f" at {value_text(impact['at_deg'], 'deg')}, where the roller changes sides"
-        if impact["contact_stress_MPa"] is not None:
-            text += f"; contact stress {value_text(impact['contact_stress_MPa'], 'MPa')}"
+        first = "speed jumps by {jump} of the input's" if impact["force_N"] is None else "{force_N}"
+        where = " at {at_deg}, where the roller changes sides"
+        text = phrases(impact, first, where, "; contact stress {contact_stress_MPa}")
         yield SummaryLine("impact", text, "geneva explain reversal_shock_N")
     label, moved, what, pushed = "rack", "rack_acceleration_m_s2", "force", "rack_force_N"
     if design.spec.output.turns:

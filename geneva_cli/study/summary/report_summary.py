@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from geneva_cli.answer import Answer, Summary, SummaryLine, value_text
+from geneva_cli.answer import Answer, Summary, SummaryLine, phrases, value_text
 from geneva_cli.design import Design
 from geneva_cli.errors import is_warning
 from geneva_cli.names import capital, described, spoken
@@ -100,15 +100,14 @@ def key_figures(design: Design) -> Iterator[SummaryLine]:
     if design.spec.drive.stop_s:
         text += f", at rest for {value_text(design.spec.drive.stands_s, 's')} of each dwell"
     yield SummaryLine("cycle", text)
-    size = f"sphere of radius {value_text(values['sizes.sphere_radius_mm'], 'mm')}"
-    if values["sizes.center_distance_mm"] is not None:
-        size = f"centre distance {value_text(values['sizes.center_distance_mm'], 'mm')}"
-        if values["timing.index_mm"] is not None:  # a rack has no axis
-            size = f"crank radius {value_text(values['sizes.crank_radius_mm'], 'mm')}"
-        if (rim := values["sizes.wheel_radius_mm"]) is not None:
-            size += f", wheel Ø {value_text(2.0 * rim, 'mm')}"
-    roller = value_text(2.0 * values["sizes.roller_radius_mm"], "mm")
-    yield SummaryLine("size", f"{size}, roller Ø {roller}")
+    first = "centre distance {sizes.center_distance_mm}"
+    if values["timing.index_mm"] is not None:  # a rack has no axis
+        first = "crank radius {sizes.crank_radius_mm}"
+    size = phrases(values, first, "sphere of radius {sizes.sphere_radius_mm}")
+    for part in ("wheel", "roller"):
+        if (radius := values[f"sizes.{part}_radius_mm"]) is not None:
+            size += f", {part} Ø {value_text(2.0 * radius, 'mm')}"
+    yield SummaryLine("size", size)
     if design.cycle.is_loaded:
         yield from load_lines.cycle_lines(design)
         yield from verdicts.tightest(design.checks)
@@ -116,10 +115,9 @@ def key_figures(design: Design) -> Iterator[SummaryLine]:
         yield from verdicts.chosen_lines(design.chosen_by_load, design.spec.path)
     else:
         unit = design.mechanism.output.rate_unit
-        powers = {"velocity": ("", ""), "acceleration": ("2", "²"), "jerk": ("3", "³")}
-        for name, (digit, power) in powers.items():
-            size = value_text(values[f"{name}.max_{unit}_s{digit}"], f"{unit}/s{power}")
-            yield SummaryLine(name, f"{size} at {value_text(values[f'{name}.at_deg'], 'deg')}")
+        for name, power in {"velocity": "", "acceleration": "2", "jerk": "3"}.items():
+            text = f"{{{name}.max_{unit}_s{power}}} at {{{name}.at_deg}}"
+            yield SummaryLine(name, phrases(values, text))
         yield from verdicts.tightest(design.checks)
         yield SummaryLine("motor", f"not known: set {design.spec.output.load_keys}")
 
@@ -132,22 +130,14 @@ def of_vibration(design: Design, record: Table) -> Answer:
 
 
 def _swing_lines(values: dict[str, Any]) -> Iterator[SummaryLine]:
-    ratio = value_text(values["period_ratio"])
-    damping = value_text(values["damping_ratio"])
-    hertz = values["natural_Hz"]
-    natural = "" if hertz is None else f" of {value_text(hertz, 'Hz')}"
-    yield SummaryLine("motion", f"lasts {ratio} natural periods{natural}, damping ratio {damping}")
-    residual = value_text(values["residual_share"])
-    swing = "an index leaves the load swinging"
-    if values["residual_deg"] is not None:
-        swing += f" by {value_text(values['residual_deg'], 'deg')}"
+    periods = "lasts {period_ratio} natural periods", " of {natural_Hz}"
+    yield SummaryLine("motion", phrases(values, *periods, ", damping ratio {damping_ratio}"))
+    swing = "an index leaves the load swinging", " by {residual_deg}"
     if values["residual_share"] < 1e-6:  # of a step of 90°, a third of an arc second
-        swing = "an index leaves the load practically at rest"
-    yield SummaryLine("residual", f"{swing}, {residual} of the step")
-    text = f"accelerated {value_text(values['dynamic_factor'])} times as hard as the wheel"
-    if values["windup_deg"] is not None:
-        text += f"; the shaft winds up by {value_text(values['windup_deg'], 'deg')}"
-    yield SummaryLine("load", text)
+        swing = "an index leaves the load ", "practically at rest"
+    yield SummaryLine("residual", phrases(values, *swing, ", {residual_share} of the step"))
+    text = "accelerated {dynamic_factor} times as hard as the wheel"
+    yield SummaryLine("load", phrases(values, text, "; the shaft winds up by {windup_deg}"))
     avoid = ", ".join(map(value_text, values["speeds_to_avoid_rpm"]))
     text = f"{avoid} rpm" if avoid else "no speed from half to twice the design's"
     yield SummaryLine("avoid", text)
@@ -168,9 +158,9 @@ def _error_lines(values: dict[str, Any]) -> Iterator[SummaryLine]:
         words, _ = spoken(most["dimension"])
         percent = value_text(100.0 * most["share"], "%", 3)
         yield SummaryLine("greatest", f"{words} contributes {percent} of the dwell's variance")
-    if values["entry_jump.worst"] is not None:
-        jump = value_text(values["entry_jump.worst"])
-        yield SummaryLine("entry", f"the wheel's velocity jumps by up to {jump} of the input's")
+    text = "the wheel's velocity jumps by up to {entry_jump.worst} of the input's"
+    if entry := phrases(values, text):
+        yield SummaryLine("entry", entry)
     turns = {True: "every machine turns", False: "not every machine turns", None: "not known"}
     parts = [
         f"{part} {value_text(values[f'clearances.{part}_mm'], 'mm')}, needed {value_text(needed)}"
@@ -182,9 +172,5 @@ def _error_lines(values: dict[str, Any]) -> Iterator[SummaryLine]:
 
 
 def _angle(label: str, what: str, name: str, values: dict[str, Any]) -> SummaryLine:
-    worst = values[f"{name}.worst_deg"]
-    if worst is None:
-        return SummaryLine(label, f"{what} is not known")
-    most = value_text(values[f"{name}.p997_deg"], "deg")
-    text = f"{what} within {most} in 99.7 % of machines, {value_text(worst, 'deg')} at worst"
-    return SummaryLine(label, text)
+    text = f" within {{{name}.p997_deg}} in 99.7 % of machines, {{{name}.worst_deg}} at worst"
+    return SummaryLine(label, what + (phrases(values, text) or " is not known"))
