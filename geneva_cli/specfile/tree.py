@@ -16,6 +16,9 @@ WHOLE = dict[str, None]()  # without what stands behind a point
 for _name in NAMES:
     WHOLE[_name.partition(".")[0]] = None
 
+# Other names of a size: here the pin's radius is that of the roller on it.
+ALSO_CALLED = {"pin_radius_mm": "roller_radius_mm", "crank_pin_radius_mm": "roller_radius_mm"}
+
 
 def spec_of(tree: dict[str, Any], name: str) -> Spec:
     """The spec of a TOML file's tables; paths in it are relative to the file ``name``.
@@ -144,8 +147,13 @@ def _unknown(key: str, table: str, known: dict[str, schema.Field], word: str) ->
             if key in [field.key for field in others]:
                 text = f'{key} belongs to {of} = "{name}", but this is {of} = "{word}"'
                 return GenevaError(text, place)
+    half = key.replace("_diameter_", "_radius_")
+    twin = f"; {half} in [{table}] is half a diameter" if half != key and half in known else ""
     if where := _having(key):
-        return GenevaError(f"unknown key {key} in [{table}]; it belongs to {where}", place)
+        return GenevaError(f"unknown key {key} in [{table}]; it belongs to {where}{twin}", place)
+    if ALSO_CALLED.get(key) in known:
+        hint = f' (did you mean "{ALSO_CALLED[key]}"?)'
+    hint = twin or hint
     return schema.unknown(key, table, [*dict.fromkeys((*own, *known))], hint)
 
 

@@ -65,14 +65,11 @@ HUGE = [
 
 UNKNOWN = [
     key("table", "[whel]\n", 1, "unknown table", "whel", '"wheel"'),
-    case(
-        "key-at-the-top",
-        "z = 6\n",
-        1,
-        "z belongs to [wheel] (number of slots); write",
-    ),
+    case("key-at-the-top", "z = 6\n", 1, "z belongs to [wheel] (number of slots); write"),
     case("key", "[wheel]\nz = 6\nzz = 7\n", 3, "unknown key zz", '"z"'),
     key("gearing-as-a-key", "internal = true\n", 1, 'did you mean gearing = "internal"?'),
+    key("half", "[size]\nwheel_diameter_mm = 9\n", 2, "[shaft]", "wheel_radius_mm", "half a diam"),
+    key("pin", "[size]\npin_radius_mm = 5\n", 2, 'did you mean "roller_radius_mm"?'),
     key("inches", '[size]\ncenter_distance_mm = 8"\n', 2, 'write "8 in"'),
     key("law", '[motion]\nlaw = "cycloid"\n', 2, "law must be one of", 'did you mean "cycloidal"?'),
     key("key-of-another-kind", "[drive]\nA = 0.5\n", 2, "A belongs", '"side-crank"'),

@@ -1,4 +1,4 @@
-"""A load that vibrates on its shaft during a motion and after it, to 1e-16 of the step.
+"""A load that vibrates on its shaft during a motion and after it, to 2e-16 of the step.
 
 A motion's shape is the fraction s of the step by the fraction u of the motion's time. It is cut
 into panels, which are halved until Legendre series of s' and s'' have ended. The load vibrates as
