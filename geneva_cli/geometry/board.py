@@ -62,6 +62,7 @@ class Board:
             main, others = _main(measure), np.concatenate((self._main, self._extended))
             count = _crossings(main, others)
             count += _crossings(_chords(measure.extension_lines), self._main)
+            count += self._runs_along(measure)
             if count < least:
                 best, least = measure, count
         if best is not None:
@@ -70,12 +71,16 @@ class Board:
 
     def _is_free(self, measure: Measure, gap: float) -> bool:
         """Return True if a dimension keeps clear of texts, and of lines along its own."""
-        if _runs_along(_chords(measure.lines[:1]), self._ruled):
+        # a leader may run along other lines if it must
+        if measure.kind in ("length", "angular") and self._runs_along(measure):
             return False
         if _crosses(measure.label, self._all, gap):
             return False
         lines = _lines(measure)
         return not any(_crosses(text, lines, 0.6) for text in self._texts)
+
+    def _runs_along(self, measure: Measure) -> bool:
+        return _run_along(_chords(measure.lines[:1]), self._ruled)
 
     def box(self) -> tuple[float, float, float, float]:
         """Return the bounding box of all lines and texts: x0, y0, x1, y1."""
@@ -115,7 +120,7 @@ def _main(measure: Measure) -> Array:
     return np.concatenate(rows)
 
 
-def _runs_along(own: Array, lines: Array) -> bool:
+def _run_along(own: Array, lines: Array) -> bool:
     """Return True if some of a line's chords run beside others, nearer than ``BESIDE``."""
     start, step = own[:, :1], np.diff(own)
     seen = (lines[:, None] - start) * np.conj(np.sign(step))  # ahead along each chord

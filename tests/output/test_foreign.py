@@ -142,7 +142,7 @@ def test_a_missing_block_is_named(tmp_path):
         ("a.svg", b'<svg><path d="M0 0 L 1"/></svg>', 'path "M0 0 L 1" cannot be read: Not enough'),
         ("a.svg", b'<svg><path d="M0 0 K 1 3"/></svg>', "letters of paths and numbers"),
         ("a.svg", b'<svg><circle r="1e400"/></svg>', "is no number"),
-        ("a.svg", b'<svg><circle r="0"/></svg>', "no width"),
+        ("a.svg", b'<svg width="1.2.3"><circle r="0"/></svg>', "no width"),
         ("a.svg", b'<svg><use href="#gone"/></svg>', "<use> is no outline"),
         ("a.svg", b'<svg><rect width="2" height="1"/></svg>', "<rect> is no outline"),
         ("a.svg", b'<svg><g transform="matrix(1,2)"/></svg>', "not known"),

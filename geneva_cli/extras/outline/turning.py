@@ -133,12 +133,10 @@ def turning(result: Turned) -> tuple[float, float] | None:
         return None
     first = int(np.argmin(np.where(good, np.abs(places - middle), np.inf)))
     ends = []
-    for step in (-1, 1):
-        i = first
-        while 0 <= i + step < len(places) and good[i + step]:
-            i += step
-        outside = places[min(max(i + step, 0), len(places) - 1)]
-        ends.append(boundary(goes, float(places[i]), float(outside), HALVINGS))
+    for way in (slice(first, None, -1), slice(first, None)):
+        some, bad = places[way].tolist(), np.flatnonzero(~good[way])
+        k = int(bad[0]) if len(bad) else len(some)  # of the nearest place from which it does not
+        ends.append(boundary(goes, some[k - 1], some[min(k, len(some) - 1)], HALVINGS))
     return ends[0], ends[1]
 
 

@@ -3,7 +3,7 @@
 import cmath
 import math
 from collections.abc import Callable, Sequence
-from itertools import pairwise
+from itertools import chain, pairwise
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -22,8 +22,8 @@ class Drawn(NamedTuple):
     """
 
     pieces: tuple[Line | Arc, ...]
-    notes: tuple[str, ...] = ()
-    is_exact: bool = True
+    notes: tuple[str, ...]
+    is_exact: bool
 
 
 class Ellipse(NamedTuple):
@@ -43,6 +43,12 @@ class Ellipse(NamedTuple):
 Curve: TypeAlias = Ellipse | Sequence[complex]
 Traced: TypeAlias = tuple[list[Line | Arc], bool]
 Frame: TypeAlias = Callable[[complex], complex]  # where a point of a drawing is, mm
+
+
+def drawing(rows: Sequence[Traced], notes: tuple[str, ...]) -> Drawn:
+    """Return the drawing of some curves as they were traced."""
+    pieces = tuple(chain.from_iterable(own for own, _ in rows))
+    return Drawn(pieces, notes, all(is_exact for _, is_exact in rows))
 
 
 def traced(curve: Curve, frame: Frame) -> Traced:

@@ -11,7 +11,7 @@ from geneva_cli.errors import GenevaError, cut
 from geneva_cli.geometry.fit import arcs
 from geneva_cli.geometry.shapes import Arc, Line
 from geneva_cli.output.ezdxf_alone import ConstructionEllipse, Document, readfile
-from geneva_cli.output.foreign.drawn import CURVE_MM, Drawn, Ellipse, Traced, traced
+from geneva_cli.output.foreign.drawn import CURVE_MM, Drawn, Ellipse, Traced, drawing, traced
 
 # $INSUNITS: millimetres in one unit
 UNITS = {
@@ -45,8 +45,7 @@ def read_dxf(data: bytes, path: str) -> Drawn:
         raise GenevaError(
             f"$INSUNITS is {code}: it must be one of {', '.join(map(str, UNITS))}; 4 is millimetres"
         )
-    pieces: list[Line | Arc] = []
-    is_exact, unit = True, UNITS.get(code, 1.0)
+    rows, unit = list[Traced](), UNITS.get(code, 1.0)
     for entity in _entities(document, document.modelspace(), 0):
         kind = entity.dxftype()
         if kind not in KNOWN:
@@ -55,14 +54,12 @@ def read_dxf(data: bytes, path: str) -> Drawn:
                 f"one of {', '.join(KNOWN)}"
             )
         try:
-            own, exact = _pieces(kind, entity, unit)
+            rows.append(_pieces(kind, entity, unit))
         except (ArithmeticError, ValueError, LookupError, AttributeError) as error:
             handle = entity.dxf.get("handle", "?")
             raise GenevaError(f"{kind} with the handle {handle} cannot be read: {error}") from None
-        pieces += own
-        is_exact &= exact
     notes = () if code else ("has no unit ($INSUNITS): its numbers are taken as millimetres",)
-    return Drawn(tuple(pieces), notes, is_exact)
+    return drawing(rows, notes)
 
 
 def _document(path: str) -> Document:

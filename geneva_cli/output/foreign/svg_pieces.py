@@ -13,8 +13,8 @@ from fontTools.misc.transform import Identity, Transform
 from fontTools.svgLib.path.parser import parse_path
 
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.geometry.shapes import Arc, Line, Point
-from geneva_cli.output.foreign.drawn import Curve, Drawn, Ellipse, Frame, traced
+from geneva_cli.geometry.shapes import Point
+from geneva_cli.output.foreign.drawn import Curve, Drawn, Ellipse, Frame, drawing, traced
 
 # millimetres in a unit of a length; a CSS pixel is 1/96 inch
 UNITS = {"mm": 1.0, "cm": 10.0, "in": 25.4, "pt": 25.4 / 72.0, "pc": 25.4 / 6.0, "q": 0.25}
@@ -45,7 +45,7 @@ def read_svg(data: bytes) -> Drawn:
         raise GenevaError(f"not an SVG file that can be read: {error}") from None
     if _name(root) != "svg":
         raise GenevaError(f"this is no SVG file: its first element is <{cut(_name(root), 50)}>")
-    width = re.fullmatch(r"\s*([\d.eE+-]+)\s*([a-zA-Z]*|%)\s*", root.get("width", ""))
+    width = re.fullmatch(rf"\s*({NUMBER})\s*([a-zA-Z]*|%)\s*", root.get("width", ""))
     box = _numbers(root.get("viewBox", ""))
     unit = UNITS.get(width[2].lower()) if width else None
     notes: tuple[str, ...] = ()
@@ -56,14 +56,9 @@ def read_svg(data: bytes) -> Drawn:
         if not (box[2] > 0.0 and size > 0.0):
             raise GenevaError("width and viewBox must be above 0")
         unit = size / box[2]
-    pieces: list[Line | Arc] = []
-    is_exact = True
-    for element, frame in _shapes(root, Identity.scale(unit, -unit)):  # its y axis points down
-        for curve in _curves(element):
-            own, exact = traced(curve, _moves(frame))
-            pieces += own
-            is_exact &= exact
-    return Drawn(tuple(pieces), notes, is_exact)
+    shown = _shapes(root, Identity.scale(unit, -unit))  # its y axis points down
+    rows = [traced(curve, _moves(frame)) for one, frame in shown for curve in _curves(one)]
+    return drawing(rows, notes)
 
 
 def _moves(frame: Transform) -> Frame:
