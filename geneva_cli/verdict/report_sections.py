@@ -12,9 +12,10 @@ from geneva_cli.motion.timing import timings
 from geneva_cli.numerics.angles import omega
 from geneva_cli.parts.parts import Parts
 from geneva_cli.table import Reading, rows_table
+from geneva_cli.verdict.checks.load_checks import BOUNDS
 from geneva_cli.verdict.quantities.groups import GROUP_OF, Numbers, Values
 from geneva_cli.verdict.quantities.motion_quantities import peak_values
-from geneva_cli.verdict.strength import NEEDY, strength
+from geneva_cli.verdict.strength import OF_LIFE, strength
 
 SAMPLES = 65536  # random machines, as ``geneva tolerance`` draws by default
 
@@ -118,7 +119,7 @@ def reversals(parts: Parts) -> Values:
 
 def needs(parts: Parts) -> Values:
     """The keys that unknown values of strength and life need: a line for each set of keys."""
-    return {"needs": tuple(strength(parts.mechanism).missing(NEEDY))}
+    return {"needs": tuple(strength(parts.mechanism).missing((*BOUNDS, *OF_LIFE)))}
 
 
 def slot(parts: Parts) -> Values:

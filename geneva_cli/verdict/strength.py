@@ -21,13 +21,6 @@ OF_LIFE = (
     *("roller_life_turns", "roller_life_motions", "roller_life_h", "equivalent_force_N"),
     *("horn_stress_MPa", "friction_work_J", "pv_max_W_m2", "pin_stress_MPa"),
 )
-# All values whose needs a report lists, by their names in checks and in ``life``.
-NEEDY = (
-    *("pin_stress_MPa", "horn_stress_MPa", "lock_stress_max_MPa", "lock_deflection_max_deg"),
-    *("lock_horn_stress_MPa", "wheel_shaft_stress_MPa", "crank_shaft_stress_MPa"),
-    *("arm_stress_MPa", "wheel_key_pressure_MPa", "crank_key_pressure_MPa"),
-    *("roller_life_min_h", *OF_LIFE),
-)
 BOUND = "a force with a bound: see the warnings"
 _WIDTH = "face_width_mm in [size]"
 _EDGE = "lock_edge_mm in [size]"
@@ -80,7 +73,7 @@ class Strength:
             )
 
     def reason(self, name: str) -> str | None:
-        """The keys that a value of ``NEEDY`` needs, in words.
+        """The keys that a value of ``OF_LIFE``, or a limited one, needs, in words.
 
         None for a known value, or for one that the machine lacks, such as a horn's without a lock.
         """

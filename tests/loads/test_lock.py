@@ -78,7 +78,7 @@ def plays_as_its_parts(design, on="disc's end"):
     design = design.with_("size.face_width_mm", 20.0).with_("load.dwell_torque_Nm", 5.0)
     load = strength(design.mechanism).load
     assert load.lock_sizes[1].contact().on == on
-    play_deg = load.lock["play_deg"].item()
+    play_deg = strength(design.mechanism)["strength.lock.play_deg"]
     assert parts_of(design.mechanism).turn.dwell.deg == pytest.approx(play_deg, rel=3e-6)
 
 

@@ -12,7 +12,7 @@ from geneva_cli import Design, External, Internal, NoncircularGears
 from geneva_cli.motion.groove_path import distances
 from geneva_cli.motion.mechanism import build
 from geneva_cli.parts.assembly import assembly
-from geneva_cli.parts.gears.gear_pair import convexity, gears_table, pitch_curves
+from geneva_cli.parts.gears.gear_pair import convexity, gears_table, pitch_curve
 from geneva_cli.parts.slots.groove import groove_table
 from geneva_cli.spec.tables import Limits
 from geneva_cli.verdict.checks import checks
@@ -70,7 +70,8 @@ def test_drawn_gears_mesh_as_the_crank_turns(gearing):
     where, C = assembly(Design(wheel, drive).mechanism), drive.gear_distance_mm
     sense = math.copysign(1.0, float(np.diff(where.crank(np.array([0.0, 1.0])))[0]))
     every = np.linspace(-np.pi, np.pi, 4000, endpoint=False)  # chords are off by 2e-5 mm
-    driven, driver = (Polygon(curve(every)[0]) for curve in pitch_curves(drive.gears, sense))
+    curves = (pitch_curve(drive.gears, sense, driver, every) for driver in (False, True))
+    driven, driver = (Polygon(points) for points, _ in curves)
     for input_deg in (0.0, 111.0, 301.0):
         x = math.radians(input_deg)
         turn = math.atan2(math.sin(x), 0.3 + math.cos(x))

@@ -30,8 +30,7 @@ _values = legendre.legvander(X, NODES - 1)
 # by Christoffel's sum, which has more digits than the function's own weights
 WEIGHTS: Array = 1.0 / (_values**2 * (np.arange(NODES) + 0.5)).sum(axis=1)
 # values at the nodes -> coefficients of Legendre's series
-_series = _values * WEIGHTS[:, None] * (np.arange(NODES) + 0.5)
-SERIES: Array = _series.T.astype(float)
+SERIES: Array = (_values * WEIGHTS[:, None] * (np.arange(NODES) + 0.5)).T
 # values at a panel's nodes -> integrals from -1 to each node, and to 1
 _ENDS = np.append(X, 1.0)
 _INTEGRALS = matrix_product(

@@ -36,7 +36,6 @@ from geneva_cli.parts.shafts.bores import Bore, round_bore
 from geneva_cli.table import Table
 
 if TYPE_CHECKING:
-    from geneva_cli.geometry.fit import Curve
     from geneva_cli.parts.parts import EdgedParts
 
 NAMES = (
@@ -114,16 +113,12 @@ def pitch_radii(pair: Gears) -> list[tuple[float, float]]:
     return [(float(r.min()), float(r.max())) for r in (driven, driver)]
 
 
-def pitch_curves(gears: Gears, sense: float) -> tuple[Curve, Curve]:
-    """Return the pitch curves of driven gear and driver, each about its own axis.
+def pitch_curve(gears: Gears, sense: float, driver: bool, phi: Array) -> tuple[Array, Array]:
+    """Return points, mm, and unit tangents of a gear's pitch curve about its own axis.
 
-    They are functions of the input's angle in radians, which return points, mm, and unit tangents.
-    ``sense`` is that of the crank, 1 for counterclockwise; the driver turns against it.
+    ``phi`` are angles of the input, radians, ``sense`` that of the crank, 1 for counterclockwise;
+    the ``driver`` turns against it.
     """
-    return partial(_pitch_curve, gears, sense, False), partial(_pitch_curve, gears, sense, True)
-
-
-def _pitch_curve(gears: Gears, sense: float, driver: bool, phi: Array) -> tuple[Array, Array]:
     ratio, turned = ratio_and_turn(gears, phi)
     i, slope = (array(c) for c in ratio.derivatives()[:2])
     whole, size = gears.distance_mm / (1.0 + i), i if driver else 1.0  # r1 over r2 is i
@@ -163,7 +158,8 @@ def gear_pair(
     if pair is None:
         return ()
     write, span = parts.writer(FINE["cubics"] * pair.distance_mm), gear_span(mechanism, drawn)
-    curves = pitch_curves(pair, mechanism.gear_shaft.sense)
+    turned = partial(pitch_curve, pair, mechanism.gear_shaft.sense)
+    curves = partial(turned, False), partial(turned, True)
     (axis, wide), (other, own), bored = _shafts(mechanism, drawn, on_crank)
     bores = (axis, wide, "arm_bore_mm"), (other, own if bored else Bore(0.0), "link_bore_mm")
     rows, members = zip(GEARS, curves, pitch_radii(pair), bores, strict=True), []
