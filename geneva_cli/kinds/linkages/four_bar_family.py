@@ -14,7 +14,6 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinds.linkages import four_bar_search as search
 from geneva_cli.kinds.linkages.four_bar import FourBar
-from geneva_cli.kinds.linkages.path_wheels import driven, passed
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.study.synth.families.family import Family, is_compatible, natural_deg
@@ -81,10 +80,10 @@ def _spec(target: Target, goal: search.Goal, places: Places, number: int) -> Spe
     one = places.take(slice(number, number + 1))
     with np.errstate(all="ignore"):
         machine = search.four_bars_at(goal, one.of, one.at)
-    scale, pair = target.own.given_distance_mm / machine.distance, machine.pair
+    scale = target.own.given_distance_mm / machine.distance
     *lengths, x, y = (np.array(machine.path.numbers) * scale)[:, 0].tolist()
     sides: Any = dict(zip(_SIDES, lengths, strict=True))
-    entry, exit_ = pair.phi[:, 0].tolist()
+    entry, exit_ = machine.pair.phi[:, 0].tolist()
     try:
         drive = FourBar(
             **sides,
@@ -94,10 +93,8 @@ def _spec(target: Target, goal: search.Goal, places: Places, number: int) -> Spe
         )
     except GenevaError:
         return None
-    path, wheel = drive.roller_path, goal.wheels[one.of[0]].wheel
-    wheels, _ = driven(path, pair._replace(which=np.arange(1)))
-    drives = len(passed(path, wheels).which)
-    return _machine(target, wheel, drive, math.degrees(exit_ - entry)) if drives else None
+    wheel = goal.wheels[one.of[0]].wheel
+    return _machine(target, wheel, drive, math.degrees(exit_ - entry))
 
 
 def _machine(target: Target, wheel: Gearing, drive: FourBar, motion_deg: float) -> Spec:

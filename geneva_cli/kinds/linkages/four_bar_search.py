@@ -21,7 +21,7 @@ import numpy as np
 from geneva_cli.kinds.linkages.four_bar import CouplerPath
 from geneva_cli.kinds.linkages.link_path import LinkPath
 from geneva_cli.kinds.linkages.path_wheels import PathWheels, centre_of, top
-from geneva_cli.kinds.linkages.tangent_pairs import Pairs, complex_of
+from geneva_cli.kinds.linkages.tangent_pairs import Pairs, complex_of, turning_rate
 from geneva_cli.motion.peak_search import ORDERS
 from geneva_cli.motion.timing import Timing, timing
 from geneva_cli.motion.wheels.gearing import Gearing
@@ -184,6 +184,7 @@ def _driven(
     rho, L = wheels.distance, np.abs(wheels.centre)
     near, turns = wheels.driven(*at[:2])
     drives = ((turns > 0.0) & (near < rho))[1:-1].all(axis=0)
+    drives &= (pair.sense * turning_rate(at[:3, [0, -1]]) < 0.0).all(axis=0)  # at both ends, too
     half_wall = 1.0 / 400.0  # of the least wall between two slots, over the centre distance
     drives &= near.min(axis=0) * np.sin(b) >= (roller + half_wall) * L
     # the way back has twice the motion's samples
