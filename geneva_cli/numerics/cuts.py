@@ -48,12 +48,7 @@ _DERIVED = np.where((_rise > 0) & (_rise % 2 == 1), 2.0 * _k, 0.0)
 _DERIVED[0] *= 0.5
 _TERMS = at(np.eye(DEGREE + 1)[..., None], GRID).T
 # from samples to values and to slopes at ``GRID``
-_VALUES, _SLOPES = product(_TERMS, SERIES), product(_TERMS, product(_DERIVED, SERIES))
-
-
-def on_grid(values: Array) -> tuple[Array, Array]:
-    """Values and slopes at ``GRID`` of the series from samples."""
-    return product(_VALUES, values), product(_SLOPES, values)
+VALUES, SLOPES = product(_TERMS, SERIES), product(_TERMS, product(_DERIVED, SERIES))
 
 
 def remainder(values: Array) -> Array:
@@ -243,7 +238,7 @@ class Cutter:
         if not len(some):
             return unsure, *none
         q, size, left = q.take(some, axis=1), size[some], left[some]
-        g, d = on_grid(q)
+        g, d = product(VALUES, q), product(SLOPES, q)
         # below 1e-12 of its size on a row, or some roundings of that in its design's whole motion,
         # a function has no sign
         rounding = 4e-15 * self.size[kind, rows.design[some]]

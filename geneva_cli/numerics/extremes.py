@@ -18,9 +18,11 @@ from geneva_cli.numerics.cuts import (
     GRID,
     LATER_TERMS,
     POINTS,
+    SLOPES,
+    VALUES,
     Cutter,
     at,
-    on_grid,
+    product,
     remainder,
     series,
 )
@@ -251,7 +253,8 @@ class _Extremes:
             a, b = part[:, cut]
             t = 0.5 * (a + b) + 0.5 * (b - a) * POINTS[:, None]
             samples[:, cut] = at(series(samples.take(cut, axis=1)), t)
-        (value, slope), terms = on_grid(samples), series(samples)
+        value, slope = product(VALUES, samples), product(SLOPES, samples)
+        terms = series(samples)
         # of a constant the start alone: a range of rounding says nothing about places
         varied = np.ptp(samples, axis=0) > 1e-13 * np.abs(samples).max(axis=0)
         value, slope = np.pad(value, ((1, 1), (0, 0)), "edge"), np.where(varied, slope, 0.0)
