@@ -50,7 +50,7 @@ class Rows:
             return np.array([float(v) if isinstance(v, (int, float)) else math.nan for v in column])
         return np.where(np.isinf(column), np.nan, column)
 
-    def taken(self, which: Mask | Whole) -> Rows:
+    def taken(self, which: Mask | Whole | slice) -> Rows:
         """Some of the rows, by a mask (n,) or by their numbers."""
         return Rows({name: column[which] for name, column in self.columns.items()})
 

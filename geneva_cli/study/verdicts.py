@@ -7,7 +7,7 @@ from itertools import filterfalse
 from operator import attrgetter
 from typing import NamedTuple
 
-from geneva_cli.answer import FAILS, PASSES, WARNS, Answer, Summary, SummaryLine, value_text
+from geneva_cli.answer import FAILS, PASSES, WARNS, Answer, Summary, SummaryLine
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.names import spoken
@@ -17,7 +17,7 @@ from geneva_cli.progress import tracked
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.table import Reading, Table, record_table, rows_table
 from geneva_cli.verdict.checks import Check, all_pass
-from geneva_cli.verdict.failures import meaning
+from geneva_cli.verdict.failures import compared_text, meaning
 
 # yes or no, and what a machine that turns always keeps
 WITHOUT_MARGIN = ("dwell_hold", "parts", "full_turn", "turns", "turning_slack_mm")
@@ -196,8 +196,7 @@ def failure_lines(checks: Iterable[Check]) -> Iterator[SummaryLine]:
     for check in checks:
         if check.passes is not False:
             continue
-        label, unit = spoken(check.name)
-        explained = f"geneva explain {check.name}"
+        label, explained = spoken(check.name)[0], f"geneva explain {check.name}"
         if check.value is None or check.limit is None:
             yield SummaryLine(label, check.why, explained, FAILS)
             continue
@@ -207,7 +206,7 @@ def failure_lines(checks: Iterable[Check]) -> Iterator[SummaryLine]:
         refused = check.nearest and check.name in ("parts", "full_turn")  # the reason is the text
         change = "; ".join(words for words in ("" if refused else check.why, advice) if words)
         note = f"{change} ({explained})" if change else explained
-        text = check.why if refused else meaning(check) or compared_text(check, unit)
+        text = check.why if refused else meaning(check) or compared_text(check)
         yield SummaryLine(label, text, note, FAILS)
 
 
@@ -244,12 +243,4 @@ def tightest(checks: Iterable[Check]) -> Iterator[SummaryLine]:
             used[check] = value / limit if check.must_be == "at most" else limit / value
     if used:
         tight = max(used, key=used.__getitem__)
-        label, unit = spoken(tight.name)
-        yield SummaryLine("tightest", f"{label} {compared_text(tight, unit)}")
-
-
-def compared_text(check: Check, unit: str) -> str:
-    """The value of a check, its place, and its limit."""
-    where = "" if check.at_deg is None else f" at {value_text(check.at_deg, 'deg')}"
-    limit = value_text(check.limit, unit if unit == "deg" else "")
-    return f"{value_text(check.value, unit)}{where}, {check.must_be} {limit}"
+        yield SummaryLine("tightest", f"{spoken(tight.name)[0]} {compared_text(tight)}")

@@ -2,9 +2,11 @@
 
 from collections.abc import Sequence
 
+from geneva_cli.answer import value_text
 from geneva_cli.errors import is_warning
+from geneva_cli.names import spoken
 from geneva_cli.parts.parts import Parts
-from geneva_cli.table import Table, in_digits, record_table
+from geneva_cli.table import Table, record_table
 from geneva_cli.verdict.checks import Check
 
 # The meaning of a failing check, by its name; without one its value says enough.
@@ -68,7 +70,9 @@ def failures(rows: list[Check], parts: Parts) -> tuple[str, list[str]]:
             and c.name.endswith("_mm")
             and (c.value or 0.0) < 0.0
         ):
-            refused.append(_in_words(c, parts.turn.smallest.parts if c.name == "gap_mm" else ""))
+            refused.append(
+                _in_words(c, parts.turn.smallest.parts if c.name == "gap_mm" else "parts")
+            )
             advice = advice or c.nearest
         else:
             warned.append(sentence(c))
@@ -81,23 +85,28 @@ def sentence(c: Check) -> str:
     if c.value is None:
         return f"{c.name} is not computed: {c.why}"
     more = f"{c.nearest} would pass" if c.nearest else c.why
-    return "; ".join(text for text in (_in_words(c), more) if text)
+    return "; ".join(filter(None, (_in_words(c), more)))
 
 
-def _in_words(c: Check, parts: str = "") -> str:
-    shown, where = in_digits(c.value or 0.0, 6), _where(c)
-    general = f"{c.name} = {shown}{where}; it must be {c.must_be} {c.limit or 0.0:.6g}"
-    return meaning(c, parts) or general
+def _in_words(c: Check, parts: str = "parts") -> str:
+    return meaning(c, parts) or f"{spoken(c.name)[0]} {compared_text(c)}"
+
+
+def compared_text(c: Check) -> str:
+    """The value of a check, its place, and its limit."""
+    unit = spoken(c.name)[1]
+    limit = value_text(c.limit, unit if unit == "deg" else "")
+    return f"{value_text(c.value, unit)}{_where(c)}, {c.must_be} {limit}"
 
 
 def _where(c: Check) -> str:
-    return "" if c.at_deg is None else f" at input angle {c.at_deg:.6g}°"
+    return "" if c.at_deg is None else f" at {value_text(c.at_deg, 'deg')}"
 
 
-def meaning(c: Check, parts: str = "") -> str:
+def meaning(c: Check, parts: str = "parts") -> str:
     """The meaning of a failing check; empty if its value is enough."""
     value, limit = c.value or 0.0, c.limit or 0.0
     moves, unit = ("rack can move", " mm") if c.name.endswith("_mm") else ("wheel can turn", "°")
     named = {"value": value, "limit": limit, "short": -value, "idle": 100.0 * (1.0 - value)}
-    words = {"where": _where(c), "moves": moves, "unit": unit, "parts": parts or "parts"}
+    words = {"where": _where(c), "moves": moves, "unit": unit, "parts": parts}
     return MEANINGS.get(c.name, "").format(**named, **words)

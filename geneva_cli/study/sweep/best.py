@@ -5,7 +5,8 @@ from itertools import compress
 
 import numpy as np
 
-from geneva_cli.errors import GenevaError, clean, cut
+from geneva_cli.answer import value_text
+from geneva_cli.errors import GenevaError, cut
 from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.numerics.tolerances import ROUNDED
 from geneva_cli.progress import Meter
@@ -55,11 +56,7 @@ def best_spec(outcome: Outcome, goal: Objective, row_blocks: Iterable[Rows]) -> 
         binds = " (binds)" if bound.margin(values[bound.name]) <= 1e-6 else ""
         notes.append(f"# {bound}: {values[bound.name]:.9g}{binds}")
     for name, value in zip(sweep.of_best.names, sweep.of_best.of(machine), strict=True):
-        if value is None or isinstance(value, bool):
-            text = "none" if value is None else "yes" if value else "no"
-        else:
-            text = f"{value:.9g}" if is_number(value) else clean(str(value))
-        notes.append(f"# {name}: {text}")
+        notes.append(f"# {name}: {value_text(value, digits=9)}")
     if search.is_cut_short:
         alone = "" if sweep.is_batched else ", as each is computed alone"
         notes.append(

@@ -52,17 +52,14 @@ def is_number(value: object) -> TypeGuard[float]:
 
 def constraint(text: str) -> Constraint:
     """Return the bound in a text such as ``"dwell_s >= 0.8"``, with its quantity's whole name."""
-    match = re.fullmatch(r"\s*([A-Za-z][\w.\-]*)\s*(<=|>=)\s*(\S+)\s*", text)
-    try:
-        bound = float(match[3]) if match else math.nan
-    except ValueError:
-        bound = math.nan
-    if not (match and math.isfinite(bound)):
+    number = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,2})?"
+    match = re.fullmatch(rf"\s*([A-Za-z][\w.\-]*)\s*(<=|>=)\s*({number})\s*", text)
+    if not match:
         raise GenevaError(
             f"--subject-to {cut(text.strip())!r}: it must be FIELD >= NUMBER or FIELD <= NUMBER, "
             'as "dwell_s >= 0.8"'
         )
-    return Constraint(whole_name(match[1], "--subject-to"), match[2], bound)
+    return Constraint(whole_name(match[1], "--subject-to"), match[2], float(match[3]))
 
 
 class Nearness:

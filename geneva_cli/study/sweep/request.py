@@ -104,12 +104,10 @@ class Outcome:
     def counted(self, row_blocks: Iterable[Rows]) -> Iterator[Rows]:
         """All rows, counted."""
         for rows in row_blocks:
-            errors = cells_of(rows.columns[ERROR])
+            errors = [str(cell) for cell in cells_of(rows.columns[ERROR]) if cell is not None]
             self.all += len(rows)
-            failed = len(errors) - errors.count(None)
-            self.failed += failed
-            if failed and not self._first:
-                self._first = next(str(error) for error in errors if error is not None)
+            self.failed += len(errors)
+            self._first = self._first or next(iter(errors), "")
             self.nearness.add(rows.numbers)
             known = [name for name in self._unknown if np.isfinite(rows.numbers(name)).any()]
             self._unknown = [name for name in self._unknown if name not in known]
@@ -159,7 +157,8 @@ class Digest:
         """Add rows, which are numbered in their order from 1."""
         numbers = np.arange(self.count, self.count + len(rows)) + 1
         rows, self.count = Rows({"row": numbers, **rows.columns}), self.count + len(rows)
-        self.first = [_head(joined([*self.first, _head(rows, 2 * ROWS)]), 2 * ROWS)]
+        few = slice(2 * ROWS)
+        self.first = [joined([*self.first, rows.taken(few)]).taken(few)]
         for name in () if self.goal else self.sweep.pick.names:  # the first with a number
             cells = cells_of(rows.columns[name])
             if any(constraints.is_number(cell) and not isinstance(cell, bool) for cell in cells):
@@ -179,13 +178,9 @@ class Digest:
         titled = [(rows, "") for rows in self.first]
         if self.count > 2 * ROWS:
             title = f"The first {ROWS} rows. All {self.count:,} rows: {self.place}"
-            titled = [(_head(self.first[0], ROWS), title)]
+            titled = [(self.first[0].taken(slice(ROWS)), title)]
             titled += [(rows, f"The {len(rows)} rows with the {self.goal}") for rows in self.best]
         for rows, title in titled:
             columns = {name: cells_of(column) for name, column in rows.columns.items()}
             kept = {n: cells for n, cells in columns.items() if cells.count(None) < len(cells)}
             yield Table(tuple(kept), [*kept.values()], title=title)
-
-
-def _head(rows: Rows, most: int) -> Rows:
-    return rows.taken(np.arange(min(len(rows), most)))

@@ -18,7 +18,7 @@ from geneva_cli.errors import GenevaError, below, cut
 from geneva_cli.kept import KEPT
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.numerics.arrays import Array, Mask, keep_memory
+from geneva_cli.numerics.arrays import Mask, keep_memory
 from geneva_cli.numerics.sobol import DIMENSIONS, sobol
 from geneva_cli.specfile.columns import digest
 from geneva_cli.specfile.reader import Setting, Text, setting
@@ -157,7 +157,9 @@ class Sweep(NamedTuple):
 
     def rows_of(self, designs: Rows) -> Rows:
         """The rows of designs from the values of their keys."""
-        known, none = self.known(designs), np.full(len(designs), None)
+        # NaN where a batch lacks them
+        known = numbers(self._batches(designs), self.pick.batched, len(designs))
+        none = np.full(len(designs), None)
         columns = designs.columns | dict.fromkeys((*self.pick.names, ERROR), none)
         rows = Rows(columns | dict(zip(self.pick.batched, known, strict=True)))
         whole: Mask = np.logical_not(np.isnan(known).any(axis=0))
@@ -167,10 +169,6 @@ class Sweep(NamedTuple):
                 left &= bound.kept_by(rows.numbers(bound.name)) | ~whole
         alone = self._rows_alone(designs.taken(left))
         return rows.replaced(np.flatnonzero(left), alone) if left.any() else rows
-
-    def known(self, designs: Rows) -> Array:
-        """The quantities of ``pick.batched`` (q, n) of designs, NaN where a batch lacks them."""
-        return numbers(self._batches(designs), self.pick.batched, len(designs))
 
     def _batches(self, designs: Rows) -> Iterator[Batch]:
         def spec(values: Sequence[Cell]) -> Spec:
@@ -256,10 +254,8 @@ def sweep(text: Text, plan: SweepPlan, picks: Sequence[str] = DEFAULT) -> Sweep:
     count, reasons = min(size, 1000), list[str]()  # designs of the sample
     # the middle design comes first: most ranges have one that can be built
     middle = [*Rows({a.key: a.between(np.array([0.5])) for a in plan.axes})]
-    starts, some = [i * size // count for i in range(count)], 1
-    if plan.random:  # its first ones, at once
-        starts, some = [0], count
-    sample = chain.from_iterable(plan.designs(at, at + some) for at in starts)
+    starts = (i * size // count for i in range(count))
+    sample = chain.from_iterable(plan.designs(at, at + 1) for at in starts)
     for values in chain(middle, sample):
         try:
             run.machine(values)

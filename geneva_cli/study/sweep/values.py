@@ -3,6 +3,7 @@
 import math
 import re
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from decimal import Decimal, InvalidOperation
 from typing import NamedTuple, TypeAlias
 
@@ -142,19 +143,21 @@ def _decimal(text: str, option: str) -> Decimal:
             f'{option}: "{cut(text)}" is no number; '
             "a range is LOW..HIGH or LOW..HIGH:STEP, as 3..12 or 0..0.9:0.1"
         ) from None
-    if not math.isfinite(float(value)):
-        raise GenevaError(f"{option}: {cut(text)} is no finite number")
+    _, digits, exponent = value.as_tuple()
+    if not isinstance(exponent, int) or exponent < -22 or len(digits) + exponent > 285:
+        raise GenevaError(f"{option}: {cut(text)} is no finite number of at most 22 decimals")
     return value
 
 
+@dataclass(frozen=True)
 class Steps(Sequence[float]):
     """Whole numbers over a power of ten: 0..0.9:0.1 holds 0.3 and ends with 0.9.
 
     They are computed when read, so ten million of them take no memory.
     """
 
-    def __init__(self, whole: range, divisor: int) -> None:
-        self.whole, self.divisor = whole, divisor
+    whole: range
+    divisor: int  # up to 1e22, which a float holds exactly
 
     def __len__(self) -> int:
         return len(self.whole)
@@ -164,14 +167,9 @@ class Steps(Sequence[float]):
 
     def column(self, numbers: Whole) -> Array:
         """The values with these numbers, (n,)."""
-        if self.divisor > 1e22 or max(map(abs, (self.whole[0], self.whole[-1]))) >= 2**53:
-            return np.array([self[i] for i in numbers.tolist()])
-        # floats hold these exactly, so that the quotient is rounded once
-        values: Array = (self.whole.start + self.whole.step * numbers) / float(self.divisor)
+        whole = self.whole.start + self.whole.step * numbers.astype(float)
+        values: Array = whole / float(self.divisor)
         return values
-
-    def __repr__(self) -> str:
-        return f"Steps({self.whole}, {self.divisor})"
 
 
 def _refuse_many(option: str, count: float | Decimal, most: int = POINTS_MAX) -> None:

@@ -130,13 +130,12 @@ def _done(best: Places, live: Mask, violation: Array, cost: Array) -> Mask:
     own = best.take(live)
     with np.errstate(invalid="ignore"):
         spread = np.abs(cost - own.cost[:, None]).max(axis=1)
-        # as good as all samples, or the best in a corner; or broken alike
-        kept = (violation < ROUNDING).all(axis=1) & (own.violation < ROUNDING)
-        corner = np.isin(own.at, (0.0, 1.0)).all(axis=1)
-        settled = kept & ((spread <= SETTLED * np.abs(own.cost)) | corner)
+        # the samples are broken alike, and as good; or it is the best, in a corner
         off = np.abs(violation - own.violation[:, None]).max(axis=1)
         broken = own.violation > ROUNDING
-        settled |= broken & (off <= SETTLED * own.violation)
+        corner = np.isin(own.at, (0.0, 1.0)).all(axis=1)
+        settled = broken | corner | (spread <= SETTLED * np.abs(own.cost))
+        settled &= off <= SETTLED * own.violation + ROUNDING
         # beaten by another place of the task, by more than samples differ
         least = np.full(best.of.max() + 1, math.inf)
         np.minimum.at(least, best.of, np.where(best.violation < ROUNDING, best.cost, math.inf))

@@ -99,17 +99,13 @@ def read_frame(path: str, settings: Sequence[str] = ()) -> Spec:
     text = read(path, settings)
     spec = text.spec()
     with text.located():
-        if spec.drive_before:
+        is_fixed = spec.drive.wheels_on_carrier or spec.wheel.stopped or not spec.output.turns
+        if spec.drive_before or is_fixed:
             raise GenevaError(
-                "--from: synth finds the numbers of each drive by the input's angle, which "
-                "[drive.before] would change: remove it; `geneva sweep --best` varies both drives",
-                ("drive", "before"),
-            )
-        if not spec.output.turns or spec.drive.wheels_on_carrier or spec.wheel.stopped:
-            raise GenevaError(
-                "--from: synth finds wheels that turn without end on axes that stand; `geneva "
-                "sweep --best` varies racks, carousels and wheels with a stop too",
-                ("wheel", "gearing"),
+                "--from: synth finds wheels that turn without end on axes that stand, with one "
+                "drive; `geneva sweep --best` varies racks, carousels, wheels with a stop and "
+                "[drive.before] too",
+                ("drive", "before") if spec.drive_before else ("wheel", "gearing"),
             )
     return spec
 

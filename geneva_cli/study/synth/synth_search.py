@@ -3,7 +3,6 @@
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
-from itertools import pairwise
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -128,11 +127,9 @@ def _rank(target: Target, row: MachineRow) -> tuple[object, ...]:
     """The sort key of a row: the goal's quantity, then peaks, equal in 12 digits."""
     cells, first = row.cells, tuple[object, ...]()
     if target.sort:
-        value = cells[target.sort.name]
+        value, sign = cells[target.sort.name], target.sort.sign
         # texts, and unknown values, come behind the numbers
-        first = (1, str(value))
-        if is_number(value):
-            first = (0, float(f"{target.sort.sign * float(value):.12g}"))
+        first = (0, float(f"{sign * value:.12g}")) if is_number(value) else (1, str(value))
     peak = cells["acceleration_max_rad_s2" if target.timed else "acceleration_max"]
     peaks = (float(f"{x:.12g}") for x in (peak, cells["jerk_max"]))
     return (*first, *peaks, *(cells[name] for name in ("rollers", "z", "gearing", "drive")))
@@ -165,9 +162,8 @@ def _all_groups(target: Target, names: Sequence[str]) -> list[MachineRow]:
     They are straight slots, and laws, of each gearing; those of kinds. Each has some of the numbers
     of slots.
     """
-    count = max(len(target.z) // GROUP, 1)
-    ends = [-(-len(target.z) * i // count) for i in range(count + 1)]
-    some = [target._replace(z=target.z[i:j]) for i, j in pairwise(ends)]
+    groups = np.array_split(target.z, max(len(target.z) // GROUP, 1))
+    some = [target._replace(z=tuple(group.tolist())) for group in groups]
     each = [one._replace(gearings=(gearing,)) for gearing in target.gearings for one in some]
     tasks: list[tuple[Kind, Target]] = [
         *((kind, one) for kind in families_of_kinds("alone") for one in some),

@@ -109,9 +109,7 @@ def built(spec: Spec, fixed: Collection[str] = ()) -> tuple[Spec, str]:
     keys of its [size] that must not change. If no sizes pass, the spec is unchanged.
     """
     machine = build(spec)
-    failing = [check for check in judged.checks(machine, parts=False) if check.passes is False]
-    if not {check.name for check in failing} & UNSIZED:
-        failing = [check for check in judged.checks(machine) if check.passes is False]
+    failing = [check for check in judged.checks(machine) if check.passes is False]
     names = [check.name for check in failing]
     own, reasons, trouble = spec, ", ".join(names), {*names}
     if not trouble or trouble & UNSIZED:

@@ -1,6 +1,5 @@
 """Names of a design's quantities, and the resolution of a typed name."""
 
-from collections import Counter
 from collections.abc import Iterable, Iterator
 
 from geneva_cli.errors import GenevaError, cut, nearest
@@ -90,8 +89,7 @@ def _nearest(typed: str) -> str:
     whole += [name for name in known if name.startswith(INPUTS) and name.endswith(f".{typed}")]
     own = [name for name in known if not name.startswith(INPUTS)]
     own.sort(key=lambda name: name.startswith(CHECKS))  # a check gives way to a quantity
-    counts = Counter(end for name in own for end in _ends(name))
-    ends = [e for name in own for e in (name, *_ends(name)) if e in known or counts[e] == 1]
+    ends = [end for name in own for end in (name, *_ends(name))]
     begun = [end for end in ends if end.startswith(typed)] if len(typed) > 2 else []
     # the shortest name; of its values the first, which is the greatest
     begun.sort(key=lambda end: len(end.partition(".")[0]))
