@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.geometry.sphere import Region, SphereArc, Vector, dot, opposite
-from geneva_cli.numerics.arrays import Array, Whole, within_half_turn
+from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 
 
@@ -109,18 +109,14 @@ class SphereArcs:
 
         They are samples, and points that face directions (m, j, 3), or away from them.
         """
-        row, facing = self.facing(which, towards)
-        points = [self.at(which, share * self.sweep[which]) for share in ARC_SAMPLES]
-        rows = np.tile(np.arange(len(which)), len(points))
-        return np.concatenate((rows, row)), np.concatenate((*points, facing))
-
-    def facing(self, which: Whole, towards: Array) -> tuple[Whole, Array]:
-        """Return the points of some arcs (m,) that face directions (m, j, 3), or away."""
         along, sideways = ((towards * v[which, None]).sum(axis=-1) for v in (self.x, self.y))
         turn = np.arctan2(sideways, along) + np.array((0.0, np.pi))[:, None, None]
         turn = np.remainder(turn, 2.0 * np.pi)
         on = np.nonzero(turn <= self.sweep[which, None])
-        return on[1], self.at(which[on[1]], turn[on])
+        points = [self.at(which, share * self.sweep[which]) for share in ARC_SAMPLES]
+        rows = np.tile(np.arange(len(which)), len(points))
+        facing = self.at(which[on[1]], turn[on])
+        return np.concatenate((rows, on[1])), np.concatenate((*points, facing))
 
 
 def polar(points: Array) -> Array:
@@ -131,28 +127,6 @@ def polar(points: Array) -> Array:
 def azimuth(points: Array) -> Array:
     """Return the angles of directions (..., 3) about z, from x."""
     return np.arctan2(points[..., 1], points[..., 0])
-
-
-def from_circle(
-    boundary: SphereArcs, frame: Array, angle: float, middle: Array, half: Array
-) -> Array:
-    """Return the angles of arcs of a circle from a boundary that they do not cross, (n,).
-
-    The circle is ``angle`` from the axis z of a frame, whose axes are rows (3, 3). The arcs are
-    from azimuths ``middle - half`` to ``middle + half`` in it.
-    """
-    # two circles are nearest to each other on the great circle through both axes
-    every = np.arange(len(boundary))
-    _, facing = boundary.facing(every, np.tile(frame[2], (len(every), 1, 1)))
-    points = np.concatenate((boundary.starts, facing)) @ frame.T
-    beyond = np.abs(within_half_turn(azimuth(points) - middle[:, None])) - half[:, None]
-    off, flat = polar(points), math.sin(angle)
-    nearest = [_distances(off - angle, flat * np.sin(off), np.maximum(beyond, 0.0))]
-    for end in (middle - half, middle + half):
-        level = np.full(len(end), math.cos(angle))
-        at = np.column_stack((flat * np.cos(end), flat * np.sin(end), level))
-        nearest.append(boundary.angles(at @ frame))
-    return np.concatenate(nearest, axis=1).min(axis=1)
 
 
 def short_arcs(regions: Iterable[Region], step: float, radius: float) -> SphereArcs:

@@ -2,9 +2,8 @@
 
 All walls lead to the sphere's centre: gaps are angles there, returned as arc lengths on the sphere,
 mm. A point at an angle r from an axis moves at most sin r times the angle by which its part turns
-about it. A roller's path is exact: an arc about the crank's axis while the wheel rests. In its own
-slot it moves along the meridian in the middle, and the feet of the perpendiculars from there to
-both walls are on them: the gap is the slot's clearance.
+about it. In its own slot a roller moves along the meridian in the middle, and the feet of the
+perpendiculars from there to both walls are on them: the gap is the slot's clearance.
 """
 
 from __future__ import annotations
@@ -15,7 +14,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from geneva_cli.geometry.sphere import Region, place
-from geneva_cli.geometry.sphere_arcs import SphereArcs, azimuth, from_circle, polar, short_arcs
+from geneva_cli.geometry.sphere_arcs import SphereArcs, polar, short_arcs
 from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.kinds.spherical.regions import QUARTER, edge
 from geneva_cli.kinds.spherical.stops import ProjectedMotion, SphereMotion, SphereStops
@@ -80,16 +79,4 @@ class SpherePairs(FlatPairs):
         # the wheel is within its rim's circle
         gap = np.maximum(gap, L * (away - ball.rim - ball.roller))
         least = gap - L * (math.sin(ball.arm) * on.crank + np.sin(away) * on.wheel)
-        some = np.flatnonzero(least < self.target)
-        if window.rests and len(some):
-            # the crank's axes in the frame of the resting wheel
-            lead = gaps.assembly.wheel(np.array([window.start]))
-            frame, half = turned_points(gaps.plane_motion.crank_frame, -lead), on.crank[some]
-            seen = centre[some] @ frame.T
-            middle, aside = azimuth(seen), np.abs(polar(seen) - ball.arm)
-            # an arc that is shorter than its middle's distance from the edge does not cross it
-            short = math.sin(ball.arm) * half + aside < ball.roller + gap[some] / L
-            free = from_circle(gaps.wheel, frame, ball.arm, middle[short], half[short])
-            some, free = some[short], L * (free - aside[short] - ball.roller)
-            least[some] = np.maximum(least[some], free)
         return gap, least

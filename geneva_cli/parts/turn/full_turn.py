@@ -96,18 +96,20 @@ def full_turn(parts: TurnedParts) -> FullTurn:
     pairs += [LOCK] if parts.locked else []
     gaps = dict(zip(pairs, map(partial(_least, parts, at=at, first=first), pairs), strict=True))
     fits = min(gaps.values()).mm >= -parts.close
-    resting = np.array([0.5 * (one.start + one.end) for one in every if one.rests])
+    starts, ends, _, rests, _ = zip(*every, strict=True)
+    resting = 0.5 * np.add(starts, ends)[np.array(rests)]
     leads, _ = wheel_stops(parts, resting, fits)
     dwell = _most(np.degrees(leads.max(axis=0)), resting, first)
     play, push_deg = play_of(parts, fits)
     inside = play.guided
     hand_over = _most(play.ways.max(axis=0)[~inside], play.input_deg[~inside], first)
-    sides = play.ways.min(axis=0), *play.ways[::-1]
-    motion, ahead, behind = (_most(one[inside], play.input_deg[inside], first) for one in sides)
+    guided_deg, (back, on) = play.input_deg[inside], play.ways[:, inside]
+    motion = _most(np.minimum(back, on), guided_deg, first)
+    ahead, behind = _most(on, guided_deg, first), _most(back, guided_deg, first)
     push = _most(push_deg, play.input_deg[:-1], first)
     # of the first motion of each kind, the first contact that is farthest off its slot's middle
-    kinds = [engagement for engagement, _ in assembly.motions]
-    each = (_contact(parts, kinds.index(kind)) for kind in dict.fromkeys(kinds))
+    kinds = [*map(itemgetter(0), assembly.motions)]
+    each = map(partial(_contact, parts), map(kinds.index, dict.fromkeys(kinds)))
     contact = max(each, key=itemgetter(0))
     met, free_deg = (contact[0], assembly.shown_deg(contact[1])), math.degrees(assembly.half_step)
     return FullTurn(gaps, dwell, hand_over, motion, ahead, behind, push, met, free_deg)
@@ -140,7 +142,9 @@ def _positions(parts: TurnedParts) -> Array:
         raise GenevaError(f"{text}: use a larger roller or horn")
     even = np.interp(np.linspace(0.0, total[-1], count + 1), total, grid)
     # A rim that is too large collides for less than a degree about entry and exit.
-    ends = [end for one in assembly.motions for end in (one.entry, one.exit)]
+    ends = []
+    for engagement, mid in assembly.motions:
+        ends += [mid + engagement.entry_deg, mid + engagement.exit_deg]
     offsets = np.geomspace(0.01, 15.0, 24)  # degrees of the input, on either side
     near = (np.array(ends)[:, None] + np.concatenate((-offsets, [0.0], offsets))).ravel()
     near = assembly.start_deg + (near - assembly.start_deg) % assembly.turn_deg
@@ -192,7 +196,8 @@ def _contact(parts: TurnedParts, motion: int) -> tuple[float, float]:
     """
     assembly, gaps, close = parts.assembly, parts.gaps, parts.close
     engagement, mid = assembly.motions[motion]
-    before = sum(len(one.passages) for one, _ in assembly.motions[:motion])
+    earlier = map(attrgetter("engagement.passages"), assembly.motions[:motion])
+    before = sum(map(len, earlier))
     own = range(before, before + len(engagement.passages))
     ends = engagement.exit_deg, engagement.entry_deg
     ahead = float(engagement.reach(ends[0])) - float(engagement.reach(ends[1]))

@@ -145,7 +145,8 @@ class _Path:
         goes_on = bool(self.pushes) and abs(before - self.pushes[-1][1][0]) <= PAUSE
         finest = max(self.finest, END) if self.is_pushed or goes_on else self.finest
         if runs or (changes and step > finest):
-            if there.is_free and abs(before - self.rows[-2][0]) < 2.0 * step:
+            last_step = abs(before - self.rows[-2][0]) if len(self.rows) > 1 else math.inf
+            if there.is_free and last_step < 2.0 * step:
                 del self.rows[-1]  # it may have been pushed farthest in the step before
             places = np.linspace(self.rows[-1][0], crank, PARTS + 1)[1:]
             ranges = self.free.at(places)

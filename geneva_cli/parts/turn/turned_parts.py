@@ -137,9 +137,10 @@ class Play(NamedTuple):
 def windows(parts: TurnedParts) -> list[Window]:
     """Return the motions and dwells of a turn."""
     assembly, motions, out = parts.assembly, parts.assembly.motions, []
-    for i, one in enumerate(motions):
-        (engagement, _), entry, exit_ = one, one.entry, one.exit
-        following = motions[(i + 1) % len(motions)].entry
+    for i, (engagement, behind) in enumerate(motions):
+        after, later = motions[(i + 1) % len(motions)]
+        entry, exit_ = behind + engagement.entry_deg, behind + engagement.exit_deg
+        following = later + after.entry_deg
         following += assembly.turn_deg if i + 1 == len(motions) else 0.0
         spans: tuple[tuple[float, float, int | None], ...] = ((entry, exit_, i),)
         if engagement.paired:

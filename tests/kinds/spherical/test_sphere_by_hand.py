@@ -35,8 +35,10 @@ def test_the_crank_of_a_sphere():
     assert spans["arm"] == (105.5, 115.5)
     assert parts.ball.shafts_end_mm(size) == 115.75
     # a cap about a hub leaves a wall as thick as the hub's, or the least one
-    for bore, edge in ((50.0, 70.0), (59.0, 62.0)):
-        assert parts.ball.cap(60.0, bore, 2.0) == pytest.approx(math.asin(edge / 105.5))
+    hub = size.replace(arm_hub_mm=120.0, wall_min_mm=2.0)
+    for bore, edge in ((49.9, 70.0), (58.9, 62.0)):
+        *_, cap = parts.ball._replace(arm_bore_mm=bore).arm_radii(hub)
+        assert cap == pytest.approx(math.asin(edge / 105.5))
 
 
 def test_the_keyways_of_a_shaft_and_its_hub_face_each_other():
