@@ -27,7 +27,7 @@ from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.spec import tables
 from geneva_cli.spec.rules import Range, plain, require_mm
-from geneva_cli.spec.schema import refuse_keywords, shortly
+from geneva_cli.spec.schema import refuse_keywords
 from geneva_cli.table import Table, record_table
 
 if TYPE_CHECKING:
@@ -177,7 +177,7 @@ class Design:
         >>> Design(External(6), SideCrank(A=0.6), title="feed")
         Design(wheel=External(z=6), drive=SideCrank(A=0.6), title='feed')
         """
-        return f"Design{shortly(self.spec.replace(path='', files=())).removeprefix('Spec')}"
+        return f"Design{repr(self.spec.replace(path='', files=())).removeprefix('Spec')}"
 
     def with_(self, key: str, value: Any) -> Design:
         """Return the design with one key changed, ``table.key`` as in the file; None: its default.

@@ -64,6 +64,8 @@ WORDS = {
 LONG_WORDS = {
     "max": "greatest",
     "min": "least",
+    "max_at": "greatest at the input angle",
+    "min_at": "least at the input angle",
     "at": "at the input angle",
     "rms": "root mean square",
     "entry": "at entry",
@@ -75,7 +77,6 @@ LONG_WORDS = {
     "Am": "Am, peak acceleration of the motion curve",
     "Vm": "Vm, peak velocity of the motion curve",
     "Qm": "Qm, torque factor of the motion curve",
-    "worst": "worst case",
     "wheel_deg": "wheel angle",
     "rack_mm": "travel of the rack",
     "omega": "wheel's velocity",
@@ -84,8 +85,6 @@ LONG_WORDS = {
     "none": "not known, because",
     "turns": "turns at the worst of the tolerances",
     "pv_max": "greatest pressure times sliding",
-    "motor_torque_max": "motor torque, greatest",
-    "motor_torque_rms": "motor torque, root mean square",
     "drag": "torque to add so that the roller stays on one wall",
     "inwards": "place of the greatest stress, from the rim inwards",
     "reversals": "the wheel's torque changes its sign at",
@@ -117,13 +116,8 @@ def described(name: str) -> tuple[str, str]:
 
     >>> described("slot_mouth_radius_mm"), described("tau")
     (('slot mouth radius', 'mm'), ('τ, fraction of the cycle in motion', ''))
-    >>> described("torque_at_deg")
-    ('torque, at the input angle', '°')
     """
-    known, bare = WORDS | LONG_WORDS, name.removesuffix(unit_end(name))
-    words, unit = _in_words(name, known)
-    if bare.endswith("_at"):
-        words = f"{_in_words(bare.removesuffix('_at'), known)[0]}, {LONG_WORDS['at']}"
+    words, unit = _in_words(name, WORDS | LONG_WORDS)
     return words, "°" if unit == "deg" else unit
 
 

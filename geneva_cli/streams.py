@@ -128,16 +128,12 @@ class _Messages(io.TextIOWrapper):
         lines = [cut(line, 4000) for line in text.split("\n")]
         # A carriage return or an escape begins a movement of the cursor.
         if max(map(len, lines)) > NARROWEST and self.isatty() and not {"\r", "\x1b"} & set(text):
-            lines = [part for line in lines for part in _broken(line)]
+            import shutil  # only where somebody looks at a long message
+            from textwrap import TextWrapper
+
+            width = max(shutil.get_terminal_size().columns, NARROWEST)
+            wrapper = TextWrapper(width, subsequent_indent="  ", break_on_hyphens=False)
+            wrapper.break_long_words = False
+            lines = [part for line in lines for part in wrapper.wrap(line) or [line]]
         super().write("\n".join(lines))
         return len(text)
-
-
-def _broken(line: str) -> list[str]:
-    import shutil  # only where somebody looks at a long message
-    from textwrap import wrap
-
-    width = max(shutil.get_terminal_size().columns, NARROWEST)
-    return wrap(
-        line, width, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False
-    ) or [line]

@@ -169,11 +169,9 @@ def _briefly(value: object) -> str:
         return f"a table of {len(value)} rows"
     if isinstance(value, tuple):
         return f"{len(value)} texts" if value else "none"
-    return (
-        in_digits(value, 6)
-        if isinstance(value, float)
-        else cut("" if value is None else str(value), 40)
-    )
+    if isinstance(value, float):
+        return in_digits(value, 6)
+    return cut("" if value is None else str(value), 40)
 
 
 def in_digits(value: float, digits: int) -> str:

@@ -22,9 +22,7 @@ from geneva_cli.errors import GenevaError, clean, cut
 from geneva_cli.streams import leave, open_streams
 
 FAULT = 70  # exit status; EX_SOFTWARE of sysexits.h, and no status of a design or a user's error
-REPORT = (
-    "please report it in the issues of geneva-cli, with the spec; GENEVA_DEBUG=1 shows where it is"
-)
+REPORT = "please report it in the issues of geneva-cli, with the spec and GENEVA_DEBUG=1"
 NO_PAGER = "--no-pager"
 
 
@@ -52,6 +50,9 @@ class LazyGroup(PlainValues, TyperGroup):
 
             pager.is_wanted = False
             args = [word for word in args if word != NO_PAGER]
+        if args[:1] == ["--version"]:
+            print(f"geneva {__version__}")
+            raise typer.Exit
         shows_help = not args
         try:
             return super().parse_args(ctx, args)
@@ -136,12 +137,6 @@ def _fail(message: str) -> NoReturn:
     raise typer.Exit(2) from None
 
 
-def _version(is_requested: bool) -> None:
-    if is_requested:
-        print(f"geneva {__version__}")
-        raise typer.Exit
-
-
 # NumPy's arrays here are small: starting threads for them would cost more than it saves.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
@@ -150,9 +145,7 @@ app = typer.Typer(cls=LazyGroup, rich_markup_mode=None, pretty_exceptions_enable
 
 
 def geneva(
-    version: bool = typer.Option(
-        False, "--version", callback=_version, is_eager=True, help="Show the version."
-    ),
+    version: bool = typer.Option(False, "--version", help="Show the version."),
     no_pager: bool = typer.Option(
         False, NO_PAGER, help="Print long output on a terminal without a stop."
     ),

@@ -109,16 +109,13 @@ class Command(PlainValues, TyperCommand):
         """Run the command; its tables have the columns of --columns."""
         from geneva_cli.output import choice
 
-        columns = ctx.params.pop("columns", None)
-        choice.columns = words_in(columns) if columns else []
+        choice.columns = words_in(ctx.params.pop("columns", None) or "")
         choice.wide = ctx.params.pop("wide", False)
         if "design" in self.kinds:
             from geneva_cli.design import load
 
             spec, settings = ctx.params.pop("spec"), ctx.params.pop("settings")
             ctx.params["design"] = load(spec, settings, ctx.params.pop("reverse", False))
-        elif "context" in self.kinds:
-            ctx.params["context"] = ctx
         return super().invoke(ctx)
 
     def collect_usage_pieces(self, ctx: Any) -> list[str]:
@@ -207,8 +204,7 @@ def _infos(params: Sequence[Parameter], lists: Sequence[str]) -> list[Parameter]
             key = option.replace("-", "_") or names.lower().replace("...", "s")
             each[key] = names, re.sub(r"\n +", " ", meaning), heading
     for param in params:
-        if param.annotation != typer.Context:
-            own[param] = each.pop(param.name.rstrip("_"), SHARED.get(param.name, ()))
+        own[param] = each.pop(param.name.rstrip("_"), SHARED.get(param.name, ()))
     rest = iter(each.values())
     for param, shown in own.items():
         names, meaning, *panel = shown or next(rest)

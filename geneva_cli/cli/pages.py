@@ -2,6 +2,8 @@
 
 import re
 from collections.abc import Callable, Iterator, Sequence
+from itertools import groupby
+from operator import attrgetter
 from typing import Any, NamedTuple
 
 from geneva_cli import manual
@@ -25,12 +27,23 @@ def page(topic: str) -> str:
     return PRINTED[topic]() if topic in PRINTED else manual.page(topic)
 
 
-def commands_page() -> str:
-    """The help of every command, under the headings of ``geneva --help``."""
+def command_help(name: str, width: int | None = None) -> str:
+    """The help of a command, for the terminal's width unless another is given."""
     from typer import Context
     from typer.main import get_command
 
-    from geneva_cli.cli.app import COMMANDS, GROUPS, app
+    from geneva_cli.cli.app import app
+
+    group: Any = get_command(app)
+    own = group.context_settings
+    root = Context(group, info_name="geneva", terminal_width=width, **own)
+    _, command, _ = group.resolve_command(root, [name])
+    return str(command.get_help(Context(command, parent=root, info_name=name)))
+
+
+def commands_page() -> str:
+    """The help of every command, under the headings of ``geneva --help``."""
+    from geneva_cli.cli.app import COMMANDS, GROUPS
 
     parts = [
         "# Commands\n\nThe help of each command, as `geneva COMMAND -h` prints it. "
@@ -39,12 +52,8 @@ def commands_page() -> str:
     for title, names in GROUPS.items():
         rows = "\n".join(f"| [{n}](#{n}) | {line} |" for n, line in names.items())
         parts.append(f"| {title.lower()} | |\n| --- | --- |\n{rows}\n")
-    group: Any = get_command(app)
-    settings = {**group.context_settings, "terminal_width": WIDTH}
-    root = Context(group, info_name="geneva", **settings)
     for name in COMMANDS:
-        _, command, _ = group.resolve_command(root, [name])
-        shown = command.get_help(Context(command, parent=root, info_name=name))
+        shown = command_help(name, WIDTH)
         lines = "\n".join(line.rstrip() for line in shown.strip().splitlines())
         parts.append(f"## {name}\n\n```text\n{lines}\n```\n")
     return "\n".join(parts)
@@ -52,17 +61,14 @@ def commands_page() -> str:
 
 def keys_page() -> str:
     """Every key of a spec, a table of keys for each table of the file."""
-    from geneva_cli.specfile.keys import Key, all_keys
+    from geneva_cli.specfile.keys import all_keys
 
     parts = [
         "# Keys\n\nEvery key of a spec, as `geneva keys` lists them. A key with kinds in brackets "
         "goes with\nthese kinds only. A default of `-` means that the value follows from other "
         "keys, or is not\nneeded.\n"
     ]
-    tables: dict[str, list[Key]] = {}
-    for key in all_keys():
-        tables.setdefault(key.table, []).append(key)
-    for table, keys in tables.items():
+    for table, keys in groupby(all_keys(), attrgetter("table")):
         rows = [
             (
                 f"`{key.key}`",
@@ -73,15 +79,14 @@ def keys_page() -> str:
             )
             for key in keys
         ]
-        title = f"[{table}]" if table else "Above the tables"
-        head = ("key", "unit", "value", "default", "meaning")
-        parts.append(f"## {title}\n\n{_table(head, rows)}")
+        rows.insert(0, ("key", "unit", "value", "default", "meaning"))
+        parts.append(f"## {f'[{table}]' if table else 'Above the tables'}\n\n{_table(rows)}")
     return "\n".join(parts)
 
 
 def quantities_page() -> str:
     """Every quantity: names, unit and the first sentence of its meaning."""
-    rows = []
+    rows = [("name", "unit", "meaning")]
     for entry in explained.entries():
         if entry.page == "quantities":
             unit = entry.unit or next(filter(None, map(unit_of, entry.names)), "")
@@ -89,13 +94,14 @@ def quantities_page() -> str:
             unit = "" if unit.startswith("that of") else unit
             names = ", ".join(f"`{name}`" for name in entry.names)
             rows.append((names, unit, meaning))
-    return explained.head("quantities") + _table(("name", "unit", "meaning"), rows)
+    return explained.head("quantities") + _table(rows)
 
 
-def _table(head: tuple[str, ...], rows: Sequence[tuple[str, ...]]) -> str:
-    lines = [head, ("---",) * len(head), *rows]
-    escaped = ([cell.replace("|", r"\|") for cell in line] for line in lines)
-    return "".join(f"| {' | '.join(line)} |\n" for line in escaped)
+def _table(rows: Sequence[tuple[str, ...]]) -> str:
+    """A table, whose first row is the head."""
+    head, *others = (" | ".join(cell.replace("|", r"\|") for cell in row) for row in rows)
+    lines = [head, " | ".join(["---"] * len(rows[0])), *others]
+    return "".join(f"| {line} |\n" for line in lines)
 
 
 PRINTED: dict[str, Callable[[], str]] = {

@@ -12,6 +12,7 @@ from geneva_cli.errors import GenevaError, cut, few, nearest
 from geneva_cli.kept import load_named
 from geneva_cli.motion.compatible import is_geared
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.motion_table import check_samples
 from geneva_cli.motion.registry import of_wheel
 from geneva_cli.spec.rules import Range, require_mm
 from geneva_cli.table import Table
@@ -31,7 +32,6 @@ PARTS = dict.fromkeys(_NAMES, "") | {"parts": "drawings.parts_list:parts_table"}
 DRAWINGS = tuple(name for name, table in PARTS.items() if not table and name != SHEET)
 # what is cut out of a plate
 CUT = tuple(n for n in DRAWINGS if n not in ("slot", "assembly", "gears", "groove", "plate"))
-SAMPLES_MAX = 1_000_000
 
 
 def is_sheet(part: str) -> bool:
@@ -67,8 +67,8 @@ def table_of(mechanism: Mechanism, part: str, drawn: bool = False) -> str:
 
 def part_table(mechanism: Mechanism, part: str, tolerance_mm: float, samples: int | None) -> Table:
     """Return a part's points: for a chord tolerance, or at ``samples`` even input angles."""
-    if samples is not None and not 2 <= samples <= SAMPLES_MAX:
-        raise GenevaError(f"--samples {cut(samples)}: must be at least 2, at most {SAMPLES_MAX}")
+    if samples is not None:
+        check_samples(samples)
     function = table_of(mechanism, part)
     if not function:
         raise GenevaError(f"--part {part} is a drawing: write it as .dxf or .svg")

@@ -187,30 +187,15 @@ def _turns(parts: Outlines) -> Iterator[Arc]:
         sense = mechanism.frame
         yield forms.about((assembly.L, 0.0), assembly.L + beyond, -sense * 0.5, sense)
         return
-    if not mechanism.spec.drive.ONE_ARM:
-        yield from _link_turns(parts)
-        return
-    step = math.remainder(float(np.diff(assembly.crank(np.array([-0.5, 0.5])))[0]), math.tau)
-    sense = math.copysign(1.0, step)
-    # an internal wheel's crank turns within the wheel, so its arrow is near its shaft
-    far = max(roller_paths(assembly)[2]) + 2.0 * sizes.roller
-    radius = far + BEYOND * assembly.L if assembly.sign > 0.0 else 0.5 * sizes.arm
+    sense, L = -assembly.sign, assembly.L  # the wheel turns counterclockwise
+    if not mechanism.spec.drive.ONE_ARM:  # beyond the link on the crank's shaft, or the disc
+        sense, links = mechanism.own_shaft.sense, links_at(mechanism, np.zeros(1))
+        own = [np.array(places(one)) - L for one in links if one.kinds[0] is Joint.SHAFT]
+        reaches = [float(np.abs(ends).max()) for ends in own if abs(ends[0]) < SAME_LENGTH * L]
+        radius = max(sizes.lock, *reaches) + 2.0 * BEYOND * L
+    elif assembly.sign > 0.0:
+        radius = max(roller_paths(assembly)[2]) + 2.0 * sizes.roller + BEYOND * L
+    else:  # an internal wheel's crank turns within the wheel: near its shaft
+        radius = 0.5 * sizes.arm
     for place in mechanism.crank_places:
         yield forms.about(place.at, radius, place.turn - sense * 0.5, sense)
-
-
-def _link_turns(parts: Outlines) -> Iterator[Arc]:
-    """Yield the sense of rotation of the link on the crank's shaft, beyond its end or the disc."""
-    mechanism, L = parts.assembly.full, parts.assembly.L
-    for link in links_at(mechanism, np.array([-0.5, 0.0, 0.5])):
-        first, *others = places(link)
-        if (
-            link.kinds[0] is not Joint.SHAFT
-            or not others
-            or np.abs(first - L).max() > SAME_LENGTH * L
-        ):
-            continue
-        ahead = others[0] - first
-        sense = math.copysign(1.0, float(np.angle(ahead[2] / ahead[0])))
-        far = max(float(np.abs(ahead).max()), parts.sizes.lock) + 2.0 * BEYOND * L
-        yield forms.about((L, 0.0), far, -sense * 0.5, sense)

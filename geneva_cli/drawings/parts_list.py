@@ -28,7 +28,7 @@ from geneva_cli.motion.registry import thing
 from geneva_cli.parts.parts import EdgedParts, Parts, parts_of
 from geneva_cli.parts.projection import Missing, alike, built_of, or_missing, outlines_of, titled
 from geneva_cli.parts.shafts.bores import listed
-from geneva_cli.spec.defaults import material_names, roller_material, wheel_material
+from geneva_cli.spec.defaults import roller_material, wheel_material
 from geneva_cli.spec.schema import Points, fields
 from geneva_cli.table import Reading, Table, rows_table
 
@@ -95,10 +95,11 @@ def part_rows(spec: Spec, parts: Iterable[Part], outside: float | None = None) -
     for kind in alike(parts):
         solid = kind[-1]
         is_rod = solid.layer in ("ROLLER", "SHAFT")
-        density = (roller_material if is_rod else wheel_material)(spec).density_kgm3
+        material = (roller_material if is_rod else wheel_material)(spec)
+        density = material.density_kgm3
         heights = {one.low for one in kind if not isinstance(one, Shell)}
         row = {"row": "part", "name": solid.name, "count": len(kind), "density_kgm3": density}
-        row |= {"material": material_names(spec)[is_rod], **_properties(solid, density, outside)}
+        row |= {"material": material.name, **_properties(solid, density, outside)}
         yield row if len(heights) < 2 else row | {"z_low_mm": None, "z_high_mm": None}
 
 
@@ -215,7 +216,7 @@ def _laid(whole: list[Plate]) -> list[Member]:
     placed = None
     while placed is None:
         area = (0.0, 0.0, side, side)
-        placed = packed_apart(blocks, (), area, lambda b: -b.width * b.height, APART)
+        placed = packed_apart(blocks, (), area, APART)
         # the bed grows by a tenth until all parts fit
         side *= 1.1
     return [

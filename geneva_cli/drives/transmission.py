@@ -80,18 +80,15 @@ class Transmission(Drive, kw_only=True):
         for place in rollers:
             (middle_deg, turned), anchors = self.about(place.crank_deg), []
             for pose in place.poses:
-                at_deg, advance = middle_deg, turned
-                if not isinstance(pose.crank_deg, float) or pose.crank_deg:
-                    at_deg, advance = self.about(place.crank_deg + pose.crank_deg)
+                at_deg, advance = self.about(place.crank_deg + pose.crank_deg)
                 travel = PinTravel(pose, advance)
                 anchors.append(Anchor(at_deg - middle_deg, pose.wheel, pose.along, travel))
             path = AnchoredPath(tuple(anchors))
             slot, motion = wheel.follow(path, place, turned)
             first = isinstance(place.crank_deg, float) and place.crank_deg == 0.0
-            single = isinstance(side_crank, float) and isinstance(place.ratio, float)
             if place.closed and self.direct:
                 motion = StraightSlotMotion(path, place.step.b, closed=place.closed)
-            elif place.closed and first and side_crank is not None and not (single or wheel.steps):
+            elif place.closed and first and side_crank is not None and not wheel.steps:
                 from geneva_cli.motion.wheels.side_crank_arrays import SideCrankMotion
 
                 motion = SideCrankMotion(path, place.step.b, side_crank, place.closed)

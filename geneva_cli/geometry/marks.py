@@ -28,11 +28,18 @@ def linear(
     seen = (complex(*p) * u.conjugate() for p in ends)
     a, b = sorted((p.real, p.imag) for p in seen)
     long, length = sheet.width(text) * sheet.SMALL, b[0] - a[0]
-    spare = length - long - 2.0 * (LENGTH + CLEAR)
     inside = length > 3.0 * LENGTH
     beyond = 0.0 if inside else 2.5 * LENGTH  # of the dimension line
-    aside = (beyond or 0.5 * LENGTH) + CLEAR  # of a text
     turns = (turn + math.pi, turn) if inside else (turn, turn + math.pi)
+    # where the text begins: between the arrows at fractions of the free length, or beyond one end
+    spare, aside = length - long - 2.0 * (LENGTH + CLEAR), (beyond or 0.5 * LENGTH) + CLEAR
+    fractions = (0.5, 0.25, 0.75, 0.0, 1.0) if spare >= 0.0 else ()
+    starts = [a[0] + LENGTH + CLEAR + fraction * spare for fraction in fractions]
+    starts += [b[0] + aside, a[0] - aside - long]
+    # it is above its line, readable from below or from the right
+    down = u.real < -1e-9 or (u.real <= 1e-9 and u.imag <= 0.0)
+    off = (CLEAR + sheet.BELOW * sheet.SMALL) * (-1.0 if down else 1.0)
+    readable = math.remainder(turn + math.pi, math.tau) if down else turn
     for level in levels:
         arrows = sheet.Arrow(at(a[0], level), turns[0]), sheet.Arrow(at(b[0], level), turns[1])
         extensions = []
@@ -42,24 +49,10 @@ def linear(
                 begin, end = across + side * CLEAR, level + side * PAST
                 extensions.append(Line(at(along, begin), at(along, end)))
         points = at(*a), at(*b), at(b[0], level)
-        # fractions of the free length before the text; below 0 or above 1 it is beyond one end
-        for place in (0.5, 0.25, 0.75, 0.0, 1.0, 2.0, -1.0):
-            if 0.0 <= place <= 1.0 and spare < 0.0:
-                continue
-            low, high = a[0] - beyond, b[0] + beyond
-            start = a[0] + LENGTH + CLEAR + place * spare
-            if place > 1.0:
-                start = b[0] + aside
-                high = start + long + CLEAR
-            elif place < 0.0:
-                start = a[0] - aside - long
-                low = start - CLEAR
-            # the text is above its line, readable from below or from the right
-            off, readable, first = CLEAR + sheet.BELOW * sheet.SMALL, turn, start
-            if u.real < -1e-9 or (u.real <= 1e-9 and u.imag <= 0.0):
-                off, first = -off, start + long
-                readable = math.remainder(turn + math.pi, math.tau)
-            label = sheet.Label(text, at(first, level + off), sheet.SMALL, readable)
+        for start in starts:
+            low, high = min(a[0] - beyond, start - CLEAR), max(b[0] + beyond, start + long + CLEAR)
+            first = at(start + long if down else start, level + off)
+            label = sheet.Label(text, first, sheet.SMALL, readable)
             lines = (Line(at(low, level), at(high, level)), *extensions)
             yield sheet.Measure("length", points, value, label, lines, arrows, turn)
 

@@ -23,13 +23,7 @@ if TYPE_CHECKING:
 MM = 1e-3  # metres
 Z_AXIS = (0.0, 0.0, 1.0)
 SAMPLED = 1e-4, 0.5  # mm: sagitta and length of samples of a hole that is not a circle
-# Gauss-Legendre's abscissae and weights of eight points on -1..1, of which four are below 0
-GAUSS = (
-    (0.18343464249564980, 0.36268378337836198),
-    (0.52553240991632899, 0.31370664587788729),
-    (0.79666647741362674, 0.22238103445337447),
-    (0.96028985649753623, 0.10122853629037626),
-)
+GAUSS = np.transpose(np.polynomial.legendre.leggauss(8)).tolist()  # nodes on -1..1 with weights
 OVER_A_RADIAN = partial(lt, math.tan(0.25))  # is the bulge of an arc above that of a radian?
 
 
@@ -162,19 +156,18 @@ def moments(shape: Shape) -> Moments:
         half = 0.5 * piece.sweep if isinstance(piece, Arc) else 0.0
         chord = complex(*piece.end) - complex(*piece.start)
         chord *= half / math.sin(half) if half else 1.0  # as long as the arc
-        for node, weight in GAUSS:
-            for away in (-node, node):  # from the middle
-                t = 0.5 + 0.5 * away
-                x, y = shapes.at(piece, t)
-                if isinstance(piece, Cubic):
-                    a, b, c, d = (complex(*pole) for pole in piece)
-                    u = 1.0 - t
-                    rate = 3.0 * (u * u * (b - a) + 2.0 * u * t * (c - b) + t * t * (d - c))
-                else:
-                    rate = chord * cmath.rect(1.0, away * half)
-                swept = 0.5 * weight * (x * rate.imag - y * rate.real)
-                polar = 0.25 * (x * x + y * y)
-                rows.append((swept * 0.5, swept * (x / 3.0), swept * (y / 3.0), swept * polar))
+        for away, weight in GAUSS:  # from the middle
+            t = 0.5 + 0.5 * away
+            x, y = shapes.at(piece, t)
+            if isinstance(piece, Cubic):
+                a, b, c, d = (complex(*pole) for pole in piece)
+                u = 1.0 - t
+                rate = 3.0 * (u * u * (b - a) + 2.0 * u * t * (c - b) + t * t * (d - c))
+            else:
+                rate = chord * cmath.rect(1.0, away * half)
+            swept = 0.5 * weight * (x * rate.imag - y * rate.real)
+            polar = 0.25 * (x * x + y * y)
+            rows.append((swept * 0.5, swept * (x / 3.0), swept * (y / 3.0), swept * polar))
     return total(rows)
 
 

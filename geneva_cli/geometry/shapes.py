@@ -11,6 +11,8 @@ from itertools import permutations
 from operator import attrgetter, itemgetter
 from typing import Literal, NamedTuple, TypeAlias, TypeVar
 
+import numpy as np
+
 Point: TypeAlias = tuple[float, float]
 ORIGIN: Point = (0.0, 0.0)
 STRAIGHT = 1e-16  # a bulge below it moves no point of the arc by a rounding of the chord
@@ -321,15 +323,11 @@ def _extremes(segment: Segment) -> Iterator[Point]:
     yield segment.end
     if isinstance(segment, Cubic):
         for a, b, c, d in zip(*segment, strict=True):
-            # the derivative's Bernstein coefficients, by 3: square t² + 2 half t + e = 0
+            # the derivative's Bernstein coefficients, by 3
             e, f, g = b - a, c - b, d - c
-            square, half = e - 2.0 * f + g, f - e
-            under = half * half - square * e
-            if under >= 0.0:
-                root = -(half + math.copysign(math.sqrt(under), half))  # no cancellation
-                roots = [root / square] if square else []
-                roots += [e / root] if root else []
-                yield from (at(segment, t) for t in roots if 0.0 < t < 1.0)
+            roots = np.roots((e - 2.0 * f + g, 2.0 * (f - e), e))
+            places = roots.real[np.isreal(roots)].tolist()
+            yield from (at(segment, t) for t in places if 0.0 < t < 1.0)
     elif isinstance(segment, Arc) and abs(segment.bulge) >= STRAIGHT:
         sweep, quarter, first = segment.sweep, 0.5 * math.pi, directions(segment)[0]
         low, high = sorted((first, first + sweep))

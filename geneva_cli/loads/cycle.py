@@ -116,16 +116,13 @@ class Cycle:
         """The motions, divided at breaks and where torque, sliding or input torque change sign."""
         out = []
         for engagement in self.mechanism.engagements:
-            load = load_functions.LoadFunctions(engagement, self.case, (), more=("slides", "feeds"))
+            kinds = "drives", "slides", "feeds"
+            load = load_functions.LoadFunctions(engagement, self.case, (), kinds=kinds)
             found = load.stretches()
-            signs = dict(zip(load.kinds, np.where(found.positive, 1.0, -1.0), strict=True))
-            of = (signs.get(k, np.ones(found.x.shape[1])) for k in ("drives", "slides", "feeds"))
-            # where only signs that do not matter here differ, a stretch goes on
-            rows = np.array([found.span, *of])
-            first = np.append(True, (rows[:, 1:] != rows[:, :-1]).any(axis=0))
-            ends = load_functions.on_breaks(found.x[1, np.append(first[1:], True)], engagement)
+            ends = load_functions.on_breaks(found.x[1], engagement)
             cuts = [engagement.entry_deg, *ends[:-1].tolist(), engagement.exit_deg]
-            for (start, end), own in zip(pairwise(cuts), rows[1:, first].T.tolist(), strict=True):
+            signs = np.where(found.positive, 1.0, -1.0).T.tolist()
+            for (start, end), own in zip(pairwise(cuts), signs, strict=True):
                 if start < end:
                     out.append((engagement, Stretch(start, end, *own)))
         return out

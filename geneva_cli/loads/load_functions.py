@@ -52,7 +52,9 @@ class LoadFunctions:
         names: Sequence[str],
         own: Own = None,
         more: Sequence[str] = (),
+        kinds: Sequence[str] = (),
     ) -> None:
+        """Signs that matter are those of ``kinds``; or else those of the load, and ``more``."""
         self.engagement, self.case, self.names = engagement, case, names
         self.n = np.size(case.design)
         matters = {
@@ -65,7 +67,8 @@ class LoadFunctions:
             "edge": engagement.slot.curved and case.hertz is not None,
         }
         every = *SIGN_FUNCTIONS, "wanted"
-        self.kinds = [kind for kind in every if matters.get(kind) or kind in more]
+        own_kinds = [kind for kind in every if matters.get(kind) or kind in more]
+        self.kinds = [*kinds] or own_kinds
         self.signs, self.wanted = len(self.kinds), len(names)
         self.poled: Sequence[int] = (self.kinds.index("edge"),) if "edge" in self.kinds else ()
         # where links carry the roller, bearings and guide need the reactions of joints
@@ -101,21 +104,10 @@ class LoadFunctions:
 
     def search(self, sized: bool = False) -> SearchResult:
         """The greatest values of the quantities and of their negatives, or their greatest sizes."""
-        parts, case, engagement = self.spans, self.case, self.engagement
-        is_curved = engagement.slot.curved
-        # Without friction, for an inertia or a torque alone, the second half of the motion has no
-        # greater sizes than the first. In a curved slot a torque alone presses on one wall
-        # throughout, whose two halves differ in curvature.
-        alone = all_true(case.inertia_Nm == 0.0) and not is_curved
-        alone = alone or all_true(case.resists_Nm == 0.0)
-        alone = alone and not (case.rubs or case.guided or self.reactions)
-        radial = all_true(engagement.slot.offset == 0.0)
-        if sized and alone and radial and engagement.mirrored:
-            parts = parts[: len(parts) // 2]
         known = list[Known]()
-        if is_curved:  # no span reaches mid-motion
-            known = at_mid_motion(engagement, case, self.quantities, self.n)
-        return search(self, parts, sized, known, self.spread)
+        if self.engagement.slot.curved:  # no span reaches mid-motion
+            known = at_mid_motion(self.engagement, self.case, self.quantities, self.n)
+        return search(self, self.spans, sized, known, self.spread)
 
     def stretches(self, result: SearchResult | None = None) -> Stretches:
         """The motion, divided where signs change: as in a search, or without one."""

@@ -22,6 +22,8 @@ GROUPS = {  # a page each, and what one of its entries is
     "choices": "choice",
 }
 
+ITEM = r"^- ([A-Z][a-z ]*): (.*(?:\n  .*)*)"  # a label and its text, with indented lines
+
 
 class Entry(NamedTuple):
     """One heading of a page and its texts, without line breaks; "" for what a page leaves out."""
@@ -53,7 +55,19 @@ def entries() -> tuple[Entry, ...]:
     >>> next(e.unit for e in entries() if "power.max" in e.names)
     '1'
     """
-    return tuple(entry for page in GROUPS for entry in _read(page))
+    out = []
+    for page in GROUPS:
+        links = dict[str, str]()  # those of the last entry, by the first word of its name
+        for section in re.split(r"^## ", text(page), flags=re.MULTILINE)[1:]:
+            heading, _, body = section.partition("\n")
+            names, meaning = tuple(heading.split(", ")), body.strip().partition("\n\n")[0]
+            texts = dict[str, str]()
+            for label, words in re.findall(ITEM, body, re.MULTILINE):
+                texts[label.lower().replace(" ", "_")] = " ".join(words.split()).strip("`")
+            word = names[0].partition(".")[0]
+            links[word] = texts["see"] = texts.get("see") or links.get(word, "")
+            out.append(Entry(page, names, " ".join(meaning.split()), **texts))
+    return tuple(out)
 
 
 def head(page: str) -> str:
@@ -68,25 +82,3 @@ def head(page: str) -> str:
 def text(page: str) -> str:
     """Text of a page without pictures; that of quantities is printed as a table."""
     return read("quantities.txt") if page == "quantities" else read("reference", f"{page}.md")
-
-
-def _read(page: str) -> list[Entry]:
-    _, *sections = re.split(r"^## ", text(page), flags=re.MULTILINE)
-    read: list[Entry] = []
-    links: dict[str, str] = {}  # those of the last entry, by the first word of its name
-    for entry in (_entry(page, section) for section in sections):
-        word = entry.names[0].partition(".")[0]
-        links[word] = entry.see or links.get(word, "")
-        read.append(entry._replace(see=links[word]))
-    return read
-
-
-def _entry(page: str, section: str) -> Entry:
-    heading, _, text = section.partition("\n")
-    meaning = text.strip().partition("\n\n")[0]
-    items = re.findall(r"^- ([A-Z][a-z ]*): (.*(?:\n  .*)*)", text, re.MULTILINE)
-    texts = {
-        label.lower().replace(" ", "_"): " ".join(words.split()).strip("`")
-        for label, words in items
-    }
-    return Entry(page, tuple(heading.split(", ")), " ".join(meaning.split()), **texts)

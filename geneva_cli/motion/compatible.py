@@ -10,7 +10,7 @@ from functools import partial, reduce
 from operator import and_
 from typing import TypeAlias, cast
 
-from geneva_cli.errors import GenevaError, refuse, refuse_text
+from geneva_cli.errors import GenevaError, refuse, refuse_size, refuse_text
 from geneva_cli.kept import load_named
 from geneva_cli.motion.drive import Drive
 from geneva_cli.motion.kind import Kind
@@ -34,7 +34,7 @@ GEARING, KIND = 'gearing = "{spec.wheel.NAME}"', 'kind = "{spec.drive.NAME}"'
 BEFORE = 'kind = "{spec.drive_before.NAME}"'
 ONE_ROLLER = "drive.rollers drive.roller_angles_deg wheel.steps_deg"  # unset for one roller
 HORNS = "size.mouth_radius_mm size.horn_tip_mm"  # of a wheel with a recess behind every slot
-BELOW = "{key} = {value:g}: it must be below {below:.6g}, {what}"
+BELOW = "it must be below {below:.6g}, {what}"
 UNBALANCED = "set count to 2 or more, or radius_mm = 0"  # what to do
 
 
@@ -124,12 +124,12 @@ def refuse_sizes(spec: Spec, L: float, ratio: float) -> None:
     size, r, distance = spec.size, spec.size.roller_radius(L), f"the {spec.wheel.DISTANCE}"
     radius, given = size.crank_radius_mm, size.center_distance_mm
     if radius is not None and given is not None:  # a crank as built, of a kind that needs its R/L
-        text = "crank_radius_mm and center_distance_mm have R/L = {given:.9g}, but this machine "
-        text += "needs {ratio:.9g}: set crank_radius_mm = {own:.9g}, or leave one of them out"
+        text = "with center_distance_mm it has R/L = {given:.9g}, but this machine "
+        text += "needs {ratio:.9g}: set crank_radius_mm = {fit:.9g}, or leave one of them out"
         if spec.motion is not None:
             text += "; or set ratio = {given:.9g} in [motion]"
-        off, place = abs(radius / L - ratio) > SAME_RATIO, ("size", "crank_radius_mm")
-        refuse_text(off, place, text, given=radius / L, ratio=ratio, own=ratio * L)
+        off, values = abs(radius / L - ratio) > SAME_RATIO, {"ratio": ratio, "given": radius / L}
+        refuse_size(off, "crank_radius_mm", text, radius, fit=ratio * L, **values)
     farthest = "the roller's greatest distance from the wheel's axis"
     if not spec.output.turns:  # a rack has no axis: where its roller is farthest from the deepest
         farthest = f"twice {distance}"
@@ -160,20 +160,16 @@ def refuse_sizes(spec: Spec, L: float, ratio: float) -> None:
             value = allowed.get(key, own)
             if value is not None:
                 by = "" if own is not None else f'; the value comes from process = "{size.process}"'
-                values = {"key": key, "value": value, "below": below, "what": meaning + by}
-                refuse_text(value >= below, ("size", key), BELOW, **values)
+                refuse_size(value >= below, key, BELOW, value, below=below, what=meaning + by)
     face, thick, edge = size.face_width_mm, size.wheel_thickness_mm, size.edge_mm
     if face is not None and thick is not None:
-        text = "wheel_thickness_mm = {thick:g}: use at least {least:g}, face_width_mm and two edges"
-        least = face + 2.0 * edge
-        at = ("size", "wheel_thickness_mm")
-        refuse_text(least > thick, at, text, thick=thick, least=least)
+        text, least = "use at least {least:g}, face_width_mm and two edges", face + 2.0 * edge
+        refuse_size(least > thick, "wheel_thickness_mm", text, thick, least=least)
     for part in ("wheel", "crank"):
         bore, hub = getattr(size, f"{part}_bore_mm"), getattr(size, f"{part}_hub_mm")
         if bore is not None and hub is not None:
-            text = f"{part}_hub_mm = {{hub:g}}: it must be at least {part}_bore_mm = {{bore:g}}, "
-            inside, at = (hub > 0.0) & (hub < bore), ("size", f"{part}_hub_mm")
-            refuse_text(inside, at, text + "or 0 for none", hub=hub, bore=bore)
+            text = f"it must be at least {part}_bore_mm = {{bore:g}}, or 0 for none"
+            refuse_size((hub > 0.0) & (hub < bore), f"{part}_hub_mm", text, hub, bore=bore)
 
 
 def refuse_tolerances(spec: Spec, L: float, ratio: float) -> None:
@@ -187,9 +183,8 @@ def refuse_tolerances(spec: Spec, L: float, ratio: float) -> None:
     slot = roller + 2.0 * spec.size.allowances.slot_clearance_mm
     disc = arm if lock is None else choose(lock == 0.0, arm, lock)
     for key in ("lock_radius_mm", "recess_radius_mm"):
-        text = f"{key} = {{value:g}}: this machine has no locking disc; remove it"
-        wrong = unlocked & (given[key] != 0.0)
-        refuse_text(wrong, ("tolerance", key), text, value=given[key])
+        text = f"{key}: this machine has no locking disc; remove it"
+        refuse_text(unlocked & (given[key] != 0.0), ("tolerance", key), text)
     for key, below, what in (
         ("center_distance_mm", L, "the centre distance"),
         ("crank_radius_mm", arm, "the crank's radius"),
@@ -199,8 +194,8 @@ def refuse_tolerances(spec: Spec, L: float, ratio: float) -> None:
         ("lock_radius_mm", disc, "the locking disc's radius, or the crank's"),
         ("recess_radius_mm", disc, "the locking disc's radius, or the crank's"),
     ):
-        values = {"key": key, "value": given[key], "below": below, "what": what}
-        refuse_text(given[key] >= below, ("tolerance", key), BELOW, **values)
+        wrong, text = given[key] >= below, f"{key} = {{value:g}}: {BELOW}"
+        refuse_text(wrong, ("tolerance", key), text, value=given[key], below=below, what=what)
 
 
 def of_pin_path(spec: Spec) -> Iterator[Conflict]:

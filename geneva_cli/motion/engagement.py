@@ -76,7 +76,8 @@ class AsBuilt(NamedTuple):
     """What a crank as built has: its R/L is not what its straight slots need."""
 
     crosses: Truth  # the axis of the slot at rest inside the rim, before and after its motion
-    gained: float  # wheel's angle beyond its next rest at which the roller leaves the rim, radians
+    # wheel's angle beyond its next rest at which the roller leaves the rim, radians; < 0 before it
+    gained: float
     angle: float  # of the slot at rest before the motion, radians from the line of centres
     outer: Truth  # it enters beyond the foot of the perpendicular from the crank's axis
 
@@ -220,11 +221,6 @@ class Engagement(Batchable):
         rates = (self.motion.rate(at, 0).c[0] for at in (self.entry_deg, self.exit_deg))
         entry, exit_ = (choose(self.built.crosses, rate, math.nan) for rate in rates)
         return entry, exit_
-
-    @property
-    def gained(self) -> Number:
-        """``AsBuilt.gained``, negative where the roller leaves before that rest; else NaN."""
-        return math.nan if self.built is None else self.built.gained
 
     @property
     def usual_acceleration(self) -> float:

@@ -7,7 +7,6 @@ psi), and from the wheel's L sin phi / sin(phi + psi); inside phi - psi.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from functools import lru_cache, partial
 
@@ -17,11 +16,11 @@ from geneva_cli.motion.engagement import Anchor, Peak, Slot, WheelMotion
 from geneva_cli.motion.laws.law import Law, remaining
 from geneva_cli.numerics import arrays
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.jet import Jet, Number, composed, piecewise, sin, sin_cos, taylor
+from geneva_cli.numerics.jet import Jet, Number, piecewise, sin, sin_cos, taylor
 
-# Where psi and phi nearly vanish together, a series of psi / phi serves. Within this fraction of
-# the motion its first terms are exact to a double, even for a law with five waves. Beyond it the
-# quotient of the sines keeps enough digits in its derivatives. A spline's series has five terms.
+# Where psi and phi nearly vanish together, series of their sines over phi serve. Within this
+# fraction of the motion 15 terms are exact to a double, even for a law with five waves. Beyond it
+# the quotient of the sines keeps enough digits in its derivatives. A spline has five terms.
 NEAR, TERMS = 1.0 / 30.0, 15
 NEAR_SPLINE_DEG, SPLINE_TERMS = 0.06, 5
 
@@ -55,22 +54,22 @@ class SolvedPath(arrays.Batchable):
         below = sin(phi + psi * self.sign)
         return Jet((*(sin(phi) / below).c, *(sin(psi) / below).c))
 
+    def _sines(self, zero: Number) -> list[Sequence[Number]]:
+        """The sines of phi, psi and phi +- psi over phi, in its powers about mid-motion."""
+        phi, psi = Jet.variable(zero, self.terms), self.motion(zero, self.terms)
+        return [sin(angle).c[1:] for angle in (phi, psi, phi + psi * self.sign)]
+
     @cached_property
-    def _series(self) -> Sequence[Number]:
-        """Coefficients of psi in powers of phi, about mid-motion."""
-        return self.motion(0.0, self.terms).c
+    def _series(self) -> list[Sequence[Number]]:
+        return self._sines(0.0)
 
     def _by_series(self, x: Number, order: int) -> Jet:
-        """Both distances near mid-motion, where both sines vanish: each is first divided by phi."""
-        t = Jet.variable(radians(x), order)
+        """Both distances near mid-motion, where the sines vanish."""
         # an enclosure knows nothing of the rounding of the cached series
         exact = isinstance(x, arrays.Enclosed)
-        c = (self.motion(*arrays.enclosed(x, (0.0,)), self.terms).c if exact else self._series)[1:]
-        slope = Jet(taylor(t.c[0], c, order))  # psi / phi
-        psi = slope * t
-        angle = slope * self.sign + 1.0  # (phi +- psi) / phi
-        below = angle * _sinc(angle * t)
-        return Jet((*(_sinc(t) / below).c, *(slope * _sinc(psi) / below).c))
+        series = self._sines(*arrays.enclosed(x, (0.0,))) if exact else self._series
+        phi, psi, below = (Jet(taylor(radians(x), c, order)) for c in series)
+        return Jet((*(phi / below).c, *(psi / below).c))
 
     @property
     def crossing(self) -> Number:
@@ -100,14 +99,6 @@ class SolvedPathSlot(Slot):
 
     def place(self, input_deg: Number, order: int) -> Jet:
         return self.path.distances(input_deg, order)[0]
-
-
-def _sinc(x: Jet) -> Jet:
-    """Jet of sin x / x for small x, from its series in x²."""
-    square, signs = x * x, tuple((-1.0) ** j for j in range(9))
-    each = enumerate(arrays.enclosed(x.c[0], signs))
-    terms = [sign / math.factorial(2 * j + 1) for j, sign in each]
-    return composed(Jet(taylor(square.c[0], terms, x.order)), square)
 
 
 class SolvedSlot(Slot):
@@ -221,9 +212,9 @@ class Backwards(Law):
     def __post_init__(self) -> None:
         super().__post_init__()
         # a law's class declares these, and finds in its keys if it varies; this one has none
-        own = {"NAME": f"{self.of.NAME}, backwards", "TURNS_BACK": self.of.TURNS_BACK}
-        vars(self).update(own, ANALYTIC=self.of.ANALYTIC, varies=self.of.varies)
-        vars(self)["symmetric"] = self.of.symmetric
+        vars(self)["NAME"] = f"{self.of.NAME}, backwards"
+        for name in ("ANALYTIC", "varies", "symmetric"):
+            vars(self)[name] = getattr(self.of, name)
 
     @property
     def breaks(self) -> tuple[float, ...]:

@@ -24,7 +24,6 @@ from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.peak_search import QUANTITIES, PeakArray, greater, motion_peaks
 from geneva_cli.numerics.arrays import Array, Mask, Number, Whole, keep_memory, parameter
 from geneva_cli.spec.rules import is_array
-from geneva_cli.spec.schema import unknown
 
 # tables whose numbers may vary
 TABLES = (
@@ -85,16 +84,12 @@ def many(spec: Spec, varied: Mapping[str, object]) -> Many:
 def may_vary(spec: Spec, key: str) -> bool:
     """True if a key of this spec may be an array: a number whose kind takes arrays."""
     table, _, name = key.rpartition(".")
-    if table not in TABLES:
+    part = spec.part(table) if table in TABLES else None
+    field = part._own_keys().get(name) if part else None
+    if part is None or field is None:
         return False
-    part = spec.part(table)
-    if part is None:
-        raise GenevaError(f"{key}: this spec has no [{table}]", (table, name))
-    known = part._own_keys()
-    if name not in known:
-        raise unknown(name, table, tuple(known))
     own = spec.motion.law if spec.motion and part is spec.motion else part
-    return bool({int, float} & set(known[name].types)) and name not in own.SHARED
+    return bool({int, float} & set(field.types)) and name not in own.SHARED
 
 
 def worst_peaks(

@@ -217,62 +217,52 @@ def derivatives(mechanism: Mechanism, input_deg: Array, orders: Sequence[int]) -
 
 
 class Stretch(NamedTuple):
-    """A part of the period between two places where a derivative may jump."""
+    """A part of the period between two places where a derivative may jump.
 
-    engagement: Engagement | None  # None in a dwell
-    begin_deg: float  # of the master, as the slave's from the first entry
+    Angles of the master, the input, and of the slave, the wheel, are degrees from the first entry.
+    """
+
+    mechanism: Mechanism
+    begin_deg: float
     end_deg: float
-    mid_deg: float  # where the engagement's own angle is 0
-    base_deg: float  # the slave's angle there; in a dwell everywhere
 
     def states(self, master_deg: Array, side: int) -> Array:
-        """Slave angle, velocity and acceleration (3, k) at ascending angles (k,).
+        """Slave angle, velocity and acceleration a degree (3, k) at ascending angles (k,).
 
         The acceleration is that just after the angles for ``side`` 1, just before for -1.
         """
         nudge = 1e-9 * side * (self.end_deg - self.begin_deg)  # into the stretch
-        wheel, velocity = self._derivatives(master_deg, (0, 1))
+        (velocity,) = self._derivatives(master_deg, (1,))
         acceleration, jerk = self._derivatives(master_deg + nudge, (2, 3))
         per_deg = np.radians(acceleration - np.radians(nudge) * jerk)
-        return np.stack([self.base_deg + np.degrees(wheel), velocity, per_deg])
+        return np.stack([self.slave_deg(master_deg), velocity, per_deg])
 
     def slave_deg(self, master_deg: Array) -> Array:
         """Slave angle (k,) at ascending angles (k,)."""
-        return self.base_deg + np.degrees(self._derivatives(master_deg, (0,))[0])
+        (wheel,) = self._derivatives(master_deg, (0,))
+        return np.degrees(wheel + self.mechanism.engagements[0].half_step)
 
     def _derivatives(self, master_deg: Array, orders: Sequence[int]) -> list[Array]:
-        if self.engagement is None:
-            return [np.zeros(len(master_deg)) for _ in orders]
-        first, last = self.engagement.entry_deg, self.engagement.exit_deg
-        local = np.clip(master_deg - self.mid_deg, first, last)
-        return self.engagement.motion.derivatives(local, orders)
+        return derivatives(self.mechanism, first_entry_deg(self.mechanism) + master_deg, orders)
 
 
 def stretches(mechanism: Mechanism) -> list[Stretch]:
-    """The stretches of a period, in order: those of each motion, then its dwell."""
-    out: list[Stretch] = []
-    begin, slave = 0.0, 0.0
-    for i, engagement in enumerate(mechanism.engagements):
-        half = math.degrees(engagement.half_step)
-        mid = begin - engagement.entry_deg
-        # seams within the rounding of half a turn are one: no stretch is that short
-        for first, last in pairwise(distinct(engagement.motion.seams_deg, 1e-12)):
-            out.append(Stretch(engagement, mid + first, mid + last, mid, slave + half))
-        slave += 2.0 * half
-        dwell = mechanism.dwell_deg(i)
-        begin = mid + engagement.exit_deg + dwell
-        if dwell > 0.0:
-            out.append(Stretch(None, begin - dwell, begin, begin, slave))
-    # Sums of angles are rounded: each stretch ends where the next one begins, the last at the end.
-    ends = [*(stretch.begin_deg for stretch in out[1:]), mechanism.period_deg]
-    return [stretch._replace(end_deg=end) for stretch, end in zip(out, ends, strict=True)]
+    """The stretches of a period, in order."""
+    knots = knots_deg(mechanism, 1).tolist()
+    return [Stretch(mechanism, begin, end) for begin, end in pairwise(knots)]
 
 
 def knots_deg(mechanism: Mechanism, count: int) -> Array:
     """Where a derivative may jump in ``count`` periods, and the end: degrees from first entry."""
-    ends = [stretch.begin_deg for stretch in stretches(mechanism)]
+    begins, entry = list[float](), 0.0
+    for i, engagement in enumerate(mechanism.engagements):
+        # seams within the rounding of half a turn are one: no stretch is that short
+        *seams, last = distinct(engagement.motion.seams_deg, 1e-12)
+        mid, dwell = entry - engagement.entry_deg, mechanism.dwell_deg(i)
+        begins += [mid + seam for seam in (*seams, *([last] if dwell > 0.0 else []))]
+        entry = mid + engagement.exit_deg + dwell
     repeats = mechanism.period_deg * np.arange(count)[:, None]
-    knots: Array = np.append((repeats + np.array(ends)).ravel(), count * mechanism.period_deg)
+    knots: Array = np.append((repeats + np.array(begins)).ravel(), count * mechanism.period_deg)
     return knots
 
 

@@ -41,14 +41,6 @@ def curves(motion: WheelMotion, quantities: Sequence[str]) -> Smooth:
     return Smooth(jets, len(quantities), unit=DEGREE)
 
 
-def breaks(motion: WheelMotion, m: int) -> list[Array]:
-    """The breaks of m motions, in degrees: (m, 1) each."""
-    out = []
-    for x in motion.breaks_deg:
-        out.append(np.broadcast_to(np.asarray(x, dtype=float), (m, 1)))
-    return out
-
-
 def spans(motion: WheelMotion, m: int) -> list[tuple[Array, Array]]:
     """Ends of the smooth parts of m motions, (m, 1) each, clear of the breaks between them.
 
@@ -56,10 +48,9 @@ def spans(motion: WheelMotion, m: int) -> list[tuple[Array, Array]]:
     0 is exact. The value at a break itself belongs to the part before it, so that the part after it
     begins at least one double later.
     """
-    places = breaks(motion, m)
-    begin, last = places[0], places[-1]
+    begin, *inner, last, _ = np.broadcast_arrays(*motion.breaks_deg, np.empty((m, 1)))
     blur, out = motion.breaks_to * (last - begin), []
-    for x in places[1:-1]:
+    for x in inner:
         clear = np.where(x == 0.0, 0.0, blur)
         out.append((np.minimum(begin, last), np.maximum(begin, x - clear)))
         # beyond 0 the next double would become 0 again where it is scaled

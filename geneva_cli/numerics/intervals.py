@@ -66,22 +66,17 @@ class Interval(Enclosed):
         return np.nan_to_num(np.maximum(-self.low, self.high), nan=math.inf, posinf=math.inf)
 
     def piece(self, cuts: Sequence[float]) -> int:
-        numbers = self._piece_or_nan(cuts)
-        first = np.ravel(numbers)[0]
-        if np.any(numbers != first):  # also where it is open, NaN
-            raise Undecided(numbers)
-        return int(first)
+        numbers = np.ravel(self.pieces(cuts))
+        if np.any(numbers != numbers[0]):
+            raise Undecided(numbers.astype(float))
+        return int(numbers[0])
 
     def pieces(self, cuts: Sequence[float]) -> Whole:
-        numbers = self._piece_or_nan(cuts)
-        if np.isnan(numbers).any():
-            raise Undecided(0.0 * numbers)
-        return numbers.astype(int)
-
-    def _piece_or_nan(self, cuts: Sequence[float]) -> Array:
         inside = [np.minimum(cut - self.low, self.high - cut) > self.REACH for cut in cuts]
-        number = np.searchsorted(cuts, 0.5 * (self.low + self.high))
-        return np.where(np.any(inside, axis=0), math.nan, number)
+        is_open = np.any(inside, axis=0)
+        if np.any(is_open):
+            raise Undecided(np.where(is_open, math.nan, 0.0))
+        return np.searchsorted(cuts, 0.5 * (self.low + self.high))
 
     def __neg__(self) -> Interval:
         return Interval(-self.high, -self.low)

@@ -35,15 +35,35 @@ class PiecewisePolynomial:
 
 def at_rest(x: Sequence[float], y: Sequence[float]) -> PiecewisePolynomial:
     """Return the spline through points whose first two derivatives are zero at both ends."""
-    from scipy.interpolate import PPoly, make_interp_spline  # of table laws alone
-
-    rest = [(1, 0.0), (2, 0.0)]
-    spline = PPoly.from_spline(make_interp_spline(x, y, SPLINE_DEGREE, bc_type=(rest, rest)))
-    # powers in rising order, without the pieces of no width between the knots at either end
-    rows: Array = spline.c[::-1, SPLINE_DEGREE:-SPLINE_DEGREE].T.copy()
-    rows[:, 0] = y[:-1]
-    rows[0, 1:3] = 0.0
-    starts = np.array(x[:-1])
+    starts, h, rise = np.array(x[:-1]), np.diff(x), np.diff(y)
+    a, b, (low, high) = h[:-1], h[1:], (rise[:-1], rise[1:])
+    # Slope and curvature at the points inside are unknown. The fourth and the third derivative do
+    # not jump there: a row each, by those of the point before, of the point and of the one after.
+    before, here, after = (
+        np.moveaxis(np.array(rows), -1, 0)
+        for rows in (
+            ((168.0 / a**3, 24.0 / a**2), (-24.0 / a**2, -3.0 / a)),
+            (
+                (192.0 / a**3 + 192.0 / b**3, 36.0 / b**2 - 36.0 / a**2),
+                (36.0 / b**2 - 36.0 / a**2, 9.0 / a + 9.0 / b),
+            ),
+            ((168.0 / b**3, -24.0 / b**2), (24.0 / b**2, -3.0 / b)),
+        )
+    )
+    known = np.array((360.0 * (low / a**4 + high / b**4), 60.0 * (high / b**3 - low / a**3))).T
+    for i in range(1, len(known)):
+        factor = before[i] @ np.linalg.inv(here[i - 1])
+        here[i] -= factor @ after[i - 1]
+        known[i] -= factor @ known[i - 1]
+    rates = np.zeros((len(x), 2))
+    for i in reversed(range(len(known))):
+        rates[i + 1] = np.linalg.solve(here[i], known[i] - after[i] @ rates[i + 2])
+    slope, bend = rates.T
+    (p, q), (u, v) = (slope[:-1] * h, slope[1:] * h), (bend[:-1] * h * h, bend[1:] * h * h)
+    third = (10.0 * rise - 6.0 * p - 4.0 * q - 1.5 * u + 0.5 * v) / h**3
+    fourth = (-15.0 * rise + 8.0 * p + 7.0 * q + 1.5 * u - v) / h**4
+    fifth = (6.0 * rise - 3.0 * p - 3.0 * q - 0.5 * u + 0.5 * v) / h**5
+    rows = np.column_stack((y[:-1], slope[:-1], 0.5 * bend[:-1], third, fourth, fifth))
     return PiecewisePolynomial(starts[1:], starts, rows)
 
 

@@ -20,7 +20,7 @@ from geneva_cli.output.ezdxf_alone import BaseLayout, Document, Modelspace, opti
 from geneva_cli.output.inks import CENTRE_LINES, DASHES, INKS
 from geneva_cli.output.splines import Piece, pieces
 
-USUAL = "R2000"
+USUAL, R12 = "R2000", "AC1009"
 FLOAT_CODES = {*range(10, 60), *range(110, 150), *range(210, 240), *range(460, 470)}
 FLOAT_CODES |= {*range(1010, 1060)}
 # group code 70 of a DIMENSION, and the attributes that hold its points
@@ -77,7 +77,7 @@ def _draw(space: BaseLayout, shape: shapes.Shape) -> None:
     if not any(isinstance(segment, shapes.Cubic) for segment in segments):
         _polyline(space, shape.layer, segments, shape.closed)
         return
-    if _is_r12(space):
+    if space.dxfversion == R12:
         raise GenevaError(
             "--dxf-version R12 has no splines: leave out --curves spline, or take a newer one"
         )
@@ -90,13 +90,8 @@ def _polyline(space: BaseLayout, layer: str, segments: list[shapes.Segment], clo
     if not close:
         points.append((*segments[-1].end, 0.0))
     # R12 has no LWPOLYLINE
-    add = space.add_polyline2d if _is_r12(space) else space.add_lwpolyline
+    add = space.add_polyline2d if space.dxfversion == R12 else space.add_lwpolyline
     add(points, format="xyb", close=close, dxfattribs={"layer": layer})
-
-
-def _is_r12(space: BaseLayout) -> bool:
-    assert space.doc is not None
-    return bool(space.doc.dxfversion == "AC1009")
 
 
 def _entity(space: BaseLayout, layer: str, piece: Piece) -> None:

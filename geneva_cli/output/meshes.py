@@ -1,6 +1,7 @@
 """The solids of a part as closed meshes, by manifold3d: one for each kind, and its places."""
 
 import math
+from collections.abc import Iterator
 from functools import lru_cache
 from typing import NamedTuple, TypeAlias
 
@@ -39,23 +40,25 @@ class Body(NamedTuple):
 def bodies(drawing: Drawing, format: str) -> list[Body]:
     """Return the kinds of solids of a drawing; their chords keep the drawing's tolerance."""
     kinds: dict[Solid, list[Place]] = {}
-    rest: list[tuple[Part, Array, Array]] = [(solid_part(drawing, format), np.eye(3), np.zeros(3))]
-    while rest:
-        part, turn, shift = rest.pop()
-        if not isinstance(part, Group):
-            kinds.setdefault(part, []).append((turn, shift))
-            continue
-        for member in reversed(part.members):
-            c, s = math.cos(member.turn), math.sin(member.turn)
-            own = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
-            if member.frame:
-                own = np.array([member.frame.x, member.frame.y, member.frame.z]).T
-            at = turn @ np.array([*member.at, 0.0]) + shift
-            rest.append((member.part, turn @ own, at))
+    for solid, place in _places(solid_part(drawing, format), (np.eye(3), np.zeros(3))):
+        kinds.setdefault(solid, []).append(place)
     return [
         Body(solid.name, solid.layer, *_surface(solid, drawing.tolerance), places)
         for solid, places in kinds.items()
     ]
+
+
+def _places(part: Part, place: Place) -> Iterator[tuple[Solid, Place]]:
+    """Yield the solids of a part, which is at a position, and their positions."""
+    if not isinstance(part, Group):
+        yield part, place
+        return
+    turn, shift = place
+    for member in part.members:
+        c, s = math.cos(member.turn), math.sin(member.turn)
+        frame = member.frame or ((c, s, 0.0), (-s, c, 0.0), (0.0, 0.0, 1.0))
+        at = turn @ np.array([*member.at, 0.0]) + shift
+        yield from _places(member.part, (turn @ np.array(frame).T, at))
 
 
 def placed(corners: Array, place: Place) -> Array:

@@ -60,7 +60,7 @@ def framed(
     fixed = [one for one in (*bars.cut, *bars.gears) if one.part.name in bars.standing]
     fixed += [Member(plate, (L, 0.0)) for plate in (base, bridge) if plate]
     screwed, spacers = list[tuple[str, str, Circle]](), list[Member]()
-    for member, hole in ((one, hole) for one in fixed for hole in placed_holes(one)):
+    for member, hole in [(one, hole) for one in fixed for hole in placed_holes(one)]:
         part = member.part
         assert isinstance(part, Plate)
         if same(hole.centre, member.at, L):  # for its shaft

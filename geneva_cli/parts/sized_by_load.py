@@ -37,6 +37,7 @@ from geneva_cli.numerics.arrays import (
 from geneva_cli.numerics.tolerances import keeps, trials_from
 from geneva_cli.parts import sizes as rules
 from geneva_cli.parts.assembly import Assembly, gear_plane, is_bridged, links_at
+from geneva_cli.parts.outlines.crank_outline import is_whole
 from geneva_cli.parts.outlines.outlines import wheel_hub_length
 from geneva_cli.parts.shafts.bores import reach_or_bore
 from geneva_cli.parts.sizes import Sizes
@@ -68,7 +69,9 @@ def planes_below(machine: Mechanism) -> tuple[tuple[int, bool], ...]:
 
     With each goes True if it is below the arm.
     """
-    planes = [(link.plane, False) for link in links_at(machine, np.zeros(1))]
+    planes = list[tuple[int, bool]]()
+    for link in links_at(machine, np.zeros(1)):
+        planes.append((link.plane, False))
     planes += [(gear_plane(machine), False)] if machine.spec.gears else []
     if machine.engagements[0].groove is not None:  # its plate has its base below the groove
         planes.append((3, False) if machine.spec.drive_before else (2, True))
@@ -100,9 +103,7 @@ def stressed(assembly: Assembly, sizes: Sizes, own: Spec | None = None) -> Stres
         on_crank = choose(sizes.crank_bore > 0.0, over, on_crank)
     long, hole = sizes.reaches[1], rules.hole_radius(size, sizes.pin)
     bored = reach_or_bore(size, "crank", sizes.arm_bore)
-    # some of the disc is left at the axis, or else its sectors stand on the hub
-    whole = np.logical_and(assembly.sign > 0.0, assembly.L - sizes.rim > sizes.relief)
-    standing = choose(whole, 0.0, sizes.lock)
+    standing = choose(is_whole(assembly, sizes), 0.0, sizes.lock)  # sectors stand on the hub
     hub = rules.arm_hub(size, bored, sizes.arm_bore, sizes.wall_min, standing)
     passing = sizes.passing_eye(assembly.L - long)
     eye = half_or(size.arm_eye_mm, eye_about(hole, sizes.wall_min, passing))

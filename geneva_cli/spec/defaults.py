@@ -88,29 +88,16 @@ def roller_material(spec: Spec) -> Stock:
     return _material(spec.material_roller, Stock())
 
 
-def material_names(spec: Spec) -> tuple[str, str]:
-    """Names of the material of plates and of rods: the grade, or the density of an unusual one."""
-    return (
-        _named(spec.material_wheel, wheel_material(spec), WORKSHOPS[spec.size.process].stock),
-        _named(spec.material_roller, roller_material(spec), Stock()),
-    )
-
-
-def _named(own: Material, of: Stock, usual: Stock) -> str:
-    if own.grade or of == usual._replace(allowed_MPa=of.allowed_MPa):
-        return of.grade
-    return f"{of.density_kgm3:g} kg/m³"
-
-
 def _material(own: Material, usual: Stock) -> Stock:
     """Return the values of the spec, and else those of the usual material.
 
     A part of another stiffness is of another material, which has no default of its strength.
     """
+    is_known = own.youngs_modulus_GPa is own.poisson_ratio is own.density_kgm3 is None
     modulus = value_or(own.youngs_modulus_GPa, usual.youngs_modulus_GPa)
     is_usual = modulus == usual.youngs_modulus_GPa
     return Stock(
-        own.grade or usual.grade,
+        own.grade or (usual.grade if is_known else ""),
         modulus,
         value_or(own.poisson_ratio, usual.poisson_ratio),
         value_or(own.density_kgm3, usual.density_kgm3),

@@ -73,17 +73,6 @@ class Csv:
             )
         return ""
 
-    def check(
-        self, pairs: Sequence[tuple[float, float]], name: str, place: tuple[str, ...]
-    ) -> None:
-        """Raise GenevaError, which begins with ``name``, for pairs that break the rule."""
-        for i in range(len(pairs)):
-            if fault := self.fault(pairs, i):
-                raise GenevaError(f"{name}, point {i + 1}: {fault}", place)
-        if len(pairs) < self.POINTS_MIN:
-            text = f"{name}: {len(pairs)} points; at least {self.POINTS_MIN} are needed"
-            raise GenevaError(text, place)
-
 
 POSITIVE = Range(1e-12, 1e12)
 NOT_NEGATIVE = Range(0.0, 1e12)

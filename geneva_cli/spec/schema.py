@@ -24,7 +24,7 @@ from geneva_cli.spec.rules import TINY, Csv, OneOf, Range, is_array, plain
 LIST: TypeAlias = tuple[float, ...]
 LIST_MAX = 1000
 TEXT_MAX = 500  # letters of a free text; a drawing fits a longer one into no title block
-SHOWN_MAX = 200  # characters of a value in a record that is shown shortly
+SHOWN_MAX = 200  # characters of a value in a record that is shown
 REQUIRED = dataclasses.MISSING
 _NAMES: dict[Any, str] = {
     LIST: "a list of numbers",
@@ -116,9 +116,6 @@ class SpecTable:
     def __setattr__(self, name: str, value: object) -> None:
         raise dataclasses.FrozenInstanceError(f"cannot assign to field {name!r}")
 
-    def __delattr__(self, name: str) -> None:
-        raise dataclasses.FrozenInstanceError(f"cannot delete field {name!r}")
-
     def __post_init__(self) -> None:
         own = vars(self)
         for field in fields(type(self)):
@@ -130,8 +127,6 @@ class SpecTable:
         if not (isinstance(other, SpecTable) and type(other) is type(self)):
             return NotImplemented
         own, others, names = vars(self), vars(other), type(self)._parameters
-        if self is other:
-            return True
         return [*map(own.__getitem__, names)] == [*map(others.__getitem__, names)]
 
     def __hash__(self) -> int:
@@ -147,8 +142,13 @@ class SpecTable:
         return {name: value for name, value in vars(self).items() if name != HASH}
 
     def __repr__(self) -> str:
-        own, kind = vars(self), type(self)
-        return f"{kind.__qualname__}({', '.join(f'{n}={own[n]!r}' for n in kind._parameters)})"
+        """The record as Python writes it, without the fields that have their defaults."""
+        arguments = []
+        for name, one in self._parameters.items():
+            text = repr(vars(self)[name])
+            if one.repr and text != repr(one.default):
+                arguments.append(f"{name}={cut(text, SHOWN_MAX)}")
+        return f"{type(self).__qualname__}({', '.join(arguments)})"
 
     def as_dict(self) -> dict[str, Any]:
         """Values by key.
@@ -188,7 +188,7 @@ class SpecTable:
         """Return a copy with some fields changed and checked.
 
         >>> Spherical(6).replace(axes_deg=60.0)
-        Spherical(z=6, held_by=None, axes_deg=60.0)
+        Spherical(z=6, axes_deg=60.0)
         """
         # dataclasses.replace takes twice the time
         kind = type(self)
@@ -209,21 +209,6 @@ def refuse_keywords(what: str, names: Iterable[str], known: Sequence[str]) -> No
         if name not in known:
             hint = nearest(name, known)
             raise GenevaError(f"{what} has no {cut(name)}{hint}; it takes {few(name, known)}")
-
-
-def shortly(record: object) -> str:
-    """A record as Python writes it, without the fields that have their defaults.
-
-    >>> shortly(SideCrank(A=0.6))
-    'SideCrank(A=0.6)'
-    """
-    arguments = []
-    for one in dataclasses.fields(record):  # type: ignore[arg-type]
-        value = getattr(record, one.name)
-        if one.repr and value != one.default:
-            text = shortly(value) if dataclasses.is_dataclass(value) else repr(value)
-            arguments.append(f"{one.name}={cut(text, SHOWN_MAX)}")
-    return f"{type(record).__name__}({', '.join(arguments)})"
 
 
 # by class; mypy takes no class with a hash of its own as an argument of functools.cache
@@ -307,7 +292,13 @@ def _points(place: tuple[str, ...], field: Field, value: Any) -> Points:
         except (TypeError, ValueError):
             text = f"{field.key}: points must be pairs of numbers u,s"
             raise GenevaError(text, place) from None
-    field.rule.check(value.pairs, value.file or field.key, place)
+    rule, pairs, name = field.rule, value.pairs, value.file or field.key
+    for i in range(len(pairs)):
+        if fault := rule.fault(pairs, i):
+            raise GenevaError(f"{name}, point {i + 1}: {fault}", place)
+    if len(pairs) < rule.POINTS_MIN:
+        text = f"{name}: {len(pairs)} points; at least {rule.POINTS_MIN} are needed"
+        raise GenevaError(text, place)
     return value
 
 

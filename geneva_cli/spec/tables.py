@@ -64,7 +64,7 @@ class Size(SpecTable, table="size"):
     wheel_outer_radius_mm: Annotated[Positive, "internal: outer radius; default slots + 2 r"] = None
     slot_bottom_clearance_mm: Annotated[NotNegative, "roller to a slot's end; default r/20"] = None
     lock_radius_mm: Annotated[NotNegative, "locking disc's radius; 0 none; default by horns"] = None
-    relief: Annotated[str | None, OneOf(("arc", "sector")), "its cut; default: what clears"] = None
+    relief: Annotated[str | None, OneOf(("arc", "sector")), "cut; default: one that clears"] = None
     relief_clearance_mm: Annotated[NotNegative, "wheel to relief's bottom; default L/200"] = None
     wall_min_mm: Annotated[NotNegative, "least wall; default L/200, or by process"] = None
     wheel_bore_mm: Annotated[NotNegative, "wheel's shaft; default up to L/6, or by load"] = None
@@ -236,31 +236,25 @@ class Mass(SpecTable, table="mass"):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if fault := self._fault():
-            message, *key = fault
-            raise GenevaError(message, (self.TABLE, *key))
-
-    def _fault(self) -> tuple[str, ...]:
-        """What is wrong with the sizes, the mass or the density, and its key; or nothing."""
-        shape, own, needed = self.shape, vars(self), self.SIZES[self.shape]
-        for key in ("diameter_mm", "bore_mm", "length_mm", "width_mm"):
-            if own[key] is not None and key not in needed:
-                return f"a {shape} has no {key}: remove it", key
-            if own[key] is None and key in needed:
-                return (f"a {shape} needs {' and '.join(needed)}",)
+        shape, own, needed, place = self.shape, vars(self), self.SIZES[self.shape], [self.TABLE]
+        fault = ""
         if shape == "point" and not self.radius_mm:
             fault = "a point on the wheel's axis has no inertia: set radius_mm, or set its weight"
-            return (f"{fault} as force_N in [support]",)
-        if (self.mass_kg is None) == (self.density_kgm3 is None):
-            return ("set either mass_kg, or density_kgm3 with all sizes",)
-        if self.density_kgm3 is not None and shape == "point":
-            return "a point has no sizes: set mass_kg instead", "density_kgm3"
-        if self.density_kgm3 is not None and self.thickness_mm is None:
-            return "density_kgm3 needs thickness_mm; or set mass_kg instead", "density_kgm3"
-        if self.bore_mm and self.diameter_mm and not self.bore_mm < self.diameter_mm:
-            below = f"must be below diameter_mm = {self.diameter_mm:g}"
-            return f"bore_mm = {self.bore_mm:g} {below}", "bore_mm"
-        return ()
+            fault += " as force_N in [support]"
+        elif (self.mass_kg is None) == (self.density_kgm3 is None):
+            fault = "set either mass_kg, or density_kgm3 with all sizes"
+        elif self.density_kgm3 is not None and (shape == "point" or self.thickness_mm is None):
+            place += ["density_kgm3"]
+            fault = "density_kgm3 needs thickness_mm and a shape with sizes; or set mass_kg instead"
+        elif self.bore_mm and self.diameter_mm and not self.bore_mm < self.diameter_mm:
+            place += ["bore_mm"]
+            fault = f"bore_mm = {self.bore_mm:g} must be below diameter_mm = {self.diameter_mm:g}"
+        for key in ("diameter_mm", "bore_mm", "length_mm", "width_mm"):
+            if (own[key] is None) == (key in needed):
+                sizes, do = " and ".join(needed) or "no sizes", "remove" if own[key] else "set"
+                fault, place = f"a {shape} has {sizes}: {do} {key}", [self.TABLE, key]
+        if fault:
+            raise GenevaError(fault, tuple(place))
 
 
 class Support(SpecTable, table="support"):
@@ -388,15 +382,12 @@ class Product(SpecTable, table="product"):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        fault, radius, pitch = "", self.radius_mm, self.pitch_mm
-        if (self.sprocket_teeth is None) != (pitch is None):
-            fault = "a sprocket needs sprocket_teeth and pitch_mm"
-        elif radius is not None and pitch is not None:
-            fault = "set either radius_mm, or sprocket_teeth and pitch_mm"
-        elif radius is None and pitch is None and self.friction is not None:
-            fault = "friction needs the product's place: set radius_mm"
-        if fault:
-            raise GenevaError(fault, (self.TABLE,))
+        radius, pitch = self.radius_mm, self.pitch_mm
+        twice = radius is not None and pitch is not None
+        unplaced = self.friction is not None and not self.lies
+        if twice or unplaced or (self.sprocket_teeth is None) != (pitch is None):
+            text = "the product's place is radius_mm, or sprocket_teeth and pitch_mm: set one"
+            raise GenevaError(text, (self.TABLE,))
 
     @property
     def lies(self) -> bool:
@@ -537,9 +528,9 @@ class Accept(SpecTable, names=ACCEPTED, of=Reason, table="accept"):
             reason = vars(self)[attribute]
             if reason is not None:
                 reasons[name] = reason
-            if reason is not None and not reason.strip():
-                text = f'{name} needs the reason for accepting it, as {name} = "agreed"'
-                raise GenevaError(text, (self.TABLE, name))
+                if not reason.strip():
+                    text = f'{name} needs the reason for accepting it, as {name} = "agreed"'
+                    raise GenevaError(text, (self.TABLE, name))
 
     def applied(self, notices: Iterable[Notice]) -> list[Notice]:
         """The warnings, the accepted ones with their reason."""

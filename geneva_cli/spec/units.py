@@ -6,7 +6,7 @@ import re
 from functools import cache
 from typing import TYPE_CHECKING
 
-from geneva_cli.errors import GenevaError, cut, nearest
+from geneva_cli.errors import GenevaError, cut
 from geneva_cli.names import SHORT_UNITS, unit_of
 
 if TYPE_CHECKING:
@@ -70,13 +70,10 @@ def in_unit_of(key: str, text: str) -> float:
         hint = f'; with a unit it is a text such as "10 {own}", with a point' if own else ""
         raise GenevaError(f'{key} must be a number, not "{cut(text)}"{hint}')
     own_powers, own_size = _unit(own)
-    others = [name for name in UNITS.get(own_powers, {}) if name != own][:5]
-    like = f"{own} or {', '.join(others)}" if others else f"{own}, or units of that kind"
-    try:
-        powers, size = _unit(parts[2])
-    except GenevaError as error:
-        raise GenevaError(f'{key} = "{cut(text)}": {error}; use {like}') from None
-    if powers != own_powers or not re.fullmatch(pattern(), text):
+    powers, size = _unit(parts[2]) if re.fullmatch(pattern(), text) else ((), own_size)
+    if powers != own_powers:
+        others = [name for name in UNITS.get(own_powers, {}) if name != own][:5]
+        like = f"{own} or {', '.join(others)}" if others else f"{own}, or units of that kind"
         raise GenevaError(f'{key} = "{cut(text)}" must be in {like}')
     # a decimal number, a fraction, or a whole number and a fraction
     bare = parts[1].lstrip("+-")
@@ -95,22 +92,13 @@ def _unit(text: str) -> tuple[tuple[int, ...], Fraction]:
     from fractions import Fraction
 
     known = {name: (powers, one) for powers, ones in UNITS.items() for name, one in ones.items()}
-    signs = {'"': "in", "”": "in", "″": "in", "'": "ft", "’": "ft", "′": "ft"}  # of drawings
     powers: tuple[int, ...] = (0, 0, 0, 0)
     size = Fraction(1)
     plain = text.translate(str.maketrans("²³()µ", "23  u"))
     above, *below = plain.replace("°", " deg ").replace("1/min", " rpm ").split("/")
     for sign, part in ((1, above), *((-1, one) for one in below)):
-        for word in filter(None, re.split(r"[\s*·]+|-(?=[A-Za-z])", part)):
-            match = re.fullmatch(r"([A-Za-z]+)\^?(-?[1-6])?", word)
-            name = match[1] if match else word
-            if word == "1" and sign == 1:
-                continue
-            if name not in known:
-                hint = f' (did you mean "{signs[name]}"?)' if name in signs else ""
-                raise GenevaError(f"unknown unit {cut(name, 20)}{hint or nearest(name, [*known])}")
-            power = sign * int((match and match[2]) or 1)
-            own, one_size = known[name]
-            powers = tuple(a + power * b for a, b in zip(powers, own, strict=True))
-            size *= Fraction(one_size) ** power
+        for name, power in re.findall(r"([A-Za-z]+)\^?(-?[1-6])?", part):
+            times, (own, one_size) = sign * int(power or 1), known[name]
+            powers = tuple(a + times * b for a, b in zip(powers, own, strict=True))
+            size *= Fraction(one_size) ** times
     return powers, size

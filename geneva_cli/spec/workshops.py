@@ -64,6 +64,11 @@ class Stock(NamedTuple):
     density_kgm3: float = 7850.0
     allowed_MPa: float = 165.0  # 0.6 of 275 MPa
 
+    @property
+    def name(self) -> str:
+        """The grade, or the density of a material without one."""
+        return self.grade or f"{self.density_kgm3:g} kg/m³"
+
 
 class Allowances(NamedTuple):
     """Clearances by the keys of ``[size]``, mm, and their source.

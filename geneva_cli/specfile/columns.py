@@ -8,7 +8,7 @@ import re
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from geneva_cli.errors import GenevaError, cut, nearest
+from geneva_cli.errors import GenevaError, cut, few, nearest
 from geneva_cli.spec.rules import Csv
 from geneva_cli.streams import read_bytes
 
@@ -30,10 +30,10 @@ class Columns(NamedTuple):
         matches = [name for name in self.names if name.endswith(f".{short}")]
         if len(matches) == 1:
             return matches[0]
-        fault = "ambiguous" if matches else f"no column of {cut(self.path, 300)}"
-        fault += "" if matches else nearest(short, self.names)
-        use = " or ".join(matches or self.names)
-        raise GenevaError(f"{option} {cut(short)}: {fault}; use {use}")
+        if matches:
+            raise GenevaError(f"{option} {cut(short)}: ambiguous; use {' or '.join(matches)}")
+        fault = f"no column of {cut(self.path, 300)}{nearest(short, self.names)}"
+        raise GenevaError(f"{option} {cut(short)}: {fault}; it has {few(short, self.names)}")
 
     def numbers(self, name: str, option: str) -> list[float | None]:
         """Numbers of a column, None for a missing one.

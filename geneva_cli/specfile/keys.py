@@ -188,11 +188,15 @@ def _value(key: Field) -> Schema:
     if number:
         kinds += [_number(key.rule, whole=number is int), *with_unit]
     if LIST in key.types:
-        items = {"anyOf": [_number(key.rule, whole=False), *with_unit]}
+        items = _any([_number(key.rule, whole=False), *with_unit])
         kinds.append({"type": "array", "items": items, "minItems": 1, "maxItems": LIST_MAX})
     if str in key.types and (key.words or not number):
         kinds.append({"type": "string", "enum": list(key.words)} if key.words else TEXT)
-    return {"anyOf": kinds}
+    return _any(kinds)
+
+
+def _any(kinds: list[Schema]) -> Schema:
+    return kinds[0] if len(kinds) == 1 else {"anyOf": kinds}
 
 
 def _number(bounds: Range | OneOf, whole: bool) -> Schema:

@@ -124,11 +124,10 @@ def as_markdown(known_meanings: list[Meaning]) -> str:
     lines: list[str] = []
     for one in known_meanings:
         lines += [f"## {one.name} ({one.group})", "", *_wrapped(one.meaning), ""]
-        start = len(lines)
         for name, text in one._asdict().items():
             if text and name not in ("group", "name", "meaning"):
                 lines += _wrapped(f"- {name.capitalize().replace('_', ' ')}: {text}")
-        lines += [""] if len(lines) > start else []
+        lines.append("")
     return "\n".join(lines)
 
 

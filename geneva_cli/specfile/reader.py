@@ -3,8 +3,9 @@
 import os
 import re
 import sys
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from bisect import bisect_left
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager, suppress
 from functools import lru_cache
 from typing import Any, NamedTuple
 
@@ -15,31 +16,32 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.specfile.tree import spec_of
 
 
+@lru_cache  # of the many designs of a sweep
 def line_of(text: str, path: tuple[str | int, ...]) -> int:
     """Line on which a key (or else its table) is set; 0 if it is not set.
 
     A number in the path counts the tables of a list, from 0.
     """
-    names = [part for part in path if isinstance(part, str)]
-    numbers = [part for part in path if isinstance(part, int)]
-    most, found, count = 0, 0, -1
-    table, in_text = list[str](), False
-    for i, line in enumerate(text.split("\n"), 1):
-        header = re.match(r"\s*\[+([^\]=]+)\]", line)
-        name = header[1] if header else line.partition("=")[0] if "=" in line else "#"
-        inside = in_text
-        in_text ^= line.count('"""') % 2 == 1 or line.count("'''") % 2 == 1
-        if inside or name.lstrip().startswith("#"):
-            continue
-        own = [part.strip().strip("\"'") for part in name.split(".")]
-        if header:
-            table = own
-            count += own == names[:1]
-        whole = own if header else [*table, *own]
-        here = not numbers or count in (-1, numbers[0])
-        if here and len(whole) > most and whole == names[: len(whole)]:
-            most, found = len(whole), i
-    return found
+    lines, most = text.split("\n"), _depth(_parsed(text), path)
+
+    def has(line: int) -> bool:
+        """True if the text up to a line, or to the end of its value, has the key."""
+        for end in range(line, len(lines) + 1):
+            with suppress(tomli.TOMLDecodeError):
+                return _depth(tomli.loads("\n".join(lines[:end])), path) >= most
+        return True
+
+    return 1 + bisect_left(range(1, len(lines) + 1), True, key=has) if most else 0
+
+
+def _depth(node: Any, path: Sequence[str | int]) -> int:
+    """Number of parts of a path that a tree has; in a list without a number, that any table has."""
+    if isinstance(node, list) and path and isinstance(path[0], str):
+        return max((_depth(one, path) for one in node), default=0)
+    try:
+        return 1 + _depth(node[path[0]], path[1:])
+    except (LookupError, TypeError):
+        return 0
 
 
 class Setting(NamedTuple):

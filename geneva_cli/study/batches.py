@@ -71,9 +71,7 @@ def batch_rows(rows: Rows, read: Callable[[Sequence[Cell]], Spec]) -> Iterator[B
     for kind in groups(np.arange(len(rows)), numbers):
         wide = []
         if spec := first_spec(kind):
-            for key in numbers:
-                with suppress(GenevaError):  # the key belongs to another kind of machine
-                    wide += [key] if may_vary(spec, key) else []
+            wide = [key for key in numbers if may_vary(spec, key)]
         for members in groups(kind, wide) if wide else ():
             if spec := spec if members is kind else first_spec(members):
                 own = rows.taken(members).columns

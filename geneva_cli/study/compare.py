@@ -162,9 +162,7 @@ def of_table(path: str, x: str, ys: Sequence[str]) -> Figure:
         style = LINE if len(places) > POINTS_MARKED else JOINED
     panels = []
     for y in ys:
-        points = [*zip(at, table.numbers(y, "--y"), strict=True)]
-        if not ascends:
-            points = [point for point in points if None not in point]
+        points = zip(at, table.numbers(y, "--y"), strict=True)
         runs = groupby(points, lambda point: None not in point)
         pieces: Any = [(*map(list, zip(*run, strict=True)),) for known, run in runs if known]
         curve = Curve(0, "", tuple(pieces), style=style)

@@ -24,6 +24,9 @@ from geneva_cli.table import Table, in_digits
 from geneva_cli.verdict.failures import below_summary
 from geneva_cli.verdict.strength import OF_LIFE
 
+# Beginnings of the values' names that are in the tables of inputs and loads, or listed at the end
+IN_TABLES = ("inputs.", "loads.", "cycle.", "not_known")
+OTHER_LOADS = ("loads.kinetic_power_W", "loads.reversals_deg")
 # Sections of the report's values, by the first parts of their names; the others follow them.
 SECTIONS = {
     "Timing": ("timing", "input_stop"),
@@ -64,13 +67,10 @@ def document(design: Design) -> Document:
     left = {
         name: value
         for name, value in zip(table.names, next(table.rows()), strict=True)
-        if not name.startswith("inputs.") and name != "not_known"
+        if not name.startswith(IN_TABLES) or name in OTHER_LOADS
     }
     needs = left.pop("strength.needs")
     parts = {name: left.pop(name) for name in [*left] if name.startswith("parts_list.")}
-    for name in [name for name in left if name.startswith(("loads.", "cycle."))]:
-        if name not in ("loads.kinetic_power_W", "loads.reversals_deg"):
-            del left[name]  # in the table of loads
     keys = [*_keys(design.spec)]
     rows = [
         (name, in_digits(value, 10) if isinstance(value, float) else value, unit, meaning)
@@ -174,9 +174,7 @@ def _parts_list(tables: Mapping[str, Table | None]) -> Iterator[page.Block]:
     for name, caption in captions.items():
         table = tables.get(f"parts_list.{name}")
         if table is not None:
-            block = grid(caption, table)
-            rows = (tuple("°" if cell == "deg" else cell for cell in row) for row in block.rows)
-            yield block._replace(rows=tuple(rows))
+            yield grid(caption, table)
 
 
 def _values(values: Mapping[str, Any]) -> Iterator[page.Block]:

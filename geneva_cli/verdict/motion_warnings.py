@@ -75,7 +75,7 @@ def _of_law(mechanism: Mechanism, law: Law) -> Iterator[Notice]:
     if back := turns_back(mechanism):
         yield Notice(
             "turns-back",
-            f"the wheel turns back: velocity {back[0]:.4g} at {back[1]:.4g}°; {law.TURNS_BACK}",
+            f"the wheel turns back: velocity {back[0]:.4g} at {back[1]:.4g}°",
         )
     if engagement.slot.curved and not retraces(engagement):
         matched, helps = mechanism.matched_ratio, "no R/L avoids it with this law and motion angle"

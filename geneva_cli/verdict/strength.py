@@ -133,9 +133,8 @@ class Strength:
             needs.append("dwell_torque_Nm in [load]")
         if not (locked or math.isfinite(load.force_N[0])):
             needs.append(BOUND)
-        # on a sharp edge a contact stress has no bound
-        sharp = locked and load.lock and np.isnan(load.lock["approach_deg"][0])
-        if sharp and name != "lock_horn_stress_MPa" and not needs and load.lock_sizes:
+        sharp = locked and not needs and name != "lock_horn_stress_MPa"  # a stress without a bound
+        if sharp and load.lock_sizes and self["strength.lock.approach_deg"] is None:
             return _EDGE if load.lock_sizes[1].contact().on == "corner" else _SHORT
         return " and ".join(needs) or None
 

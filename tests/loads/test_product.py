@@ -105,10 +105,10 @@ def test_jerk():
 
 
 def test_a_product_that_says_too_little_or_too_much():
-    with pytest.raises(GenevaError, match="a sprocket needs sprocket_teeth and pitch_mm"):
-        Product(sprocket_teeth=16)
-    with pytest.raises(GenevaError, match="friction needs the product's place"):
-        Product(friction=0.2)
+    both = {"radius_mm": 9.0, "sprocket_teeth": 16, "pitch_mm": 5.0}
+    for wrong in ({"sprocket_teeth": 16}, {"friction": 0.2}, both):
+        with pytest.raises(GenevaError, match="radius_mm, or sprocket_teeth and pitch_mm: set one"):
+            Product(**wrong)
     with pytest.raises(GenevaError, match="needs the product's place"):
         Design(External(6), limits=Limits(product_acceleration_max_m_s2=3.0))
 

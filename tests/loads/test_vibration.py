@@ -129,8 +129,8 @@ def amplitudes(form, ratios, damping=0.0):
 
 
 def close(found, exact):
-    """Within 1e-13 of the value, or 2e-16 of the step: what is asked of residuals."""
-    return abs(found - exact) <= max(1e-13 * exact, 2e-16)
+    """Within 1e-13 of the value, or 1e-16 of the step: what is asked of residuals."""
+    return abs(found - exact) <= max(1e-13 * exact, 1e-16)
 
 
 @pytest.mark.sampled(12)
@@ -144,10 +144,10 @@ def test_residuals_of_laws(name, damping):
 
 
 def test_half_a_natural_period_more_or_less_at_zeros():
-    """The harmonic's half-integer zeros and the cycloidal's integer ones: 2e-16 of the step."""
+    """The harmonic's half-integer zeros and the cycloidal's integer ones: 1e-16 of the step."""
     for name, offset in (("harmonic", 0.5), ("cycloidal", 0.0)):
         zeros = np.arange(2, 40) + offset
-        assert amplitudes(of(name), zeros).max() <= 2e-16
+        assert amplitudes(of(name), zeros).max() <= 1e-16
 
 
 # theory-loads.md, section 5: z = 3 external, amplitude over the step, derived with mpmath.

@@ -191,7 +191,8 @@ def test_a_batch_has_the_numbers_of_its_designs(
             assert own == pytest.approx(
                 math.nan if alone is None else alone, abs=1e-14, nan_ok=True
             )
-        alone_deg = math.degrees(machine.engagements[0].gained)
+        built = machine.engagements[0].built
+        alone_deg = math.degrees(built.gained) if built else math.nan
         assert np.broadcast_to(gained, (batch.machine.designs,))[k] == pytest.approx(
             alone_deg, abs=1e-12, nan_ok=True
         )

@@ -10,7 +10,6 @@ from design_arrays import MACHINES, alone, drawn, machine
 from machine_witness import motions
 from sampling import some
 
-from geneva_cli.errors import GenevaError
 from geneva_cli.motion.many import many, may_vary
 from geneva_cli.motion.mechanism import build
 from geneva_cli.numerics.jet import turning
@@ -121,10 +120,9 @@ def test_keys_that_cannot_vary():
         many(spec, {"drive.rollers": np.array([1, 2])})
     with pytest.raises(ValueError, match="one length"):
         many(spec, {"drive.eccentricity": np.array([0.1, 0.2]), "wheel.z": np.array([6])})
-    with pytest.raises(GenevaError, match="eccentricity"):
+    with pytest.raises(ValueError, match="excentricity"):
         many(spec, {"drive.excentricity": np.array([0.1, 0.2])})
-    with pytest.raises(GenevaError, match=r"no \[motion\]"):
-        may_vary(spec, "motion.alpha0_deg")
+    assert not may_vary(spec, "motion.alpha0_deg")
 
 
 CARRIED = ["side-crank", "inside", "placed rollers", "noncircular gears", "tilted law", "cycloidal"]

@@ -133,10 +133,10 @@ def test_the_wheel_is_held_at_every_position(tmp_path: Path, name: str) -> None:
     turn = full_turn(found)
     assert turn.hand_over.deg == pytest.approx(play, rel=1e-3)
     p, _ = play_of(found, fits=True)
-    either = np.maximum(p.back, p.on)
+    either = p.ways.max(axis=0)
     i = int(np.argmax(np.where(p.guided, 0.0, either)))
     # all the way to there the wheel is free, and a little farther it is not
-    way = 1.0 if p.on[i] > p.back[i] else -1.0
+    way = 1.0 if p.ways[1, i] > p.ways[0, i] else -1.0
     leads = either[i] * np.array((0.0, 0.2, 0.4, 0.6, 0.8, 0.99, 0.9999, 1.0002))
     leads[-1] += 0.01
     at_deg = np.full(len(leads), p.input_deg[i])

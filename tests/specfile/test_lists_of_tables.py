@@ -61,7 +61,7 @@ def test_what_is_written_is_read_back(turret, tmp_path):
         ('shape = "block"', 'shape = "blok"', 12, 'number 2: shape = "blok" must be one of'),
         ("mass_kg = 11.026", "", 6, "number 1: set either mass_kg, or density_kgm3 with all sizes"),
         ("thickness_mm = 20\n", "", 15, "number 2: density_kgm3 needs thickness_mm"),
-        ("mass_kg = 11.026", "mass_kg = 1\nbore_mm = 3", 10, "a disc has no bore_mm"),
+        ("mass_kg = 11.026", "mass_kg = 1\nbore_mm = 3", 10, "diameter_mm: remove bore_mm"),
         ("[material.wheel]", "[material.whel]", 19, "unknown key whel in [material]"),
         ("youngs_modulus_GPa = 3.2", "youngs_modulus_GPa = -1", 20, "must be above 0"),
     ],

@@ -224,7 +224,7 @@ def beyond_play(machine, play, angles):
         off = np.degrees(angles[turn * STEPS : (turn + 1) * STEPS] - true)
         # the lesser of the two steps beside a sampled play, as it may open suddenly
         after = np.clip(np.searchsorted(machine.at[1:], play.input_deg), 1, STEPS - 1)
-        for way, free in ((1.0, play.on), (-1.0, play.back)):
+        for way, free in zip((-1.0, 1.0), play.ways, strict=True):
             out = np.minimum(way * off[after - 1], way * off[after]) - free
             i = int(np.argmax(out))
             worst = max(worst, (float(out[i]), float(play.input_deg[i])))

@@ -64,7 +64,4 @@ def run(
         elif output != "-" or name == "csv":
             say(v.path, v.warnings)
         fails = fails or not v.passes or (strict and bool(open_warnings(v.warnings)))
-    if unread:
-        raise typer.Exit(2)
-    if fails:
-        raise typer.Exit(1)
+    raise typer.Exit(2 if unread else int(fails))

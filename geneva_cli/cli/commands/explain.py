@@ -25,21 +25,16 @@ def run(words: tuple[str, ...] = (), output: str = "-", format: str = "") -> Non
         title = "`geneva explain WORD` says what a word of any output means; these are explained:"
         shown = rows_table(("words", "number", "about", "such_as"), meanings.groups(), title)
         show(shown.replaced(reading=Reading(("words", "such_as"))), output, format)
-        return
-    if not word:
+    elif not word:
         rows = [(m.group, m.name, m.sentence) for m in meanings.everything() if m.group != "key"]
         show(rows_table(names, rows), output, format)
-        return
-    entries = meanings.meanings(word)
-    if not entries:
-        found = meanings.related(word) or [
-            ("page", f"help {on}", line) for on, _, line in search(word)
-        ]
-        if not found:
-            raise meanings.unknown(word)
+    elif entries := meanings.meanings(word):
+        if people:
+            show_markdown(meanings.as_markdown(entries), output)
+        else:
+            show(rows_table(meanings.Meaning._fields, entries), output, format)
+    elif found := meanings.related(word) or [("page", f"help {x}", y) for x, _, y in search(word)]:
         title = f"{word}: `geneva explain NAME` says more." if people else ""
         show(rows_table(names, found, title).replaced(reading=Reading(names[1:])), output, format)
-    elif not people:
-        show(rows_table(meanings.Meaning._fields, entries), output, format)
     else:
-        show_markdown(meanings.as_markdown(entries), output)
+        raise meanings.unknown(word)

@@ -1,13 +1,9 @@
 """``geneva help``."""
 
-from typing import Any
-
-import typer
-
 from geneva_cli.errors import GenevaError, cut, nearest
 
 
-def run(context: typer.Context, words: tuple[str, ...] = ()) -> None:
+def run(words: tuple[str, ...] = ()) -> None:
     """Show a page of the manual, the options of a command, or all places of a word.
 
     Arguments:
@@ -18,23 +14,21 @@ def run(context: typer.Context, words: tuple[str, ...] = ()) -> None:
       geneva help cycle
       geneva help friction
     """
-    from geneva_cli.cli.pages import Hit, page, search
+    from geneva_cli.cli.app import COMMANDS
+    from geneva_cli.cli.pages import Hit, command_help, page, search
     from geneva_cli.manual import TOPICS, contents
     from geneva_cli.output import show, show_markdown, show_text
     from geneva_cli.table import Reading, rows_table
 
     topic = " ".join(words)
-    commands: Any = context.find_root().command
-    if f"{topic}s" in TOPICS and topic not in commands.list_commands(context):
+    if f"{topic}s" in TOPICS and topic not in COMMANDS:
         topic = f"{topic}s"
     if not topic:
         show_markdown(contents())
-    elif topic not in TOPICS and topic in commands.list_commands(context):
-        _, command, _ = commands.resolve_command(context, [topic])
-        info = typer.Context(command, parent=context.find_root(), info_name=topic)
-        show_text(command.get_help(info) + "\n")
     elif topic in TOPICS:
         show_markdown(page(topic))
+    elif topic in COMMANDS:
+        show_text(command_help(topic) + "\n")
     elif hits := search(topic):
         table = rows_table(Hit._fields, hits, f"{topic}: `geneva help TOPIC` shows a page.")
         show(table.replaced(reading=Reading(("topic", "line"))))

@@ -63,8 +63,7 @@ def run(
     from geneva_cli.kept import load_extra
 
     if samples is not None or at:
-        given = "--at" if at else "--samples"
-        raise GenevaError(f"{given}: a cam has the points that its --tolerance needs")
+        raise GenevaError("--at, --samples: a cam has the points that its --tolerance needs")
     for_ = for_ or CONTROLLERS[0]
     content, rows, error_deg = load_extra("servo", "cam")(
         design, for_, turns, 1e-4 if tolerance is None else tolerance

@@ -30,16 +30,14 @@ def run(design: Design, full: bool = False, output: str = "-", format: str = "")
     from geneva_cli.output import choice, chosen, show_answer, show_document
     from geneva_cli.study.summary.report_summary import of_report
 
-    is_whole = chosen(output, format, WRITTEN) in DOCUMENTS
-    if is_whole:
+    if chosen(output, format, WRITTEN) in DOCUMENTS:
         from geneva_cli.study.document import document, short_document
 
         made = document(design) if full else short_document(design)
         show_document(made, output, format, design.spec.files)
     else:
-        show_answer(
-            of_report(design, full or bool(choice.columns)), output, format, design.spec.files
-        )
+        answer = of_report(design, full or bool(choice.columns))
+        show_answer(answer, output, format, design.spec.files)
     if output != "-":
         say(design.spec.path, design.warnings)
     if not design.passes:

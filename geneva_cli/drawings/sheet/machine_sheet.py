@@ -43,10 +43,6 @@ def sheet(parts: FlatParts) -> Sheet:
     every = [one.part for one in parts.members]
     rows: list[dict[str, Any]] = list(part_rows(mechanism.spec, every))
     largest = max(row[f"size_{axis}_mm"] for row in rows for axis in "xy")
-    # each plate of these layers has a view, and so has the frame: the sheet has their area at least
-    apart = [one for part in every for one in plates(part) if one.layer in ("WHEEL", "ARM")]
-    boxes = [shapes.bounds(plate.outline) for plate in (*apart, *plates(every[-1]))]
-    area = sum((box.x1 - box.x0) * (box.y1 - box.y0) for box in boxes)
     # the number of each kind of plate in the list
     items = {one: i for i, kind in enumerate(alike(every), 1) for one in kind}
     # chords of 1.5 mm on a part of 500 mm: spans are within 0.1 mm on any paper
@@ -96,7 +92,7 @@ def sheet(parts: FlatParts) -> Sheet:
         for of_cut, of_whole in ((scale, scale), (scale, half), (half, half)):
             yield [*views(scale), section(of_cut), whole(of_whole)]
 
-    return on_paper(mechanism.spec, rows, largest, area, blocks)
+    return on_paper(mechanism.spec, rows, largest, blocks)
 
 
 def _views(rows: list[dict[str, Any]], parts: FlatParts, scale: float) -> Iterator[View]:

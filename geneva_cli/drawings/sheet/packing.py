@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from itertools import product
 from typing import NamedTuple, TypeAlias
 
 from geneva_cli.geometry.shapes import Contour, Point, Shape, placed
 from geneva_cli.geometry.sheet import Label, Measure
 
-APART = (8.0, 12.0, 18.0, 27.0, 40.0)  # mm between blocks that are tried, as wide as they allow
+APART = (40.0, 27.0, 18.0, 12.0, 8.0)  # mm between blocks, the widest that the paper allows
 Box: TypeAlias = tuple[float, float, float, float]  # x0, y0, x1, y1
 
 
@@ -54,36 +54,19 @@ class Block(NamedTuple):
 
 
 def packed(blocks: Sequence[Block], taken: Sequence[Block], area: Box) -> list[Block] | None:
-    """Return the blocks at free positions in an area, clear of the ``taken`` ones."""
-    orders: tuple[Callable[[Block], float], ...] = (
-        lambda block: -block.width * block.height,
-        lambda block: -block.height,
-        lambda block: -block.width,
-    )
-    for order in orders:
-        widest = None
-        for apart in APART:
-            placed = packed_apart(blocks, taken, area, order, apart)
-            if placed is None:
-                break
-            widest = placed
-        if widest is not None:
-            return widest
-    return None
+    """Return the blocks at free positions in an area, clear of the ``taken`` ones, or None."""
+    every = (packed_apart(blocks, taken, area, apart) for apart in APART)
+    return next((placed for placed in every if placed), None)
 
 
 def packed_apart(
-    blocks: Sequence[Block],
-    taken: Sequence[Block],
-    area: Box,
-    order: Callable[[Block], float],
-    apart: float,
+    blocks: Sequence[Block], taken: Sequence[Block], area: Box, apart: float
 ) -> list[Block] | None:
-    """Return the blocks as ``packed`` does, the least by ``order`` first, ``apart`` mm apart."""
+    """Return the blocks as ``packed`` does, large ones first, ``apart`` mm apart."""
     x0, y0, x1, y1 = area
     placed: dict[int, Block] = {}
     around, gap = [block[:4] for block in taken], 0.999 * apart
-    for i in sorted(range(len(blocks)), key=lambda k: order(blocks[k])):
+    for i in sorted(range(len(blocks)), key=lambda k: -blocks[k].width * blocks[k].height):
         block = blocks[i]
         lefts = sorted({x0 + apart, *(box[2] + apart for box in around)})
         tops = sorted({y1 - apart, *(box[1] - apart for box in around)}, reverse=True)

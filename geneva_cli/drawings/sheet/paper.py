@@ -13,7 +13,7 @@ from geneva_cli.geometry import sheet
 from geneva_cli.geometry.shapes import Point, Shape
 from geneva_cli.geometry.sheet import SMALL, TEXT, Label, line, width
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.spec.defaults import material_names
+from geneva_cli.spec.defaults import roller_material, wheel_material
 from geneva_cli.spec.workshops import WORKSHOPS
 from geneva_cli.spec.written import length
 
@@ -47,20 +47,19 @@ def on_paper(
     spec: Spec,
     rows: list[dict[str, Any]],
     largest: float,
-    area: float,
     blocks: Callable[[float], Iterable[list[Block]]],
 ) -> sheet.Sheet:
     """Return the sheet with blocks at the largest scale at which all fit on it.
 
-    ``rows`` are its list of items. ``largest`` is the greatest length that is drawn, mm. ``area``,
-    mm², is the least area that some of it needs. ``blocks`` yields alternatives of what is on it at
-    a scale, the best first. Raises GenevaError where no scale fits.
+    ``rows`` are its list of items. ``largest`` is the greatest length that is drawn, mm. ``blocks``
+    yields alternatives of what is on it at a scale, the best first. Raises GenevaError where no
+    scale fits.
     """
     items = _items(rows)
-    wide_most, high_most = FORMATS["A1"]
+    wide_most, _ = FORMATS["A1"]
     for scale in SCALES:
         most = 170.0 if scale > 1.0 else wide_most  # mm: an enlarged part is no wider than a hand
-        if scale * largest > most or scale * scale * area > wide_most * high_most:
+        if scale * largest > most:
             continue
         for name, (wide, high) in FORMATS.items():
             right, inside = wide - MARGIN, (LEFT, MARGIN, wide - MARGIN, high - MARGIN)
@@ -90,11 +89,12 @@ def _frame(w: float, h: float) -> list[Shape]:
 
 def _title_block(spec: Spec, rows: list[dict[str, Any]], scale: float, size: str) -> Block:
     """Return the title block; its lower left corner is the origin."""
-    own, shop, materials = spec.drawing, WORKSHOPS[spec.size.process], material_names(spec)
+    own, shop = spec.drawing, WORKSHOPS[spec.size.process]
+    materials = {wheel_material(spec).name, roller_material(spec).name}
     mass = sum(row["mass_kg"] * row["count"] for row in rows)
     # mg where kg would have too many zeros for the field
     shown = f"{_rounded(mass)} kg" if mass >= 1e-3 else f"{_rounded(1e6 * mass)} mg"
-    material = materials[0] if len(set(materials)) == 1 else "see list"
+    material = materials.pop() if len(materials) == 1 else "see list"
     general = {"scale": scale_name(scale), "mass": shown, "material": material}
     general |= {"tolerances": shop.tolerances, "units": "mm, degrees", "size": size}
     general["sheet"] = "1/1"

@@ -94,7 +94,8 @@ def _turns(result: Turned, mechanism: Mechanism) -> Check:
         index = abs(math.degrees(worst.first.gained))
         why = (
             f"the crank turns, but the wheel goes on by {index:.4g}° only: no roller finds a "
-            "slot; check [size], wheel_turn_deg and crank_turn_deg in [outline]"
+            "slot; check [size], wheel_turn_deg and crank_turn_deg in [outline], and the "
+            "drawings' units"
         )
     else:
         return Check("turns", z, "at least", z, True, _summary(result))
@@ -132,23 +133,20 @@ def _shown_deg(machine: DrawnMachine, crank: float) -> float:
 
 def _summary(result: Turned) -> str:
     machine, turn = result.machine, result.senses[0].first
-    index, is_moving = math.degrees(turn.gained) / len(machine.assembly.motions), turn.is_moving
-    free = np.degrees(turn.high - turn.low)
+    index = math.degrees(turn.gained) / len(machine.assembly.motions)
+    free = np.degrees(turn.high - turn.low)[turn.is_moving]
     rest = math.degrees(result.rest.high - result.rest.low)
     first, last = turn.pushes[0], max(turning.moving(turn), default=turn.pushes[0])
     begin, end = _shown_deg(machine, first.begin), _shown_deg(machine, last.end)
     play, in_motion = (
         f"{x:.4g}° of play" if x > ROUNDING_DEG else "no play"
-        for x in (rest, float(free[is_moving].max(initial=0.0)))
+        for x in (rest, float(free.max(initial=0.0)))
     )
     held = f"{play} in the dwell" if result.is_held else "nothing holds it in the dwell"
     text = (
         f"turns both ways through every slot: index {index:.7g}°, moved from {begin:.5g} to "
         f"{end:.5g}° of the input, {held}, {in_motion} in motion"
     )
-    widest = float(free[~is_moving].max(initial=0.0))
-    if result.is_held and widest > rest + ROUNDING_DEG:
-        text += f", at most {widest:.4g}° while it rests"
     lag = lag_deg(result)
     if lag > ROUNDING_DEG:
         text += f"; it lags up to {lag:.3g}° behind the ideal motion"

@@ -112,10 +112,10 @@ def contacts(
                 sine = np.where(np.abs(normal) > 1e-9 * np.abs(z), sine, 0.0)
                 own = free.stops.place(wheel_side, level) + shift[k]
                 able = np.flatnonzero(sine > lever)
-                for i in able[np.argsort(-off[able], kind="stable")]:  # the nearest one comes last
-                    best[rows[i]] = off[i]
-                    point[rows[i]] = level[i] * np.cos(own[i]), level[i] * np.sin(own[i])
-                    sides[:, :, rows[i]] = ours[:, i], theirs[:, i]
+                able = able[np.argsort(-off[able], kind="stable")]  # the nearest one comes last
+                at, level, own = rows[able], level[able], own[able]
+                best[at], sides[:, :, at] = off[able], np.array((ours, theirs))[:, :, able]
+                point[at] = np.column_stack((level * np.cos(own), level * np.sin(own)))
     crank, own_side = (Side(s[0], s[1], s[2], s[3] > 0.5) for s in sides)
     return Contact(free.sense, free.L, crank, own_side, wheel, best < near, point)
 

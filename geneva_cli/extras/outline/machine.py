@@ -19,7 +19,7 @@ from geneva_cli.numerics.jet import Jet, atan2
 from geneva_cli.output.foreign import read_drawing
 from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.parts import parts_of
-from geneva_cli.parts.turn.free_ranges import FreeRanges, levels
+from geneva_cli.parts.turn.free_ranges import FreeRanges
 
 EXACT_MM, MOST_MM = 1e-6, 1e-3  # overlaps that count as touching: of exact arcs, of short lines
 Contours: TypeAlias = tuple[shapes.Contour, ...]
@@ -64,18 +64,7 @@ def drawn_machine(mechanism: Mechanism) -> DrawnMachine:
     ours, roller = _with_rollers(crank[0] if crank else own.crank, mechanism, place)
     rounded = sum(drawn[1] for drawn in (wheel, crank) if drawn)
     slack = spec.outline.slack_mm or min(max(rounded, EXACT_MM), MOST_MM)
-    L, both = place.L, (Polyarc(theirs), Polyarc(ours))
-    far, (inner, rim) = float(levels(both[1])[1].max()), levels(both[0])
-    near, most = float(inner.min()), float(rim.max())
-    if both[0].signed(np.zeros((1, 2)))[0] < 0.0:  # the wheel's material lies about its axis
-        near = 0.0
-    if L - far > most or L + far < near:
-        raise GenevaError(
-            f"no part reaches the other. The crank reaches {far:.6g} mm from its axis, the wheel "
-            f"lies {near:.6g} to {most:.6g} mm from its own. The axes are {L:.6g} mm apart: set "
-            "center_distance_mm in [size], and check the drawings' units",
-            ("outline",),
-        )
+    L = place.L
     if wheel and len(place.kinds) == 1:  # of equal steps
         x, y = total(map(moments, theirs)).centroid
         if math.hypot(x, y) > OFF_AXIS * L:
@@ -84,7 +73,7 @@ def drawn_machine(mechanism: Mechanism) -> DrawnMachine:
                 "origin: move the drawing there",
                 ("outline", "wheel"),
             )
-    free = FreeRanges(*both, L, place.sign, math.tau / spec.wheel.z, slack)
+    free = FreeRanges(Polyarc(theirs), Polyarc(ours), L, place.sign, math.tau / spec.wheel.z, slack)
     first, last = place.motions[0], place.motions[-1]
     dwell_deg = first.entry + place.turn_deg - last.exit
     start, rest = math.radians(first.entry - 0.5 * dwell_deg), -first.engagement.half_step

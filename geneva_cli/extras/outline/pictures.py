@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterable, Iterator
+from itertools import chain, pairwise
 
 import numpy as np
 
@@ -15,7 +16,6 @@ from geneva_cli.geometry.shapes import Contour, Layer, placed
 from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.motion_table import first_entry_deg
-from geneva_cli.numerics.arrays import Array
 from geneva_cli.output.scene import Phase, Push, Scene, Track
 from geneva_cli.study.animation.turning_scene import scene
 
@@ -37,33 +37,35 @@ def drawn_scene(design: Design) -> Scene:
         late = 360.0 if crank < entry - 1e-9 else 0.0
         return max(0.0, machine.assembly.to_input(math.degrees(crank) + late) - start)
 
-    # the wheel's angle over the turn, from the first entry on
-    after = turn.crank >= entry - 1e-9
-    order = np.concatenate((np.flatnonzero(after), np.flatnonzero(~after)))
-    angle = (turn.wheel + np.where(after, 0.0, turn.gained))[order]
-    track = _track(np.array([time(x) for x in turn.crank[order].tolist()]), angle, turn.gained)
     # the contact points of each push, with the direction in which the wheel's point goes
     pushes, stretches = [], []
     for push in moving(turn):
         crank = np.linspace(push.begin + 1e-9, push.end - 1e-6, PLACES)
         wheel, _ = at_crank(result, turn, crank)
         found = contacts(machine.free, crank, wheel)
-        known = np.flatnonzero(found.is_known)
-        z = (found.point[:, 0] + 1j * found.point[:, 1]) * np.exp(1j * wheel)
+        z = (found.point @ (1.0, 1j) * np.exp(1j * wheel))[found.is_known]
         way = 1j * z / np.abs(z) * TOUCHES
-        places = tuple(time(x) for x in crank[known].tolist())
-        columns = (z.real, z.imag, way.real, way.imag)
-        pushes.append(Push(places, *(tuple(each[known].tolist()) for each in columns)))
-        stretches.append((time(push.begin), time(push.end)))
+        places = tuple(time(x) for x in crank[found.is_known].tolist())
+        pushes.append(
+            Push(places, *map(tuple, np.array((z.real, z.imag, way.real, way.imag)).tolist()))
+        )
+        begin, end = time(push.begin), time(push.end)
+        # it may go on beyond the end of the turn
+        stretches.append((begin, end if begin < end else shown.turn_deg))
     # the real velocity in place of all ideal curves, with both ends of each push
     figure = shown.figure
     panel = next(panel for panel in figure.panels if panel.y.name == "velocity")
-    ends = [time(x) for push in turn.pushes for x in inside(push)]
-    ends = [x for end in ends for x in (end - 1e-4, end, end + 1e-4)]
+    at = [start + time(x) for push in turn.pushes for x in inside(push)]
+    at = [x for end in at for x in (end - 1e-4, end, end + 1e-4)]
     even = np.linspace(*figure.window, SAMPLES)
-    x = np.unique(np.clip(np.append(even, start + np.array(ends)), *figure.window)).tolist()
-    y = np.asarray(motion(design.mechanism, 2, x)["velocity"]).tolist()
-    curve = Curve(panel.curves[0].number, panel.curves[0].name, ((x, y),))
+    x = np.unique(np.clip(np.append(even, at), *figure.window)).tolist()
+    real = motion(design.mechanism, 2, x)
+    angle, rate = (np.asarray(real[name]) for name in ("wheel_deg", "velocity"))
+    curve = Curve(panel.curves[0].number, panel.curves[0].name, ((x, rate.tolist()),))
+    turns = np.radians(angle)
+    lines = np.column_stack((turns[:-1] + turns[1:], np.diff(turns))) / 2.0
+    ends = tuple(at - start for at in x)
+    track = Track(ends, tuple(map(tuple, lines.tolist())), turn.gained)
     own, other, *_ = shown.bodies
     bodies = (
         own._replace(shapes=_layered(machine.wheel, "WHEEL"), angle=track),
@@ -79,26 +81,13 @@ def drawn_scene(design: Design) -> Scene:
     )
 
 
-def _track(at: Array, angle: Array, gained: float) -> Track:
-    """The wheel's angle at times, and on a line between each two."""
-    keep = np.append(np.diff(at) > 1e-6, True)
-    at, angle = at[keep], angle[keep]
-    lines = np.column_stack((angle[:-1] + angle[1:], np.diff(angle))) / 2.0
-    return Track(tuple(at.tolist()), tuple(map(tuple, lines.tolist())), gained)
-
-
 def _states(pushed: Iterable[tuple[float, float]], whole: float) -> Iterator[Phase]:
-    """The stretches of a turn in which the wheel rests or is pushed."""
-    last = 0.0
-    for begin, end in sorted(pushed):
-        if begin > end:  # it goes on beyond the end of the turn
-            end = whole
-        if begin > last + 1e-9:
-            yield Phase(last, begin, False, "the wheel rests")
-        yield Phase(max(begin, last), end, True, "the crank pushes the wheel")
-        last = end
-    if last < whole - 1e-9:
-        yield Phase(last, whole, False, "the wheel rests")
+    """The stretches of a turn in which the wheel rests and is pushed, one after the other."""
+    ends = [0.0, *chain(*sorted(pushed)), whole]
+    for i, (begin, end) in enumerate(pairwise(ends)):
+        if end > begin + 1e-9:
+            words = "the crank pushes the wheel" if i % 2 else "the wheel rests"
+            yield Phase(begin, end, bool(i % 2), words)
 
 
 def _layered(contours: tuple[Contour, ...], layer: Layer) -> tuple[Contour, ...]:

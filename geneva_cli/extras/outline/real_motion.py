@@ -12,7 +12,7 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.extras.outline.contact import contacts
 from geneva_cli.extras.outline.machine import crank_jet
-from geneva_cli.extras.outline.turning import LOOSE, Turned, moving, struck_by, turned
+from geneva_cli.extras.outline.turning import Turned, moving, struck_by, turned
 from geneva_cli.motion import motion_table
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peaks import QUANTITIES
@@ -34,8 +34,6 @@ def steady_turn(result: Turned) -> LazyTurn:
             ("outline",),
         )
     turns = result.senses[0].turns
-    if result.rest.high - result.rest.low < LOOSE:
-        return turns[0]
     steps, last = (len(turns) - 1) * result.machine.step, turns[-1]
     pushes = tuple(Push(a, x - steps, b, y - steps) for a, x, b, y in last.pushes)
     moved = (last.wheel - steps, last.low - steps, last.high - steps)

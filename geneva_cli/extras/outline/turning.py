@@ -19,8 +19,8 @@ from geneva_cli.parts.turn.lazy_turn import STEPS, Jam, LazyTurn, Push, Turner
 from geneva_cli.verdict.quantities.groups import only
 
 SETTLED = 1e-9  # radians: the wheel rests where it rested a turn before
-FEW_TRIALS, TRIALS = 2, 8  # places of rest that are tried over the free range
-HALVINGS = 10  # of the space between two of them
+TRIALS = 8  # places of rest that are tried over the free range
+HALVINGS = 10  # of the space between two of them, and of the range of slacks
 LOOSE = 1e-5  # radians: a smaller range of places of rest is one place
 HELD_MIDDLE = ("detent", "pin")  # they put the wheel back to the middle of its dwell
 SENSES = (1, -1)
@@ -28,7 +28,6 @@ LATE = 1e-3  # radians: a push that moves the wheel less is not counted as an im
 JUST = 1e-12  # radians after a push begins
 SAME = 1e-3  # of the roller's radius: the arc that touches is the roller's, less the slack
 MOST = 0.02  # of L, and at most half a roller's radius: with more slack it is another wheel
-CLOSE = 1.02  # of the greatest slack with which it jams: closer is not asked
 
 
 class SenseResult(NamedTuple):
@@ -127,21 +126,18 @@ def turning(result: Turned) -> tuple[float, float] | None:
         return all(_goes_on(machine, turner.turn(rest, way, exact=False), way) for way in SENSES)
 
     middle = min(max(machine.rest, low), high)
-    # a lock leaves a short range, and a detent puts the wheel back; else it may stand anywhere
-    is_loose = high - low > 0.1 * machine.step and not put_back(machine, result.rest)
-    trials = TRIALS if is_loose else FEW_TRIALS
-    places = np.linspace(low, high, trials + 1)
-    places[0], places[-1] = low + 1e-9 * (high - low), high - 1e-9 * (high - low)
-    good = [goes(float(place)) for place in places]
-    if not any(good):
-        return (middle, middle) if goes(middle) else None
-    first = min((i for i, ok in enumerate(good) if ok), key=lambda i: abs(places[i] - middle))
+    space = 1e-9 * (high - low)  # beside what blocks
+    places = np.unique((middle, *np.linspace(low + space, high - space, TRIALS + 1)))
+    good = np.array([goes(float(place)) for place in places])
+    if not good.any():
+        return None
+    first = int(np.argmin(np.where(good, np.abs(places - middle), np.inf)))
     ends = []
     for step in (-1, 1):
         i = first
-        while 0 <= i + step <= trials and good[i + step]:
+        while 0 <= i + step < len(places) and good[i + step]:
             i += step
-        outside = places[min(max(i + step, 0), trials)]
+        outside = places[min(max(i + step, 0), len(places) - 1)]
         ends.append(boundary(goes, float(places[i]), float(outside), HALVINGS))
     return ends[0], ends[1]
 
@@ -174,10 +170,8 @@ def least_slack_mm(result: Turned) -> float | None:
         return low
     if high <= low or not turns(high):
         return None
-    while high > CLOSE * low:
-        middle = math.sqrt(low * high)
-        low, high = (low, middle) if turns(middle) else (middle, high)
-    return high
+    least = boundary(lambda x: turns(math.exp(x)), math.log(high), math.log(low), HALVINGS)
+    return math.exp(least)
 
 
 class Struck(NamedTuple):

@@ -17,7 +17,7 @@ from geneva_cli.motion.engagement import Engagement, Slot, WheelMotion
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Teeth
 from geneva_cli.motion.wheels import classic
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import Array, Batchable, larger, library, size
+from geneva_cli.numerics.arrays import Array, Batchable, choose, larger, library, size
 from geneva_cli.numerics.jet import Jet, Number, Path, Vector, piecewise
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.spec.rules import Range
@@ -117,10 +117,9 @@ class _SectorMotion(WheelMotion):
 
     @property
     def seams_deg(self) -> tuple[float, ...]:
-        before, after = self.entry_deg - self.inner.entry_deg, self.exit_deg - self.inner.exit_deg
-        places = {at + before for at in self.inner.seams_deg if at + before < -self.half_sector}
-        places |= {at + after for at in self.inner.seams_deg if at + after > self.half_sector}
-        return tuple(sorted(places | {*self.breaks_deg}))
+        half = self.half_sector
+        inner = {at + math.copysign(half, at) for at in self.inner.seams_deg if at}
+        return tuple(sorted(inner | {*self.breaks_deg}))
 
     def slot_deg(self, input_deg: Number) -> Number:
         """Crank angle in the slot's own motion; 0 while the gears drive."""
@@ -164,5 +163,4 @@ class _SectorSlot(_SectorPath, Slot):
         return lever * slot + (1.0 - slot) / (1.0 + self.motion.u), place * slot
 
     def touches(self, input_deg: Number) -> Number:
-        slot = size(input_deg) >= self.motion.half_sector
-        return float(slot) if isinstance(slot, bool) else slot.astype(float)
+        return choose(size(input_deg) >= self.motion.half_sector, 1.0, 0.0)

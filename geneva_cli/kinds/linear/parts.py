@@ -7,7 +7,6 @@ wall with a cover, beyond the sweep of the crank's arm. They are screwed to the 
 
 import math
 from collections.abc import Iterator
-from typing import Self
 
 from geneva_cli.errors import GenevaError, refuse_size
 from geneva_cli.geometry.plates import Group, Member, Plate, least_wall
@@ -44,11 +43,6 @@ class RackParts(EdgedParts):
     def sizes(self) -> rack.RackSizes:
         """The sizes of rack and locking sector."""
         return rack.rack_sizes(self.mechanism)
-
-    @property
-    def built(self) -> Self:
-        """These parts."""
-        return self
 
     @property
     def all_built(self) -> NamedBuilds:

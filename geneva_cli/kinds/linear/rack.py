@@ -6,6 +6,7 @@ way round, opposite the roller. The recesses have the radius rho, and are R from
 """
 
 import math
+from operator import itemgetter
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse_size
@@ -111,19 +112,15 @@ def rack_contour(sizes: RackSizes, count: int) -> Contour:
     """Return a rack of ``count`` slots, counterclockwise; the slot in the middle is at y = 0."""
     low, high = rack_ends(sizes, count)
     back, places = sizes.behind, slot_places(sizes, count)
-    cuts = [slot_walls(sizes, y) for y in places]
+    cuts = [(y, slot_walls(sizes, y)) for y in places]
     if sizes.recess:
-        between = places[0] - sizes.arm, *(y + sizes.arm for y in places)
         beyond = math.asin((sizes.rim - sizes.arm) / sizes.recess)
         start, sweep = beyond - 0.5 * math.pi, -math.pi - 2.0 * beyond
-        recesses: list[list[Segment]] = [
-            [about((sizes.arm, y), sizes.recess, start, sweep)] for y in between
-        ]
-        pairs = zip(recesses, [*cuts, []], strict=True)
-        cuts = [cut for pair in pairs for cut in pair if cut]
+        for y in (places[0] - sizes.arm, *(y + sizes.arm for y in places)):  # between slots
+            cuts.append((y, [about((sizes.arm, y), sizes.recess, start, sweep)]))
     edge: list[Segment] = []
     at = (sizes.rim, low)
-    for cut in cuts:
+    for _, cut in sorted(cuts, key=itemgetter(0)):
         edge += [Line(at, cut[0].start), *cut]
         at = cut[-1].end
     for corner in ((sizes.rim, high), (back, high), (back, low), (sizes.rim, low)):

@@ -10,11 +10,11 @@ from functools import reduce
 from typing import Annotated, Any, ClassVar, Self, cast
 
 from geneva_cli.errors import refuse_text
-from geneva_cli.kinds.linkages.link_path import Guide, LinkPath
+from geneva_cli.kinds.linkages.link_path import Guide, LinkPath, root
 from geneva_cli.kinds.linkages.linkage import Linkage, PlaneLink
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.pivots import Dimension, Joint, Layout
-from geneva_cli.numerics.arrays import larger, library, smaller
+from geneva_cli.numerics.arrays import larger, smaller
 from geneva_cli.spec.rules import POSITIVE, OneOf, Range
 
 
@@ -34,15 +34,15 @@ class CouplerPath(LinkPath):
         _, g, b, c, _, _ = self.numbers
         return Guide(b, 1.0 / c, g / c, 0.0)
 
-    def pose(self, crank: Any) -> tuple[Any, Any, Any]:
-        """The coupler for directions of the crank, whose end B is on a circle."""
-        a, g, b, c, _, _ = self.numbers
-        x, y = g - a * crank.real, -a * crank.imag
+    def pose(self, c: Any, s: Any) -> tuple[Any, Any, Any]:
+        """The coupler, whose end B is on a circle."""
+        a, ground, b, rocker, _, _ = self.numbers
+        x, y = ground - a * c, -a * s
         D = x * x + y * y
         # N² as a product (Heron); products of real numbers take half the time of complex ones
-        N = library(D).sqrt(((b + c) ** 2 - D) * (D - (b - c) ** 2)) * self.side
-        scale, level = 0.5 / (b * D), D + (b - c) * (b + c)
-        return scale * (x * level - y * N), scale * (y * level + x * N), N * (0.5 / (b * c))
+        N = root(((b + rocker) ** 2 - D) * (D - (b - rocker) ** 2)) * self.side
+        scale, level = 0.5 / (b * D), D + (b - rocker) * (b + rocker)
+        return scale * (x * level - y * N), scale * (y * level + x * N), N * (0.5 / (b * rocker))
 
 
 class FourBar(Linkage, kw_only=True):

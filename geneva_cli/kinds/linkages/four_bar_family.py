@@ -59,19 +59,16 @@ def _searched(target: Target, tasks: list[search.WheelGoal]) -> list[tuple[searc
     goal = search.Goal(target, (), bounds, target.peak)
     if target.sort and search.is_known(target.sort.name):
         goal = goal._replace(least=target.sort.name, sign=target.sort.sign)
-    rounds = [dict(enumerate(tasks))]
-    if target.any_motion and not target.sort:
-        of_time = tuple(b for b in bounds if b.name.startswith("timing."))
-        same = {}
-        for i, task in enumerate(tasks):
+    rounds = [tasks]
+    if target.any_motion and not target.sort:  # that of a plain crank, if it keeps the bounds
+        plain = []
+        for task in tasks:
             natural = natural_deg(task.wheel)
-            step, motion = np.array([360.0 / task.wheel.z]), np.array([natural])
-            if not search.Costs(target, step, [], motion).broken(of_time).any():
-                same[i] = task._replace(motion=AllowedSpan(natural, natural))
-        rounds.insert(0, same)
+            plain.append(task._replace(motion=AllowedSpan(natural, natural)))
+        rounds.insert(0, plain)
     by_wheel: dict[int, tuple[search.Goal, Places]] = {}
     for tried in rounds:
-        left = {i: task for i, task in tried.items() if i not in by_wheel}
+        left = {i: task for i, task in enumerate(tried) if i not in by_wheel}
         own = goal._replace(wheels=tuple(left.values()))
         for i, found in zip(left, search.search_four_bars(own) if left else [], strict=True):
             if len(found.of):

@@ -8,15 +8,7 @@ from typing import Any, NamedTuple, Self, TypeAlias, cast
 
 from geneva_cli.drives.pushed import pushed
 from geneva_cli.numerics.angles import sin_cos_deg
-from geneva_cli.numerics.arrays import (
-    Array,
-    Batchable,
-    Complex,
-    Enclosed,
-    Which,
-    enclosed,
-    library,
-)
+from geneva_cli.numerics.arrays import Array, Batchable, Complex, Enclosed, Which, enclosed, library
 from geneva_cli.numerics.jet import (
     Held,
     Jet,
@@ -26,7 +18,6 @@ from geneva_cli.numerics.jet import (
     cross,
     rotation,
     sin_cos,
-    sine_versine,
     sqrt,
     turning,
 )
@@ -42,6 +33,10 @@ class Guide(NamedTuple):
     y: float
 
 
+Place: TypeAlias = tuple[Any, Any]
+Turn: TypeAlias = tuple[float, float, float, float, float]
+
+
 class LinkDisplacement(NamedTuple):
     """Displacement of a link's point, from its numbers at one crank angle.
 
@@ -54,55 +49,35 @@ class LinkDisplacement(NamedTuple):
     so it has all its digits where the point is much slower than its links.
     """
 
-    # numbers of the equation over its first factor: of sin t by sin d and 1 - cos d
-    ahead: float
-    back: float
-    side: float  # of 1 - cos t
-    rate: float  # of the right-hand side by sin d, which is the link's rate of rotation
-    fall: float  # and by -(1 - cos d)
+    # Numbers of the equation over its first factor: of sin t by sin d and 1 - cos d; of 1 - cos t;
+    # of the right-hand side by sin d, which is the link's rate of rotation, and by -(1 - cos d).
+    turn: Turn
     # the displacement (x, y) by sin d, by 1 - cos d, by what -sin t has beyond its linear part, and
     # by 1 - cos t
-    velocity_x: float
-    velocity_y: float
-    pin_x: float
-    pin_y: float
-    bent_x: float
-    bent_y: float
-    fallen_x: float
-    fallen_y: float
+    factors: tuple[Place, ...]
 
     @property
     def velocity(self) -> Complex:
         """Complex velocity at that angle."""
-        return cast("Complex", self.velocity_x + 1j * self.velocity_y)
+        x, y = self.factors[0]
+        return cast("Complex", x + 1j * y)
 
     def along(self, x: float, y: float, scale: float, sense: float) -> LinkDisplacement:
         """Return the displacement along a vector (x, y) and across it, times numbers."""
-        factors, out = self[5:], list[float]()
-        for u, v in zip(factors[::2], factors[1::2], strict=True):
-            out += [(u * x + v * y) * scale, (v * x - u * y) * (sense * scale)]
-        return LinkDisplacement(*self[:5], *out)
+        out = []
+        for u, v in self.factors:
+            out.append(((u * x + v * y) * scale, (v * x - u * y) * (sense * scale)))
+        return LinkDisplacement(self.turn, tuple(out))
 
     def __call__(self, tau: Number, order: int) -> Vector:
         """Displacement (x, y) after a rotation d of the crank, ``tau`` radians."""
         sine, versine = rotation(tau, order)
-        _, fallen, bent = rotated(enclosed(sine.c[0], self[:5]), sine, versine)
-        vx, vy, px, py, bx, by, fx, fy = enclosed(sine.c[0], self[5:])
+        _, fallen, bent = rotated(enclosed(tau, self.turn), sine, versine)
+        (vx, vy), (px, py), (bx, by), (fx, fy) = (enclosed(tau, one) for one in self.factors)
         return (
             sine * vx + versine * px + bent * bx + fallen * fx,
             sine * vy + versine * py + bent * by + fallen * fy,
         )
-
-
-class Direction(NamedTuple):
-    """A complex unit vector of numbers that have no complex ones, as enclosures."""
-
-    real: float
-    imag: float
-
-
-Place: TypeAlias = tuple[Any, Any]
-Turn: TypeAlias = tuple[float, float, float, float, float]  # first numbers of a displacement
 
 
 def rotated(numbers: Turn, sine: Jet, versine: Jet) -> tuple[Jet, Jet, Jet]:
@@ -139,16 +114,13 @@ class LinkPath(Batchable, ABC):
         other.numbers = numbers
         return other
 
-    def link(self, angle: Jet) -> tuple[Jet, Jet]:
+    def link(self, angle: Jet) -> Vector:
         """Unit vector along the link, from A towards B, for the crank's angle in radians."""
-        m, path = library(angle.c[0]), self
+        path, (sine, cosine) = self, sin_cos(angle)
         if isinstance(angle.c[0], Enclosed):  # the rounding of what its numbers make counts, too
             path = self.having(enclosed(angle.c[0], self.numbers))
-        (x, y), _, turn = path.turn(Direction(m.cos(angle.c[0]), m.sin(angle.c[0])))
-        if not angle.order:
-            return Jet((x,)), Jet((y,))
-        s, v, _ = rotated(turn, *sine_versine(Jet((0.0, *angle.c[1:]))))
-        return v * -x - s * y + x, s * x - v * y + y
+        x, y, _ = path.pose(cosine, sine)
+        return x, y
 
     def turn(self, crank: Any, order: int = 2) -> tuple[Place, Place, Turn]:
         """Unit vector (x, y) along the link, place (x, y) of A, and how the link turns from there.
@@ -156,7 +128,7 @@ class LinkPath(Batchable, ABC):
         ``crank`` is the direction of A, a complex unit vector, or an array of them. Order 1 asks
         for the link's rate alone.
         """
-        (u, v, sine), (b, bend, x, y) = self.pose(crank), self.guide
+        (u, v, sine), (b, bend, x, y) = self.pose(crank.real, crank.imag), self.guide
         # products of real numbers take half the time of complex ones
         px, py, one = self.numbers[0] * crank.real, self.numbers[0] * crank.imag, 1.0 / sine
         over, back = one / b, (v * px - u * py) * bend
@@ -172,10 +144,10 @@ class LinkPath(Batchable, ABC):
         """The guide of the link at its joint B."""
 
     @abstractmethod
-    def pose(self, crank: Any) -> tuple[Any, Any, Any]:
+    def pose(self, c: Any, s: Any) -> tuple[Any, Any, Any]:
         """Unit vector (x, y) along the link, and the sine of its angle from the normal of B's path.
 
-        They are those for directions of the crank, complex unit vectors.
+        They are numbers or jets, as the cosine and the sine of the crank's angle.
         """
 
     def about(self, crank: Any, velocity: Any = None) -> LinkDisplacement:
@@ -188,14 +160,19 @@ class LinkPath(Batchable, ABC):
         if velocity is None:
             velocity = 1j * (pin + turn[3] * arm)
         factors = velocity, -pin, -1j * arm, -arm
-        return LinkDisplacement(*turn, *(x for z in factors for x in (z.real, z.imag)))
+        return LinkDisplacement(turn, tuple((z.real, z.imag) for z in factors))
 
     def joints(self, crank: Any) -> tuple[Any, Any, Any]:
         """Crank pin A, the other joint B and the point, for directions of the crank; complex."""
         a, *_, p, q = self.numbers
-        pin, (x, y, _) = a * crank, self.pose(crank)
+        pin, (x, y, _) = a * crank, self.pose(crank.real, crank.imag)
         along = x + 1j * y
         return pin, pin + self.guide.length * along, pin + along * (p + 1j * q)
+
+
+def root(x: Any) -> Any:
+    """Square root of a number or a jet."""
+    return sqrt(x) if isinstance(x, Jet) else library(x).sqrt(x)
 
 
 class LinkRate(NamedTuple):

@@ -9,11 +9,10 @@ from collections.abc import Mapping
 from typing import Annotated, Any, ClassVar, Self
 
 from geneva_cli.errors import refuse_text
-from geneva_cli.kinds.linkages.link_path import Guide, LinkPath
+from geneva_cli.kinds.linkages.link_path import Guide, LinkPath, root
 from geneva_cli.kinds.linkages.linkage import Linkage, PlaneLink
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.pivots import Joint, Layout
-from geneva_cli.numerics.arrays import library
 from geneva_cli.spec.rules import LENGTH, POSITIVE, Range
 
 
@@ -28,11 +27,11 @@ class SlidingRod(LinkPath):
         """The slider's line, across which it pushes."""
         return Guide(self.numbers[1], 0.0, 0.0, 1.0)
 
-    def pose(self, crank: Any) -> tuple[Any, Any, Any]:
-        """The rod for directions of the crank, whose end B is on a line."""
+    def pose(self, c: Any, s: Any) -> tuple[Any, Any, Any]:
+        """The rod, whose end B is on a line."""
         a, b, h, _, _ = self.numbers
-        y = (h - a * crank.imag) / b
-        x = library(y).sqrt((1.0 - y) * (1.0 + y))
+        y = (h - a * s) / b
+        x = root((1.0 - y) * (1.0 + y))
         return x, y, -x
 
 

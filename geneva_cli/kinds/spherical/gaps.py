@@ -38,11 +38,11 @@ class BallGaps(Gaps):
         self.sizes, L, self.pitch = ball.lengths, ball.radius_mm, 2.0 * ball.half_step
         self.near, self.rim = NEAR * L, L * ball.rim
         slots = [arc for k in range(ball.z) for arc in edge(ball, k * self.pitch)]
-        self.wheel = self.beside = SphereArcs(slots, radius=L)
-        self.around = SphereArcs(edge(ball), radius=L, closed=False)  # one slot; all are equal
+        self.wheel = SphereArcs(slots, radius=L)
+        slot = SphereArcs(edge(ball), radius=L, closed=False)  # all are equal
         edges = (sector.boundary for sector in sectors)
         self.crank = SphereArcs(*edges, radius=L) if sectors else None
-        own = self.around, self.pitch, self.crank, ball.roller, ProjectedMotion(ball)
+        own = slot, self.pitch, self.crank, ball.roller, ProjectedMotion(ball)
         self.stops = SphereStops(*own)
         self._rollers = np.array([place(ball.arm, azimuth) for azimuth in ball.rollers])
 
@@ -51,12 +51,6 @@ class BallGaps(Gaps):
         turn = np.radians(input_deg)
         pins = self.plane_motion.from_crank(self._rollers, turn)
         return Pose(self.assembly.wheel(input_deg), turn, pins)
-
-    def in_wheel(self, motion: int, input_deg: Array, lead: Array | float = 0.0) -> Array:
-        """Return the centre of a motion's roller in the wheel's frame, mm, (n, 3)."""
-        pose = self.pose(input_deg)
-        centre = self.plane_motion.into(pose.pins[:, motion], pose.wheel + lead)
-        return self.ball.radius_mm * centre
 
 
 class SpherePairs(FlatPairs):

@@ -228,7 +228,7 @@ def _arm(ball: Ball, sectors: Sequence[Region], size: Size, bolts_each: int) -> 
     form = bore_of(size, "crank", ball.arm_bore_mm)._replace(direction=keyway)
     pins = tuple(RoundHole(place(ball.arm, turn), hole) for turn in ball.rollers)
     bolts = _bolts(ball, sectors, size, bolts_each)
-    cap, eye, bolted = ball.cap(hub, form.reach, wall), eye / L, wall + 2.0 * size.edge_mm
+    (*_, cap), eye, bolted = ball.arm_radii(size), eye / L, wall + 2.0 * size.edge_mm
     caps = [Cap(POLE, cap), *(Cap(pin.axis, eye) for pin in pins)]
     caps += [Cap(b.axis, eye_about(b.radius, bolted) / under) for b in bolts]
     boundary, holes = sphere.convex_hull(caps), (RoundHole(POLE, hub), *pins, *bolts)

@@ -19,14 +19,13 @@ from geneva_cli.loads.strength.part_loads import shaft_squares, single_loads
 from geneva_cli.loads.strength.pin_arm_key import NO_ARM, ArmDimensions, arm_stress_MPa
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.arrays import array, half_or, value_or
+from geneva_cli.numerics.arrays import array, value_or
 from geneva_cli.numerics.tolerances import keeps, sizes_from
 from geneva_cli.parts import sized_by_load as load
 from geneva_cli.parts import sizes as rules
 from geneva_cli.parts.machine_sizes import keys_by_load
-from geneva_cli.parts.shafts.bores import reach_or_bore
 from geneva_cli.parts.sizes import KeySizes
-from geneva_cli.spec.defaults import eye_about, wall_min, wheel_material
+from geneva_cli.spec.defaults import wall_min, wheel_material
 from geneva_cli.study.synth.suiting import LOCK, SIZES, USUAL, with_roller
 
 
@@ -57,12 +56,9 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
     known = {"slot_bottom_clearance_mm": sizes.bottom_mm, "lock_radius_mm": sizes.lock_mm}
     known |= {"wheel_bore_mm": 2.0 * sizes.bore_mm, "pin_mm": 2.0 * sizes.pin_mm}
     if sizes.arm_bore_mm:
-        known["arm_bore_mm"] = 2.0 * sizes.arm_bore_mm
-        with suppress(GenevaError):  # reported by the check of the parts
-            pin, passing = rules.hole_radius(size, sizes.pin_mm), sizes.passing_mm(sizes.opening_mm)
-            wall = wall_min(size, sizes.radius_mm)
-            hub, eye = rules.hub_and_eye(size, wall, pin, sizes.arm_bore_mm, passing)
-            known |= {"arm_hub_mm": 2.0 * hub, "arm_eye_mm": 2.0 * eye}
+        _, hub, eye, _ = sizes.arm_radii(size)
+        known |= {"arm_bore_mm": 2.0 * sizes.arm_bore_mm}
+        known |= {"arm_hub_mm": 2.0 * hub, "arm_eye_mm": 2.0 * eye}
     spans = {"wheel": sizes.span_mm, "lock": sizes.lock_span_mm, "arm": sizes.arm_span_mm}
     for part, (inside, outside) in spans.items():
         # the digits beyond the twelfth are rounding of the faces' radii
@@ -150,13 +146,12 @@ def _crank_bored(mechanism: Mechanism, ball: Ball, keyed: bool) -> Ball:
         if size.crank_keyway is not None and math.isnan(float(parts.crank_key.shaft)):
             return False
         # the arm's hub fits: about its bore, in the arm, and past pins and wheel
-        bored = reach_or_bore(size, "crank", trial.arm_bore_mm)
-        hub = rules.arm_hub(size, bored, trial.arm_bore_mm, wall)
+        bored, hub, _, cap = trial.arm_radii(size)
         hole = math.asin(min(1.0, rules.hole_radius(size, trial.pin_mm) / under))
         to_pins = under * math.sin(max(0.0, trial.arm - hole - wall / under))
         passing = trial.arm + trial.passing_mm(trial.opening_mm) / trial.radius_mm
         within = bored + wall <= hub <= min(to_pins, 0.99 * flat_radius(under, over))
-        return within and trial.cap(hub, bored, wall) <= passing
+        return within and cap <= passing
 
     bores = sizes_from(2.0 * ball.arm_bore_mm, over, bores=True)[1:]
     fitting = takewhile(fits, (ball._replace(arm_bore_mm=0.5 * d) for d in bores))
@@ -187,12 +182,8 @@ def sphere_stressed(spec: Spec, ball: Ball) -> load.Stressed:
     thick, arm, bore = over - under, NO_ARM, ball.arm_bore_mm
     end = ball.shafts_end_mm(size) - L, thick
     if bore:
-        middle, wall = 0.5 * (under + over), wall_min(size, L)
-        hole = rules.hole_radius(size, ball.pin_mm)
-        bored = reach_or_bore(size, "crank", bore)
-        cap = ball.cap(rules.arm_hub(size, bored, bore, wall), bored, wall)
-        eye = half_or(size.arm_eye_mm, eye_about(hole, wall, ball.passing_mm(ball.opening_mm)))
-        off = middle - L * math.cos(ball.arm)
+        middle, (bored, _, eye, cap) = 0.5 * (under + over), ball.arm_radii(size)
+        hole, off = rules.hole_radius(size, ball.pin_mm), middle - L * math.cos(ball.arm)
         radii = L * ball.arm, middle * cap, middle * eye / L, bored, hole
         arm = ArmDimensions(*radii, thick, off)
     contact = value_or(size.face_width_mm, ball.span_mm[1] - ball.span_mm[0])

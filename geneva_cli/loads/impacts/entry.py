@@ -133,15 +133,15 @@ class _Approach(NamedTuple):
         The roller's centre P and the point C that it meets keep their distance along the normal n
         at the speed n . P' / n . (z x C).
         """
-        out, first = np.full((len(places), 1), np.nan), np.argmax(passed, axis=1)
-        there = np.flatnonzero(passed.any(axis=1) & (first > 0))
-        ends = np.sort([places[there, first[there] - k] for k in (0, 1)], axis=0)
+        every, first = np.arange(len(places)), np.argmax(passed, axis=1)
+        reached = np.where(passed.any(axis=1) & (first > 0), 1.0, np.nan)
+        ends = np.sort([places[every, first - k] * reached for k in (0, 1)], axis=0)
 
         def gap(x: Array, live: Whole) -> tuple[Array, Array]:
-            value, slope = taken(self, there[live]).gap(x[:, None])
+            value, slope = taken(self, live).gap(x[:, None])
             return value[:, 0], slope[:, 0]
 
-        out[there, 0] = find_roots(gap, *ends)
+        out = find_roots(gap, *ends)[:, None]
         engagement, place = self.axis.engagement, self.roller(out)
         point: list[Number] = [p.c[0] for p in place]
         normal: list[Number] = [0.0, 1.0, 0.0]
@@ -172,11 +172,9 @@ def first_contacts(axis: RestingAxis, crank: Number, center: Number = 0.0) -> Fi
             off = (abs(turn) > 1e-9) | np.logical_not(built.crosses)
             sense = np.where(off, np.where(turn > 1e-9, -1.0, 1.0), sense)
         far = span * np.append(0.0, OCTAVES)
-        passed = np.zeros((len(offset), far.shape[-1]), dtype=bool)
-        for side in (-1.0, 1.0):  # many errors of one machine have its path in common
-            if (sense == side).any():
-                beyond = roller.gap(turn + side * far)[0]
-                passed |= (sense == side) & (beyond * roller.gap(turn)[0] <= 0.0)
+        # many errors of one machine have its path in common
+        back, ahead = (roller.gap(turn + side * far)[0] for side in (-1.0, 1.0))
+        passed = np.where(sense > 0.0, ahead, back) * roller.gap(turn)[0] <= 0.0
         return roller.contacts(turn + sense * far, passed)
 
 

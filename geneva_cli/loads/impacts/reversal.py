@@ -59,7 +59,6 @@ def impacts_of(
     before that, by the wall that it left. NaN if the play is not used up in the motion.
     """
     which, begin = at
-    out: Array = np.full((2, len(begin)), np.nan)
     follows = np.append(which[1:] == which[:-1], False)
     until = np.where(follows, np.append(begin[1:], 0.0), np.nan)
     motions, start, drags = taken(engagement.motion, which), begin[:, None], drag[which]
@@ -80,32 +79,29 @@ def impacts_of(
         turn = np.where(np.isnan(until), span, (until - start[:, 0]) * DEGREE)
         sense = np.copysign(1.0, gained(turn, every)[0])
         ahead_at_exit, speed_at_exit = gained(span, every)
-        slows = np.flatnonzero(sense * speed_at_exit < 0.0)
 
         def faster(x: Array, live: arrays.Whole) -> tuple[Array, Array]:
-            of = slows[live]
-            place = start[of] + x[:, None] / DEGREE
-            torque = (taken(motions, of)(place, 2).derivatives()[2] + drags[of])[:, 0]
-            return sense[of] * gained(x, of)[1], -sense[of] * torque
+            place = start[live] + x[:, None] / DEGREE
+            torque = (taken(motions, live)(place, 2).derivatives()[2] + drags[live])[:, 0]
+            return sense[live] * gained(x, live)[1], -sense[live] * torque
 
-        most = span.copy()  # where it is farthest from the wall that it left
-        most[slows] = find_roots(faster, turn[slows], span[slows])
+        # where it is farthest from the wall that it left
+        slower = np.where(sense * speed_at_exit < 0.0, span, np.nan)
+        most = np.where(np.isnan(slower), span, find_roots(faster, turn, slower))
         crosses = (play > 0.0) & (play <= sense * gained(most, every)[0])
         returns = (play > 0.0) & ~crosses & (sense * ahead_at_exit < 0.0)
-        there, gap = np.flatnonzero(crosses | returns), np.where(crosses, play, 0.0)
+        gap = np.where(crosses, play, 0.0)
 
         def over(x: Array, live: arrays.Whole) -> tuple[Array, Array]:
-            of = there[live]
-            ahead, speed = gained(x, of)
-            return sense[of] * ahead - gap[of], sense[of] * speed
+            ahead, speed = gained(x, live)
+            return sense[live] * ahead - gap[live], sense[live] * speed
 
-        if len(there):
-            low, high = np.where(crosses, 0.0, most)[there], np.where(crosses, most, span)[there]
-            out[0, there] = find_roots(over, low, high)
-            out[1, there] = abs(gained(out[0, there], there)[1])
+        low = np.where(crosses, 0.0, np.where(returns, most, np.nan))
+        struck = find_roots(over, low, np.where(crosses, most, span))
+        hit = abs(gained(struck, every)[1])
     # a wheel that has not crossed its play leaves no other wall at the next change
-    out[1, 1:][follows[:-1] & ~crosses[:-1]] = np.nan
-    return begin + out[0] / DEGREE, out[1]
+    hit[1:][follows[:-1] & ~crosses[:-1]] = np.nan
+    return begin + struck / DEGREE, hit
 
 
 def drag_over(case: LoadCase) -> float:

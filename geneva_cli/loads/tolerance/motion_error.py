@@ -9,6 +9,7 @@ slot's axis has a jump of 0: its roller meets the mouth instead.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 from itertools import product
 from typing import NamedTuple
 
@@ -146,27 +147,24 @@ def _plays(mechanism: Mechanism) -> arrays.Array:
     return np.where(known, np.degrees(rows), np.nan)
 
 
-class EntryJump(NamedTuple):
-    """The jump at one engagement's entry into a straight slot."""
+def entry_jumps(mechanism: Mechanism) -> list[Effect]:
+    """Entry jump of each engagement whose roller enters along its slot's axis, or as built.
 
-    axis: RestingAxis
-    L: float
-    arm: float
-
-    def __call__(self, by: locking.Deviations) -> tuple[Jet, arrays.Mask]:
-        """Sizes of the jumps, over the input's speed, and a mask of machines that miss the axis."""
-        crank, center = by.crank_radius_mm.c[0] / self.arm, by.center_distance_mm.c[0] / self.L
-        crank, center = (np.reshape(x, (-1, 1)) for x in (crank, center))
-        off = np.ravel(self.axis.offset(crank, center)) != 0.0
-        as_drawn = np.ravel(self.axis.engagement.through.jumps[0])
-        jump = np.where(off, first_contacts(self.axis, crank, center).jump, as_drawn)
-        return Jet((np.nan_to_num(abs(jump)),)), off & np.isnan(jump)
+    They are sizes over the input's speed, and masks of machines that miss the axis.
+    """
+    return [partial(_entry_jump, mechanism, axis) for axis in RestingAxis.each(mechanism)]
 
 
-def entry_jumps(mechanism: Mechanism) -> list[EntryJump]:
-    """Entry jump of each engagement whose roller enters along its slot's axis, or as built."""
-    L, axes = mechanism.center_distance_mm, RestingAxis.each(mechanism)
-    return [EntryJump(axis, L, arm_mm(mechanism, axis.engagement)) for axis in axes]
+def _entry_jump(
+    mechanism: Mechanism, axis: RestingAxis, by: locking.Deviations
+) -> tuple[Jet, arrays.Mask]:
+    crank = by.crank_radius_mm.c[0] / arm_mm(mechanism, axis.engagement)
+    center = by.center_distance_mm.c[0] / mechanism.center_distance_mm
+    crank, center = (np.reshape(x, (-1, 1)) for x in (crank, center))
+    off = np.ravel(axis.offset(crank, center)) != 0.0
+    as_drawn = np.ravel(axis.engagement.through.jumps[0])
+    jump = np.where(off, first_contacts(axis, crank, center).jump, as_drawn)
+    return Jet((np.nan_to_num(abs(jump)),)), off & np.isnan(jump)
 
 
 def entry_jumps_worst(mechanism: Mechanism, use: Mapping[str, float]) -> arrays.Array | None:

@@ -165,7 +165,7 @@ def speeds_to_avoid(own: Oscillators) -> list[tuple[float, float, float, float]]
     for k, (panels, (scale,)) in enumerate(zip(own.panels, own.scale, strict=True)):
         # Above some ratio no residual is that large: it is at most the variation of a derivative
         # over Omega to its order, and over sqrt(1 - zeta²). A panel has one or two extremes.
-        variation = 4.0 * len(panels.left) * panels.greatest[: 1 if panels.jumps[0] else 2, 0]
+        variation = 4.0 * panels.left.size * panels.greatest[: 1 if panels.jumps[0] else 2, 0]
         most = variation / math.sqrt(1.0 - damping[0] * damping[0])
         omega = (most / AVOIDED_SHARE) ** (1.0 / np.arange(1, len(most) + 1))
         low = own_ratio / FASTER

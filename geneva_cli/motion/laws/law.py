@@ -21,8 +21,6 @@ class Law(SpecTable, table="motion"):
 
     NAME: ClassVar[str]
     ABOUT: ClassVar[str]
-    # reason in the warning that the law turns the wheel back
-    TURNS_BACK: ClassVar[str] = "the law's points must not fall"
     # True if the second half mirrors the first, an array for a batch; set where keys decide it
     symmetric: ClassVar[Truth] = True
     # True if analytic between the breaks; a spline is not

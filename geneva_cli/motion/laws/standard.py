@@ -8,30 +8,8 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.motion.laws.law import Law, from_velocity
 from geneva_cli.motion.laws.sine_constant_cosine import breaks, first_half
 from geneva_cli.numerics.arrays import library
-from geneva_cli.numerics.jet import Jet, Number, sin, sin_cos, taylor
+from geneva_cli.numerics.jet import Jet, Number, sin_cos, taylor
 from geneva_cli.spec.rules import Range
-
-
-class Cycloidal(Law):
-    """Inclined sine line: ds/du = 2 sin²(pi u).
-
-    Acceleration starts and ends at 0.
-
-    >>> round(Cycloidal()(0.5).c[1], 6)  # ds/du at its greatest
-    2.0
-    """
-
-    NAME: ClassVar[str] = "cycloidal"
-    ABOUT: ClassVar[str] = "inclined sine line; no jump in acceleration"
-
-    def first(self, u: Number, order: int) -> Jet:
-        m = library(u)
-
-        def velocity(u: Jet) -> Jet:
-            s = sin(u * m.pi)
-            return s * s * 2.0
-
-        return from_velocity(u, order, lambda u: u - m.sin(2.0 * m.pi * u) / (2.0 * m.pi), velocity)
 
 
 class _ScaledLaw(Law):
@@ -47,6 +25,20 @@ class _ScaledLaw(Law):
 
     def first(self, u: Number, order: int) -> Jet:
         return first_half(u, order, *self.FRACTIONS)
+
+
+class Cycloidal(_ScaledLaw):
+    """Inclined sine line: ds/du = 2 sin²(pi u).
+
+    Acceleration starts and ends at 0.
+
+    >>> round(Cycloidal()(0.5).c[1], 6)  # ds/du at its greatest
+    2.0
+    """
+
+    NAME: ClassVar[str] = "cycloidal"
+    ABOUT: ClassVar[str] = "inclined sine line; no jump in acceleration"
+    FRACTIONS: ClassVar[tuple[float, float, float]] = (0.5, 0.5, 0.0)
 
 
 class Harmonic(_ScaledLaw):
@@ -204,7 +196,6 @@ class SineGroup(Law):
 
     NAME: ClassVar[str] = "sine-group"
     ABOUT: ClassVar[str] = "four sines; no jump up to snap; lambda tilts it, |lambda| <= 1/8"
-    TURNS_BACK: ClassVar[str] = "the sine group turns back for |lambda| > 1/8"
     lambda_: Annotated[float, Range(-10.0, 10.0), "shape parameter of the sine-group law"] = 0.0
 
     def __post_init__(self) -> None:

@@ -7,7 +7,7 @@ cos² b is a product with the distance to it, which is computed once.
 
 from functools import partial
 
-from geneva_cli.motion.engagement import Anchor, Slot
+from geneva_cli.motion.engagement import Anchor, Slot, WheelMotion
 from geneva_cli.motion.path_and_slot import AnchoredPath, StraightSlotMotion
 from geneva_cli.motion.wheels.classic import HalfStep, PinPose, gap, half_motion_deg, middle
 from geneva_cli.motion.wheels.gearing import RollerPlace
@@ -40,8 +40,7 @@ class OffsetSlotMotion(StraightSlotMotion):
         pieces = first, partial(self._inside, order), last
         return piecewise(input_deg, self.path.cuts, pieces)
 
-    def rate(self, input_deg: Number, order: int = 2) -> Jet:
-        return self(input_deg, order + 1).derivative()
+    rate = WheelMotion.rate
 
     def _from_end(self, anchor: Anchor, order: int, x: Number) -> Jet:
         """Wheel angle near entry or exit.

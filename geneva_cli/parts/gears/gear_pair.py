@@ -36,8 +36,6 @@ from geneva_cli.parts.shafts.bores import Bore, round_bore
 from geneva_cli.table import Table
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from geneva_cli.geometry.fit import Curve
     from geneva_cli.parts.parts import EdgedParts
 
@@ -128,17 +126,11 @@ def pitch_curves(gears: Gears, sense: float) -> tuple[Curve, Curve]:
 def _pitch_curve(gears: Gears, sense: float, driver: bool, phi: Array) -> tuple[Array, Array]:
     ratio, turned = ratio_and_turn(gears, phi)
     i, slope = (array(c) for c in ratio.derivatives()[:2])
-    C = gears.distance_mm
-    direction: NDArray[np.clongdouble]
-    spin: NDArray[np.complexfloating] | complex
-    if driver:
-        r, change = C * i / (1.0 + i), C * slope / (1.0 + i) ** 2
-        spin = 1j * sense
-        direction = -np.exp(1j * sense * phi.astype(np.longdouble))
-    else:
-        r, change = C / (1.0 + i), -C * slope / (1.0 + i) ** 2
-        spin = -1j * sense * i
-        direction = (turned.real - 1j * sense * turned.imag).astype(np.clongdouble)
+    whole, size = gears.distance_mm / (1.0 + i), i if driver else 1.0  # r1 over r2 is i
+    r, change = whole * size, whole * slope / (1.0 + i) * (1.0 if driver else -1.0)
+    spin = 1j * sense * (1.0 if driver else -i)
+    turn = (turned.real - 1j * sense * turned.imag).astype(np.clongdouble)
+    direction = -np.exp(1j * sense * phi.astype(np.longdouble)) if driver else turn
     place, speed = r * direction, (change + spin * r) * direction
     tangent = speed / np.abs(speed)
     # as doubles; processors differ in products of complex doubles

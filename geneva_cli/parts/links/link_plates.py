@@ -173,7 +173,7 @@ def _bored(bar: _Bar, turning: Iterable[LinkAxis], sizes: LinkSizes, L: float) -
     plate = Plate(name, "LINK", convex_hull("LINK", eyes), tuple(holes), *span)
     wall = plate_wall(plate)
     text = f"--part links: no plate is left around the holes of the {name}: it lacks {-wall:.4g} "
-    text += "mm; reduce link_pin_mm, link_bore_mm or pin_mm, or move joints apart"
+    text += "mm; reduce link_pin_mm, link_bore_mm or pin_mm, or increase link_width_mm"
     refuse_size(wall <= 0.0, "link_pin_mm", text)
     return _placed(plate, bar.at, bar.unit)
 

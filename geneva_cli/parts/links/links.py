@@ -11,7 +11,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.errors import refuse_size
 from geneva_cli.geometry.plates import Member, Plate
 from geneva_cli.geometry.shapes import Circle, Point, placed
 from geneva_cli.motion.mechanism import Mechanism
@@ -148,8 +147,6 @@ def link_sizes(mechanism: Mechanism, links: Iterable[Link], parts: Outlines | No
                 near.append(float(np.abs(p - q).min()))
     pin = half_or(size.link_pin_mm, rounded_radius(min(L / 40.0, 0.2 * min(near, default=L))))
     eye = half_or(size.link_width_mm, eye_about(pin + loose, wall))
-    text = f"it must be above {2.0 * (pin + loose):.6g}, the diameter of the pins' holes"
-    refuse_size(eye <= pin + loose, "link_width_mm", text, 2.0 * eye)
     crank_mm = spec.shaft.crank_diameter_mm
     crank_shaft = None if crank_mm is None else 0.5 * crank_mm
     if parts and (parts.has_arm or parts.sizes.crank_bore):

@@ -179,15 +179,11 @@ def _next(around: list[Wall], last: WallPlace) -> WallPlace:
 def _joint(last: WallPlace, following: WallPlace) -> tuple[float, float]:
     """Return the parameters on both walls of the point where they meet."""
     a, b = last.t, following.t
-    p, q = last.wall.points[last.i].tolist(), following.wall.points[following.i].tolist()
-    at_ends = all(p.i in (0, len(p.wall.t) - 1) for p in (last, following))
-    if at_ends and math.dist(p, q) < 1e-6 * max(1.0, math.hypot(*p)):
-        return a, b
     met = _crossing(last, following)
     if met is not None:
         return met
     # They merge: continue from the point of the one to the nearest free point of the other.
-    low, high = (float(following.wall.t[i]) for i in following.run)
+    p, (low, high) = last.wall.points[last.i], following.wall.t[[*following.run]].tolist()
     for _ in range(8):
         q, v, speed = following.course(b)
         step = (p[0] - q[0]) * v[0] + (p[1] - q[1]) * v[1]

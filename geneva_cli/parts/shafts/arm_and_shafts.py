@@ -154,9 +154,7 @@ def crank_arm(parts: Outlines) -> CrankArm:
         text = f'--part arm: kind = "{drive.NAME}" carries its roller on no crank arm; '
         raise GenevaError(f"{text}--part parts lists its links", ("drive", "kind"))
     centres, hole = roller_centres(assembly), pin_hole(size, sizes.pin)
-    near, far = math.inf, 0.0
-    for centre in centres:
-        near, far = min(near, math.hypot(*centre)), max(far, math.hypot(*centre))
+    near, far = sizes.reaches
     # the wheel's hub stands on the roller's side, where the arm's end passes below the wheel
     passing = sizes.passing_eye(assembly.L - far)
     free = 0.0 if size.has_hub("wheel") else max(sizes.wheel_hub - sizes.wheel_bore, 0.0)

@@ -93,8 +93,6 @@ class Bore(NamedTuple):
             low = _turned(far, -0.5 * self.key.width, direction)
             high = _turned(far, 0.5 * self.key.width, direction)
             top, sides = Line(low, high), (Line(high, first.start), Line(second.end, low))
-            if shaft:
-                return shapes.closed(layer, [first, second, sides[1], top, sides[0]])
             return shapes.closed(layer, [top, sides[0], first, second, sides[1]])
         if self.form == "hex":
             reach, sixth = radius / math.cos(math.pi / 6.0), math.pi / 6.0

@@ -78,19 +78,15 @@ class FreeRanges:
 
     def meetings(self, crank_angle: Array) -> Iterator[Meetings]:
         """Yield the pairs of branches that meet at crank angles (n,), which are near each other."""
-        middle, half = 0.5 * (crank_angle[0] + crank_angle[-1]), 0.5 * np.ptp(crank_angle)
-        reach = self.crank.size + half * np.hypot(self.crank.ox, self.crank.oy)
-        turn, crank = float(self.crank_direction(middle)), self.crank
-        c, s = math.cos(turn), math.sin(turn)
-        far = np.hypot(self.L + crank.ox * c - crank.oy * s, crank.ox * s + crank.oy * c)
-        own = Branches(*self.own)
+        direction, crank, moves = self.crank_direction(crank_angle), self.crank, self.stops.moves
+        reach = crank.size + 0.5 * np.ptp(direction) * np.hypot(*crank.middles.T)
+        middle = 0.5 * (direction[:1] + direction[-1:])
+        far, own = moves.level(moves.from_crank(crank.middles, middle))[0], Branches(*self.own)
         low, high = own.low.min(initial=np.inf), own.high.max(initial=0.0)
         some = np.flatnonzero((far - reach <= high) & (far + reach >= low))
-        if not len(some):
-            return
-        direction = self.crank_direction(crank_angle)
-        near = self.stops.branches(crank.subset(some), direction, self.slack)
-        yield from self.stops.meetings(near, self.own)
+        if len(some):
+            near = self.stops.branches(crank.subset(some), direction, self.slack)
+            yield from self.stops.meetings(near, self.own)
 
 
 class Ranges:
@@ -103,9 +99,7 @@ class Ranges:
         row, start, end = union(row, start - shift - SAME, end - shift + SAME)
         # with the copies a period before and after, those that cross an end of the period merge
         copy = np.repeat((0.0, -period, period), len(row))
-        row = np.concatenate((row, row, row))
-        start, end = (np.concatenate((each, each, each)) + copy for each in (start, end))
-        row, start, end = union(row, start, end)
+        row, start, end = union(np.tile(row, 3), np.tile(start, 3) + copy, np.tile(end, 3) + copy)
         self.intervals = row, start, end
         self.ends = np.searchsorted(row, np.arange(count + 1)).tolist()
         self.low, self.high = start.tolist(), end.tolist()

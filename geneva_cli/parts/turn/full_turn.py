@@ -96,29 +96,19 @@ def full_turn(parts: TurnedParts) -> FullTurn:
     pairs += [LOCK] if parts.locked else []
     gaps = dict(zip(pairs, map(partial(_least, parts, at=at, first=first), pairs), strict=True))
     fits = min(gaps.values()).mm >= -parts.close
-    resting, dwell = [], Most(0.0, first(np.zeros(1)))
-    for start, end, _, rests, _ in every:
-        resting += [0.5 * (start + end)] if rests else []
-    if resting:
-        leads, _ = wheel_stops(parts, np.array(resting), fits)
-        dwell = _most(np.degrees(leads.max(axis=0)), np.array(resting), first)
+    resting = np.array([0.5 * (one.start + one.end) for one in every if one.rests])
+    leads, _ = wheel_stops(parts, resting, fits)
+    dwell = _most(np.degrees(leads.max(axis=0)), resting, first)
     play, push_deg = play_of(parts, fits)
-    either, both = np.maximum(play.back, play.on), np.minimum(play.back, play.on)
     inside = play.guided
-    hand_over = _most(either[~inside], play.input_deg[~inside], first)
-    guided_deg = play.input_deg[inside]
-    motion = _most(both[inside], guided_deg, first)
-    ahead = _most(play.on[inside], guided_deg, first)
-    behind = _most(play.back[inside], guided_deg, first)
+    hand_over = _most(play.ways.max(axis=0)[~inside], play.input_deg[~inside], first)
+    sides = play.ways.min(axis=0), *play.ways[::-1]
+    motion, ahead, behind = (_most(one[inside], play.input_deg[inside], first) for one in sides)
     push = _most(push_deg, play.input_deg[:-1], first)
-    # of each kind of motion, the first contact that is farthest off its slot's middle
-    contact, begin, known = (-math.inf, 0.0), 0, set()
-    for i, (engagement, _) in enumerate(assembly.motions):
-        own = slice(begin, begin + len(engagement.passages))
-        begin = own.stop
-        if engagement not in known:
-            known.add(engagement)
-            contact = max(contact, _contact(parts, i, own), key=itemgetter(0))
+    # of the first motion of each kind, the first contact that is farthest off its slot's middle
+    kinds = [engagement for engagement, _ in assembly.motions]
+    each = (_contact(parts, kinds.index(kind)) for kind in dict.fromkeys(kinds))
+    contact = max(each, key=itemgetter(0))
     met, free_deg = (contact[0], assembly.shown_deg(contact[1])), math.degrees(assembly.half_step)
     return FullTurn(gaps, dwell, hand_over, motion, ahead, behind, push, met, free_deg)
 
@@ -150,9 +140,7 @@ def _positions(parts: TurnedParts) -> Array:
         raise GenevaError(f"{text}: use a larger roller or horn")
     even = np.interp(np.linspace(0.0, total[-1], count + 1), total, grid)
     # A rim that is too large collides for less than a degree about entry and exit.
-    ends = []
-    for engagement, mid in assembly.motions:
-        ends += [mid + engagement.entry_deg, mid + engagement.exit_deg]
+    ends = [end for one in assembly.motions for end in (one.entry, one.exit)]
     offsets = np.geomspace(0.01, 15.0, 24)  # degrees of the input, on either side
     near = (np.array(ends)[:, None] + np.concatenate((-offsets, [0.0], offsets))).ravel()
     near = assembly.start_deg + (near - assembly.start_deg) % assembly.turn_deg
@@ -197,13 +185,15 @@ def _least(parts: TurnedParts, pair: str, at: Array, first: First) -> Gap:
     return Gap(size, first(np.append(begins, places[finest <= size + parts.close])), pair)
 
 
-def _contact(parts: TurnedParts, motion: int, own: slice) -> tuple[float, float]:
-    """Return the first contact of a motion's ``own`` rollers: offset, mm, and input angle.
+def _contact(parts: TurnedParts, motion: int) -> tuple[float, float]:
+    """Return the first contact of a motion's own rollers: offset, mm, and input angle.
 
     It is at entry or, in reverse, at exit: where the roller comes nearer to the rim's inside.
     """
     assembly, gaps, close = parts.assembly, parts.gaps, parts.close
     engagement, mid = assembly.motions[motion]
+    before = sum(len(one.passages) for one, _ in assembly.motions[:motion])
+    own = range(before, before + len(engagement.passages))
     ends = engagement.exit_deg, engagement.entry_deg
     ahead = float(engagement.reach(ends[0])) - float(engagement.reach(ends[1]))
     # the mouth of an offset slot has a corner for each end, and the rim is at the farther one
@@ -226,14 +216,16 @@ def _contact(parts: TurnedParts, motion: int, own: slice) -> tuple[float, float]
     place = np.array([x])
     if parts.past_mouth(motion, place)[0] >= 0.0:  # a wall meets it, no corner
         return 0.0, x
-    roller = gaps.in_wheel(motion, place, rest - assembly.wheel(place))
+    number, moves = own[-1] if later else own[0], gaps.plane_motion
+    (roller,) = moves.scale * moves.into(gaps.pose(place).pins[:, number], rest)
     # 720 chords are within 1e-6 of the centre distance, half of what counts as touching
-    whole = mid + np.linspace(engagement.entry_deg, engagement.exit_deg, 721)
-    line = gaps.in_wheel(motion, whole)
+    passage, behind = assembly.rollers[number]
+    pose = gaps.pose(behind + np.linspace(passage.entry_deg, passage.exit_deg, 721))
+    line = moves.scale * moves.into(pose.pins[:, number], pose.wheel)
     begins, step = line[:-1], np.diff(line, axis=0)
     # a roller that stops takes steps of no length
     square = np.maximum((step * step).sum(axis=1), 1e-300)
-    along = np.clip(((roller[0] - begins) * step).sum(axis=1) / square, 0.0, 1.0)
-    off = float(np.linalg.norm(begins + along[:, None] * step - roller[0], axis=1).min())
+    along = np.clip(((roller - begins) * step).sum(axis=1) / square, 0.0, 1.0)
+    off = float(np.linalg.norm(begins + along[:, None] * step - roller, axis=1).min())
     off -= parts.sizes.half_width - parts.sizes.roller
     return off if off > parts.contact else 0.0, x

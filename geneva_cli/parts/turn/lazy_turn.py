@@ -22,7 +22,8 @@ STEEPEST = 30.0
 SHORTEST = 1e-10  # radians of the crank: a step that is not divided any more
 SAME = 1e-11  # radians of the wheel: a smaller move is rounding
 END = 1e-8  # radians of the crank: the end of a push, where the wheel hardly moves, is not closer
-PAUSE = 1e-5  # radians of the crank: after a shorter rest a push goes on
+PAUSE = 1e-5  # radians of the crank: a push that pauses for less goes on
+NEXT = 1e-6  # radians of the crank: positions that are kept are this far apart
 
 Around: TypeAlias = Callable[[float], Range]  # the range about an angle of the wheel
 
@@ -104,7 +105,10 @@ class Turner:
         except _Stuck as stuck:
             (jam,) = stuck.args
         pushes = tuple(Push(*begin, *end) for begin, end in path.pushes)
-        crank_at, wheel_at, low, high = np.array(path.rows).reshape(-1, 4).T
+        rows = np.array(path.rows).reshape(-1, 4)
+        kept = np.diff(np.round(rows[:, 0] / NEXT), prepend=math.inf) != 0.0
+        kept[-1:] = True
+        crank_at, wheel_at, low, high = rows[kept].T
         return LazyTurn(crank_at, wheel_at, low, high, pushes, jam)
 
 
@@ -137,7 +141,10 @@ class _Path:
         runs = abs(pushed - wheel) > steepest * step + SAME
         if runs and step < SHORTEST:
             raise _Stuck(Jam(before, wheel))
-        if runs or (changes and step > max(self.finest, END * self.is_pushed)):
+        # a push that has hardly paused goes on
+        goes_on = bool(self.pushes) and abs(before - self.pushes[-1][1][0]) <= PAUSE
+        finest = max(self.finest, END) if self.is_pushed or goes_on else self.finest
+        if runs or (changes and step > finest):
             if there.is_free and abs(before - self.rows[-2][0]) < 2.0 * step:
                 del self.rows[-1]  # it may have been pushed farthest in the step before
             places = np.linspace(self.rows[-1][0], crank, PARTS + 1)[1:]
@@ -145,8 +152,7 @@ class _Path:
             for i in range(PARTS):
                 self.to(float(places[i]), partial(ranges.around, i))
             return
-        rests = not self.pushes or abs(before - self.pushes[-1][1][0]) > PAUSE
-        if changes and not self.is_pushed and rests:
+        if changes and not (self.is_pushed or goes_on):
             self.pushes.append(((before, wheel), (before, wheel)))
         self.is_pushed = not there.is_free
         if self.is_pushed and abs(pushed - self.pushes[-1][1][1]) > SAME:

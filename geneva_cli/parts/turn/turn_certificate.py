@@ -8,12 +8,13 @@ their rounding.
 import math
 from collections.abc import Callable, Sequence
 from functools import lru_cache, partial
+from itertools import pairwise
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc, from_segments
-from geneva_cli.geometry.shapes import Arc, Contour, Line, Segment, at
+from geneva_cli.geometry.shapes import Arc, Contour, Segment, points
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.arrays import Array, rising
 from geneva_cli.parts.turn.stops import Clearances, Outline, Pose
@@ -115,15 +116,11 @@ class FlatPairs:
         # the crank in arcs of a degree and pieces of lines, each of which is tested for being in
         # the wheel, and its greatest distance from its axis, mm
         pieces: list[Segment] = []
-        for contour in crank:
-            for piece in contour.segments:
-                sweep = piece.sweep if isinstance(piece, Arc) else 0.0
-                count = math.ceil(abs(math.degrees(sweep))) or 90
-                bulge, start = math.tan(0.25 * sweep / count), piece.start
-                for i in range(1, count + 1):
-                    end = at(piece, i / count)
-                    pieces.append(Arc(start, end, bulge) if sweep else Line(start, end))
-                    start = end
+        for piece in (piece for contour in crank for piece in contour.segments):
+            sweep = piece.sweep if isinstance(piece, Arc) else 0.0
+            ends = points(piece, math.ceil(abs(math.degrees(sweep))) or 90)
+            bulge = math.tan(0.25 * sweep / (len(ends) - 1))
+            pieces += [Arc(*pair, bulge) for pair in pairwise(ends)]
         self.pieces: Outline = None
         far = self.apart
         if crank:

@@ -26,7 +26,6 @@ if TYPE_CHECKING:
 # and no roller is more accurate, nor are curved walls.
 CONTACT = 2e-6
 AROUND = 5  # parts into which an interval is divided about a peak
-SMALL = 1e-3  # degrees: the interval over which a roller's speed is computed
 MOST = 4  # intervals that are divided in a round for one peak
 
 
@@ -121,29 +120,27 @@ class TurnedParts(ABC):
 
 
 class Play(NamedTuple):
-    """The wheel's play back and on, degrees, at ascending input angles.
+    """The wheel's play back and on, degrees (2, n), at ascending input angles.
 
     A slot that drives from one wall has play one way only. A roller's centre is past its mouth's
-    corners where ``guided``. ``speed`` is the roller's in the wheel's frame, mm per degree. The
-    pushes are pressure angles, degrees, where a roller stops the wheel; 0 where the lock does.
+    corners where ``guided``. ``rollers`` are in the wheel's frame. The pushes are pressure angles,
+    degrees (2, n), where a roller stops the wheel; 0 where the lock does.
     """
 
     input_deg: Array
-    back: Array
-    on: Array
+    ways: Array
     guided: Mask
-    speed: Array
-    back_push: Array
-    on_push: Array
+    rollers: Array  # (m, 2, n), mm, or directions (m, 3, n)
+    pushes: Array
 
 
 def windows(parts: TurnedParts) -> list[Window]:
     """Return the motions and dwells of a turn."""
     assembly, motions, out = parts.assembly, parts.assembly.motions, []
-    for i, (engagement, behind) in enumerate(motions):
-        after, later = motions[(i + 1) % len(motions)]
-        turns = assembly.turn_deg if i + 1 == len(motions) else 0.0
-        entry, exit_ = behind + engagement.entry_deg, behind + engagement.exit_deg
+    for i, one in enumerate(motions):
+        (engagement, _), entry, exit_ = one, one.entry, one.exit
+        following = motions[(i + 1) % len(motions)].entry
+        following += assembly.turn_deg if i + 1 == len(motions) else 0.0
         spans: tuple[tuple[float, float, int | None], ...] = ((entry, exit_, i),)
         if engagement.paired:
             # between two rollers gears drive the wheel, from the deepest position to the other's
@@ -152,7 +149,6 @@ def windows(parts: TurnedParts) -> list[Window]:
             meets = entry + (assembly.rollers[last].mid - entry) % assembly.turn_deg
             spans = (entry, leaves, first), (leaves, meets, None), (meets, exit_, last)
         out.append(Window(entry, exit_, i, False, spans))
-        following = later + turns + after.entry_deg
         if following - exit_ > SAME_INPUT_DEG:
             out.append(Window(exit_, following, i, True, ((exit_, following, None),)))
     return out
@@ -179,14 +175,14 @@ def play_of(parts: TurnedParts, fits: bool) -> tuple[Play, Array]:
         # Where the play shrinks as the crank turns, a roller at the mouth of its slot pushes the
         # wheel's corner along their common normal. A play that ends abruptly means that a corner
         # blocks: 90 degrees.
-        travel = 0.5 * (play.speed[1:] + play.speed[:-1]) * np.diff(play.input_deg)
-        free, pushes = ~(play.guided[:-1] | play.guided[1:]), np.zeros(len(travel))
-        for edge, push in ((play.back, play.back_push), (play.on, play.on_push)):
-            closing = lever * np.radians(-np.diff(edge))
-            # a rim that moves more than 30 times the roller's travel is not pushed by the roller
-            angle = np.where(closing > 30.0 * travel, 90.0, push[1:])
-            known = free & (np.radians(edge[:-1]) > least) & (closing > 0.0)
-            pushes = np.maximum(pushes, np.where(known, angle, 0.0))
+        steps = np.linalg.norm(np.diff(play.rollers), axis=1)
+        travel = parts.gaps.plane_motion.scale * steps.max(axis=0)
+        closing = lever * np.radians(-np.diff(play.ways))
+        # a rim that moves more than 30 times a roller's travel is not pushed by the roller
+        angle = np.where(closing > 30.0 * travel, 90.0, play.pushes[:, 1:])
+        free = ~(play.guided[:-1] | play.guided[1:])
+        known = free & (np.radians(play.ways[:, :-1]) > least) & (closing > 0.0)
+        pushes = np.where(known, angle, 0.0).max(axis=0)
         if not left:
             break
         # where the play closes fastest, with the neighbours
@@ -205,26 +201,18 @@ def play_of(parts: TurnedParts, fits: bool) -> tuple[Play, Array]:
 
 def _play_at(parts: TurnedParts, every: list[Window], at: Array, fits: bool, least: float) -> Play:
     """Return the play at input angles (n,), in the motions and dwells of the turn."""
-    assembly, gaps = parts.assembly, parts.gaps
-    leads, pressures = wheel_stops(parts, at, fits)
+    gaps = parts.gaps
+    pose, (leads, pressures) = gaps.pose(at), wheel_stops(parts, at, fits)
     resting, guided = np.zeros(len(at), dtype=bool), np.zeros(len(at), dtype=bool)
-    speed, last = np.zeros(len(at)), assembly.start_deg + assembly.turn_deg
     for start, end, motion, rests, _ in every:
         here = (at >= start - SAME_INPUT_DEG) & (at <= end + SAME_INPUT_DEG)
-        if not here.any():
-            continue
-        low = np.maximum(at[here] - SMALL, assembly.start_deg)
-        high = np.minimum(at[here] + SMALL, last)
-        before, after = np.split(gaps.in_wheel(motion, np.concatenate((low, high))), 2)
-        moved = np.linalg.norm(after - before, axis=1) / (high - low)
-        speed[here] = np.maximum(speed[here], moved)
         if rests:
             resting |= here
-        else:
-            guided[here] |= parts.past_mouth(motion, at[here]) > -SAME_INPUT_DEG * assembly.L
-    back, on = np.degrees(leads)
-    back_push, on_push = np.where(leads > least, np.degrees(pressures), 0.0)
-    return Play(at, back, on, guided & ~resting, speed, back_push, on_push)
+        elif here.any():
+            guided[here] |= parts.past_mouth(motion, at[here]) > -SAME_INPUT_DEG * gaps.assembly.L
+    rollers = gaps.plane_motion.into(pose.pins, pose.wheel[:, None]).transpose(1, 2, 0)
+    pushes = np.where(leads > least, np.degrees(pressures), 0.0)
+    return Play(at, np.degrees(leads), guided & ~resting, rollers, pushes)
 
 
 def _peaks(
@@ -239,10 +227,10 @@ def _peaks(
     # walls hold up to a pressure angle of 84 degrees, whose cosine is 1/10: a smaller play between
     # the walls of a slot may be that of their tolerance alone
     held = math.degrees(10.0 * parts.close / lever)
-    either, both = math.degrees(least), np.minimum(play.back, play.on)
-    edges = np.array((play.back, play.back, play.on, play.on, both, both))
+    either, both = math.degrees(least), play.ways.min(axis=0)
+    edges = np.repeat((*play.ways, both), 2, axis=0)
     where = np.array((play.guided, ~play.guided) * 3)
-    above = np.array(((either,), (either,), (either,), (either,), (held,), (either,)))
+    above = np.reshape((either, either, either, either, held, either), (6, 1))
     # beyond half a step the place is lost
     known = where & (edges < math.degrees(parts.assembly.half_step)) & (edges > above)
     value = np.where(known, edges, -1.0)
@@ -253,8 +241,7 @@ def _peaks(
     order = np.lexsort((-value[row, top], row))  # in each row the greatest first
     row, top = row[order], top[order]
     top = top[np.arange(len(row)) - np.searchsorted(row, row) < MOST]
-    ends = np.array((play.back, play.on))
-    most = np.maximum(ends[:, :-1], ends[:, 1:]).min(axis=0)
+    most = np.maximum(play.ways[:, :-1], play.ways[:, 1:]).min(axis=0)
     floor = max(held, both[play.guided].max(initial=0.0))
     change = np.flatnonzero(play.guided[:-1] & play.guided[1:] & (most > floor))
     return top - 1, top, change[np.argsort(-most[change], kind="stable")][:MOST]

@@ -2,7 +2,7 @@
 
 import cmath
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from functools import partial
 from itertools import pairwise, product
 from typing import Any
@@ -10,14 +10,14 @@ from typing import Any
 import numpy as np
 from numpy.polynomial.chebyshev import Chebyshev, chebtrim
 
+from geneva_cli.loads.contact import contact
 from geneva_cli.loads.cycle import Cycle
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import AxisPlace, turned_points
 from geneva_cli.numerics.angles import distinct
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.output.scene import Bar, CarriedShapes, Place, Push, Track
-from geneva_cli.parts.assembly import Passage, assembly, links_at
-from geneva_cli.parts.slots.slot_profile import pitch_at
+from geneva_cli.output.scene import Place, Push, Track
+from geneva_cli.parts.assembly import assembly, links_at
 
 STILL = Track((0.0, 360.0), ((0.0,),))  # of what stands at the angle 0
 ANGLE_ERROR = 1e-7  # rad, of wheel and crank: a tenth of the page's own error
@@ -80,9 +80,8 @@ class MachineTurn:
         sense = one.engagement.crank_sense
         gain = -sign * (sense or 1.0) * math.tau
         rate = gain / self.turn_deg
-        turned = (
-            place.turn - zero - rate * place.behind_deg
-        )  # cranks turn at one rate, if that varies too
+        # cranks turn at one rate, if that varies too
+        turned = place.turn - zero - rate * place.behind_deg
 
         def angle(x: Array) -> Array:
             even = self.ahead + rate * (x - one.mid)
@@ -105,18 +104,14 @@ class MachineTurn:
         numbers = range(len(self.assembly.rollers))
         return tuple(self._place(partial(self.centre, number)) for number in numbers)
 
-    def bars(self, plates: Mapping[str, tuple[CarriedShapes, ...]]) -> tuple[Bar, ...]:
-        """The links with their plates, which are given by the links' names."""
+    def joint(self, link: int, number: int) -> Place:
+        """The place of a joint of a link, both by their numbers."""
 
-        def joint(i: int, j: int, x: Array) -> Array:
-            own = links_at(self.mechanism, self.assembly.from_mid(x, 0.0))[i].joints[j]
-            return np.column_stack([c + 0.0 * x for c in own])
+        def place(x: Array) -> Array:
+            own = links_at(self.mechanism, self.assembly.from_mid(x, 0.0))[link]
+            return np.column_stack([c + 0.0 * x for c in own.joints[number]])
 
-        bars = []
-        for i, link in enumerate(links_at(self.mechanism, np.zeros(1))):
-            joints = tuple(self._place(partial(joint, i, j)) for j in range(len(link.joints)))
-            bars.append(Bar(link.name, joints, link.radius_mm, plates.get(link.name, ())))
-        return tuple(bars)
+        return self._place(place)
 
     def _place(self, place: Callable[[Array], Array]) -> Place:
         error = 2e-6 * self.L  # of joints and rollers: less than a screen shows
@@ -150,37 +145,22 @@ def pushes(cycle: Cycle, turn: MachineTurn) -> Iterator[Push]:
         sound = np.isfinite(force)
         if not sound.any():
             continue
-        pin = turn.assembly.pin(i, one.mid + local, drives=True)
-        normal = _normals(one, local, turn, pin)
-        arm = pin[:, 0] * normal[:, 1] - pin[:, 1] * normal[:, 0]
-        if not turn.mechanism.output.turns:
-            arm = normal[:, 1]  # a rack is pushed along y
-        normal *= np.where(arm * torque < 0.0, -1.0, 1.0)[:, None]
-        places = pin + turn.mechanism.roller_radius_mm * normal
-        contact = (places[:, 0] + 1j * places[:, 1])[sound]
-        arrow = force[sound] * (normal[:, 0] + 1j * normal[:, 1])[sound]
+        pin = turn.assembly.pin(i, one.mid + local, drives=True) @ (1.0, 1j)
+        wall = contact(one.engagement, local, reactions=False)
+        lever, normal = wall.lever.c[0], 1j * pin * (wall.lever.c[0] + 1j * wall.offset.c[0])
+        if not turns:  # a rack is pushed along y
+            lever, normal = 1.0, 1j + 0.0 * pin
+        normal *= np.where(lever * torque < 0.0, -1.0, 1.0) / np.abs(normal)
+        places = (pin + turn.mechanism.roller_radius_mm * normal)[sound]
+        arrow = (force * normal)[sound]
         at = (one.mid + local - turn.start)[sound]
         # the first crank's forces as those at its own crank, and those at the other wheels
         own = turn.on_crank(i)._replace(behind_deg=0.0)
         for place, axis in ((own, 0.0), *((x, turn.L) for x in turn.mechanism.wheel_places[1:])):
             turned = cmath.rect(1.0, place.turn)
-            there, pushed = (contact - axis) * turned + axis, arrow * turned
+            there, pushed = (places - axis) * turned + axis, arrow * turned
             columns = (at + place.behind_deg, there.real, there.imag, pushed.real, pushed.imag)
             yield Push(*(tuple(column.tolist()) for column in columns))
-
-
-def _normals(one: Passage, local: Array, turn: MachineTurn, pin: Array) -> Array:
-    """Unit normals of the slot in the fixed frame, of either sign; projected from a sphere."""
-    if not turn.mechanism.output.turns:
-        return np.column_stack((0.0 * local, 1.0 + 0.0 * local))
-    direction = pin
-    if turn.mechanism.spec.wheel.FLAT:
-        at = pitch_at(one.engagement, local)
-        direction = np.column_stack((at.tangent_x + 0.0 * local, at.tangent_y + 0.0 * local))
-        # each slot of a pair is offset from the middle between them
-        psi = one.engagement.motion(local, 0).c[0] - np.sign(local) * one.engagement.apart
-        direction = turned_points(direction, psi)
-    return np.column_stack((-direction[:, 1], direction[:, 0])) / np.hypot(*direction.T)[:, None]
 
 
 def _series(

@@ -13,7 +13,6 @@ from geneva_cli.geometry.shapes import ORIGIN, Circle, Shape, at, bounds, placed
 from geneva_cli.geometry.sheet import line
 from geneva_cli.motion.drive import Gears
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Joint
 from geneva_cli.motion.registry import thing
 from geneva_cli.output import scene as page
@@ -35,7 +34,7 @@ def scene(design: Design) -> page.Scene:
     outlines = None
     with suppress(GenevaError):  # no flat parts
         outlines = design.parts.outlines
-    bars, rollers = turn.bars(_plates(mechanism, outlines)), turn.rollers()
+    bars, rollers = tuple(_bars(turn, outlines)), turn.rollers()
     spec, title = design.spec, title_of(design)
     wheels = wheels_of(spec)
     loads = ("pin_force_N", "input_torque_Nm") if design.cycle.is_loaded else ()
@@ -74,22 +73,20 @@ def scene(design: Design) -> page.Scene:
     )
 
 
-def _plates(
-    mechanism: Mechanism, outlines: Outlines | None
-) -> dict[str, tuple[page.CarriedShapes, ...]]:
-    """The plates of each link by its name; empty if the links' sizes allow none."""
-    out, plates = dict[str, tuple[page.CarriedShapes, ...]](), list[Plate]()
+def _bars(turn: MachineTurn, outlines: Outlines | None) -> Iterator[page.Bar]:
+    """The links, with their plates if the links' sizes allow any."""
+    plates = list[Plate]()
     with suppress(GenevaError):
-        plates = [m.part for m in drawn_links(mechanism, outlines).cut if isinstance(m.part, Plate)]
-    for link in links_at(mechanism, np.zeros(1)):
-        slid = [j for j, kind in enumerate(link.kinds) if kind in (Joint.SLIDE, Joint.CARRIED)]
-        blocks = [plate for plate in plates if plate.name == f"{link.name}'s block"]
-        own = [plate for plate in plates if plate.name == link.name]
-        out[link.name] = tuple(
-            page.CarriedShapes(j, (plate.outline, *plate.holes))
-            for j, plate in zip([0] * len(own) + slid, [*own, *blocks], strict=False)
-        )
-    return out
+        members = drawn_links(turn.mechanism, outlines).cut
+        plates = [member.part for member in members if isinstance(member.part, Plate)]
+    for i, link in enumerate(links_at(turn.mechanism, np.zeros(1))):
+        own = [(0, plate) for plate in plates if plate.name == link.name]
+        slid = (j for j, kind in enumerate(link.kinds) if kind in (Joint.SLIDE, Joint.CARRIED))
+        blocks = (plate for plate in plates if plate.name == f"{link.name}'s block")
+        own += zip(slid, blocks, strict=False)
+        carried = (page.CarriedShapes(j, (plate.outline, *plate.holes)) for j, plate in own)
+        joints = (turn.joint(i, j) for j in range(len(link.joints)))
+        yield page.Bar(link.name, tuple(joints), link.radius_mm, tuple(carried))
 
 
 def _bodies(design: Design, turn: MachineTurn) -> Iterator[page.Body]:

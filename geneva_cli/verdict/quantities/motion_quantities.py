@@ -91,20 +91,16 @@ def peaks(of: Designs) -> Columns:
     engagements = of.machine.engagements
     for name in requested:
         ends: list[Array] = []
-        if name == "velocity":  # the greatest jumps at an entry, and at an exit, with their signs
-            for each in zip(*(engagement.jumps for engagement in engagements), strict=True):
-                jumps = np.stack(np.broadcast_arrays(*map(np.ravel, each)))
-                i = abs(jumps).argmax(axis=0)[None]
-                ends.append(np.take_along_axis(jumps, i, axis=0)[0])
-        order = {"acceleration": 2, "jerk": 3}.get(name, 0)  # derivatives of the wheel's angle
-        for end in ENDS if order else ():
-            if not any(one.startswith(end) for one in requested[name]):
-                ends.append(np.full(1, np.nan))
-                continue
-            motions = [one.motion for one in engagements]
-            at = [one(getattr(one, f"{end}_deg"), order).derivatives() for one in motions]
-            sizes = [np.ravel(abs(derivatives[order])) for derivatives in at]
-            ends.append(np.max(np.broadcast_arrays(*sizes), axis=0))
+        # the greatest jumps at an entry, and at an exit, with their signs; sizes of derivatives
+        order = {"velocity": 1, "acceleration": 2, "jerk": 3}.get(name, 0)
+        for k, end in enumerate(ENDS if order else ()):
+            each = list[Number]()
+            for one in engagements:
+                at = one.motion(getattr(one, f"{end}_deg"), order).derivatives()[order]
+                each.append(one.jumps[k] if order == 1 else abs(at))
+            rows = np.stack(np.broadcast_arrays(*map(np.ravel, each)))
+            i = abs(rows).argmax(axis=0)[None]
+            ends.append(np.take_along_axis(rows, i, axis=0)[0])
         out |= peak_values(name, output, w, found.get(name, unknown), ends)
     return out
 
@@ -139,8 +135,8 @@ def peak_values(
 
 def index_gained(of: Designs) -> Columns:
     """The wheel angle beyond its rest at which a roller as built leaves the rim, degrees."""
-    # all rollers leave alike
-    return {"index_gained_deg": np.degrees(np.ravel(of.machine.engagements[0].gained))}
+    built = of.machine.engagements[0].built  # all rollers leave alike
+    return {"index_gained_deg": np.degrees(np.ravel(np.nan if built is None else built.gained))}
 
 
 def product(of: Designs) -> Columns:

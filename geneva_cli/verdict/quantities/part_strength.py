@@ -9,8 +9,9 @@ from itertools import product
 import numpy as np
 
 from geneva_cli.loads.load_case import centrifugal_N, load_case
+from geneva_cli.loads.load_peaks import load_peaks
 from geneva_cli.loads.strength import pin_arm_key
-from geneva_cli.loads.strength.lock import dwell_torque_Nm, held_force_N
+from geneva_cli.loads.strength.lock import dwell_torque_Nm, held_force_N, loaded_locks
 from geneva_cli.loads.strength.part_loads import shaft_squares, shear_MPa
 from geneva_cli.loads.strength.pin_arm_key import key_stress, shear_allowed_MPa
 from geneva_cli.motion.machine_spec import Spec
@@ -76,7 +77,9 @@ def horn(of: Designs) -> Columns:
 
 def lock(of: Designs) -> Columns:
     """The lock under the torque in the dwell; ``margin`` is that of the greater contact stress."""
-    state, allowed = of.once(UnderLoad).lock, of.spec.limits.lock_stress_max_MPa
+    load, allowed = of.once(UnderLoad), of.spec.limits.lock_stress_max_MPa
+    sizes, width = load.lock_sizes, load.contact_mm
+    state = loaded_locks(of.machine, *sizes, width) if sizes and width is not None else None
     if state is None:
         return {"allowed_MPa": allowed}
     most = np.fmax(state["contact_stress_MPa"], state["pressure_MPa"])
@@ -167,7 +170,9 @@ def keys(of: Designs) -> Columns:
 
 def pressure_speed(of: Designs) -> Columns:
     """The greatest contact pressure times sliding speed; it needs a face width."""
-    return {} if of.spec.size.face_width_mm is None else {"pv_max_W_m2": of.once(UnderLoad).pv_W_m2}
+    if of.spec.size.face_width_mm is None or np.isnan(of.loaded).all():
+        return {}
+    return {"pv_max_W_m2": load_peaks(of.machine, ["pv_W_m2"])["pv_W_m2"].max * of.loaded}
 
 
 def bending(of: Designs) -> Columns:

@@ -12,7 +12,6 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError, marking
 from geneva_cli.kept import cached_property
-from geneva_cli.loads.load_peaks import load_peaks
 from geneva_cli.loads.strength import lock, pin_arm_key
 from geneva_cli.loads.strength.horn import HornStress, Sides, Sizes, greatest_stress, horns
 from geneva_cli.loads.strength.part_loads import PartLoads, part_loads, pin_forces_N, single_loads
@@ -35,7 +34,6 @@ from geneva_cli.parts.sized_by_load import (
     stressed,
 )
 from geneva_cli.parts.sizes import Layout
-from geneva_cli.spec.defaults import roller_material
 from geneva_cli.verdict.quantities.groups import Designs, single
 
 
@@ -52,13 +50,6 @@ class UnderLoad:
     def force_N(self) -> Array:
         """The greatest force on a roller, along the wall's normal."""
         return self.part_loads.pin_N * self.loaded
-
-    @cached_property
-    def pv_W_m2(self) -> Array:
-        """The greatest contact pressure times sliding speed; it needs a face width."""
-        if np.isnan(self.loaded).all():
-            return self.loaded
-        return load_peaks(self.machine, ["pv_W_m2"])["pv_W_m2"].max * self.loaded
 
     @cached_property
     def _each(self) -> list[Layout | None]:
@@ -147,14 +138,6 @@ class UnderLoad:
         return greatest_stress(horns, self.machine, self.horn_sizes)
 
     @cached_property
-    def lock(self) -> dict[str, Array] | None:
-        """The lock under the torque that it holds in the dwell; None if no design has one."""
-        sizes, width = self.lock_sizes, self.contact_mm
-        if sizes is None or width is None:
-            return None
-        return lock.loaded_locks(self.machine, *sizes, width)
-
-    @cached_property
     def parts(self) -> Stressed | None:
         """The dimensions of stressed parts, (m,); None if no design has parts, or a load."""
         machine, size = self.machine, self.machine.spec.size
@@ -202,12 +185,7 @@ class UnderLoad:
         if width is None:
             return None
         usual = PinSize(pin_arm_key.pin_diameter_mm(self.machine), width)
-        if size.pin_mm is not None:
-            return usual
-        # where the usual pin holds, it is drawn
-        stress = self.pin_stresses(usual)[2]
-        holds = ~(stress > roller_material(self.machine.spec).allowed_MPa)
-        if np.all(holds) or self.parts is None:
+        if size.pin_mm is not None or self.parts is None:
             return usual
         drawn = self.parts.pin
         diameter = np.where(np.isnan(drawn), np.ravel(usual.diameter_mm), drawn)[:, None]
