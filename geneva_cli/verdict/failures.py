@@ -95,12 +95,9 @@ def _in_words(c: Check, parts: str = "parts") -> str:
 def compared_text(c: Check) -> str:
     """The value of a check, its place, and its limit."""
     unit = spoken(c.name)[1]
+    where = "" if c.at_deg is None else f" at {value_text(c.at_deg, 'deg')}"
     limit = value_text(c.limit, unit if unit == "deg" else "")
-    return f"{value_text(c.value, unit)}{_where(c)}, {c.must_be} {limit}"
-
-
-def _where(c: Check) -> str:
-    return "" if c.at_deg is None else f" at {value_text(c.at_deg, 'deg')}"
+    return f"{value_text(c.value, unit)}{where}, {c.must_be} {limit}"
 
 
 def meaning(c: Check, parts: str = "parts") -> str:
@@ -108,5 +105,6 @@ def meaning(c: Check, parts: str = "parts") -> str:
     value, limit = c.value or 0.0, c.limit or 0.0
     moves, unit = ("rack can move", " mm") if c.name.endswith("_mm") else ("wheel can turn", "°")
     named = {"value": value, "limit": limit, "short": -value, "idle": 100.0 * (1.0 - value)}
-    words = {"where": _where(c), "moves": moves, "unit": unit, "parts": parts}
+    where = "" if c.at_deg is None else f" at {value_text(c.at_deg, 'deg')}"
+    words = {"where": where, "moves": moves, "unit": unit, "parts": parts}
     return MEANINGS.get(c.name, "").format(**named, **words)

@@ -50,7 +50,8 @@ def rows(spec, vary, picks, random=None):
 def test_together_as_alone(spec, vary):
     together, alone, found = rows(spec, vary, TIMING)
     keys = [a.key for a in found.plan.axes]
-    known = ~np.isnan(found.known(found.plan.designs(0, len(alone)))).any(axis=0)
+    batches = found._batches(found.plan.designs(0, len(alone)))
+    known = ~np.isnan(numbers(batches, found.pick.batched, len(alone))).any(axis=0)
     built = sum(row[-1] is None for row in alone)
     # where engagements differ, none of their timings is shared
     assert known.sum() == built
