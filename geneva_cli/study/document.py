@@ -45,8 +45,9 @@ def short_document(design: Design) -> Document:
     """
     blocks = [*_begin(design, report_summary.machine_lines(design)), Heading("Greatest loads")]
     words = {True: "passes", False: page.BAD, None: ""}
-    rows = [(*row[:-3], row[-3] or "", row[-2], words[row[-1]])
-            for row in report_summary.greatest_loads(design).rows()]  # fmt: skip
+    rows = []
+    for *first, must_be, limit, passes in report_summary.greatest_loads(design).rows():
+        rows.append((*first, must_be or "", limit, words[passes]))
     if rows:
         heads = ("", "Greatest", "Unit", "At input angle, °", "Must be", "Limit", "Verdict")
         blocks.append(Grid("Over a cycle, with the limit of its check", heads, tuple(rows)))
@@ -123,8 +124,10 @@ def _begin(design: Design, lines: Iterable[SummaryLine]) -> Iterator[page.Block]
     except GenevaError as error:
         yield Prose(f"Not drawn: {error}")
     command = re.compile(r" ?\(?geneva explain [\w.-]+\)?")
-    rows = [(capital(x.label), "; ".join(filter(None, (x.text, command.sub("", x.note)))))
-            for x in lines]  # fmt: skip
+    rows = []
+    for one in lines:
+        texts = one.text, command.sub("", one.note)
+        rows.append((capital(one.label), "; ".join(filter(None, texts))))
     yield Grid("In short", ("", ""), tuple(rows))
 
 

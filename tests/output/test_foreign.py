@@ -204,7 +204,7 @@ def test_svg_curves_and_their_smooth_continuations(tmp_path):
     """A quadratic curve has two thirds of its control triangle's area; S and T reflect the pole."""
     drawn = svg(tmp_path, '<path d="M0 0 Q 2 3 4 0 z"/>')
     assert areas(drawn) == [pytest.approx(4.0, rel=1e-4)]
-    wave = svg(tmp_path, '<path d="M0 0 Q 2 3 4 0 T 8 0"/>').pieces
+    wave = svg(tmp_path, '<path d="M0 00Q02 3. 4 0 T 8.e0-0"/>').pieces  # numbers of all forms
     middle = min(wave, key=lambda piece: abs(piece.start[0] - 6.0))
     assert middle.start[1] == pytest.approx(1.5, abs=0.05)  # below, after above: y points down
 

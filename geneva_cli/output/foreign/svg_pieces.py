@@ -147,9 +147,8 @@ class _Pen:
             self.lineTo(to)
             return
         half = 0.5 * (start - end) / ahead
-        half = complex(
-            half.real / rx, half.imag / ry
-        )  # in the frame in which it is the unit circle
+        # in the frame in which it is the unit circle
+        half = complex(half.real / rx, half.imag / ry)
         size = max(abs(half), 1.0)  # above 1 if it is too small to reach both ends
         rx, ry, half = rx * size, ry * size, half / size
         side = 1j if large == on else -1j
@@ -172,6 +171,10 @@ class _Pen:
 def _path(data: str) -> list[Curve]:
     """Return the curves of path data. Raises GenevaError for data that cannot be read."""
     pen, data = _Pen(), data.strip()
+    # The parser takes 5. and 05 for two numbers; but 05 may be two flags of an arc.
+    data = re.sub(r"(\d)\.(?!\d)", r"\1.0", data)
+    if "a" not in data.lower():
+        data = re.sub(r"(?<![\d.])0+(?=\d)", "", data)
     try:
         if data and not PATH.fullmatch(data):
             raise ValueError("it must have M, then letters of paths and numbers")

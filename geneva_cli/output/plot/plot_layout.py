@@ -135,13 +135,16 @@ def _panel(
     """Yield the grid, the axes with numbers and name, and the curves."""
     up = ticks(*frame.span, int(frame.high / 24.0), panel.y.unit)
     (a, b), (low, top) = frame.window, frame.span
-    rests = [[frame.at(*p) for p in ((c, low), (c, top), (d, top), (d, low))]
-             for c, d in figure.shaded]  # fmt: skip
+    rests = []
+    for c, d in figure.shaded:
+        rests.append([frame.at(*p) for p in ((c, low), (c, top), (d, top), (d, low))])
     yield Lines("rest", rests)
     level = [[frame.at(a, v), frame.at(b, v)] for v in up]
     yield Lines("grid", level + [[frame.at(v, top), frame.at(v, low)] for v in across])
     axes = [[frame.at(a, top), frame.at(a, low), frame.at(b, low)]]
-    yield Lines("axis", axes + [[frame.at(a, 0.0), frame.at(b, 0.0)]] * (low < 0.0 < top))
+    if low < 0.0 < top:
+        axes.append([frame.at(a, 0.0), frame.at(b, 0.0)])
+    yield Lines("axis", axes)
     for value, label in zip(up, labels(up), strict=True):
         yield Words((LEFT - 6.0, frame.y(value) + 0.35 * SMALL), label, SMALL, "end")
     yield Words((LEFT, ABOVE - 7.0), named(panel.y), look="bold")
