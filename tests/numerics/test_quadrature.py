@@ -1,13 +1,11 @@
-"""Integrals with roots at their ends, and the sine over its angle with its derivatives."""
+"""Integrals of functions, some with roots at their ends."""
 
 import math
 
 import numpy as np
 import pytest
 
-from geneva_cli.motion.given_motion import _sinc
 from geneva_cli.numerics import quadrature
-from geneva_cli.numerics.jet import Jet
 from geneva_cli.numerics.quadrature import LAST_TERMS, NODES, span_integrals
 
 CLOSED = {  # over 2..5
@@ -42,16 +40,6 @@ def test_a_kink_beside_an_end_is_found(kink):
     found = span_integrals(lambda x, _: abs(x - kink)[None], ends, one, np.full((1, 1), True))
     exact = 0.5 * ((kink - 2.0) ** 2 + (5.0 - kink) ** 2)
     assert found[0, 0] == pytest.approx(exact, rel=1e-12)  # what its last terms may leave
-
-
-@pytest.mark.parametrize("x", [0.0, 1e-9, -0.05, 0.3, 0.5])
-def test_sine_over_its_angle_and_its_derivatives(x):
-    mpmath = pytest.importorskip("mpmath")
-    with mpmath.workdps(40):
-        exact = mpmath.taylor(mpmath.sinc, x, 4)
-    for found, true in zip(_sinc(Jet.variable(x, 4)).c, exact, strict=True):
-        # a rounding of its own size, or of the terms that cancel, of which the first is 1/6
-        assert found == pytest.approx(float(true), rel=1e-15, abs=4e-17)
 
 
 def summed(f, n=1):
