@@ -25,12 +25,12 @@ import numpy as np
 from geneva_cli.loads.contact import NEAR_CUSP, contact
 from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.load_case import first_alike, load_case
-from geneva_cli.motion.batch import taken
+from geneva_cli.motion.batch import designs_in, taken
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.path_and_slot import pitch
-from geneva_cli.numerics.arrays import Number, array, blocks, joined, parameter
-from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.arrays import Number, Whole, array, blocks, joined, mapped, parameter
+from geneva_cli.numerics.jet import Array, Jet
 from geneva_cli.numerics.tolerances import TIE
 
 STOUT = 0.5  # thickness at the mouth over the recess's radius, beyond which a horn is no beam
@@ -229,30 +229,50 @@ def _sampled(
     (2, n, 2 steps + 1) between those beside that one.
     """
     m, slot, case = mechanism.designs, side.at.engagement, load_case(mechanism)
-    places = (slot.entry_deg if start < 0.0 else slot.exit_deg) * samples[0]
-    x = places - side.at.ahead_deg
-    at = contact(side.at.whole, x[0] if len(x) == 1 else x, reactions=False)  # (k,) is quicker
+    first = row = np.arange(m)
+    if m > 1 and designs_in((side, case.friction, case.radius)) == 1:
+        # loads alone differ: horns under 1 N are computed once for designs with the same samples
+        ends = np.broadcast_to(samples, (2, m, samples.shape[2]))[..., [0, -1]]
+        _, first, row = np.unique(ends, axis=1, return_index=True, return_inverse=True)
+        samples = samples[:, first]
+    all_places = (slot.entry_deg if start < 0.0 else slot.exit_deg) * samples[0]
+    x = all_places - side.at.ahead_deg
+    x = x[0] if len(x) == 1 else x  # as (k,) in half the time
+    at = contact(side.at.whole, x, reactions=False)
+    if first is not row:
+        at = mapped(lambda jet: jet and Jet([_picked(array(jet.c[0]), row)]), at)
     with np.errstate(all="ignore"):
         # with signs of the horn that bears: the force is below 0 where it is on the other one
         loads = Instant(case, at, -side.at.end, None, 1.0)
         force = np.where(array(loads.grip.c[0]) > 0.0, loads.force_N.c[0], 0.0)
-    force = np.where(np.isfinite(force), np.maximum(force, 0.0), 0.0) + np.zeros((m, 1))
+    force = np.atleast_2d(np.where(np.isfinite(force), np.maximum(force, 0.0), 0.0))
     own = np.flatnonzero(force.any(axis=0))  # elsewhere it is 0
     own = own if len(own) else np.arange(1)
     # a mouth is away from the axis, but for internal wheels
     rub = case.friction * mechanism.spec.wheel.SIGN * loads.slides * at.touches.c[0]
-    rub = np.broadcast_to(rub, force.shape)[:, own]
-    points = side.points(np.hstack((places[:, own], side.at.mouth_deg * samples[1])))
+    rub = np.broadcast_to(rub, (m, x.shape[-1]))[first]
+    force, places, rub = force[:, own], all_places[:, own], rub[:, own]
+    points = side.points(np.hstack((places, side.at.mouth_deg * samples[1])))
     roller = np.stack(np.broadcast_arrays(*points[..., : len(own)], rub))
-    sections, designs = points[..., len(own) :], np.arange(m)
-    stress = force[:, own, None] * side.unit_stress(roller, sections)
-    at_place = stress.max(axis=2)
-    most = at_place.max(axis=1, keepdims=True)
-    i = np.argmax(at_place >= most * (1.0 - TIE), axis=1)
-    j = np.argmax(stress[designs, i] >= most * (1.0 - TIE), axis=1)
-    samples, places = samples + np.zeros((m, 1)), places + np.zeros((m, 1))
-    section = np.broadcast_to(sections[:2], (2, m, sections.shape[2]))[:, designs, j]
-    rows = np.stack((most[:, 0], places[designs, own[i]], *section))
+    sections = points[..., len(own) :]
+    unit = side.unit_stress(roller, sections)
+    stress = np.broadcast_to(force * _picked(unit.max(axis=2), row), (m, len(own)))
+    most = stress.max(axis=1, keepdims=True)
+    i = np.argmax(stress >= most * (1.0 - TIE), axis=1)
+    unit = unit[0 if len(unit) == 1 else row, i]
+    load = _picked(force, np.arange(m), i)[:, None]
+    j = np.argmax(load * unit >= most * (1.0 - TIE), axis=1)
+    rows = np.stack((most[:, 0], _picked(places, row, i), *_picked(sections[:2], row, j)))
     beside = np.stack((own[i], j))[..., None] + np.array([-1, 1])
-    ends = np.take_along_axis(samples, np.clip(beside, 0, samples.shape[2] - 1), axis=2)
+    every = np.broadcast_to(_picked(samples, row), (2, m, samples.shape[2]))
+    ends = np.take_along_axis(every, np.clip(beside, 0, samples.shape[2] - 1), axis=2)
     return rows, ends[..., :1] + np.diff(ends) * np.linspace(0.0, 1.0, 2 * steps + 1)
+
+
+def _picked(values: Array, row: Whole, k: Whole | None = None) -> Array:
+    """Values (..., m, k) of m designs, from the rows of each, or from one of all; or sample k."""
+    shared = np.ndim(values) < 2 or values.shape[-2] == 1
+    if k is None:
+        return values if shared else values.take(row, axis=-2)
+    picked: Array = values[..., 0 if shared else row, k]
+    return picked
