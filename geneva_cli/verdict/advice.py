@@ -33,7 +33,7 @@ from geneva_cli.verdict.checks import (
 # The reason why a failing check has no advice.
 NONE = "no single change that was tried passes all checks"
 STOPPED = "no single change passed all checks within the limit of trials"
-NEAR = 0.025  # fraction of a change by which the one advised may exceed the least one
+NEAR = 0.015  # fraction of a change by which the one advised may exceed the least one
 TRIALS = 80  # machines that are built for all searches of a design
 # Fractions of the way to a remedy's end that are tried: the end, the first step, and between them.
 PLACES = (1.0, 1.0 / 12.0, 1.0 / 3.0, 2.0 / 3.0, 1.0 / 6.0)
@@ -79,6 +79,15 @@ class Trial(NamedTuple):
     def passes(self) -> bool:
         """True if no check fails."""
         return min(self.spares.values()) >= 0.0
+
+    def zero(self, one: Trial, other: Trial) -> float:
+        """The value up to which a check fails that fails here, by lines through two trials."""
+        zeros = [self.value]
+        for name in (name for name, spare in self.spares.items() if spare < 0.0):
+            low, high = (trial.spares.get(name, math.inf) for trial in (one, other))
+            slope = (high - low) / (other.value - one.value)
+            zeros.append(one.value - low / slope if math.isfinite(slope) and slope else math.inf)
+        return max(zeros, key=lambda zero: abs(zero - self.value))
 
 
 def short(value: float, spare: float) -> float:
@@ -229,15 +238,23 @@ class Adviser:
 
     def _nearest(self, remedy: Remedy, bad: Trial, good: Trial, wanted: Sequence[str]) -> Trial:
         """The trial nearest to one that fails, between it and one that passes, which does."""
-        now, whole = remedy.now, isinstance(remedy.now, int)
+        now, whole, slow, line = remedy.now, isinstance(remedy.now, int), 0, (bad, good)
         while True:
             gap, change = good.value - bad.value, abs(good.value - now)
             near = max(NEAR * min(change, 4.0 * abs(good.value) or change), whole)
-            if abs(gap) <= near:
+            half, part, spare = 0.5 * near / abs(gap), 0.5, 0.125
+            if half >= 0.5:
                 return good
-            value = short(bad.value + 0.5 * gap, 0.125 * abs(gap))
+            zero = (bad.zero(*line) - bad.value) / gap
+            if 0.0 <= zero <= 1.0 and slow < 2 and not whole:
+                part, spare = min(max(zero + 0.5 * half, half), 1.0 - half), 0.5 * half
+            value = short(bad.value + part * gap, spare * abs(gap))
             trial = self.trial([(remedy.key, type(now)(value))], wanted)
-            good, bad = (trial, bad) if trial.passes else (good, trial)
+            last, good, bad = (good, trial, bad) if trial.passes else (bad, good, trial)
+            # after a step that leaves more than a rounded half, the line through the last two
+            # values on one side
+            slow = slow + 1 if abs(good.value - bad.value) > 0.625 * abs(gap) else 0
+            line = (last, trial) if slow else (bad, good)
 
     def trial(self, changes: Sequence[Change], names: Iterable[str], every: bool = False) -> Trial:
         """The margins of some checks with changes of the spec; -inf if it makes no machine.
