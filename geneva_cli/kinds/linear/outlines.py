@@ -80,11 +80,11 @@ class RackGaps(Gaps):
 
     STOPS: ClassVar[type[Stops]] = SlidingStops
 
-    def sector(self) -> tuple[float, Whole]:
-        """Return the distance of slots over the radius, and the pieces of one."""
+    def sector(self) -> tuple[float, Whole, float]:
+        """Return the distance of slots over the radius, pieces of one, and places around it."""
         # a slot and the recess after it, whose pieces begin between two recesses
         radius, y = self.assembly.L, self.wheel.y0
-        return 2.0, np.flatnonzero((y >= -radius) & (y < radius))
+        return 2.0, np.flatnonzero((y >= -radius) & (y < radius)), 3.5
 
 
 def turned_rack(assembly: Assembly, sizes: RackSizes) -> TurnedShape:

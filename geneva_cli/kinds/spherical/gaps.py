@@ -37,11 +37,11 @@ class BallGaps(Gaps):
         self.sizes, L, self.pitch = ball.lengths, ball.radius_mm, 2.0 * ball.half_step
         self.near, self.rim = NEAR * L, L * ball.rim
         slots = [arc for k in range(ball.z) for arc in edge(ball, k * self.pitch)]
-        self.wheel = SphereArcs(slots, radius=L)
-        slot = SphereArcs(edge(ball), radius=L, closed=False)  # all are equal
+        self.wheel = self.beside = SphereArcs(slots, radius=L)
+        self.around = SphereArcs(edge(ball), radius=L, closed=False)  # one slot; all are equal
         edges = (sector.boundary for sector in sectors)
         self.crank = SphereArcs(*edges, radius=L) if sectors else None
-        own = slot, self.pitch, self.crank, ball.roller, ProjectedMotion(ball)
+        own = self.around, self.pitch, self.crank, ball.roller, ProjectedMotion(ball)
         self.stops = SphereStops(*own)
         self._rollers = np.array([place(ball.arm, azimuth) for azimuth in ball.rollers])
 

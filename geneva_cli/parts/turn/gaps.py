@@ -29,12 +29,15 @@ BLOCK = 1 << 17  # positions times pieces at a time: they stay in the processor'
 class Gaps:
     """The gaps between one machine's wheel, crank and rollers at any positions.
 
-    Of the sizes it needs ``roller``, ``rim`` and ``lock``. Equal slots are a ``pitch`` apart, which
-    is 0 for others.
+    Of the sizes it needs ``roller``, ``rim`` and ``lock``. Of a wheel whose slots are all equal, a
+    ``pitch`` apart, only one slot is compared with points ``around`` it, and with a crank whose
+    axis is ``beside`` it.
     """
 
     STOPS: ClassVar[type[Stops]] = Stops
     wheel: Outline
+    around: Outline
+    beside: Outline
     crank: Outline  # None without locking surfaces
 
     def __init__(self, assembly: Assembly, sizes: Lengths, wheel: Contour, crank: list[Contour]):
@@ -42,16 +45,28 @@ class Gaps:
         self.wheel = Polyarc([wheel if assembly.sign > 0.0 else backwards(wheel)])
         self.near, self.rim = NEAR * assembly.L, sizes.rim
         self.crank = Polyarc(crank) if crank else None
-        self.pitch, which = self.sector()
-        one = self.wheel if which is None else self.wheel.subset(which)
+        self.around = self.beside = one = self.wheel
+        self.pitch, which, away = self.sector()
+        if which is not None:
+            moves, middles, one = self.plane_motion, self.wheel.middles, self.wheel.subset(which)
+            place = moves.place(middles)
+            self.around = self.wheel.subset(np.flatnonzero(np.abs(place) <= away))
+            turn = np.clip(place, -0.5 * self.pitch, 0.5 * self.pitch)
+            axis = moves.into(np.tile((moves.L, 0.0), (len(turn), 1)), -turn)
+            near = np.hypot(*(middles - axis).T) - self.wheel.size <= sizes.lock + self.near
+            self.beside = self.wheel.subset(np.flatnonzero(near))
         own = one, self.pitch or math.tau, self.crank, sizes.roller, self.plane_motion
         self.stops = self.STOPS(*own)
 
-    def sector(self) -> tuple[float, Whole | None]:
-        """Return the pitch of equal slots, radians, and the pieces of one; of others 0 and None."""
+    def sector(self) -> tuple[float, Whole | None, float]:
+        """Return the pitch of equal slots, the pieces of one, and places around it, radians.
+
+        Of other slots there are none.
+        """
         pitch = math.tau / len(self.assembly.slots)
         which = self.wheel.one_sector(pitch, SAME_LENGTH * self.assembly.L)
-        return 0.0 if which is None else pitch, which
+        reach = math.asin(min(1.0, (self.near + self.sizes.roller) / self.rim))
+        return 0.0 if which is None else pitch, which, 1.5 * pitch + 2.0 * reach
 
     def with_crank(self, crank: list[Contour]) -> Gaps:
         """Return the gaps of this wheel and these rollers with another crank's outline."""
@@ -71,10 +86,10 @@ class Gaps:
 
     def to_wheel(self, points: Array) -> Array:
         """Return the distance of points in the wheel's frame from its outline, as ``signed``."""
-        if self.pitch:  # a rack is drawn about its middle alone
+        if self.pitch:
             slot = np.round(self.plane_motion.place(points) / self.pitch)
             points = self.plane_motion.into(points, self.pitch * slot)
-        return self.wheel.signed(points)
+        return self.around.signed(points)
 
     def rollers(self, pose: Pose, lead: Array | float = 0.0, near: float | None = None) -> Array:
         """Return the gap of each roller to the wheel, mm (n, m), negative where they overlap.
@@ -98,14 +113,14 @@ class Gaps:
         if self.pitch:
             turns = turns - self.pitch * np.round(turns / self.pitch)
         centres, probes = self.crank.centres, self.crank.probes
-        for some in blocks(len(turns), max(1, BLOCK // len(self.wheel))):
+        for some in blocks(len(turns), max(1, BLOCK // len(self.beside))):
             turn, crank, gaps = turns[some], pose.crank[some], out[some]
             # Points of the wheel against the crank ...
-            away = self.wheel.middles - moves.into(moves.crank_axis, turn)[:, None]
+            away = self.beside.middles - moves.into(moves.crank_axis, turn)[:, None]
             away = moves.scale * np.sqrt((away * away).sum(axis=-1))
-            owner, piece = np.nonzero(away <= self.wheel.size + reach)
+            owner, piece = np.nonzero(away <= self.beside.size + reach)
             facing = moves.into(moves.from_crank(centres, crank), turn[:, None])
-            row, points = self.wheel.touching(piece, facing[owner])
+            row, points = self.beside.touching(piece, facing[owner])
             owner = owner[row]
             seen = moves.in_crank(moves.into(points, -turn[owner]), crank[owner])
             close = np.flatnonzero(moves.scale * np.hypot(seen[:, 0], seen[:, 1]) < reach)
