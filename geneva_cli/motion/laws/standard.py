@@ -8,8 +8,30 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.motion.laws.law import Law, from_velocity
 from geneva_cli.motion.laws.sine_constant_cosine import breaks, first_half
 from geneva_cli.numerics.arrays import library
-from geneva_cli.numerics.jet import Jet, Number, sin_cos, taylor
+from geneva_cli.numerics.jet import Jet, Number, sin, sin_cos, taylor
 from geneva_cli.spec.rules import Range
+
+
+class Cycloidal(Law):
+    """Inclined sine line: ds/du = 2 sin²(pi u).
+
+    Acceleration starts and ends at 0.
+
+    >>> round(Cycloidal()(0.5).c[1], 6)  # ds/du at its greatest
+    2.0
+    """
+
+    NAME: ClassVar[str] = "cycloidal"
+    ABOUT: ClassVar[str] = "inclined sine line; no jump in acceleration"
+
+    def first(self, u: Number, order: int) -> Jet:
+        m = library(u)
+
+        def velocity(u: Jet) -> Jet:
+            s = sin(u * m.pi)
+            return s * s * 2.0
+
+        return from_velocity(u, order, lambda u: u - m.sin(2.0 * m.pi * u) / (2.0 * m.pi), velocity)
 
 
 class _ScaledLaw(Law):
@@ -25,20 +47,6 @@ class _ScaledLaw(Law):
 
     def first(self, u: Number, order: int) -> Jet:
         return first_half(u, order, *self.FRACTIONS)
-
-
-class Cycloidal(_ScaledLaw):
-    """Inclined sine line: ds/du = 2 sin²(pi u).
-
-    Acceleration starts and ends at 0.
-
-    >>> round(Cycloidal()(0.5).c[1], 6)  # ds/du at its greatest
-    2.0
-    """
-
-    NAME: ClassVar[str] = "cycloidal"
-    ABOUT: ClassVar[str] = "inclined sine line; no jump in acceleration"
-    FRACTIONS: ClassVar[tuple[float, float, float]] = (0.5, 0.5, 0.0)
 
 
 class Harmonic(_ScaledLaw):
