@@ -1,4 +1,7 @@
-"""Quintic splines through points: four times continuously differentiable, at rest at both ends."""
+"""Quintic splines through points: four times continuously differentiable, at rest at both ends.
+
+In plain arithmetic, for the same bytes on every processor.
+"""
 
 import math
 from collections.abc import Sequence
@@ -36,35 +39,47 @@ class PiecewisePolynomial:
 def at_rest(x: Sequence[float], y: Sequence[float]) -> PiecewisePolynomial:
     """Return the spline through points whose first two derivatives are zero at both ends."""
     starts, h, rise = np.array(x[:-1]), np.diff(x), np.diff(y)
-    a, b, (low, high) = h[:-1], h[1:], (rise[:-1], rise[1:])
-    # Slope and curvature at the points inside are unknown. The fourth and the third derivative do
-    # not jump there: a row each, by those of the point before, of the point and of the one after.
-    before, here, after = (
-        np.moveaxis(np.array(rows), -1, 0)
-        for rows in (
-            ((168.0 / a**3, 24.0 / a**2), (-24.0 / a**2, -3.0 / a)),
-            (
-                (192.0 / a**3 + 192.0 / b**3, 36.0 / b**2 - 36.0 / a**2),
-                (36.0 / b**2 - 36.0 / a**2, 9.0 / a + 9.0 / b),
-            ),
-            ((168.0 / b**3, -24.0 / b**2), (24.0 / b**2, -3.0 / b)),
+    before, after, (low, high) = h[:-1], h[1:], (rise[:-1], rise[1:])
+    # Slope and curvature at the points inside are unknown, in turn: those of the point before, of
+    # the point and of the one after. The fourth and the third derivative do not jump there.
+    bands, values = np.zeros((len(before), 2, 7)), np.zeros((len(before), 2))
+    for column, (fourth, third) in enumerate(
+        (
+            (168.0 / before**3, -24.0 / before**2),
+            (24.0 / before**2, -3.0 / before),
+            (192.0 / before**3 + 192.0 / after**3, 36.0 / after**2 - 36.0 / before**2),
+            (36.0 / after**2 - 36.0 / before**2, 9.0 / before + 9.0 / after),
+            (168.0 / after**3, 24.0 / after**2),
+            (-24.0 / after**2, -3.0 / after),
         )
-    )
-    known = np.array((360.0 * (low / a**4 + high / b**4), 60.0 * (high / b**3 - low / a**3))).T
-    for i in range(1, len(known)):
-        factor = before[i] @ np.linalg.inv(here[i - 1])
-        here[i] -= factor @ after[i - 1]
-        known[i] -= factor @ known[i - 1]
-    rates = np.zeros((len(x), 2))
-    for i in reversed(range(len(known))):
-        rates[i + 1] = np.linalg.solve(here[i], known[i] - after[i] @ rates[i + 2])
-    slope, bend = rates.T
+    ):
+        bands[:, 0, column + 1], bands[:, 1, column] = fourth, third
+    values[:, 0] = 360.0 * (low / before**4 + high / after**4)
+    values[:, 1] = 60.0 * (high / after**3 - low / before**3)
+    inner = _solved(bands.reshape(-1, 7).tolist(), values.ravel().tolist())
+    slope, bend = np.pad(np.reshape(inner, (-1, 2)).T, ((0, 0), (1, 1)))
     (p, q), (u, v) = (slope[:-1] * h, slope[1:] * h), (bend[:-1] * h * h, bend[1:] * h * h)
     third = (10.0 * rise - 6.0 * p - 4.0 * q - 1.5 * u + 0.5 * v) / h**3
     fourth = (-15.0 * rise + 8.0 * p + 7.0 * q + 1.5 * u - v) / h**4
     fifth = (6.0 * rise - 3.0 * p - 3.0 * q - 0.5 * u + 0.5 * v) / h**5
     rows = np.column_stack((y[:-1], slope[:-1], 0.5 * bend[:-1], third, fourth, fifth))
     return PiecewisePolynomial(starts[1:], starts, rows)
+
+
+def _solved(bands: list[list[float]], values: list[float]) -> list[float]:
+    """Solve a system whose row i holds columns i - 3 to i + 3, without pivots."""
+    n = len(values)
+    for i in range(n):
+        for k in range(1, min(4, n - i)):
+            factor = bands[i + k][3 - k] / bands[i][3]
+            for j in range(1, 4):
+                bands[i + k][3 - k + j] -= factor * bands[i][3 + j]
+            values[i + k] -= factor * values[i]
+    out = [0.0] * (n + 3)
+    for i in reversed(range(n)):
+        later = sum(bands[i][3 + j] * out[i + j] for j in range(1, 4))
+        out[i] = (values[i] - later) / bands[i][3]
+    return out[:n]
 
 
 def doubt(x: Sequence[float], y: Sequence[float], order: int) -> tuple[int, float]:
