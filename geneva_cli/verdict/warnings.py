@@ -99,8 +99,8 @@ def key_warnings(spec: Spec) -> Iterator[Notice]:
     """Warnings about keys of motor and support without effect, because they lack others."""
     support, texts = spec.support, list[str]()
     if not spec.is_loaded and spec.motor != Motor():
-        text = "[motor] has no load to drive, so no motor or flywheel is computed: set "
-        texts.append(text + spec.output.load_keys)
+        texts.append("[motor] has no load to drive, so no motor or flywheel is computed: set ")
+        texts[0] += spec.output.load_keys
     if bool(support.friction) != bool(support.radius_mm):
         keys = ("friction", "radius_mm")
         present, lacking = keys if support.friction else reversed(keys)
@@ -116,7 +116,7 @@ def key_warnings(spec: Spec) -> Iterator[Notice]:
 
 
 def _process_warnings(parts: Parts) -> Iterator[Notice]:
-    """Warnings about shafts without a bearing, and about gears and holes that a shop makes."""
+    """Warnings about gears, holes and clearances, and shafts without a bearing."""
     spec = parts.mechanism.spec
     if spec.no_parts:
         return
@@ -132,8 +132,9 @@ def _process_warnings(parts: Parts) -> Iterator[Notice]:
             f"{part}_shaft_high_mm makes it longer",
         )
     if spec.size.process:
+        shop = WORKSHOPS[spec.size.process]
         yield from gears_without_teeth(spec)
-        yield from _small_holes(named, WORKSHOPS[spec.size.process].hole)
+        yield from _small_holes(named, shop.hole)
 
 
 def gears_without_teeth(spec: Spec) -> Iterator[Notice]:
@@ -197,10 +198,10 @@ def _fits(parts: Parts) -> Iterator[Notice]:
         most, least = max(0.5 * (fit or math.inf), own), 0.0
         if shop.cut_mm:  # a cut's clearance is its deviation
             least = own
-        elif size.process is not None and not shop.fits:
+        elif shop.fits:  # at nominal sizes the fits of the sheet make the clearance
+            least = 0.5 * (closest_mm(2.0 * radius) or 0.0) if clearance else 0.0
+        elif size.process is not None:
             least = min(own, shop.deviation_mm)
-        elif size.process is not None and clearance:  # else the fits of the sheet make it
-            least = 0.5 * (closest_mm(2.0 * radius) or 0.0)
         if not keeps(clearance, "at most", most):
             helps = "" if size.process else ", or name the process that needs it"
             yield Notice(

@@ -141,7 +141,7 @@ def test_a_fit_looser_than_any_is_said(radius: float, most: float) -> None:
         ("print", 0.2, 0.2),  # roller and slot are each within 0.2 mm of their diameter
         ("mill", 0.006, 0.01425),  # ISO 286, um: (IT6 + IT7)/4 of Ø 10 and of Ø 100
         ("laser", 0.3, 0.3),  # ISO 9013, class 1: Ø 10 in a plate of 10 mm
-        (None, 0.001, 0.001),
+        (None, 0.0, 0.0),
     ],
 )
 def test_a_clearance_that_the_process_cannot_hold_is_said(

@@ -104,7 +104,7 @@ class Outcome:
     def counted(self, row_blocks: Iterable[Rows]) -> Iterator[Rows]:
         """All rows, counted."""
         for rows in row_blocks:
-            errors = [*map(str, filter(None, cells_of(rows.columns[ERROR])))]
+            errors = [str(cell) for cell in cells_of(rows.columns[ERROR]) if cell is not None]
             self.all += len(rows)
             self.failed += len(errors)
             self._first = self._first or next(iter(errors), "")
