@@ -1,5 +1,6 @@
 """Warnings about a machine's motion and slots: the problem, its place, and a remedy."""
 
+import math
 from collections.abc import Iterator
 from functools import lru_cache
 
@@ -9,6 +10,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.spec.tables import Z_USUAL
+from geneva_cli.spec.workshops import WORKSHOPS, closest_mm, loosest_mm
 
 SHOWN_UNDERCUT = 0.005  # mm: a wall cut back by less is within a shop's tolerance
 
@@ -51,8 +53,50 @@ def motion_warnings(mechanism: Mechanism) -> Iterator[Notice]:
             f"R/L = {mechanism.ratio:.6g}, but the slots need {needed:.6g}: taken as built, "
             "with an impact that the loads leave out (the check entry_velocity_max)",
         )
+    yield from _fits(mechanism)
     if mechanism.law:
         yield from _of_law(mechanism, mechanism.law)
+
+
+def _fits(mechanism: Mechanism) -> Iterator[Notice]:
+    """Clearances larger than the loosest running fit, or the process, needs; and too small ones."""
+    size, disc = mechanism.spec.size, mechanism.spec.size.lock_radius_mm
+    pairs = [("slot_clearance_mm", "roller", "slot", mechanism.roller_radius_mm)]
+    if mechanism.spec.has_lock:
+        radius = mechanism.ratio * mechanism.center_distance_mm if disc is None else disc
+        pairs.append(("lock_clearance_mm", "locking disc", "recess", radius))
+    shop = WORKSHOPS[size.process]
+    for key, part, mate, radius in pairs:
+        clearance, fit = getattr(size, key), loosest_mm(2.0 * radius)
+        if clearance is None:
+            continue
+        own = getattr(size.replace(**{key: None}).allowances, key)  # that of the process
+        most, least = max(0.5 * (fit or math.inf), own), 0.0
+        # what plates need that a laser cuts is known with their thickness (``warnings``); at
+        # nominal sizes the fits of the sheet make the clearance
+        is_cut = shop.cut_mm is not None and mechanism.spec.is_flat
+        if size.process is not None and not (is_cut or (shop.fits and clearance == 0.0)):
+            if shop.cut_mm:  # a cut's clearance is its deviation
+                least = own
+            elif shop.fits:
+                least = 0.5 * (closest_mm(2.0 * radius) or 0.0)
+            else:
+                least = min(own, shop.deviation_mm)
+        if not keeps(clearance, "at most", most):
+            helps = "" if size.process else ", or name the process that needs it"
+            yield Notice(
+                "loose-fit",
+                f"{key} = {clearance:g}: the {part} is loose in its {mate}. At Ø "
+                f"{2.0 * radius:.4g} mm the loosest running fit of ISO 286, H11/c11, leaves at "
+                f"most {0.5 * (fit or 0.0):.4g} mm a side: reduce {key} to {most:.4g}{helps}",
+            )
+        elif not keeps(clearance, "at least", least):
+            yield Notice(
+                "narrow-for-process",
+                f'{key} = {clearance:g}: with process = "{size.process}" {part} and {mate} '
+                f"(Ø {2.0 * radius:.4g} mm) are off by up to {least:.4g} mm a side together, and "
+                f"may not go together: set {key} to {least:.4g}",
+            )
 
 
 def _of_law(mechanism: Mechanism, law: Law) -> Iterator[Notice]:

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Iterable, Iterator
-from contextlib import suppress
 from operator import attrgetter
 from typing import TYPE_CHECKING
 
@@ -14,11 +13,12 @@ from geneva_cli.motion.compatible import is_geared
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import keeps
-from geneva_cli.parts.machine_sizes import built, wheel_body
+from geneva_cli.parts.machine_sizes import wheel_body
 from geneva_cli.parts.parts import Parts
+from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.turn.full_turn import SAME
 from geneva_cli.spec.tables import Motor
-from geneva_cli.spec.workshops import WORKSHOPS, closest_mm, loosest_mm
+from geneva_cli.spec.workshops import WORKSHOPS
 from geneva_cli.verdict.checks.motion_checks import motion_play_max, slips_deg
 from geneva_cli.verdict.motion_warnings import motion_warnings
 
@@ -40,7 +40,6 @@ def warnings(parts: Parts) -> list[Notice]:
         of_loads, of_strength = cycle_warnings(mechanism), strength(mechanism).warnings()
     return [
         *motion_warnings(mechanism),
-        *_fits(parts),
         *of_loads,
         *carried_warnings(mechanism, wheel_body(mechanism)),
         *key_warnings(mechanism.spec),
@@ -135,6 +134,8 @@ def _process_warnings(parts: Parts) -> Iterator[Notice]:
         shop = WORKSHOPS[spec.size.process]
         yield from gears_without_teeth(spec)
         yield from _small_holes(named, shop.hole)
+        if named and spec.is_flat and shop.cut_mm:
+            yield from _narrow(parts.mechanism, parts.outlines.sizes)
 
 
 def gears_without_teeth(spec: Spec) -> Iterator[Notice]:
@@ -178,44 +179,24 @@ def _small_holes(named: list["NamedParts"], least: float) -> Iterator[Notice]:
     )
 
 
-def _fits(parts: Parts) -> Iterator[Notice]:
-    """Clearances larger than the loosest running fit, or the process, needs; and too small ones."""
-    mechanism, spec = parts.mechanism, parts.mechanism.spec
-    size, disc, shop = spec.size, spec.size.lock_radius_mm, WORKSHOPS[spec.size.process]
-    pairs = [("slot_clearance_mm", "roller", "slot", mechanism.roller_radius_mm)]
-    if spec.has_lock:
-        radius = mechanism.ratio * mechanism.center_distance_mm if disc is None else disc
-        pairs.append(("lock_clearance_mm", "locking disc", "recess", radius))
-    shaped = size  # with the plates' thicknesses, on which the deviation of a cut depends
-    if shop.cut_mm and spec.is_flat and not spec.no_parts:
-        with suppress(GenevaError):  # the check of the parts has the reason
-            shaped = built(mechanism).replace(lock_radius_mm=disc)
-    for key, part, mate, radius in pairs:
-        clearance, fit = getattr(size, key), loosest_mm(2.0 * radius)
-        if clearance is None:
-            continue
-        own = getattr(shaped.replace(**{key: None}).allowances, key)  # that of the process
-        most, least = max(0.5 * (fit or math.inf), own), 0.0
-        if shop.cut_mm:  # a cut's clearance is its deviation
-            least = own
-        elif shop.fits:  # at nominal sizes the fits of the sheet make the clearance
-            least = 0.5 * (closest_mm(2.0 * radius) or 0.0) if clearance else 0.0
-        elif size.process is not None:
-            least = min(own, shop.deviation_mm)
-        if not keeps(clearance, "at most", most):
-            helps = "" if size.process else ", or name the process that needs it"
-            yield Notice(
-                "loose-fit",
-                f"{key} = {clearance:g}: the {part} is loose in its {mate}. At Ø "
-                f"{2.0 * radius:.4g} mm the loosest running fit of ISO 286, H11/c11, leaves at "
-                f"most {0.5 * (fit or 0.0):.4g} mm a side: reduce {key} to {most:.4g}{helps}",
-            )
-        elif not keeps(clearance, "at least", least):
+def _narrow(mechanism: Mechanism, sizes: Sizes) -> Iterator[Notice]:
+    """Warnings about clearances that are narrower than a cut needs for the plates."""
+    size = mechanism.spec.size
+    built = size.replace(
+        center_distance_mm=mechanism.center_distance_mm,
+        roller_radius_mm=sizes.roller,
+        wheel_thickness_mm=sizes.wheel_thickness,
+        lock_thickness_mm=sizes.lock_thickness,
+        arm_thickness_mm=sizes.arm_thickness,
+    )
+    for key in ("slot_clearance_mm", *(["lock_clearance_mm"] if sizes.lock else [])):
+        own = getattr(size.allowances, key)
+        needed = getattr(built.replace(**{key: None}).allowances, key)
+        if not keeps(own, "at least", needed):
             yield Notice(
                 "narrow-for-process",
-                f'{key} = {clearance:g}: with process = "{size.process}" {part} and {mate} '
-                f"(Ø {2.0 * radius:.4g} mm) are off by up to {least:.4g} mm a side together, and "
-                f"may not go together: set {key} to {least:.4g}",
+                f'{key} = {own:g} is less than process = "{size.process}" holds at these '
+                f"thicknesses, so that the parts may not go together: set {key} to {needed:g}",
             )
 
 
