@@ -63,6 +63,10 @@ class RadialSlot(base.Slot):
     def __init__(self, path: AnchoredPath) -> None:
         self.path, self.tilt = path, path.ahead - path.middle.wheel
 
+    def __call__(self, input_deg: Number, order: int = 3) -> Vector:
+        x, y = self.path.middle(input_deg, order)
+        return turned(sqrt(x * x + y * y), x * 0.0, self.tilt)
+
     def place(self, input_deg: Number, order: int) -> Jet:
         along, across, _ = self.path.nearest(input_deg, order)
         return sqrt(along * along + across * across)
