@@ -181,7 +181,7 @@ def test_a_failing_design_says_so_first_and_exits_as_check_does(jams: str) -> No
         found = run(app, ["report", jams, "--format", format])
         assert found.exit_code == 1, format
         text = found.stdout
-        first = min(text.index(words) for words in ("parts overlap by", "acceleration_max = "))
+        first = min(text.index(words) for words in ("parts overlap by", "peak acceleration "))
         assert text.index(f"{len(failed)} of {len(rows)} checks fail") < first
         assert first < text.index("An external wheel")
     _, page = made(jams)

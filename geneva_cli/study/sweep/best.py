@@ -5,45 +5,45 @@ from itertools import compress
 
 import numpy as np
 
-from geneva_cli.answer import value_text
-from geneva_cli.errors import GenevaError, cut
+from geneva_cli.errors import GenevaError, clean, cut
 from geneva_cli.numerics.arrays import Array, Whole
-from geneva_cli.numerics.tolerances import ROUNDED
 from geneva_cli.progress import Meter
 from geneva_cli.spec.schema import TEXT_MAX
 from geneva_cli.specfile.writer import quoted, spec_lines
-from geneva_cli.study.fields import Rows, joined
+from geneva_cli.study.fields import Rows, joined, rows_of
 from geneva_cli.study.sweep.constraints import Objective, is_number
 from geneva_cli.study.sweep.request import Outcome
 from geneva_cli.study.sweep.run import Sweep
+from geneva_cli.study.synth.family_search import Zoom, sampled, zoom
 
 MOST = 300  # designs of one run of the optimiser, far more than it needs with one or two keys
-# The same of the first runs, and where each design is computed alone, often with its parts: up to
-# half a minute a run. It then has some three digits of the keys.
-SOME = 40
+# The same where each design is computed alone, often with its parts: up to half a minute a run. It
+# then has some three digits of the keys.
+MOST_ALONE = 40
 FAR = 1e3  # violation, or scaled cost, of a design that cannot be built
-PLACES_MAX = 12  # from which the optimiser takes some steps
+PLACES_MAX = 24  # that are kept and refined
 
 
 def best_spec(outcome: Outcome, goal: Objective, row_blocks: Iterable[Rows]) -> list[str]:
     """Return the lines of a spec of the best design of a sweep; its rows are not kept.
 
-    ``outcome`` counts the rows. The keys that vary in a span are refined by an optimiser: some
-    steps from each of the best places, then many from the best result.
+    ``outcome`` counts the rows. The keys that vary in a span are refined: first by clouds of
+    designs that shrink about the best places, then by an optimiser from the best of these.
     """
     sweep, feasible = outcome.sweep, 0
     search, found = _SweepSearch(sweep, goal), list[Rows]()
     for rows in outcome.counted(row_blocks):
         feasible += int((search.merits(rows)[0] == 0.0).sum())
         found = [search.foremost(joined([*found, rows]), 4 * PLACES_MAX)]
-    places = search.foremost(found[0], PLACES_MAX if sweep.is_batched else 1)
-    each = (places.taken(np.array([i])) for i in range(len(places)))
-    refined = search.foremost(joined([search.refined(one, 0.05, SOME) for one in each]), 1)
-    refined = search.refined(refined, 2e-3, search.most)  # at last onto the bounds that bind
-    if search.merits(refined)[0][0] > 0.0:
+    places = search.closer(search.foremost(found[0], PLACES_MAX))
+    starts = places.taken(search.merits(places)[0] == 0.0)
+    if not len(starts):
         why = [*outcome.nearness.phrases()] or [f"no design has a value of {goal.name}"]
         raise GenevaError(f"--best: none of {outcome.all:,} designs is feasible: {'; '.join(why)}")
-    keys = refined.row(0)[: len(sweep.keys)]
+    # the best of them suffice; at last onto the bounds that bind
+    first = range(min(len(starts), 3 if sweep.is_batched else 1))
+    refined = joined([search.refined(starts.taken(np.array([i]))) for i in first])
+    keys = search.refined(search.foremost(refined, 1), reach=2e-3).row(0)[: len(sweep.keys)]
     best = sweep.row(keys)  # computed again as a single design: this row is the result
     values = {n: float(v) for n, v in zip(sweep.names, best, strict=True) if is_number(v)}
     spec = (machine := sweep.machine(keys)).spec
@@ -56,7 +56,11 @@ def best_spec(outcome: Outcome, goal: Objective, row_blocks: Iterable[Rows]) -> 
         binds = " (binds)" if bound.margin(values[bound.name]) <= 1e-6 else ""
         notes.append(f"# {bound}: {values[bound.name]:.9g}{binds}")
     for name, value in zip(sweep.of_best.names, sweep.of_best.of(machine), strict=True):
-        notes.append(f"# {name}: {value_text(value, digits=9)}")
+        if value is None or isinstance(value, bool):
+            text = "none" if value is None else "yes" if value else "no"
+        else:
+            text = f"{value:.9g}" if is_number(value) else clean(str(value))
+        notes.append(f"# {name}: {text}")
     if search.is_cut_short:
         alone = "" if sweep.is_batched else ", as each is computed alone"
         notes.append(
@@ -77,7 +81,7 @@ class _SweepSearch:
         free = {a.key: a.values for a in sweep.plan.axes if a.span}
         self.free = [*free]
         self.low, self.high = np.array([*free.values()], dtype=float).reshape(-1, 2).T
-        self.most = MOST if sweep.is_batched else SOME
+        self.most = MOST if sweep.is_batched else MOST_ALONE
         self.is_cut_short = False  # True once the optimiser has reached that number
 
     def margins(self, rows: Rows) -> Array:
@@ -92,9 +96,11 @@ class _SweepSearch:
         The costs are the objective (n,), signed so that it is minimised; infinite without it.
         """
         costs = np.nan_to_num(self.goal.sign * rows.numbers(self.goal.name), nan=np.inf)
-        short = np.maximum(0.0, -self.margins(rows))
-        short[short <= ROUNDED] = 0.0
-        return short.sum(axis=0) + FAR * np.isinf(costs), costs
+        kept = np.isfinite(costs)
+        for c in self.sweep.bounds:
+            kept &= c.kept_by(rows.numbers(c.name))
+        short = np.maximum(0.0, -self.margins(rows)).sum(axis=0) + FAR * np.isinf(costs)
+        return np.where(kept, 0.0, np.maximum(short, 1e-9)), costs
 
     def fractions(self, rows: Rows) -> Array:
         """The free keys of designs as fractions of their spans (n, k): 0 is low, 1 is high."""
@@ -120,14 +126,37 @@ class _SweepSearch:
             order = some[np.lexsort((costs[some], violations[some]))]
         return rows.taken(order[:most])
 
+    def closer(self, rows: Rows) -> Rows:
+        """Refine each design by clouds that shrink about it, and return those near the best.
+
+        Returns all designs unchanged if their quantities cannot be computed for a batch.
+        """
+        if not (self.free and self.sweep.is_batched):
+            return rows
+        draw, every = np.random.default_rng(0), np.arange(len(rows))
+
+        def cloud(number: int) -> Array:
+            return draw.uniform(-1.0, 1.0, (48, len(self.free)))
+
+        def evaluate(of: Whole, at: Array) -> tuple[Array, Array]:
+            return self.merits(self.sweep.rows_of(self.moved(rows.taken(of), at)))
+
+        # half a span wide at first; 16 rounds take it to 1e-4
+        near = Zoom(cloud, 0.25, 0.6, 16)
+        found = zoom(evaluate, sampled(evaluate, every, self.fractions(rows)), near, keep=1)
+        found = found.take(np.lexsort((found.cost, found.violation)))
+        # clouds come far closer to a minimum than 1 %, so that a place above it is no rival
+        found = found.take(found.cost <= found.cost[0] + 0.01 * abs(found.cost[0]))
+        return self.sweep.rows_of(self.moved(rows.taken(found.of), found.at))
+
     def moved(self, rows: Rows, at: Array) -> Rows:
         """The keys of designs, with the free ones at the fractions (n, k)."""
         values = self.low + np.clip(at, 0.0, 1.0) * (self.high - self.low)
         free = dict(zip(self.free, values.T, strict=True))
         return Rows({key: free.get(key, rows.columns[key]) for key in self.sweep.keys})
 
-    def refined(self, first: Rows, reach: float, most: int) -> Rows:
-        """The best design among the first one and ``most`` that the optimiser evaluates from there.
+    def refined(self, first: Rows, reach: float = 0.05) -> Rows:
+        """The best design among the first one and all that the optimiser evaluates from there.
 
         ``reach`` is the optimiser's first step as a fraction of the spans.
         """
@@ -135,15 +164,15 @@ class _SweepSearch:
             return first
         from scipy.optimize import NonlinearConstraint, minimize
 
-        meter = Meter("designs near the best", most)
-        start = abs(self.merits(first)[1][0])
-        scale = start if 0.0 < start < np.inf else 1.0
+        meter = Meter("designs near the best", self.most)
+        scale = abs(self.merits(first)[1][0]) or 1.0
         evaluated: dict[bytes, Rows] = {}
 
         def rows(x: Array) -> Rows:
             place = x.tobytes()
             if place not in evaluated:
-                evaluated[place] = self.sweep.rows_of(self.moved(first, x[None]))
+                keys = self.moved(first, x[None]).row(0)
+                evaluated[place] = rows_of(self.sweep.names, [self.sweep.row(keys)])
                 meter.report(len(evaluated))
             return evaluated[place]
 
@@ -162,14 +191,13 @@ class _SweepSearch:
             bounds=[(0.0, 1.0)] * len(self.free),
             constraints=bounds,
             # a bound that binds is met to the last step
-            options={"maxfev": most, "initial_tr_radius": reach, "final_tr_radius": 1e-12},
+            options={"maxfev": self.most, "initial_tr_radius": reach, "final_tr_radius": 1e-12},
         )
         meter.close()
         self.is_cut_short |= len(evaluated) >= self.most
-        every = joined([first, *evaluated.values()])
-        violations, costs = self.merits(every)
-        outside = (self.margins(every) < 0.0).any(axis=0)
-        return every.taken(np.lexsort((costs, outside, violations))[:1])
+        kept = [r for r in (first, *evaluated.values()) if self.merits(r)[0][0] == 0.0]
+        inside = [r for r in kept if (self.margins(r) >= 0.0).all()]
+        return min(inside or kept, key=lambda r: float(self.merits(r)[1][0]))
 
 
 def _first_of_each(order: Whole, groups: Sequence[object]) -> Whole:

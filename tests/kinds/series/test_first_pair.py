@@ -43,7 +43,6 @@ def pair_of(torque, L=100.0, first=100.0, **size):
     )
 
 
-@pytest.mark.long
 @pytest.mark.usefixtures("no_advice")
 @pytest.mark.parametrize("first", [140.0])
 def test_the_first_pair_by_hand(first):
