@@ -207,6 +207,16 @@ def test_a_size_that_the_machine_cannot_have_is_left_out() -> None:
     assert parts.nearest == "leaving out wheel_bore_mm"
 
 
+def test_a_trial_may_have_a_slot_without_walls(tmp_path: Path) -> None:
+    """Of a wheel in which the roller's path leaves at once, walls are shorter than rounding."""
+    text = 'z = 32\ngearing = "internal"\n[motion]\nlaw = "4-5-6-7"\n[size]\n'
+    text += "center_distance_mm = 100.0\nroller_radius_mm = 1.937064983183725\n"
+    path = tmp_path / "thin.toml"
+    path.write_text("[wheel]\n" + text, encoding="utf-8")
+    reasons = {check.name: check.why for check in judged(load(path))}
+    assert reasons["parts"].startswith("the walls of a slot do not close")
+
+
 @pytest.mark.long
 def test_no_requirement_is_broken_for_a_part(tmp_path: Path) -> None:
     """Each failing part has its own size, and with all of them at once all checks pass."""

@@ -142,7 +142,10 @@ def chain(assembly: Assembly, sizes: Sizes, around: list[Wall]) -> list[WallPiec
         if leaves is not None and leaves != t:
             pieces.append((last.wall, t, leaves))
             # shorter pieces are rounding
-            return [p for p in pieces if math.dist(*points_at(*p)) > 1e-7 * assembly.L]
+            kept = [p for p in pieces if math.dist(*points_at(*p)) > 1e-7 * assembly.L]
+            if not kept:
+                raise _lost()
+            return kept
         place = _next(around, last)
         leaves, begin = _joint(last, place)
         pieces.append((last.wall, t, leaves))
