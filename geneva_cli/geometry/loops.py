@@ -7,7 +7,6 @@ import math
 from collections.abc import Iterator, Sequence
 
 import numpy as np
-from scipy.spatial import KDTree
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.distance import Polyarc
@@ -80,13 +79,20 @@ def _distinct(pieces: Sequence[Line | Arc]) -> Iterator[Line | Arc]:
 
 def _partners(ends: list[Point]) -> list[int]:
     """Return for each end the other at the same place; raises GenevaError for none or several."""
-    tree, out = KDTree(ends), []
-    for i, near in enumerate(tree.query_ball_point(ends, JOINED_MM)):
+    points, out = np.array(ends) @ (1.0, 1j), []
+    order, x = np.argsort(points.real), points.real
+    low, high = np.searchsorted(x[order], x - JOINED_MM), np.searchsorted(x[order], x + JOINED_MM)
+    for i in range(len(ends)):
+        near = order[low[i] : high[i]]  # not farther in x
+        near = near[np.abs(points[near] - points[i]) <= JOINED_MM].tolist()
         if len(near) == 1:
-            (_, gap), (_, other) = tree.query(ends[i], 2)
+            away = np.abs(points - points[i])
+            away[i] = np.inf
+            other = int(np.argmin(away))
             raise GenevaError(
-                f"the outline is open at {shown(ends[i])}: the nearest other end is {gap:.4g} mm "
-                f"away, at {shown(ends[other])}; ends are joined up to {JOINED_MM:g} mm"
+                f"the outline is open at {shown(ends[i])}: the nearest other end is "
+                f"{away[other]:.4g} mm away, at {shown(ends[other])}; ends are joined up to "
+                f"{JOINED_MM:g} mm"
             )
         if len(near) > 2:
             text = "an outline does not branch; leave out the lines that bound no part"

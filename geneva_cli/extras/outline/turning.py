@@ -19,7 +19,7 @@ from geneva_cli.parts.turn.lazy_turn import STEPS, Jam, LazyTurn, Push, Turner
 from geneva_cli.verdict.quantities.groups import only
 
 SETTLED = 1e-9  # radians: the wheel rests where it rested a turn before
-TRIALS = 8  # places of rest that are tried over the free range
+FEW_TRIALS, TRIALS = 2, 8  # places of rest that are tried over the free range
 HALVINGS = 10  # of the space between two of them, and of the range of slacks
 LOOSE = 1e-5  # radians: a smaller range of places of rest is one place
 HELD_MIDDLE = ("detent", "pin")  # they put the wheel back to the middle of its dwell
@@ -126,11 +126,13 @@ def turning(result: Turned) -> tuple[float, float] | None:
         return all(_goes_on(machine, turner.turn(rest, way, exact=False), way) for way in SENSES)
 
     middle = min(max(machine.rest, low), high)
+    # a lock leaves a short range, and a detent puts the wheel back; else it may stand anywhere
+    is_loose = high - low > 0.1 * machine.step and not put_back(machine, result.rest)
     space = 1e-9 * (high - low)  # beside what blocks
-    places = np.unique((middle, *np.linspace(low + space, high - space, TRIALS + 1)))
+    places = np.linspace(low + space, high - space, (TRIALS if is_loose else FEW_TRIALS) + 1)
     good = np.array([goes(float(place)) for place in places])
     if not good.any():
-        return None
+        return (middle, middle) if goes(middle) else None
     first = int(np.argmin(np.where(good, np.abs(places - middle), np.inf)))
     ends = []
     for way in (slice(first, None, -1), slice(first, None)):

@@ -14,6 +14,7 @@ from geneva_cli.numerics.arrays import Array, Mask
 from geneva_cli.parts.turn.free_ranges import FreeRanges, Range
 
 STEPS = 1440  # positions of a turn of the crank: a quarter of a degree apart
+MANY = 30000  # pairs of pieces above which positions are half a degree apart
 PARTS = 16  # parts into which a step is divided where the wheel begins or ends to move, or runs
 SLOW = 4.0  # velocity of the wheel, of the crank's, up to which a step is not divided
 # Velocity above which a corner blocks. The wheel's corner then moves within 2 degrees of the common
@@ -82,8 +83,10 @@ class Turner:
     """Turns a wheel by its crank, whose free ranges are computed once, at ``steps`` positions."""
 
     def __init__(self, free: FreeRanges, start: float, steps: int = STEPS) -> None:
-        self.free, self.start, self.steps = free, start, steps
-        self.ranges = free.at(start + math.tau * np.arange(steps) / steps)
+        self.free, self.start = free, start
+        many = len(free.crank) * len(free.stops.outline) > MANY
+        self.steps = min(steps, STEPS // 2) if many else steps
+        self.ranges = free.at(start + math.tau * np.arange(self.steps) / self.steps)
 
     def rest(self, wheel: float) -> Range:
         """Return the range about an angle of the wheel where the crank's turn starts."""

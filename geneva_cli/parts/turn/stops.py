@@ -187,7 +187,10 @@ class Stops:
         low, high = np.where(rises, (first, last), (last, first))
         rows = np.arange(there.shape[1])[:, None]
         columns = rows, low[0], high[0], low[1], high[1], *curve, sign, half
-        return np.array(np.broadcast_arrays(*columns))[:, there]
+        out = np.empty((len(columns), np.count_nonzero(there)))
+        for line, column in zip(out, columns, strict=True):
+            line[:] = np.broadcast_to(column, there.shape)[there]
+        return out
 
     def fixed(self, points: Sequence[Array], angle: Array | None) -> list[Array]:
         """Return points of the crank in the fixed frame at n angles, or the wheel's in its own."""
