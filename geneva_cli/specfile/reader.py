@@ -23,15 +23,17 @@ def line_of(text: str, path: tuple[str | int, ...]) -> int:
     A number in the path counts the tables of a list, from 0.
     """
     lines, most = text.split("\n"), _depth(_parsed(text), path)
+    # other lines go on with a value, or are empty
+    begins = [i for i, line in enumerate(lines) if "=" in line or line.lstrip().startswith("[")]
 
-    def has(line: int) -> bool:
-        """True if the text up to a line, or to the end of its value, has the key."""
-        for end in range(line, len(lines) + 1):
+    def has(k: int) -> bool:
+        """True if the text up to the end of what begins on a line has the key."""
+        for end in (*begins[k + 1 :], len(lines)):  # in a value there may be such lines, too
             with suppress(tomli.TOMLDecodeError):
                 return _depth(tomli.loads("\n".join(lines[:end])), path) >= most
         return True
 
-    return 1 + bisect_left(range(1, len(lines) + 1), True, key=has) if most else 0
+    return 1 + begins[bisect_left(range(len(begins)), True, key=has)] if most else 0
 
 
 def _depth(node: Any, path: Sequence[str | int]) -> int:
