@@ -50,9 +50,6 @@ class LazyGroup(PlainValues, TyperGroup):
 
             pager.is_wanted = False
             args = [word for word in args if word != NO_PAGER]
-        if args[:1] == ["--version"]:
-            print(f"geneva {__version__}")
-            raise typer.Exit
         shows_help = not args
         try:
             return super().parse_args(ctx, args)
@@ -137,6 +134,12 @@ def _fail(message: str) -> NoReturn:
     raise typer.Exit(2) from None
 
 
+def _version(is_requested: bool) -> None:
+    if is_requested:
+        print(f"geneva {__version__}")
+        raise typer.Exit
+
+
 # NumPy's arrays here are small: starting threads for them would cost more than it saves.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
@@ -145,7 +148,9 @@ app = typer.Typer(cls=LazyGroup, rich_markup_mode=None, pretty_exceptions_enable
 
 
 def geneva(
-    version: bool = typer.Option(False, "--version", help="Show the version."),
+    version: bool = typer.Option(
+        False, "--version", callback=_version, is_eager=True, help="Show the version."
+    ),
     no_pager: bool = typer.Option(
         False, NO_PAGER, help="Print long output on a terminal without a stop."
     ),

@@ -27,18 +27,21 @@ def page(topic: str) -> str:
     return PRINTED[topic]() if topic in PRINTED else manual.page(topic)
 
 
-def command_help(name: str, width: int | None = None) -> str:
-    """The help of a command, for the terminal's width unless another is given."""
+def program(width: int | None = None) -> Any:
+    """The program's context, for the terminal's width unless another is given."""
     from typer import Context
     from typer.main import get_command
 
     from geneva_cli.cli.app import app
 
     group: Any = get_command(app)
-    own = group.context_settings
-    root = Context(group, info_name="geneva", terminal_width=width, **own)
-    _, command, _ = group.resolve_command(root, [name])
-    return str(command.get_help(Context(command, parent=root, info_name=name)))
+    return Context(group, info_name="geneva", terminal_width=width, **group.context_settings)
+
+
+def command_help(root: Any, name: str) -> str:
+    """The help of a command of the program with the context ``root``."""
+    _, command, _ = root.command.resolve_command(root, [name])
+    return str(command.get_help(type(root)(command, parent=root, info_name=name)))
 
 
 def commands_page() -> str:
@@ -52,8 +55,9 @@ def commands_page() -> str:
     for title, names in GROUPS.items():
         rows = "\n".join(f"| [{n}](#{n}) | {line} |" for n, line in names.items())
         parts.append(f"| {title.lower()} | |\n| --- | --- |\n{rows}\n")
+    root = program(WIDTH)
     for name in COMMANDS:
-        shown = command_help(name, WIDTH)
+        shown = command_help(root, name)
         lines = "\n".join(line.rstrip() for line in shown.strip().splitlines())
         parts.append(f"## {name}\n\n```text\n{lines}\n```\n")
     return "\n".join(parts)

@@ -15,7 +15,7 @@ def run(words: tuple[str, ...] = ()) -> None:
       geneva help friction
     """
     from geneva_cli.cli.app import COMMANDS
-    from geneva_cli.cli.pages import Hit, command_help, page, search
+    from geneva_cli.cli.pages import Hit, command_help, page, program, search
     from geneva_cli.manual import TOPICS, contents
     from geneva_cli.output import show, show_markdown, show_text
     from geneva_cli.table import Reading, rows_table
@@ -28,7 +28,7 @@ def run(words: tuple[str, ...] = ()) -> None:
     elif topic in TOPICS:
         show_markdown(page(topic))
     elif topic in COMMANDS:
-        show_text(command_help(topic) + "\n")
+        show_text(command_help(program(), topic) + "\n")
     elif hits := search(topic):
         table = rows_table(Hit._fields, hits, f"{topic}: `geneva help TOPIC` shows a page.")
         show(table.replaced(reading=Reading(("topic", "line"))))
