@@ -80,7 +80,9 @@ class Transmission(Drive, kw_only=True):
         for place in rollers:
             (middle_deg, turned), anchors = self.about(place.crank_deg), []
             for pose in place.poses:
-                at_deg, advance = self.about(place.crank_deg + pose.crank_deg)
+                at_deg, advance = middle_deg, turned
+                if not isinstance(pose.crank_deg, float) or pose.crank_deg:
+                    at_deg, advance = self.about(place.crank_deg + pose.crank_deg)
                 travel = PinTravel(pose, advance)
                 anchors.append(Anchor(at_deg - middle_deg, pose.wheel, pose.along, travel))
             path = AnchoredPath(tuple(anchors))
