@@ -29,7 +29,6 @@ from geneva_cli.numerics.arrays import (
     Truth,
     choose,
     choose_record,
-    half_or,
     parameter,
     smaller,
     value_or,
@@ -41,7 +40,7 @@ from geneva_cli.parts.outlines.crank_outline import is_whole
 from geneva_cli.parts.outlines.outlines import wheel_hub_length
 from geneva_cli.parts.shafts.bores import reach_or_bore
 from geneva_cli.parts.sizes import Sizes
-from geneva_cli.spec.defaults import eye_about, key, roller_material, wheel_material
+from geneva_cli.spec.defaults import key, roller_material, wheel_material
 
 
 class ShaftSize(NamedTuple):
@@ -106,7 +105,7 @@ def stressed(assembly: Assembly, sizes: Sizes, own: Spec | None = None) -> Stres
     standing = choose(is_whole(assembly, sizes), 0.0, sizes.lock)  # sectors stand on the hub
     hub = rules.arm_hub(size, bored, sizes.arm_bore, sizes.wall_min, standing)
     passing = sizes.passing_eye(assembly.L - long)
-    eye = half_or(size.arm_eye_mm, eye_about(hole, sizes.wall_min, passing))
+    eye = rules.arm_eye(size, hole, sizes.wall_min, passing)
     offset = 0.5 * (contact + thick) + gap
     rows = np.broadcast_arrays(long, hub, eye, bored, hole, thick, offset)
     arm = np.where(armed & (np.asarray(sizes.pin) > 0.0), rows, np.nan)

@@ -109,7 +109,7 @@ def hub_and_eye(
     """
     deep = bore_of(size, "crank", bore).reach
     hub = arm_hub(size, deep, bore, wall, standing)
-    eye = half_or(size.arm_eye_mm, eye_about(hole, wall, passing))
+    eye = arm_eye(size, hole, wall, passing)
     text = f"the hub must be above {2.0 * deep:.6g}, the diameter over its bore and keyway"
     refuse_size(hub <= deep, "arm_hub_mm", text, 2.0 * hub)
     text = f"the eye must be above {2.0 * hole:.6g}, the pin's hole"
@@ -121,6 +121,11 @@ def arm_hub(size: Size, bored: float, bore: float, wall: float, standing: float 
     """Return the arm's radius about a bore that reaches to ``bored`` with its keyway."""
     least = larger(rounded_radius(HUB * bore), bored + wall)
     return half_or(size.arm_hub_mm, larger(least, standing))
+
+
+def arm_eye(size: Size, hole: float, wall: float, passing: float) -> float:
+    """Return the arm's radius about a pin's hole, by default at most ``passing``."""
+    return half_or(size.arm_eye_mm, eye_about(hole, wall, passing))
 
 
 def hole_radius(size: Size, pin: float) -> float:

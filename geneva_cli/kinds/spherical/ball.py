@@ -12,11 +12,11 @@ from geneva_cli.drives.transmission import places
 from geneva_cli.errors import GenevaError, refuse_size
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.arrays import half_or, value_or
+from geneva_cli.numerics.arrays import value_or
 from geneva_cli.parts import sizes
 from geneva_cli.parts.machine_sizes import lock_between
 from geneva_cli.parts.shafts.bores import reach_or_bore
-from geneva_cli.spec.defaults import eye_about, wall_min
+from geneva_cli.spec.defaults import wall_min
 from geneva_cli.spec.tables import Z_DRAWN, Size
 
 
@@ -130,10 +130,10 @@ class Ball(NamedTuple):
         wall, bore = wall_min(size, self.radius_mm), self.arm_bore_mm
         bored, hole = reach_or_bore(size, "crank", bore), sizes.hole_radius(size, self.pin_mm)
         hub = sizes.arm_hub(size, bored, bore, wall)
-        eye = eye_about(hole, wall, self.passing_mm(self.opening_mm))
+        eye = sizes.arm_eye(size, hole, wall, self.passing_mm(self.opening_mm))
         edge = hub + max(hub - bored, wall)
         cap = max(self.lock, math.asin(min(1.0, edge / self.arm_span_mm[0])))
-        return bored, hub, half_or(size.arm_eye_mm, eye), cap
+        return bored, hub, eye, cap
 
     def shafts_end_mm(self, size: Size) -> float:
         """Return where shafts leave the parts that they carry: a distance from the centre."""
