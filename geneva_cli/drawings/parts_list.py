@@ -14,12 +14,12 @@ from contextlib import suppress
 from functools import partial
 from typing import NamedTuple, TypeAlias
 
-from geneva_cli.drawings.sheet.packing import Block, packed_apart
+from geneva_cli.drawings.sheet.paper import packed
 from geneva_cli.drives.transmission import places
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry import plates
 from geneva_cli.geometry.plates import Group, Member, Part, Plate, Shell, Solid
-from geneva_cli.geometry.shapes import bounds_of
+from geneva_cli.geometry.shapes import Box, bounds_of
 from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
@@ -211,18 +211,13 @@ def plate(parts: EdgedParts) -> Drawing:
 
 def _laid(whole: list[Plate]) -> list[Member]:
     """Return parts at z = 0 side by side, on a square bed that is as small as they allow."""
-    blocks = [Block(*bounds_of(outlines_of(one)), (), ()) for one in whole]
-    side = math.sqrt(sum((b.width + APART) * (b.height + APART) for b in blocks))
-    placed = None
-    while placed is None:
-        area = (0.0, 0.0, side, side)
-        placed = packed_apart(blocks, (), area, APART)
-        # the bed grows by a tenth until all parts fit
+    boxes = [bounds_of(outlines_of(one)) for one in whole]
+    side = math.sqrt(sum((x1 - x0 + APART) * (y1 - y0 + APART) for x0, y0, x1, y1 in boxes))
+    # the bed grows by a tenth until all parts fit
+    while (moves := packed(boxes, (), Box(0.0, 0.0, side, side), APART)) is None:
         side *= 1.1
-    return [
-        Member(one._replace(low=0.0, high=one.thickness), (to.x0 - before.x0, to.y0 - before.y0))
-        for one, before, to in zip(whole, blocks, placed, strict=True)
-    ]
+    flat = (one._replace(low=0.0, high=one.thickness) for one in whole)
+    return [*map(Member, flat, moves)]
 
 
 class SinglePart(NamedTuple):

@@ -5,8 +5,7 @@ from collections.abc import Sequence
 from itertools import pairwise
 
 from geneva_cli.drawings.sheet import sized
-from geneva_cli.drawings.sheet.packing import Block
-from geneva_cli.drawings.sheet.paper import table
+from geneva_cli.drawings.sheet.paper import Block, table
 from geneva_cli.drawings.sheet.sized import Fits
 from geneva_cli.drawings.sheet.view import View, grouped, times, turns
 from geneva_cli.drawings.sheet.wheel_views import bolted, bored, circle_of, draw_hub
@@ -184,4 +183,4 @@ def round_parts(members: Sequence[Member], mechanism: Mechanism) -> list[Block]:
                 inside += fits.made("roller bore", bore.radius)
         rows.append((plate.name, outside, inside, length(plate.thickness)))
     columns = (62.0, 44.0, 46.0, 16.0)  # mm
-    return [table(("round parts",), rows, columns)] if len(rows) > 1 else []
+    return [table(rows, columns, "round parts")] if len(rows) > 1 else []

@@ -10,7 +10,7 @@ from typing import TypeVar
 import numpy as np
 
 from geneva_cli.drawings.sheet import sized
-from geneva_cli.drawings.sheet.packing import Block
+from geneva_cli.drawings.sheet.paper import Block
 from geneva_cli.drawings.sheet.sized import Fits
 from geneva_cli.geometry import marks, shapes
 from geneva_cli.geometry.board import Board
@@ -170,9 +170,8 @@ class View:
             at = 0.5 * (x0 + x1 - wide)
             labels.append(Label(text, (at, low), height))
             x0, x1 = min(x0, at), max(x1, at + wide)
-        return Block(
-            x0, low - SMALL, x1, y1, tuple(self.shapes), tuple(labels), tuple(self.measures)
-        )
+        box = shapes.Box(x0, low - SMALL, x1, y1)
+        return Block(box, tuple(self.shapes), tuple(labels), tuple(self.measures))
 
     def _put(self, candidates: Iterable[Measure], text: str, gap: float = 0.6) -> None:
         """Add the first candidate that fits, or else a note."""
