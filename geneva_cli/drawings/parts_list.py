@@ -26,7 +26,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Dimension, Pivot
 from geneva_cli.motion.registry import thing
 from geneva_cli.parts.parts import EdgedParts, Parts, parts_of
-from geneva_cli.parts.projection import Missing, alike, built_of, or_missing, outlines_of, titled
+from geneva_cli.parts.projection import Missing, alike, built_of, outlines_of, titled
 from geneva_cli.parts.shafts.bores import listed
 from geneva_cli.spec.defaults import roller_material, wheel_material
 from geneva_cli.spec.schema import Points, fields
@@ -69,21 +69,16 @@ def parts_list(parts: Parts) -> Table:
 
 
 def _parts(parts: Parts) -> Iterator[Row | Missing]:
-    spec = parts.mechanism.spec
-    missing: list[Missing] = []
+    missing = list[Missing]()
 
-    for name, build in parts.all_built:
+    def rows(build: Callable[[], Parts]) -> Iterator[Row]:
+        own = build()
+        row = partial(part_rows, own.mechanism.spec, outside=own.outside_mm)
+        kinds = alike(built_of(own.by_name(), missing))
+        # a part whose walls are too thin for its edges has no mass
+        yield from built_of(((kind[-1].name, partial(row, kind)) for kind in kinds), missing)
 
-        def rows(build: Callable[[], Parts] = build) -> Iterator[Row]:
-            own = build()
-            kinds = alike(built_of(own.by_name(), missing))
-            # a part whose walls are too thin for its edges has no mass
-            named = (
-                (kind[-1].name, partial(part_rows, spec, kind, own.outside_mm)) for kind in kinds
-            )
-            yield from built_of(named, missing)
-
-        yield from or_missing(name, rows)
+    yield from built_of(((name, partial(rows, build)) for name, build in parts.all_built), missing)
     yield from missing
 
 

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry import shapes
 from geneva_cli.geometry.shapes import Arc, Box, Circle, Contour, Layer, Line, Point, Segment, Shape
+from geneva_cli.table import in_decimals
 
 if TYPE_CHECKING:
     from geneva_cli.geometry.plates import Part
@@ -27,6 +28,11 @@ class LevelDistance(NamedTuple):
     start: Point
     end: Point
     name: str
+
+    @property
+    def text(self) -> str:
+        """The name and the length, to three decimals of a millimetre."""
+        return f"{self.name} = {in_decimals(abs(self.end[0] - self.start[0]), 3)} mm"
 
 
 class Annotations(NamedTuple):
