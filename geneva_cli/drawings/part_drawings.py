@@ -160,9 +160,8 @@ def assembly(parts: FlatParts) -> Drawing:
     drawn += [Circle("PITCH", axis, radius) for axis in axes for radius in sorted(radii)]
     pitches = {one: pitch_lines(parts, one) for one in assembly.kinds}
     for engagement, direction in assembly.slots:
-        drawn += [
-            forms.placed(line, turn=direction + parts.wheel.turn) for line in pitches[engagement]
-        ]
+        turn = direction + parts.wheel.turn
+        drawn += [forms.placed(line, turn=turn) for line in pitches[engagement]]
     distance = LevelDistance((0.0, 0.0), (assembly.L, 0.0), "L")
     look = Annotations((distance,), tuple(_turns(parts.outlines)))
     return Drawing(title, tuple(once(drawn)), look, Group(title, parts.members))

@@ -7,7 +7,6 @@ output is plain ASCII, and equal on every run. Lengths are in millimetres, y up.
 
 import math
 from collections.abc import Iterator, Sequence
-from itertools import chain
 from typing import NamedTuple
 
 from geneva_cli.errors import clean
@@ -20,6 +19,8 @@ from geneva_cli.table import in_decimals
 POINT = 72.0 / 25.4  # points per millimetre
 BEGIN = f"{POINT:.9f} 0 0 {POINT:.9f} 0 0 cm\n1 J 1 j\n"  # of a page's content
 INK = "0.1 0.12 0.14"
+PLAIN = {*range(32, 127)} - {*b"()\\"}  # codes that a text shows as they are
+FONT = "<< /Type /Font /Subtype /Type1 /BaseFont /{} /Encoding /WinAnsiEncoding >>"
 
 
 class Page(NamedTuple):
@@ -47,10 +48,7 @@ def pdf_text(title: str, pages: Sequence[Page]) -> Iterator[str]:
             f" /Resources << /Font << {known} >> >> >>",
             f"<< /Length {len(page.content)} >>\nstream\n{page.content}endstream",
         ]
-    objects += [
-        f"<< /Type /Font /Subtype /Type1 /BaseFont /{font} /Encoding /WinAnsiEncoding >>"
-        for font in fonts
-    ]
+    objects += map(FONT.format, fonts)
     objects.append(f"<< /Title <feff{clean(title).encode('utf-16-be', 'replace').hex()}> >>")
     text, table = "%PDF-1.4\n", ""
     for i, body in enumerate(objects, 1):
@@ -82,8 +80,7 @@ def outline(shape: shapes.Shape) -> str:
     shape = shapes.as_contour(shape)
     words = [f"{point(shape.segments[0].start)} m\n"]
     # The bulge of slightly more than 90 degrees: a longer arc needs more than one cubic.
-    parts = (shapes.halved(segment, lambda bulge: bulge > 0.415) for segment in shape.segments)
-    words += map(_piece, chain.from_iterable(parts))
+    words += map(_piece, shapes.halved(shape.segments, lambda bulge: bulge > 0.415))
     return "".join(words) + ("h\n" if shape.closed else "")
 
 
@@ -115,9 +112,7 @@ def _text(words: str, at: shapes.Point, size: float, turn: float, font: int = 1)
 
 def _escaped(words: str) -> str:
     codes = clean(words).encode("cp1252", "replace")
-    return "".join(
-        chr(c) if 32 <= c < 127 and chr(c) not in "()\\" else f"\\{c:03o}" for c in codes
-    )
+    return "".join(chr(c) if c in PLAIN else f"\\{c:03o}" for c in codes)
 
 
 def wide(text: str, size: float, bold: bool = False) -> float:

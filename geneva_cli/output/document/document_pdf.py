@@ -190,10 +190,8 @@ def _widths(heads: Sequence[str], rows: list[list[str]]) -> list[float]:
 def _row(
     texts: Sequence[str], right: Sequence[bool], widths: Sequence[float], bold: bool = False
 ) -> Item:
-    cells = [
-        _lines(text, SMALL, long - 2.0 * PAD + 1e-6, bold)
-        for text, long in zip(texts, widths, strict=True)
-    ]
+    fits = (long - 2.0 * PAD + 1e-6 for long in widths)
+    cells = [_lines(text, SMALL, fit, bold) for text, fit in zip(texts, fits, strict=True)]
     high, x = max(map(len, cells)) * STEP + 2.0 * SPACE, LEFT
     out = pdf.box(LEFT, -high, sum(widths), high, BAND) if bold else ""
     for cell, is_right, long in zip(cells, right, widths, strict=True):
