@@ -1,25 +1,26 @@
 """PDF 1.4 with lines, filled shapes and texts only: files, A4 pages of items, drawing sheets.
 
 The fonts are Helvetica and its bold, which every reader has. They lack letters beyond Windows'
-western ones, which would be question marks, so ``western`` in output/letters.py spells those. The
-output is plain ASCII, and equal on every run. Lengths are in millimetres, y up.
+western ones, which would be question marks, so ``western`` spells those. The output is plain ASCII,
+and equal on every run. Lengths are in millimetres, y up.
 """
 
 import math
+import re
+import unicodedata
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from geneva_cli.errors import clean
 from geneva_cli.geometry import shapes
-from geneva_cli.geometry import sheet as letters
-from geneva_cli.geometry.sheet import CAPITALS, DASHED, WIDTHS, Sheet
-from geneva_cli.output.letters import western
+from geneva_cli.geometry.sheet import CAPITALS, DASHED, WIDTHS, Sheet, width
 from geneva_cli.table import in_decimals
 
 POINT = 72.0 / 25.4  # points per millimetre
 BEGIN = f"{POINT:.9f} 0 0 {POINT:.9f} 0 0 cm\n1 J 1 j\n"  # of a page's content
 INK = "0.1 0.12 0.14"
 PLAIN = {*range(32, 127)} - {*b"()\\"}  # codes that a text shows as they are
+SPELLED = {"≥": ">=", "≤": "<=", "−": "-", "→": "->", "√": "sqrt", "∞": "infinite"}
 FONT = "<< /Type /Font /Subtype /Type1 /BaseFont /{} /Encoding /WinAnsiEncoding >>"
 
 
@@ -117,7 +118,7 @@ def _escaped(words: str) -> str:
 
 def wide(text: str, size: float, bold: bool = False) -> float:
     """A text's width in Helvetica, as ``words`` shows it."""
-    return CAPITALS * size * letters.width(western(text), bold)
+    return CAPITALS * size * width(western(text), bold)
 
 
 def box(x: float, y: float, long: float, high: float, ink: str) -> str:
@@ -143,3 +144,32 @@ def point(p: shapes.Point) -> str:
 def number(value: float) -> str:
     """A number with at most five decimals, without a negative zero."""
     return in_decimals(value, 5)
+
+
+def western(text: str) -> str:
+    """The text in letters of Windows' western fonts; others are spelled in words or ASCII.
+
+    >>> western("d²ψ/dθ² = 3 × 10⁻³"), western("Дα")
+    ('d²psi/dtheta² = 3 × 10^-3', '[U+0414]alpha')
+    """
+
+    def power(match: re.Match[str]) -> str:
+        plain = match[0].translate(str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789"))
+        return match[0] if all(map(_is_western, match[0])) else f"^{plain}"
+
+    return "".join(map(_spelled, re.sub("[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+", power, text)))
+
+
+def _spelled(letter: str) -> str:
+    if _is_western(letter) or letter in SPELLED:
+        return SPELLED.get(letter, letter)
+    name = unicodedata.name(letter, "")
+    if name.startswith("GREEK ") and " LETTER " in name:
+        word = name.partition(" LETTER ")[2].partition(" WITH ")[0]
+        return word.capitalize() if "CAPITAL" in name else word.lower()
+    plain = "".join(filter(_is_western, unicodedata.normalize("NFKD", letter)))
+    return plain or f"[U+{ord(letter):04X}]"
+
+
+def _is_western(letter: str) -> bool:
+    return bool(letter.encode("cp1252", "ignore"))

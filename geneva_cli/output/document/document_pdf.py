@@ -13,7 +13,6 @@ from geneva_cli.geometry.sheet import Annotations, Drawing, extent, prepared
 from geneva_cli.output import pdf
 from geneva_cli.output.document import blocks
 from geneva_cli.output.inks import CENTRE_LINES, INKS, LIGHT
-from geneva_cli.output.letters import western
 from geneva_cli.output.notes import LETTERS, notes
 from geneva_cli.output.plot import plot_layout, plot_pdf
 from geneva_cli.output.svg import rings, tint
@@ -50,7 +49,7 @@ class Item(NamedTuple):
 def chunks(document: blocks.Document) -> Iterator[str]:
     """Yield the file's text; the same document gives the same bytes."""
     title = clean(document.title)
-    yield from pdf.pdf_text(title, _pages(_items(document), western(title)))
+    yield from pdf.pdf_text(title, _pages(_items(document), pdf.western(title)))
 
 
 def _pages(items: Iterable[Item], foot: str) -> list[pdf.Page]:

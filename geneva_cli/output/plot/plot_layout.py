@@ -10,7 +10,7 @@ from typing import Literal, NamedTuple, TypeAlias
 from geneva_cli.errors import clean, cut
 from geneva_cli.figure import LINE, POINTS, Axis, Curve, Figure, Mark, Panel
 from geneva_cli.numerics.tolerances import ROUNDED
-from geneva_cli.output.letters import LETTER, width
+from geneva_cli.output.text import LETTER, width_of
 
 Point: TypeAlias = tuple[float, float]
 Path: TypeAlias = Sequence[Point]
@@ -78,7 +78,7 @@ def blocks(figure: Figure) -> Iterator[FigureBlock]:
         x, high = RIGHT, high + LINE_HEIGHT
         for curve in known.values():
             name = cut(clean(curve.name), 48)
-            needs = SAMPLE + 6.0 + TEXT * width(name) + 18.0
+            needs = SAMPLE + 6.0 + TEXT * LETTER * width_of(name) + 18.0
             if x > RIGHT and x + needs > PAGE - RIGHT:
                 x, high = RIGHT, high + LINE_HEIGHT + 2.0
             head += (*_sample(curve, x, high, SAMPLE), Words((x + SAMPLE + 6.0, high), name))
