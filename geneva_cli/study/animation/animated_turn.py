@@ -126,9 +126,7 @@ class MachineTurn:
 
 
 def pushes(cycle: Cycle, turn: MachineTurn) -> Iterator[Push]:
-    """The force of each passage over a turn; none without a load."""
-    if not cycle.is_loaded:
-        return
+    """The force of each passage over a turn."""
     each = len(cycle.mechanism.engagements)
     for i, one in enumerate(turn.passages):
         local = np.linspace(one.engagement.entry_deg, one.engagement.exit_deg, 73)

@@ -70,11 +70,10 @@ def scene(design: Design) -> page.Scene:
     if mechanism.frame:  # the carrier makes whole turns
         axis = mechanism.center_distance_mm, 0.0
         frame = page.Body("frame", (), axis, turn.steady(mechanism.frame, 0.0))
-    pauses = []
-    if spec.drive.stop_s:  # in the middle of each dwell, also of one without length
-        entries = [*(one.entry for one in turn.passages[1:]), turn.end]
-        dwells = zip(turn.passages, entries, strict=True)
-        pauses = [0.5 * (one.exit + after) - turn.start for one, after in dwells]
+    # the middles of the dwells, also of one without length
+    entries = [*(one.entry for one in turn.passages[1:]), turn.end]
+    dwells = zip(turn.passages, entries, strict=True)
+    middles = (0.5 * (one.exit + after) - turn.start for one, after in dwells)
     shown = page.Scene(
         title=title,
         caption=words(mechanism) + _remark(design),
@@ -86,11 +85,11 @@ def scene(design: Design) -> page.Scene:
         bars=tuple(_bars(turn, outlines)),
         rollers=turn.rollers(),
         roller_radius=mechanism.roller_radius_mm,
-        pushes=tuple(pushes(design.cycle, turn)),
+        pushes=tuple(pushes(design.cycle, turn)) if loads else (),
         states=tuple(_states(design, turn)),
         figure=design.figure(("velocity", "acceleration", *loads)),
         stops=wheels.stops(outlines, turn),
-        pauses=tuple(pauses),
+        pauses=tuple(middles) if spec.drive.stop_s else (),
         stop_s=spec.drive.stop_s,
         frame=frame,
     )
