@@ -154,7 +154,7 @@ def rollers(ball: Ball) -> list[Region]:
 def at_mid_motion(ball: Ball) -> Rotation:
     """Return the crank's frame in the wheel's frame, with the first roller at mid-motion."""
     axis, ahead = place(ball.axes, 0.0), place(ball.axes - QUARTER, 0.0)
-    return Rotation(ahead, sphere.cross(axis, ahead), axis)
+    return ahead, sphere.cross(axis, ahead), axis
 
 
 def swept(ball: Ball) -> tuple[Array, Array]:
