@@ -271,11 +271,9 @@ def _cubics(path: CurvePath, places: Array) -> tuple[tuple[Array, Array, Array, 
     reach = handles * length[:, None]
     first = z[:, 0] + reach[:, 0] * tangent[:, 0]
     second = z[:, -1] - reach[:, 1] * tangent[:, -1]
-    v = np.broadcast_to(np.linspace(0.0, 1.0, points.shape[1]), points.shape)
-    # 6 Newton steps to the places nearest to the samples
-    for _ in range(6):
-        v = _projected(wanted, handles, v)
-    miss = np.abs(points - _bezier(wanted, handles, v)[0]).max(axis=1)
+    even = np.broadcast_to(np.linspace(0.0, 1.0, points.shape[1]), points.shape)
+    v, off = _near(wanted, handles, even, 6)
+    miss = off.max(axis=1)
     # Nearest points that run back and forth do not prove that the whole cubic is near.
     miss[(np.diff(v, axis=1) < 0.0).any(axis=1)] = 1.0
     return (z[:, 0], first, second, z[:, -1]), length * miss
@@ -289,16 +287,18 @@ def _handles(wanted: FitTargets) -> Array:
     fixed = wanted.points - v * v * (3.0 - 2.0 * v) * wanted.points[:, -1:]
     first, second = 3.0 * v * u * u * wanted.ahead, -3.0 * v * v * u * wanted.behind
     handles = np.clip(_least_squares(first, second, fixed, 0.0), 0.05, 0.8)
-    v, left = _near(wanted, handles, v)
+    v, off = _near(wanted, handles, v)
+    left = (off**2).sum(axis=1)
     # the first step in the handles' difference is damped by 1e-3
     damping = np.full(len(v), 1e-3)
     # 6 steps of least squares
     for _ in range(6):
         trial = _improved(wanted, handles, v, damping)
-        at, error = _near(wanted, trial, v)
+        at, _ = _near(wanted, trial, v)
         # a damping of 1e9 leaves their difference as it is
         trial = _improved(wanted, trial, at, 1e9)
-        at, error = _near(wanted, trial, at)
+        at, off = _near(wanted, trial, at)
+        error = (off**2).sum(axis=1)
         better = error < left
         damping *= np.where(better, 0.02, 10.0)
         handles, v = (np.where(better[:, None], *pair) for pair in ((trial, handles), (at, v)))
@@ -328,22 +328,16 @@ def _least_squares(first: Array, second: Array, wanted: Array, damping: Array | 
     return np.stack((d * p - b * q, a * q - b * p), axis=1) / (a * d - b * b)[:, None]
 
 
-def _projected(wanted: FitTargets, handles: Array, v: Array) -> Array:
-    """Places on the cubics nearest to the samples, after one more step of Newton's method."""
-    point, rate, bend = _bezier(wanted, handles, v)
-    off = wanted.points - point
-    slope = np.abs(rate) ** 2
-    # at least half the slope, so that a step reduces the distance from any start
-    steep = np.maximum(slope - (off * bend.conj()).real, 0.5 * slope)
-    return np.clip(v + (off * rate.conj()).real / np.maximum(steep, 1e-300), 0.0, 1.0)
-
-
-def _near(wanted: FitTargets, handles: Array, v: Array) -> tuple[Array, Array]:
-    """Places of the samples on cubics with these handles, from those on others; squared errors."""
-    for _ in range(2):
-        v = _projected(wanted, handles, v)
-    off = wanted.points - _bezier(wanted, handles, v)[0]
-    return v, (np.abs(off) ** 2).sum(axis=1)
+def _near(wanted: FitTargets, handles: Array, v: Array, steps: int = 2) -> tuple[Array, Array]:
+    """Places on cubics nearest to the samples, by Newton's steps from others; and distances."""
+    for _ in range(steps):
+        point, rate, bend = _bezier(wanted, handles, v)
+        off = wanted.points - point
+        slope = np.abs(rate) ** 2
+        # at least half the slope, so that a step reduces the distance from any start
+        steep = np.maximum(slope - (off * bend.conj()).real, 0.5 * slope)
+        v = np.clip(v + (off * rate.conj()).real / np.maximum(steep, 1e-300), 0.0, 1.0)
+    return v, np.abs(wanted.points - _bezier(wanted, handles, v)[0])
 
 
 def _improved(wanted: FitTargets, handles: Array, v: Array, damping: Array | float) -> Array:
