@@ -185,9 +185,8 @@ def wheel_body(mechanism: Mechanism) -> plates.MassProperties | None:
             return own(mechanism)
         where, sizes = machine_sizes(mechanism)
         contour, _ = wheel_contour(where, sizes, turned_walls(where, sizes), spec.wheel.stopped)
-        hub, density = wheel_hub(where, sizes), wheel_material(spec).density_kgm3
-        body = plates.mass_properties(wheel_plate(where, sizes, contour), density)
-        return plates.added(body, plates.mass_properties(hub, density)) if hub else body
+        both = wheel_plate(where, sizes, contour), wheel_hub(where, sizes)
+        return plates.mass_properties(filter(None, both), wheel_material(spec).density_kgm3)
     return None
 
 
