@@ -95,6 +95,12 @@ class Member(NamedTuple):
     turn: float = 0.0  # counterclockwise
     frame: Rotation | None = None  # in place of a turn: the directions of its x, y and z
 
+    @property
+    def plate(self) -> Plate:
+        """The part of a member that is a plate."""
+        assert isinstance(self.part, Plate)
+        return self.part
+
 
 Solid: TypeAlias = "Plate | Shell"
 Part: TypeAlias = "Plate | Shell | Group"
@@ -116,10 +122,9 @@ def in_place(members: Iterable[Member]) -> Iterator[tuple[Plate, Plate]]:
     """Yield each plate in its own frame and at its position."""
     for one in members:
         if isinstance(one.part, Group):
-            inner = in_place(one.part.members)
+            inner = [*in_place(one.part.members)]
         else:
-            assert isinstance(one.part, Plate)
-            inner = iter([(one.part, one.part)])
+            inner = [(one.plate, one.plate)]
         for own, plate in inner:
             outline, *holes = (
                 shapes.placed(shape, one.at, one.turn) for shape in (plate.outline, *plate.holes)

@@ -61,8 +61,7 @@ def framed(
     fixed += [Member(plate, (L, 0.0)) for plate in (base, bridge) if plate]
     screwed, spacers = list[tuple[str, str, Circle]](), list[Member]()
     for member, hole in [(one, hole) for one in fixed for hole in placed_holes(one)]:
-        part = member.part
-        assert isinstance(part, Plate)
+        part = member.plate
         if same(hole.centre, member.at, L):  # for its shaft
             continue
         holes.append(tapped(hole))
@@ -147,18 +146,17 @@ def _all_shafts(
 ) -> Iterator[Shaft]:
     """Yield all shafts and pivots, as ``framed``; ``lowest`` is the frame's lower face."""
     mechanism, own, L = outlines.assembly.full, outlines.sizes, outlines.assembly.L
-    known, stop = list[Point](), None  # axes whose shafts carry wheel or crank
-    known += [(L, 0.0)] if (own.arm_bore if outlines.has_arm else own.crank_bore) else []
-    known += [ORIGIN] if own.wheel_bore else []
+    stop = None
     if bars.axes:
         from geneva_cli.parts.links.link_shafts import carried, crank_stop
 
         stop = crank_stop(outlines, bars)
     if mechanism.spec.gears:
         from geneva_cli.parts.gears.gear_pair import gear_shafts, gear_span
-    yield from shafts(outlines, lowest, stop)
+    carrying = [*shafts(outlines, lowest, stop)]  # wheel or crank
+    yield from carrying
     for axis in bars.axes:  # of which others carry only links and gears
-        if any(same(axis.at, at, L) for at in known):
+        if any(same(axis.at, one.at, L) for one in carrying):
             continue
         here = (one for one in bars.axes if same(one.at, axis.at, L))
         spans = [span for one in here for span in carried(bars, one, first, L)]
@@ -178,7 +176,9 @@ def _all_shafts(
             name = f"shaft of {', '.join(axis.names)}"
             yield Shaft(name, axis.names[0], axis.bore, low, high, axis.at, turns=False)
     if mechanism.spec.gears:
-        yield from gear_shafts(mechanism, outlines, lowest, (L, 0.0) in known)
+        yield from gear_shafts(
+            mechanism, outlines, lowest, any(one.part == "crank" for one in carrying)
+        )
 
 
 def mounted_plate(
@@ -197,12 +197,10 @@ def mounted_plate(
 
 def shaft_holes(size: Size, axles: Iterable[Member], top: float) -> list[Circle]:
     """Return the holes of a frame for the shafts that reach below its upper face ``top``."""
-    holes = []
+    holes, loose = list[Circle](), 0.5 * size.allowances.shaft_fit_mm
     for axle in axles:
-        assert isinstance(axle.part, Plate)
-        if axle.part.low < top:
-            radius = axle.part.bore.around + 0.5 * size.allowances.shaft_fit_mm
-            holes.append(Circle("BORE", axle.at, radius))
+        if axle.plate.low < top:
+            holes.append(Circle("BORE", axle.at, axle.plate.bore.around + loose))
     return holes
 
 

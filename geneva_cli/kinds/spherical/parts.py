@@ -116,8 +116,7 @@ class SphereParts(Parts):
             own.append(("crank", arm.bore, lowest, outside - under))
         for part, bore, low, high in own:
             ends = shaft_ends(size, part, low, high)
-            plate = Shaft(f"{part}'s shaft", part, bore, *ends, ORIGIN).member.part
-            assert isinstance(plate, Plate)
+            plate = Shaft(f"{part}'s shaft", part, bore, *ends, ORIGIN).member.plate
             # heights become distances inwards
             inwards = plate._replace(low=outside - plate.high, high=outside - plate.low)
             frame = None if part == "wheel" else regions.at_mid_motion(ball)

@@ -57,16 +57,12 @@ def gears_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) 
     listed as it is cut, so its angle runs against the gear's rotation.
     """
     gears = required_gears(mechanism)
-
-    def points(phi: Array) -> tuple[Array, Array]:
-        """Return the points (n, 2) at which driver and driven gear touch."""
-        _, _, _, _, *driver, _, x, y, _, _ = _columns(gears, phi)
-        return np.column_stack(driver), np.column_stack((x, y))
-
     # one turn; the curves' frames are at input angle 0
     phi = np.linspace(-np.pi, np.pi, samples or 3)
     if samples is None:
-        phi = chords.nodes(points, (-np.pi, 0.0, np.pi), tolerance_mm)
+        curves = partial(pitch_curve, gears, 1.0, True), partial(pitch_curve, gears, 1.0, False)
+        ends = -np.pi, 0.0, np.pi
+        phi = chords.nodes(lambda at: [curve(at)[0] for curve in curves], ends, tolerance_mm)
     return Table(NAMES, _columns(gears, phi))
 
 
