@@ -29,15 +29,13 @@ from geneva_cli.spec.tables import Size
 LEFT_OUT = ("wheel_hub_mm", "crank_hub_mm", "wall_min_mm")
 BY_LOAD = "by load"  # the reason of a size that the load chose, before the load
 CRANK = "crank shaft {}", "{0.crank_N:.4g} N and {0.crank_Nm:.4g} N m on the crank's shaft"
+WHEEL = "wheel shaft {}", "{0.wheel_shaft_N:.4g} N and {0.wheel_Nm:.4g} N m on its shaft"
 # What people call the sizes that a load chooses, the first one that is to be looked at first, and
 # what of the loads chooses them.
 NAMES = {
     "size.crank_bore_mm": CRANK,
     "size.arm_bore_mm": CRANK,
-    "size.wheel_bore_mm": (
-        "wheel shaft {}",
-        "{0.wheel_shaft_N:.4g} N and {0.wheel_Nm:.4g} N m on its shaft",
-    ),
+    "size.wheel_bore_mm": WHEEL,
     "size.pin_mm": ("pin {}", "{0.pin_N:.4g} N on the pin"),
     "size.arm_thickness_mm": ("arm {} thick", "{0.wheel_N:.4g} N on the arm"),
     "size.wheel_thickness_mm": ("wheel {} thick", "{0.pin_N:.4g} N on the horns"),

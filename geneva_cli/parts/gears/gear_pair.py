@@ -9,11 +9,8 @@ curves can be hobbed. With derivatives by the driver's angle, the curves are con
 Gears are drawn at input angle 0, up to their pitch curves. The driven gear is on the crank's axis.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from functools import partial
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -31,12 +28,10 @@ from geneva_cli.parts.assembly import gear_plane, same
 from geneva_cli.parts.links.link_plates import drawn_links
 from geneva_cli.parts.links.links import link_sizes
 from geneva_cli.parts.outlines.outlines import Outlines
+from geneva_cli.parts.parts import EdgedParts
 from geneva_cli.parts.shafts.arm_and_shafts import Shaft, bore_at, shaft_ends
 from geneva_cli.parts.shafts.bores import Bore, round_bore
 from geneva_cli.table import Table
-
-if TYPE_CHECKING:
-    from geneva_cli.parts.parts import EdgedParts
 
 NAMES = (
     *("input_deg", "crank_deg", "ratio", "driver_radius_mm", "driver_x_mm", "driver_y_mm"),
@@ -154,8 +149,7 @@ def gear_pair(
     if pair is None:
         return ()
     write, span = parts.writer(FINE["cubics"] * pair.distance_mm), gear_span(mechanism, drawn)
-    turned = partial(pitch_curve, pair, mechanism.gear_shaft.sense)
-    curves = partial(turned, False), partial(turned, True)
+    curves = [partial(pitch_curve, pair, mechanism.gear_shaft.sense, own) for own in (False, True)]
     (axis, wide), (other, own), bored = _shafts(mechanism, drawn, on_crank)
     bores = (axis, wide, "arm_bore_mm"), (other, own if bored else Bore(0.0), "link_bore_mm")
     rows, members = zip(GEARS, curves, pitch_radii(pair), bores, strict=True), []

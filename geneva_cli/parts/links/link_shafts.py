@@ -118,11 +118,11 @@ def _crank_shaft(
 ) -> tuple[Round, Iterator[Meeting]]:
     """Return the crank's shaft between the parts on it, and its overlaps with links below them."""
     L, sizes, machine = parts.assembly.L, bars.sizes, parts.assembly.full
-    on_axis, lows = list[str](), list[float]()  # of what it carries
+    on_axis = dict[str, float]()  # the lower faces of the links that it carries
     for link in links:
         if link.kinds[0] is Joint.SHAFT and np.abs(places(link)[0] - L).max() < SAME_LENGTH * L:
-            on_axis.append(link.name)
-            lows.append(sizes.span(link.plane)[0])
+            on_axis[link.name] = sizes.span(link.plane)[0]
+    lows = [*on_axis.values()]
     if machine.spec.gears and machine.gear_shaft == machine.crank_shaft:
         lows.append(sizes.span(gear_plane(machine))[0])
     lows += [sizes.span(1)[0]] if parts.has_arm else []
@@ -184,10 +184,7 @@ def _meeting(bars: Links, link: Link, one: Round, turn: Array) -> Meeting:
     outline = next(plate.outline for plate in bars.plates if plate.name == link.name)
     assert isinstance(outline, Contour)
     joints = places(link)
-    ahead = joints[1] - joints[0]
-    size = np.abs(ahead)
-    unit = np.where(size > 0.0, ahead / np.where(size > 0.0, size, 1.0), 1.0)
-    own = (one.path - joints[0]) / unit
+    own = (one.path - joints[0]) * np.exp(-1j * np.angle(joints[1] - joints[0]))
     gaps = Polyarc([outline]).signed(np.column_stack((own.real, own.imag))) - one.radius
     least = int(np.argmin(gaps))
     return Meeting(float(gaps[least]), float(turn[least]), link.name, one.name)

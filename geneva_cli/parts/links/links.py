@@ -127,14 +127,14 @@ def link_sizes(mechanism: Mechanism, links: Iterable[Link], parts: Outlines | No
     """Return the sizes of links, whose joints are known at many input angles."""
     spec, L = mechanism.spec, mechanism.center_distance_mm
     size, bars = spec.size, [link for link in links if not link.radius_mm]
-    wall, thick, shaft = wall_min(size, L), drawn_thicknesses(size, L), 0.0
-    stands, crank_shaft = pin_radius(size, mechanism.roller_radius_mm), 0.0
-    thickness, arm = thick.link, thick.arm
+    wall, (_, _, arm, thickness) = wall_min(size, L), drawn_thicknesses(size, L)
+    stands = pin_radius(size, mechanism.roller_radius_mm)
+    shaft, on_crank = half_or(size.link_bore_mm, 0.0), half_or(spec.shaft.crank_diameter_mm, 0.0)
     if parts:
         drawn = parts.sizes
-        stands, shaft = drawn.first_pin or drawn.pin, drawn.first_shaft
+        stands, shaft = drawn.first_pin or drawn.pin, drawn.first_shaft or shaft
         thickness, arm = drawn.link_thickness, drawn.arm_thickness
-        crank_shaft = drawn.arm_bore if parts.has_arm else drawn.crank_bore
+        on_crank = (drawn.arm_bore if parts.has_arm else drawn.crank_bore) or on_crank
     roller, loose = pin_hole(size, stands) if stands else 0.0, 0.5 * size.allowances.shaft_fit_mm
     # a fifth of the distance to the next joint leaves eyes and a gap between
     near = list[float]()
@@ -146,13 +146,9 @@ def link_sizes(mechanism: Mechanism, links: Iterable[Link], parts: Outlines | No
     eye = half_or(size.link_width_mm, eye_about(pin + loose, wall))
     roller_eye = eye_about(roller, wall, _eye_limit(mechanism, bars)) if roller else eye
     pins = pin, stands, roller, eye, roller_eye
-    shafts = (
-        shaft or half_or(size.link_bore_mm, 0.0),
-        crank_shaft or half_or(spec.shaft.crank_diameter_mm, 0.0),
-    )
     planes = thickness, arm if spec.drive.ONE_ARM else thickness
     between = size.allowances.pin_gap_mm, size.washer_mm, loose
-    return LinkSizes(wall, *pins, *shafts, *planes, *between)
+    return LinkSizes(wall, *pins, shaft, on_crank, *planes, *between)
 
 
 def places(link: Link) -> list[Array]:
