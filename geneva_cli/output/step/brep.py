@@ -36,7 +36,7 @@ def plate_solid(file: Entities, plate: Plate) -> str:
             upper.append((high, outside))
         else:
             own = pieces(with_material_left(shape, outside).segments)
-            corners = [_corner(file, plate, piece.start) for piece in own]
+            corners = [file.rise([(*piece.start, z) for z in levels], POLE) for piece in own]
             ends = pairwise([*corners, corners[0]])
             for piece, (start, end) in zip(own, ends, strict=True):
                 curves = [_curve(file, piece, z) for z in levels]
@@ -56,12 +56,6 @@ def plate_solid(file: Entities, plate: Plate) -> str:
         level = file.add(f"PLANE('',{file.placement((0.0, 0.0, z))})")
         faces.append(file.face(loops[k], level, k == 1))
     return file.closed_solid(faces)
-
-
-def _corner(file: Entities, plate: Plate, at: Point) -> tuple[str, str, str]:
-    """Write the lower and upper vertex of a corner, and the edge between them."""
-    low, high = (file.vertex((*at, z)) for z in (plate.low, plate.high))
-    return low, high, file.edge(low, high, file.line((*at, plate.low), POLE))
 
 
 def _curve(file: Entities, piece: Piece, z: float) -> str:
@@ -166,9 +160,7 @@ class _Edges:
 
     def _corner(self, at: Vector) -> tuple[str, str, str]:
         if at not in self.corners:
-            low, high = (self.file.vertex(_times(at, radius)) for radius in self.radii)
-            rise = self.file.edge(low, high, self.file.line(_times(at, self.radii[0]), at))
-            self.corners[at] = low, high, rise
+            self.corners[at] = self.file.rise([_times(at, radius) for radius in self.radii], at)
         return self.corners[at]
 
     def wall(self, arc: SphereArc, side: tuple[str, str, bool]) -> str:
