@@ -93,7 +93,7 @@ def guide(of: Designs) -> Columns:
         force = at_deg = math.inf
         if machine.spec.is_loaded:
             ends = {str(side): partial(_end_force, side) for side in (1.0, -1.0)}
-            first, second = load_peaks(machine, tuple(ends), ends).values()
+            first, second = load_peaks(machine, own=ends).values()
             most = first if first.max.item() >= second.max.item() else second
             force, at_deg = math.sqrt(most.max.item()), most.at_deg.item()
         rows.append((2.0 * place.half, place.half / lever, force, at_deg))

@@ -21,8 +21,7 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
-from geneva_cli.numerics.arrays import Number, Truth, choose, parameter
-from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.arrays import Array, Number, Truth, choose, parameter
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.numerics.tolerances import rounded_below
 from geneva_cli.spec.tables import Shaft, Size
