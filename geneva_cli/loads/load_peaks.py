@@ -1,7 +1,5 @@
 """The greatest, least and mean loads of designs; a single design is a batch of one."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping, Sequence
 from functools import lru_cache
 from operator import itemgetter

@@ -1,7 +1,5 @@
 """Sizing of motor and flywheel: the cam-indexer formula, and the exact cycle."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping, Sequence
 from typing import NamedTuple
 

@@ -7,8 +7,6 @@ period ratio. The residual is an integral of f e^(p (1 - u)), f being s' or s'',
 over equal pieces of the panels.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
