@@ -88,7 +88,7 @@ def guide(of: Designs) -> Columns:
     out = {"length_mm": 2.0 * half, "locks_at_friction": half / np.ravel(lever)}
     if of.machine.spec.is_loaded:
         ends = {str(side): partial(_end_force, side) for side in (1.0, -1.0)}
-        most = greater(*load_peaks(of.machine, tuple(ends), ends).values())
+        most = greater(*load_peaks(of.machine, own=ends).values())
         known = np.where(np.isnan(half), np.nan, of.loaded)
         out |= {"force_N": np.sqrt(most.max) * known, "at_deg": most.at_deg * known}
     return out
