@@ -10,7 +10,7 @@ import sys
 from collections.abc import Callable
 from typing import Any, NoReturn
 
-from geneva_cli.errors import GenevaError, cut
+from geneva_cli.errors import cut
 
 NARROWEST = 60  # characters of a line that is never broken
 LACKING = "backslashreplace"  # for letters that the encoding lacks, such as those of a title
@@ -64,20 +64,6 @@ def _fill_closed() -> None:
             os.fstat(number)
         except OSError:
             os.open(os.devnull, os.O_RDWR)
-
-
-def read_bytes(path: str, most: int, advice: str, key: tuple[str, ...] = ()) -> bytes:
-    """Bytes of a file up to a size; errors may name a key of the spec."""
-    name = cut(path, 300)
-    try:
-        with open(path, "rb") as file:
-            data = file.read(most + 1)
-    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
-        what = error.strerror if isinstance(error, OSError) else error
-        raise GenevaError(f"{name}: cannot read: {what}", key) from None
-    if len(data) > most:
-        raise GenevaError(f"{name}: larger than {most} bytes: {advice}")
-    return data
 
 
 def leave(status: int) -> NoReturn:
