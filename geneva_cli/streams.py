@@ -20,28 +20,24 @@ def open_streams() -> None:
     """Replace the interpreter's standard streams by those of this file."""
     _fill_closed()
     sys.stdin = sys.stdin or open(0, closefd=False, encoding="utf-8")
-    sys.stderr = _Messages(
-        io.BufferedWriter(_Standard(_raw(sys.stderr, 2), lambda _: None)),
-        encoding=sys.stderr.encoding if sys.stderr else "utf-8",
-        errors=LACKING,
-        newline="\n",
-        line_buffering=True,
-    )
-    sys.stdout = io.TextIOWrapper(
-        io.BufferedWriter(_Standard(_raw(sys.stdout, 1), _end)),
-        encoding=sys.stdout.encoding if sys.stdout else "utf-8",
+    sys.stderr = _opened(_Messages, sys.stderr, 2, lambda _: None, True)
+    sys.stdout = _opened(io.TextIOWrapper, sys.stdout, 1, _end, os.isatty(1))
+
+
+def _opened(
+    kind: Any, own: Any, number: int, fails: Callable[[OSError], None], by_line: bool
+) -> Any:
+    """A stream over the interpreter's ``own`` one of bytes, which a console of Windows needs."""
+    raw = own.buffer if own else io.FileIO(number, "w", closefd=False)  # none if it was closed
+    if isinstance(raw, io.BufferedWriter):  # an unbuffered one is raw itself
+        raw = raw.raw
+    return kind(
+        io.BufferedWriter(_Standard(raw, fails)),
+        encoding=own.encoding if own else "utf-8",
         errors=LACKING,
         newline="\n",  # on Windows too, as in files
-        line_buffering=os.isatty(1),
+        line_buffering=by_line,
     )
-
-
-def _raw(stream: Any, number: int) -> Any:
-    """The interpreter's own stream of bytes, which a console of Windows needs."""
-    if not stream:  # it was closed
-        return io.FileIO(number, "w", closefd=False)
-    binary = stream.buffer  # an unbuffered one is raw itself
-    return binary.raw if isinstance(binary, io.BufferedWriter) else binary
 
 
 def use_utf8() -> None:

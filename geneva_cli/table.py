@@ -130,7 +130,9 @@ class Table(NamedTuple):
 
     def blocks(self) -> Iterator[list[tuple[Any, ...]]]:
         """Rows as plain Python values, in blocks, so that memory stays flat."""
-        return map(plain_rows, self.slices())
+        for columns in self.slices():
+            plain = (c if isinstance(c, (list, tuple)) else c.tolist() for c in columns)
+            yield list(zip(*plain, strict=True))
 
     def rows(self) -> Iterator[tuple[Any, ...]]:
         """The rows, one by one."""
@@ -202,12 +204,6 @@ def computed_table(names: Sequence[str], length: int, make: Make) -> Table:
     if length > WHOLE_ROWS:
         return Table(tuple(names), (), later=(length, make))
     return Table(tuple(names), make(0, length))
-
-
-def plain_rows(columns: Sequence[Any]) -> list[tuple[Any, ...]]:
-    """The rows of columns, arrays or lists, as plain Python values."""
-    plain = (c if isinstance(c, (list, tuple)) else c.tolist() for c in columns)
-    return list(zip(*plain, strict=True))
 
 
 def rows_table(
