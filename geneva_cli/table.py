@@ -60,8 +60,6 @@ class Table(NamedTuple):
         >>> Table(("z", "tau"), ([3, 4], [1 / 6, 0.25]))["z"]
         array([3, 4])
         """
-        if not isinstance(key, str):
-            return tuple.__getitem__(self, key)
         if key not in self.names:
             hint = nearest(key, self.names)
             raise GenevaError(f"no column {cut(key)}{hint}; it has {few(key, self.names)}")
@@ -140,8 +138,7 @@ class Table(NamedTuple):
 
     def replaced(self, **fields: Any) -> Table:
         """The table with some fields replaced; _replace would check their number against len()."""
-        own: dict[str, Any] = dict(zip(self._fields, self, strict=True))
-        return Table(**own | fields)
+        return Table(**self._asdict() | fields)
 
     def to_dict(self) -> dict[str, Any]:
         """Columns by name, numbers as arrays; a record's values by name, tables in it as rows.
