@@ -176,7 +176,7 @@ def for_people(value: float, unit: str = "", digits: int = 4) -> str:
     ('34.73', '393.913', '12350')
     """
     if unit == "mm" and 1.0 <= abs(value) < 1e6:
-        return in_decimals(value, 3)
+        return in_decimals(value)
     if unit in ("deg", "°") and abs(value) < 1e-9:
         return "0"
     if math.isinf(value):
@@ -185,10 +185,10 @@ def for_people(value: float, unit: str = "", digits: int = 4) -> str:
     return f"{float(text):.0f}" if "e+" in text and abs(value) < 1e6 else text
 
 
-def in_decimals(value: float, decimals: int) -> str:
+def in_decimals(value: float, decimals: int = 3) -> str:
     """A number with at most so many decimals, zero without a sign.
 
-    >>> in_decimals(173.20508, 3), in_decimals(20.0, 3), in_decimals(-1e-9, 0)
+    >>> in_decimals(173.20508), in_decimals(20.0), in_decimals(-1e-9, 0)
     ('173.205', '20', '0')
     """
     text = f"{value:.{decimals}f}"
