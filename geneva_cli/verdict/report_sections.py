@@ -7,14 +7,12 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.load_peaks import greatest_pressure
 from geneva_cli.loads.load_tables import reversals_deg
-from geneva_cli.motion.peaks import greatest_jumps, peaks
 from geneva_cli.motion.timing import timings
-from geneva_cli.numerics.angles import omega
 from geneva_cli.parts.parts import Parts
 from geneva_cli.table import Reading, rows_table
 from geneva_cli.verdict.checks.load_checks import BOUNDS
-from geneva_cli.verdict.quantities.groups import GROUP_OF, Numbers, Values
-from geneva_cli.verdict.quantities.motion_quantities import peak_values
+from geneva_cli.verdict.quantities.groups import GROUP_OF, Numbers, Values, only, single
+from geneva_cli.verdict.quantities.motion_quantities import peaks_among, shared_timing
 from geneva_cli.verdict.strength import OF_LIFE, strength
 
 SAMPLES = 65536  # random machines, as ``geneva tolerance`` draws by default
@@ -52,17 +50,12 @@ def stations(parts: Parts) -> Values:
     mechanism, each = parts.mechanism, list[Numbers]()
     if len(mechanism.engagements) == 1:
         return {"stations": None}
-    w, output = omega(mechanism.spec.drive.n_rpm), mechanism.output
+    names = GROUP_OF["velocity.max"].names
+    of = single(mechanism).requesting(names)
     for timing, engagement in zip(timings(mechanism), mechanism.engagements, strict=True):
-        motion = timing.motion_deg
-        values: Numbers = timing._asdict()
-        values["k_r"] = motion / (360.0 - motion) if motion < 360.0 else None
-        row = {f"timing.{name}": value for name, value in values.items()}
-        own = peaks(engagement, mechanism)
-        ends = greatest_jumps([engagement]), own.ends[:2], own.ends[2:], ()
-        for name, own_ends in zip(("velocity", "acceleration", "jerk", "power"), ends, strict=True):
-            row |= peak_values(name, output, w, getattr(own, name), own_ends)
-        each.append(row)
+        row = {f"timing.{name}": only(own) for name, own in shared_timing([timing]).items()}
+        own = peaks_among(of, [engagement])
+        each.append(row | {name: only(own.get(name)) for name in names})
     return {"stations": rows_table(tuple(each[0]), [tuple(e.values()) for e in each])}
 
 
