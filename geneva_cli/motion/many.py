@@ -22,7 +22,7 @@ from geneva_cli.motion.batch import taken
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.machine_spec import BEFORE, Spec
 from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.motion.peak_search import PeakArray, greater, motion_peaks
+from geneva_cli.motion.peak_search import QUANTITIES, PeakArray, greater, motion_peaks
 from geneva_cli.numerics.arrays import Array, Mask, Number, Whole, keep_memory, parameter
 from geneva_cli.spec.rules import is_array
 
@@ -94,7 +94,9 @@ def may_vary(spec: Spec, key: str) -> bool:
 
 
 def worst_peaks(
-    mechanism: Mechanism, quantities: Sequence[str], among: Sequence[Engagement] = ()
+    mechanism: Mechanism,
+    quantities: Sequence[str] = QUANTITIES,
+    among: Sequence[Engagement] = (),
 ) -> dict[str, PeakArray]:
     """The greatest peaks over all engagements, or some; angles are the machine's input angles."""
     best: dict[str, PeakArray] = {}
