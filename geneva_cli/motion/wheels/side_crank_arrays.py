@@ -20,7 +20,7 @@ import numpy as np
 from geneva_cli.motion.engagement import Peak
 from geneva_cli.motion.path_and_slot import AnchoredPath, StraightSlotMotion
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Array, Number, Whole, parameter, record_taken
+from geneva_cli.numerics.arrays import Array, Number, parameter, record_taken
 
 SCAN = 10  # intervals over half the motion; 8 miss none of a million designs, 6 miss twelve
 
@@ -88,15 +88,26 @@ def acceleration_peaks(w: SideCrankWheels) -> tuple[Array, Array]:
     for block in (which[i : i + count] for i in range(0, len(which), count)):
         part = record_taken(w, block)
         with np.errstate(all="ignore"):
-            design, low, high, x, slope = map(np.concatenate, zip(*_rises(part), strict=True))
+            f = np.linspace(0.0, part.half, SCAN + 1)
+            c = np.cos(f)
+            c[-1] = part.end_cos
+            slopes = _slope(part, c)
+            i, design = np.nonzero((slopes[:-1] < 0.0) & (slopes[1:] >= 0.0))
             near, of = record_taken(part, design), block[design]
+            low, high, left = f[i, design], f[i + 1, design], slopes[i, design]
+            rise = slopes[i + 1, design] - left
+            # a parabola through three values; a straight line in the first interval
+            bend = np.where(i > 0, 0.5 * (rise - left + slopes[i - 1, design]), 0.0)
+            root = np.sqrt(np.maximum((rise - bend) ** 2 - 4.0 * bend * left, 0.0))
+            x = low - 2.0 * left / (rise - bend + root) * (high - low)
+            slope = root / (high - low)
             before = here = np.zeros(len(x))
             close = np.zeros(len(x), bool)
             for step in range(4):  # secant steps, from a parabola's root
                 last, here = here, _slope(near, np.cos(x))
                 if step:  # rounding may leave a step of 0, or one against the rise
-                    rise = (here - last) / (x - before)
-                    slope = np.where(rise > 0.0, rise, slope)
+                    secant = (here - last) / (x - before)
+                    slope = np.where(secant > 0.0, secant, slope)
                 # a design that is close stays, so that it has the same peak in every batch
                 before, x = x, np.where(close, x, x - here / slope)
                 # radians: the error after so short a step moves a peak by less than rounding
@@ -154,24 +165,3 @@ def _slope(w: SideCrankWheels, c: Array) -> Array:
     g1 = w.sign * (w.rest - v) / w.square
     front = w.A * (C - Ac) * D  # f2 / (f1² sin f), times C² D; (1-A²) / rho is C - A cos f
     return w.sign * N * C * C2 - front * (3.0 * s2 * C - D * g1 * (c * C + 3.0 * w.A * s2))
-
-
-def _rises(w: SideCrankWheels) -> list[tuple[Whole, Array, Array, Array, Array]]:
-    """Rises of ``_slope`` through 0: design, ends of the interval, a parabola's root, slope."""
-    step = w.half / SCAN
-    turn = 2.0 * np.cos(step)
-    c, c_next = np.ones(len(step)), 0.5 * turn
-    last = before = np.zeros(len(step))
-    rises = []
-    for i in range(SCAN + 1):
-        here = _slope(w, c if i < SCAN else w.end_cos)
-        which = np.flatnonzero((before < 0.0) & (here >= 0.0))
-        left, right, wide = before[which], here[which], step[which]
-        # a parabola through three values; a straight line in the first interval
-        tilt = 0.5 * (right - (last[which] if i > 1 else 2.0 * left - right))
-        root = np.sqrt(np.maximum(tilt * tilt - 4.0 * (right - left - tilt) * left, 0.0))
-        low = (i - 1.0) * wide
-        rises.append((which, low, low + wide, low - 2.0 * left / (tilt + root) * wide, root / wide))
-        last, before = before, here
-        c, c_next = c_next, turn * c_next - c
-    return rises
