@@ -44,10 +44,8 @@ def survey(z: str, gearing: str, n_rpm: float, rollers: int, A: float) -> Table:
         factors = cam_factors(peaks[0], peaks[1], power, times.motion_deg, 360.0 / slots)
         rows.append((slots, gearing, rollers, *times[:-1], *peaks, most, *factors))
     # the columns in order of importance, for a window too narrow for all
-    first = (
-        "z motion_deg dwell_deg acceleration_max velocity_max motion_s dwell_s index_deg "
-        "acceleration_max_deg rollers_max acceleration_entry jerk_entry"
-    )
+    first = "z motion_deg dwell_deg acceleration_max velocity_max motion_s dwell_s index_deg "
+    first += "acceleration_max_deg rollers_max acceleration_entry jerk_entry"
     drive = f"side-crank A = {A:g}" if A else "one roller" if rollers == 1 else f"{rollers} rollers"
     indexes = "one index" if rollers == 1 else f"{rollers} indexes"
     cycle = f"cycle {60.0 / n_rpm / rollers:.5g} s"

@@ -126,10 +126,8 @@ def _entry_velocity(name: str, mechanism: Mechanism) -> Check:
     limit, jumps = entry_velocity_limit(mechanism), greatest_jumps(own)
     sizes = [abs(jump) for jump in jumps if jump is not None]
     if len(sizes) < len(jumps):
-        why = (
-            "the roller's centre does not cross the axis of the slot at rest inside the rim: it "
-            "meets the wheel beside its slot, or misses it"
-        )
+        why = "the roller's centre does not cross the axis of the slot at rest inside the rim: it "
+        why += "meets the wheel beside its slot, or misses it"
         return unknown(name, why, "at most", limit, True)
     end = own[0].entry_deg if sizes[0] >= sizes[1] else own[0].exit_deg
     at_deg = mechanism.shown_deg(own[0].mid_deg + end) if own[0].built else None
@@ -222,13 +220,12 @@ def within_tolerances(names: Collection[str], parts: Parts) -> Iterator[Check]:
             yield compared("tolerance_lock_mm", own.lock_clearance_mm, "at least", lock_mm)
 
 
-def pushed_round(names: Collection[str], parts: Parts) -> list[Check]:
+def pushed_round(names: Collection[str], parts: Parts) -> Iterator[Check]:
     """Whether parts turn that do not follow the formulas, and how hard they are struck."""
     try:
-        rows: list[Check] = load_extra("outline", "as_built")(parts.mechanism)
+        yield from load_extra("outline", "as_built")(parts.mechanism)
     except GenevaError:
-        return [unknown("full_turn", parts.mechanism.no_turn)]
-    return rows
+        yield unknown("full_turn", parts.mechanism.no_turn)
 
 
 def proof(names: Collection[str], parts: Parts, to_mm: float | None = None) -> Iterator[Check]:
@@ -253,11 +250,9 @@ def proof(names: Collection[str], parts: Parts, to_mm: float | None = None) -> I
         return
     start, end, known, least = found.open
     bound = "no bound is known" if least <= -0.5 * UNKNOWN else f"at least {least:.4g} mm"
-    why = (
-        f"sampled collision check; the proof is open from {start:.9g} to {end:.9g}° between "
-        f"{found.between}, after {found.intervals:,} intervals. There the gap is {known:.4g} mm in "
-        f"the middle and {bound} throughout"
-    )
+    why = f"sampled collision check; the proof is open from {start:.9g} to {end:.9g}° between "
+    why += f"{found.between}, after {found.intervals:,} intervals. There the gap is {known:.4g} mm "
+    why += f"in the middle and {bound} throughout"
     check = unknown(name, why, "at least", -to_mm)
     if known < -max(to_mm, parts.contact):
         check = check._replace(value=known, at_deg=0.5 * (start + end), passes=False)

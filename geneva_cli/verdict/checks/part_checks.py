@@ -149,10 +149,8 @@ def _links_gap(name: str, parts: FlatParts) -> Iterator[Check]:
         return
     if blocked:
         at_deg = mechanism.shown_deg(blocked.input_deg)
-        why = (
-            f"{blocked.passing} meets the {blocked.link}: it needs an eccentric in a hollow input "
-            "shaft, or another path to its bearings"
-        )
+        why = f"{blocked.passing} meets the {blocked.link}: it needs an eccentric in a hollow "
+        why += "input shaft, or another path to its bearings"
         yield Check(name, blocked.gap, "at least", 0.0, False, why, at_deg)
     elif near:
         yield compared(name, near.gap, "at least", 0.0, mechanism.shown_deg(near.input_deg))
