@@ -54,10 +54,8 @@ def carried_warnings(mechanism: Mechanism, plate: MassProperties | None) -> Iter
     spec, L, inertia = mechanism.spec, mechanism.center_distance_mm, inertia_kgm2(mechanism.spec)
     least_mm = 5.0  # the smallest watches have stops of some mm
     if not least_mm <= L:
-        text = (
-            f"the {spec.wheel.DISTANCE} of {L:.4g} mm is below {least_mm:g} mm: check that it is "
-        )
-        text += f"in mm. If it is in metres, write {1e3 * L:.4g}; if in inches, {25.4 * L:.4g}"
+        text = f"the {spec.wheel.DISTANCE} of {L:.4g} mm is below {least_mm:g} mm: check that it "
+        text += f"is in mm. If it is in metres, write {1e3 * L:.4g}; if in inches, {25.4 * L:.4g}"
         yield Notice("tiny-machine", text)
     # The largest table expected is solid steel, 6 L across and L/2 thick; J = pi rho h D^4 / 32. A
     # larger inertia is nearly always meant in kg cm2.
