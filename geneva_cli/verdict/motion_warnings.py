@@ -81,12 +81,10 @@ def _fits(mechanism: Mechanism) -> Iterator[Notice]:
             text += f"most {0.5 * (fit or 0.0):.4g} mm a side: reduce {key} to {most:.4g}{helps}"
             yield Notice("loose-fit", text)
         elif not keeps(clearance, "at least", least):
-            yield Notice(
-                "narrow-for-process",
-                f'{key} = {clearance:g}: with process = "{size.process}" {part} and {mate} '
-                f"(Ø {2.0 * radius:.4g} mm) are off by up to {least:.4g} mm a side together, and "
-                f"may not go together: set {key} to {least:.4g}",
-            )
+            text = f'{key} = {clearance:g}: with process = "{size.process}" {part} and {mate} '
+            text += f"(Ø {2.0 * radius:.4g} mm) are off by up to {least:.4g} mm a side together, "
+            text += f"and may not go together: set {key} to {least:.4g}"
+            yield Notice("narrow-for-process", text)
 
 
 def _of_law(mechanism: Mechanism, law: Law) -> Iterator[Notice]:
@@ -115,15 +113,11 @@ def _of_law(mechanism: Mechanism, law: Law) -> Iterator[Notice]:
         text += f"not meet the mid condition: {helps}"
         yield Notice("off-mid-condition", text)
     if max(abs(half(0.0, 2).derivatives()[2]) for half in (law.first, law.second)) > 1e-9:
-        yield Notice(
-            "soft-shock-at-ends",
-            f'the law "{law.NAME}" starts and stops with a jump in acceleration: a soft shock at '
-            "both ends",
-        )
+        text = f'the law "{law.NAME}" starts and stops with a jump in acceleration: a soft shock '
+        yield Notice("soft-shock-at-ends", text + "at both ends")
     if abs(law.first(0.5, 2).derivatives()[2] + law.second(0.5, 2).derivatives()[2]) > 1e-9:
         text = f'the law "{law.NAME}" jumps from acceleration to deceleration: a soft shock at '
-        text += "mid-motion"
-        yield Notice("soft-shock-at-mid", text)
+        yield Notice("soft-shock-at-mid", text + "mid-motion")
     yield from _of_slots(mechanism)
 
 
@@ -140,12 +134,12 @@ def _of_slots(mechanism: Mechanism) -> Iterator[Notice]:
                 f"{round(a, 9):.4g} to {round(b, 9):.4g}" for a, b in driven.loose_deg
             )
             percent, gap_mm = 100.0 * driven.fraction.item(), driven.loose_gap_mm.item()
-            yield Notice(
-                "not-positively-driven",
+            text = (
                 f"not positively driven from {where}° ({percent:.3g} % of the motion): the slot's "
-                f"other branch, up to {gap_mm:.3g} mm off, cuts away the wall that the torque needs"
-                '. Less torque_Nm against the inertia helps; kind = "cam" drives any law',
             )
+            text += f"other branch, up to {gap_mm:.3g} mm off, cuts away the wall that the torque "
+            text += 'needs. Less torque_Nm against the inertia helps; kind = "cam" drives any law'
+            yield Notice("not-positively-driven", text)
     place = undercut(mechanism)
     if place is not None and place.depth_mm >= SHOWN_UNDERCUT:
         clearance = mechanism.spec.size.allowances.slot_clearance_mm

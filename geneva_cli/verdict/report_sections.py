@@ -34,10 +34,7 @@ def machine(parts: Parts) -> Values:
 def inputs(parts: Parts) -> Values:
     """The values of the keys that the numbers of a report depend on."""
     spec = parts.mechanism.spec
-    known = {  # if a key is left out
-        "wheel": {"held_by": spec.wheel.held_by},
-        "size": spec.size.allowances._asdict(),
-    }
+    known = {"size": spec.size.allowances._asdict()}  # if a key is left out
     values: Values = {}
     for name in GROUP_OF["inputs.drive.n_rpm"].own:
         table, _, key = name.rpartition(".")
@@ -162,11 +159,8 @@ def sizes(parts: Parts) -> Values:
     values["clearances_from"] = spec.size.allowances.source
     if not mechanism.axes:  # the slot is a meridian between two polar angles
         mouth, bottom = (first.slot(x, 0)[0].c[0] for x in (first.entry_deg, 0.0))
-        values |= {
-            **spec.wheel.own_sizes,
-            "sphere_radius_mm": L,
-            "crank_arm_mm": mechanism.ratio * L,
-        }
+        values |= spec.wheel.own_sizes
+        values |= {"sphere_radius_mm": L, "crank_arm_mm": mechanism.ratio * L}
         values["slot_mouth_polar_deg"] = math.degrees(mouth)
         values["slot_bottom_polar_deg"] = math.degrees(bottom)
         return values
@@ -226,13 +220,10 @@ def turned(parts: Parts) -> Values:
     except GenevaError as error:
         return {"none": str(error)}
     gap = turn.smallest
-    # the lock's play, in the unit of what the machine gives out
-    play = {f"dwell_play_{output.unit}": output.from_deg(turn.dwell.deg)}
-    return {
-        "smallest_gap_mm": gap.mm if abs(gap.mm) > parts.contact else 0.0,
-        "smallest_gap_at_deg": gap.at_deg,
-        **(play if parts.locked else {}),
-    }
+    values: Values = {"smallest_gap_mm": gap.mm if abs(gap.mm) > parts.contact else 0.0}
+    if parts.locked:  # the lock's play, in the unit of what the machine gives out
+        values[f"dwell_play_{output.unit}"] = output.from_deg(turn.dwell.deg)
+    return values | {"smallest_gap_at_deg": gap.at_deg}
 
 
 def parts_list_tables(parts: Parts) -> Values:

@@ -1,7 +1,7 @@
 """All warnings about a design: here those about loads, numbers, keys, parts and their turn."""
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from operator import attrgetter
 from typing import TYPE_CHECKING
 
@@ -28,25 +28,22 @@ if TYPE_CHECKING:
 STEEP_DEG = 60.0  # a pressure angle that friction of 0.58 would hold, more than a dry pair has
 
 
-def warnings(parts: Parts) -> list[Notice]:
+def warnings(parts: Parts) -> Iterator[Notice]:
     """Warnings about the motion, the loads and the parts of a machine, in this order."""
     mechanism = parts.mechanism
-    of_loads: Iterable[Notice] = ()
-    of_strength: Iterable[Notice] = ()
-    if mechanism.spec.is_loaded:  # machines without a load do not import what these need
+    yield from motion_warnings(mechanism)
+    if mechanism.spec.is_loaded:  # machines without a load do not import what it needs
         from geneva_cli.loads.cycle import cycle_warnings
+
+        yield from cycle_warnings(mechanism)
+    yield from carried_warnings(mechanism, wheel_body(mechanism))
+    yield from key_warnings(mechanism.spec)
+    if mechanism.spec.is_loaded:
         from geneva_cli.verdict.strength import strength
 
-        of_loads, of_strength = cycle_warnings(mechanism), strength(mechanism).warnings()
-    return [
-        *motion_warnings(mechanism),
-        *of_loads,
-        *carried_warnings(mechanism, wheel_body(mechanism)),
-        *key_warnings(mechanism.spec),
-        *of_strength,
-        *turn_warnings(parts),
-        *_process_warnings(parts),
-    ]
+        yield from strength(mechanism).warnings()
+    yield from turn_warnings(parts)
+    yield from _process_warnings(parts)
 
 
 def carried_warnings(mechanism: Mechanism, plate: MassProperties | None) -> Iterator[Notice]:
@@ -88,22 +85,18 @@ def carried_warnings(mechanism: Mechanism, plate: MassProperties | None) -> Iter
 
 def key_warnings(spec: Spec) -> Iterator[Notice]:
     """Warnings about keys of motor and support without effect, because they lack others."""
-    support, texts = spec.support, list[str]()
+    name, support = "nothing-to-act-on", spec.support
     if not spec.is_loaded and spec.motor != Motor():
-        texts.append("[motor] has no load to drive, so no motor or flywheel is computed: set ")
-        texts[0] += spec.output.load_keys
+        text = "[motor] has no load to drive, so no motor or flywheel is computed: set "
+        yield Notice(name, text + spec.output.load_keys)
     if bool(support.friction) != bool(support.radius_mm):
         keys = ("friction", "radius_mm")
         present, lacking = keys if support.friction else reversed(keys)
-        texts.append(f"{present} in [support] has no effect without {lacking}: set {lacking}")
-        texts[-1] += f", or remove {present}"
+        text = f"{present} in [support] has no effect without {lacking}: set {lacking}"
+        yield Notice(name, f"{text}, or remove {present}")
     elif support.friction and not (spec.mass or support.force_N):
-        texts.append(
-            "friction in [support] has no effect, because nothing presses on the support: set "
-            "force_N there, or give the weight as [[mass]]"
-        )
-    for text in texts:
-        yield Notice("nothing-to-act-on", text)
+        text = "friction in [support] has no effect, because nothing presses on the support: set "
+        yield Notice(name, text + "force_N there, or give the weight as [[mass]]")
 
 
 def _process_warnings(parts: Parts) -> Iterator[Notice]:

@@ -85,7 +85,7 @@ def _between_slots(outlines: Outlines) -> float:
 def clearances(names: Collection[str], parts: FlatParts) -> Iterator[Check]:
     """Gaps at shafts and hubs, and what is checked of arm and links if the spec sizes them."""
     outlines, size = parts.outlines, vars(parts.mechanism.spec.size)
-    assembly, sizes = outlines.assembly, outlines.sizes
+    assembly, sizes, least = outlines.assembly, outlines.sizes, outlines.sizes.wall_min
     crank, wheel = parts.axle_radius("crank"), parts.axle_radius("wheel")
     if crank:
         # An internal wheel's horns sweep over the crank's axis, so there is no clearance at all.
@@ -109,20 +109,14 @@ def clearances(names: Collection[str], parts: FlatParts) -> Iterator[Check]:
     shaped = has_shape(parts.mechanism.spec.size, "crank")
     if shaped or any(map(size.get, arm)):
         yield from measured(
-            "arm_wall_mm",
-            sizes.wall_min,
-            lambda: arm_walls(parts.arm, outlines) if parts.arm else None,
+            "arm_wall_mm", least, lambda: parts.arm and arm_walls(parts.arm, outlines)
         )
         if assembly.sign > 0.0:  # the arm's end passes below the wheel
-            yield from measured(
-                "arm_to_hub_mm", 0.0, lambda: parts.arm.hub_gap if parts.arm else None
-            )
+            yield from measured("arm_to_hub_mm", 0.0, lambda: parts.arm and parts.arm.hub_gap)
     links = "link_pin_mm", "link_bore_mm", "link_width_mm", "press_fit_mm", "pin_mm"
     if any(map(size.get, links)):
         yield from measured(
-            "link_wall_mm",
-            sizes.wall_min,
-            lambda: min(map(plate_wall, parts.links.plates), default=None),
+            "link_wall_mm", least, lambda: min(map(plate_wall, parts.links.plates), default=None)
         )
     if "link_gap_mm" in names:
         yield from _links_gap("link_gap_mm", parts)

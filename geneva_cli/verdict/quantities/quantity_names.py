@@ -7,14 +7,12 @@ from geneva_cli.verdict.quantities.groups import GROUP_OF
 from geneva_cli.verdict.quantities.quantity_rows import CHECKS, INPUTS
 
 # Quantities whose values are words, which have no order.
-WORDS = frozenset(
-    {
-        *("wheel.gearing", "drive.kind", "drive.before.kind", "motion.law", "checks.failed"),
-        *("inputs.wheel.held_by", "inputs.size.process", "inputs.size.pin_held"),
-        *("inputs.load.friction_at", "sizes.clearances_from"),
-        *("vibration.none", "parts.none", "parts.relief"),
-    }
-)
+WORDS = {
+    *("wheel.gearing", "drive.kind", "drive.before.kind", "motion.law", "checks.failed"),
+    *("inputs.wheel.held_by", "inputs.size.process", "inputs.size.pin_held"),
+    *("inputs.load.friction_at", "sizes.clearances_from"),
+    *("vibration.none", "parts.none", "parts.relief"),
+}
 
 
 def in_batch(names: Iterable[str]) -> bool:
