@@ -134,11 +134,10 @@ def _of_slots(mechanism: Mechanism) -> Iterator[Notice]:
                 f"{round(a, 9):.4g} to {round(b, 9):.4g}" for a, b in driven.loose_deg
             )
             percent, gap_mm = 100.0 * driven.fraction.item(), driven.loose_gap_mm.item()
-            text = (
-                f"not positively driven from {where}° ({percent:.3g} % of the motion): the slot's "
-            )
-            text += f"other branch, up to {gap_mm:.3g} mm off, cuts away the wall that the torque "
-            text += 'needs. Less torque_Nm against the inertia helps; kind = "cam" drives any law'
+            text = f"not positively driven from {where}° ({percent:.3g} % of the motion): the "
+            text += f"slot's other branch, up to {gap_mm:.3g} mm off, cuts away the wall that the "
+            text += 'torque needs. Less torque_Nm against the inertia helps; kind = "cam" drives '
+            text += "any law"
             yield Notice("not-positively-driven", text)
     place = undercut(mechanism)
     if place is not None and place.depth_mm >= SHOWN_UNDERCUT:
