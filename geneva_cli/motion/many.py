@@ -94,9 +94,7 @@ def may_vary(spec: Spec, key: str) -> bool:
 
 
 def worst_peaks(
-    mechanism: Mechanism,
-    quantities: Sequence[str] = QUANTITIES,
-    among: Sequence[Engagement] = (),
+    mechanism: Mechanism, quantities: Sequence[str] = QUANTITIES, among: Sequence[Engagement] = ()
 ) -> dict[str, PeakArray]:
     """The greatest peaks over all engagements, or some; angles are the machine's input angles."""
     best: dict[str, PeakArray] = {}

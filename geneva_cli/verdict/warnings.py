@@ -85,18 +85,18 @@ def carried_warnings(mechanism: Mechanism, plate: MassProperties | None) -> Iter
 
 def key_warnings(spec: Spec) -> Iterator[Notice]:
     """Warnings about keys of motor and support without effect, because they lack others."""
-    name, support = "nothing-to-act-on", spec.support
+    support = spec.support
     if not spec.is_loaded and spec.motor != Motor():
         text = "[motor] has no load to drive, so no motor or flywheel is computed: set "
-        yield Notice(name, text + spec.output.load_keys)
+        yield Notice("nothing-to-act-on", text + spec.output.load_keys)
     if bool(support.friction) != bool(support.radius_mm):
         keys = ("friction", "radius_mm")
         present, lacking = keys if support.friction else reversed(keys)
         text = f"{present} in [support] has no effect without {lacking}: set {lacking}"
-        yield Notice(name, f"{text}, or remove {present}")
+        yield Notice("nothing-to-act-on", f"{text}, or remove {present}")
     elif support.friction and not (spec.mass or support.force_N):
         text = "friction in [support] has no effect, because nothing presses on the support: set "
-        yield Notice(name, text + "force_N there, or give the weight as [[mass]]")
+        yield Notice("nothing-to-act-on", text + "force_N there, or give the weight as [[mass]]")
 
 
 def _process_warnings(parts: Parts) -> Iterator[Notice]:

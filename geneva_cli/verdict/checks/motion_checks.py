@@ -167,27 +167,24 @@ def turning(names: Collection[str], parts: Parts) -> Iterator[Check]:
         if gap is not None:
             mm = 0.0 if abs(gap.mm) <= touch else gap.mm
             yield compared(name, mm, "at least", 0.0, gap.at_deg, touch)
-    plays = {f"motion_play_{unit}": (turn.motion, motion_play_max(parts))}
+    # values with their places, and limits; the offset is that from the slot's middle, beyond its
+    # clearance, of a roller that first touches: not 0 where the mouth does not reach it
+    rows = dict[str, tuple[tuple[float, float], float]]()
+    rows[f"motion_play_{unit}"] = turn.motion, motion_play_max(parts)
+    rows["hand_over_offset_mm"] = turn.contact, 0.0
     if parts.locked:
         # the play with which the roller would just meet the mouth of its slot
         sizes, moves = parts.sizes, parts.assembly.plane_motion
         finds = math.degrees(moves.half_span(sizes.half_width, sizes.rim))
-        plays[f"dwell_play_{unit}"] = turn.dwell, finds
-        plays[f"hand_over_play_{unit}"] = turn.hand_over, finds
-    for name in names:
-        if name in plays:
-            play, limit = plays[name]
-            value, at_deg = output.from_deg(play.deg), play.at_deg if play.deg else None
-            yield compared(name, value, "at most", output.from_deg(limit), at_deg)
-        elif name == "hand_over_pressure_deg" and parts.locked:
-            # at which the roller meets a wheel that has turned through that play
-            push, slips = turn.push, slips_deg(machine.spec.load.friction)
-            yield compared(name, push.deg, "at most", slips, push.at_deg if push.deg else None)
-        elif name == "hand_over_offset_mm":
-            # from the slot's middle, beyond its clearance, of a roller that first touches: not 0
-            # where the mouth does not reach the roller at entry or exit
-            offset, at_deg = turn.contact
-            yield compared(name, offset, "at most", 0.0, at_deg if offset else None)
+        rows[f"dwell_play_{unit}"] = turn.dwell, finds
+        rows[f"hand_over_play_{unit}"] = turn.hand_over, finds
+        # at which the roller meets a wheel that has turned through that play
+        rows["hand_over_pressure_deg"] = turn.push, slips_deg(machine.spec.load.friction)
+    for name in filter(rows.__contains__, names):
+        (value, at_deg), limit = rows[name]
+        if "_play_" in name:
+            value, limit = output.from_deg(value), output.from_deg(limit)
+        yield compared(name, value, "at most", limit, at_deg if value else None)
 
 
 def within_tolerances(names: Collection[str], parts: Parts) -> Iterator[Check]:

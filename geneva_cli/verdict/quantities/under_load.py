@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from functools import cache, partial
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -220,11 +220,10 @@ def batched(
         return None
     fields = list[object]()
     for k, field in enumerate(like):
-        each = list[Any]()
-        for one in records:
-            each.append(one and one[k])
-        number = partial(np.array, dtype=float)  # None is NaN
-        fields.append(batched(each, column) if isinstance(field, tuple) else column(number(each)))
+        each: list[Any] = [one and one[k] for one in records]
+        # None is NaN
+        own = batched(each, column) if isinstance(field, tuple) else column(np.array(each, float))
+        fields.append(own)
     return arrays.record_of(like, fields)
 
 
@@ -237,15 +236,10 @@ def share(batch: Mechanism, machines: Sequence[Mechanism]) -> None:
     """Let the machines of a batch's designs take from it what their checks and parts need."""
     designs = Designs(batch, None, machines)
 
-    @cache
-    def loads() -> PartLoads | None:
-        with suppress(GenevaError):  # which one of the designs raises again
-            return designs.once(UnderLoad).part_loads
-        return None
-
     def loads_of(i: int) -> PartLoads | None:
-        every = loads()
-        return every and every.of(i)
+        with suppress(GenevaError):  # which one of the designs raises again
+            return designs.once(UnderLoad).part_loads.of(i)
+        return None
 
     for i, machine in enumerate(machines):
         single.put(machine, partial(Designs, machine, batch=(designs, i)))
