@@ -27,10 +27,8 @@ def survey(z: str, gearing: str, n_rpm: float, rollers: int, A: float) -> Table:
     if rollers < 1:
         raise GenevaError(f"--rollers {cut(rollers)}: a crank carries at least 1")
     if rollers > 1 and A:
-        raise GenevaError(
-            "--rollers with --A: the engagements differ, so one row cannot describe them; write a "
-            'spec with kind = "side-crank" and use `geneva report`'
-        )
+        text = "--rollers with --A: the engagements differ, so one row cannot describe them; write "
+        raise GenevaError(text + 'a spec with kind = "side-crank" and use `geneva report`')
     rows, wheels = [], parse_z(z)
     for slots in wheels:
         try:

@@ -117,9 +117,8 @@ def of_checks(verdicts: Sequence[Verdict], page: bool, as_json: bool) -> Answer:
     """The answer on specs: a headline for each that was read, then the changes."""
     # a page for people has the table only where it or some of its columns are asked for
     is_shown = page or choice.columns
-    data = table = checks_table(verdicts) if is_shown else Table((), ())
-    if as_json:
-        data = checks_record(verdicts)
+    table = checks_table(verdicts) if is_shown else Table((), ())
+    data = checks_record(verdicts) if as_json else table
     is_single, judged = len(verdicts) == 1, [*filterfalse(attrgetter("error"), verdicts)]
     heads, details = list[Summary](), list[Summary]()
     for v in judged:
