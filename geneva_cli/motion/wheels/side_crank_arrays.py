@@ -53,21 +53,13 @@ class SideCrankWheels(NamedTuple):
     A: Array
     l: Array  # sin(pi/z)
     rest: Array  # 1 - l
-    half: Array  # crank angle of half the motion, radians
-    end_sin: Array  # its sine, cos(pi/z), and cosine, +-l, exactly
-    end_cos: Array
     minus: Array  # 1 - A²
     square: Array  # 1 - l²
-    rest2: Array  # (1-l)²
-    big: Array  # 1 + 4 l + l²
 
 
 def wheels(sign: Number, l: Number, rest: Number, A: Number) -> SideCrankWheels:
     """Wheels of R/L = l and ``rest`` = 1 - l, external (sign 1) or internal (-1): (n,) each."""
-    square, big, minus = rest * (1.0 + l), 1.0 + l * (4.0 + l), (1.0 - A) * (1.0 + A)
-    cos_b, end_cos = np.sqrt(square), sign * l
-    half = np.arctan2(cos_b, end_cos)
-    every = sign, A, l, rest, half, cos_b, end_cos, minus, square, rest * rest, big
+    every = sign, A, l, rest, (1.0 - A) * (1.0 + A), rest * (1.0 + l)
     return SideCrankWheels._make(v.ravel() for v in np.broadcast_arrays(*every))
 
 
@@ -88,9 +80,10 @@ def acceleration_peaks(w: SideCrankWheels) -> tuple[Array, Array]:
     for block in (which[i : i + count] for i in range(0, len(which), count)):
         part = record_taken(w, block)
         with np.errstate(all="ignore"):
-            f = np.linspace(0.0, part.half, SCAN + 1)
+            sine, cosine = _end(part)
+            f = np.linspace(0.0, np.arctan2(sine, cosine), SCAN + 1)
             c = np.cos(f)
-            c[-1] = part.end_cos
+            c[-1] = cosine
             slopes = _slope(part, c)
             i, design = np.nonzero((slopes[:-1] < 0.0) & (slopes[1:] >= 0.0))
             near, of = record_taken(part, design), block[design]
@@ -132,7 +125,7 @@ def acceleration(w: SideCrankWheels, f: Array) -> tuple[Array, Array]:
     near = np.where(w.sign > 0.0, sine, cosine)
     v = 2.0 * near * near  # 1 - g cos f
     C, rho = _front(w, s, c)
-    D, f1 = w.rest2 + 2.0 * w.l * v, C / rho
+    D, f1 = w.rest * w.rest + 2.0 * w.l * v, C / rho
     # l sin f is common to both terms
     wheel = w.square * (f1 / D) * (f1 / D)
     front = w.sign * (w.rest - v) / D * (w.A * w.minus / rho) / (rho * rho)
@@ -141,10 +134,15 @@ def acceleration(w: SideCrankWheels, f: Array) -> tuple[Array, Array]:
 
 def acceleration_at_end(w: SideCrankWheels) -> tuple[Array, Array]:
     """Jump of the acceleration at entry and exit, tan(b) f1², and the input angle, radians."""
-    s, c = w.end_sin, w.end_cos
+    s, c = _end(w)
     C, rho = _front(w, s, c)
     f1 = C / rho
     return w.l / s * f1 * f1, np.arctan2(rho * s, C * c - w.A * (s * s))
+
+
+def _end(w: SideCrankWheels) -> tuple[Array, Array]:
+    """Sine and cosine of the crank's angle at the end of a motion, cos(pi/z) and +-l, exactly."""
+    return np.sqrt(w.square), w.sign * w.l
 
 
 def _front(w: SideCrankWheels, s: Array, c: Array) -> tuple[Array, Array]:
@@ -160,8 +158,9 @@ def _slope(w: SideCrankWheels, c: Array) -> Array:
     s2, C2 = 1.0 - c2, w.minus + Ac * Ac
     C, v = np.sqrt(C2), 1.0 - w.sign * c
     lv = 2.0 * w.l * v
-    D = w.rest2 + lv
-    N = v * (w.big - lv) - w.rest2
+    square = w.rest * w.rest
+    D = square + lv
+    N = v * (1.0 + w.l * (4.0 + w.l) - lv) - square
     g1 = w.sign * (w.rest - v) / w.square
     front = w.A * (C - Ac) * D  # f2 / (f1² sin f), times C² D; (1-A²) / rho is C - A cos f
     return w.sign * N * C * C2 - front * (3.0 * s2 * C - D * g1 * (c * C + 3.0 * w.A * s2))
