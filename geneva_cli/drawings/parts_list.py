@@ -100,7 +100,7 @@ def part_rows(spec: Spec, parts: Iterable[Part], outside: float | None = None) -
 
 def _properties(solid: Solid, density: float, outside: float | None) -> Row:
     """Return heights, mass, inertia and size of a solid; in a flat machine also its centroid."""
-    body = plates.mass_properties(solid, density)
+    body = plates.mass_properties([solid], density)
     row: Row = {"mass_kg": body.mass_kg, "inertia_kgm2": body.inertia_kgm2}
     if isinstance(solid, Shell):
         low, high = solid.inner, solid.outer
