@@ -61,12 +61,13 @@ def scene(design: Design) -> page.Scene:
     """The machine over a whole turn of its crank, with curves, forces and the wheel's states."""
     mechanism = design.mechanism
     turn = MachineTurn(mechanism)
-    spec, title, outlines = design.spec, title_of(design), None
+    spec, title = design.spec, title_of(design)
+    outlines = frame = None
     with suppress(GenevaError):  # no flat parts
         outlines = design.parts.outlines
     wheels: WheelScene = (thing(spec.wheel.NAME, "scene") or WheelScene)()
     loads = ("pin_force_N", "input_torque_Nm") if design.cycle.is_loaded else ()
-    parts, frame = tuple(body for body in _bodies(design, turn, wheels) if body.shapes), None
+    parts = tuple(body for body in _bodies(design, turn, wheels) if body.shapes)
     if mechanism.frame:  # the carrier makes whole turns
         axis = mechanism.center_distance_mm, 0.0
         frame = page.Body("frame", (), axis, turn.steady(mechanism.frame, 0.0))
