@@ -6,6 +6,7 @@ way round, opposite the roller. The recesses have the radius rho, and are R from
 """
 
 import math
+from itertools import pairwise, starmap
 from operator import itemgetter
 from typing import NamedTuple
 
@@ -65,8 +66,7 @@ def rack_sizes(mechanism: Mechanism) -> RackSizes:
     text = f"the locking sector does not fit: roller and clearances limit it to {limit:.4g} mm "
     text += f"and it must reach {least:.4g}; use a smaller roller, or lock_radius_mm = 0"
     refuse_size(lock != 0.0 and limit <= least, "lock_radius_mm", text)
-    if lock != 0.0:
-        lock = lock_between(lock, least, limit, r)
+    lock = lock_between(lock, least, limit, r)
     recess = lock + allowed.lock_clearance_mm if lock else 0.0
     floor = arm - recess + relief if lock else 0.0
     edge, pin = value_or(size.wheel_radius_mm, arm), rules.pin_radius(size, r)
@@ -112,9 +112,8 @@ def rack_contour(sizes: RackSizes, count: int) -> Contour:
     for _, cut in sorted(cuts, key=itemgetter(0)):
         edge += [Line(at, cut[0].start), *cut]
         at = cut[-1].end
-    for corner in ((sizes.rim, high), (back, high), (back, low), (sizes.rim, low)):
-        edge.append(Line(at, corner))
-        at = corner
+    corners = at, (sizes.rim, high), (back, high), (back, low), edge[0].start
+    edge += starmap(Line, pairwise(corners))
     return closed("WHEEL", edge)
 
 
