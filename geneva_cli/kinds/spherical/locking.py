@@ -16,8 +16,8 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 from geneva_cli.kinds.spherical.parts import SphereParts
-from geneva_cli.loads.tolerance.locking import ROUNDING, Deviations, positive_root
-from geneva_cli.numerics.arrays import Mask, array, choose
+from geneva_cli.loads.tolerance.locking import ROUNDING, Deviations, chosen, positive_root
+from geneva_cli.numerics.arrays import Mask, array
 from geneva_cli.numerics.jet import Jet, atan2, sqrt
 from geneva_cli.parts.parts import Parts
 from geneva_cli.verdict.tolerance import SAME, Locks
@@ -64,8 +64,7 @@ class SphereLock(NamedTuple):
             sine, there = sqrt(x * x + y * y), atan2(y, x)
         angle = self._azimuth(cosine, sine, recess_cosine) - there
         jams = (array((recess - lock).c[0]) < -ROUNDING) | (array(angle.c[0]) < -ROUNDING)
-        one = bool(jams) if jams.ndim == 0 else jams
-        return Jet([choose(one, c * 0.0, c) for c in angle.c]), jams
+        return chosen(jams, angle * 0.0, angle), jams
 
     def _azimuth(self, cosine: Jet, sine: Jet, from_crank: Jet) -> Jet:
         """Azimuth chi, from the cosine and sine of p, and the cosine of a."""

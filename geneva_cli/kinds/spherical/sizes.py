@@ -53,7 +53,8 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
     sizes, size = sized_ball(mechanism), mechanism.spec.size
     if sizes is None:
         return {}, ()
-    known = {"slot_bottom_clearance_mm": sizes.bottom_mm, "lock_radius_mm": sizes.lock_mm}
+    lock_mm = sizes.radius_mm * math.sin(sizes.lock)
+    known = {"slot_bottom_clearance_mm": sizes.bottom_mm, "lock_radius_mm": lock_mm}
     known |= {"wheel_bore_mm": 2.0 * sizes.bore_mm, "pin_mm": 2.0 * sizes.pin_mm}
     if sizes.arm_bore_mm:
         _, hub, eye, _ = sizes.arm_radii(size)
