@@ -182,15 +182,11 @@ class CapArm(NamedTuple):
     hub: float
     pins: tuple[RoundHole, ...]
     bolts: tuple[RoundHole, ...]  # equally many of each locking sector
+    holes: tuple[RoundHole, ...]  # for the hub, the pins and the bolts
     cap: float  # angle from the crank's axis to the edge, except at the eyes
     eye: float  # angle
     reach: float  # angle from the crank's axis to the farthest point
     wall: float  # the least wall between holes, and to the boundary, on the inner face, mm
-
-    @property
-    def holes(self) -> tuple[RoundHole, ...]:
-        """All round holes: for the hub, the pins and the bolts."""
-        return (RoundHole(POLE, self.hub), *self.pins, *self.bolts)
 
 
 def crank_arm(ball: Ball, sectors: Sequence[Region], size: Size) -> CapArm:
@@ -232,7 +228,7 @@ def _arm(ball: Ball, sectors: Sequence[Region], size: Size, bolts_each: int) -> 
         of_sector = bolts[k * bolts_each : (k + 1) * bolts_each]
         walls.append(least_wall(sector, of_sector, ball.lock_span_mm[0]))
     reach = max(math.acos(sphere.dot(one.middle, POLE)) + one.angle for one in caps)
-    return CapArm(boundary, form, hub, pins, bolts, cap, eye, reach, min(walls))
+    return CapArm(boundary, form, hub, pins, bolts, holes, cap, eye, reach, min(walls))
 
 
 def _bolts(ball: Ball, sectors: Sequence[Region], size: Size, count: int) -> tuple[RoundHole, ...]:
