@@ -9,7 +9,7 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.plates import plates
-from geneva_cli.geometry.shapes import as_contour, bounds
+from geneva_cli.geometry.shapes import as_contour
 from geneva_cli.kinds.linear.guide import RackGuide, guide_place
 from geneva_cli.kinds.linear.motion import guided
 from geneva_cli.kinds.linear.parts import RackParts
@@ -54,11 +54,9 @@ def standing(names: Collection[str], parts: RackParts) -> Iterator[Check]:
 
 def _shaft_gaps(parts: RackParts) -> Iterator[float]:
     """The gaps between shafts and a rack, of a crank's shaft that ends above the arm."""
-    (rack,) = plates(parts.wheel.part)
-    edge = bounds(rack.outline).x1
     for shaft in rings_of(parts.shafts):
-        if shaft.high - rack.low > SAME_LENGTH * parts.mechanism.center_distance_mm:
-            yield shaft.axis[0] - shaft.outer - edge
+        if shaft.high > SAME_LENGTH * parts.mechanism.center_distance_mm:
+            yield shaft.axis[0] - shaft.outer - parts.sizes.rim
 
 
 def _gear_gaps(parts: RackParts) -> Iterator[float]:

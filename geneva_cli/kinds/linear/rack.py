@@ -19,7 +19,6 @@ from geneva_cli.parts import sizes as rules
 from geneva_cli.parts.machine_sizes import lock_between
 from geneva_cli.parts.shafts.arm_and_shafts import CrankArm
 from geneva_cli.parts.shafts.bores import bolt_radius, bore_of, tapped
-from geneva_cli.parts.sizes import KeySizes
 from geneva_cli.spec.defaults import wall_min
 from geneva_cli.spec.tables import Size, Thicknesses
 
@@ -80,7 +79,7 @@ def rack_sizes(mechanism: Mechanism) -> RackSizes:
     return RackSizes(*widths, guide, pin, bore, rules.drawn_thicknesses(size, arm))
 
 
-def key_sizes(mechanism: Mechanism) -> KeySizes:
+def key_sizes(mechanism: Mechanism) -> rules.KeySizes:
     """Return the sizes of a rack and its crank by the keys of the spec, without its load."""
     try:
         sizes = rack_sizes(mechanism)

@@ -148,16 +148,15 @@ class Ball(NamedTuple):
 
 def usual_ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
     """Return the sizes without a load, for a thickness of the wheel, or else its default."""
-    spec, L, radius_mm = mechanism.spec, mechanism.center_distance_mm, mechanism.roller_radius_mm
+    spec, L, r = mechanism.spec, mechanism.center_distance_mm, mechanism.roller_radius_mm
     size, z, allowed = spec.size, spec.wheel.z, spec.size.allowances
     _refuse_undrawn(spec)
     where, axes = assembly(mechanism, flat=False), math.radians(spec.wheel.own_sizes["axes_deg"])
     engagement = where.motions[0].engagement
     mouth, deepest = (float(engagement.slot(x, 0)[0].c[0]) for x in (engagement.entry_deg, 0.0))
-    roller = radius_mm / L
+    roller = r / L
     arm, w = axes - deepest, roller + allowed.slot_clearance_mm / L
-    bottom_mm = max(allowed.slot_clearance_mm, radius_mm / 20.0)
-    bottom_mm = value_or(size.slot_bottom_clearance_mm, bottom_mm)
+    bottom_mm = value_or(size.slot_bottom_clearance_mm, max(allowed.slot_clearance_mm, r / 20.0))
     bottom = deepest - bottom_mm / L
     # the roller touches the wall that faces the crank's axis at the foot of the perpendicular
     rim = math.acos(math.cos(mouth) * math.cos(w))
@@ -171,15 +170,14 @@ def usual_ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
     why = "the part would reach inwards to the sphere's centre"
     refuse_above("wheel_thickness_mm", thick.wheel, L, why)
     refuse_above("lock_thickness_mm", thick.lock, under, why)
-    pin = sizes.pin_radius(size, radius_mm)
+    pin = sizes.pin_radius(size, r)
     thin = min(thick.wheel, thick.lock, thick.arm)
     sizes.refuse_pin_and_edges(size, pin, inside * math.sin(roller), thin)
     # the locking sectors' edge is between the wheel's rim and the rollers
     limit, least = arm - w - allowed.lock_clearance_mm / L, abs(axes - rim)
     lock = _lock(spec, L, least, limit, roller) if spec.has_lock else 0.0
-    bored = 0.0
-    if spec.drive.crank and pin:
-        bored = sizes.arm_bore(spec, 0.0, L, L * arm - sizes.hole_radius(size, pin))
+    space = L * arm - sizes.hole_radius(size, pin)
+    bored = sizes.arm_bore(spec, 0.0, L, space) if spec.drive.crank and pin else 0.0
     rollers = tuple(math.radians(one.mid) for one in where.rollers)
     crank = axes, arm, math.radians(engagement.exit_deg), rollers
     slots = roller, w, bottom, bottom_mm, mouth, rim

@@ -163,8 +163,7 @@ def wheel_flat(parts: SphereParts) -> list[shapes.Shape]:
         pitch.append(shapes.Contour("PITCH", (path,), closed=False))
     inner = cone.points(ball.inner, b * (2.0 * np.arange(ball.z, -1.0, -1.0) - 1.0))
     back = [cone.level(p, q, -2.0 * b) for p, q in zip(inner, inner[1:], strict=False)]
-    first, last = outer[0].start, outer[-1].end
-    outer += [shapes.Line(last, inner[0]), *back, shapes.Line(inner[-1], first)]
+    outer += [shapes.Line(outer[-1].end, inner[0]), *back, shapes.Line(inner[-1], outer[0].start)]
     return [shapes.closed("WHEEL", outer), *pitch]
 
 

@@ -34,7 +34,6 @@ class WheelStop(NamedTuple):
 
     first_deg: float
     last_deg: float
-    drawn_deg: float  # input angle 0 of the drawings, after the middle of the first engagement
     lever_mm: float  # of the force between disc and face about the crank's axis
     face_mm: float  # along the face, from the contact to the nearer mouth; negative in the mouth
     overlap_mm: float  # of the circles of disc and face, if nothing stopped them
@@ -70,7 +69,7 @@ def wheel_stop(outlines: Outlines) -> WheelStop | None:
     from_middle = math.pi / z - delta - float(assembly.wheel(np.array([math.degrees(crank)]))[0])
     half_face = math.pi / z - math.asin(sizes.half_width / ra)
     last = assembly.to_input(math.degrees(crank))
-    stops = assembly.to_input(-math.degrees(crank)), 360.0 * (z - 1) + last, 360.0 * (z // 2)
+    stops = assembly.to_input(-math.degrees(crank)), 360.0 * (z - 1) + last
     lever = L * math.sin(delta)
     lengths = lever, ra * (half_face - abs(from_middle)), rk + ra - L
     force = None if torque is None else 1e3 * torque / lever
