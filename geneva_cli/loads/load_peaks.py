@@ -97,12 +97,13 @@ def reported_peaks(
 ) -> dict[str, PeakArray]:
     """The greatest sizes of those of ``REPORTED_PEAKS`` that a machine has, by their names."""
     known, out = sources(mechanism), dict[str, PeakArray]()
-    own = {name: load for name, load in REPORTED_PEAKS.items() if name in names and load in known}
-    ends = load_summaries(mechanism, [*own.values()], means=False) if own else {}
-    for name, load in own.items():
-        one = ends[load]
-        least = PeakArray(-one.min, one.min_at_deg)
-        out[name] = greater(PeakArray(one.max, one.max_at_deg), least)
+    loads = {
+        name: known[of] for name, of in REPORTED_PEAKS.items() if name in names and of in known
+    }
+    peaks = load_peaks(mechanism, [source for source, _ in loads.values()]) if loads else {}
+    for name, (source, factor) in loads.items():
+        most, at_deg = peaks[source]
+        out[name] = PeakArray(most * np.ravel(factor), at_deg)
     return out
 
 
