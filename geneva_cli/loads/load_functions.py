@@ -114,10 +114,8 @@ class LoadFunctions:
     def stretches(self, result: SearchResult | None = None) -> Stretches:
         """The motion, divided where signs change: as in a search, or without one."""
         pieces = result.stretches if result else cuts(self, self.spans)
-        if not self.engagement.slot.curved:
-            return pieces
-        x = pieces.x
-        for end in (self.engagement.entry_deg, self.engagement.exit_deg):
+        x, whole = pieces.x, self.engagement
+        for end in (whole.entry_deg, whole.exit_deg) if whole.slot.curved else ():
             near = np.broadcast_to(np.ravel(NEAR_CUSP * end), self.n)[pieces.design]
             x = np.where(x == near, 0.0, x)
         return pieces._replace(x=x)

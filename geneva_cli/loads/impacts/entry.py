@@ -226,10 +226,9 @@ def entry_impacts(mechanism: Mechanism, pin: PinSize | None = None) -> Impacts:
     each = list[Array]()
     as_built = any(one.built for one in mechanism.engagements)  # it strikes without errors, too
     for axis in [] if as_built else RestingAxis.each(mechanism):
-        errors = [*_errors(mechanism, axis)]
-        every = [first_contacts(axis, *error) for error in errors]
-        every += [mouth_contacts(axis, *error, sizes) for error in errors]
-        each += [shown(mechanism, axis.engagement, *one, np.array(np.nan)) for one in every]
+        for error in _errors(mechanism, axis):
+            for one in first_contacts(axis, *error), mouth_contacts(axis, *error, sizes):
+                each.append(shown(mechanism, axis.engagement, *one, np.array(np.nan)))
     return hardest(mechanism, each, pin)
 
 
