@@ -135,10 +135,10 @@ def _at_middle(engagement: Engagement, x: Array, rates: Jet) -> list[Jet]:
     rounding; next to it, the sign is known. Where the pin reverses in a cusp, the tangent is that
     of the pitch curve.
     """
-    from geneva_cli.motion.path_and_slot import pitch_at_retrace, retraces
+    from geneva_cli.motion.path_and_slot import pitch, retraces
 
     near = contact(engagement, NEAR_CUSP * engagement.entry_deg, reactions=False)
-    back, middle, at = retraces(engagement), x == 0.0, pitch_at_retrace(engagement)
+    back, middle, at = retraces(engagement), x == 0.0, pitch(engagement, 0.0, 2)
     with np.errstate(all="ignore"):  # each formula holds for its own designs
         here = [jet.c[0] for jet in _curved(engagement, x, 0, rates)]
         turned = np.where(here[2] * near.along.c[0] < 0.0, -1.0, 1.0)

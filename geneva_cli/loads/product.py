@@ -52,7 +52,8 @@ def product_motion(mechanism: Mechanism) -> dict[str, Array]:
         entry = np.ravel(mechanism.shown_deg(first.mid_deg + first.entry_deg))
         at_deg = np.where(most > 1.0, velocity.at_deg, entry)
         velocity = PeakArray(np.maximum(most, 1.0), at_deg)
-    both = along if product.runs_straight else _resultant(mechanism, ratio)
+    # a chain, belt or film runs along a line
+    both = _resultant(mechanism, ratio) if product.pitch_mm is None else along
 
     out: dict[str, Array] = {"travel_mm": r_mm * ratio * step}
     for name, peak, by, more in (

@@ -6,7 +6,7 @@ from itertools import pairwise
 
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.paper import Block, table
-from geneva_cli.drawings.sheet.sized import Fits
+from geneva_cli.drawings.sheet.sized import Fits, degrees
 from geneva_cli.drawings.sheet.view import View, grouped, times, turns
 from geneva_cli.drawings.sheet.wheel_views import bolted, bored, circle_of, draw_hub
 from geneva_cli.geometry.plates import Member, Plate
@@ -19,7 +19,7 @@ from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.links.links import Links, placed_holes, roller_pins
 from geneva_cli.parts.outlines.crank_outline import crank_bore, is_whole
 from geneva_cli.parts.shafts.arm_and_shafts import CrankArm, bolts, crank_hub
-from geneva_cli.spec.written import degrees, length
+from geneva_cli.table import in_decimals as length
 
 UP = 0.5 * math.pi
 

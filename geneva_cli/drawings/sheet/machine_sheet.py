@@ -21,7 +21,7 @@ from geneva_cli.geometry.plates import Member, Plate, in_place, plates
 from geneva_cli.geometry.sheet import CENTRE, HATCH, HIDDEN, OUTLINE, Sheet, line, rectangle
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.projection import alike
-from geneva_cli.spec.written import length
+from geneva_cli.table import in_decimals as length
 
 # Layers on the sheet of shapes of the assembled machine that are no outlines.
 LAYERS: dict[str, shapes.Layer] = {"PITCH": CENTRE, "ARM": HIDDEN, "FRAME": HIDDEN, "HUB": HIDDEN}

@@ -17,7 +17,7 @@ from geneva_cli.geometry.sheet import SMALL, TEXT, Label, Measure, line, width
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.spec.defaults import roller_material, wheel_material
 from geneva_cli.spec.workshops import WORKSHOPS
-from geneva_cli.spec.written import length
+from geneva_cli.table import in_decimals as length
 
 LEFT, MARGIN = 20.0, 10.0  # mm: margin of the frame on the filing side, and on the others
 TITLE_WIDTH = 180.0  # mm: width of the title block

@@ -11,13 +11,13 @@ import numpy as np
 
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.paper import Block
-from geneva_cli.drawings.sheet.sized import Fits
+from geneva_cli.drawings.sheet.sized import Fits, degrees
 from geneva_cli.geometry import marks, shapes
 from geneva_cli.geometry.board import Board
 from geneva_cli.geometry.shapes import Arc, Circle, Point, Segment, Shape
 from geneva_cli.geometry.sheet import CENTRE, LARGE, SMALL, Label, Measure, line
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
-from geneva_cli.spec.written import degrees, length
+from geneva_cli.table import in_decimals as length
 
 FIRST, NEXT = 8.0, 7.0  # mm: from the outline to the first dimension line, and between lines
 RANKS = 14  # rows of dimension lines that are tried

@@ -15,7 +15,7 @@ from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.outlines.outlines import Outlines, dial_circle, wheel_holes
 from geneva_cli.parts.projection import outlines_of
 from geneva_cli.parts.shafts.bores import bore_of
-from geneva_cli.spec.written import length
+from geneva_cli.table import in_decimals as length
 
 
 def draw_wheel(view: View, parts: FlatParts) -> View:

@@ -28,7 +28,7 @@ from geneva_cli.motion.pivots import Dimension
 from geneva_cli.numerics.arrays import Array, Complex, within_half_turn
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.projection import Missing, or_missing, titled
-from geneva_cli.spec.written import length
+from geneva_cli.table import in_decimals as length
 
 
 class Cone(NamedTuple):

@@ -7,7 +7,7 @@ import numpy as np
 from geneva_cli.geometry import chords
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.path_and_slot import WALLED, Pitch, pitch, pitch_at_retrace, retraces
+from geneva_cli.motion.path_and_slot import WALLED, Pitch, pitch, retraces
 from geneva_cli.numerics.arrays import Array, array
 from geneva_cli.numerics.roots import boundary_by_sections
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
@@ -71,7 +71,7 @@ def pitch_at(engagement: Engagement, input_deg: Array) -> Pitch:
         return pitch(engagement, input_deg)
     # any regular place stands in for mid-motion
     at = pitch(engagement, np.where(middle, 0.5 * engagement.entry_deg, input_deg))
-    columns = zip(at, pitch_at_retrace(engagement), strict=True)
+    columns = zip(at, pitch(engagement, 0.0, 2), strict=True)
     return Pitch(*(np.where(middle, limit, array(value)) for value, limit in columns))
 
 
