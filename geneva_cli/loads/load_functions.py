@@ -69,9 +69,8 @@ class LoadFunctions:
             "leans": case.guided,
             "edge": engagement.slot.curved and case.hertz is not None,
         }
-        every = *SIGN_FUNCTIONS, "wanted"
-        own_kinds = [kind for kind in every if matters.get(kind) or kind in more]
-        self.kinds = [*kinds] or own_kinds
+        matters |= dict.fromkeys(more, True)
+        self.kinds = [*kinds] or [*filter(matters.get, (*SIGN_FUNCTIONS, "wanted"))]
         self.signs, self.wanted = len(self.kinds), len(self.names)
         self.poled: Sequence[int] = (self.kinds.index("edge"),) if "edge" in self.kinds else ()
         # where links carry the roller, bearings and guide need the reactions of joints

@@ -22,7 +22,7 @@ from typing import NamedTuple, cast
 import numpy as np
 
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.arrays import Array, Number, Truth, choose
+from geneva_cli.numerics.arrays import Array, Number, Truth, choose, value_or
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.numerics.tolerances import rounded_below
 from geneva_cli.spec.tables import Shaft, Size
@@ -124,9 +124,8 @@ def shear_allowed_MPa(shaft: Shaft, keyway: bool = False) -> Number:
     >>> round(shear_allowed_MPa(Shaft()), 6), round(shear_allowed_MPa(Shaft(), keyway=True), 6)
     (82.5, 61.875)
     """
-    if shaft.shear_stress_max_MPa is not None:
-        return shaft.shear_stress_max_MPa
-    return 61.875 if keyway else 82.5  # 0.3 of 275 MPa, and three quarters of that
+    # 0.3 of 275 MPa, and three quarters of that
+    return value_or(shaft.shear_stress_max_MPa, 61.875 if keyway else 82.5)
 
 
 class PinSize(NamedTuple):
