@@ -3,6 +3,7 @@
 import inspect
 import textwrap
 from functools import cache
+from itertools import product
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, nearest
@@ -57,15 +58,10 @@ def meanings(word: str) -> list[Meaning]:
     wanted, known = _words(word), [one.name for one in everything()]
     printed = [name for name in known if wanted in _printed(name)]
     if not printed:  # a quantity with an ending, as pin force max
-        printed = [
-            name + end
-            for end in known
-            if end.startswith(".")
-            for words in _printed(end)
-            if words <= wanted
-            for name in known
-            if any(own | words == wanted for own in _printed(name))
-        ]
+        ends = [(end, words) for end in known if end.startswith(".") for words in _printed(end)]
+        for (end, words), name in product(ends, known):
+            if words <= wanted and any(own | words == wanted for own in _printed(name)):
+                printed.append(name + end)
     return list(dict.fromkeys(one for name in printed for one in _lookup(name)))
 
 
