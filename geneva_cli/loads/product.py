@@ -6,8 +6,6 @@ axis. A chain on a sprocket of N teeth of pitch p has r = N p / (2 pi) and no pa
 On a carrier the wheel turns at 1 + V from the ground, and w L and w² L add to the greatest.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from functools import reduce

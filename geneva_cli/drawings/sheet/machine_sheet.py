@@ -11,8 +11,7 @@ import numpy as np
 from geneva_cli.drawings.part_drawings import assembly
 from geneva_cli.drawings.parts_list import part_rows
 from geneva_cli.drawings.sheet import crank_views, sized
-from geneva_cli.drawings.sheet.packing import Block
-from geneva_cli.drawings.sheet.paper import on_paper, scale_name, smaller
+from geneva_cli.drawings.sheet.paper import Block, on_paper, scale_name, smaller
 from geneva_cli.drawings.sheet.sized import Fits
 from geneva_cli.drawings.sheet.view import View
 from geneva_cli.drawings.sheet.wheel_views import draw_frame, draw_shaft, draw_wheel
@@ -88,7 +87,7 @@ def sheet(parts: FlatParts) -> Sheet:
         return [*(view.block() for view in _views(rows, parts, scale)), *tables]
 
     def blocks(scale: float) -> Iterator[list[Block]]:
-        half = smaller(scale, 2.0)
+        half = smaller(scale)
         for of_cut, of_whole in ((scale, scale), (scale, half), (half, half)):
             yield [*views(scale), section(of_cut), whole(of_whole)]
 
