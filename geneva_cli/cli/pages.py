@@ -8,7 +8,6 @@ from typing import Any, NamedTuple
 
 from geneva_cli import manual
 from geneva_cli.errors import cut
-from geneva_cli.manual import TOPICS, explained
 from geneva_cli.names import unit_of
 
 WIDTH = 80  # columns of a command's help on the page of all commands
@@ -91,14 +90,14 @@ def keys_page() -> str:
 def quantities_page() -> str:
     """Every quantity: names, unit and the first sentence of its meaning."""
     rows = [("name", "unit", "meaning")]
-    for entry in explained.entries():
+    for entry in manual.entries():
         if entry.page == "quantities":
             unit = entry.unit or next(filter(None, map(unit_of, entry.names)), "")
             meaning = entry.meaning.partition(". ")[0].rstrip(".")
             unit = "" if unit.startswith("that of") else unit
             names = ", ".join(f"`{name}`" for name in entry.names)
             rows.append((names, unit, meaning))
-    return explained.text("quantities").partition("## ")[0] + _table(rows)
+    return manual.source("quantities").partition("## ")[0] + _table(rows)
 
 
 def _table(rows: Sequence[tuple[str, ...]]) -> str:
@@ -122,7 +121,7 @@ def search(text: str) -> list[Hit]:
     """
     words = [re.compile(rf"(?<![^\W\d_]){re.escape(w)}", re.IGNORECASE) for w in text.split()]
     hits: list[Hit] = []
-    for topic in TOPICS:
+    for topic in manual.TOPICS:
         for section, lines in _sections(topic):
             found = [[line for line in lines if word.search(line)] for word in words]
             if all(found):
@@ -133,7 +132,7 @@ def search(text: str) -> list[Hit]:
 def _sections(topic: str) -> Iterator[tuple[str, list[str]]]:
     """The sections of a page: heading and lines."""
     heading, lines, fence = "", list[str](), ""
-    text = explained.text(topic) if topic == "quantities" else page(topic)  # with formulas
+    text = manual.source(topic) if topic == "quantities" else page(topic)  # with formulas
     for line in text.splitlines():
         if not fence and line.startswith("#"):  # in code it is a comment
             yield heading, lines

@@ -146,7 +146,7 @@ class Engagement(base.Engagement):
             # as far ahead in angles of the input
             pair.append((Engagement(passage, early), timing.mid_deg - early.mid_deg))
         path, slot = _Path(own.path, timing), _Slot(own.slot, timing)
-        held = None, reactions, own.crank_sense, own.groove, own.hub, None, tuple(pair)
+        held = None, reactions, own.crank_sense, own.groove, own.hub, own.built, tuple(pair)
         super().__init__(timing.mid_deg, path, slot, _Motion(own.motion, timing), *held)
         self._own, self.timing = own, timing
 

@@ -204,9 +204,8 @@ def show_markdown(text: str, output: str = "-") -> None:
 def refuse_existing(output: str) -> None:
     """Raise GenevaError if ``output`` is an existing file, which may be a person's work."""
     if os.path.isfile(output):
-        raise GenevaError(
-            f"{cut(output, 300)}: this file exists; give another name, or --force to replace it"
-        )
+        text = "this file exists; give another name, or --force to replace it"
+        raise GenevaError(f"{cut(output, 300)}: {text}")
 
 
 def _put(

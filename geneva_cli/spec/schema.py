@@ -369,7 +369,6 @@ def shown(value: Any) -> str:
         return str(value).lower()
     if isinstance(value, str):
         return f'"{cut(value)}"'
-    for kind, word in ((dict, "a table"), ((list, tuple), "a list")):
-        if isinstance(value, kind):
-            return word
+    if isinstance(value, (dict, list, tuple)):
+        return "a table" if isinstance(value, dict) else "a list"
     return f"{value:.12g}" if isinstance(value, float) else cut(value)

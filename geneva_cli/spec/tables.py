@@ -18,9 +18,8 @@ from geneva_cli.spec.workshops import PROCESSES, WORKSHOPS, Allowances
 
 # types of keys that wheel and crank have alike, with their meaning
 Keyway = Annotated[str | None, OneOf(("DIN 6885-1",)), "keyway in all bores on this shaft"]
-BoreShape = Annotated[
-    str, OneOf(("round", "D", "hex")), "shape of all bores on this shaft; hex: across flats"
-]
+BoreShape = Annotated[str, OneOf(("round", "D", "hex")), "shape of the bores; hex: across flats"]
+Overhang = Annotated[NotNegative, "slot's mid-plane (a sphere's radius L) to the nearer bearing"]
 
 DISTANCE_MM = 100.0  # the centre distance of a spec that gives none
 Z_DRAWN = 360  # slots of a wheel that is drawn: one a degree
@@ -303,13 +302,9 @@ class Shaft(SpecTable, table="shaft"):
     damping_ratio: Annotated[float, Range(0.0, 1.0, "[)"), "shaft's damping over critical"] = 0.0
     wheel_diameter_mm: Annotated[Positive, "diameter of the wheel's shaft"] = None
     crank_diameter_mm: Annotated[Positive, "diameter of the crank's shaft"] = None
-    wheel_overhang_mm: Annotated[
-        NotNegative, "wheel's shaft: slots' mid-plane (a sphere's radius L) to the nearer bearing"
-    ] = None
+    wheel_overhang_mm: Overhang = None
     wheel_span_mm: Annotated[Positive, "wheel's shaft: bearing to bearing"] = None
-    crank_overhang_mm: Annotated[
-        NotNegative, "crank's shaft: roller's mid-plane (a sphere's radius L) to the nearer bearing"
-    ] = None
+    crank_overhang_mm: Overhang = None
     crank_span_mm: Annotated[Positive, "crank's shaft: bearing to bearing"] = None
     shear_stress_max_MPa: Annotated[
         Positive, "allowable; ASME B17c: 0.3 yield or 0.18 tensile; default 82.5 (C45+N)"

@@ -172,45 +172,30 @@ ISO_286 = [
 # fmt: on
 
 
-def _range_of(nominal_mm: float) -> tuple[int, ...]:
-    """Return the standard's numbers for a size; empty beyond its 3150 mm."""
-    for row in ISO_286:
-        if 0.0 < nominal_mm <= row[0]:
-            return row[1:]
-    return ()
-
-
 def fit_limits(nominal_mm: float, fit: str) -> tuple[int, int] | None:
-    """Return a fit's upper and lower deviation in micrometres; None beyond the standard's 3150 mm.
+    """Return a fit's upper and lower deviation in micrometres; None beyond the standard's sizes.
 
     >>> fit_limits(20.0, "H7"), fit_limits(20.0, "g6"), fit_limits(20.0, "h6")
     ((21, 0), (-7, -20), (0, -13))
     """
-    row = _range_of(nominal_mm)
-    if not row:
-        return None
-    it6, it7, g, f, p = row[:5]
-    # up to 500 mm a hole P7 has as much interference as a shaft p6 (ISO 286-1, 4.3.2.5)
-    top = -p + (it7 - it6 if 3.0 < nominal_mm <= 500.0 else 0)
-    return {
-        "H7": (it7, 0),
-        "F7": (f + it7, f),
-        "P7": (top, top - it7),
-        "g6": (-g, -g - it6),
-        "h6": (0, -it6),
-    }[fit]
+    for most, it6, it7, g, f, p, *loose in ISO_286:
+        if not 0.0 < nominal_mm <= most:
+            continue
+        # up to 500 mm a hole P7 has as much interference as a shaft p6 (ISO 286-1, 4.3.2.5)
+        top = -p + (it7 - it6 if 3.0 < nominal_mm <= 500.0 else 0)
+        limits = {"H7": (it7, 0), "F7": (f + it7, f), "P7": (top, top - it7)}
+        limits |= {"g6": (-g, -g - it6), "h6": (0, -it6)}
+        if loose:
+            it11, c = loose
+            limits |= {"H11": (it11, 0), "c11": (-c, -c - it11)}
+        return limits.get(fit)
+    return None
 
 
-def loosest_mm(nominal_mm: float) -> float | None:
-    """Return the greatest clearance of H11/c11, ISO 286's loosest preferred fit, mm of diameter.
+def clearance_mm(nominal_mm: float, hole: str, shaft: str) -> float | None:
+    """Return the greatest clearance of a fit such as H7/h6, mm of the diameter; or None.
 
-    The hole is wider by IT11, the shaft narrower by c and IT11. None beyond 500 mm.
+    H11/c11 is ISO 286's loosest preferred fit.
     """
-    row = _range_of(nominal_mm)
-    return (2 * row[5] + row[6]) / 1000.0 if len(row) > 5 else None
-
-
-def closest_mm(nominal_mm: float) -> float | None:
-    """Return the mean clearance of H7/h6, mm of the diameter: half of both grades."""
-    row = _range_of(nominal_mm)
-    return (row[0] + row[1]) / 2000.0 if row else None
+    wide, thin = fit_limits(nominal_mm, hole), fit_limits(nominal_mm, shaft)
+    return (wide[0] - thin[1]) / 1000.0 if wide and thin else None

@@ -3,12 +3,12 @@
 import inspect
 import textwrap
 from functools import cache
+from itertools import product
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.kept import load_named
-from geneva_cli.manual import TOPICS
-from geneva_cli.manual.explained import GROUPS, Entry, entries
+from geneva_cli.manual import ENTRIES, TOPICS, Entry, entries
 from geneva_cli.motion import registry
 from geneva_cli.names import SHORT_UNITS, UNITS, capital, described, heading, spoken, unit_of
 from geneva_cli.specfile.keys import Key, all_keys
@@ -58,15 +58,10 @@ def meanings(word: str) -> list[Meaning]:
     wanted, known = _words(word), [one.name for one in everything()]
     printed = [name for name in known if wanted in _printed(name)]
     if not printed:  # a quantity with an ending, as pin force max
-        printed = [
-            name + end
-            for end in known
-            if end.startswith(".")
-            for words in _printed(end)
-            if words <= wanted
-            for name in known
-            if any(own | words == wanted for own in _printed(name))
-        ]
+        ends = [(end, words) for end in known if end.startswith(".") for words in _printed(end)]
+        for (end, words), name in product(ends, known):
+            if words <= wanted and any(own | words == wanted for own in _printed(name)):
+                printed.append(name + end)
     return list(dict.fromkeys(one for name in printed for one in _lookup(name)))
 
 
@@ -91,7 +86,7 @@ def related(word: str) -> list[tuple[str, str, str]]:
 
     The word may be a group, such as ``checks``. Names and headings come before texts.
     """
-    group = {**GROUPS, "keys": "key"}.get(word.casefold())
+    group = {**ENTRIES, "keys": "key"}.get(word.casefold())
     wanted = _words(word.replace("_", " "))
     named, told = list[Meaning](), list[Meaning]()
     for one in everything():
@@ -113,7 +108,7 @@ def unknown(word: str) -> GenevaError:
 def groups() -> list[tuple[str, int, str, str]]:
     """Each group of words: its name, how many they are, what they are, and three of them."""
     out = []
-    for page, group in GROUPS.items():
+    for page, group in ENTRIES.items():
         own = [one.name for one in everything() if one.group == group]
         some = dict.fromkeys(own[i * len(own) // 3] for i in range(3))
         out.append((page, len(own), TOPICS[page], ", ".join(some)))

@@ -15,16 +15,30 @@ from geneva_cli.spec.tables import LISTS
 from geneva_cli.specfile.keys import FILE
 from geneva_cli.specfile.writer import keys_of, noted, quoted
 
+PACKAGE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+# the designs are in the package if it is installed, else adjacent to it
+DESIGNS = os.path.join(PACKAGE, "designs")
+if not os.path.isdir(DESIGNS):
+    DESIGNS = os.path.join(os.path.dirname(PACKAGE), "designs")
+
 
 def _examples() -> dict[str, dict[str, Any]]:
     """Specs with the keys that they set, by kind; of some the ``design`` that is one."""
-    package, out = os.path.dirname(os.path.dirname(os.path.abspath(__file__))), dict[str, Any]()
+    out = dict[str, Any]()
     for folder in ("specfile", *(os.path.join("kinds", name) for name in FOLDERS)):
-        path = os.path.join(package, folder, "examples.toml")
+        path = os.path.join(PACKAGE, folder, "examples.toml")
         if os.path.exists(path):
-            with open(path, encoding="utf-8") as file:
-                out |= tomli.loads(file.read())
+            out |= _tree(path)
     return out
+
+
+def _tree(*place: str) -> dict[str, Any]:
+    return tomli.loads(_text(*place))
+
+
+def _text(*place: str) -> str:
+    with open(os.path.join(*place), encoding="utf-8") as file:
+        return file.read()
 
 
 EXAMPLES = _examples()
@@ -99,15 +113,15 @@ def _note(meaning: str, gearing: str) -> str:
 def example(kind: str) -> tuple[str, dict[str, Any]]:
     """Title of a kind's example, and the tables of keys that it sets."""
     own = EXAMPLES[kind]
-    tree = tomli.loads(_text(f"{own['design']}.toml")) if "design" in own else {**own}
+    tree = _tree(DESIGNS, f"{own['design']}.toml") if "design" in own else {**own}
     before = tree.get("drive", {}).pop("before", None)
     return tree.pop("title"), tree | ({BEFORE: before} if before else {})
 
 
 def titles() -> dict[str, str]:
     """Names of the designs, with their titles."""
-    files = [file for file in sorted(os.listdir(_folder())) if file.endswith(".toml")]
-    return {file.removesuffix(".toml"): str(tomli.loads(_text(file))["title"]) for file in files}
+    files = [file for file in sorted(os.listdir(DESIGNS)) if file.endswith(".toml")]
+    return {file.removesuffix(".toml"): str(_tree(DESIGNS, file)["title"]) for file in files}
 
 
 def design(name: str) -> tuple[str, dict[str, str]]:
@@ -119,18 +133,6 @@ def design(name: str) -> tuple[str, dict[str, str]]:
     if name not in known:
         fault = f"no such design{nearest(name, known)}; `geneva new --list` lists them"
         raise GenevaError(f"--from-design {cut(name)}: {fault}")
-    text = _text(f"{name}.toml")
-    points = [file for file in os.listdir(_folder()) if file.endswith(".csv")]
-    return text, {file: _text(file) for file in points if f'"{file}"' in text}
-
-
-def _folder() -> str:
-    """The folder of the designs: in the package if installed, else adjacent to it."""
-    package = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-    inside = os.path.join(package, "designs")
-    return inside if os.path.isdir(inside) else os.path.join(os.path.dirname(package), "designs")
-
-
-def _text(file: str) -> str:
-    with open(os.path.join(_folder(), file), encoding="utf-8") as opened:
-        return opened.read()
+    text = _text(DESIGNS, f"{name}.toml")
+    points = [file for file in os.listdir(DESIGNS) if file.endswith(".csv")]
+    return text, {file: _text(DESIGNS, file) for file in points if f'"{file}"' in text}

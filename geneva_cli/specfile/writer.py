@@ -49,14 +49,12 @@ def spec_lines(spec: Spec, notes: Mapping[str, str] = MappingProxyType({})) -> l
     for name, keys in keys_in(spec).items():
         head = f"[[{name}]]" if name in LISTS else f"[{name}]"
         for values in values_of(spec, name):
-            block = [
-                (
-                    f"{key.key} = {quoted(values[key.key])}",
-                    notes.get(f"{name}.{key.key}", key.meaning),
-                )
-                for key in keys
-                if values[key.key] != key.default or (name, key.key) in first
-            ]
+            block = []
+            for key in keys:
+                value = values[key.key]
+                if value != key.default or (name, key.key) in first:
+                    note = notes.get(f"{name}.{key.key}", key.meaning)
+                    block.append((f"{key.key} = {quoted(value)}", note))
             if block:
                 lines += ["", head, *noted(block)]
     return lines

@@ -9,8 +9,7 @@ from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.load_peaks import LoadSummary
 from geneva_cli.loads.load_tables import no_load
-from geneva_cli.manual import read
-from geneva_cli.manual.explained import entries
+from geneva_cli.manual import entries, read
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.names import capital, described
 from geneva_cli.output.document import blocks as page

@@ -10,7 +10,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.spec.tables import Z_USUAL
-from geneva_cli.spec.workshops import WORKSHOPS, closest_mm, loosest_mm
+from geneva_cli.spec.workshops import WORKSHOPS, clearance_mm
 
 SHOWN_UNDERCUT = 0.005  # mm: a wall cut back by less is within a shop's tolerance
 
@@ -59,7 +59,7 @@ def _fits(mechanism: Mechanism) -> Iterator[Notice]:
         pairs.append(("lock_clearance_mm", "locking disc", "recess", radius))
     shop = WORKSHOPS[size.process]
     for key, part, mate, radius in pairs:
-        clearance, fit = getattr(size, key), loosest_mm(2.0 * radius)
+        clearance, fit = getattr(size, key), clearance_mm(2.0 * radius, "H11", "c11")
         if clearance is None:
             continue
         own = getattr(size.replace(**{key: None}).allowances, key)  # that of the process
@@ -71,7 +71,8 @@ def _fits(mechanism: Mechanism) -> Iterator[Notice]:
             if shop.cut_mm:  # a cut's clearance is its deviation
                 least = own
             elif shop.fits:
-                least = 0.5 * (closest_mm(2.0 * radius) or 0.0)
+                # the mean clearance, which is half of the greatest
+                least = 0.25 * (clearance_mm(2.0 * radius, "H7", "h6") or 0.0)
             else:
                 least = min(own, shop.deviation_mm)
         if not keeps(clearance, "at most", most):

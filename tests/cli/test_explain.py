@@ -25,8 +25,7 @@ from geneva_cli.loads import cycle_figures, load_tables
 from geneva_cli.loads.sizing import WHEEL_INERTIA
 from geneva_cli.loads.tolerance.random_machines import Spread
 from geneva_cli.loads.vibration import vibration
-from geneva_cli.manual import TOPICS
-from geneva_cli.manual.explained import Entry, entries
+from geneva_cli.manual import TOPICS, Entry, entries
 from geneva_cli.motion import motion_table as motion
 from geneva_cli.motion import registry
 from geneva_cli.motion.path_and_slot import WALLED

@@ -9,8 +9,7 @@ from typer.testing import CliRunner
 from geneva_cli import manual
 from geneva_cli.cli.app import COMMANDS, app
 from geneva_cli.cli.pages import PRINTED, page
-from geneva_cli.manual import TOPICS, path
-from geneva_cli.manual.explained import entries
+from geneva_cli.manual import TOPICS, entries, path
 from geneva_cli.specfile.keys import all_keys
 
 

@@ -13,6 +13,7 @@ import pytest
 from geneva_cli import (
     Crank,
     Design,
+    EllipticalGears,
     External,
     Internal,
     Limits,
@@ -56,6 +57,20 @@ def test_published_machines(design: Design, at_deg: float, entry: float, exit_: 
     assert values["velocity.exit"] == pytest.approx(exit_, abs=1e-4 if exit_ > 0.7 else 5e-7)
     (one,) = design.mechanism.engagements
     assert (one.entry_deg, one.exit_deg) == pytest.approx((-at_deg, at_deg), abs=6e-5)
+
+
+def test_behind_gears_the_wheel_jumps_too() -> None:
+    """By the jump of the same crank alone, times the rate of its shaft: a difference of angles."""
+    alone = built(External(6), 100, 53, SideCrank(A=0.2))
+    gears = EllipticalGears(eccentricity=0.2)
+    behind = Design(External(6), SideCrank(A=0.2), size=alone.spec.size, drive_before=gears)
+    (one,) = behind.mechanism.engagements
+    a, b = one.own_deg(np.array([one.entry_deg, one.entry_deg + 1e-6]))
+    jump = alone.peaks_table["velocity.entry"] * (b - a) / 1e-6
+    assert jump < 0.82 * alone.peaks_table["velocity.entry"]
+    assert behind.peaks_table["velocity.entry"] == pytest.approx(jump, rel=1e-6)
+    assert [one.name for one in behind.motion_warnings] == ["taken-as-built"]
+    assert single_check(behind.parts, "entry_velocity_max").passes is False
 
 
 def witness(sign: int, z: int, l: mp.mpf, e: mp.mpf, crank: mp.mpf) -> mp.mpf:

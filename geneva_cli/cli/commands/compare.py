@@ -40,9 +40,7 @@ def run(
         from geneva_cli.kept import load_extra
 
         if len(specs) > 1 or vary or pick or ratio or differing or reverse:
-            raise GenevaError(
-                "--against: it compares one spec, without --vary, --pick, --ratio and --reverse"
-            )
+            raise GenevaError("--against: one spec, without --vary, --pick, --ratio and --reverse")
         table = load_extra("servo", "against")(specs[0], settings, command.words_in(against))
     else:
         designs = compare.designs_of(specs, settings, vary, reverse)

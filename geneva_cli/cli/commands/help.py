@@ -33,6 +33,4 @@ def run(words: tuple[str, ...] = ()) -> None:
         title = f"{topic}: `geneva help TOPIC` shows a page."
         show(rows_table(Hit._fields, hits, title, reading=Reading(("topic", "line"))))
     else:
-        raise GenevaError(
-            f'"{cut(topic)}" is no page of the manual, and on no page{nearest(topic, TOPICS)}'
-        )
+        raise GenevaError(f'"{cut(topic)}" is on no page of the manual{nearest(topic, TOPICS)}')

@@ -3,8 +3,6 @@
 from geneva_cli.cli.command import Reversible, say
 from geneva_cli.errors import is_warning
 
-ROWS = 361
-
 
 def run(
     design: Reversible,
@@ -59,7 +57,7 @@ def run(
     # before any output: a cycle whose loads are refused has no rows either
     warnings = design.loads_table.to_dict()["warnings"] if by_rows or output != "-" else ()
     if by_rows:
-        table = design.load_cycle(ROWS if samples is None else samples)
+        table = design.load_cycle(361 if samples is None else samples)
         show(table, output, format, design.spec.files)
     else:
         answer = of_loads(design, name != "table" or verbose or bool(choice.columns))

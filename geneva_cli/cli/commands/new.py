@@ -53,10 +53,8 @@ def run(
     else:
         text, files = design(from_design)
         if files and output == "-":
-            raise GenevaError(
-                f"--from-design {from_design}: it needs {', '.join(files)} in its folder; "
-                "give -o FILE"
-            )
+            needs = f"it needs {', '.join(files)} in its folder; give -o FILE"
+            raise GenevaError(f"--from-design {from_design}: {needs}")
         _write(text, output, files, force)
 
 
