@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
 from itertools import chain, combinations, repeat, starmap
 from operator import lt, mul
@@ -104,6 +104,7 @@ class Member(NamedTuple):
 
 Solid: TypeAlias = "Plate | Shell"
 Part: TypeAlias = "Plate | Shell | Group"
+NamedParts: TypeAlias = "tuple[str, Callable[[], Iterable[Part]]]"  # with what builds them
 
 
 def solids(part: Part) -> list[Solid]:
