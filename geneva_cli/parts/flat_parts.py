@@ -286,9 +286,9 @@ class FlatParts(EdgedParts):
         """The frame, what is on it, and the shafts."""
         parts = self.outlines
         arm = parts.sizes.arm_thickness if parts.has_arm else 0.0
-        plates = self._base, wheel_hub(parts.assembly, parts.sizes)
-        lows = [*map(attrgetter("low"), filter(None, plates))]
-        lows.append(-self.mechanism.spec.size.allowances.pin_gap_mm - arm)
+        plates = filter(None, (self._base, wheel_hub(parts.assembly, parts.sizes)))
+        gap = self.mechanism.spec.size.allowances.pin_gap_mm
+        lows = [-gap - arm, *map(attrgetter("low"), plates)]
         lows += map(attrgetter("part.low"), (*self.linked, *self.links.gears, *self.first))
         if self.mechanism.spec.gears:
             from geneva_cli.parts.gears.gear_pair import gear_span

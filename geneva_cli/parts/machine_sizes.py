@@ -117,12 +117,9 @@ def fits(where: Assembly, sizes: Sizes) -> Mask:
 
 def key_sizes(mechanism: Mechanism) -> KeySizes:
     """Return the known sizes of a machine by keys of ``[size]``, and which its load chose."""
-    known: dict[str, float] = {
-        "center_distance_mm": mechanism.center_distance_mm,
-        "roller_radius_mm": mechanism.roller_radius_mm,
-        **mechanism.spec.size.allowances._asdict(),
-    }
-    del known["source"]
+    known = dict(zip(rules.CLEARANCES, mechanism.spec.size.allowances[:-1], strict=True))
+    known["center_distance_mm"] = mechanism.center_distance_mm
+    known["roller_radius_mm"] = mechanism.roller_radius_mm
     of_kind = None if mechanism.spec.no_parts else thing(mechanism.spec.wheel.NAME, "sizes")
     if of_kind:
         values, by_load = of_kind(mechanism)

@@ -99,17 +99,13 @@ def stressed(assembly: Assembly, sizes: Sizes, own: Spec | None = None) -> Stres
     eye = rules.arm_eye(size, hole, sizes.wall_min, passing)
     offset = 0.5 * (contact + thick) + gap
     rows = np.broadcast_arrays(long, hub, eye, bored, hole, thick, offset)
-    arm = np.where(armed & (np.asarray(sizes.pin) > 0.0), rows, np.nan)
+    arm = pin_arm_key.ArmDimensions(*np.where(armed & (np.asarray(sizes.pin) > 0.0), rows, np.nan))
     shaft = choose(armed, sizes.arm_bore, sizes.crank_bore)
-    return Stressed(
-        contact,
-        2.0 * sizes.pin,
-        shaft_of(spec, "wheel", sizes.wheel_bore, on_wheel, thick),
-        shaft_of(spec, "crank", shaft, on_crank, thick),
-        pin_arm_key.ArmDimensions(*arm),
-        key_of(size.wheel_keyway, sizes.wheel_bore, wide + hub_mm),
-        key_of(size.crank_keyway, sizes.arm_bore, thick),
-    )
+    wheel_shaft = shaft_of(spec, "wheel", sizes.wheel_bore, on_wheel, thick)
+    crank_shaft = shaft_of(spec, "crank", shaft, on_crank, thick)
+    wheel_key = key_of(size.wheel_keyway, sizes.wheel_bore, wide + hub_mm)
+    crank_key = key_of(size.crank_keyway, sizes.arm_bore, thick)
+    return Stressed(contact, 2.0 * sizes.pin, wheel_shaft, crank_shaft, arm, wheel_key, crank_key)
 
 
 def shaft_of(spec: Spec, part: str, bore: float, to_frame: float, thick: float) -> ShaftSize:
@@ -183,9 +179,8 @@ def load_sizes(
         wide = choose(np.greater(sizes.lock, 0.0), wide, sizes.wheel_thickness)
         _, disc, arm, bar = size.thicknesses(wide)
         bar = sizes.link_thickness if linked else bar
-        sizes = sizes._replace(
-            wheel_thickness=wide, lock_thickness=disc, arm_thickness=arm, link_thickness=bar
-        )
+        sizes = sizes._replace(wheel_thickness=wide, lock_thickness=disc)
+        sizes = sizes._replace(arm_thickness=arm, link_thickness=bar)
     wide, eye = sizes.wheel_thickness, math.inf
     if assembly.sign > 0.0:
         # about the pin, where it passes the largest hub
