@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from geneva_cli.geometry.sphere_arcs import RoundHole
 
 MM = 1e-3  # metres
-Z_AXIS = (0.0, 0.0, 1.0)
 SAMPLED = 1e-4, 0.5  # mm: sagitta and length of samples of a hole that is not a circle
 GAUSS = np.transpose(np.polynomial.legendre.leggauss(8)).tolist()  # nodes on -1..1 with weights
 OVER_A_RADIAN = partial(lt, math.tan(0.25))  # is the bulge of an arc above that of a radian?
@@ -68,15 +67,15 @@ class Shell(NamedTuple):
         """Greatest coordinate of the shell along a direction, mm from the centre."""
         from geneva_cli.geometry.sphere_arcs import SphereArcs
 
-        if any(SphereArcs(r.boundary).signed(np.array([direction]))[0] < 0.0 for r in self.regions):
-            return self.outer
-        most = max(arc.reach(direction) for region in self.regions for arc in region.boundary)
+        off = (SphereArcs(r.boundary).signed(np.array([direction])).item() for r in self.regions)
+        most = math.cos(max(0.0, min(off)))  # of the nearest point
         return most * (self.outer if most > 0.0 else self.inner)
 
-    def inertia(self, axis: Vector) -> float:
-        """The volume's moment of inertia about an axis through the centre, mm⁵."""
-        covered = math.fsum(r.area - float(r.moments @ axis @ axis) for r in self.regions)
-        bored = math.fsum(hole.inertia(self.inner, self.outer, axis) for hole in self.holes)
+    @property
+    def inertia(self) -> float:
+        """The volume's moment of inertia about z, mm⁵."""
+        covered = math.fsum(region.polar_moment for region in self.regions)
+        bored = math.fsum(hole.inertia(self.inner, self.outer) for hole in self.holes)
         return covered * (self.outer**5 - self.inner**5) / 5.0 - bored
 
 
@@ -198,7 +197,7 @@ def mass_properties(bodies: Iterable[Solid], density_kgm3: float) -> MassPropert
     rows = list[Iterable[float]]()
     for one in bodies:
         if isinstance(one, Shell):
-            rows.append((one.volume, 0.0, 0.0, one.inertia(Z_AXIS)))
+            rows.append((one.volume, 0.0, 0.0, one.inertia))
         else:
             rows.append(map(mul, face(one), repeat(one.thickness)))
     volume, x, y, polar = total(rows)

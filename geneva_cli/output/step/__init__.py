@@ -73,7 +73,7 @@ class _Products:
         for member in group.members:
             axis, ahead = POLE, (math.cos(member.turn), math.sin(member.turn), 0.0)
             if member.frame:
-                axis, ahead = member.frame.z, member.frame.x
+                ahead, _, axis = member.frame
             places.append(file.placement((*member.at, 0.0), axis, ahead))
         frames = listed(list(dict.fromkeys([file.origin, *places])))
         whole = self._defined(group.name, f"SHAPE_REPRESENTATION('',{frames},{self.space})")

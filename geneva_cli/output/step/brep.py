@@ -148,7 +148,7 @@ class _Edges:
         edges = []
         for k, radius in enumerate(self.radii):
             middle, across = _times(axis, radius * math.cos(angle)), radius * math.sin(angle)
-            circle = self.file.circle(middle, across, axis, arc.ahead)
+            circle = self.file.circle(middle, across, axis, arc.frame[0])
             edges.append(self.file.edge(start[k], end[k], circle, not _wide(arc)))
         self.sides[arc.key] = edges[0], edges[1], True
         return self.sides[arc.key]
@@ -166,10 +166,10 @@ class _Edges:
         # a cone's own normal points away from its axis, which may be on the material's side
         axis, angle = _cone(arc)
         if math.cos(angle) < FLAT:
-            frame = self.file.placement(ORIGIN, opposite(arc.axis), arc.ahead)
+            frame = self.file.placement(ORIGIN, opposite(arc.axis), arc.frame[0])
             return self.file.face([bound], self.file.add(f"PLANE('',{frame})"), True)
         height, radius = math.cos(angle) * self.radii[0], math.sin(angle) * self.radii[0]
-        frame = self.file.placement(_times(axis, height), axis, arc.ahead)
+        frame = self.file.placement(_times(axis, height), axis, arc.frame[0])
         # the angle is in radians, with 16 decimals
         cone = f"CONICAL_SURFACE('',{frame},{real(radius)},{real(angle, 16)})"
         return self.file.face([bound], self.file.add(cone), not _wide(arc))

@@ -23,7 +23,7 @@ from geneva_cli.numerics.arrays import half_or, value_or
 from geneva_cli.numerics.tolerances import ROUNDED
 from geneva_cli.spec.defaults import ParallelKey, key
 from geneva_cli.spec.tables import Size
-from geneva_cli.spec.written import length
+from geneva_cli.table import in_decimals as length
 
 
 class Bore(NamedTuple):
