@@ -30,7 +30,7 @@ from geneva_cli.parts.assembly import Assembly, gear_plane, is_bridged, links_at
 from geneva_cli.parts.outlines.crank_outline import is_whole
 from geneva_cli.parts.outlines.outlines import wheel_hub_length
 from geneva_cli.parts.shafts.bores import reach_or_bore
-from geneva_cli.parts.sizes import Sizes
+from geneva_cli.parts.sizes import Layout, Sizes
 from geneva_cli.spec.defaults import key, roller_material, wheel_material
 
 
@@ -143,19 +143,15 @@ def needs_lock(spec: Spec) -> bool:
 
 
 def load_sizes(
-    assembly: Assembly,
-    sizes: Sizes,
-    by: Lock | None,
-    machine: Mechanism,
-    loads: PartLoads,
-    bent_MPa: Array | None = None,
+    of: Layout, by: Lock | None, machine: Mechanism, loads: PartLoads, bent_MPa: Array | None = None
 ) -> Sizes:
     """Return the sizes of m designs under their loads, numbers or (m, 1).
 
-    ``sizes`` are those without loads, ``by`` their locks, ``bent_MPa`` the stress of ``horn_MPa``
-    if computed already. Loads without a bound change no size.
+    ``of`` has those without loads, ``by`` are their locks, and ``bent_MPa`` is the stress of
+    ``horn_MPa`` if computed already. Loads without a bound change no size.
     """
-    spec, size, usual = machine.spec, machine.spec.size, sizes
+    spec, size, (assembly, usual) = machine.spec, machine.spec.size, of
+    sizes = usual
     rows = np.zeros((machine.designs, 1)) + np.reshape(loads, (len(loads), -1, 1))
     bounded = np.isfinite(rows).all(axis=0)
     if not bounded.any():
