@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
 from itertools import combinations, repeat, starmap
 from operator import lt, mul
@@ -103,6 +103,7 @@ class Member(NamedTuple):
 
 Solid: TypeAlias = "Plate | Shell"
 Part: TypeAlias = "Plate | Shell | Group"
+NamedParts: TypeAlias = "tuple[str, Callable[[], Iterable[Part]]]"  # with what builds them
 
 
 def solids(part: Part) -> list[Solid]:
@@ -198,7 +199,7 @@ def mass_properties(bodies: Iterable[Solid], density_kgm3: float) -> MassPropert
         if isinstance(one, Shell):
             rows.append((one.volume, 0.0, 0.0, one.inertia))
         else:
-            rows.append(map(mul, face(one), repeat(one.thickness)))
+            rows.append(map(mul, face(one), repeat(one.high - one.low)))
     volume, x, y, polar = total(rows)
     centroid, per = (x / volume, y / volume), density_kgm3 * MM**3
     return MassProperties(per * volume, centroid, per * MM**2 * polar)

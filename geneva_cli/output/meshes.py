@@ -83,15 +83,12 @@ def _plate(plate: Plate, tolerance: float) -> m3.Manifold:
     if not shapes:  # its outline is rounding
         raise _no_wall(plate.name)
     outline, *holes = shapes
-    contours = [
-        [(piece, _chords(piece, tolerance)) for piece in contour.segments]
-        for contour in oriented(outline, holes)
-    ]
-    _require_few(2 * sum(n for contour in contours for _, n in contour), plate.name)
-    loops = [
-        np.array([complex(*p) for piece, n in contour for p in points(piece, n)[:-1]])
-        for contour in contours
-    ]
+    contours, loops = oriented(outline, holes), list[Complex]()
+    counts = [[_chords(piece, tolerance) for piece in one.segments] for one in contours]
+    _require_few(2 * sum(map(sum, counts)), plate.name)
+    for contour, each in zip(contours, counts, strict=True):
+        corners = [at for run in map(points, contour.segments, each) for at in run[:-1]]
+        loops.append(np.array([complex(*at) for at in corners]))
     return _face(loops, plate.name).extrude(plate.thickness).translate((0.0, 0.0, plate.low))
 
 
@@ -112,11 +109,10 @@ def _shell(shell: Shell, tolerance: float) -> m3.Manifold:
     frame = np.array(axis_frame(shell.regions[-1].middle))
     loops = []
     for region in shell.regions:
-        arcs = [
-            arc.at(arc.sweep / n * np.arange(float(n)))[0]
-            for arc in region.boundary
-            for n in [arc_chords(shell.outer * math.sin(arc.angle), arc.sweep, 0.5 * tolerance)]
-        ]
+        arcs = []
+        for arc in region.boundary:
+            n = arc_chords(shell.outer * math.sin(arc.angle), arc.sweep, 0.5 * tolerance)
+            arcs.append(arc.at(arc.sweep / n * np.arange(float(n)))[0])
         x, y, z = frame @ np.concatenate(arcs).T
         away = np.arctan2(np.hypot(x, y), z)
         loops.append(shell.outer * away * np.exp(1j * np.arctan2(y, x)))
@@ -177,13 +173,10 @@ def _rounded(corners: Array) -> Array:
 
 def _require_few(count: int, name: str) -> None:
     if count > CORNERS_MAX:
-        raise GenevaError(
-            f"--tolerance: the mesh of the {name} takes more than {CORNERS_MAX} corners; use a "
-            "larger tolerance"
-        )
+        text = f"--tolerance: the mesh of the {name} takes more than {CORNERS_MAX} corners; use a "
+        raise GenevaError(f"{text}larger tolerance")
 
 
 def _no_wall(name: str) -> GenevaError:
-    return GenevaError(
-        f"{name}: its outline and holes leave no wall, so it has no mesh; use a smaller --tolerance"
-    )
+    text = f"{name}: its outline and holes leave no wall, so it has no mesh; use a smaller "
+    return GenevaError(f"{text}--tolerance")

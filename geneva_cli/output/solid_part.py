@@ -10,10 +10,8 @@ def solid_part(drawing: Drawing, format: str) -> Part:
     """Return the part of a drawing. Raises GenevaError, naming the format, for one without."""
     whole = drawing.shells or drawing.solid
     if whole is None:
-        raise GenevaError(
-            f"no solid to write as {format}: solids are --part wheel, crank, arm and assembly. "
-            "Write other drawings, and paths with --kerf, as .dxf or .svg"
-        )
+        text = f"no solid to write as {format}: solids are --part wheel, crank, arm and assembly. "
+        raise GenevaError(f"{text}Write other drawings, and paths with --kerf, as .dxf or .svg")
     return whole
 
 
@@ -23,7 +21,6 @@ def plate_contours(plate: Plate) -> tuple[Contour | Circle, ...]:
     Raises GenevaError for a coordinate that is not finite, or a plate without thickness.
     """
     if not plate.thickness > 0.0:
-        raise GenevaError(
-            f"{plate.name}: a solid of {plate.thickness:g} mm; it must be thicker than 0"
-        )
+        text = f"{plate.name}: a solid of {plate.thickness:g} mm; it must be thicker than 0"
+        raise GenevaError(text)
     return prepared(Drawing(plate.name, (plate.outline, *plate.holes))).shapes

@@ -129,7 +129,10 @@ def by_load(mechanism: Mechanism) -> dict[str, Chosen]:
     Chosen(value=7.0, why='by load: 2000 N on the pin')
     """
     every = chosen(mechanism) if mechanism.spec.is_loaded else {}
-    return {key: every[key] for key in NAMES if key in every and every[key].why.startswith(BY_LOAD)}
+    out = dict[str, Chosen]()
+    for name in filter(every.__contains__, NAMES):
+        out |= {name: every[name]} if every[name].why.startswith(BY_LOAD) else {}
+    return out
 
 
 def _is_written(mechanism: Mechanism, key: str, values: Mapping[str, float | str]) -> bool:

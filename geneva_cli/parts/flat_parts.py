@@ -8,12 +8,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from operator import attrgetter
-from typing import TYPE_CHECKING, NoReturn, Self
+from typing import NoReturn, Self
 
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.plates import Group, Member, Plate
+from geneva_cli.geometry.plates import Group, Member, NamedParts, Plate
 from geneva_cli.geometry.shapes import Contour
 from geneva_cli.kept import cached_property
 from geneva_cli.motion.engagement import Engagement
@@ -31,10 +31,7 @@ from geneva_cli.parts.shafts.arm_and_shafts import CrankArm, bolts, crank_arm, c
 from geneva_cli.parts.shafts.bores import Screwed
 from geneva_cli.parts.sizes import drawn_thicknesses, pin_radius
 from geneva_cli.parts.slots.roller_paths import roller_centres
-
-if TYPE_CHECKING:
-    from geneva_cli.parts.projection import NamedParts
-    from geneva_cli.parts.turn.turn_certificate import FlatPairs
+from geneva_cli.parts.turn.turn_certificate import FlatPairs
 
 
 class FlatParts(EdgedParts):
@@ -95,8 +92,6 @@ class FlatParts(EdgedParts):
 
     def pairs(self, target: float) -> FlatPairs:
         """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""
-        from geneva_cli.parts.turn.turn_certificate import FlatPairs
-
         gaps, axis = self.outlines.gaps, np.zeros((1, 2))
         outside = self.assembly.sign > 0.0
         rim = float(gaps.wheel.farthest(axis).max() if outside else gaps.wheel.signed(axis)[0])
@@ -291,9 +286,9 @@ class FlatParts(EdgedParts):
         """The frame, what is on it, and the shafts."""
         parts = self.outlines
         arm = parts.sizes.arm_thickness if parts.has_arm else 0.0
-        plates = self._base, wheel_hub(parts.assembly, parts.sizes)
-        lows = [*map(attrgetter("low"), filter(None, plates))]
-        lows.append(-self.mechanism.spec.size.allowances.pin_gap_mm - arm)
+        plates = filter(None, (self._base, wheel_hub(parts.assembly, parts.sizes)))
+        gap = self.mechanism.spec.size.allowances.pin_gap_mm
+        lows = [-gap - arm, *map(attrgetter("low"), plates)]
         lows += map(attrgetter("part.low"), (*self.linked, *self.links.gears, *self.first))
         if self.mechanism.spec.gears:
             from geneva_cli.parts.gears.gear_pair import gear_span

@@ -54,7 +54,7 @@ def machine_sizes(mechanism: Mechanism) -> Layout:
         if mechanism.first_wheel:
             sizes = _with_first_wheel(mechanism, sizes)
         by = cut_lock(where, sizes) if sizes.lock and needs_lock(mechanism.spec) else None
-        sizes = load_sizes(where, sizes, by, mechanism, single_loads(mechanism))
+        sizes = load_sizes((where, sizes), by, mechanism, single_loads(mechanism))
         sizes = mapped(np.ndarray.item, mapped(np.asarray, sizes))
     refuse_unfit(where, sizes)
     return where, sizes
@@ -117,12 +117,9 @@ def fits(where: Assembly, sizes: Sizes) -> Mask:
 
 def key_sizes(mechanism: Mechanism) -> KeySizes:
     """Return the known sizes of a machine by keys of ``[size]``, and which its load chose."""
-    known: dict[str, float] = {
-        "center_distance_mm": mechanism.center_distance_mm,
-        "roller_radius_mm": mechanism.roller_radius_mm,
-        **mechanism.spec.size.allowances._asdict(),
-    }
-    del known["source"]
+    known = dict(zip(rules.CLEARANCES, mechanism.spec.size.allowances[:-1], strict=True))
+    known["center_distance_mm"] = mechanism.center_distance_mm
+    known["roller_radius_mm"] = mechanism.roller_radius_mm
     of_kind = None if mechanism.spec.no_parts else thing(mechanism.spec.wheel.NAME, "sizes")
     if of_kind:
         values, by_load = of_kind(mechanism)
@@ -305,7 +302,9 @@ def refuse_unfit(assembly: Assembly, sizes: Sizes) -> None:
     refuse_size(wrong & has_lock, "crank_bore_mm", text, bored, most=2.0 * lock)
     thin = reduce(smaller, (sizes.wheel_thickness, sizes.lock_thickness, sizes.arm_thickness))
     rules.refuse_pin_and_edges(size, sizes.pin, sizes.roller, thin)
-    unlike = any(kind.slot.curved or kind.apart for kind in assembly.kinds)
+    unlike = False
+    for kind in assembly.kinds:
+        unlike = unlike or kind.slot.curved or bool(kind.apart)
     for key, shaped in (("mouth_radius_mm", sizes.mouth_radius), ("horn_tip_mm", sizes.horn_tip)):
         text = f"{key} is for straight slots, each of which a roller enters and leaves: remove it"
         refuse_size((shaped > 0.0) & unlike, key, text)

@@ -9,19 +9,18 @@ from abc import abstractmethod
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, ClassVar, NamedTuple, Self, TypeAlias
 
-from geneva_cli.geometry.plates import Member, Plate
+from geneva_cli.geometry.plates import Member, NamedParts, Plate
 from geneva_cli.geometry.shapes import Circle
 from geneva_cli.kept import cached_property, load_named
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.registry import FRONT, named, thing
 from geneva_cli.parts.shafts.bores import Screwed, tapped
+from geneva_cli.parts.turn import full_turn
 from geneva_cli.parts.turn.turned_parts import TurnedParts
 
 if TYPE_CHECKING:
     from geneva_cli.geometry.fit import Writer
     from geneva_cli.parts.outlines.outlines import Outlines
-    from geneva_cli.parts.projection import NamedParts
-    from geneva_cli.parts.turn.full_turn import FullTurn
 
 NamedBuilds: TypeAlias = "list[tuple[str, Callable[[], Parts]]]"
 
@@ -58,14 +57,12 @@ class Parts(TurnedParts):
         return self.flat.outlines
 
     @cached_property
-    def turn(self) -> FullTurn:
+    def turn(self) -> full_turn.FullTurn:
         """The full turn; raises GenevaError where it takes too many positions.
 
         The sizes that a load chooses do not change it, and may leave no parts: see ``built``.
         """
-        from geneva_cli.parts.turn.full_turn import full_turn
-
-        return full_turn(self)
+        return full_turn.full_turn(self)
 
     def following(self, mechanism: Mechanism) -> Parts:
         """Return the parts of the next design, with this turn if it is the same."""

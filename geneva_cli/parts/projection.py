@@ -1,7 +1,7 @@
 """Lists of parts: which are alike, which cannot be built, and what a drawing shows of them."""
 
 from collections.abc import Callable, Iterable, Iterator
-from typing import NamedTuple, TypeAlias, TypeVar
+from typing import NamedTuple, TypeVar
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Member, Part, Shell, Solid, in_place, solids
@@ -25,7 +25,6 @@ def alike(parts: Iterable[Part]) -> list[list[Solid]]:
 
 
 T = TypeVar("T")
-NamedParts: TypeAlias = "tuple[str, Callable[[], Iterable[Part]]]"
 
 
 class Missing(NamedTuple):

@@ -30,7 +30,7 @@ from geneva_cli.parts.assembly import Assembly, gear_plane, is_bridged, links_at
 from geneva_cli.parts.outlines.crank_outline import is_whole
 from geneva_cli.parts.outlines.outlines import wheel_hub_length
 from geneva_cli.parts.shafts.bores import reach_or_bore
-from geneva_cli.parts.sizes import Sizes
+from geneva_cli.parts.sizes import Layout, Sizes
 from geneva_cli.spec.defaults import key, roller_material, wheel_material
 
 
@@ -99,17 +99,13 @@ def stressed(assembly: Assembly, sizes: Sizes, own: Spec | None = None) -> Stres
     eye = rules.arm_eye(size, hole, sizes.wall_min, passing)
     offset = 0.5 * (contact + thick) + gap
     rows = np.broadcast_arrays(long, hub, eye, bored, hole, thick, offset)
-    arm = np.where(armed & (np.asarray(sizes.pin) > 0.0), rows, np.nan)
+    arm = pin_arm_key.ArmDimensions(*np.where(armed & (np.asarray(sizes.pin) > 0.0), rows, np.nan))
     shaft = choose(armed, sizes.arm_bore, sizes.crank_bore)
-    return Stressed(
-        contact,
-        2.0 * sizes.pin,
-        shaft_of(spec, "wheel", sizes.wheel_bore, on_wheel, thick),
-        shaft_of(spec, "crank", shaft, on_crank, thick),
-        pin_arm_key.ArmDimensions(*arm),
-        key_of(size.wheel_keyway, sizes.wheel_bore, wide + hub_mm),
-        key_of(size.crank_keyway, sizes.arm_bore, thick),
-    )
+    wheel_shaft = shaft_of(spec, "wheel", sizes.wheel_bore, on_wheel, thick)
+    crank_shaft = shaft_of(spec, "crank", shaft, on_crank, thick)
+    wheel_key = key_of(size.wheel_keyway, sizes.wheel_bore, wide + hub_mm)
+    crank_key = key_of(size.crank_keyway, sizes.arm_bore, thick)
+    return Stressed(contact, 2.0 * sizes.pin, wheel_shaft, crank_shaft, arm, wheel_key, crank_key)
 
 
 def shaft_of(spec: Spec, part: str, bore: float, to_frame: float, thick: float) -> ShaftSize:
@@ -147,19 +143,15 @@ def needs_lock(spec: Spec) -> bool:
 
 
 def load_sizes(
-    assembly: Assembly,
-    sizes: Sizes,
-    by: Lock | None,
-    machine: Mechanism,
-    loads: PartLoads,
-    bent_MPa: Array | None = None,
+    of: Layout, by: Lock | None, machine: Mechanism, loads: PartLoads, bent_MPa: Array | None = None
 ) -> Sizes:
     """Return the sizes of m designs under their loads, numbers or (m, 1).
 
-    ``sizes`` are those without loads, ``by`` their locks, ``bent_MPa`` the stress of ``horn_MPa``
-    if computed already. Loads without a bound change no size.
+    ``of`` has those without loads, ``by`` are their locks, and ``bent_MPa`` is the stress of
+    ``horn_MPa`` if computed already. Loads without a bound change no size.
     """
-    spec, size, usual = machine.spec, machine.spec.size, sizes
+    spec, size, (assembly, usual) = machine.spec, machine.spec.size, of
+    sizes = usual
     rows = np.zeros((machine.designs, 1)) + np.reshape(loads, (len(loads), -1, 1))
     bounded = np.isfinite(rows).all(axis=0)
     if not bounded.any():
@@ -183,9 +175,8 @@ def load_sizes(
         wide = choose(np.greater(sizes.lock, 0.0), wide, sizes.wheel_thickness)
         _, disc, arm, bar = size.thicknesses(wide)
         bar = sizes.link_thickness if linked else bar
-        sizes = sizes._replace(
-            wheel_thickness=wide, lock_thickness=disc, arm_thickness=arm, link_thickness=bar
-        )
+        sizes = sizes._replace(wheel_thickness=wide, lock_thickness=disc)
+        sizes = sizes._replace(arm_thickness=arm, link_thickness=bar)
     wide, eye = sizes.wheel_thickness, math.inf
     if assembly.sign > 0.0:
         # about the pin, where it passes the largest hub

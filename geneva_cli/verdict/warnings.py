@@ -3,10 +3,9 @@
 import math
 from collections.abc import Iterator
 from operator import attrgetter
-from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError, Notice
-from geneva_cli.geometry.plates import MassProperties, Plate, Shell, solids
+from geneva_cli.geometry.plates import MassProperties, NamedParts, Plate, Shell, solids
 from geneva_cli.geometry.shapes import bounds
 from geneva_cli.loads.load_case import G, inertia_kgm2, weight_kg
 from geneva_cli.motion.compatible import is_geared
@@ -21,9 +20,6 @@ from geneva_cli.spec.tables import Motor
 from geneva_cli.spec.workshops import WORKSHOPS
 from geneva_cli.verdict.checks.motion_checks import motion_play_max, slips_deg
 from geneva_cli.verdict.motion_warnings import motion_warnings
-
-if TYPE_CHECKING:
-    from geneva_cli.parts.projection import NamedParts
 
 STEEP_DEG = 60.0  # a pressure angle that friction of 0.58 would hold, more than a dry pair has
 
@@ -129,7 +125,7 @@ def gears_without_teeth(spec: Spec) -> Iterator[Notice]:
         yield Notice("gears-without-teeth", text)
 
 
-def _small_holes(named: list["NamedParts"], least: float) -> Iterator[Notice]:
+def _small_holes(named: list[NamedParts], least: float) -> Iterator[Notice]:
     """A warning that names each part with a hole below ``least`` thicknesses."""
     if not least:
         return

@@ -9,7 +9,7 @@ import math
 from collections.abc import Iterator
 
 from geneva_cli.errors import GenevaError, refuse_size
-from geneva_cli.geometry.plates import Group, Member, Plate, least_wall
+from geneva_cli.geometry.plates import Group, Member, NamedParts, Plate, least_wall
 from geneva_cli.geometry.shapes import Circle
 from geneva_cli.geometry.sheet import rectangle
 from geneva_cli.kept import cached_property
@@ -22,7 +22,6 @@ from geneva_cli.parts.assembly import assembly
 from geneva_cli.parts.frame import hole_without_shaft, mounted_plate, shaft_holes
 from geneva_cli.parts.gears.gear_pair import gear_pair, gear_shafts, gear_span
 from geneva_cli.parts.parts import EdgedParts, FrameAndShafts, NamedBuilds
-from geneva_cli.parts.projection import NamedParts
 from geneva_cli.parts.shafts.arm_and_shafts import Shaft, rollers, shaft_ends
 from geneva_cli.parts.shafts.bores import Screwed, bolt_radius, bore_of, reach_or_bore, tapped
 from geneva_cli.parts.sized_by_load import ShaftSize, Stressed, key_of, shaft_of

@@ -8,7 +8,7 @@ from typing import ClassVar
 
 from geneva_cli.errors import refuse_size
 from geneva_cli.geometry import plates
-from geneva_cli.geometry.plates import Group, MassProperties, Member, Plate, Shell
+from geneva_cli.geometry.plates import Group, MassProperties, Member, NamedParts, Plate, Shell
 from geneva_cli.geometry.shapes import ORIGIN, Circle
 from geneva_cli.geometry.sphere import POLE, Cap, axis_frame, place
 from geneva_cli.geometry.sphere_arcs import RoundHole, polar
@@ -21,7 +21,6 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.assembly import assembly
 from geneva_cli.parts.parts import Parts
-from geneva_cli.parts.projection import NamedParts
 from geneva_cli.parts.shafts.arm_and_shafts import Shaft, shaft_ends
 from geneva_cli.parts.shafts.bores import Bore, bore_of, has_shape
 from geneva_cli.parts.sizes import refuse_bored_hub

@@ -42,14 +42,11 @@ class _Products:
         self.known: dict[Part, tuple[str, str]] = {}  # a part's definition and its shape
         self.styled: list[str] = []
         # behind the entities of the origin, #1 to #4
-        _, _, self.context, self.design, *_, self.space = (
-            file.add(text) for text in template("step_contexts.txt").splitlines()
-        )
+        contexts = template("step_contexts.txt").splitlines()
+        _, _, self.context, self.design, *_, self.space = map(file.add, contexts)
         self.product(whole)
-        file.add(
-            f"MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION('',{listed(self.styled)},"
-            f"{self.space})"
-        )
+        shown = f"('',{listed(self.styled)},{self.space})"
+        file.add(f"MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION{shown}")
 
     def product(self, part: Part) -> tuple[str, str]:
         """The product of a part, written at its first use."""
@@ -80,18 +77,15 @@ class _Products:
             places.append(file.placement((*member.at, 0.0), axis, ahead))
         frames = listed(list(dict.fromkeys([file.origin, *places])))
         whole = self._defined(group.name, f"SHAPE_REPRESENTATION('',{frames},{self.space})")
-        for i, (member, part, place) in enumerate(zip(group.members, parts, places, strict=True)):
-            use = file.add(
-                f"NEXT_ASSEMBLY_USAGE_OCCURRENCE('{i + 1}',{words(member.part.name)},'',"
-                f"{whole[0]},{part[0]},$)"
-            )
+        rows = zip(group.members, parts, places, strict=True)
+        for i, (member, part, place) in enumerate(rows, 1):
+            named = f"'{i}',{words(member.part.name)},''"
+            use = file.add(f"NEXT_ASSEMBLY_USAGE_OCCURRENCE({named},{whole[0]},{part[0]},$)")
             used = file.add(f"PRODUCT_DEFINITION_SHAPE('','',{use})")
             moved = file.add(f"ITEM_DEFINED_TRANSFORMATION('','',{file.origin},{place})")
-            related = file.add(
-                f"(REPRESENTATION_RELATIONSHIP('','',{part[1]},{whole[1]})"
-                f"REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION({moved})"
-                "SHAPE_REPRESENTATION_RELATIONSHIP())"
-            )
+            both = f"REPRESENTATION_RELATIONSHIP('','',{part[1]},{whole[1]})"
+            both += f"REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION({moved})"
+            related = file.add(f"({both}SHAPE_REPRESENTATION_RELATIONSHIP())")
             file.add(f"CONTEXT_DEPENDENT_SHAPE_REPRESENTATION({related},{used})")
         return whole
 

@@ -44,9 +44,8 @@ def plate_solid(file: Entities, plate: Plate) -> str:
                 along = not isinstance(piece, Arc) or piece.bulge > 0.0
                 low, high = (file.edge(start[k], end[k], curves[k], along) for k in (0, 1))
                 sides = [(low, True), (end[2], True), (high, False), (start[2], False)]
-                around = file.loop(sides)
                 # a cylinder's own normal points away from its axis, that of the others to the right
-                faces.append(file.face([around], _surface(file, piece, plate), along))
+                faces.append(file.face([file.loop(sides)], _surface(file, piece, plate), along))
                 lower.insert(0, (low, False))
                 upper.append((high, True))
         loops[0].append(file.loop(lower))
@@ -66,10 +65,8 @@ def _curve(file: Entities, piece: Piece, z: float) -> str:
         return file.circle((*piece.centre, z), piece.radius)
     points = listed([file.point((*pole, z)) for pole in piece.poles])
     count, knots = _knots(piece)
-    return (
-        f"B_SPLINE_CURVE_WITH_KNOTS('',3,{points},.UNSPECIFIED.,.F.,.F.,{count},{knots},"
-        ".UNSPECIFIED.)"
-    )
+    curve = f"{points},.UNSPECIFIED.,.F.,.F.,{count},{knots},.UNSPECIFIED."
+    return f"B_SPLINE_CURVE_WITH_KNOTS('',3,{curve})"
 
 
 def _surface(file: Entities, piece: Piece, plate: Plate) -> str:
@@ -86,10 +83,8 @@ def _surface(file: Entities, piece: Piece, plate: Plate) -> str:
     levels = plate.low, plate.high
     poles = listed([listed([file.point((*p, z)) for z in levels]) for p in piece.poles])
     count, knots = _knots(piece)
-    return file.add(
-        f"B_SPLINE_SURFACE_WITH_KNOTS('',3,1,{poles},.UNSPECIFIED.,.F.,.F.,.F.,{count},(2,2),"
-        f"{knots},(0.,1.),.UNSPECIFIED.)"
-    )
+    surface = f"{poles},.UNSPECIFIED.,.F.,.F.,.F.,{count},(2,2),{knots},(0.,1.),.UNSPECIFIED."
+    return file.add(f"B_SPLINE_SURFACE_WITH_KNOTS('',3,1,{surface})")
 
 
 def _knots(spline: Spline) -> tuple[str, str]:

@@ -1,6 +1,7 @@
 """Instances of a STEP file (ISO 10303-21): numbers, texts, points, placements, edges and faces."""
 
 from collections.abc import Sequence
+from functools import cache
 from typing import TypeAlias
 
 from geneva_cli.geometry.sphere import POLE, Vector, combined
@@ -16,7 +17,9 @@ class Entities:
 
     def __init__(self) -> None:
         self.lines: list[str] = []
-        self._shared: dict[str, str] = {}
+        # ``add`` once, however often an instance is requested. Only for geometry: two solids may
+        # touch without sharing an edge.
+        self.shared = cache(self.add)
         self.origin = self.placement()
 
     def add(self, text: str) -> str:
@@ -24,15 +27,6 @@ class Entities:
         number = f"#{len(self.lines) + 1}"
         self.lines.append(f"{number}={text};\n")
         return number
-
-    def shared(self, text: str) -> str:
-        """Return the number of an instance that is written once, however often it is requested.
-
-        Only for geometry: two solids may touch without sharing an edge.
-        """
-        if text not in self._shared:
-            self._shared[text] = self.add(text)
-        return self._shared[text]
 
     def point(self, at: Vector) -> str:
         """A point."""

@@ -101,8 +101,7 @@ def _bars(turn: MachineTurn, outlines: Outlines | None) -> Iterator[page.Bar]:
     """The links, with their plates if the links' sizes allow any."""
     plates = list[Plate]()
     with suppress(GenevaError):
-        members = drawn_links(turn.mechanism, outlines).cut
-        plates = [member.part for member in members if isinstance(member.part, Plate)]
+        plates = drawn_links(turn.mechanism, outlines).plates
     for i, link in enumerate(links_at(turn.mechanism, np.zeros(1))):
         own = [(0, plate) for plate in plates if plate.name == link.name]
         slid = (j for j, kind in enumerate(link.kinds) if kind in (Joint.SLIDE, Joint.CARRIED))

@@ -150,7 +150,7 @@ class UnderLoad:
         locks, bent = self.lock_sizes if sized_by_load.needs_lock(machine.spec) else None, None
         if locks and size.wheel_thickness_mm is size.face_width_mm is None:
             bent = lock.horn_MPa(machine, *locks, self._flat_horns)
-        sizes = sized_by_load.load_sizes(*of, locks and locks[1], machine, self.part_loads, bent)
+        sizes = sized_by_load.load_sizes(of, locks and locks[1], machine, self.part_loads, bent)
         parts = sized_by_load.stressed(of[0], sizes, machine.spec)
         fit = np.where(np.ravel(fits(of[0], sizes)), np.ones(machine.designs), np.nan)
         return mapped(lambda row: np.ravel(row) * fit, parts)
