@@ -8,7 +8,7 @@ KINDS = (
         drive="kinds.linkages.four_bar:FourBar",
         gearings=("external",),
         refuses="motion.compatible:of_pin_path",
-        families={"alone": "kinds.linkages.four_bar_family:four_bars"},
+        families={"alone": "kinds.linkages.four_bar_search:four_bars"},
     ),
     Kind(
         "slider-crank",

@@ -1,8 +1,10 @@
-"""The search of four-bars: proportions, the crank's angle at entry and, in a range, the motion.
+"""The search of four-bars whose coupler carries the roller: for every wheel the best proportions.
 
-With the crank's pin A and the coupler's unit vector e, the roller is at P = A + w e. Between entry
-and exit of slots of a wheel of sense s, the tangent V has turned by pi - 2b relative to the wheel,
-and the chord is half-way between both tangents:
+The crank turns fully (Grashof), no joint is farther from its axis than allowed, and a roller of
+usual size passes the wheel on its way back. Searched are proportions, the crank's angle at entry
+and, in a range, the motion. With the crank's pin A and the coupler's unit vector e, the roller is
+at P = A + w e. Between entry and exit of slots of a wheel of sense s, the tangent V has turned by
+pi - 2b relative to the wheel, and the chord is half-way between both tangents:
 
     Im(V2 V1* exp(i s (pi - 2b))) = 0 ,    Im((P2 - P1) V1* exp(i s (pi - 2b)/2)) = 0 .
 
@@ -13,92 +15,113 @@ the solution.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Sequence
 from functools import partial
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from geneva_cli.kinds.linkages.four_bar import CouplerPath
-from geneva_cli.kinds.linkages.link_path import LinkPath
-from geneva_cli.kinds.linkages.path_wheels import PathWheels, centre_of, top
-from geneva_cli.kinds.linkages.tangent_pairs import Pairs, complex_of, turning_rate
-from geneva_cli.motion.peak_search import ORDERS
-from geneva_cli.motion.timing import Timing, timing
+from geneva_cli.kinds.linkages.four_bar import CouplerPath, FourBar
+from geneva_cli.kinds.linkages.path_wheels import centre_of
+from geneva_cli.kinds.linkages.tangent_pairs import Pairs, points_at, turning_rate
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.wheels.gearing import Gearing
-from geneva_cli.numerics.arrays import Array, Complex, Mask, Whole, parameter
-from geneva_cli.numerics.jet import Jet, turning
-from geneva_cli.study.sweep.constraints import Constraint
-from geneva_cli.study.synth.family_search import Places, Zoom, sampled, zoom
+from geneva_cli.numerics.arrays import Array, Complex, Mask, Whole, parameter, within_half_turn
+from geneva_cli.study.synth.families.family import Family, is_compatible, natural_deg
+from geneva_cli.study.synth.family_search import Costs, Places, Zoom, sampled, zoom
 from geneva_cli.study.target import AllowedSpan, Target
-from geneva_cli.verdict.quantities.quantity_rows import RATES
+from geneva_cli.verdict.quantities.quantity_names import in_batch
 
 SAMPLES = (256, 2048)  # least and most four-bars that are sampled for one wheel
 SAMPLINGS = (14, 60)  # least and most closer samplings for one wheel
-COARSE, FINE = 16, 96  # sampled places of a motion
+COARSE, FINE = 16, 96  # sampled places of a motion, and half of those of the way back
 OTHERS = 6  # further results if a bound or the goal is not computed here
-# by a quantity in the unit of a time, the power of the speed that it has
-SPEED_POWERS = {f"{at}_rad{end}": n for n, _, end in RATES.values() for at in ("max", "entry")}
+_SIDES: Any = {"crank_mm": 40.0, "ground_mm": 90.0, "coupler_mm": 100.0, "rocker_mm": 100.0}
+_EXAMPLE = FourBar(**_SIDES, point_mm=161.5, point_deg=-36.1, entry_deg=123.3)  # any one
 
 
-class WheelGoal(NamedTuple):
-    """A wheel, its allowed motions, and the least roller as a fraction of the centre distance."""
+class Task(NamedTuple):
+    """The search for one wheel: a machine, motions, and the least roller as a fraction of L."""
 
-    wheel: Gearing
+    spec: Spec
     motion: AllowedSpan
     roller: float
 
 
-class Goal(NamedTuple):
-    """The goal of the search: bounds, and a quantity to minimise (``sign`` -1: maximise)."""
+def four_bars(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
+    """The best four-bar of each wheel, and some others."""
+    if target.rollers not in (None, 1):
+        return
+    tasks = [task for wheel in wheels if (task := _task(target, wheel))]
+    every, n = tasks, len(tasks)
+    if target.any_motion and not target.sort:  # that of a plain crank, if it keeps the bounds
+        natural = [natural_deg(task.spec.wheel) for task in tasks]
+        plain = [t._replace(motion=AllowedSpan(x, x)) for t, x in zip(tasks, natural, strict=True)]
+        every = [*plain, *tasks]
+    count = 1 if in_batch(target.names) else 1 + OTHERS
+    found = _search(target, every) if tasks else []
+    for i, task in enumerate(tasks):
+        own = min(found[i::n], key=lambda places: places.violation.min(initial=math.inf))
+        own = own.take(slice(count))
+        columns, _ = keys_at(target, every, own.of, own.at)
+        for row in zip(*(column.tolist() for column in columns.values()), strict=True):
+            yield Family(task.spec.with_keys(dict(zip(columns, row, strict=True))))
 
-    target: Target
-    wheels: tuple[WheelGoal, ...]
-    bounds: tuple[Constraint, ...]
-    least: str
-    sign: float = 1.0
+
+def _task(target: Target, wheel: Gearing) -> Task | None:
+    """The search for a wheel; None for a wheel that no four-bar drives."""
+    free, size = target.free_motions(1, natural_deg(wheel)), target.own.size
+    if free is None:
+        return None
+    unlocked = wheel.replace(held_by="detent")  # there is no locking disc
+    spec = target.machine(unlocked, _EXAMPLE, free.low)
+    # the coupler passes below the wheel's axis, where a shaft without a hub ends in the wheel
+    hub = 0.0 if size.wheel_hub_mm is None else size.wheel_hub_mm
+    spec = spec.replace(size=spec.size.replace(center_distance_mm=None, wheel_hub_mm=hub))
+    if not is_compatible(spec):
+        return None
+    if size.roller_radius_mm is not None:
+        return Task(spec, free, size.roller_radius_mm / target.own.given_distance_mm)
+    # half the usual roller, and at most a third of sin b, which is the crank of a plain wheel
+    return Task(spec, free, min(0.025, (1.0 / 3.0) * wheel.step.sin_cos[0]))
 
 
-class FourBars(NamedTuple):
-    """Machines of the search; violations and costs are infinite without a machine."""
-
-    path: CouplerPath  # of the roller, with numbers (n,)
-    pair: Pairs
-    distance: Array
-    violation: Array
-    cost: Array
-
-
-def search_four_bars(goal: Goal) -> list[Places]:
-    """For each wheel the places of four-bars that keep the bounds, the best first.
+def _search(target: Target, tasks: Sequence[Task]) -> list[Places]:
+    """For each task the places of four-bars, the best first.
 
     A place is a point of the unit cube: two proportions, the crank, its angle, the motion in a
     range, and the wheel's sense.
     """
-    wheels, slots = len(goal.wheels), len(goal.target.z)
+    slots, costs = len(target.z), Costs([task.spec for task in tasks], target)
     # all wheels of a requirement together have about 6000 samples, and 300 closer samplings
     count = min(max(6000 // slots, SAMPLES[0]), SAMPLES[1])
     samplings = min(max(300 // slots, SAMPLINGS[0]), SAMPLINGS[1])
-    parents, children = 4, 12  # the best places of a wheel, and the closer samples near each
+    parents, children = 4, 12  # the best places of a task, and the closer samples near each
 
-    def coarse(of: Whole, at: Array, samples: int = COARSE) -> tuple[Array, Array]:
-        return four_bars_at(goal, of, at, samples)[-2:]
+    def evaluate(of: Whole, at: Array, samples: int = COARSE) -> tuple[Array, Array]:
+        keys, motion_deg = keys_at(target, tasks, of, at, samples)
+        batches = [*costs.groups.machines(of, keys)]
+        violation, cost = costs.of(batches, len(of))
+        for members, machine in batches:
+            # where the roller does not pass this wheel, the path may drive another one
+            off = np.ravel(machine.engagements[0].motion_deg) - motion_deg[members]
+            violation[members[np.abs(off) > 1e-6]] = math.inf
+        return violation, cost
 
     def offsets(number: int) -> Array:
         return np.column_stack((_spread(children, number) - 0.5, np.zeros(children)))
 
-    with np.errstate(all="ignore"):
-        points = np.repeat(_spread(count), 2, axis=0)
-        at = np.column_stack((points, np.resize([1.0, 0.0], 2 * count)))
-        each = [sampled(coarse, np.full(2 * count, i), at).best(OTHERS) for i in range(wheels)]
-        first = each[0].joined(*each[1:])
-        first = first.take(np.isfinite(first.violation))
-        closer = 3e-3 ** (1.0 / samplings)
-        near = Zoom(offsets, 0.3, closer, samplings, around=(3,))
-        several = zoom(coarse, first.best(parents), near, keep=parents).joined(first)
-        # fine samples remove those that fail between the coarse ones
-        kept = sampled(partial(coarse, samples=FINE), several.of, several.at)
-        kept = kept.take(kept.violation == 0.0).best(parents + OTHERS)
-    return [kept.take(kept.of == i) for i in range(wheels)]
+    points = np.repeat(_spread(count), 2, axis=0)
+    at = np.column_stack((points, np.resize([1.0, 0.0], 2 * count)))
+    of = np.repeat(np.arange(len(tasks)), len(at))
+    first = sampled(evaluate, of, np.tile(at, (len(tasks), 1))).best(OTHERS)
+    first = first.take(np.isfinite(first.violation))
+    near = Zoom(offsets, 0.3, 3e-3 ** (1.0 / samplings), samplings, around=(3,))
+    several = zoom(evaluate, first.best(parents), near, keep=parents).joined(first)
+    # fine samples remove those that fail between the coarse ones
+    kept = sampled(partial(evaluate, samples=FINE), several.of, several.at)
+    kept = kept.take(np.isfinite(kept.violation)).best(parents + OTHERS)
+    return [kept.take(kept.of == i) for i in range(len(tasks))]
 
 
 def _spread(count: int, start: int = 0) -> Array:
@@ -110,13 +133,17 @@ def _spread(count: int, start: int = 0) -> Array:
     return points
 
 
-def four_bars_at(goal: Goal, of: Whole, at: Array, places: int = FINE) -> FourBars:
-    """The machines at places of the cube, for wheels by their numbers."""
-    rows = [(w.wheel.step.b, *w.motion, w.roller, float(w.wheel.z)) for w in goal.wheels]
-    (b, low, high, roller, slots), u = np.array(rows).T[:, of], at.T
-    sense = np.where(u[5] > 0.5, 1.0, -1.0)
+def keys_at(
+    target: Target, tasks: Sequence[Task], of: Whole, at: Array, places: int = FINE
+) -> tuple[dict[str, Array], Array]:
+    """Keys and motions, degrees, of machines at places of the cube, for tasks by their numbers.
+
+    All are (n,). Lengths are infinite where there is no machine.
+    """
+    rows = [(task.spec.wheel.step.b, *task.motion, task.roller) for task in tasks]
+    (b, low, high, roller), u = np.array(rows).T[:, of], at.T
     # coupler and rocker are 1/4 to 4 times as long as the ground link
-    sides = np.stack((np.ones(u[0].shape), *(4.0 ** (2.0 * x - 1.0) for x in u[:2])))
+    sides = np.stack((np.ones(len(of)), *(4.0 ** (2.0 * x - 1.0) for x in u[:2])))
     longest = np.minimum(sides.min(axis=0), sides.sum(axis=0) - 2.0 * sides.max(axis=0))
     # the crank is 0.05 to 0.97 times as long as the longest that turns fully
     lengths = (longest * (0.05 + (0.97 - 0.05) * u[2]), *sides)
@@ -124,22 +151,24 @@ def four_bars_at(goal: Goal, of: Whole, at: Array, places: int = FINE) -> FourBa
     # the gentlest is often at an end of a range: a sixth of all places is at either
     motion_deg = low + (high - low) * np.clip(1.5 * u[4] - 0.25, 0.0, 1.0)
     entry = math.tau * u[3]
-    pair = Pairs(of, np.stack((entry, entry + np.radians(motion_deg))), sense)
-    w = coupler_point(path, pair, b)
-    path = path.having((*path.numbers[:4], parameter(w.real), parameter(w.imag)))
-    # coarse samples miss the nearest places, which a larger roller makes up for
-    roller = roller * (1.15 if places < FINE else 1.0)
-    names = (goal.least, *(bound.name for bound in goal.bounds))
-    order = max([2, *(ORDERS.get(name.partition(".")[0], 0) for name in names)])
-    drives, rates, distance, reach = _driven(path, pair, b, roller, order, places)
-    costs = Costs(goal.target, 360.0 / slots, rates, motion_deg)
-    cost = goal.sign * costs.of(goal.least)
-    drives &= (longest > 0.0) & (reach <= goal.target.space * distance) & np.isfinite(cost)
-    violation, cost = np.where(drives, (costs.broken(goal.bounds), cost), np.inf)
-    return FourBars(path, pair, distance, violation, cost)
+    ends = np.stack((entry, entry + np.radians(motion_deg)))
+    pair = Pairs(of, ends, np.where(u[5] > 0.5, 1.0, -1.0))
+    with np.errstate(all="ignore"):
+        w = coupler_point(path, pair, b)
+        path = path.having((*path.numbers[:4], parameter(w.real), parameter(w.imag)))
+        # coarse samples miss the nearest places, which a larger roller makes up for
+        roller = roller * (1.15 if places < FINE else 1.0)
+        drives, distance, reach = _driven(path, pair, b, roller, places)
+        drives &= (longest > 0.0) & (reach <= target.space * distance)
+        scale = np.where(drives, target.own.given_distance_mm / distance, math.inf)
+        names = map("drive.{}".format, FourBar.LENGTHS.values())
+        keys = dict(zip(names, (x * scale for x in (*lengths, np.abs(w))), strict=True))
+    keys["drive.point_deg"] = np.degrees(np.angle(w))
+    keys["drive.entry_deg"] = np.degrees(within_half_turn(entry))
+    return keys | target.speeds(1, motion_deg), motion_deg
 
 
-def coupler_point(path: LinkPath, pair: Pairs, b: Array) -> Complex:
+def coupler_point(path: CouplerPath, pair: Pairs, b: Array) -> Complex:
     """The roller's place w on the coupler that makes a motion, (n,).
 
     NaN if there is none, or if the chord does not run from entry to exit.
@@ -168,31 +197,30 @@ def coupler_point(path: LinkPath, pair: Pairs, b: Array) -> Complex:
 
 
 def _driven(
-    path: LinkPath, pair: Pairs, b: Array, roller: Array, order: int, places: int
-) -> tuple[Mask, list[Array], Array, Array]:
+    path: CouplerPath, pair: Pairs, b: Array, roller: Array, places: int
+) -> tuple[Mask, Array, Array]:
     """A mask of the wheels that are driven, at samples, and let the roller pass on its way back.
 
-    Also their velocities with derivatives to an order, (n, places + 1) each; centre distances; and
-    the greatest distances of joints and roller from the crank's axis. ``roller`` is its radius
-    over L.
+    Also their centre distances, and the greatest distances of joints and roller from the crank's
+    axis. ``roller`` is its radius over L.
     """
     entry, exit_ = pair.phi
-    crank = np.exp(1j * np.linspace(entry, exit_, places + 1))
-    at = complex_of(*path.about(crank)(0.0, order))
-    _, joint, at[0] = path.joints(crank)
-    wheels = PathWheels(pair, *centre_of(at[:, [0, -1]]))
-    rho, L = wheels.distance, np.abs(wheels.centre)
-    near, turns = wheels.driven(*at[:2])
-    drives = ((turns > 0.0) & (near < rho))[1:-1].all(axis=0)
-    drives &= (pair.sense * turning_rate(at[:3, [0, -1]]) < 0.0).all(axis=0)  # at both ends, too
-    half_wall = 1.0 / 400.0  # of the least wall between two slots, over the centre distance
-    drives &= near.min(axis=0) * np.sin(b) >= (roller + half_wall) * L
     # the way back has twice the motion's samples
     back = np.linspace(exit_, entry + math.tau, 2 * places + 1)[1:-1]
-    _, joint_back, returns = path.joints(np.exp(1j * back))
+    turn = np.concatenate((np.linspace(entry, exit_, places + 1), back))
+    _, joint, roller_at = path.joints(np.exp(1j * turn))
+    ends = points_at(path, pair.phi)
+    centre, rho = centre_of(ends)
+    L, rays = np.abs(centre), roller_at - centre
+    driven, returns = rays[: places + 1], rays[places + 1 :]
+    near, turned = np.abs(driven), pair.sense * np.angle(driven[1:] * driven[:-1].conj())
+    drives = (turned > 0.0).all(axis=0) & (near[1:-1] < rho).all(axis=0)
+    drives &= (pair.sense * turning_rate(ends) < 0.0).all(axis=0)  # at both ends, too
+    half_wall = 1.0 / 400.0  # of the least wall between two slots, over the centre distance
+    drives &= near.min(axis=0) * np.sin(b) >= (roller + half_wall) * L
     # Lengths over the distance of the slots' mouths from the wheel's axis; a slot points along the
     # real axis. The wheel ends at hypot(1, r), where slots as wide as the roller leave corners.
-    r, place = roller * L / rho, (returns - wheels.centre) / (at[0, 0] - wheels.centre)
+    r, place = roller * L / rho, returns / driven[0]
     d, angle = np.abs(place), np.abs((np.angle(place) + b) % (2.0 * b) - b)
     ahead, across = d * np.cos(angle), d * np.sin(angle)
     corner = np.where(ahead >= 1.0, np.hypot(ahead - 1.0, r - across), r - across)
@@ -200,61 +228,5 @@ def _driven(
     gap = np.where(across < r * ahead, corner, d - np.hypot(1.0, r)) - r
     touch = 1e-6  # a roller that leaves its slot is this near to it
     drives &= ((gap >= -touch) & (d > 1.0)).all(axis=0)
-    moving = [np.abs(z).max(axis=0) for z in (joint, at[0], joint_back, returns)]
-    at[0] -= wheels.centre
-    rays = [one.T / math.factorial(k) for k, one in enumerate(at)]
-    rates = turning(Jet([z.real for z in rays]), Jet([z.imag for z in rays])).derivatives()
-    return drives, [*rates], L, np.maximum.reduce([path.numbers[1], *moving])
-
-
-class Costs(NamedTuple):
-    """Samples of n motions: velocities with derivatives (n, places), steps and motions, degrees."""
-
-    target: Target
-    index_deg: Array
-    rates: list[Array]
-    motion_deg: Array
-
-    def of(self, name: str) -> Array:
-        """A quantity for which ``is_known`` is true, (n,)."""
-        group, _, quantity = name.partition(".")
-        if group == "timing":
-            dwell = 360.0 - self.motion_deg
-            times = timing(self.motion_deg, dwell, self.index_deg, self._n_rpm())  # type: ignore[arg-type]
-            return np.broadcast_to(times._asdict()[quantity], self.motion_deg.shape)
-        value = self.rates[ORDERS[group] - 1]
-        if group == "power":
-            value = value * self.rates[0]
-        end = _end(quantity)
-        size = top(np.abs(value)) if end is None else np.abs(value[:, end])
-        if quantity in SPEED_POWERS:
-            size = size * (self._n_rpm() * (math.pi / 30.0)) ** SPEED_POWERS[quantity]
-        return size
-
-    def _n_rpm(self) -> Array:
-        """The input's speed, (n,), which a quantity without a time does not need."""
-        return np.array([self.target.n_rpm(1, float(x)) for x in self.motion_deg])
-
-    def broken(self, bounds: tuple[Constraint, ...]) -> Array:
-        """The sum of the relative violations of the bounds, (n,)."""
-        total = np.zeros(len(self.motion_deg))
-        for b in bounds:
-            # a peak between samples may be 1e-4 higher; times follow from the motion angle
-            needed = -1e-9 if b.name.startswith("timing.") else 1e-4
-            total = total + np.maximum(needed - b.margin(self.of(b.name)), 0.0)
-        return total
-
-
-def is_known(name: str) -> bool:
-    """Return True if the search can compute a quantity."""
-    group, _, quantity = name.partition(".")
-    if group == "timing":
-        return quantity in Timing._fields[:-1]  # the last is a rack's step
-    whole = quantity in ("max", "entry", "exit") or quantity in SPEED_POWERS
-    at_rest = _end(quantity) is not None and group in ("velocity", "power")
-    return group in ORDERS and whole and not at_rest
-
-
-def _end(quantity: str) -> int | None:
-    """The sample at which a quantity is taken; None for its greatest value."""
-    return {"entry": 0, "exit": -1}.get(quantity.partition("_")[0])
+    moving = [np.abs(z).max(axis=0) for z in (joint, roller_at)]
+    return drives, L, np.maximum.reduce([path.numbers[1], *moving])

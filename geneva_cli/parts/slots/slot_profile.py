@@ -75,18 +75,18 @@ def pitch_at(engagement: Engagement, input_deg: Array) -> Pitch:
     return Pitch(*(np.where(middle, limit, array(value)) for value, limit in columns))
 
 
-def nodes(mechanism: Mechanism, tolerance_mm: float, fewest: bool = True) -> Array:
+def nodes(mechanism: Mechanism, tolerance_mm: float, few: bool = True) -> Array:
     """Return input angles to sample the slot at, so that no chord misses a curve by more.
 
-    Cusps of the pitch curve and of undercut flanks are among them. Without ``fewest`` the first
-    sufficient number is used.
+    Cusps of the pitch curve and of undercut flanks are among them. Without ``few`` there are
+    up to ten per cent more, computed in a third of the time.
     """
     engagement = mechanism.engagements[0].through
     cusps = _flank_cusps(mechanism)
     ends = [engagement.entry_deg, *[x for x in cusps if x < 0.0], 0.0]
     if not engagement.mirrored:
         ends += [*[x for x in cusps if x > 0.0], engagement.exit_deg]
-    angles = chords.nodes(partial(flanks, mechanism), ends, tolerance_mm, fewest)
+    angles = chords.nodes(partial(flanks, mechanism), ends, tolerance_mm, few)
     return np.concatenate((angles[:-1], -angles[::-1])) if engagement.mirrored else angles
 
 

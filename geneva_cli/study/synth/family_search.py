@@ -9,7 +9,7 @@ If any motion is allowed, the cost is the distance from the plain crank.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from typing import Any, NamedTuple, TypeAlias
 
@@ -19,7 +19,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.arrays import Array, Mask, Whole, joined
 from geneva_cli.numerics.tolerances import ROUNDED
-from geneva_cli.study.batches import SpecGroups
+from geneva_cli.study.batches import Batch, SpecGroups
 from geneva_cli.study.batches import numbers as quantities
 from geneva_cli.study.sweep.constraints import Objective
 from geneva_cli.study.synth.families.family import Family
@@ -185,24 +185,46 @@ def _best_places(free: FamilyCosts) -> Places:
     return zoom(free, tracks, LINE).joined(plainly).best(1)
 
 
-class FamilyCosts:
-    """Violations of a requirement's bounds, and costs, at places of families in the unit cube.
+class Costs:
+    """Violations of a requirement's bounds, and costs, of machines like some specs.
 
-    The bounds and the goal are those that a batch can compute. The cost is the quantity to
-    minimise, or the distance from the plain crank.
+    The bounds and the goal are those that a batch can compute.
     """
 
-    def __init__(self, families: Sequence[Family], target: Target) -> None:
-        self.families = families
-        sort = target.sort if target.sort and in_batch([target.sort.name]) else None
-        self.is_nearest = target.any_motion and not sort
-        self.goal = sort or Objective(1.0, target.peak)
+    def __init__(self, specs: Sequence[Spec], target: Target) -> None:
+        self.sort = target.sort if target.sort and in_batch([target.sort.name]) else None
+        self.goal = self.sort or Objective(1.0, target.peak)
         self.bounds = [b for b in target.bounds if in_batch([b.name])]
         self.soft = [*target.soft_bounds.values()]
         self.names = [self.goal.name, *(b.name for b in (*self.bounds, *self.soft))]
+        self.groups = SpecGroups(specs)
+
+    def of(self, batches: Iterable[Batch], count: int) -> tuple[Array, Array]:
+        """Violations and costs of ``count`` designs of batches, infinite without a machine."""
+        goal, *others = quantities(batches, self.names, count)
+        violation = np.zeros(count)
+        for i, (bound, own) in enumerate(zip((*self.bounds, *self.soft), others, strict=True)):
+            margin = bound.margin(own)
+            rounding = np.where(margin >= -ROUNDED * (bound.bound != 0.0), 1e-300, -margin)
+            weight = 1.0 if i < len(self.bounds) else SOFT
+            violation += weight * np.where(margin >= 0.0, 0.0, np.minimum(rounding, 1e9))
+        known = np.isfinite(goal) & ~np.isnan(violation)
+        cost = self.goal.sign * goal
+        return np.where(known, violation, math.inf), np.where(known, cost, math.inf)
+
+
+class FamilyCosts(Costs):
+    """Those of families, at places in the unit cube.
+
+    The cost is the quantity to minimise, or the distance from the plain crank.
+    """
+
+    def __init__(self, families: Sequence[Family], target: Target) -> None:
+        super().__init__([f.spec for f in families], target)
+        self.families = families
+        self.is_nearest = target.any_motion and not self.sort
         each = [(f.low, f.high, f.plain) for f in families]
         self.low, self.high, self.plain = np.array(each).T
-        self.groups = SpecGroups([f.spec for f in families])
 
     def numbers(self, of: Whole, at: Array) -> Array:
         """The numbers (n,) of families at places of the unit cube, without the cube's rounding."""
@@ -220,16 +242,7 @@ class FamilyCosts:
             for key, value in keys_of(numbers[some]).items():
                 own = keys.setdefault(key, np.full(len(of), math.nan))
                 own[some] = np.where(np.isnan(value), math.inf, value)
-        goal, *others = quantities(self.groups.machines(of, keys), self.names, len(of))
-        cost = self.goal.sign * goal
-        if self.is_nearest:
-            far = np.abs(numbers - self.plain[of])
-            cost = np.where(np.isnan(far), cost, far)
-        violation = np.zeros(len(of))
-        for i, (bound, own) in enumerate(zip((*self.bounds, *self.soft), others, strict=True)):
-            margin = bound.margin(own)
-            rounding = np.where(margin >= -ROUNDED * (bound.bound != 0.0), 1e-300, -margin)
-            weight = 1.0 if i < len(self.bounds) else SOFT
-            violation += weight * np.where(margin >= 0.0, 0.0, np.minimum(rounding, 1e9))
-        known = np.isfinite(goal) & ~np.isnan(violation)
-        return np.where(known, violation, math.inf), np.where(known, cost, math.inf)
+        violation, cost = self.of(self.groups.machines(of, keys), len(of))
+        far = np.abs(numbers - self.plain[of])
+        is_far = self.is_nearest & np.isfinite(cost) & ~np.isnan(far)
+        return violation, np.where(is_far, far, cost)

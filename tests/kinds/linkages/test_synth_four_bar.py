@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 
-from geneva_cli.kinds.linkages import four_bar_family as families
+from geneva_cli.kinds.linkages import four_bar_search as families
 from geneva_cli.kinds.linkages.four_bar import FourBar
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.many import many, worst_peaks
