@@ -86,7 +86,12 @@ class Transmission(Drive, kw_only=True):
                 travel = PinTravel(pose, advance)
                 anchors.append(Anchor(at_deg - middle_deg, pose.wheel, pose.along, travel))
             path = AnchoredPath(tuple(anchors))
-            slot, motion = wheel.follow(path, place, turned)
+            if place.deepest is None:
+                slot, motion = wheel.follow(path, place, turned)
+            else:
+                from geneva_cli.motion.wheels.offset_slot import OffsetSlot, OffsetSlotMotion
+
+                slot, motion = OffsetSlot(path, place), OffsetSlotMotion(path, place)
             first = isinstance(place.crank_deg, float) and place.crank_deg == 0.0
             if place.closed and self.direct:
                 motion = StraightSlotMotion(path, place.step.b, closed=place.closed)

@@ -198,7 +198,7 @@ def mass_properties(bodies: Iterable[Solid], density_kgm3: float) -> MassPropert
         if isinstance(one, Shell):
             rows.append((one.volume, 0.0, 0.0, one.inertia))
         else:
-            rows.append(map(mul, face(one), repeat(one.thickness)))
+            rows.append(map(mul, face(one), repeat(one.high - one.low)))
     volume, x, y, polar = total(rows)
     centroid, per = (x / volume, y / volume), density_kgm3 * MM**3
     return MassProperties(per * volume, centroid, per * MM**2 * polar)

@@ -129,7 +129,11 @@ def by_load(mechanism: Mechanism) -> dict[str, Chosen]:
     Chosen(value=7.0, why='by load: 2000 N on the pin')
     """
     every = chosen(mechanism) if mechanism.spec.is_loaded else {}
-    return {key: every[key] for key in NAMES if key in every and every[key].why.startswith(BY_LOAD)}
+    out = dict[str, Chosen]()
+    for key in filter(every.__contains__, NAMES):
+        if every[key].why.startswith(BY_LOAD):
+            out[key] = every[key]
+    return out
 
 
 def _is_written(mechanism: Mechanism, key: str, values: Mapping[str, float | str]) -> bool:

@@ -305,7 +305,9 @@ def refuse_unfit(assembly: Assembly, sizes: Sizes) -> None:
     refuse_size(wrong & has_lock, "crank_bore_mm", text, bored, most=2.0 * lock)
     thin = reduce(smaller, (sizes.wheel_thickness, sizes.lock_thickness, sizes.arm_thickness))
     rules.refuse_pin_and_edges(size, sizes.pin, sizes.roller, thin)
-    unlike = any(kind.slot.curved or kind.apart for kind in assembly.kinds)
+    unlike = False
+    for kind in assembly.kinds:
+        unlike = unlike or kind.slot.curved or bool(kind.apart)
     for key, shaped in (("mouth_radius_mm", sizes.mouth_radius), ("horn_tip_mm", sizes.horn_tip)):
         text = f"{key} is for straight slots, each of which a roller enters and leaves: remove it"
         refuse_size((shaped > 0.0) & unlike, key, text)
