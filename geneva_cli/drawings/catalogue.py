@@ -35,9 +35,8 @@ CUT = tuple(n for n in DRAWINGS if n not in ("slot", "assembly", "gears", "groov
 def is_sheet(part: str) -> bool:
     """Return True if a part is drawn as a sheet. Raises GenevaError for an unknown part."""
     if part not in PARTS:
-        raise GenevaError(
-            f"--part {cut(part)}: it must be one of {few(part, PARTS)}{nearest(part, PARTS)}"
-        )
+        known = f"{few(part, PARTS)}{nearest(part, PARTS)}"
+        raise GenevaError(f"--part {cut(part)}: it must be one of {known}")
     return part == SHEET
 
 

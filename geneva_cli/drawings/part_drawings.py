@@ -142,10 +142,8 @@ def assembly(parts: FlatParts) -> Drawing:
             if parts.arm.bore not in outlines_of(one.part):
                 drawn.append(forms.placed(parts.arm.bore._replace(layer="ARM"), one.at, one.turn))
     # the links, and the round gears by their pitch circles, with all holes
-    drawn += [shape._replace(layer="LINK") for shape in shapes(parts.links.cut)]
-    blanks = list(shapes(parts.round_gears))
-    drawn += [shape for shape in blanks if shape.layer == "PITCH"]
-    drawn += [shape._replace(layer="LINK") for shape in blanks if shape.layer != "PITCH"]
+    linked = shapes((*parts.links.cut, *parts.round_gears))
+    drawn += [one if one.layer == "PITCH" else one._replace(layer="LINK") for one in linked]
     drawn += outlines_of(Group("", parts.gear_pair))
     drawn += shapes(parts.first)
     drawn = [*with_frame(drawn, parts.standing)]
@@ -160,9 +158,8 @@ def assembly(parts: FlatParts) -> Drawing:
     drawn += [Circle("PITCH", axis, radius) for axis in axes for radius in sorted(radii)]
     pitches = {one: pitch_lines(parts, one) for one in assembly.kinds}
     for engagement, direction in assembly.slots:
-        drawn += [
-            forms.placed(line, turn=direction + parts.wheel.turn) for line in pitches[engagement]
-        ]
+        turn = direction + parts.wheel.turn
+        drawn += [forms.placed(line, turn=turn) for line in pitches[engagement]]
     distance = LevelDistance((0.0, 0.0), (assembly.L, 0.0), "L")
     look = Annotations((distance,), tuple(_turns(parts.outlines)))
     return Drawing(title, tuple(once(drawn)), look, Group(title, parts.members))

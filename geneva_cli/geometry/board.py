@@ -48,13 +48,14 @@ class Board:
             if not left or not least:
                 break
             left -= best is not None
-            own, lines = _chords(measure.lines[:1]), _lines(measure)
+            own = _chords(measure.lines[:1])
             along = _run_along(own, self._ruled)
             # a leader may run along other lines if it must
             if along and measure.kind in ("length", "angular"):
                 continue
             if _crosses(measure.label, self._all, gap):
                 continue
+            lines = _lines(measure)
             if any(_crosses(text, lines, 0.6) for text in self._texts):
                 continue
             # extension lines may cross each other (ISO 129-1)

@@ -6,6 +6,7 @@ All lengths are in millimetres on paper, except ``value``, which is that of the 
 import cmath
 import math
 from collections.abc import Iterable, Iterator
+from itertools import product
 
 from geneva_cli.geometry import sheet
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Line, Point, about, polar, two_arcs
@@ -90,14 +91,13 @@ def angular(
 def balloon(tip: Point, text: str) -> Iterator[sheet.Measure]:
     """Yield candidates of a number in a circle, with a leader to a point, short ones first."""
     radius = 4.0  # mm: two digits fit in
-    for length in (8.0, 12.0, 18.0, 27.0, 40.0, 60.0, 90.0):
-        for angle in around():
-            centre, end = polar(tip, length + radius, angle), polar(tip, length, angle)
-            start = centre[0] - 0.5 * sheet.width(text) * sheet.SMALL, centre[1] - 0.5 * sheet.SMALL
-            circle = two_arcs(Circle("", centre, radius))
-            arrow = sheet.Arrow(tip, angle + math.pi)
-            label = sheet.Label(text, start, sheet.SMALL)
-            yield sheet.Measure("note", (tip,), 0.0, label, (Line(end, tip), *circle), (arrow,))
+    for length, angle in product((8.0, 12.0, 18.0, 27.0, 40.0, 60.0, 90.0), around()):
+        centre, end = polar(tip, length + radius, angle), polar(tip, length, angle)
+        start = centre[0] - 0.5 * sheet.width(text) * sheet.SMALL, centre[1] - 0.5 * sheet.SMALL
+        circle = two_arcs(Circle("", centre, radius))
+        arrow = sheet.Arrow(tip, angle + math.pi)
+        label = sheet.Label(text, start, sheet.SMALL)
+        yield sheet.Measure("note", (tip,), 0.0, label, (Line(end, tip), *circle), (arrow,))
 
 
 def section(end: Point, outwards: float, letter: str) -> Iterator[sheet.Measure]:
@@ -130,18 +130,18 @@ def led(
 
     They are a "diameter", a "radius", or a "note" on a point, with ``reach`` 0.
     """
-    directions, long = list(angles), sheet.width(text) * sheet.SMALL
-    for length in (6.0, 9.0, 13.0, 18.0, 24.0, 32.0, 42.0, 55.0, 72.0, 95.0, 125.0, 160.0):
-        for angle in directions:
-            tip = polar(centre, reach, angle)
-            points = {"diameter": (polar(centre, -reach, angle), tip), "radius": (centre, tip)}
-            for out in (1.0, -1.0) if length < 2.0 * reach else (1.0,):
-                end = polar(tip, out * length, angle)
-                right = out * math.cos(angle) >= 0.0
-                start = end[0] + CLEAR if right else end[0] - CLEAR - long
-                first = start, end[1] + CLEAR + sheet.BELOW * sheet.SMALL
-                label = sheet.Label(text, first, sheet.SMALL)
-                far = start + long + CLEAR if right else start - CLEAR
-                lines = (Line(end, tip), Line(end, (far, end[1])))
-                arrow = sheet.Arrow(tip, angle + math.pi if out > 0.0 else angle)
-                yield sheet.Measure(kind, points.get(kind, (tip,)), value, label, lines, (arrow,))
+    lengths = 6.0, 9.0, 13.0, 18.0, 24.0, 32.0, 42.0, 55.0, 72.0, 95.0, 125.0, 160.0
+    long = sheet.width(text) * sheet.SMALL
+    for length, angle in product(lengths, angles):
+        tip = polar(centre, reach, angle)
+        points = {"diameter": (polar(centre, -reach, angle), tip), "radius": (centre, tip)}
+        for out in (1.0, -1.0) if length < 2.0 * reach else (1.0,):
+            end = polar(tip, out * length, angle)
+            right = out * math.cos(angle) >= 0.0
+            start = end[0] + CLEAR if right else end[0] - CLEAR - long
+            first = start, end[1] + CLEAR + sheet.BELOW * sheet.SMALL
+            label = sheet.Label(text, first, sheet.SMALL)
+            far = start + long + CLEAR if right else start - CLEAR
+            lines = (Line(end, tip), Line(end, (far, end[1])))
+            arrow = sheet.Arrow(tip, angle + math.pi if out > 0.0 else angle)
+            yield sheet.Measure(kind, points.get(kind, (tip,)), value, label, lines, (arrow,))

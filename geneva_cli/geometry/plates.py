@@ -6,7 +6,7 @@ import cmath
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
-from itertools import chain, combinations, repeat, starmap
+from itertools import combinations, repeat, starmap
 from operator import lt, mul
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
@@ -156,7 +156,7 @@ def moments(shape: Shape) -> Moments:
         area = math.pi * square
         return Moments(area, area * x, area * y, area * (x * x + y * y + 0.5 * square))
     rows: list[tuple[float, float, float, float]] = []
-    for piece in chain.from_iterable(map(shapes.halved, shape.segments, repeat(OVER_A_RADIAN))):
+    for piece in shapes.halved(shape.segments, OVER_A_RADIAN):
         half = 0.5 * piece.sweep if isinstance(piece, Arc) else 0.0
         chord = complex(*piece.end) - complex(*piece.start)
         chord *= half / math.sin(half) if half else 1.0  # as long as the arc

@@ -268,13 +268,14 @@ def points(segment: Segment, count: int) -> list[Point]:
     return [at(segment, i / count) for i in range(count + 1)]
 
 
-def halved(segment: Segment, is_long: Callable[[float], bool]) -> list[Segment]:
-    """A segment alone; an arc halved until no part ``is_long`` by the size of its bulge."""
-    if isinstance(segment, Arc) and is_long(abs(segment.bulge)):
-        middle, bulge = at(segment, 0.5), math.tan(0.125 * segment.sweep)
-        first, last = Arc(segment.start, middle, bulge), Arc(middle, segment.end, bulge)
-        return [*halved(first, is_long), *halved(last, is_long)]
-    return [segment]
+def halved(segments: Iterable[Segment], is_long: Callable[[float], bool]) -> Iterator[Segment]:
+    """Segments, with arcs halved until no part ``is_long`` by the size of its bulge."""
+    for one in segments:
+        if isinstance(one, Arc) and is_long(abs(one.bulge)):
+            middle, bulge = at(one, 0.5), math.tan(0.125 * one.sweep)
+            yield from halved((Arc(one.start, middle, bulge), Arc(middle, one.end, bulge)), is_long)
+        else:
+            yield one
 
 
 def as_cubic(arc: Arc) -> Cubic:

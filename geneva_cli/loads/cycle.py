@@ -105,13 +105,13 @@ class Cycle:
         """The summaries of all quantities that have a value."""
         every = load_summaries(self.machine, [*sources(self.machine)])
         load_functions.refuse_noise([one.rms for one in every.values()])
-        return {name: only(one) for name, one in every.items()}
+        return dict(zip(every, map(only, every.values()), strict=True))
 
     @cached_property
     def ends(self) -> Mapping[str, LoadSummary[float]]:
         """The same without mean and rms, which take longest."""
         every = load_summaries(self.machine, [*sources(self.machine)], means=False)
-        return {name: only(one) for name, one in every.items()}
+        return dict(zip(every, map(only, every.values()), strict=True))
 
     @cached_property
     def stretches(self) -> list[tuple[Engagement, Stretch]]:

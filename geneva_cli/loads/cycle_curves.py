@@ -48,7 +48,8 @@ def drawn(cycle: Cycle, names: Sequence[str], window: Ends) -> dict[str, Drawn]:
             own = [(x, np.clip(row, *bounds)) for x, row in own]
         pieces = _pieces(own, machine.period_deg, window, step if name == column else 0.0)
         if bounds:
-            pieces = [part for piece in pieces for part in _within(piece, bounds)]
+            cut = [end for end in bounds if end not in (ends[name].max, ends[name].min)]
+            pieces = [part for piece in pieces for part in _within(piece, cut)]
         if name in ends:
             most, most_at, least, least_at, *_ = ends[name]
             tiny = ROUNDED * max(abs(most), abs(least))
@@ -142,18 +143,18 @@ def _bounds(load: LoadSummary[float], stages: Sequence[tuple[Array, Array]]) -> 
     """The visible range of a load: None if bounded, else from its sizes half-way between cuts."""
     if math.isfinite(load.max) and math.isfinite(load.min):
         return None
-    sizes = [abs(y[len(y) // 2]) for _, y in stages]
+    sizes = [abs(float(y[len(y) // 2])) for _, y in stages]
     # an unbounded load is visible up to three times its typical size
     high = 3.0 * (max(filter(math.isfinite, sizes), default=0.0) or 1.0)
     return -high if math.isinf(load.min) else load.min, high if math.isinf(load.max) else load.max
 
 
-def _within(piece: Piece, bounds: Ends) -> Iterator[Piece]:
-    """A piece that was limited to bounds, without its parts along them."""
+def _within(piece: Piece, cut: Sequence[float]) -> Iterator[Piece]:
+    """A piece without its parts along the bounds at which it was cut."""
     x, y = piece
     begin = 0
     for i, (a, b) in enumerate(pairwise(y), 1):
-        if a == b and a in bounds:
+        if a == b and a in cut:
             if i - begin > 1:
                 yield x[begin:i], y[begin:i]
             begin = i

@@ -69,9 +69,8 @@ class LoadFunctions:
             "leans": case.guided,
             "edge": engagement.slot.curved and case.hertz is not None,
         }
-        every = *SIGN_FUNCTIONS, "wanted"
-        own_kinds = [kind for kind in every if matters.get(kind) or kind in more]
-        self.kinds = [*kinds] or own_kinds
+        matters |= dict.fromkeys(more, True)
+        self.kinds = [*kinds] or [*filter(matters.get, (*SIGN_FUNCTIONS, "wanted"))]
         self.signs, self.wanted = len(self.kinds), len(self.names)
         self.poled: Sequence[int] = (self.kinds.index("edge"),) if "edge" in self.kinds else ()
         # where links carry the roller, bearings and guide need the reactions of joints
@@ -114,10 +113,8 @@ class LoadFunctions:
     def stretches(self, result: SearchResult | None = None) -> Stretches:
         """The motion, divided where signs change: as in a search, or without one."""
         pieces = result.stretches if result else cuts(self, self.spans)
-        if not self.engagement.slot.curved:
-            return pieces
-        x = pieces.x
-        for end in (self.engagement.entry_deg, self.engagement.exit_deg):
+        x, whole = pieces.x, self.engagement
+        for end in (whole.entry_deg, whole.exit_deg) if whole.slot.curved else ():
             near = np.broadcast_to(np.ravel(NEAR_CUSP * end), self.n)[pieces.design]
             x = np.where(x == near, 0.0, x)
         return pieces._replace(x=x)

@@ -97,12 +97,13 @@ def reported_peaks(
 ) -> dict[str, PeakArray]:
     """The greatest sizes of those of ``REPORTED_PEAKS`` that a machine has, by their names."""
     known, out = sources(mechanism), dict[str, PeakArray]()
-    own = {name: load for name, load in REPORTED_PEAKS.items() if name in names and load in known}
-    ends = load_summaries(mechanism, [*own.values()], means=False) if own else {}
-    for name, load in own.items():
-        one = ends[load]
-        least = PeakArray(-one.min, one.min_at_deg)
-        out[name] = greater(PeakArray(one.max, one.max_at_deg), least)
+    loads = {
+        name: known[of] for name, of in REPORTED_PEAKS.items() if name in names and of in known
+    }
+    peaks = load_peaks(mechanism, [source for source, _ in loads.values()]) if loads else {}
+    for name, (source, factor) in loads.items():
+        most, at_deg = peaks[source]
+        out[name] = PeakArray(most * np.ravel(factor), at_deg)
     return out
 
 
@@ -134,31 +135,30 @@ def load_summaries(
 
 
 class _Summaries:
-    """The summaries of quantities of m designs by their names, each computed at its first use."""
+    """The summaries of quantities of m designs by their names.
+
+    ``extremes`` are greatest and least values, each with its input angles: (4, names, m).
+    """
 
     def __init__(self, mechanism: Mechanism, names: tuple[str, ...]) -> None:
         self.mechanism, self.names = mechanism.under_load, names
         case, self.searches = load_case(mechanism), list[tuple[LoadFunctions, SearchResult]]()
+        rows = list[tuple[Array, Array]]()
         for engagement in self.mechanism.engagements:
             load = LoadFunctions(engagement, case, names)
-            self.searches.append((load, load.search()))
-
-    @cached_property
-    def extremes(self) -> Array:
-        """Greatest and least values, each with its input angles: (4, names, m)."""
-        rows = list[tuple[Array, Array]]()
-        for load, result in self.searches:
-            rows.append((result.most, shown_deg(self.mechanism, load.engagement, result.x)))
+            result = load.search()
+            self.searches.append((load, result))
+            rows.append((result.most, shown_deg(self.mechanism, engagement, result.x)))
         # of each engagement first the values, then those of the negatives
-        shape = len(rows), 2, 2, len(self.names), self.mechanism.designs
+        shape = len(rows), 2, 2, len(names), self.mechanism.designs
         value, place = np.reshape(rows, shape).swapaxes(0, 1)
         size = np.where(np.isfinite(value), np.abs(value), 0.0).max(axis=(0, 1))
         most = value.max(axis=0)
         first = np.argmax(value >= bar(most, size), axis=0)
         at_deg = np.take_along_axis(place, first[None], axis=0)[0]
-        names, ends = np.array(self.names, dtype=str)[:, None], np.stack((most[0], -most[1]))
-        ends = np.where(np.isin(names, contact.NEVER_NEGATIVE), np.maximum(ends, 0.0), ends)
-        squared, pressed = np.isin(names, contact.SQUARED), np.isin(names, contact.PRESSED)
+        each, ends = np.array(names, dtype=str)[:, None], np.stack((most[0], -most[1]))
+        ends = np.where(np.isin(each, contact.NEVER_NEGATIVE), np.maximum(ends, 0.0), ends)
+        squared, pressed = np.isin(each, contact.SQUARED), np.isin(each, contact.PRESSED)
         with np.errstate(invalid="ignore"):  # of values that are no squares
             ends = np.where(squared & ~pressed, np.sqrt(ends), ends)
             # where the torque changes sign, rounding may leave a size of 1e-14 of the other
@@ -166,7 +166,7 @@ class _Summaries:
             ends = np.where(np.abs(ends) > level, ends, 0.0)
             # the square of a stress goes with the force, and has its rounding
             ends = np.where(pressed, np.sqrt(ends), ends)
-        return np.stack((ends[0], at_deg[0], ends[1], at_deg[1]))
+        self.extremes = np.stack((ends[0], at_deg[0], ends[1], at_deg[1]))
 
     @cached_property
     def means(self) -> Array:

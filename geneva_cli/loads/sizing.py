@@ -15,7 +15,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import motion_peaks
 from geneva_cli.motion.timing import CamFactors, cam_factors
 from geneva_cli.numerics.angles import DEGREE, omega, radians
-from geneva_cli.numerics.arrays import Array, Number, array, parameter
+from geneva_cli.numerics.arrays import Array, Number, array, parameter, value_or
 
 # known without a load
 KNOWN_UNLOADED = ("inertia_kgm2", "motor_rpm", "acceleration_rad_s2", "Am", "Vm", "Qm")
@@ -151,11 +151,9 @@ def _exact(mechanism: Mechanism, torque: LoadSummary[Array]) -> dict[str, Number
     spent = np.maximum(square[:, None] - returned, 0.0)
     out["energy_fluctuation_J"] = energy
     out["motor_torque_rms_Nm"] = np.sqrt(spent / eta**2 + returned * eta**2) / motor.ratio
-    if motor.speed_variation is not None:
-        whole = energy / (motor.speed_variation * w * w)
-        out["flywheel_kgm2"] = whole
-        # the motor has some inertia of its own, at the input shaft
-        out["flywheel_to_add_kgm2"] = np.maximum(whole - motor.inertia_kgm2 * motor.ratio**2, 0.0)
+    out["flywheel_kgm2"] = whole = energy / (value_or(motor.speed_variation, np.nan) * w * w)
+    # the motor has some inertia of its own, at the input shaft
+    out["flywheel_to_add_kgm2"] = np.maximum(whole - motor.inertia_kgm2 * motor.ratio**2, 0.0)
     return out
 
 

@@ -71,9 +71,7 @@ def _draw(space: BaseLayout, shape: shapes.Shape) -> None:
         space.add_circle(shape.centre, shape.radius, dxfattribs={"layer": shape.layer})
         return
     # The bulge of 300 degrees: beyond it the chord determines the radius badly.
-    segments = [
-        part for one in shape.segments for part in shapes.halved(one, lambda bulge: bulge > 3.7)
-    ]
+    segments = [*shapes.halved(shape.segments, lambda bulge: bulge > 3.7)]
     if not any(isinstance(segment, shapes.Cubic) for segment in segments):
         _polyline(space, shape.layer, segments, shape.closed)
         return
@@ -99,11 +97,8 @@ def _entity(space: BaseLayout, layer: str, piece: Piece) -> None:
     if isinstance(piece, shapes.Line):
         space.add_line(piece.start, piece.end, dxfattribs=attributes)
     elif isinstance(piece, shapes.Arc):
-        x, y = piece.centre
-        start, end = (
-            math.degrees(math.atan2(q - y, p - x)) % 360.0 for p, q in (piece.start, piece.end)
-        )
-        space.add_arc((x, y), piece.radius, start, end, piece.bulge > 0.0, attributes)
+        start, end = (math.degrees(leg) % 360.0 for leg in shapes.legs(piece))
+        space.add_arc(piece.centre, piece.radius, start, end, dxfattribs=attributes)
     else:
         spline = space.add_spline(degree=3, dxfattribs=attributes)
         spline.control_points = piece.poles
@@ -171,9 +166,8 @@ def _text_of(
 ) -> Iterator[str]:
     """Yield the text of a file whose document ``fill`` fills; R12 has no unit."""
     if version not in DXF_VERSIONS:
-        raise GenevaError(
-            f"--dxf-version {cut(version)}: it must be one of {', '.join(DXF_VERSIONS)}"
-        )
+        known = ", ".join(DXF_VERSIONS)
+        raise GenevaError(f"--dxf-version {cut(version)}: it must be one of {known}")
     before = options.write_fixed_meta_data_for_testing
     options.write_fixed_meta_data_for_testing = True
     try:

@@ -3,7 +3,6 @@
 from collections.abc import Iterable, Iterator, Sequence
 
 from geneva_cli.output.document import blocks
-from geneva_cli.output.plot.plot_layout import mark_text, named
 from geneva_cli.output.text import cell
 from geneva_cli.table import Table, flat
 
@@ -62,6 +61,8 @@ def _block(block: blocks.Block) -> Iterator[str]:
         yield _list([span.text for span in look.spans] if look else [])
         yield "The drawing: `geneva profile SPEC --part assembly -o FILE.svg`\n\n"
     elif isinstance(block, blocks.Curves):
+        from geneva_cli.output.plot.plot_layout import mark_text, named
+
         peaks = tuple(
             (named(panel.y), mark_text(mark))
             for panel in block.figure.panels

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from geneva_cli.geometry.shapes import Box, Contour, Point, bounds
 from geneva_cli.geometry.sheet import Annotations, Arrow, line
-from geneva_cli.output.letters import width
+from geneva_cli.output.text import LETTER, width_of
 
 LETTERS = 5.0  # height of letters, mm of the page
 ARROW = 4.5, 0.9  # an arrow's length, and half its width, mm of the page
@@ -52,7 +52,7 @@ def notes(look: Annotations, box: Box, title: str, mm: float) -> Notes:
         lines.append(line("", (a, low), (b, low)))
         lines += [line("", end, (end[0], low - 0.4 * gap)) for end in (span.start, span.end)]
         heads += [Arrow((a, low), math.pi, size), Arrow((b, low), 0.0, size)]
-        wide = width(span.text) * text
+        wide = LETTER * width_of(span.text) * text
         # a text that does not fit between the lines from the ends stands to their right
         start = 0.5 * (a + b - wide) if wide < b - a else b + gap
         texts.append(((start, low + 0.35 * text), span.text))
@@ -66,7 +66,7 @@ def notes(look: Annotations, box: Box, title: str, mm: float) -> Notes:
     if title:
         texts.append(((left, low - 1.2 * text), title))
         low -= 1.5 * text
-    right = max(right, *(x + width(words) * text for (x, _), words in texts))
+    right = max(right, *(x + LETTER * width_of(words) * text for (x, _), words in texts))
     return Notes(tuple(lines), ruler, tuple(heads), tuple(texts), Box(left, low, right, high))
 
 

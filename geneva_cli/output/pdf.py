@@ -1,25 +1,27 @@
 """PDF 1.4 with lines, filled shapes and texts only: files, A4 pages of items, drawing sheets.
 
 The fonts are Helvetica and its bold, which every reader has. They lack letters beyond Windows'
-western ones, which would be question marks, so ``western`` in output/letters.py spells those. The
-output is plain ASCII, and equal on every run. Lengths are in millimetres, y up.
+western ones, which would be question marks, so ``western`` spells those. The output is plain ASCII,
+and equal on every run. Lengths are in millimetres, y up.
 """
 
 import math
+import re
+import unicodedata
 from collections.abc import Iterator, Sequence
-from itertools import chain
 from typing import NamedTuple
 
 from geneva_cli.errors import clean
 from geneva_cli.geometry import shapes
-from geneva_cli.geometry import sheet as letters
-from geneva_cli.geometry.sheet import CAPITALS, DASHED, WIDTHS, Sheet
-from geneva_cli.output.letters import western
+from geneva_cli.geometry.sheet import CAPITALS, DASHED, WIDTHS, Sheet, width
 from geneva_cli.table import in_decimals
 
 POINT = 72.0 / 25.4  # points per millimetre
 BEGIN = f"{POINT:.9f} 0 0 {POINT:.9f} 0 0 cm\n1 J 1 j\n"  # of a page's content
 INK = "0.1 0.12 0.14"
+PLAIN = {*range(32, 127)} - {*b"()\\"}  # codes that a text shows as they are
+SPELLED = {"≥": ">=", "≤": "<=", "−": "-", "→": "->", "√": "sqrt", "∞": "infinite"}
+FONT = "<< /Type /Font /Subtype /Type1 /BaseFont /{} /Encoding /WinAnsiEncoding >>"
 
 
 class Page(NamedTuple):
@@ -47,10 +49,7 @@ def pdf_text(title: str, pages: Sequence[Page]) -> Iterator[str]:
             f" /Resources << /Font << {known} >> >> >>",
             f"<< /Length {len(page.content)} >>\nstream\n{page.content}endstream",
         ]
-    objects += [
-        f"<< /Type /Font /Subtype /Type1 /BaseFont /{font} /Encoding /WinAnsiEncoding >>"
-        for font in fonts
-    ]
+    objects += map(FONT.format, fonts)
     objects.append(f"<< /Title <feff{clean(title).encode('utf-16-be', 'replace').hex()}> >>")
     text, table = "%PDF-1.4\n", ""
     for i, body in enumerate(objects, 1):
@@ -82,8 +81,7 @@ def outline(shape: shapes.Shape) -> str:
     shape = shapes.as_contour(shape)
     words = [f"{point(shape.segments[0].start)} m\n"]
     # The bulge of slightly more than 90 degrees: a longer arc needs more than one cubic.
-    parts = (shapes.halved(segment, lambda bulge: bulge > 0.415) for segment in shape.segments)
-    words += map(_piece, chain.from_iterable(parts))
+    words += map(_piece, shapes.halved(shape.segments, lambda bulge: bulge > 0.415))
     return "".join(words) + ("h\n" if shape.closed else "")
 
 
@@ -115,14 +113,12 @@ def _text(words: str, at: shapes.Point, size: float, turn: float, font: int = 1)
 
 def _escaped(words: str) -> str:
     codes = clean(words).encode("cp1252", "replace")
-    return "".join(
-        chr(c) if 32 <= c < 127 and chr(c) not in "()\\" else f"\\{c:03o}" for c in codes
-    )
+    return "".join(chr(c) if c in PLAIN else f"\\{c:03o}" for c in codes)
 
 
 def wide(text: str, size: float, bold: bool = False) -> float:
     """A text's width in Helvetica, as ``words`` shows it."""
-    return CAPITALS * size * letters.width(western(text), bold)
+    return CAPITALS * size * width(western(text), bold)
 
 
 def box(x: float, y: float, long: float, high: float, ink: str) -> str:
@@ -148,3 +144,32 @@ def point(p: shapes.Point) -> str:
 def number(value: float) -> str:
     """A number with at most five decimals, without a negative zero."""
     return in_decimals(value, 5)
+
+
+def western(text: str) -> str:
+    """The text in letters of Windows' western fonts; others are spelled in words or ASCII.
+
+    >>> western("d²ψ/dθ² = 3 × 10⁻³"), western("Дα")
+    ('d²psi/dtheta² = 3 × 10^-3', '[U+0414]alpha')
+    """
+
+    def power(match: re.Match[str]) -> str:
+        plain = match[0].translate(str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789"))
+        return match[0] if all(map(_is_western, match[0])) else f"^{plain}"
+
+    return "".join(map(_spelled, re.sub("[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+", power, text)))
+
+
+def _spelled(letter: str) -> str:
+    if _is_western(letter) or letter in SPELLED:
+        return SPELLED.get(letter, letter)
+    name = unicodedata.name(letter, "")
+    if name.startswith("GREEK ") and " LETTER " in name:
+        word = name.partition(" LETTER ")[2].partition(" WITH ")[0]
+        return word.capitalize() if "CAPITAL" in name else word.lower()
+    plain = "".join(filter(_is_western, unicodedata.normalize("NFKD", letter)))
+    return plain or f"[U+{ord(letter):04X}]"
+
+
+def _is_western(letter: str) -> bool:
+    return bool(letter.encode("cp1252", "ignore"))

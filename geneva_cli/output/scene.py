@@ -6,7 +6,6 @@ the scene's start.
 
 from __future__ import annotations
 
-import math
 from bisect import bisect_right
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
@@ -78,13 +77,6 @@ class Bar(NamedTuple):
     plates: tuple[CarriedShapes, ...] = ()
 
 
-def pose(bar: Bar, plate: CarriedShapes, t: float) -> tuple[float, float, float]:
-    """The position of a link's plate or block at an input angle, and its rotation in radians."""
-    places = [(value_at(x, t), value_at(y, t)) for x, y in bar.joints]
-    (x0, y0), (x1, y1) = places[0], places[plate.joint or 1]
-    return *places[plate.joint], math.atan2(y1 - y0, x1 - x0)
-
-
 class Push(NamedTuple):
     """The contact point of a roller on the wheel, and its force, N; linear between samples."""
 
@@ -120,7 +112,7 @@ class Scene(NamedTuple):
     pushes: tuple[Push, ...]
     states: tuple[Phase, ...]
     figure: Figure
-    box: Box  # of all shapes during the turn
+    box: Box = (0.0, 0.0, 0.0, 0.0)  # of all shapes during the turn
     stops: tuple[float, float] | None = None  # from the start: the machine goes back and forth
     # from the start: where the input stands still for so many seconds, in the middle of each dwell
     pauses: tuple[float, ...] = ()

@@ -68,10 +68,8 @@ def _colours(layers: Sequence[str], plates: Sequence[Ring]) -> dict[str, str]:
         for layer, ring in plates
     )
     fill = f'<g id="FILL" stroke="none" fill-rule="evenodd">\n{tints}</g>\n' if plates else ""
-    dark = [
-        f"g[id='{layer}'] {{ stroke: {mixed(INKS[layer].rgb, 0.55, '#ffffff')} }}\n"
-        for layer in layers
-    ]
+    inks = {layer: mixed(INKS[layer].rgb, 0.55, "#ffffff") for layer in layers}
+    dark = [f"g[id='{layer}'] {{ stroke: {ink} }}\n" for layer, ink in inks.items()]
     for layer in dict.fromkeys(layer for layer, _ in plates):
         dark.append(f"path[class='{layer}'] {{ fill: {tint(layer, DARK)} }}\n")
     parts = {"FILL": fill, "DARK": "".join(dark), "PAGE": LIGHT.page}
@@ -127,10 +125,8 @@ def path(contour: Contour) -> str:
         segments = segments[:-1]  # Z draws the last line; drawn here it would have no length there
     # Bulges of 150, 210 and 300 degrees. Near a half turn the radius determines the centre badly,
     # near a whole turn the chord does.
-    split = [
-        shapes.halved(one, lambda bulge: 0.7673 < bulge < 1.3032 or bulge > 3.7) for one in segments
-    ]
-    words += [_command(part) for parts in split for part in parts]
+    parts = shapes.halved(segments, lambda bulge: 0.7673 < bulge < 1.3032 or bulge > 3.7)
+    words += map(_command, parts)
     return " ".join(words) + (" Z" if contour.closed else "")
 
 

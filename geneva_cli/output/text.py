@@ -17,6 +17,7 @@ from geneva_cli.table import Table, flat, for_people, record_table
 
 WIDTH = 90  # letters of a line in a file or a pipe
 GAP = "  "  # between two columns
+LETTER = 0.62  # width of a letter of any font over its height, generous
 
 
 def chunks(table: Table) -> Iterator[str]:

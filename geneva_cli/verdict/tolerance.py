@@ -37,7 +37,6 @@ UNKNOWN = {
     "motion_play": "curved slots are computed for a path without errors",
     "entry_jump": "the law, not the path, sets how the roller enters",
 }
-ANGLES = ("worst", "rss", "mean", "std", "p997")
 
 
 def flat_locks(parts: Parts, sizes: Mapping[str, float]) -> Locks:
@@ -216,7 +215,7 @@ def tolerance_table(
     micron = None if radius_mm is None else math.radians(1.0) * radius_mm * 1e3
     for name, of in angles.items():
         for unit, scale in {"deg": 1.0, "arcsec": 3600.0, "um": micron}.items():
-            for angle in ANGLES:
+            for angle in Spread._fields[:-1]:  # but for the parts
                 value = getattr(of, angle) * scale if of and scale is not None else None
                 values[f"{name}.{angle}_{unit}"] = value
     values |= {"motion_play.at_deg": at_deg, "contributions": _contributions(angles, given)}

@@ -23,6 +23,7 @@ from geneva_cli.drawings.catalogue import PARTS
 from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.loads import cycle_figures, load_tables
 from geneva_cli.loads.sizing import WHEEL_INERTIA
+from geneva_cli.loads.tolerance.random_machines import Spread
 from geneva_cli.loads.vibration import vibration
 from geneva_cli.manual import TOPICS
 from geneva_cli.manual.explained import Entry, entries
@@ -41,7 +42,6 @@ from geneva_cli.study.verdicts import checks_table
 from geneva_cli.verdict.checks import BEFORE_TURN, TURNING, checks
 from geneva_cli.verdict.checks import PROOFS as PROVED
 from geneva_cli.verdict.quantities import groups
-from geneva_cli.verdict.tolerance import ANGLES
 
 WORDLESS = {"word", "yes or no", "list", "table", "text", "number"}  # not worked out by a formula
 PACKAGE = repo.ROOT / "geneva_cli"
@@ -136,7 +136,7 @@ def tolerance_names() -> set[str]:
         rows = value if isinstance(value, list) else [value]
         out |= {f"{group}.{name}" for row in rows if isinstance(row, dict) for name in row}
         out |= {group} if not isinstance(value, dict) else set()
-    assert {f"motion_play.{angle}_um" for angle in ANGLES} <= out
+    assert {f"motion_play.{angle}_um" for angle in Spread._fields[:-1]} <= out
     return out - {"spec", "title", "warnings"}
 
 

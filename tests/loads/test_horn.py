@@ -12,7 +12,7 @@ from plane_stress import horn as in_plane_stress
 from words import Spec, Wheel
 
 from geneva_cli import load as read
-from geneva_cli.loads.strength.horn import greatest_stress, horns
+from geneva_cli.loads.strength.horn import HornStress, greatest_stress, horns
 from geneva_cli.motion.mechanism import build
 from geneva_cli.parts.machine_sizes import sized
 from geneva_cli.spec.tables import Load, Size
@@ -21,8 +21,9 @@ LOAD = Load(torque_Nm=10.0)
 
 
 def greatest(mechanism, half_width, recess, width):
-    one = greatest_stress(horns, mechanism, (half_width, recess)).single
-    return one and one._replace(stress_MPa=one.stress_MPa / width)
+    rows = greatest_stress(horns, mechanism, (half_width, recess))
+    one = HornStress(*(row.item() for row in rows))
+    return None if math.isnan(one.stress_MPa) else one._replace(stress_MPa=one.stress_MPa / width)
 
 
 def machine(z, L, r, **load):

@@ -20,7 +20,7 @@ from geneva_cli import (
     Tolerance,
 )
 from geneva_cli.loads.impacts.entry import entry_impacts
-from geneva_cli.loads.impacts.reversal import changes, drag_over, impacts_of, lasting_drag_Nm
+from geneva_cli.loads.impacts.reversal import changes, impacts_of, lasting_drag_Nm
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.parts.machine_sizes import built
 from geneva_cli.spec.tables import WheelMaterial
@@ -200,8 +200,9 @@ def test_a_drag_ends_the_change_of_sides():
     near(drag, mp.mpf("0.4") * w**2 * mp.mpf(heavy.peaks.acceleration.max) - 1, 1e-13)
     for more, count in ((-1e-6, 2), (1e-6, 0)):
         load = Load(inertia_kgm2=0.4, torque_Nm=1.0 + drag + more)
-        over = drag_over(load_case(Design(External(6), load=load).mechanism))
-        assert len(changes(of(External(6)), np.array([[over]]))[1]) == count
+        case = load_case(Design(External(6), load=load).mechanism)
+        over = np.array([[case.resists_Nm / case.inertia_Nm]])
+        assert len(changes(of(External(6)), over)[1]) == count
 
 
 # bending moments over the force, from the plate, a away from the roller's middle: by statics, and

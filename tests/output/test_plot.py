@@ -14,8 +14,9 @@ from matplotlib.image import imread
 from geneva_cli import load
 from geneva_cli.errors import GenevaError
 from geneva_cli.figure import JOINED, POINTS, Axis, Curve, Figure, Mark, Panel
-from geneva_cli.output import letters, show_figure
+from geneva_cli.output import show_figure
 from geneva_cli.output.plot import plot_svg
+from geneva_cli.output.text import LETTER, width_of
 
 DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
 SVG = "{http://www.w3.org/2000/svg}"
@@ -136,7 +137,7 @@ def boxes(text):
     out = []
     for one in root.iter(f"{SVG}text"):
         size = float(one.get("font-size", root.get("font-size")))
-        wide = letters.width(one.text) * size
+        wide = LETTER * width_of(one.text) * size
         share = {"end": 1.0, "middle": 0.5}.get(one.get("text-anchor"), 0.0)
         left, base = float(one.get("x")) - share * wide, float(one.get("y"))
         out.append((left, base - 0.75 * size, left + wide, base + 0.22 * size, one.text))

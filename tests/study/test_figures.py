@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import repo
 
-from geneva_cli import Cycloidal, Design, External, Harmonic, Load, Motion, load
+from geneva_cli import Cycloidal, Design, External, Harmonic, Load, Motion, Size, load
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.cycle_figures import MACHINES_MAX, USUAL_QUANTITIES, figure
 
@@ -87,6 +87,10 @@ def test_a_load_without_a_bound_leaves_the_panel():
     # no line runs along the edge
     runs = [p for _, y in curve.pieces for p in itertools.pairwise(y)]
     assert not [pair for pair in runs if pair == (high, high)]
+    # but a stress is seen to be 0 in the dwell
+    wide = Design(External(6), motion=design.spec.motion, load=LOADED, size=Size(face_width_mm=20))
+    (panel,) = wide.figure(["contact_stress_MPa"]).panels
+    assert panel.bounds and any(piece[1] == [0.0, 0.0] for piece in panel.curves[0].pieces)
 
 
 def test_what_cannot_be_shown():

@@ -46,9 +46,8 @@ def draw_disc(view: View, parts: FlatParts) -> View:
             reliefs.setdefault((sized.plain(arc.radius, "R "), far), []).append(arc)
     # between locking arcs that do not adjoin: first, as their legs have no other place
     ends = sorted(map(legs, locking))
-    gaps = (
-        (end, end + (start - end) % math.tau) for (_, end), (start, _) in pairwise(ends + ends[:1])
-    )
+    after = pairwise(ends + ends[:1])
+    gaps = ((end, end + (start - end) % math.tau) for (_, end), (start, _) in after)
     view.angles(gaps, sizes.lock, most=math.tau - SAME_ON_SHEET)
     view.diameter(locking, view.fits.made("lock", sizes.lock))
     for (radius, far), some in reliefs.items():

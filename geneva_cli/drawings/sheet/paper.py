@@ -25,9 +25,7 @@ APART = (40.0, 27.0, 18.0, 12.0, 8.0)  # mm between blocks, the widest that the 
 # width and height of trimmed sheets, mm; A4 is upright
 FORMATS = {"A4": (210.0, 297.0), "A3": (420.0, 297.0), "A2": (594.0, 420.0), "A1": (841.0, 594.0)}
 # ISO 5455, with its powers of ten
-SCALES = [1.0 * n * 10**k for k in (4, 3, 2, 1, 0) for n in (5, 2, 1)] + [
-    1 / (n * 10**k) for k in (0, 1, 2, 3, 4) for n in (1, 2, 5) if (n, k) != (1, 0)
-]
+SCALES = [float(f"{n}e{k}") for k in range(4, -6, -1) for n in (5, 2, 1)]
 
 
 def scale_name(scale: float) -> str:

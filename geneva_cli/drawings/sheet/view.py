@@ -5,7 +5,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from heapq import merge
 from itertools import pairwise, product
-from typing import TypeVar
+from typing import TypeAlias, TypeVar
 
 import numpy as np
 
@@ -24,6 +24,7 @@ RANKS = 14  # rows of dimension lines that are tried
 OVER = 3.0  # mm: length of a centre line beyond its part
 
 T = TypeVar("T")
+Pairs: TypeAlias = Iterable[tuple[float, float]]  # of directions, radians
 
 
 class View:
@@ -76,34 +77,24 @@ class View:
         """Draw the distance of a point from the origin, inside the part's outline."""
         self.linear((0.0, 0.0), p, math.atan2(p[1], p[0]), text, near=True)
 
-    def places(
-        self, centres: Iterable[Point], base: Point, notes: tuple[str, str] = ("", "")
-    ) -> None:
+    def places(self, centres: Iterable[Point], base: Point, where: str = "") -> None:
         """Draw the distances of points from a base across and up, each once; nearest ones first."""
         points = list(centres)
-        for k, turn in ((0, 0.0), (1, 0.5 * math.pi)):
+        for k, turn, way in ((0, 0.0, "across, "), (1, 0.5 * math.pi, "up, ")):
             texts = {length(0.0)}
             for p in sorted(points, key=lambda p: abs(p[k] - base[k])):
                 text = length(abs(p[k] - base[k]))
                 if text not in texts:
                     texts.add(text)
-                    self.linear(base, p, turn, text, notes[k])
+                    self.linear(base, p, turn, text, where and way + where)
 
-    def angles(
-        self,
-        pairs: Iterable[tuple[float, float]],
-        reach: float,
-        off: str = "",
-        most: float = math.tau,
-    ) -> None:
+    def angles(self, pairs: Pairs, reach: float, off: str = "", most: float = math.tau) -> None:
         """Draw the angles, above 0 and below ``most``, between the directions of pairs."""
         shown = ((degrees(b - a) + off, (a, b)) for a, b in pairs if SAME_ON_SHEET < b - a < most)
         for text, some in grouped(shown):
             self.angular(some, reach, reach, text)
 
-    def angular(
-        self, pairs: Iterable[tuple[float, float]], begin: float, radius: float, text: str
-    ) -> None:
+    def angular(self, pairs: Pairs, begin: float, radius: float, text: str) -> None:
         """Draw an angle about the origin, between one of some pairs of legs, counterclockwise."""
         reach = self.scale * radius
         radii = [reach + FIRST + k * NEXT for k in range(RANKS)]

@@ -138,10 +138,7 @@ def _steps(view: View, parts: Outlines, angles: list[float], reach: float) -> No
 
 
 def draw_frame(
-    view: View,
-    plate: Plate,
-    screws: Mapping[shapes.Circle, str],
-    axis_name: str = "the wheel's axis",
+    view: View, plate: Plate, screws: Mapping[shapes.Circle, str], axis: str = "the wheel's axis"
 ) -> View:
     """Draw the frame: its size, and diameter and position of each hole from the axis."""
     view.draw(OUTLINE, plate.outline, *plate.holes)
@@ -151,21 +148,18 @@ def draw_frame(
         view.cross(centre, radius)
     box = shapes.bounds(plate.outline)
     up = 0.5 * math.pi
-    where = f"from {axis_name} to a hole"
-    view.places(
-        (hole.centre for hole in holes), shapes.ORIGIN, (f"across, {where}", f"up, {where}")
-    )
+    view.places((hole.centre for hole in holes), shapes.ORIGIN, f"from {axis} to a hole")
     low, high = box[:2], box[2:]
     if holes:
-        view.linear(low, shapes.ORIGIN, 0.0, "", f"from the left edge to {axis_name}")
-        view.linear(low, shapes.ORIGIN, up, "", f"from the lower edge to {axis_name}")
+        view.linear(low, shapes.ORIGIN, 0.0, "", f"from the left edge to {axis}")
+        view.linear(low, shapes.ORIGIN, up, "", f"from the lower edge to {axis}")
     view.linear(low, (high[0], low[1]), 0.0, "", "wide")
     view.linear(low, (low[0], high[1]), up, "", "high")
     texts_of = {hole: view.fits.bore(hole.radius) for hole in holes}
     texts_of |= screws
     for text, some in grouped((texts_of[hole], hole) for hole in holes):
         places = ", ".join(f"({length(x)}, {length(y)})" for _, (x, y), _ in some)
-        view.diameter(some, text, f"at {places} from {axis_name}")
+        view.diameter(some, text, f"at {places} from {axis}")
     assert isinstance(plate.outline, shapes.Contour)
     view.radii(plate.outline.segments)
     return view

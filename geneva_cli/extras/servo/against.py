@@ -49,20 +49,19 @@ WORDS = {
     "another_step_or_time": ("a new wheel", "a new cam", "a parameter"),
 }
 LAWS: dict[str, Law] = {"cam": ModifiedSine(), "servo": SCurve()}
-NAMES = tuple(LAWS)
 
 
 def against(path: str, settings: Sequence[str], names: Sequence[str]) -> Table:
     """A column for the design and each alternative, a row for each quantity."""
     for name in names:
-        if name not in NAMES:
-            raise GenevaError(f"--against {cut(name)}: it must be one of {', '.join(NAMES)}")
+        if name not in LAWS:
+            raise GenevaError(f"--against {cut(name)}: it must be one of {', '.join(LAWS)}")
     design = load(path, settings)
     columns = {name: _values(design, name) for name in dict.fromkeys(("geneva", *names))}
     rows: list[tuple[Cell, ...]] = [(row, *(own[row] for own in columns.values())) for row in ROWS]
     for row, (own_words, *words) in WORDS.items():
         cells = {"geneva": own_words or design.spec.dwell_holder or "nothing"}
-        cells |= zip(NAMES, words, strict=True)
+        cells |= zip(LAWS, words, strict=True)
         rows.append((row, *(cells[name] for name in columns)))
     known = [row for row in rows if any(cell is not None for cell in row[1:])]
     return rows_table(("quantity", *columns), known, design.spec.title, mixed=True)
@@ -107,7 +106,7 @@ def alternative(design: Design, name: str, rotor: bool = False) -> Mechanism:
 
 
 def _values(design: Design, name: str) -> dict[str, Cell]:
-    machine = alternative(design, name) if name in NAMES else design.mechanism
+    machine = alternative(design, name) if name in LAWS else design.mechanism
     values = dict(zip(ROWS, pick([*ROWS.values()]).of(machine), strict=True))
     if name != "servo":
         return values

@@ -27,6 +27,8 @@ INSIDE = (np.arange(33) + 0.5) / 33.0  # places in a piece, its middle among the
 # The greatest error over that at these places. An error of degree six with three zeros at each end
 # is 0.3 % more at most, one that also changes its sign in the middle 0.8 %.
 BETWEEN = 1.01
+RAMP_DEG = 0.01  # length of the ramp that takes a jump's place
+UNKNOWN = np.full(3, np.nan)  # state before the first stretch
 LEAST_DEG = 1e-3  # shorter pieces are not halved: a servo's cycle is longer
 
 
@@ -106,11 +108,8 @@ def _pieces(mechanism: Mechanism, count: int, tolerance_deg: float) -> Table:
 
     Source: Hermite interpolation; value, velocity and acceleration are the true ones at both ends.
     """
-    rows, again = list[Array](), np.arange(count)[:, None]
-    for stretch in stretches(mechanism):
-        nodes, states, errors = _halved(stretch, tolerance_deg)
-        rows.append(np.vstack([nodes[:-1], _quintic(np.diff(nodes), *states), errors]))
-    begins, constants, *others = np.hstack(rows)
+    rows = [_halved(stretch, tolerance_deg)[0] for stretch in stretches(mechanism)]
+    (begins, constants, *others), again = np.hstack(rows), np.arange(count)[:, None]
     begin = (again * mechanism.period_deg + begins).ravel()
     end = np.append(begin[1:], count * mechanism.period_deg)
     constant = (again * _step_deg(mechanism) + constants).ravel()
@@ -122,30 +121,20 @@ def _points(mechanism: Mechanism, count: int, tolerance_deg: float) -> tuple[Arr
     """Points between which polynomials of degree five are drawn, (4, k), and their greatest error.
 
     Rows are master and slave in degrees, velocity, and acceleration a degree. A point has one
-    velocity and one acceleration: a jump becomes a ramp over 0.01 degrees after it.
+    velocity and one acceleration: a jump becomes a ramp after it.
     """
-    own = [(stretch, *_halved(stretch, tolerance_deg)) for stretch in stretches(mechanism)]
-    error_deg = max(float(errors.max()) for *_, errors in own)
     step = np.array([[mechanism.period_deg], [_step_deg(mechanism)], [0.0], [0.0]])
-    points: list[Array] = []
-    before: Array | None = None
-    for k in range(count):
-        for stretch, nodes, (begin, end), _ in own:
-            here = np.vstack([nodes[:-1], begin])
-            # a period after another may begin with a jump
-            if before is not None and np.abs(begin[1:, 0] - before[1:]).max() > 1e-9:
-                places = np.insert(nodes[:2], 1, nodes[0] + min(0.01, 0.25 * (nodes[1] - nodes[0])))
-                after = stretch.states(places[1:2], 1)
-                ramp = np.append(begin[0, 0], before[1:])[:, None]
-                both = np.vstack([places[:2], np.hstack([ramp, after])])
-                here = np.hstack([both, here[:, 1:]])
-                powers = _quintic(np.diff(places), both[1:], np.hstack([after, end[:, :1]]))
-                error_deg = max(error_deg, float(_errors(stretch, places, powers).max()))
-            points.append(here + k * step)
-            before = end[:, -1]
-    assert before is not None  # a period has a motion
-    last = np.append(mechanism.period_deg, before)[:, None] + (count - 1) * step
-    return np.concatenate([*points, last], axis=1), error_deg
+    each, end, error_deg = list[Array](), UNKNOWN, 0.0
+    for _ in range(min(count, 2)):  # a period after another may begin with a jump
+        rows = list[Array]()
+        for stretch in stretches(mechanism):
+            pieces, end = _halved(stretch, tolerance_deg, end)
+            rows.append(pieces)
+        begin, angle, velocity, half, *_, errors = np.hstack(rows)
+        each.append(np.stack([begin, angle, velocity, 2.0 * half]))
+        error_deg = max(error_deg, float(errors.max()))
+    last = np.append(mechanism.period_deg, end)[:, None] + (count - 1) * step
+    return np.hstack([*(each[min(k, 1)] + k * step for k in range(count)), last]), error_deg
 
 
 def _step_deg(mechanism: Mechanism) -> float:
@@ -153,28 +142,30 @@ def _step_deg(mechanism: Mechanism) -> float:
     return math.degrees(sum(2.0 * one.half_step for one in mechanism.engagements))
 
 
-def _halved(stretch: Stretch, tolerance_deg: float) -> tuple[Array, tuple[Array, Array], Array]:
-    """Nodes of a stretch, the states (3, k) after and before each piece's ends, and its errors."""
+def _halved(stretch: Stretch, tolerance_deg: float, end: Array = UNKNOWN) -> tuple[Array, Array]:
+    """The pieces of a stretch, (8, k), and the state (3,) at its end.
+
+    Rows: begin, the powers of the polynomial, and its greatest error. ``end`` is the state before
+    the stretch: a jump from there becomes a ramp.
+    """
     nodes = np.array([stretch.begin_deg, stretch.end_deg])
+    jumps = np.abs(stretch.states(nodes[:1], 1)[1:, 0] - end[1:]).max() > 1e-9
+    if jumps:
+        nodes = np.insert(nodes, 1, nodes[0] + min(RAMP_DEG, 0.25 * (nodes[1] - nodes[0])))
     while True:
-        after = stretch.states(nodes[:-1], 1)
-        before = stretch.states(nodes[1:], -1)
+        after, before = stretch.states(nodes[:-1], 1), stretch.states(nodes[1:], -1)
         width = np.diff(nodes)
-        error = _errors(stretch, nodes, _quintic(width, after, before))
-        wide = (error > tolerance_deg) & (width > LEAST_DEG)
+        wide = width > LEAST_DEG
+        if jumps:
+            after[1:, 0], wide[0] = end[1:], False
+        powers, t = _quintic(width, after, before), width[:, None] * INSIDE
+        true = stretch.slave_deg((nodes[:-1, None] + t).ravel()).reshape(t.shape)
+        value = polyval(t, powers[:, :, None], tensor=False)
+        error = BETWEEN * abs(value - true).max(axis=1)
+        wide &= error > tolerance_deg
         if not wide.any():
-            return nodes, (after, before), error
+            return np.vstack([nodes[:-1], powers, error]), before[:, -1]
         nodes = np.sort(np.append(nodes, nodes[:-1][wide] + 0.5 * width[wide]))
-
-
-def _errors(stretch: Stretch, nodes: Array, powers: Array) -> Array:
-    """The greatest error of each piece, from the powers (6, k) of its polynomial."""
-    t = np.diff(nodes)[:, None] * INSIDE
-    places = (nodes[:-1, None] + t).ravel()
-    true = stretch.slave_deg(places).reshape(t.shape)
-    value = polyval(t, powers[:, :, None], tensor=False)
-    out: Array = BETWEEN * abs(value - true).max(axis=1)
-    return out
 
 
 def _quintic(width: Array, after: Array, before: Array) -> Array:

@@ -1,6 +1,7 @@
 """Checks of a rack, its horns, guide, shafts and gears, and the guide's quantities."""
 
 from collections.abc import Collection, Iterator
+from contextlib import suppress
 from functools import partial
 
 import numpy as np
@@ -8,11 +9,10 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.plates import plates
-from geneva_cli.geometry.shapes import as_contour, bounds
+from geneva_cli.geometry.shapes import as_contour
 from geneva_cli.kinds.linear.guide import RackGuide, guide_place
 from geneva_cli.kinds.linear.motion import guided
 from geneva_cli.kinds.linear.parts import RackParts
-from geneva_cli.kinds.linear.rack import rack_sizes
 from geneva_cli.loads.contact import QuantityValue
 from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.load_peaks import load_peaks
@@ -30,13 +30,10 @@ from geneva_cli.verdict.strength import strength
 def rack_horn(names: Collection[str], parts: RackParts) -> Iterator[Check]:
     """The wall between slot and recess of a rack that is locked."""
     mechanism = parts.mechanism
-    try:
-        sizes = rack_sizes(mechanism)
-    except GenevaError:
-        return  # the check of the parts reports the error
-    if sizes.lock:
-        least = wall_min(mechanism.spec.size, mechanism.center_distance_mm)
-        yield compared("rack_horn_mm", sizes.horn, "at least", least)
+    with suppress(GenevaError):  # the check of the parts reports the error
+        sizes, least = parts.sizes, wall_min(mechanism.spec.size, mechanism.center_distance_mm)
+        if sizes.lock:
+            yield compared("rack_horn_mm", sizes.horn, "at least", least)
 
 
 def standing(names: Collection[str], parts: RackParts) -> Iterator[Check]:
@@ -57,11 +54,9 @@ def standing(names: Collection[str], parts: RackParts) -> Iterator[Check]:
 
 def _shaft_gaps(parts: RackParts) -> Iterator[float]:
     """The gaps between shafts and a rack, of a crank's shaft that ends above the arm."""
-    (rack,) = plates(parts.wheel.part)
-    edge = bounds(rack.outline).x1
     for shaft in rings_of(parts.shafts):
-        if shaft.high - rack.low > SAME_LENGTH * parts.mechanism.center_distance_mm:
-            yield shaft.axis[0] - shaft.outer - edge
+        if shaft.high > SAME_LENGTH * parts.mechanism.center_distance_mm:
+            yield shaft.axis[0] - shaft.outer - parts.sizes.rim
 
 
 def _gear_gaps(parts: RackParts) -> Iterator[float]:

@@ -6,6 +6,7 @@ way round, opposite the roller. The recesses have the radius rho, and are R from
 """
 
 import math
+from itertools import pairwise, starmap
 from operator import itemgetter
 from typing import NamedTuple
 
@@ -18,7 +19,6 @@ from geneva_cli.parts import sizes as rules
 from geneva_cli.parts.machine_sizes import lock_between
 from geneva_cli.parts.shafts.arm_and_shafts import CrankArm
 from geneva_cli.parts.shafts.bores import bolt_radius, bore_of, tapped
-from geneva_cli.parts.sizes import KeySizes
 from geneva_cli.spec.defaults import wall_min
 from geneva_cli.spec.tables import Size, Thicknesses
 
@@ -65,8 +65,7 @@ def rack_sizes(mechanism: Mechanism) -> RackSizes:
     text = f"the locking sector does not fit: roller and clearances limit it to {limit:.4g} mm "
     text += f"and it must reach {least:.4g}; use a smaller roller, or lock_radius_mm = 0"
     refuse_size(lock != 0.0 and limit <= least, "lock_radius_mm", text)
-    if lock != 0.0:
-        lock = lock_between(lock, least, limit, r)
+    lock = lock_between(lock, least, limit, r)
     recess = lock + allowed.lock_clearance_mm if lock else 0.0
     floor = arm - recess + relief if lock else 0.0
     edge, pin = value_or(size.wheel_radius_mm, arm), rules.pin_radius(size, r)
@@ -80,7 +79,7 @@ def rack_sizes(mechanism: Mechanism) -> RackSizes:
     return RackSizes(*widths, guide, pin, bore, rules.drawn_thicknesses(size, arm))
 
 
-def key_sizes(mechanism: Mechanism) -> KeySizes:
+def key_sizes(mechanism: Mechanism) -> rules.KeySizes:
     """Return the sizes of a rack and its crank by the keys of the spec, without its load."""
     try:
         sizes = rack_sizes(mechanism)
@@ -112,9 +111,8 @@ def rack_contour(sizes: RackSizes, count: int) -> Contour:
     for _, cut in sorted(cuts, key=itemgetter(0)):
         edge += [Line(at, cut[0].start), *cut]
         at = cut[-1].end
-    for corner in ((sizes.rim, high), (back, high), (back, low), (sizes.rim, low)):
-        edge.append(Line(at, corner))
-        at = corner
+    corners = at, (sizes.rim, high), (back, high), (back, low), edge[0].start
+    edge += starmap(Line, pairwise(corners))
     return closed("WHEEL", edge)
 
 

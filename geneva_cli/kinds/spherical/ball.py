@@ -8,12 +8,12 @@ are distances from their axes. Below the wheel on a plane is outside the wheel h
 import math
 from typing import NamedTuple
 
-from geneva_cli.drives.transmission import places
 from geneva_cli.errors import GenevaError, refuse_size
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import value_or
 from geneva_cli.parts import sizes
+from geneva_cli.parts.assembly import assembly
 from geneva_cli.parts.machine_sizes import lock_between
 from geneva_cli.parts.shafts.bores import reach_or_bore
 from geneva_cli.spec.defaults import wall_min
@@ -50,7 +50,6 @@ class Ball(NamedTuple):
     mouth: float  # polar angle where a roller enters
     rim: float  # polar angle of the wheel's edge
     lock: float  # polar angle of the locking sectors' edge, 0 for none
-    lock_mm: float  # distance of that edge from the crank's axis
     recess: float  # polar angle of the recess in the wheel, 0 for none
     span_mm: tuple[float, float]  # radii of the inner and outer face of wheel and rollers
     lock_span_mm: tuple[float, float]  # of the locking sectors
@@ -149,17 +148,15 @@ class Ball(NamedTuple):
 
 def usual_ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
     """Return the sizes without a load, for a thickness of the wheel, or else its default."""
-    spec, L, radius_mm = mechanism.spec, mechanism.center_distance_mm, mechanism.roller_radius_mm
+    spec, L, r = mechanism.spec, mechanism.center_distance_mm, mechanism.roller_radius_mm
     size, z, allowed = spec.size, spec.wheel.z, spec.size.allowances
     _refuse_undrawn(spec)
-    first, *others = places(spec.wheel, spec.drive, spec.given_distance_mm)
-    arm = math.atan2(first.ratio, first.cone)
-    engagement = mechanism.engagements[0]
+    where, axes = assembly(mechanism, flat=False), math.radians(spec.wheel.own_sizes["axes_deg"])
+    engagement = where.motions[0].engagement
     mouth, deepest = (float(engagement.slot(x, 0)[0].c[0]) for x in (engagement.entry_deg, 0.0))
-    roller = radius_mm / L
-    w = roller + allowed.slot_clearance_mm / L
-    bottom_mm = max(allowed.slot_clearance_mm, radius_mm / 20.0)
-    bottom_mm = value_or(size.slot_bottom_clearance_mm, bottom_mm)
+    roller = r / L
+    arm, w = axes - deepest, roller + allowed.slot_clearance_mm / L
+    bottom_mm = value_or(size.slot_bottom_clearance_mm, max(allowed.slot_clearance_mm, r / 20.0))
     bottom = deepest - bottom_mm / L
     # the roller touches the wall that faces the crank's axis at the foot of the perpendicular
     rim = math.acos(math.cos(mouth) * math.cos(w))
@@ -173,21 +170,18 @@ def usual_ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
     why = "the part would reach inwards to the sphere's centre"
     refuse_above("wheel_thickness_mm", thick.wheel, L, why)
     refuse_above("lock_thickness_mm", thick.lock, under, why)
-    pin = sizes.pin_radius(size, radius_mm)
+    pin = sizes.pin_radius(size, r)
     thin = min(thick.wheel, thick.lock, thick.arm)
     sizes.refuse_pin_and_edges(size, pin, inside * math.sin(roller), thin)
     # the locking sectors' edge is between the wheel's rim and the rollers
-    limit, least = arm - w - allowed.lock_clearance_mm / L, abs(deepest + arm - rim)
-    lock_mm = _lock_mm(spec, L, least, limit, roller) if spec.has_lock else 0.0
-    lock = math.asin(lock_mm / L)
-    even = [360.0 * i / spec.drive.rollers for i in range(spec.drive.rollers)]
-    turns = [first.crank_deg, *(p.crank_deg for p in others)] if others else even
-    bored = 0.0
-    if spec.drive.crank and pin:
-        bored = sizes.arm_bore(spec, 0.0, L, L * arm - sizes.hole_radius(size, pin))
-    crank = deepest + arm, arm, math.radians(first.half_motion_deg), tuple(map(math.radians, turns))
+    limit, least = arm - w - allowed.lock_clearance_mm / L, abs(axes - rim)
+    lock = _lock(spec, L, least, limit, roller) if spec.has_lock else 0.0
+    space = L * arm - sizes.hole_radius(size, pin)
+    bored = sizes.arm_bore(spec, 0.0, L, space) if spec.drive.crank and pin else 0.0
+    rollers = tuple(math.radians(one.mid) for one in where.rollers)
+    crank = axes, arm, math.radians(engagement.exit_deg), rollers
     slots = roller, w, bottom, bottom_mm, mouth, rim
-    locks = lock, lock_mm, lock + allowed.lock_clearance_mm / L if lock else 0.0
+    locks = lock, lock + allowed.lock_clearance_mm / L if lock else 0.0
     spans = (inside, outside), (under - thick.lock, under), (under, under + thick.arm)
     end = inside * math.sin(min(bottom - w, 0.5 * math.pi))  # of the slots, from the axis
     bore = sizes.wheel_bore(spec, end, wall_min(size, L), L)
@@ -217,16 +211,16 @@ def _refuse_undrawn(spec: Spec) -> None:
         refuse_size(vars(spec.size)[key], key, text)
 
 
-def _lock_mm(spec: Spec, L: float, least: float, limit: float, roller: float) -> float:
-    """Return the distance of the locking sectors' edge from the crank's axis; angles bound it."""
+def _lock(spec: Spec, L: float, least: float, limit: float, roller: float) -> float:
+    """Return the polar angle of the locking sectors' edge, between two others."""
     low, high = (L * math.sin(max(0.0, x)) for x in (least, limit))
     text = f"the locking sector does not fit: lock_radius_mm must be above {low:.4g} to reach "
     text += f"the rim, but the roller limits it to {high:.4g}; 0 omits it"
     refuse_size(limit <= least, "lock_radius_mm", text)
     own = spec.size.lock_radius_mm
     if own is None:
-        return L * math.sin(lock_between(None, least, limit, roller))
-    return lock_between(own, low, high, 0.0)
+        return lock_between(None, least, limit, roller)
+    return math.asin(lock_between(own, low, high, 0.0) / L)
 
 
 def hub_about(size: Size, L: float, bore: float, end: float) -> float:

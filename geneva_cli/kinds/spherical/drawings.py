@@ -21,7 +21,6 @@ from geneva_cli.geometry.plates import Group, Member, Part, Plate
 from geneva_cli.geometry.sheet import Annotations, Drawing
 from geneva_cli.geometry.sphere import Cap, Region, SphereArc, place
 from geneva_cli.geometry.sphere_arcs import azimuth, polar
-from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.kinds.spherical.parts import SphereParts
 from geneva_cli.kinds.spherical.regions import edge, locked
 from geneva_cli.motion.pivots import Dimension
@@ -107,13 +106,8 @@ class Cone(NamedTuple):
 def cone_of(parts: SphereParts, name: str) -> Cone:
     """Return the cone that touches the sphere in the middle of the slots, or at the rollers."""
     ball = parts.ball
-    polar = {"wheel": 0.5 * (ball.bottom + _wall_mouth(ball)), "crank": ball.arm}[name]
+    polar = {"wheel": 0.5 * (ball.bottom + ball.mouth), "crank": ball.arm}[name]
     return Cone(ball.radius_mm, polar, parts.tolerance or 0.0, parts.curves)
-
-
-def _wall_mouth(ball: Ball) -> float:
-    """Return the polar angle at which a slot's middle leaves the rim."""
-    return math.acos(math.cos(ball.rim) / math.cos(ball.half_width))
 
 
 def wheel(parts: SphereParts) -> Drawing:
@@ -159,7 +153,7 @@ def _drawing(parts: SphereParts, title: str, drawn: list[shapes.Shape], shells: 
 def wheel_flat(parts: SphereParts) -> list[shapes.Shape]:
     """Return the wheel's outline on its flat cone, and the rollers' paths."""
     ball, cone = parts.ball, cone_of(parts, "wheel")
-    b, ends = ball.half_step, (_wall_mouth(ball), ball.bottom)
+    b, ends = ball.half_step, (ball.mouth, ball.bottom)
     outer, pitch = list[shapes.Segment](), list[shapes.Shape]()
     for k in range(ball.z):
         at = 2 * k * b
@@ -169,8 +163,7 @@ def wheel_flat(parts: SphereParts) -> list[shapes.Shape]:
         pitch.append(shapes.Contour("PITCH", (path,), closed=False))
     inner = cone.points(ball.inner, b * (2.0 * np.arange(ball.z, -1.0, -1.0) - 1.0))
     back = [cone.level(p, q, -2.0 * b) for p, q in zip(inner, inner[1:], strict=False)]
-    first, last = outer[0].start, outer[-1].end
-    outer += [shapes.Line(last, inner[0]), *back, shapes.Line(inner[-1], first)]
+    outer += [shapes.Line(outer[-1].end, inner[0]), *back, shapes.Line(inner[-1], outer[0].start)]
     return [shapes.closed("WHEEL", outer), *pitch]
 
 

@@ -138,14 +138,11 @@ class SpherePairs(FlatPairs):
 
         Outside, the gap is that in the middle, less the roller's travel in the wheel's frame.
         """
-        ball, gaps, pose, pins = self.ball, self.gaps, on.at_middle, on.at_middle.pins[:, number]
-        L, centre, gap = ball.radius_mm, turned_points(pins, -pose.wheel), gaps.rollers(pose)
-        gap = gap[:, number]
+        ball, L, pose = self.ball, self.ball.radius_mm, on.at_middle
+        gap, away = self.gaps.rollers(pose)[:, number], polar(pose.pins[:, number])
         if span:
             # it runs along the slot's middle, from which both walls are equally far up to the mouth
             return gap, np.full(len(gap), L * (ball.half_width - ball.roller))
-        away = polar(centre)
         # the wheel is within its rim's circle
         gap = np.maximum(gap, L * (away - ball.rim - ball.roller))
-        least = gap - L * (math.sin(ball.arm) * on.crank + np.sin(away) * on.wheel)
-        return gap, least
+        return gap, gap - L * (math.sin(ball.arm) * on.crank + np.sin(away) * on.wheel)

@@ -16,6 +16,7 @@ corners and sides together is an upper bound. The body is rigid, and notches are
 
 from __future__ import annotations
 
+from itertools import chain
 from typing import NamedTuple
 
 import numpy as np
@@ -45,15 +46,14 @@ class SphereHorn(NamedTuple):
 
     def points(self, input_deg: Number) -> Points:
         """Places of the roller, or sections, at input angles (m, k); infinitely thick elsewhere."""
-        t, L, w = self.polar(input_deg), self.radius_mm, self.half_width
+        slot, L, w = self.at.engagement.slot, self.radius_mm, self.half_width
+        ends = np.atleast_2d(input_deg), self.at.mouth_deg
+        t, mouth = (np.atleast_2d(slot(at, 0)[0].c[0]) for at in ends)  # polar angles
         t, thick = np.broadcast_arrays(t, self.thickness(t))  # designs may share their angles
-        inwards = L * np.cos(w) * (self.polar(self.at.mouth_deg) - t)
+        inwards = L * np.cos(w) * (mouth - t)
         with np.errstate(invalid="ignore"):
-            edge, middle = _axes(t, w), _axes(t, w + 0.5 * thick / L)
-        rows = [inwards, thick, L, self.width_mm]
-        for axes in (*edge, *middle):
-            rows += [*axes]
-        return np.stack(np.broadcast_arrays(*rows))
+            axes = *_axes(t, w), *_axes(t, w + 0.5 * thick / L)  # of the wall, and of the middle
+        return np.stack(np.broadcast_arrays(inwards, thick, L, self.width_mm, *chain(*axes)))
 
     @staticmethod
     def unit_stress(roller: Points, sections: Points) -> Array:
@@ -84,13 +84,6 @@ class SphereHorn(NamedTuple):
         azimuth = np.arctan2(np.sin(foot), np.cos(foot) * np.sin(t))
         own = azimuth < self.half_step  # False without a foot, too
         return np.where(own, self.radius_mm * (foot - self.half_width), np.inf)
-
-    def polar(self, input_deg: Number) -> Array:
-        """The polar angles of the roller at input angles, (m, k) both."""
-        at_deg = np.atleast_2d(input_deg)
-        # one row as (k,) takes half the time
-        t, _ = self.at.engagement.slot(at_deg[0] if len(at_deg) == 1 else at_deg, 0)
-        return np.atleast_2d(t.c[0])
 
 
 def _axes(t: Array, x: Array | float) -> tuple[Array, Array, Array]:

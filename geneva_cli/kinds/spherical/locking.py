@@ -16,11 +16,10 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 from geneva_cli.kinds.spherical.parts import SphereParts
-from geneva_cli.loads.tolerance.locking import ROUNDING, Deviations, positive_root
-from geneva_cli.numerics.arrays import Mask, array, choose
+from geneva_cli.loads.tolerance.locking import ROUNDING, Deviations, chosen, positive_root
+from geneva_cli.numerics.arrays import Mask, array
 from geneva_cli.numerics.jet import Jet, atan2, sqrt
-from geneva_cli.parts.parts import Parts
-from geneva_cli.verdict.tolerance import SAME, Locks
+from geneva_cli.verdict.tolerance import Locks
 
 
 class SphereLock(NamedTuple):
@@ -64,8 +63,7 @@ class SphereLock(NamedTuple):
             sine, there = sqrt(x * x + y * y), atan2(y, x)
         angle = self._azimuth(cosine, sine, recess_cosine) - there
         jams = (array((recess - lock).c[0]) < -ROUNDING) | (array(angle.c[0]) < -ROUNDING)
-        one = bool(jams) if jams.ndim == 0 else jams
-        return Jet([choose(one, c * 0.0, c) for c in angle.c]), jams
+        return chosen(jams, angle * 0.0, angle), jams
 
     def _azimuth(self, cosine: Jet, sine: Jet, from_crank: Jet) -> Jet:
         """Azimuth chi, from the cosine and sine of p, and the cosine of a."""
@@ -74,14 +72,11 @@ class SphereLock(NamedTuple):
         return atan2(positive_root(across * across - along * along), along)
 
 
-def sphere_locks(parts: Parts, sizes: Mapping[str, float]) -> Locks:
+def sphere_locks(parts: SphereParts, sizes: Mapping[str, float]) -> Locks:
     """A recess with each locking sector of a spherical crank, and the clearance that they need."""
-    assert isinstance(parts, SphereParts)
     ball, L = parts.ball, parts.ball.radius_mm
-    edges = [region.boundary[0] for region in parts.shape.crank]  # the locking edges
-    halves = {round(edge.sweep / SAME): 0.5 * edge.sweep for edge in edges}
     angles = L, ball.axes, ball.lock, ball.recess, ball.rim
-    locks = [SphereLock(*angles, half) for half in halves.values()]
+    locks = [SphereLock(*angles, 0.5 * one.boundary[0].sweep) for one in parts.shape.crank]
     by = sizes["lock_radius_mm"] + sizes["recess_radius_mm"]
     grown = math.asin(min(1.0, math.sin(ball.lock) + by / L)) - ball.lock
     return locks, L * grown if ball.lock else None

@@ -45,8 +45,7 @@ class SphereParts(Parts):
     @property
     def ball(self) -> Ball:
         """The sizes, as angles on the sphere and radii."""
-        ball: Ball = self.shape.gaps.ball
-        return ball
+        return ball(self.mechanism)
 
     @property
     def outside_mm(self) -> float | None:

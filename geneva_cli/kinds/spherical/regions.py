@@ -109,9 +109,6 @@ def sectors(ball: Ball) -> list[Region]:
     spare = min(0.25 * (ball.recess - ball.lock) + 0.1 * ball.roller, 0.1 * ball.lock)
     # A sector's inner edge is a fifth of its outer one, or farther out where the wheel needs that.
     least, most = 0.2 * ball.lock, (1.0 - 0.05) * ball.lock  # a thinner ring would hold nothing
-    spans = locked(ball)
-    if not spans:
-        return []
     levels, places = swept(ball)
     near = levels < ball.lock * (1.0 - SAME_ANGLE)
 
@@ -135,7 +132,7 @@ def sectors(ball: Ball) -> list[Region]:
         rim = SphereArc(POLE, ball.lock, *(place(ball.lock, a) for a in sides))
         return _ring([rim], low, sides, POLE)
 
-    return [sector(*span) for span in spans]
+    return [sector(*span) for span in locked(ball)]
 
 
 def locked(ball: Ball) -> list[tuple[float, float]]:
@@ -182,15 +179,11 @@ class CapArm(NamedTuple):
     hub: float
     pins: tuple[RoundHole, ...]
     bolts: tuple[RoundHole, ...]  # equally many of each locking sector
+    holes: tuple[RoundHole, ...]  # for the hub, the pins and the bolts
     cap: float  # angle from the crank's axis to the edge, except at the eyes
     eye: float  # angle
     reach: float  # angle from the crank's axis to the farthest point
     wall: float  # the least wall between holes, and to the boundary, on the inner face, mm
-
-    @property
-    def holes(self) -> tuple[RoundHole, ...]:
-        """All round holes: for the hub, the pins and the bolts."""
-        return (RoundHole(POLE, self.hub), *self.pins, *self.bolts)
 
 
 def crank_arm(ball: Ball, sectors: Sequence[Region], size: Size) -> CapArm:
@@ -213,9 +206,8 @@ def _arm(ball: Ball, sectors: Sequence[Region], size: Size, bolts_each: int) -> 
     hole = pin_hole(size, ball.pin_mm)
     hub, eye = hub_and_eye(size, wall, hole, ball.arm_bore_mm, ball.passing_mm(ball.opening_mm))
     refuse_wide("arm_hub_mm", hub, under, over)
-    most = 2.0 * L * (0.5 * math.pi - ball.arm)
     why = "the arm would cover more than half of the sphere"
-    refuse_above("arm_eye_mm", 2.0 * eye, most, why)
+    refuse_above("arm_eye_mm", 2.0 * eye, 2.0 * L * (QUARTER - ball.arm), why)
     limit = under * math.sin(ball.arm - RoundHole(POLE, hole).angle(under))
     why = "the hub, about arm_bore_mm, cuts the pin's hole"
     refuse_above("arm_hub_mm", 2.0 * hub, 2.0 * limit, why)
@@ -232,7 +224,7 @@ def _arm(ball: Ball, sectors: Sequence[Region], size: Size, bolts_each: int) -> 
         of_sector = bolts[k * bolts_each : (k + 1) * bolts_each]
         walls.append(least_wall(sector, of_sector, ball.lock_span_mm[0]))
     reach = max(math.acos(sphere.dot(one.middle, POLE)) + one.angle for one in caps)
-    return CapArm(boundary, form, hub, pins, bolts, cap, eye, reach, min(walls))
+    return CapArm(boundary, form, hub, pins, bolts, holes, cap, eye, reach, min(walls))
 
 
 def _bolts(ball: Ball, sectors: Sequence[Region], size: Size, count: int) -> tuple[RoundHole, ...]:

@@ -24,7 +24,6 @@ from geneva_cli.numerics.tolerances import keeps, sizes_from
 from geneva_cli.parts import sized_by_load as load
 from geneva_cli.parts import sizes as rules
 from geneva_cli.parts.machine_sizes import keys_by_load
-from geneva_cli.parts.sizes import KeySizes
 from geneva_cli.spec.defaults import wall_min, wheel_material
 from geneva_cli.study.synth.suiting import LOCK, SIZES, USUAL, with_roller
 
@@ -48,12 +47,13 @@ def horn_sizes(mechanism: Mechanism) -> tuple[float, float, float] | None:
     return (sizes.half_width, sizes.recess, sizes.axes) if sizes else None
 
 
-def key_sizes(mechanism: Mechanism) -> KeySizes:
+def key_sizes(mechanism: Mechanism) -> rules.KeySizes:
     """Return the sizes of a spherical machine by the keys of the spec; none without parts."""
     sizes, size = sized_ball(mechanism), mechanism.spec.size
     if sizes is None:
         return {}, ()
-    known = {"slot_bottom_clearance_mm": sizes.bottom_mm, "lock_radius_mm": sizes.lock_mm}
+    lock_mm = sizes.radius_mm * math.sin(sizes.lock)
+    known = {"slot_bottom_clearance_mm": sizes.bottom_mm, "lock_radius_mm": lock_mm}
     known |= {"wheel_bore_mm": 2.0 * sizes.bore_mm, "pin_mm": 2.0 * sizes.pin_mm}
     if sizes.arm_bore_mm:
         _, hub, eye, _ = sizes.arm_radii(size)
@@ -109,8 +109,8 @@ def _horn_thickness_mm(mechanism: Mechanism, usual: Ball) -> float:
     least = usual.span_mm[1] - usual.span_mm[0]
     # a thicker wheel bends its pins more than its horns
     for thick in sizes_from(least, 2.0 * least):
-        horn = greatest_stress(sphere_horns, mechanism, (*angles, thick)).single
-        if keeps(horn.stress_MPa if horn else 0.0, "at most", allowed):
+        stress_MPa = array(greatest_stress(sphere_horns, mechanism, (*angles, thick)).stress_MPa)
+        if keeps(max(0.0, stress_MPa.item()), "at most", allowed):  # it is NaN without a load
             break
     return thick
 

@@ -34,7 +34,6 @@ class WheelStop(NamedTuple):
 
     first_deg: float
     last_deg: float
-    drawn_deg: float  # input angle 0 of the drawings, after the middle of the first engagement
     lever_mm: float  # of the force between disc and face about the crank's axis
     face_mm: float  # along the face, from the contact to the nearer mouth; negative in the mouth
     overlap_mm: float  # of the circles of disc and face, if nothing stopped them
@@ -50,10 +49,16 @@ class WheelStop(NamedTuple):
 
 
 def wheel_stop(outlines: Outlines) -> WheelStop | None:
-    """Return the stops of a wheel with a convex face; None without one."""
-    assembly, sizes = outlines.assembly, outlines.sizes
-    z = assembly.full.spec.wheel.z
-    if not assembly.full.spec.wheel.stopped:
+    """Return the stops of a wheel with a convex face; None without one.
+
+    The face is an arc about the wheel's axis. So the force between the end of the disc and the face
+    passes through that axis, turns no wheel, and loads no roller. About the crank's axis its lever
+    is h = L sin delta, where delta is the contact's direction from the line of centres, seen from
+    the wheel's axis: F = T/h. A sharp end of the disc has no Hertz stress.
+    """
+    assembly, sizes, spec = outlines.assembly, outlines.sizes, outlines.assembly.full.spec
+    z, size, torque = spec.wheel.z, spec.size, spec.load.winding_torque_Nm
+    if not spec.wheel.stopped:
         return None
     L, rk, ra = assembly.L, sizes.lock, sizes.rim
     gamma = math.acos((L * L + rk * rk - ra * ra) / (2.0 * L * rk))
@@ -64,10 +69,16 @@ def wheel_stop(outlines: Outlines) -> WheelStop | None:
     from_middle = math.pi / z - delta - float(assembly.wheel(np.array([math.degrees(crank)]))[0])
     half_face = math.pi / z - math.asin(sizes.half_width / ra)
     last = assembly.to_input(math.degrees(crank))
-    stops = assembly.to_input(-math.degrees(crank)), 360.0 * (z - 1) + last, 360.0 * (z // 2)
-    lengths = L * math.sin(delta), ra * (half_face - abs(from_middle)), rk + ra - L
-    contact = _contact(outlines, L * math.sin(delta))
-    return WheelStop(*stops, *lengths, math.degrees(crank), *contact)
+    stops = assembly.to_input(-math.degrees(crank)), 360.0 * (z - 1) + last
+    lever = L * math.sin(delta)
+    lengths = lever, ra * (half_face - abs(from_middle)), rk + ra - L
+    force = None if torque is None else 1e3 * torque / lever
+    stress, width, edge = None, size.face_width_mm, size.lock_edge_mm
+    if not (force is None or width is None or edge is None):
+        material = wheel_material(spec)
+        modulus = contact_modulus_GPa(material, material)
+        stress = hertz_MPa(modulus, force / width, 1.0 / (1.0 / edge + 1.0 / ra))
+    return WheelStop(*stops, *lengths, math.degrees(crank), force, stress)
 
 
 def clearances_before(outlines: Outlines, stop: WheelStop, past_deg: float = 0.0) -> Array:
@@ -85,30 +96,9 @@ def stop(parts: Parts) -> Values:
     """Return the quantities of the stops of a crank, where the wheel has a convex face."""
     spec, stops = parts.mechanism.spec, None
     with suppress(GenevaError):  # ``parts.none`` gives the reason
-        stops = wheel_stop(parts.outlines) if spec.wheel.stopped and spec.is_flat else None
+        stops = wheel_stop(parts.outlines) if spec.is_flat else None
     names = "turns first_deg last_deg overlap_mm lever_mm force_N contact_stress_MPa"
     return {name: getattr(stops, name) for name in names.split()} if stops else {}
-
-
-def _contact(outlines: Outlines, lever_mm: float) -> tuple[float | None, float | None]:
-    """Return force, N, and Hertz stress, MPa, under ``winding_torque_Nm``; None without a key.
-
-    A sharp end of the disc has no stress. The face is an arc about the wheel's axis. So the force
-    between the end of the disc and the face passes through that axis, turns no wheel, and loads no
-    roller. About the crank's axis its lever is h = L sin delta, where delta is the contact's
-    direction from the line of centres, seen from the wheel's axis: F = T/h.
-    """
-    spec = outlines.assembly.full.spec
-    size, torque = spec.size, spec.load.winding_torque_Nm
-    if torque is None:
-        return None, None
-    force = 1e3 * torque / lever_mm
-    if size.face_width_mm is None or size.lock_edge_mm is None:
-        return force, None
-    material = wheel_material(spec)
-    modulus = contact_modulus_GPa(material, material)
-    radius = 1.0 / (1.0 / size.lock_edge_mm + 1.0 / outlines.sizes.rim)
-    return force, hertz_MPa(modulus, force / size.face_width_mm, radius)
 
 
 def standing(names: Collection[str], parts: FlatParts) -> Iterator[Check]:
@@ -133,9 +123,8 @@ def standing(names: Collection[str], parts: FlatParts) -> Iterator[Check]:
             text += "face"
         yield Check("stop_turns", stop.turns, "at most", float(z), passes, text)
     yield compared("stop_overlap_mm", stop.overlap_mm, "at least", outlines.sizes.wall_min)
-    limit, name = parts.mechanism.spec.limits.stop_stress_max_MPa, "stop_stress_max_MPa"
-    if limit is None:
-        return
-    why = "not known: it needs lock_edge_mm in [size], for a sharp end has no stress, and "
-    why += "winding_torque_Nm"
-    yield compared(name, stop.contact_stress_MPa, "at most", limit, why=why)
+    limit, stress = parts.mechanism.spec.limits.stop_stress_max_MPa, stop.contact_stress_MPa
+    if limit is not None:
+        why = "not known: it needs lock_edge_mm in [size], for a sharp end has no stress, and "
+        why += "winding_torque_Nm"
+        yield compared("stop_stress_max_MPa", stress, "at most", limit, why=why)

@@ -14,5 +14,6 @@ class StopScene(WheelScene):
         stop = outlines and wheel_stop(outlines)
         if not stop:
             return None
-        drawn_deg = stop.drawn_deg
+        # input angle 0 of the drawings, after the middle of the first engagement
+        drawn_deg = 360.0 * (turn.mechanism.spec.wheel.z // 2)
         return stop.first_deg - drawn_deg - turn.start, stop.last_deg - drawn_deg - turn.start

@@ -46,12 +46,10 @@ class RestingAxis(NamedTuple):
     along: float  # and its distance along that line
 
     @staticmethod
-    def of(engagement: Engagement) -> RestingAxis | None:
+    def of(engagement: Engagement) -> RestingAxis:
         """The axis of an engagement's straight slot."""
         whole = engagement.through
-        anchor = whole.motion.entry
-        if anchor is None:
-            return None
+        assert whole.motion.entry
         x, y = whole.slot(0.5 * whole.entry_deg, 1)  # any place in a straight slot
         (px, u), (py, v) = x.c, y.c
         m = library(px)
@@ -60,13 +58,12 @@ class RestingAxis(NamedTuple):
         if whole.built is not None:  # it may rest where its roller meets it, with a play
             ahead = -whole.built.angle
         offset, along = parameter(hub * m.sin(ahead)), parameter(hub * m.cos(ahead))
-        return RestingAxis(engagement, anchor, offset, along)
+        return RestingAxis(engagement, whole.motion.entry, offset, along)
 
     @staticmethod
     def each(mechanism: Mechanism) -> list[RestingAxis]:
         """The axes of all engagements; none for slots that are solved for."""
-        every = map(RestingAxis.of, mechanism.engagements)
-        return [axis for axis in every if axis is not None]
+        return [RestingAxis.of(one) for one in mechanism.engagements if one.through.motion.entry]
 
     def offset(self, crank: N, center: N) -> N:
         """Distance over L of the true path from the axis where the path with errors crosses it."""
@@ -226,10 +223,9 @@ def entry_impacts(mechanism: Mechanism, pin: PinSize | None = None) -> Impacts:
     each = list[Array]()
     as_built = any(one.built for one in mechanism.engagements)  # it strikes without errors, too
     for axis in [] if as_built else RestingAxis.each(mechanism):
-        errors = [*_errors(mechanism, axis)]
-        every = [first_contacts(axis, *error) for error in errors]
-        every += [mouth_contacts(axis, *error, sizes) for error in errors]
-        each += [shown(mechanism, axis.engagement, *one, np.array(np.nan)) for one in every]
+        for error in _errors(mechanism, axis):
+            for one in first_contacts(axis, *error), mouth_contacts(axis, *error, sizes):
+                each.append(shown(mechanism, axis.engagement, *one, np.array(np.nan)))
     return hardest(mechanism, each, pin)
 
 

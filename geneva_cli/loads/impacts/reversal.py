@@ -103,13 +103,6 @@ def impacts_of(
     return begin + struck / DEGREE, hit
 
 
-def drag_over(case: LoadCase) -> float:
-    """M_r / (I w²) of a load; infinite without an inertia, as then nothing coasts."""
-    heavy = case.inertia_Nm > 0.0
-    drag = case.resists_Nm / choose(heavy, case.inertia_Nm, 1.0)
-    return choose(heavy, drag, math.inf)
-
-
 def lasting_drag_Nm(mechanism: Mechanism) -> float:
     """Torque to add for the roller to stay on one wall: I w² max(-psi2) - M_r."""
     case, most = load_case(mechanism), reduce(larger, map(braking, mechanism.engagements))
@@ -127,7 +120,8 @@ def reversal_impacts(mechanism: Mechanism, pin: PinSize | None = None) -> Impact
     given = spec.size.allowances.slot_clearance_mm
     both = spec.tolerance.roller_diameter_mm + spec.tolerance.slot_width_mm
     play_mm = choose(given == 0.0, WORKSHOPS[spec.size.process].slot_play_mm, given) + 0.5 * both
-    drag = drag_over(case)
+    heavy = case.inertia_Nm > 0.0  # without an inertia nothing coasts
+    drag = choose(heavy, case.resists_Nm / choose(heavy, case.inertia_Nm, 1.0), math.inf)
     if all_true((drag == np.inf) | (play_mm == 0.0)):
         return Impacts(*np.full((5, mechanism.designs), np.nan))
     numbers = mechanism.center_distance_mm, drag, play_mm, case.radius

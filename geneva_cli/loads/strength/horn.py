@@ -15,7 +15,6 @@ sections are neglected. Against plane stress by finite elements straight slots a
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
 from functools import lru_cache
 from typing import Any, NamedTuple, TypeAlias
@@ -50,12 +49,6 @@ class HornStress(NamedTuple):
     inwards_mm: float  # of the section, from the mouth
     thickness_mm: float
 
-    @property
-    def single(self) -> HornStress | None:
-        """The stress of a single design as numbers; None without a horn or a load."""
-        one = HornStress(*(float(array(row)[0]) for row in self))
-        return None if math.isnan(one.stress_MPa) else one
-
 
 class SlotEnd(NamedTuple):
     """An end of a slot, entry or exit, and so the horn beside it that bears on that side.
@@ -76,7 +69,8 @@ def slot_ends(mechanism: Mechanism) -> list[SlotEnd]:
     ends = []
     for whole in mechanism.under_load.engagements:
         for end, (own, ahead) in ((-1.0, whole.passages[0]), (1.0, whole.passages[-1])):
-            ends.append(SlotEnd(own, end, own.end_deg(end), whole, ahead))
+            at_deg = own.entry_deg if end < 0.0 else own.exit_deg
+            ends.append(SlotEnd(own, end, at_deg, whole, ahead))
     return ends
 
 
@@ -234,7 +228,7 @@ def _sampled(
         ends = np.broadcast_to(samples, (2, m, samples.shape[2]))[..., [0, -1]]
         _, first, row = np.unique(ends, axis=1, return_index=True, return_inverse=True)
         samples = samples[:, first]
-    all_places = slot.end_deg(start) * samples[0]
+    all_places = (slot.entry_deg if start < 0.0 else slot.exit_deg) * samples[0]
     x = all_places - side.at.ahead_deg
     x = x[0] if len(x) == 1 else x  # as (k,) in half the time
     at = contact(side.at.whole, x, reactions=False)

@@ -22,7 +22,7 @@ from typing import NamedTuple, cast
 import numpy as np
 
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.arrays import Array, Number, Truth, choose, parameter
+from geneva_cli.numerics.arrays import Array, Number, Truth, choose, value_or
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.numerics.tolerances import rounded_below
 from geneva_cli.spec.tables import Shaft, Size
@@ -124,9 +124,8 @@ def shear_allowed_MPa(shaft: Shaft, keyway: bool = False) -> Number:
     >>> round(shear_allowed_MPa(Shaft()), 6), round(shear_allowed_MPa(Shaft(), keyway=True), 6)
     (82.5, 61.875)
     """
-    if shaft.shear_stress_max_MPa is not None:
-        return shaft.shear_stress_max_MPa
-    return 61.875 if keyway else 82.5  # 0.3 of 275 MPa, and three quarters of that
+    # 0.3 of 275 MPa, and three quarters of that
+    return value_or(shaft.shear_stress_max_MPa, 61.875 if keyway else 82.5)
 
 
 class PinSize(NamedTuple):
@@ -182,8 +181,5 @@ def pin_diameter_mm(mechanism: Mechanism) -> float:
     """Diameter of the roller's pin, by default r, rounded; the roller itself for 0."""
     size, r = mechanism.spec.size, mechanism.roller_radius_mm
     if size.pin_mm is None:
-        if isinstance(r, float | int):
-            return rounded_below(r)
-        return parameter(np.array([[rounded_below(x)] for x in np.ravel(r)]))
-    diameter: float = choose(size.pin_mm == 0.0, 2.0 * r, size.pin_mm)
-    return diameter
+        return rounded_below(r)
+    return choose(size.pin_mm == 0.0, 2.0 * r, size.pin_mm)

@@ -20,7 +20,7 @@ from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_functions import LoadFunctions, refuse_noise
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.arrays import Array, array, parameter
+from geneva_cli.numerics.arrays import Array, array, parameter, value_or
 from geneva_cli.numerics.extremes import Stretches
 
 LIFE_EXPONENT = 10.0 / 3.0  # p, of line contact
@@ -85,7 +85,7 @@ def passages(mechanism: Mechanism, by_roller: bool = False) -> list[SlotPassage]
 def lives(mechanism: Mechanism, each: Sequence[SlotPassage]) -> dict[str, Array]:
     """Life of the most loaded roller of m designs, (m,) each, from the passages of their rollers.
 
-    Turns, motions of this roller and hours need a capacity; they are infinite without a force.
+    Turns, motions of this roller and hours are NaN without a capacity, infinite without a force.
     """
     spec = mechanism.spec
     m = len(spec.wheel.steps or spec.drive.roller_angles_deg or ()) or spec.drive.rollers
@@ -103,14 +103,13 @@ def lives(mechanism: Mechanism, each: Sequence[SlotPassage]) -> dict[str, Array]
         every = np.stack(rows)
         worst = np.argmax(every[:, 0] ** LIFE_EXPONENT * every[:, 1] * every[:, 2], axis=0)
         force, turns, often = every[worst, :, np.arange(every.shape[2])].T
-        out = {"equivalent_force_N": force, "roller_turns_per_motion": turns}
-        capacity = spec.material_roller.dynamic_capacity_N
-        if capacity is not None:  # rated for a million revolutions
-            rated = 1e6 * (np.ravel(capacity) / force) ** LIFE_EXPONENT
-            motions = rated / turns
-            out |= {
-                "roller_life_turns": rated,
-                "roller_life_motions": motions,
-                "roller_life_h": motions / often,
-            }
-    return out
+        # rated for a million revolutions
+        capacity = value_or(spec.material_roller.dynamic_capacity_N, math.nan)
+        rated = 1e6 * (np.ravel(capacity) / force) ** LIFE_EXPONENT
+        return {
+            "equivalent_force_N": force,
+            "roller_turns_per_motion": turns,
+            "roller_life_turns": rated,
+            "roller_life_motions": rated / turns,
+            "roller_life_h": rated / turns / often,
+        }

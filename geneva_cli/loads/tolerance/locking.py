@@ -121,17 +121,17 @@ class Lock(NamedTuple):
             # Between their ends disc and recess touch where 4 L (L + dL) sin²(d/2) = c² - dL², with
             # the difference c of their radii.
             square = (spare * spare - off * off) / (away * (4.0 * L))
-            sine = sqrt(_chosen(square.c[0] > 0.0, square, square * 0.0 + 0.25))
+            sine = sqrt(chosen(square.c[0] > 0.0, square, square * 0.0 + 0.25))
             between = atan2(sine, sqrt(1.0 - sine * sine)) * 2.0
-            on_recess = _chosen(square.c[0] > 0.0, between, between * 0.0)
-        angle = _chosen(self.reach <= self.half, on_corner, on_end)
+            on_recess = chosen(square.c[0] > 0.0, between, between * 0.0)
+        angle = chosen(self.reach <= self.half, on_corner, on_end)
         # distance to the recess's bottom
         nearer = arrays.array(off.c[0]) * -self.sign
         left = arrays.array(spare.c[0]) - np.maximum(nearer, 0.0)
         jams = (left < -ROUNDING * L) | (arrays.array(angle.c[0]) < -ROUNDING)
         least = np.cos(arrays.smaller(self.reach, self.half))
-        angle = _chosen((nearer > np.maximum(spare.c[0], 0.0) * least) & ~jams, on_recess, angle)
-        return _chosen(jams, angle * 0.0, angle), jams
+        angle = chosen((nearer > np.maximum(spare.c[0], 0.0) * least) & ~jams, on_recess, angle)
+        return chosen(jams, angle * 0.0, angle), jams
 
     def contact(self) -> LockContact:
         """Contact of disc and recess after the play is used up, without deviations."""
@@ -166,10 +166,11 @@ def _at(one: Jet, other: float, opposite: Jet) -> Jet:
 
 def positive_root(square: Jet) -> Jet:
     """Square root, or almost 0 without a slope if there is no triangle."""
-    return sqrt(_chosen(square.c[0] > 0.0, square, square * 0.0 + 1e-300))
+    return sqrt(chosen(square.c[0] > 0.0, square, square * 0.0 + 1e-300))
 
 
-def _chosen(condition: arrays.Truth, yes: Jet, no: Jet) -> Jet:
+def chosen(condition: arrays.Truth, yes: Jet, no: Jet) -> Jet:
+    """One of two values for each machine."""
     one = bool(condition) if np.ndim(condition) == 0 else condition
     return Jet([*map(partial(arrays.choose, one), yes.c, no.c)])
 

@@ -21,15 +21,8 @@ from geneva_cli.motion.motion_table import check_samples
 from geneva_cli.motion.peak_search import motion_peaks
 from geneva_cli.motion.timing import timings
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import (
-    Array,
-    Complex,
-    Whole,
-    array,
-    parameter,
-    record_taken,
-    value_or,
-)
+from geneva_cli.numerics.arrays import Complex, Whole, array, parameter, record_taken, value_or
+from geneva_cli.numerics.jet import Array
 from geneva_cli.spec.rules import Range
 from geneva_cli.table import Table, computed_table, rows_table
 

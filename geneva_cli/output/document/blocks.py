@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import partial
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from geneva_cli.answer import Value, value_text
@@ -96,10 +97,8 @@ def right_aligned(grid: Grid) -> list[bool]:
 def texts(grid: Grid) -> list[list[str]]:
     """The cells of a table as texts; a column's unit stands in its head."""
     units = [head.rpartition(", ")[2] for head in grid.heads]
-    return [
-        [value_text(value, unit, bare=True) for value, unit in zip(row, units, strict=True)]
-        for row in grid.rows
-    ]
+    text = partial(value_text, bare=True)
+    return [[*map(text, row, units)] for row in grid.rows]
 
 
 def is_number(value: object) -> bool:

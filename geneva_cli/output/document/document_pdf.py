@@ -13,7 +13,6 @@ from geneva_cli.geometry.sheet import Annotations, Drawing, extent, prepared
 from geneva_cli.output import pdf
 from geneva_cli.output.document import blocks
 from geneva_cli.output.inks import CENTRE_LINES, INKS, LIGHT
-from geneva_cli.output.letters import western
 from geneva_cli.output.notes import LETTERS, notes
 from geneva_cli.output.plot import plot_layout, plot_pdf
 from geneva_cli.output.svg import rings, tint
@@ -50,7 +49,7 @@ class Item(NamedTuple):
 def chunks(document: blocks.Document) -> Iterator[str]:
     """Yield the file's text; the same document gives the same bytes."""
     title = clean(document.title)
-    yield from pdf.pdf_text(title, _pages(_items(document), western(title)))
+    yield from pdf.pdf_text(title, _pages(_items(document), pdf.western(title)))
 
 
 def _pages(items: Iterable[Item], foot: str) -> list[pdf.Page]:
@@ -80,15 +79,12 @@ def _pages(items: Iterable[Item], foot: str) -> list[pdf.Page]:
 
 
 def _items(document: blocks.Document) -> Iterator[Item]:
-    for text in _lines(document.title, TITLE, WIDE, bold=True):
-        yield _line(text, TITLE, bold=True)
+    yield from _paragraph(document.title, TITLE, bold=True)
     yield Item(2.0, keeps=True)
     ink = {PASSES: GREEN, WARNS: AMBER, FAILS: RED}[document.state]
-    for text in _lines(document.verdict, VERDICT, WIDE - 2.0 * MARK, bold=True):
-        yield _line(text, VERDICT, bold=True, indent=MARK, ink=ink, bar=ink)
+    yield from _paragraph(document.verdict, VERDICT, bold=True, indent=MARK, ink=ink, bar=ink)
     for reason in document.reasons:
-        for i, text in enumerate(_lines(reason, BODY, WIDE - 3.0 * MARK)):
-            yield _line(text, BODY, indent=2.0 * MARK, mark="" if i else "•", bar=ink)
+        yield from _paragraph(reason, BODY, indent=2.0 * MARK, mark="•", bar=ink)
     yield Item(3.0)
     for block in document.blocks:
         yield from _block(block)
@@ -100,14 +96,13 @@ def _block(block: blocks.Block) -> Iterator[Item]:
         text = pdf.words(block.text, (LEFT, y), HEAD, bold=True)
         yield Item(8.5 + HEAD, text + _rule(LEFT, y - 1.7, WIDE, 0.3), keeps=True)
     elif isinstance(block, blocks.Prose):
-        rows = _lines(block.text, BODY, WIDE)
-        for i, text in enumerate(rows):  # no single line of it on a page
-            yield _line(text, BODY)._replace(keeps=i in (0, len(rows) - 2))
+        rows = [*_paragraph(block.text, BODY)]
+        for i, row in enumerate(rows):  # no single line of it on a page
+            yield row._replace(keeps=i in (0, len(rows) - 2))
         yield Item(2.5)
     elif isinstance(block, blocks.TextList):
         for text in block.texts:
-            for i, line in enumerate(_lines(text, BODY, WIDE - MARK)):
-                yield _line(line, BODY, indent=MARK, mark="" if i else "•")
+            yield from _paragraph(text, BODY, indent=MARK, mark="•")
             yield Item(0.8)
         yield Item(2.0)
     elif isinstance(block, blocks.Grid):
@@ -122,7 +117,7 @@ def _block(block: blocks.Block) -> Iterator[Item]:
             yield Item(scale * part.high, content, keeps=i in (0, len(parts) - 2))
 
 
-def _line(
+def _paragraph(
     text: str,
     size: float,
     bold: bool = False,
@@ -130,12 +125,14 @@ def _line(
     mark: str = "",
     ink: str = pdf.INK,
     bar: str = "",
-) -> Item:
-    """A line of text behind a mark, and a ``bar`` of a colour at the left edge."""
-    high = LEADING * size
-    content = pdf.box(LEFT, -high, 1.6, high, bar) if bar else ""
-    content += pdf.words(mark, (LEFT + indent - MARK + 1.0, -size), size) if mark else ""
-    return Item(high, content + pdf.words(text, (LEFT + indent, -size), size, bold, ink))
+) -> Iterator[Item]:
+    """Yield the lines of a text behind a mark, and a ``bar`` of a colour at the left edge."""
+    high, wide = LEADING * size, WIDE - indent - (MARK if bar else 0.0)
+    for i, line in enumerate(_lines(text, size, wide, bold)):
+        content = pdf.box(LEFT, -high, 1.6, high, bar) if bar else ""
+        if mark and not i:
+            content += pdf.words(mark, (LEFT + indent - MARK + 1.0, -size), size)
+        yield Item(high, content + pdf.words(line, (LEFT + indent, -size), size, bold, ink))
 
 
 def _grid(table: blocks.Grid) -> Iterator[Item]:
@@ -165,8 +162,8 @@ def _grid(table: blocks.Grid) -> Iterator[Item]:
 def _caption(text: str) -> Iterator[Item]:
     """Yield the line above a table or a picture; nothing without a text."""
     if text:
-        line = _line(text, SMALL, bold=True, ink=SOFT)
-        yield line._replace(high=line.high + 1.4, keeps=True)
+        yield from (line._replace(keeps=True) for line in _paragraph(text, SMALL, True, ink=SOFT))
+        yield Item(1.4, keeps=True)
 
 
 def _widths(heads: Sequence[str], rows: list[list[str]]) -> list[float]:
@@ -190,10 +187,8 @@ def _widths(heads: Sequence[str], rows: list[list[str]]) -> list[float]:
 def _row(
     texts: Sequence[str], right: Sequence[bool], widths: Sequence[float], bold: bool = False
 ) -> Item:
-    cells = [
-        _lines(text, SMALL, long - 2.0 * PAD + 1e-6, bold)
-        for text, long in zip(texts, widths, strict=True)
-    ]
+    fits = (long - 2.0 * PAD + 1e-6 for long in widths)
+    cells = [_lines(text, SMALL, fit, bold) for text, fit in zip(texts, fits, strict=True)]
     high, x = max(map(len, cells)) * STEP + 2.0 * SPACE, LEFT
     out = pdf.box(LEFT, -high, sum(widths), high, BAND) if bold else ""
     for cell, is_right, long in zip(cells, right, widths, strict=True):

@@ -10,7 +10,7 @@ from typing import Literal, NamedTuple, TypeAlias
 from geneva_cli.errors import clean, cut
 from geneva_cli.figure import LINE, POINTS, Axis, Curve, Figure, Mark, Panel
 from geneva_cli.numerics.tolerances import ROUNDED
-from geneva_cli.output.letters import LETTER, width
+from geneva_cli.output.text import LETTER, width_of
 
 Point: TypeAlias = tuple[float, float]
 Path: TypeAlias = Sequence[Point]
@@ -38,17 +38,9 @@ class Frame(NamedTuple):
 
     def at(self, x: float, y: float) -> Point:
         """Place of a point of a curve."""
-        return self.x(x), self.y(y)
-
-    def x(self, value: float) -> float:
-        """Place of an x value."""
-        a, b = self.window
-        return LEFT + (value - a) / (b - a) * self.wide
-
-    def y(self, value: float) -> float:
-        """Place of a y value."""
-        low, top = self.span
-        return ABOVE + (top - value) / (top - low) * self.high
+        (a, b), (low, top) = self.window, self.span
+        right, down = (x - a) / (b - a), (top - y) / (top - low)
+        return LEFT + right * self.wide, ABOVE + down * self.high
 
 
 class Lines(NamedTuple):
@@ -86,7 +78,7 @@ def blocks(figure: Figure) -> Iterator[FigureBlock]:
         x, high = RIGHT, high + LINE_HEIGHT
         for curve in known.values():
             name = cut(clean(curve.name), 48)
-            needs = SAMPLE + 6.0 + TEXT * width(name) + 18.0
+            needs = SAMPLE + 6.0 + TEXT * LETTER * width_of(name) + 18.0
             if x > RIGHT and x + needs > PAGE - RIGHT:
                 x, high = RIGHT, high + LINE_HEIGHT + 2.0
             head += (*_sample(curve, x, high, SAMPLE), Words((x + SAMPLE + 6.0, high), name))
@@ -98,7 +90,9 @@ def blocks(figure: Figure) -> Iterator[FigureBlock]:
     wide = PAGE - LEFT - (MARKS if marked else RIGHT)
     across = ticks(*figure.window, int(wide / 70.0), figure.x.unit)
     for panel in figure.panels:
-        frame = Frame(wide, high, figure.window, padded(panel))
+        low, top = panel.span()
+        space = 0.05 * (top - low) or 0.5 * abs(top) or 1.0  # above and below
+        frame = Frame(wide, high, figure.window, (low - space, top + space))
         marks = [*_panel(figure, panel, frame, across), *_peaks(figure, panel, frame, len(known))]
         below = _axis(figure, frame, across) if panel is figure.panels[-1] else ()
         tall = ABOVE + high + (BELOW if below else 0.0)
@@ -107,18 +101,11 @@ def blocks(figure: Figure) -> Iterator[FigureBlock]:
 
 def _axis(figure: Figure, frame: Frame, across: Sequence[float]) -> tuple[Words, ...]:
     """The numbers and the name of the x axis."""
-    low = ABOVE + frame.high
-    shown = zip(across, labels(across), strict=True)
-    numbers = (Words((frame.x(v), low + 15.0), label, look="middle") for v, label in shown)
+    low, ends = ABOVE + frame.high, [frame.at(v, frame.span[0]) for v in across]
+    shown = zip(ends, labels(across), strict=True)
+    numbers = (Words((x, low + 15.0), label, look="middle") for (x, _), label in shown)
     text = named(figure.x) + (", dwells shaded" if figure.shaded else "")
     return *numbers, Words((LEFT + 0.5 * frame.wide, low + 34.0), text, look="middle")
-
-
-def padded(panel: Panel) -> tuple[float, float]:
-    """Return a panel's span with some space above and below."""
-    low, high = panel.span()
-    space = 0.05 * (high - low) or 0.5 * abs(high) or 1.0
-    return low - space, high + space
 
 
 def _sample(curve: Curve, x: float, y: float, long: float) -> Iterator[Lines]:
@@ -145,8 +132,8 @@ def _panel(
     if low < 0.0 < top:
         axes.append([frame.at(a, 0.0), frame.at(b, 0.0)])
     yield Lines("axis", axes)
-    for value, label in zip(up, labels(up), strict=True):
-        yield Words((LEFT - 6.0, frame.y(value) + 0.35 * SMALL), label, SMALL, "end")
+    for ((_, y), _), label in zip(level, labels(up), strict=True):
+        yield Words((LEFT - 6.0, y + 0.35 * SMALL), label, SMALL, "end")
     yield Words((LEFT, ABOVE - 7.0), named(panel.y), look="bold")
     for curve in panel.curves:
         pieces = [list(map(frame.at, *piece)) for piece in curve.pieces]

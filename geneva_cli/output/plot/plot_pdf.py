@@ -5,7 +5,6 @@ from collections.abc import Iterator
 from geneva_cli.figure import Figure
 from geneva_cli.output import pdf
 from geneva_cli.output.inks import LIGHT, colour, dashes
-from geneva_cli.output.letters import western
 from geneva_cli.output.plot import plot_layout as layout
 from geneva_cli.output.plot.plot_layout import Lines, Path, Words
 
@@ -23,7 +22,7 @@ def chunks(figure: Figure) -> Iterator[str]:
     for block in parts:
         content += pdf.moved(drawn(block), 0.0, top, mm)
         top -= mm * block.high
-    yield from pdf.pdf_text(western(figure.title), [pdf.Page(mm * layout.PAGE, tall, content)])
+    yield from pdf.pdf_text(pdf.western(figure.title), [pdf.Page(mm * layout.PAGE, tall, content)])
 
 
 def drawn(block: layout.FigureBlock) -> str:

@@ -119,18 +119,14 @@ class MachineTurn:
 
     def track(self, f: Callable[[Array], Array], error: float, gain: float = 0.0) -> Track:
         """The track of a function over the whole turn, within ``error``."""
-        ends, series = [self.start], list[tuple[float, ...]]()
-        for a, b in pairwise(distinct([self.start, *self.knots, self.end], 1e-9)):
-            for end, terms in _series(a, b, f, error):
-                ends.append(end)
-                series.append(terms)
-        return Track(tuple(x - self.start for x in ends), tuple(series), gain)
+        spans = pairwise(distinct([self.start, *self.knots, self.end], 1e-9))
+        pieces = (piece for a, b in spans for piece in _series(a, b, f, error))
+        ends, series = zip(*pieces, strict=True)
+        return Track((0.0, *(x - self.start for x in ends)), series, gain)
 
 
 def pushes(cycle: Cycle, turn: MachineTurn) -> Iterator[Push]:
-    """The force of each passage over a turn; none without a load."""
-    if not cycle.is_loaded:
-        return
+    """The force of each passage over a turn."""
     each = len(cycle.mechanism.engagements)
     for i, one in enumerate(turn.passages):
         local = np.linspace(one.engagement.entry_deg, one.engagement.exit_deg, 73)

@@ -13,7 +13,6 @@ from geneva_cli.geometry.plates import Plate
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Shape, as_contour, bounds, placed, polygon
 from geneva_cli.geometry.sheet import line
 from geneva_cli.motion.drive import Gears
-from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.pivots import Joint
 from geneva_cli.motion.registry import thing
 from geneva_cli.output import scene as page
@@ -27,32 +26,56 @@ from geneva_cli.study.summary.load_lines import title_of
 from geneva_cli.verdict.report import words
 
 
+class WheelScene:
+    """What a page shows of wheels that turn without end."""
+
+    def bodies(self, shapes: tuple[Shape, ...], turn: MachineTurn) -> Iterator[page.Body]:
+        """All wheels; without shapes, as symbols."""
+        one, z = turn.passages[0], turn.mechanism.spec.wheel.z
+        # distances of the first roller from the wheel's axis in its slot
+        pins = turn.assembly.pin(0, np.linspace(one.entry, one.exit, 181), drives=True)
+        reach = np.hypot(*pins.T)
+        least, most = float(reach.min()), float(reach.max())
+        if not shapes:  # a disc with a line along each slot
+            one_slot = line("WHEEL", (least, 0.0), (most, 0.0))
+            lines = (placed(one_slot, turn=math.tau * k / z) for k in range(z))
+            shapes, dot = (Circle("WHEEL", ORIGIN, 1.02 * most), *lines), 1.01 * least
+        else:
+            dot = 0.78 * least
+        # a dot behind the end of the first slot tells the slots apart
+        wheel = (*shapes, Circle("PITCH", (dot, 0.0), 0.012 * turn.L))
+        for place in turn.mechanism.wheel_places:
+            name = f"wheel-{place.number}" if place.number > 1 else "wheel"
+            yield page.Body(name, wheel, place.at, turn.wheel(place))
+
+    def view(self, wheel: page.Body, box: page.Box, turn: MachineTurn) -> page.Box:
+        """The box that a page shows; ``box`` bounds all that turns."""
+        return box
+
+    def stops(self, outlines: Outlines | None, turn: MachineTurn) -> tuple[float, float] | None:
+        """Input angles, degrees from the start, between which the machine moves; None for all."""
+        return None
+
+
 def scene(design: Design) -> page.Scene:
     """The machine over a whole turn of its crank, with curves, forces and the wheel's states."""
     mechanism = design.mechanism
     turn = MachineTurn(mechanism)
-    parts = tuple(body for body in _bodies(design, turn) if body.shapes)
-    outlines = None
+    spec, title = design.spec, title_of(design)
+    outlines = frame = None
     with suppress(GenevaError):  # no flat parts
         outlines = design.parts.outlines
-    bars, rollers = tuple(_bars(turn, outlines)), turn.rollers()
-    spec, title = design.spec, title_of(design)
-    wheels = wheels_of(spec)
+    wheels: WheelScene = (thing(spec.wheel.NAME, "scene") or WheelScene)()
     loads = ("pin_force_N", "input_torque_Nm") if design.cycle.is_loaded else ()
-    turning = tuple(body for body in parts if not body.travel)
-    box = _box(turning, bars, rollers, mechanism.roller_radius_mm, turn.turn_deg)
-    frame = None
+    parts = tuple(body for body in _bodies(design, turn, wheels) if body.shapes)
     if mechanism.frame:  # the carrier makes whole turns
-        x, y = centre = mechanism.center_distance_mm, 0.0
-        frame = page.Body("frame", (), centre, turn.steady(mechanism.frame, 0.0))
-        reach = max(math.dist(b.centre, centre) + _reach(b.shapes) for b in parts)
-        box = x - reach, y - reach, x + reach, y + reach
-    pauses = []
-    if spec.drive.stop_s:  # in the middle of each dwell, also of one without length
-        entries = [*(one.entry for one in turn.passages[1:]), turn.end]
-        dwells = zip(turn.passages, entries, strict=True)
-        pauses = [0.5 * (one.exit + after) - turn.start for one, after in dwells]
-    return page.Scene(
+        axis = mechanism.center_distance_mm, 0.0
+        frame = page.Body("frame", (), axis, turn.steady(mechanism.frame, 0.0))
+    # the middles of the dwells, also of one without length
+    entries = [*(one.entry for one in turn.passages[1:]), turn.end]
+    dwells = zip(turn.passages, entries, strict=True)
+    middles = (0.5 * (one.exit + after) - turn.start for one, after in dwells)
+    shown = page.Scene(
         title=title,
         caption=words(mechanism) + _remark(design),
         spec="\n".join((f"title = {quoted(title)}", *spec_lines(spec))),
@@ -60,18 +83,18 @@ def scene(design: Design) -> page.Scene:
         turn_deg=turn.turn_deg,
         seconds=turn.turn_deg / (6.0 * spec.drive.n_rpm),
         bodies=parts,
-        bars=bars,
-        rollers=rollers,
+        bars=tuple(_bars(turn, outlines)),
+        rollers=turn.rollers(),
         roller_radius=mechanism.roller_radius_mm,
-        pushes=tuple(pushes(design.cycle, turn)),
+        pushes=tuple(pushes(design.cycle, turn)) if loads else (),
         states=tuple(_states(design, turn)),
         figure=design.figure(("velocity", "acceleration", *loads)),
-        box=wheels.view(parts[0], box, turn),
         stops=wheels.stops(outlines, turn),
-        pauses=tuple(pauses),
+        pauses=tuple(middles) if spec.drive.stop_s else (),
         stop_s=spec.drive.stop_s,
         frame=frame,
     )
+    return shown._replace(box=wheels.view(parts[0], _box(shown), turn))
 
 
 def _bars(turn: MachineTurn, outlines: Outlines | None) -> Iterator[page.Bar]:
@@ -90,7 +113,7 @@ def _bars(turn: MachineTurn, outlines: Outlines | None) -> Iterator[page.Bar]:
         yield page.Bar(link.name, tuple(joints), link.radius_mm, tuple(carried))
 
 
-def _bodies(design: Design, turn: MachineTurn) -> Iterator[page.Body]:
+def _bodies(design: Design, turn: MachineTurn, wheels: WheelScene) -> Iterator[page.Body]:
     """Wheel, crank with its arm, the cam's groove and gears, as far as the machine has them."""
     L = turn.L
     # parts of a sphere are drawn laid flat: these outlines do not turn about the shaft
@@ -100,7 +123,7 @@ def _bodies(design: Design, turn: MachineTurn) -> Iterator[page.Body]:
         cuts = (s for s in shapes if s not in rims)
         hollow = (s._replace(layer="HOLLOW") if s.layer == "WHEEL" else s for s in cuts)
         shapes = (*rims, *hollow)
-    yield from wheels_of(design.spec).bodies(shapes, turn)
+    yield from wheels.bodies(shapes, turn)
     if shapes:
         carried = (*_shapes(design, "arm"), *_shapes(design, "crank"))
         carried = tuple(shape for shape in carried if shape.layer != "ROLLER")
@@ -184,24 +207,25 @@ def _states(design: Design, turn: MachineTurn) -> Iterator[page.Phase]:
             yield page.Phase(move.end, end, False, rest)
 
 
-def _box(
-    parts: tuple[page.Body, ...],
-    bars: tuple[page.Bar, ...],
-    rollers: tuple[page.Place, ...],
-    radius: float,
-    turn_deg: float,
-) -> page.Box:
+def _box(scene: page.Scene) -> page.Box:
     """The bounding box of bodies at any angle, and of joints, rollers and links in the turn."""
-    circles = [(*body.centre, _reach(body.shapes)) for body in parts]
-    places = [(place, bar.radius) for bar in bars for place in bar.joints]
-    places += [(place, radius) for place in rollers]
-    plates = [(bar, plate) for bar in bars for plate in bar.plates]
-    for t in np.arange(0.0, turn_deg, 2.0).tolist():
+    if scene.frame:
+        x, y = axis = scene.frame.centre
+        reach = max(math.dist(body.centre, axis) + _reach(body.shapes) for body in scene.bodies)
+        return x - reach, y - reach, x + reach, y + reach
+    turning = (body for body in scene.bodies if not body.travel)
+    circles = [(*body.centre, _reach(body.shapes)) for body in turning]
+    places = [(place, bar.radius) for bar in scene.bars for place in bar.joints]
+    places += [(place, scene.roller_radius) for place in scene.rollers]
+    for t in np.arange(0.0, scene.turn_deg, 2.0).tolist():
         circles += [(page.value_at(x, t), page.value_at(y, t), r) for (x, y), r in places]
-        for bar, plate in plates:
-            x, y, angle = page.pose(bar, plate, t)
-            own = bounds(placed(plate.shapes[0], (x, y), angle))
-            circles += [(own.x0, own.y0, 0.0), (own.x1, own.y1, 0.0)]
+        for bar in scene.bars:
+            joints = [(page.value_at(x, t), page.value_at(y, t)) for x, y in bar.joints]
+            for plate in bar.plates:
+                (x0, y0), (x1, y1) = joints[0], joints[plate.joint or 1]
+                ahead = math.atan2(y1 - y0, x1 - x0)
+                own = bounds(placed(plate.shapes[0], joints[plate.joint], ahead))
+                circles += [(own.x0, own.y0, 0.0), (own.x1, own.y1, 0.0)]
     x, y, r = np.array(circles).T
     return min(x - r), min(y - r), max(x + r), max(y + r)
 
@@ -209,40 +233,3 @@ def _box(
 def _reach(shapes: tuple[Shape, ...]) -> float:
     """The greatest distance of shapes from their own origin."""
     return float(Polyarc(map(as_contour, shapes)).farthest(np.zeros((1, 2))).max())
-
-
-class WheelScene:
-    """What a page shows of wheels that turn without end."""
-
-    def bodies(self, shapes: tuple[Shape, ...], turn: MachineTurn) -> Iterator[page.Body]:
-        """All wheels; without shapes, as symbols."""
-        one, z = turn.passages[0], turn.mechanism.spec.wheel.z
-        # distances of the first roller from the wheel's axis in its slot
-        pins = turn.assembly.pin(0, np.linspace(one.entry, one.exit, 181), drives=True)
-        reach = np.hypot(*pins.T)
-        least, most = float(reach.min()), float(reach.max())
-        if not shapes:  # a disc with a line along each slot
-            one_slot = line("WHEEL", (least, 0.0), (most, 0.0))
-            lines = (placed(one_slot, turn=math.tau * k / z) for k in range(z))
-            shapes, dot = (Circle("WHEEL", ORIGIN, 1.02 * most), *lines), 1.01 * least
-        else:
-            dot = 0.78 * least
-        # a dot behind the end of the first slot tells the slots apart
-        wheel = (*shapes, Circle("PITCH", (dot, 0.0), 0.012 * turn.L))
-        for place in turn.mechanism.wheel_places:
-            name = f"wheel-{place.number}" if place.number > 1 else "wheel"
-            yield page.Body(name, wheel, place.at, turn.wheel(place))
-
-    def view(self, wheel: page.Body, box: page.Box, turn: MachineTurn) -> page.Box:
-        """The box that a page shows; ``box`` bounds all that turns."""
-        return box
-
-    def stops(self, outlines: Outlines | None, turn: MachineTurn) -> tuple[float, float] | None:
-        """Input angles, degrees from the start, between which the machine moves; None for all."""
-        return None
-
-
-def wheels_of(spec: Spec) -> WheelScene:
-    """What a page shows of a machine's wheels."""
-    wheels: WheelScene = (thing(spec.wheel.NAME, "scene") or WheelScene)()
-    return wheels

@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 from geneva_cli import GenevaError, SCurve, load
-from geneva_cli.extras.servo.against import NAMES, against
+from geneva_cli.extras.servo.against import LAWS, against
 
 TURRET = "designs/turret.toml"
 
 
-def columns(path=TURRET, settings=(), names=NAMES):
+def columns(path=TURRET, settings=(), names=tuple(LAWS)):
     table = against(path, settings, names)
     return {name: dict(zip(table.to_dict()["quantity"], column, strict=True))
             for name, column in table.to_dict().items() if name != "quantity"}  # fmt: skip

@@ -39,12 +39,12 @@ def test_on_a_large_sphere_it_is_the_flat_horn(z, r, h):
     """
     flat = build(Spec(External(z), size=Size(100.0, r), load=LOAD))
     recess = 100.0 * math.sin(math.pi / z) - r - h
-    bent = greatest_stress(horns, flat, (r, recess)).single
+    bent = greatest_stress(horns, flat, (r, recess))
     for axes_deg, near in ((0.1, 3e-5), (1.0, 3e-4)):
         L = 100.0 / math.radians(axes_deg)
         shape = angles(z, axes_deg, L, r, h)
         mechanism = machine(z, axes_deg, L, r)
-        own = greatest_stress(sphere_horns, mechanism, (*shape, 10.0)).single
+        own = greatest_stress(sphere_horns, mechanism, (*shape, 10.0))
         both = sphere_horns(mechanism, *shape)[0], horns(flat, r, recess)[0]
         stout, plane = (one.points(one.at.mouth_deg)[1] / one.recess_mm for one in both)
         assert stout == pytest.approx(plane, rel=near)
@@ -68,7 +68,7 @@ def test_a_section_by_vectors_in_space(rub):
     mouth_deg = np.array([[side.at.mouth_deg]])
     at, mouth_at = side.points(sections), side.points(mouth_deg)
     stress, thick = side.unit_stress(np.stack((*mouth_at, np.array([[rub]]))), at), at[1]
-    polar = side.polar(sections)[0]
+    polar = side.at.engagement.slot(sections, 0)[0].c[0][0]
     with mp.workdps(30):
         w, half = mp.mpf(w), mp.pi / z
         crank = mp.matrix([mp.cos(half), mp.sin(half), 0])
@@ -129,7 +129,8 @@ def test_finite_elements_of_the_shell_agree_with_the_beam(z, axes_deg, L, h, b):
     """
     own = angles(z, axes_deg, L, 5.0, h)
     side = sphere_horns(machine(z, axes_deg, L, 5.0), *own, b)[0]
-    mouth, deep = (side.polar(np.array([[x]])).item() for x in (side.at.mouth_deg, 0.0))
+    slot, ends = side.at.engagement.slot, (side.at.mouth_deg, 0.0)
+    mouth, deep = (float(slot(x, 0)[0].c[0]) for x in ends)
     w, k, S = own
     at, mises = in_the_shell(L, b, S, math.pi / z, w, k, (mouth, deep), 0.15 * h / L)
     places = side.at.mouth_deg * np.linspace(1.0, 0.01, 400)

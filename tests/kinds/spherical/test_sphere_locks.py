@@ -23,7 +23,7 @@ def on_sphere(axes_deg, rollers):
     size = Size(slot_clearance_mm=0.1, lock_clearance_mm=0.1)
     drive = Crank(rollers=rollers)
     design = Design(Spherical(6, axes_deg=axes_deg), drive, size=size)
-    [lock] = sphere_locks(design.parts, dict.fromkeys(Deviations._fields, 0.0))[0]
+    lock, *_ = sphere_locks(design.parts, dict.fromkeys(Deviations._fields, 0.0))[0]
     return design, lock
 
 

@@ -29,7 +29,7 @@ def test_the_collision_engine_touches_first_at_the_closed_form(z):
         low, high = end - 5.0 * sense, end + 1.0 * sense  # degrees
         for _ in range(50):
             middle = 0.5 * (low + high)
-            gap = gaps.locking(gaps.pose(np.array([middle - stop.drawn_deg])))[0]
+            gap = gaps.locking(gaps.pose(np.array([middle - 360.0 * (z // 2)])))[0]
             low, high = (middle, high) if gap > 0.0 else (low, middle)
         # 1e-12 L of rounding in a gap that falls by half of L a radian
         assert low == pytest.approx(end, abs=1e-9)
