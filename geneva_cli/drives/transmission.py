@@ -76,18 +76,21 @@ class Transmission(Drive, kw_only=True):
         if not self.direct:
             entry, _, exit_ = rollers[0].poses
             self._refuse_reach(wheel, larger(-entry.crank_deg, exit_.crank_deg))
-        engagements, side_crank = [], None if self.direct else self.side_crank
+        engagements, side_crank = [], self.side_crank
         for place in rollers:
             (middle_deg, turned), anchors = self.about(place.crank_deg), []
             for pose in place.poses:
-                at_deg, advance = middle_deg, turned
-                if not isinstance(pose.crank_deg, float) or pose.crank_deg:
-                    at_deg, advance = self.about(place.crank_deg + pose.crank_deg)
+                at_deg, advance = self.about(place.crank_deg + pose.crank_deg)
                 travel = PinTravel(pose, advance)
                 anchors.append(Anchor(at_deg - middle_deg, pose.wheel, pose.along, travel))
             path = AnchoredPath(tuple(anchors))
-            slot, motion = wheel.follow(path, place, turned)
-            first = isinstance(place.crank_deg, float) and place.crank_deg == 0.0
+            if place.deepest is None:
+                slot, motion = wheel.follow(path, place, turned)
+            else:
+                from geneva_cli.motion.wheels.offset_slot import OffsetSlot, OffsetSlotMotion
+
+                slot, motion = OffsetSlot(path, place), OffsetSlotMotion(path, place)
+            first = place.crank_deg == 0.0
             if place.closed and self.direct:
                 motion = StraightSlotMotion(path, place.step.b, closed=place.closed)
             elif place.closed and first and side_crank is not None and not wheel.steps:

@@ -128,9 +128,8 @@ class Spec(SpecTable):
                 raise GenevaError(text, ("limits", limit))
         if self.limits.product_acceleration_max_m_s2 is not None and not self.product.lies:
             key = "product_acceleration_max_m_s2"
-            raise GenevaError(
-                f"{key} needs the product's place: set radius_mm in [product]", ("limits", key)
-            )
+            text = f"{key} needs the product's place: set radius_mm in [product]"
+            raise GenevaError(text, ("limits", key))
         for key in LOADED:
             if limits[key] is not None:
                 text = f"{key} needs a load, and without one there is nothing to limit: set "

@@ -97,16 +97,6 @@ class Mechanism(NamedTuple):
         return self.spec.size.roller_radius(self.center_distance_mm)
 
     @property
-    def matched_ratio(self) -> float | None:
-        """R/L of finite pressure at mid-motion of a design's curved slots; None without."""
-        own = self.engagements[0].own
-        if not own.slot.curved:
-            return None
-        turned = float(own.motion(0.0, 1).c[1]) / abs(float(own.carrier(0.0).c[0]))
-        matched = self.spec.wheel.matched_ratio(turned)
-        return None if math.isnan(matched) else float(matched)
-
-    @property
     def lasting_deg(self) -> float:
         """The period with its stops, as the angle that the input would turn meanwhile."""
         stop_deg = 6.0 * self.spec.drive.n_rpm * self.spec.drive.stop_s  # of one dwell

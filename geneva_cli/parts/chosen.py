@@ -130,8 +130,9 @@ def by_load(mechanism: Mechanism) -> dict[str, Chosen]:
     """
     every = chosen(mechanism) if mechanism.spec.is_loaded else {}
     out = dict[str, Chosen]()
-    for name in filter(every.__contains__, NAMES):
-        out |= {name: every[name]} if every[name].why.startswith(BY_LOAD) else {}
+    for key in filter(every.__contains__, NAMES):
+        if every[key].why.startswith(BY_LOAD):
+            out[key] = every[key]
     return out
 
 

@@ -43,13 +43,14 @@ def verdict(
     try:
         design = load(path, settings, reverse)
         if design.spec.is_loaded and not design.is_drawn:
+            from geneva_cli.loads.cycle import cycle_of
             from geneva_cli.loads.strength.part_loads import single_loads
             from geneva_cli.verdict.quantities.groups import value_of
 
             # loads, the parts that they size, their strength: what checks and warnings read
             with suppress(GenevaError):  # a check says why
                 single_loads(design.mechanism)
-                _ = design.cycle.ends, design.parts.built.required
+                _ = cycle_of(design.mechanism).ends, design.parts.built.required
                 for part in ("wheel_shaft", "horn", "lock"):
                     value_of(design.mechanism, f"strength.{part}.margin")
         checks = design.checks if to_mm is None else design.proved_to(to_mm)

@@ -107,8 +107,10 @@ def _of_law(mechanism: Mechanism, law: Law) -> Iterator[Notice]:
         text = f"the wheel turns back: velocity {back[0]:.4g} at {back[1]:.4g}°"
         yield Notice("turns-back", text)
     if engagement.slot.curved and not retraces(engagement):
-        matched, helps = mechanism.matched_ratio, "no R/L avoids it with this law and motion angle"
-        if matched is not None:
+        own, helps = engagement.own, "no R/L avoids it with this law and motion angle"
+        turned = float(own.motion(0.0, 1).c[1]) / abs(float(own.carrier(0.0).c[0]))
+        matched = mechanism.spec.wheel.matched_ratio(turned)
+        if not math.isnan(matched):
             helps = f'ratio = "matched" (R/L = {matched:.6g}) avoids it'
         text = f"pressure angle 90° at mid-motion (0°), because R/L = {mechanism.ratio:.6g} does "
         text += f"not meet the mid condition: {helps}"

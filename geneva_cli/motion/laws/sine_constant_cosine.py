@@ -5,7 +5,7 @@ c and d of the time in which a law accelerates. A middle fraction v may have con
 """
 
 import math
-from itertools import pairwise
+from itertools import compress, pairwise
 
 from geneva_cli.motion.laws.law import from_velocity
 from geneva_cli.numerics.arrays import enclosed, library
@@ -22,13 +22,8 @@ def breaks(b: float, d: float, v: float = 0.0) -> tuple[float, ...]:
     """Values of u inside the motion at which a derivative up to the fourth jumps."""
     sine, constant, rise = _ends(b, d, v)
     flat = sine < constant
-    joints = set()
-    if b and (flat or d != b):
-        joints.add(sine)
-    if d and flat:
-        joints.add(constant)
-    if v or not d:
-        joints.add(rise)
+    jumps = b and (flat or d != b), d and flat, v or not d
+    joints = {*compress((sine, constant, rise), jumps)}
     return tuple(sorted({*joints, *[1.0 - x for x in joints]}))
 
 
@@ -86,6 +81,5 @@ def first_half(u: Number, order: int, b: float, d: float, v: float = 0.0) -> Jet
 
     each = zip(pairwise(joints), (start, flat, end, middle), strict=True)
     pieces = [(until, piece) for (since, until), piece in each if since < until]
-    if len(pieces) == 1:
-        return pieces[0][1](u)
-    return piecewise(u, [until for until, _ in pieces[:-1]], [piece for _, piece in pieces])
+    ends, kept = zip(*pieces, strict=True)
+    return piecewise(u, ends[:-1], kept) if len(kept) > 1 else kept[0](u)

@@ -1,9 +1,7 @@
 """External wheels, with radial slots, offset slots or unequal steps."""
 
-from __future__ import annotations
-
 import math
-from typing import TYPE_CHECKING, Annotated, ClassVar, Self
+from typing import Annotated, ClassVar, Self
 
 from geneva_cli.errors import GenevaError, refuse_text
 from geneva_cli.motion.pivots import Dimension
@@ -12,11 +10,6 @@ from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.numerics.angles import sin_cos_pi
 from geneva_cli.numerics.arrays import choose, library
 from geneva_cli.spec.rules import LENGTH, Range
-
-if TYPE_CHECKING:
-    from geneva_cli.motion.engagement import Slot, WheelMotion
-    from geneva_cli.motion.path_and_slot import AnchoredPath
-    from geneva_cli.numerics.jet import Displacement
 
 
 class External(Gearing):
@@ -95,12 +88,3 @@ class External(Gearing):
         sin_b, cos_b = self.step.sin_cos
         along, across = crank_radius_mm / sin_b, self.offset_mm / cos_b
         return choose(across == 0.0, along, library(along, across).hypot(along, across))
-
-    def follow(
-        self, path: AnchoredPath, place: RollerPlace, turn: Displacement
-    ) -> tuple[Slot, WheelMotion]:
-        if place.deepest is None:
-            return super().follow(path, place, turn)
-        from geneva_cli.motion.wheels.offset_slot import OffsetSlot, OffsetSlotMotion
-
-        return OffsetSlot(path, place), OffsetSlotMotion(path, place)

@@ -148,7 +148,7 @@ class Gearing(SpecTable, table="wheel"):
     def follow(
         self, path: AnchoredPath, place: RollerPlace, turn: Displacement
     ) -> tuple[Slot, WheelMotion]:
-        """Straight slot for a roller's path, and the motion that follows.
+        """Straight slot of no offset for a roller's path, and the motion that follows.
 
         ``turn`` is the crank's rotation from mid-motion, as its sine and versine.
         """

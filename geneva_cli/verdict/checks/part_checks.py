@@ -13,7 +13,7 @@ from geneva_cli.geometry.shapes import Arc, Line, Segment, backwards, closed, pl
 from geneva_cli.loads.load_case import farthest_mm
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.path_and_slot import opposites
-from geneva_cli.numerics.arrays import Array
+from geneva_cli.numerics.arrays import Array, within_half_turn
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.outlines.crank_outline import is_whole
 from geneva_cli.parts.outlines.outlines import Outlines, wheel_hub, wheel_plate
@@ -178,10 +178,8 @@ def _branches(outlines: Outlines) -> Iterator[Check]:
     engagement, L, samples = outlines.assembly.slots[0][0], outlines.assembly.L, 400
     t = engagement.entry_deg * (1.0 - np.arange(samples) / samples)
     (x, y), (u, v) = (engagement.slot(at, 0) for at in (t, opposites(engagement, t)))
-    turn = np.remainder(
-        np.arctan2(y.c[0], x.c[0]) - np.arctan2(v.c[0], u.c[0]) + np.pi, 2.0 * np.pi
-    )
-    apart_mm = 2.0 * L * np.hypot(x.c[0], y.c[0]) * np.sin(0.5 * (turn - np.pi))
+    turn = within_half_turn(np.arctan2(y.c[0], x.c[0]) - np.arctan2(v.c[0], u.c[0]))
+    apart_mm = 2.0 * L * np.hypot(x.c[0], y.c[0]) * np.sin(0.5 * turn)
     for name, gap in (("branches_apart_mm", apart_mm), ("branches_crossed_mm", -apart_mm)):
         i = int(np.nanargmax(gap))  # NaN where the longer branch has no opposite
         at_deg = outlines.assembly.shown_deg(engagement.mid_deg + float(t[i]))

@@ -55,7 +55,7 @@ class Designs:
         each: Sequence[Mechanism] = (),
         batch: tuple[Designs, int] | None = None,
     ) -> None:
-        self.machine, self._each, self._batch = machine, each, batch
+        self.machine, self._batch = machine, batch
         self.spec = machine.spec
         if names is None:
             limits, names = vars(machine.spec.limits), list[str]()
@@ -65,6 +65,8 @@ class Designs:
         self.names = names
         self.single = isinstance(machine.design, int)  # its numbers are floats: m = 1
         self.are_built = self.single or bool(each)  # the machines of the single designs are
+        if self.are_built:
+            vars(self)["each"] = each or [machine]
         self._kept: dict[object, object] = {}
 
     def requested(self, table: str) -> set[str]:
@@ -110,9 +112,7 @@ class Designs:
     @cached_property
     def each(self) -> Sequence[Mechanism]:
         """The machines of the single designs."""
-        if self.single:
-            return [self.machine]
-        return self._each or [build(taken(self.spec, i)) for i in range(self.machine.designs)]
+        return [build(taken(self.spec, i)) for i in range(self.machine.designs)]
 
     @cached_property
     def loaded(self) -> Array:

@@ -220,7 +220,9 @@ def batched(
         return None
     fields = list[object]()
     for k, field in enumerate(like):
-        each: list[Any] = [one and one[k] for one in records]
+        each = list[Any]()
+        for one in records:
+            each.append(one and one[k])
         # None is NaN
         own = batched(each, column) if isinstance(field, tuple) else column(np.array(each, float))
         fields.append(own)
