@@ -74,7 +74,7 @@ def _task(target: Target, wheel: Gearing) -> Task | None:
     if free is None:
         return None
     unlocked = wheel.replace(held_by="detent")  # there is no locking disc
-    spec = target.machine(unlocked, _EXAMPLE, free.low)
+    spec = target.machine(unlocked, _EXAMPLE)
     # the coupler passes below the wheel's axis, where a shaft without a hub ends in the wheel
     hub = 0.0 if size.wheel_hub_mm is None else size.wheel_hub_mm
     spec = spec.replace(size=spec.size.replace(center_distance_mm=None, wheel_hub_mm=hub))
@@ -165,7 +165,7 @@ def keys_at(
         keys = dict(zip(names, (x * scale for x in (*lengths, np.abs(w))), strict=True))
     keys["drive.point_deg"] = np.degrees(np.angle(w))
     keys["drive.entry_deg"] = np.degrees(within_half_turn(entry))
-    return keys | target.speeds(1, motion_deg), motion_deg
+    return keys, motion_deg
 
 
 def coupler_point(path: CouplerPath, pair: Pairs, b: Array) -> Complex:

@@ -23,7 +23,6 @@ from geneva_cli.drives.epicyclic import Epicyclic
 from geneva_cli.drives.gears import EllipticalGears
 from geneva_cli.drives.side_crank import SideCrank
 from geneva_cli.drives.transmission import Transmission
-from geneva_cli.errors import marking
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.registry import families_of_kinds
 from geneva_cli.motion.wheels.classic import half_motion_deg, rollers_max
@@ -84,11 +83,14 @@ class _InFront(NamedTuple):
     low: float = -MOST
     high: float = MOST
 
+    def keys(self, at: Array) -> dict[str, Array]:
+        """The key of parameters (n,); of gears the sign of the eccentricity is the phase."""
+        return {self.key: at if self.low * self.high else abs(at)}
+
 
 SLOW, QUICK = (EllipticalGears(eccentricity=0.1, phase=phase) for phase in ("slow", "quick"))
 IN_FRONT = (
     _InFront(SideCrank(A=0.0), "drive.A", side_crank),
-    # of gears the sign of the eccentricity is the phase
     _InFront(SLOW, "drive.eccentricity", eccentricity, low=0.0),
     _InFront(QUICK, "drive.eccentricity", eccentricity, high=0.0),
 )
@@ -115,7 +117,7 @@ def _natural_rollers(target: Target, natural: float) -> list[int]:
 
 def plain(target: Target, wheel: Gearing, m: int) -> Spec:
     """The plain crank."""
-    return target.machine(wheel, Crank(rollers=m), natural_deg(wheel))
+    return target.machine(wheel, Crank(rollers=m))
 
 
 def offset_slots(target: Target, wheel: Gearing) -> Iterator[Family]:
@@ -143,12 +145,12 @@ def _offset(spec: Spec, at: Array) -> dict[str, Array]:
 
 def planets(target: Target, wheel: Gearing) -> Iterator[Family]:
     """A roller on a planet: without a jump at entry, and with a free crank of the planet."""
-    z, natural = wheel.z, natural_deg(wheel)
+    z = wheel.z
     if z not in (3, 4, 6):
         return
 
     def planet(fixed: str, ratio: float | str) -> Spec:
-        return target.machine(wheel, Epicyclic(planet_ratio=ratio, fixed=fixed), natural)
+        return target.machine(wheel, Epicyclic(planet_ratio=ratio, fixed=fixed))
 
     for fixed in ("sun", "ring"):
         shockless = planet(fixed, "shockless")
@@ -174,18 +176,10 @@ def driven(target: Target, wheel: Gearing) -> Iterator[Family]:
         span = AllowedSpan(*(one.parameter(natural, x) for x in motion))
         span = span.within(AllowedSpan(one.low, one.high))
         if not span.empty:
-            spec = target.machine(wheel, one.drive, natural)
+            spec = target.machine(wheel, one.drive)
             if one.parameter is eccentricity:  # gears are as far apart as wheel and crank
                 spec = spec.with_("drive.gear_distance_mm", spec.given_distance_mm)
-            keys = partial(_in_front, target, natural, one)
-            yield Family(spec, keys, *span, 0.0, known)
-
-
-def _in_front(target: Target, natural: float, one: _InFront, at: Array) -> dict[str, Array]:
-    size = at if one.low * one.high else abs(at)
-    with marking():  # all are in range
-        drive = one.drive.with_keys({one.key.removeprefix("drive."): size[:, None]})
-    return {one.key: size, **target.speeds(1, 2.0 * drive.about(0.5 * natural)[0])}
+            yield Family(spec, one.keys, *span, 0.0, known)
 
 
 def inclined(target: Target, wheel: Gearing) -> Iterator[Family]:
@@ -199,11 +193,5 @@ def inclined(target: Target, wheel: Gearing) -> Iterator[Family]:
         span = AllowedSpan(*(axes(z, x) for x in free)).within(AXES)
         if not span.empty:
             known = 90.0 if free.allows(180.0) else math.nan
-            keys = partial(_on_axes, target, wheel, m)
-            yield Family(plain(target, wheel, m), keys, *span, 90.0, known)
-
-
-def _on_axes(target: Target, wheel: Gearing, m: int, at: Array) -> dict[str, Array]:
-    with marking():  # all are in range
-        motion_deg = natural_deg(wheel.replace(axes_deg=at[:, None]))
-    return {"wheel.axes_deg": at, **target.speeds(m, motion_deg)}
+            spec = plain(target, wheel, m)
+            yield Family(spec, lambda at: {"wheel.axes_deg": at}, *span, 90.0, known)
