@@ -164,16 +164,15 @@ class Target(NamedTuple):
         return motion if motion.exact else AllowedSpan(min(low, high), high)
 
     def machine(self, wheel: Gearing, drive: Drive, motion: Motion | None = None) -> Spec:
-        """A machine with the sizes, loads and limits of the frame, at its usual speed."""
-        own, made = self.own, drive.replace(n_rpm=self.own.drive.n_rpm)
-        size, L = own.size, own.size.center_distance_mm
-        if L is None and not made.ONE_ARM:  # it has no crank of one radius: the frame's distance
+        """A machine with the sizes, loads and limits of the frame, still without its speed."""
+        size, L = self.own.size, self.own.size.center_distance_mm
+        if L is None and not drive.ONE_ARM:  # it has no crank of one radius: the frame's distance
             L = size.derived_distance_mm
         as_built = L is not None and size.crank_radius_mm is not None  # it has its own R/L
         if size.center_distance_mm != L or as_built:
             size = size.replace(center_distance_mm=L, crank_radius_mm=None)
-        shape = {"wheel": wheel, "drive": made, "motion": motion, "size": size}
-        return own.replace(**shape, title="", path="", files=())
+        shape = {"wheel": wheel, "drive": drive, "motion": motion, "size": size}
+        return self.own.replace(**shape, title="", path="", files=())
 
     def at_speed(self, batches: Iterable[Batch]) -> Iterator[Batch]:
         """Batches of those machines, at the speeds that their motions require."""

@@ -18,7 +18,6 @@ import numpy as np
 
 from geneva_cli.kinds.linkages.link_path import LinkPath
 from geneva_cli.numerics.arrays import Array, Complex, Mask, Whole, blocks, joined, record_taken
-from geneva_cli.numerics.jet import Jet
 
 SAME_ENTRY = 1e-6  # radians: entries nearer to each other are one
 # Slope of the index angle along the family of pairs. With less, two roots are nearly one: within
@@ -42,15 +41,6 @@ class Pairs(NamedTuple):
     which: Whole
     phi: Array
     sense: Array
-
-
-def complex_of(x: Jet, y: Jet) -> Complex:
-    """Derivatives of a point's place as complex numbers, (order + 1, ...)."""
-    shape = np.broadcast_shapes(*(np.shape(c) for c in (*x.c, *y.c)))
-    both = np.empty((len(x.c), *shape), dtype=complex)
-    for k, (p, q) in enumerate(zip(x.derivatives(), y.derivatives(), strict=True)):
-        both[k].real, both[k].imag = p, q
-    return both
 
 
 def points(path: LinkPath, direction: Complex, order: int = 2) -> Complex:

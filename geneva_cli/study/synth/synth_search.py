@@ -148,8 +148,7 @@ def search(target: Target) -> list[MachineRow]:
     # and the first that may be built
     has_one, can_be, out = in_batch(target.names), dict[object, bool](), list[MachineRow]()
     for i, row in enumerate(sorted(_bounded(target, every), key=partial(_rank, target))):
-        is_single = has_one and row.cells["crank_mm"] is None
-        kind: object = i if is_single else tuple(row.cells[name] for name in KIND)
+        kind: object = i if has_one else tuple(row.cells[name] for name in KIND)
         if kind not in can_be or (not can_be[kind] and not row.trouble):
             out.append(row)
             row.cells["no"] = len(out)

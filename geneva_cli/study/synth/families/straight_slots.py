@@ -100,7 +100,7 @@ def straight(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
     """The families with straight slots."""
     for wheel in wheels:
         for m in _natural_rollers(target, natural_deg(wheel)):
-            yield Family(plain(target, wheel, m))
+            yield Family(target.machine(wheel, Crank(rollers=m)))
             if m == 1:
                 yield from planets(target, wheel)
         yield from driven(target, wheel)
@@ -115,11 +115,6 @@ def _natural_rollers(target: Target, natural: float) -> list[int]:
     return [m for m in several if target.motions(m, natural).allows(natural)]
 
 
-def plain(target: Target, wheel: Gearing, m: int) -> Spec:
-    """The plain crank."""
-    return target.machine(wheel, Crank(rollers=m))
-
-
 def offset_slots(target: Target, wheel: Gearing) -> Iterator[Family]:
     """Offset slots, which miss the wheel's centre by a tenth of L, for a gentler entry.
 
@@ -127,7 +122,7 @@ def offset_slots(target: Target, wheel: Gearing) -> Iterator[Family]:
     """
     tenth = 0.1
     for m in _natural_rollers(target, natural_deg(wheel)):
-        spec = plain(target, wheel, m)
+        spec = target.machine(wheel, Crank(rollers=m))
         keys = partial(_offset, spec)
         yield Family(spec, keys, tenth, tenth)
         if target.bounds or target.sort:
@@ -149,11 +144,8 @@ def planets(target: Target, wheel: Gearing) -> Iterator[Family]:
     if z not in (3, 4, 6):
         return
 
-    def planet(fixed: str, ratio: float | str) -> Spec:
-        return target.machine(wheel, Epicyclic(planet_ratio=ratio, fixed=fixed))
-
     for fixed in ("sun", "ring"):
-        shockless = planet(fixed, "shockless")
+        shockless = target.machine(wheel, Epicyclic(planet_ratio="shockless", fixed=fixed))
         if not is_compatible(shockless):
             return
         yield Family(shockless)
@@ -161,7 +153,7 @@ def planets(target: Target, wheel: Gearing) -> Iterator[Family]:
         c = 1.0 + teeth if fixed == "sun" else 1.0 - teeth
         least = -l / (1.0 + c if c > 0.0 else teeth) * (1.0 - 1e-6)
         most = l / (c * c - 1.0) * (1.0 - 1e-9)
-        spec = planet(fixed, most)
+        spec = shockless.with_("drive.planet_ratio", most)
         yield Family(spec, lambda at: {"drive.planet_ratio": at}, least, most, known=0.0)
 
 
@@ -193,5 +185,5 @@ def inclined(target: Target, wheel: Gearing) -> Iterator[Family]:
         span = AllowedSpan(*(axes(z, x) for x in free)).within(AXES)
         if not span.empty:
             known = 90.0 if free.allows(180.0) else math.nan
-            spec = plain(target, wheel, m)
+            spec = target.machine(wheel, Crank(rollers=m))
             yield Family(spec, lambda at: {"wheel.axes_deg": at}, *span, 90.0, known)
