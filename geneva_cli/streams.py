@@ -10,7 +10,7 @@ import sys
 from collections.abc import Callable
 from typing import Any, NoReturn
 
-from geneva_cli.errors import GenevaError, cut
+from geneva_cli.errors import cut
 
 NARROWEST = 60  # characters of a line that is never broken
 LACKING = "backslashreplace"  # for letters that the encoding lacks, such as those of a title
@@ -20,28 +20,24 @@ def open_streams() -> None:
     """Replace the interpreter's standard streams by those of this file."""
     _fill_closed()
     sys.stdin = sys.stdin or open(0, closefd=False, encoding="utf-8")
-    sys.stderr = _Messages(
-        io.BufferedWriter(_Standard(_raw(sys.stderr, 2), lambda _: None)),
-        encoding=sys.stderr.encoding if sys.stderr else "utf-8",
-        errors=LACKING,
-        newline="\n",
-        line_buffering=True,
-    )
-    sys.stdout = io.TextIOWrapper(
-        io.BufferedWriter(_Standard(_raw(sys.stdout, 1), _end)),
-        encoding=sys.stdout.encoding if sys.stdout else "utf-8",
+    sys.stderr = _opened(_Messages, sys.stderr, 2, lambda _: None, True)
+    sys.stdout = _opened(io.TextIOWrapper, sys.stdout, 1, _end, os.isatty(1))
+
+
+def _opened(
+    kind: Any, own: Any, number: int, fails: Callable[[OSError], None], by_line: bool
+) -> Any:
+    """A stream over the interpreter's ``own`` one of bytes, which a console of Windows needs."""
+    raw = own.buffer if own else io.FileIO(number, "w", closefd=False)  # none if it was closed
+    if isinstance(raw, io.BufferedWriter):  # an unbuffered one is raw itself
+        raw = raw.raw
+    return kind(
+        io.BufferedWriter(_Standard(raw, fails)),
+        encoding=own.encoding if own else "utf-8",
         errors=LACKING,
         newline="\n",  # on Windows too, as in files
-        line_buffering=os.isatty(1),
+        line_buffering=by_line,
     )
-
-
-def _raw(stream: Any, number: int) -> Any:
-    """The interpreter's own stream of bytes, which a console of Windows needs."""
-    if not stream:  # it was closed
-        return io.FileIO(number, "w", closefd=False)
-    binary = stream.buffer  # an unbuffered one is raw itself
-    return binary.raw if isinstance(binary, io.BufferedWriter) else binary
 
 
 def use_utf8() -> None:
@@ -64,20 +60,6 @@ def _fill_closed() -> None:
             os.fstat(number)
         except OSError:
             os.open(os.devnull, os.O_RDWR)
-
-
-def read_bytes(path: str, most: int, advice: str, key: tuple[str, ...] = ()) -> bytes:
-    """Bytes of a file up to a size; errors may name a key of the spec."""
-    name = cut(path, 300)
-    try:
-        with open(path, "rb") as file:
-            data = file.read(most + 1)
-    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
-        what = error.strerror if isinstance(error, OSError) else error
-        raise GenevaError(f"{name}: cannot read: {what}", key) from None
-    if len(data) > most:
-        raise GenevaError(f"{name}: larger than {most} bytes: {advice}")
-    return data
 
 
 def leave(status: int) -> NoReturn:

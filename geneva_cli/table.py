@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from itertools import chain, islice
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 from geneva_cli.errors import GenevaError, cut, few, nearest
 
@@ -13,6 +13,7 @@ BLOCK = 8192  # rows that are computed and written at once
 WHOLE_ROWS = 100_000  # longer tables are computed while they are written
 SHOWN_ROWS = 10  # rows that the interpreter shows
 NO_BOUND = "no bound"  # an infinity, for people
+Make: TypeAlias = Callable[[int, int], Sequence[Any]]  # columns of the rows from start to stop
 
 
 class Reading(NamedTuple):
@@ -31,13 +32,6 @@ class Reading(NamedTuple):
     decide: tuple[str, ...] = ()
 
 
-class Later(NamedTuple):
-    """The rows of a table too long for memory: ``make(start, stop)`` returns their columns."""
-
-    length: int
-    make: Callable[[int, int], Sequence[Any]]
-
-
 class Table(NamedTuple):
     """Named columns (lists or arrays) of equal length; the names carry the units.
 
@@ -46,7 +40,7 @@ class Table(NamedTuple):
     value may also be a tuple of texts, or a table. ``prose`` stands below the title. The columns of
     a ``mixed`` table hold quantities of many kinds, so no number in them is rounding compared with
     another. Their names are headings, such as drive.A=0.6, which json does not nest. A long
-    table computes its rows ``later``, and has no columns.
+    table has no columns: ``later`` is its length and what computes its rows.
     """
 
     names: tuple[str, ...]
@@ -56,7 +50,7 @@ class Table(NamedTuple):
     prose: str = ""
     mixed: bool = False
     reading: Reading = Reading()
-    later: Later | None = None
+    later: tuple[int, Make] | None = None
 
     def __getitem__(self, key: Any) -> Any:
         """A column by its name, as a read-only NumPy array; for a record, the value.
@@ -66,8 +60,6 @@ class Table(NamedTuple):
         >>> Table(("z", "tau"), ([3, 4], [1 / 6, 0.25]))["z"]
         array([3, 4])
         """
-        if not isinstance(key, str):
-            return tuple.__getitem__(self, key)
         if key not in self.names:
             hint = nearest(key, self.names)
             raise GenevaError(f"no column {cut(key)}{hint}; it has {few(key, self.names)}")
@@ -108,7 +100,7 @@ class Table(NamedTuple):
 
     def __len__(self) -> int:
         if self.later:
-            return self.later.length
+            return self.later[0]
         return len(self.columns[0]) if self.columns else 0
 
     def slices(self) -> Iterator[Sequence[Any]]:
@@ -116,7 +108,7 @@ class Table(NamedTuple):
         for start in range(0, len(self), BLOCK):
             stop = min(start + BLOCK, len(self))
             own = [column[start:stop] for column in self.columns]
-            yield self.later.make(start, stop) if self.later else own
+            yield self.later[1](start, stop) if self.later else own
 
     def whole(self) -> Sequence[Any]:
         """All columns; those of a long table are computed."""
@@ -131,12 +123,14 @@ class Table(NamedTuple):
         if not self.later:
             return self.replaced(columns=change(self.columns), **fields)
         length, make = self.later
-        later = Later(length, lambda start, stop: change(make(start, stop)))
+        later = length, lambda start, stop: change(make(start, stop))
         return self.replaced(later=later, **fields)
 
     def blocks(self) -> Iterator[list[tuple[Any, ...]]]:
         """Rows as plain Python values, in blocks, so that memory stays flat."""
-        return map(plain_rows, self.slices())
+        for columns in self.slices():
+            plain = (c if isinstance(c, (list, tuple)) else c.tolist() for c in columns)
+            yield list(zip(*plain, strict=True))
 
     def rows(self) -> Iterator[tuple[Any, ...]]:
         """The rows, one by one."""
@@ -144,8 +138,7 @@ class Table(NamedTuple):
 
     def replaced(self, **fields: Any) -> Table:
         """The table with some fields replaced; _replace would check their number against len()."""
-        own: dict[str, Any] = dict(zip(self._fields, self, strict=True))
-        return Table(**own | fields)
+        return Table(**self._asdict() | fields)
 
     def to_dict(self) -> dict[str, Any]:
         """Columns by name, numbers as arrays; a record's values by name, tables in it as rows.
@@ -170,14 +163,8 @@ def _briefly(value: object) -> str:
     if isinstance(value, tuple):
         return f"{len(value)} texts" if value else "none"
     if isinstance(value, float):
-        return in_digits(value, 6)
+        return for_people(value, digits=6)
     return cut("" if value is None else str(value), 40)
-
-
-def in_digits(value: float, digits: int) -> str:
-    """A number in significant digits, zero without a sign, infinity in words."""
-    endless = value in (math.inf, -math.inf)
-    return NO_BOUND if endless else f"{value + 0.0:.{digits}g}"
 
 
 def for_people(value: float, unit: str = "", digits: int = 4) -> str:
@@ -189,7 +176,7 @@ def for_people(value: float, unit: str = "", digits: int = 4) -> str:
     ('34.73', '393.913', '12350')
     """
     if unit == "mm" and 1.0 <= abs(value) < 1e6:
-        return in_decimals(value, 3)
+        return in_decimals(value)
     if unit in ("deg", "°") and abs(value) < 1e-9:
         return "0"
     if math.isinf(value):
@@ -198,10 +185,10 @@ def for_people(value: float, unit: str = "", digits: int = 4) -> str:
     return f"{float(text):.0f}" if "e+" in text and abs(value) < 1e6 else text
 
 
-def in_decimals(value: float, decimals: int) -> str:
+def in_decimals(value: float, decimals: int = 3) -> str:
     """A number with at most so many decimals, zero without a sign.
 
-    >>> in_decimals(173.20508, 3), in_decimals(20.0, 3), in_decimals(-1e-9, 0)
+    >>> in_decimals(173.20508), in_decimals(20.0), in_decimals(-1e-9, 0)
     ('173.205', '20', '0')
     """
     text = f"{value:.{decimals}f}"
@@ -209,19 +196,11 @@ def in_decimals(value: float, decimals: int) -> str:
     return "0" if text == "-0" else text
 
 
-def computed_table(
-    names: Sequence[str], length: int, make: Callable[[int, int], Sequence[Any]]
-) -> Table:
+def computed_table(names: Sequence[str], length: int, make: Make) -> Table:
     """A table whose rows ``make(start, stop)`` gives; a long one is computed as it is written."""
     if length > WHOLE_ROWS:
-        return Table(tuple(names), (), later=Later(length, make))
+        return Table(tuple(names), (), later=(length, make))
     return Table(tuple(names), make(0, length))
-
-
-def plain_rows(columns: Sequence[Any]) -> list[tuple[Any, ...]]:
-    """The rows of columns, arrays or lists, as plain Python values."""
-    plain = (c if isinstance(c, (list, tuple)) else c.tolist() for c in columns)
-    return list(zip(*plain, strict=True))
 
 
 def rows_table(
@@ -249,9 +228,10 @@ def flat(table: Table) -> Table:
     >>> flat(record_table({"places": ((1.0, 2.0), (3.0, 4.0)), "open": {"from_deg": 5.0}})).names
     ('places.1.1', 'places.1.2', 'places.2.1', 'places.2.2', 'open.from_deg')
     """
-    (row,) = plain_rows(table.columns)
-    values = _single_values("", dict(zip(table.names, row, strict=True)))
-    return record_table(dict(values), table.title, table.prose)
+    values = dict[str, Any]()
+    for name, (value,) in zip(table.names, table.columns, strict=True):
+        values |= _single_values(name, value)
+    return record_table(values, table.title, table.prose)
 
 
 def _single_values(name: str, value: Any) -> Iterator[tuple[str, Any]]:
@@ -261,8 +241,8 @@ def _single_values(name: str, value: Any) -> Iterator[tuple[str, Any]]:
     parts = dict(enumerate(value, 1)) if isinstance(value, tuple) else value
     if not isinstance(parts, dict):
         yield name, value
-    elif name and not parts:
+    elif not parts:
         yield name, "none"
     else:
         for key, part in parts.items():
-            yield from _single_values(f"{name}.{key}" if name else key, part)
+            yield from _single_values(f"{name}.{key}", part)

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.loads.contact import contact
-from geneva_cli.loads.instant import Instant, bounded
+from geneva_cli.loads.instant import QUANTITIES, Instant, bounded
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_peaks import load_peaks
 from geneva_cli.motion.engagement import Peak
@@ -36,8 +36,10 @@ def state(mechanism, engagement, input_deg):
     with np.errstate(all="ignore"):
         here = Instant(case, at)
         names = ("wheel_torque_Nm", "pin_force_N", "input_torque_Nm")
-        loads = [bounded(here, name) for name in names]
-        stress = None if case.hertz is None else np.sqrt(bounded(here, "contact_stress_MPa"))
+        loads = [bounded(here, QUANTITIES[name]) for name in names]
+        stress = (
+            None if case.hertz is None else np.sqrt(bounded(here, QUANTITIES["contact_stress_MPa"]))
+        )
     pressure = np.degrees(np.arctan2(np.abs(at.offset.c[0]), at.lever.c[0])) + 0.0 * x
     rows = (*loads, stress)
     single = np.ndim(input_deg) == 0 and all(np.ndim(row) < 2 for row in rows)

@@ -4,6 +4,7 @@ import numpy as np
 from design_arrays import MACHINES, drawn
 
 from geneva_cli.loads.contact import NEAR_CUSP, NEVER_NEGATIVE, SQUARED
+from geneva_cli.loads.instant import QUANTITIES
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_functions import LoadFunctions
 from geneva_cli.loads.load_peaks import LoadSummary, load_summaries
@@ -89,7 +90,7 @@ def beyond(batch, places, seed, names=NAMES, ends=None):
 
 
 def _passed(here, name, one, shape):
-    row = here.quantity(name)
+    row = QUANTITIES[name](here)
     value = np.broadcast_to(row.value.c[0], shape)
     lost = False if row.margin is None else row.margin.c[0] <= 0.0
     there = np.isfinite(value) & ~np.asarray(lost)

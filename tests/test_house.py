@@ -164,11 +164,8 @@ def beside_designs(text):
     return {m for m in ours(text) if room(m) in rooms | {"numerics", "specfile"}} - ALONE
 
 
-# The drive whose line a template leaves out; wheels that a record names; a key of a wheel.
-ASKS = {
-    "motion.compatible": ["spec.wheel.NAME not in kind.gearings"],
-    "specfile.template": ["name != Crank.NAME"],
-}
+# The wheels that a record names.
+ASKS = {"motion.compatible": ["spec.wheel.NAME not in kind.gearings"]}
 # Keys and tables of a kind that stand in the core.
 NAMED = {
     "study.verdicts": {"stop"},  # a label

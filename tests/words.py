@@ -9,7 +9,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.motion import machine_spec as machine_spec
 from geneva_cli.motion import registry
 from geneva_cli.spec.schema import Points, fields
-from geneva_cli.specfile.columns import read_pairs
+from geneva_cli.specfile.tree import read_pairs
 
 
 def Wheel(z, gearing="external", **own):

@@ -252,11 +252,9 @@ def say(path: str, warnings: Iterable[str]) -> None:
 
 def require_written(design: "Design", verdict: tuple[str, list[str]], force: bool) -> None:
     """Exit with status 1 for parts that overlap or cannot be built, unless forced; else warn."""
-    path = design.spec.path
-    refused, warned = verdict
+    path, (refused, warned) = design.spec.path, verdict
     if refused and not force:
-        text = f"not written: {refused}; --force writes it anyway"
-        tell(f"{path}: {text}")
+        tell(f"{path}: not written: {refused}; --force writes it anyway")
         raise typer.Exit(1)
-    for text in [refused, *warned] if refused else warned:
+    for text in filter(None, [refused, *warned]):
         tell(f"{path}: warning: {text}")

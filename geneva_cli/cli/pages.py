@@ -23,7 +23,7 @@ class Hit(NamedTuple):
 
 
 def page(topic: str) -> str:
-    """A topic's page as Markdown, without pictures; raises GenevaError for an unknown topic."""
+    """A topic's page as Markdown, without pictures."""
     return PRINTED[topic]() if topic in PRINTED else manual.page(topic)
 
 
@@ -98,7 +98,7 @@ def quantities_page() -> str:
             unit = "" if unit.startswith("that of") else unit
             names = ", ".join(f"`{name}`" for name in entry.names)
             rows.append((names, unit, meaning))
-    return explained.head("quantities") + _table(rows)
+    return explained.text("quantities").partition("## ")[0] + _table(rows)
 
 
 def _table(rows: Sequence[tuple[str, ...]]) -> str:

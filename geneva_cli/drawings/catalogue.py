@@ -5,7 +5,6 @@ A new part is one function, one name here, and a line in the records of the kind
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import TYPE_CHECKING, cast
 
 from geneva_cli.errors import GenevaError, cut, few, nearest
@@ -22,14 +21,13 @@ if TYPE_CHECKING:
     from geneva_cli.parts.parts import Parts
 
 
-_NAMES = (
+PARTS = (
     *("slot", "wheel", "crank", "arm", "links", "first-wheel", "first-crank", "frame", "guide"),
     *("parts", "assembly", "gears", "groove", "groove-plate", "plate", "sheet"),
 )
 SHEET = "sheet"  # a drawing sheet with dimensions
-# the function of a table that every machine has, and no drawing
-PARTS = dict.fromkeys(_NAMES, "") | {"parts": "drawings.parts_list:parts_table"}
-DRAWINGS = tuple(name for name, table in PARTS.items() if not table and name != SHEET)
+TABLES = {"parts": "drawings.parts_list:parts_table"}  # of every machine, and no drawings
+DRAWINGS = tuple(name for name in PARTS if name != SHEET and name not in TABLES)
 # what is cut out of a plate
 CUT = tuple(n for n in DRAWINGS if n not in ("slot", "assembly", "gears", "groove", "plate"))
 
@@ -50,9 +48,11 @@ def table_of(mechanism: Mechanism, part: str, drawn: bool = False) -> str:
     wheel has.
     """
     is_sheet(part)
-    kinds = of_wheel(mechanism.spec.wheel.NAME)
-    has = {name for kind in kinds for name in (*kind.drawings, *kind.tables)}
-    known = [name for name, table in PARTS.items() if table or name in has]
+    tables, drawings = dict(TABLES), dict[str, str]()
+    for kind in of_wheel(mechanism.spec.wheel.NAME):
+        tables |= kind.tables
+        drawings |= kind.drawings
+    known = [name for name in PARTS if name in tables or name in drawings]
     if part not in known:
         raise GenevaError(
             f"--part {part}: a machine of this kind has none; it may have {', '.join(known)}",
@@ -61,8 +61,7 @@ def table_of(mechanism: Mechanism, part: str, drawn: bool = False) -> str:
     if drawn and part not in DRAWINGS:
         what = "a drawing sheet" if part == SHEET else "a table of points, for .csv or .json"
         raise GenevaError(f"--part {part} is {what}; these are drawings: {', '.join(DRAWINGS)}")
-    own = (kind.tables.get(part) for kind in reversed(kinds))
-    return "" if drawn else next(filter(None, own), PARTS[part])
+    return "" if drawn else tables.get(part, "")
 
 
 def part_table(mechanism: Mechanism, part: str, tolerance_mm: float, samples: int | None) -> Table:
@@ -121,9 +120,8 @@ def _drawn(parts: Parts, part: str, tolerance_mm: float, curves: str) -> object:
     kinds = of_wheel(parts.mechanism.spec.wheel.NAME)
     kind = next(kind for kind in reversed(kinds) if part in kind.drawings)
     name = part.removeprefix("first-").replace("-", "_")
-    draw: Callable[[Parts], object] = load_named(f"{kind.drawings[part]}:{name}")
     built = parts.built if kind.parts else parts.flat
-    return draw(built.within(tolerance_mm, curves))
+    return load_named(f"{kind.drawings[part]}:{name}")(built.within(tolerance_mm, curves))
 
 
 def require_cut(part: str, option: str = "--kerf") -> None:

@@ -10,7 +10,7 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry import shapes as forms
 from geneva_cli.geometry.plates import Group, Member, in_place
-from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line, Segment, Shape
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line, Segment
 from geneva_cli.geometry.sheet import Annotations, Drawing, LevelDistance
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.pivots import Joint
@@ -134,9 +134,9 @@ def pitch_lines(parts: FlatParts, engagement: Engagement) -> list[Contour]:
 def assembly(parts: FlatParts) -> Drawing:
     """Return the machine at input angle 0, from the frame up to the wheel."""
     assembly, title = parts.outlines.assembly, titled(parts.mechanism)
-    drawn = [shape for one in (parts.wheel, *parts.orbiting) for shape in _seen(one)]
+    drawn = list(shapes((parts.wheel, *parts.orbiting)))
     for one in parts.about_wheel(parts.crank_with(arm=False)):
-        drawn += _seen(one)
+        drawn += shapes([one])
         if parts.arm:
             drawn.append(forms.placed(parts.arm.outline, one.at, one.turn))
             if parts.arm.bore not in outlines_of(one.part):
@@ -166,10 +166,6 @@ def assembly(parts: FlatParts) -> Drawing:
     distance = LevelDistance((0.0, 0.0), (assembly.L, 0.0), "L")
     look = Annotations((distance,), tuple(_turns(parts.outlines)))
     return Drawing(title, tuple(once(drawn)), look, Group(title, parts.members))
-
-
-def _seen(member: Member) -> list[Shape]:
-    return [forms.placed(shape, member.at, member.turn) for shape in outlines_of(member.part)]
 
 
 def _turns(parts: Outlines) -> Iterator[Arc]:

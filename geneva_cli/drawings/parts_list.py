@@ -14,19 +14,19 @@ from contextlib import suppress
 from functools import partial
 from typing import NamedTuple, TypeAlias
 
-from geneva_cli.drawings.sheet.packing import Block, packed_apart
+from geneva_cli.drawings.sheet.paper import packed
 from geneva_cli.drives.transmission import places
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry import plates
 from geneva_cli.geometry.plates import Group, Member, Part, Plate, Shell, Solid
-from geneva_cli.geometry.shapes import bounds_of
+from geneva_cli.geometry.shapes import Box, bounds_of
 from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Dimension, Pivot
 from geneva_cli.motion.registry import thing
 from geneva_cli.parts.parts import EdgedParts, Parts, parts_of
-from geneva_cli.parts.projection import Missing, alike, built_of, or_missing, outlines_of, titled
+from geneva_cli.parts.projection import Missing, alike, built_of, outlines_of, titled
 from geneva_cli.parts.shafts.bores import listed
 from geneva_cli.spec.defaults import roller_material, wheel_material
 from geneva_cli.spec.schema import Points, fields
@@ -69,21 +69,16 @@ def parts_list(parts: Parts) -> Table:
 
 
 def _parts(parts: Parts) -> Iterator[Row | Missing]:
-    spec = parts.mechanism.spec
-    missing: list[Missing] = []
+    missing = list[Missing]()
 
-    for name, build in parts.all_built:
+    def rows(build: Callable[[], Parts]) -> Iterator[Row]:
+        own = build()
+        row = partial(part_rows, own.mechanism.spec, outside=own.outside_mm)
+        kinds = alike(built_of(own.by_name(), missing))
+        # a part whose walls are too thin for its edges has no mass
+        yield from built_of(((kind[-1].name, partial(row, kind)) for kind in kinds), missing)
 
-        def rows(build: Callable[[], Parts] = build) -> Iterator[Row]:
-            own = build()
-            kinds = alike(built_of(own.by_name(), missing))
-            # a part whose walls are too thin for its edges has no mass
-            named = (
-                (kind[-1].name, partial(part_rows, spec, kind, own.outside_mm)) for kind in kinds
-            )
-            yield from built_of(named, missing)
-
-        yield from or_missing(name, rows)
+    yield from built_of(((name, partial(rows, build)) for name, build in parts.all_built), missing)
     yield from missing
 
 
@@ -105,7 +100,7 @@ def part_rows(spec: Spec, parts: Iterable[Part], outside: float | None = None) -
 
 def _properties(solid: Solid, density: float, outside: float | None) -> Row:
     """Return heights, mass, inertia and size of a solid; in a flat machine also its centroid."""
-    body = plates.mass_properties(solid, density)
+    body = plates.mass_properties([solid], density)
     row: Row = {"mass_kg": body.mass_kg, "inertia_kgm2": body.inertia_kgm2}
     if isinstance(solid, Shell):
         low, high = solid.inner, solid.outer
@@ -211,18 +206,13 @@ def plate(parts: EdgedParts) -> Drawing:
 
 def _laid(whole: list[Plate]) -> list[Member]:
     """Return parts at z = 0 side by side, on a square bed that is as small as they allow."""
-    blocks = [Block(*bounds_of(outlines_of(one)), (), ()) for one in whole]
-    side = math.sqrt(sum((b.width + APART) * (b.height + APART) for b in blocks))
-    placed = None
-    while placed is None:
-        area = (0.0, 0.0, side, side)
-        placed = packed_apart(blocks, (), area, APART)
-        # the bed grows by a tenth until all parts fit
+    boxes = [bounds_of(outlines_of(one)) for one in whole]
+    side = math.sqrt(sum((x1 - x0 + APART) * (y1 - y0 + APART) for x0, y0, x1, y1 in boxes))
+    # the bed grows by a tenth until all parts fit
+    while (moves := packed(boxes, (), Box(0.0, 0.0, side, side), APART)) is None:
         side *= 1.1
-    return [
-        Member(one._replace(low=0.0, high=one.thickness), (to.x0 - before.x0, to.y0 - before.y0))
-        for one, before, to in zip(whole, blocks, placed, strict=True)
-    ]
+    flat = (one._replace(low=0.0, high=one.thickness) for one in whole)
+    return [*map(Member, flat, moves)]
 
 
 class SinglePart(NamedTuple):

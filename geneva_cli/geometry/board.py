@@ -5,12 +5,12 @@ Chords are complex numbers, (n, 2): their starts and ends.
 
 import cmath
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 
 import numpy as np
 
 from geneva_cli.geometry import shapes
-from geneva_cli.geometry.shapes import Line, Point, Segment, Shape
+from geneva_cli.geometry.shapes import Line, Segment, Shape
 from geneva_cli.geometry.sheet import ABOVE, BELOW, Label, Measure
 from geneva_cli.numerics.arrays import Array
 
@@ -37,50 +37,37 @@ class Board:
         lines = _chords(piece for piece in pieces if isinstance(piece, Line))
         self._ruled = np.concatenate((self._ruled, lines))
 
-    def put(self, measure: Measure) -> None:
-        """Add a dimension: its lines, arrows and text."""
-        own = _chords(measure.lines[:1])
-        self._all = np.concatenate((self._all, _lines(measure)))
-        self._ruled = np.concatenate((self._ruled, own))
-        self._main = np.concatenate((self._main, _main(measure)))
-        self._extended = np.concatenate((self._extended, _chords(measure.extension_lines)))
-        self._texts.append(measure.label)
-
     def first(self, candidates: Iterable[Measure], gap: float = 0.6) -> Measure | None:
         """Return the free dimension with the fewest crossings, and add it; None if none is free.
 
-        Its text is ``gap`` mm clear. After the first free one 100 more are tried.
+        It keeps clear of texts, with its own text by ``gap`` mm, and of lines along its own. After
+        the first free one 100 more are tried.
         """
-        best, least, left = None, math.inf, 100
+        best, least, left, added = None, math.inf, 100, tuple[Array, ...]()
         for measure in candidates:
             if not left or not least:
                 break
             left -= best is not None
-            if not self._is_free(measure, gap):
+            own, lines = _chords(measure.lines[:1]), _lines(measure)
+            along = _run_along(own, self._ruled)
+            # a leader may run along other lines if it must
+            if along and measure.kind in ("length", "angular"):
+                continue
+            if _crosses(measure.label, self._all, gap):
+                continue
+            if any(_crosses(text, lines, 0.6) for text in self._texts):
                 continue
             # extension lines may cross each other (ISO 129-1)
-            main, others = _main(measure), np.concatenate((self._main, self._extended))
-            count = _crossings(main, others)
-            count += _crossings(_chords(measure.extension_lines), self._main)
-            count += self._runs_along(measure)
+            main, extended = _main(measure), _chords(measure.extension_lines)
+            count = along + _crossings(main, np.concatenate((self._main, self._extended)))
+            count += _crossings(extended, self._main)
             if count < least:
-                best, least = measure, count
+                best, least, added = measure, count, (lines, own, main, extended)
         if best is not None:
-            self.put(best)
+            self._texts.append(best.label)
+            every = zip((self._all, self._ruled, self._main, self._extended), added, strict=True)
+            self._all, self._ruled, self._main, self._extended = map(np.concatenate, every)
         return best
-
-    def _is_free(self, measure: Measure, gap: float) -> bool:
-        """Return True if a dimension keeps clear of texts, and of lines along its own."""
-        # a leader may run along other lines if it must
-        if measure.kind in ("length", "angular") and self._runs_along(measure):
-            return False
-        if _crosses(measure.label, self._all, gap):
-            return False
-        lines = _lines(measure)
-        return not any(_crosses(text, lines, 0.6) for text in self._texts)
-
-    def _runs_along(self, measure: Measure) -> bool:
-        return _run_along(_chords(measure.lines[:1]), self._ruled)
 
     def box(self) -> tuple[float, float, float, float]:
         """Return the bounding box of all lines and texts: x0, y0, x1, y1."""
@@ -105,8 +92,9 @@ def _chords(pieces: Iterable[Segment]) -> Array:
 
 def _lines(measure: Measure) -> Array:
     """Return the chords of a dimension's lines, arrows and text."""
-    rings = [*(one.corners for one in measure.arrows), measure.label.corners]
-    return np.concatenate([_chords(measure.lines), *map(_ring, rings)])
+    corners = [*(one.corners for one in measure.arrows), measure.label.corners]
+    rings = (chords(shapes.polygon("", ring)) for ring in corners)
+    return np.concatenate([_chords(measure.lines), *rings])
 
 
 def _main(measure: Measure) -> Array:
@@ -142,23 +130,14 @@ def _side(a: Array, b: Array, p: Array) -> Array:
     return np.asarray(((b - a).conj() * (p - a)).imag)
 
 
-def _ring(corners: Sequence[Point]) -> Array:
-    """Return the sides of a polygon."""
-    ends = np.array([complex(*corner) for corner in corners])
-    return np.column_stack((ends, np.roll(ends, -1)))
-
-
 @np.errstate(divide="ignore", invalid="ignore")
 def _crosses(label: Label, lines: Array, gap: float) -> bool:
     """Return True if chords come nearer to a text's box than ``gap`` mm."""
     seen = (lines - complex(*label.at)) * cmath.rect(1.0, -label.turn)
-    low, high = np.zeros(len(seen)), np.ones(len(seen))
-    limits = (
-        (seen.real, -gap, label.width + gap),
-        (seen.imag, -BELOW * label.height - gap, ABOVE * label.height + gap),
-    )
-    for place, least, most in limits:
-        start, step = place[:, 0], np.diff(place)[:, 0]
-        a, b = (least - start) / step, (most - start) / step  # infinite, of a line along the side
-        low, high = np.fmax(low, np.fmin(a, b)), np.fmin(high, np.fmax(a, b))
-    return bool((low <= high).any())
+    place, high = np.array((seen.real, seen.imag)), label.height
+    least = np.array(((-gap,), (-BELOW * high - gap,)))
+    most = np.array(((label.width + gap,), (ABOVE * high + gap,)))
+    start, step = place[..., 0], np.diff(place)[..., 0]
+    a, b = (least - start) / step, (most - start) / step  # infinite, of a line along the side
+    first, last = np.fmax.reduce(np.fmin(a, b)), np.fmin.reduce(np.fmax(a, b))
+    return bool((np.fmax(first, 0.0) <= np.fmin(last, 1.0)).any())

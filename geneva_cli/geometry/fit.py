@@ -25,7 +25,7 @@ from geneva_cli.numerics.arrays import Array
 Curve: TypeAlias = Callable[[Array], tuple[Array, Array]]
 Writer: TypeAlias = Callable[[Curve, float, float], Sequence[Segment]]  # fits a curve from a to b
 
-PIECES_MAX = 100_000
+PIECES_MAX = 200_000  # of a curve between two ends
 # Processors differ in the last bits of sines and products. Steps as coarse as these hide that, so
 # that joints are at the same places everywhere.
 PLACE = 2.0**-26  # of the whole path
@@ -34,6 +34,7 @@ WEIGHT = 2.0**-7
 SHORTEST, LONGEST = 1e-4, 1.0  # handles, in lengths of the piece: none is lost, none loops
 
 Pieces = TypeVar("Pieces")
+# pieces between places on a path, and the error of each, mm
 Fit: TypeAlias = "Callable[[CurvePath, Array], tuple[Pieces, Array]]"
 
 
@@ -93,13 +94,28 @@ class CurvePath:
         return points[:, 0] + 1j * points[:, 1], tangents[:, 0] + 1j * tangents[:, 1]
 
 
-def fewest(path: CurvePath, fit: Fit[Pieces], order: float, unit: int = 1) -> Pieces:
-    """Return the fewest pieces that stay within the path's tolerance, or nearly the fewest.
+def _fitted(path: CurvePath, fit: Fit[Pieces], order: float, unit: int) -> Pieces:
+    """Return the fewest pieces within the path's tolerance."""
+    places = fewest(lambda at: fit(path, at)[1], path.tolerance, order, unit)
+    # products of long numbers are the same on all processors of a family, as doubles
+    path.kind = np.clongdouble
+    return fit(path, places)[0]
 
-    ``fit`` returns the pieces between places on the path, and the error of each in mm. Their
-    number is a multiple of ``unit``. An error is proportional to the length of the piece to the
-    power of ``order``. Its root over that of the tolerance is the piece's weight, and the sum of
-    the weights predicts the number of pieces.
+
+def fewest(
+    errors: Callable[[Array], Array],
+    tolerance: float,
+    order: float,
+    unit: int = 1,
+    spare: float = 0.01,
+) -> Array:
+    """Return the places, from 0 to 1, of the fewest pieces within a tolerance, or nearly so.
+
+    ``errors`` returns the error of each piece between places, in mm. Their number is a multiple of
+    ``unit``, and a fraction ``spare`` of it is not worth another attempt. An error is proportional
+    to the length of the piece to the power of ``order``. Its root over that of the tolerance is the
+    piece's weight, and the sum of the weights predicts the number of pieces. Raises GenevaError for
+    a tolerance that needs more than ``PIECES_MAX`` of them.
     """
     best, count, too_few, enough = None, unit, 0, PIECES_MAX
     places, weights = np.array([0.0, 1.0]), np.ones(1)
@@ -113,9 +129,8 @@ def fewest(path: CurvePath, fit: Fit[Pieces], order: float, unit: int = 1) -> Pi
             share = np.sqrt(np.maximum(weights, 0.05 * max(weights.mean(), 1.0)))
             area = np.concatenate(([0.0], np.cumsum(share)))
             places = np.interp(np.linspace(0.0, area[-1], count + 1), area, places)
-            _, errors = fit(path, places)
             # one hundredth of the tolerance is for what lies between samples
-            weights = (errors / (0.99 * path.tolerance)) ** (1.0 / order)
+            weights = (errors(places) / (0.99 * tolerance)) ** (1.0 / order)
             weights = np.maximum(np.ceil(weights / WEIGHT), 1.0) * WEIGHT
             worst, mean = weights.max(), weights.mean()
             # if the worst weight is 1.25 of the mean or less, there are too few pieces
@@ -125,19 +140,21 @@ def fewest(path: CurvePath, fit: Fit[Pieces], order: float, unit: int = 1) -> Pi
             best, enough = places, count
         else:
             too_few = count
-        # a hundredth of the pieces is not worth another attempt
-        step = unit * (1 + int(0.01 * count / unit))
+        step = unit * (1 + int(spare * count / unit))
         if best is not None and enough - too_few <= step:
-            # products of long numbers are the same on all processors of a family, as doubles
-            path.kind = np.clongdouble
-            return fit(path, best)[0]
-        need = unit * int(np.ceil(min(weights.sum(), PIECES_MAX) / unit))
-        count = min(max(need, too_few + step), enough - unit)
-    raise _too_fine(path.tolerance)
+            return best
+        need = unit * int(np.ceil(weights.sum() / unit))
+        # the first estimate, by one piece, may be far too high
+        if need > PIECES_MAX and count > unit:
+            least = tolerance * float((weights.sum() / PIECES_MAX) ** order)
+            text = f"takes more than {PIECES_MAX} pieces: use for example {least:.1g} mm"
+            raise GenevaError(f"--tolerance {tolerance:g} mm {text}")
+        count = min(max(need, too_few + step), enough - unit, 1000 * count)
+    raise _too_fine(tolerance)
 
 
 def _too_fine(tolerance: float) -> GenevaError:
-    text = f"a tolerance of {tolerance:g} mm is finer than double precision can show at this size"
+    text = f"--tolerance {tolerance:g} mm is finer than double precision can show at this size"
     return GenevaError(text)
 
 
@@ -158,7 +175,7 @@ class Arcs(NamedTuple):
 def arcs(curve: Curve, a: float, b: float, tolerance: float) -> list[Arc | Line]:
     """Arcs within ``tolerance`` mm of the curve, without corners; lines where it is straight."""
     path = CurvePath(curve, a, b, tolerance)
-    return _joined(fewest(path, _biarcs, 3.0, 2), path.rounding)  # a biarc has 2 arcs
+    return _joined(_fitted(path, _biarcs, 3.0, 2), path.rounding)  # a biarc has 2 arcs
 
 
 @np.errstate(divide="ignore", invalid="ignore")  # where a biarc's ends are one point
@@ -239,7 +256,7 @@ class FitTargets(NamedTuple):
 
 def cubics(curve: Curve, a: float, b: float, tolerance: float) -> list[Cubic]:
     """Cubic Béziers within ``tolerance`` mm of the curve, which meet on it with its tangents."""
-    corners = fewest(CurvePath(curve, a, b, tolerance), _cubics, 6.0)
+    corners = _fitted(CurvePath(curve, a, b, tolerance), _cubics, 6.0, 1)
     return [Cubic(*row) for row in zip(*map(points_of, corners), strict=True)]
 
 
@@ -254,11 +271,9 @@ def _cubics(path: CurvePath, places: Array) -> tuple[tuple[Array, Array, Array, 
     reach = handles * length[:, None]
     first = z[:, 0] + reach[:, 0] * tangent[:, 0]
     second = z[:, -1] - reach[:, 1] * tangent[:, -1]
-    v = np.broadcast_to(np.linspace(0.0, 1.0, points.shape[1]), points.shape)
-    # 6 Newton steps to the places nearest to the samples
-    for _ in range(6):
-        v = _projected(wanted, handles, v)
-    miss = np.abs(points - _bezier(wanted, handles, v)[0]).max(axis=1)
+    even = np.broadcast_to(np.linspace(0.0, 1.0, points.shape[1]), points.shape)
+    v, off = _near(wanted, handles, even, 6)
+    miss = off.max(axis=1)
     # Nearest points that run back and forth do not prove that the whole cubic is near.
     miss[(np.diff(v, axis=1) < 0.0).any(axis=1)] = 1.0
     return (z[:, 0], first, second, z[:, -1]), length * miss
@@ -272,16 +287,18 @@ def _handles(wanted: FitTargets) -> Array:
     fixed = wanted.points - v * v * (3.0 - 2.0 * v) * wanted.points[:, -1:]
     first, second = 3.0 * v * u * u * wanted.ahead, -3.0 * v * v * u * wanted.behind
     handles = np.clip(_least_squares(first, second, fixed, 0.0), 0.05, 0.8)
-    v, left = _near(wanted, handles, v)
+    v, off = _near(wanted, handles, v)
+    left = (off**2).sum(axis=1)
     # the first step in the handles' difference is damped by 1e-3
     damping = np.full(len(v), 1e-3)
     # 6 steps of least squares
     for _ in range(6):
         trial = _improved(wanted, handles, v, damping)
-        at, error = _near(wanted, trial, v)
+        at, _ = _near(wanted, trial, v)
         # a damping of 1e9 leaves their difference as it is
         trial = _improved(wanted, trial, at, 1e9)
-        at, error = _near(wanted, trial, at)
+        at, off = _near(wanted, trial, at)
+        error = (off**2).sum(axis=1)
         better = error < left
         damping *= np.where(better, 0.02, 10.0)
         handles, v = (np.where(better[:, None], *pair) for pair in ((trial, handles), (at, v)))
@@ -311,22 +328,16 @@ def _least_squares(first: Array, second: Array, wanted: Array, damping: Array | 
     return np.stack((d * p - b * q, a * q - b * p), axis=1) / (a * d - b * b)[:, None]
 
 
-def _projected(wanted: FitTargets, handles: Array, v: Array) -> Array:
-    """Places on the cubics nearest to the samples, after one more step of Newton's method."""
-    point, rate, bend = _bezier(wanted, handles, v)
-    off = wanted.points - point
-    slope = np.abs(rate) ** 2
-    # at least half the slope, so that a step reduces the distance from any start
-    steep = np.maximum(slope - (off * bend.conj()).real, 0.5 * slope)
-    return np.clip(v + (off * rate.conj()).real / np.maximum(steep, 1e-300), 0.0, 1.0)
-
-
-def _near(wanted: FitTargets, handles: Array, v: Array) -> tuple[Array, Array]:
-    """Places of the samples on cubics with these handles, from those on others; squared errors."""
-    for _ in range(2):
-        v = _projected(wanted, handles, v)
-    off = wanted.points - _bezier(wanted, handles, v)[0]
-    return v, (np.abs(off) ** 2).sum(axis=1)
+def _near(wanted: FitTargets, handles: Array, v: Array, steps: int = 2) -> tuple[Array, Array]:
+    """Places on cubics nearest to the samples, by Newton's steps from others; and distances."""
+    for _ in range(steps):
+        point, rate, bend = _bezier(wanted, handles, v)
+        off = wanted.points - point
+        slope = np.abs(rate) ** 2
+        # at least half the slope, so that a step reduces the distance from any start
+        steep = np.maximum(slope - (off * bend.conj()).real, 0.5 * slope)
+        v = np.clip(v + (off * rate.conj()).real / np.maximum(steep, 1e-300), 0.0, 1.0)
+    return v, np.abs(wanted.points - _bezier(wanted, handles, v)[0])
 
 
 def _improved(wanted: FitTargets, handles: Array, v: Array, damping: Array | float) -> Array:

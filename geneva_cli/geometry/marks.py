@@ -106,10 +106,8 @@ def section(end: Point, outwards: float, letter: str) -> Iterator[sheet.Measure]
         x, y = end[0] + outwards * far, end[1]
         lines = Line((x, y - 10.0), (x, y)), Line((x - 3.0 * outwards, y), (x + outwards, y))
         start = x - 0.5 * sheet.width(letter) * sheet.LARGE, y - 12.0 - sheet.LARGE
-        arrow = sheet.Arrow((x, y), 0.5 * math.pi)
-        yield sheet.Measure(
-            "note", (end,), 0.0, sheet.Label(letter, start, sheet.LARGE), lines, (arrow,)
-        )
+        arrow, label = sheet.Arrow((x, y), 0.5 * math.pi), sheet.Label(letter, start, sheet.LARGE)
+        yield sheet.Measure("note", (end,), 0.0, label, lines, (arrow,))
 
 
 def around() -> list[float]:
@@ -141,11 +139,9 @@ def led(
                 end = polar(tip, out * length, angle)
                 right = out * math.cos(angle) >= 0.0
                 start = end[0] + CLEAR if right else end[0] - CLEAR - long
-                label = sheet.Label(
-                    text, (start, end[1] + CLEAR + sheet.BELOW * sheet.SMALL), sheet.SMALL
-                )
+                first = start, end[1] + CLEAR + sheet.BELOW * sheet.SMALL
+                label = sheet.Label(text, first, sheet.SMALL)
                 far = start + long + CLEAR if right else start - CLEAR
                 lines = (Line(end, tip), Line(end, (far, end[1])))
-                turn = math.atan2(tip[1] - end[1], tip[0] - end[0])
-                arrows = (sheet.Arrow(tip, turn),)
-                yield sheet.Measure(kind, points.get(kind, (tip,)), value, label, lines, arrows)
+                arrow = sheet.Arrow(tip, angle + math.pi if out > 0.0 else angle)
+                yield sheet.Measure(kind, points.get(kind, (tip,)), value, label, lines, (arrow,))

@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from geneva_cli.geometry.sphere_arcs import RoundHole
 
 MM = 1e-3  # metres
-Z_AXIS = (0.0, 0.0, 1.0)
 SAMPLED = 1e-4, 0.5  # mm: sagitta and length of samples of a hole that is not a circle
 GAUSS = np.transpose(np.polynomial.legendre.leggauss(8)).tolist()  # nodes on -1..1 with weights
 OVER_A_RADIAN = partial(lt, math.tan(0.25))  # is the bulge of an arc above that of a radian?
@@ -68,15 +67,15 @@ class Shell(NamedTuple):
         """Greatest coordinate of the shell along a direction, mm from the centre."""
         from geneva_cli.geometry.sphere_arcs import SphereArcs
 
-        if any(SphereArcs(r.boundary).signed(np.array([direction]))[0] < 0.0 for r in self.regions):
-            return self.outer
-        most = max(arc.reach(direction) for region in self.regions for arc in region.boundary)
+        off = (SphereArcs(r.boundary).signed(np.array([direction])).item() for r in self.regions)
+        most = math.cos(max(0.0, min(off)))  # of the nearest point
         return most * (self.outer if most > 0.0 else self.inner)
 
-    def inertia(self, axis: Vector) -> float:
-        """The volume's moment of inertia about an axis through the centre, mm⁵."""
-        covered = math.fsum(r.area - float(r.moments @ axis @ axis) for r in self.regions)
-        bored = math.fsum(hole.inertia(self.inner, self.outer, axis) for hole in self.holes)
+    @property
+    def inertia(self) -> float:
+        """The volume's moment of inertia about z, mm⁵."""
+        covered = math.fsum(region.polar_moment for region in self.regions)
+        bored = math.fsum(hole.inertia(self.inner, self.outer) for hole in self.holes)
         return covered * (self.outer**5 - self.inner**5) / 5.0 - bored
 
 
@@ -94,6 +93,12 @@ class Member(NamedTuple):
     at: Point = (0.0, 0.0)
     turn: float = 0.0  # counterclockwise
     frame: Rotation | None = None  # in place of a turn: the directions of its x, y and z
+
+    @property
+    def plate(self) -> Plate:
+        """The part of a member that is a plate."""
+        assert isinstance(self.part, Plate)
+        return self.part
 
 
 Solid: TypeAlias = "Plate | Shell"
@@ -116,10 +121,9 @@ def in_place(members: Iterable[Member]) -> Iterator[tuple[Plate, Plate]]:
     """Yield each plate in its own frame and at its position."""
     for one in members:
         if isinstance(one.part, Group):
-            inner = in_place(one.part.members)
+            inner = [*in_place(one.part.members)]
         else:
-            assert isinstance(one.part, Plate)
-            inner = iter([(one.part, one.part)])
+            inner = [(one.plate, one.plate)]
         for own, plate in inner:
             outline, *holes = (
                 shapes.placed(shape, one.at, one.turn) for shape in (plate.outline, *plate.holes)
@@ -177,34 +181,27 @@ def total(rows: Iterable[Iterable[float]]) -> Moments:
 
 
 class MassProperties(NamedTuple):
-    """A solid's mass, centroid, and moment of inertia about its own origin along the axis."""
+    """A body's mass, centroid, and moment of inertia about its origin along the axis."""
 
     mass_kg: float
     centroid_mm: Point
     inertia_kgm2: float
 
 
-def mass_properties(plate: Solid, density_kgm3: float) -> MassProperties:
-    """Mass, centroid and inertia J = rho h Ip of a plate; a shell's centroid is on its axis, z."""
-    if isinstance(plate, Shell):
-        mass = density_kgm3 * plate.volume * MM**3
-        return MassProperties(mass, (0.0, 0.0), density_kgm3 * plate.inertia(Z_AXIS) * MM**5)
-    thick, per = plate.high - plate.low, density_kgm3 * MM**3
-    area, x, y, polar = face(plate)
-    volume = thick * area
-    return MassProperties(
-        per * volume, (thick * x / volume, thick * y / volume), per * MM**2 * (thick * polar)
-    )
+def mass_properties(bodies: Iterable[Solid], density_kgm3: float) -> MassProperties:
+    """Mass, centroid and inertia J = rho h Ip of solids with one origin, as one body.
 
-
-def added(one: MassProperties, other: MassProperties) -> MassProperties:
-    """Mass, centroid and inertia of two bodies with one origin."""
-    mass, (x, y), (u, v) = one.mass_kg + other.mass_kg, one.centroid_mm, other.centroid_mm
-    centroid = (
-        (one.mass_kg * x + other.mass_kg * u) / mass,
-        (one.mass_kg * y + other.mass_kg * v) / mass,
-    )
-    return MassProperties(mass, centroid, one.inertia_kgm2 + other.inertia_kgm2)
+    A shell's centroid is on its axis, z.
+    """
+    rows = list[Iterable[float]]()
+    for one in bodies:
+        if isinstance(one, Shell):
+            rows.append((one.volume, 0.0, 0.0, one.inertia))
+        else:
+            rows.append(map(mul, face(one), repeat(one.thickness)))
+    volume, x, y, polar = total(rows)
+    centroid, per = (x / volume, y / volume), density_kgm3 * MM**3
+    return MassProperties(per * volume, centroid, per * MM**2 * polar)
 
 
 def face(plate: Plate) -> Moments:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry import shapes
 from geneva_cli.geometry.shapes import Arc, Box, Circle, Contour, Layer, Line, Point, Segment, Shape
+from geneva_cli.table import in_decimals
 
 if TYPE_CHECKING:
     from geneva_cli.geometry.plates import Part
@@ -27,6 +28,11 @@ class LevelDistance(NamedTuple):
     start: Point
     end: Point
     name: str
+
+    @property
+    def text(self) -> str:
+        """The name and the length, to three decimals of a millimetre."""
+        return f"{self.name} = {in_decimals(abs(self.end[0] - self.start[0]), 3)} mm"
 
 
 class Annotations(NamedTuple):
@@ -86,10 +92,9 @@ def prepared(drawing: Drawing) -> Drawing:
                 half = 0.5 * math.dist(one.start, one.end)
                 flat = isinstance(one, Arc) and half * abs(one.bulge) < SHORTEST_MM
                 kept.append(Line(one.start, one.end) if flat else one)
-        if kept and shape.closed:
-            seen[shapes.closed(shape.layer, kept)] = None
-        elif kept:
-            seen[Contour(shape.layer, shapes.joined(kept), closed=False)] = None
+        if kept:
+            open_one = Contour(shape.layer, shapes.joined(kept), closed=False)
+            seen[shapes.closed(shape.layer, kept) if shape.closed else open_one] = None
     return drawing._replace(shapes=tuple(seen))
 
 
@@ -145,12 +150,11 @@ class Label(NamedTuple):
         return width(self.text) * self.height
 
     @property
-    def corners(self) -> tuple[Point, Point, Point, Point]:
+    def corners(self) -> tuple[Point, ...]:
         """Corners of the box around its letters, counterclockwise from the lower left."""
         low, high = -BELOW * self.height, ABOVE * self.height
         box = ((0.0, low), (self.width, low), (self.width, high), (0.0, high))
-        a, b, c, d = (_turned(p, self.turn, self.at) for p in box)
-        return a, b, c, d
+        return tuple(_turned(p, self.turn, self.at) for p in box)
 
     @property
     def middle(self) -> Point:
@@ -166,12 +170,11 @@ class Arrow(NamedTuple):
     size: tuple[float, float] = ARROW
 
     @property
-    def corners(self) -> tuple[Point, Point, Point]:
+    def corners(self) -> tuple[Point, ...]:
         """Tip and both other corners."""
         length, half = self.size
-        back = ((-length, half), (-length, -half))
-        left, right = (_turned(p, self.turn, self.tip) for p in back)
-        return self.tip, left, right
+        ends = ((0.0, 0.0), (-length, half), (-length, -half))
+        return tuple(_turned(p, self.turn, self.tip) for p in ends)
 
 
 class Measure(NamedTuple):

@@ -17,6 +17,7 @@ from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 
 Vector: TypeAlias = tuple[float, float, float]
+Rotation: TypeAlias = tuple[Vector, Vector, Vector]  # of the sphere: the images of x, y and z
 
 POLE: Vector = (0.0, 0.0, 1.0)  # of the wheel in its own frame
 
@@ -37,29 +38,16 @@ class SphereArc(NamedTuple):
         """Angle about its axis, radians, above 0 and at most a whole turn."""
         if self.start == self.end:
             return math.tau
-        x, y = self._frame()
+        x, y = self.frame
         return math.atan2(dot(self.end, y), dot(self.end, x)) % math.tau
 
     def at(self, turn: Array) -> tuple[Array, Array]:
         """Points and their derivatives, (n, 3), at angles about the axis from the start."""
-        x, y = (np.array(v) for v in self._frame())
+        x, y = np.array(self.frame)
         c, s = np.cos(turn)[:, None], np.sin(turn)[:, None]
         flat = math.sin(self.angle)
         points = math.cos(self.angle) * np.array(self.axis) + flat * (c * x + s * y)
         return points, flat * (c * y - s * x)
-
-    def reach(self, direction: Vector) -> float:
-        """Greatest coordinate of the arc along a direction, on the unit sphere."""
-        x, y = self._frame()
-        flat = math.sin(self.angle)
-        along, sideways = flat * dot(x, direction), flat * dot(y, direction)
-        if math.atan2(sideways, along) % math.tau <= self.sweep:
-            return math.cos(self.angle) * dot(self.axis, direction) + math.hypot(along, sideways)
-        return max(dot(self.start, direction), dot(self.end, direction))
-
-    def travel(self, point: Vector) -> Vector:
-        """Unit vector of the direction of travel at one of its points."""
-        return unit(cross(self.axis, point))
 
     @property
     def back(self) -> SphereArc:
@@ -73,22 +61,10 @@ class SphereArc(NamedTuple):
         return self.start, self.end, (x, y, z)
 
     @property
-    def ahead(self) -> Vector:
-        """Unit vector from the axis towards the start, perpendicular to the axis."""
-        return self._frame()[0]
-
-    def _frame(self) -> tuple[Vector, Vector]:
-        """``ahead``, and the vector a quarter of a turn further."""
+    def frame(self) -> tuple[Vector, Vector]:
+        """Unit vectors square to the axis: towards the start, and a quarter of a turn further."""
         y = unit(cross(self.axis, self.start))
         return cross(y, self.axis), y
-
-
-class Rotation(NamedTuple):
-    """A rotation of the sphere: the images of x, y and z."""
-
-    x: Vector
-    y: Vector
-    z: Vector
 
 
 class Region(NamedTuple):
@@ -102,28 +78,25 @@ class Region(NamedTuple):
         """Solid angle, by Gauss and Bonnet: 2 pi minus the turning of the boundary."""
         turned = [math.cos(arc.angle) * arc.sweep for arc in self.boundary]
         for arc, after in zip(self.boundary, (*self.boundary[1:], self.boundary[0]), strict=True):
-            if arc.start != arc.end:
-                back, on = arc.travel(arc.end), after.travel(after.start)
-                turned.append(math.atan2(dot(cross(back, on), arc.end), dot(back, on)))
+            back, on = cross(arc.axis, arc.end), cross(after.axis, arc.end)
+            turned.append(math.atan2(dot(cross(back, on), arc.end), dot(back, on)))
         return math.tau - math.fsum(turned)
 
     @property
-    def moments(self) -> Array:
-        """Integral of u u' over the region, (3, 3), from its boundary only.
+    def polar_moment(self) -> float:
+        """Integral of x² + y² over the region, from its boundary only.
 
-        It is a third of the area minus a sixth of the flow out of the region: the other parts are
-        harmonics of degree 2.
+        It is two thirds of the area plus a third of the flow of z along z out of the region: the
+        other part is a harmonic of degree 2.
         """
         # 24 points are exact: the integrands are of the second degree in sine and cosine
         nodes, weights = np.polynomial.legendre.leggauss(24)
-        second: Array = np.eye(3) * self.area / 3.0
+        flow = 0.0
         for arc in self.boundary:
             half = 0.5 * arc.sweep
-            u, du = arc.at(half * (1.0 + nodes))
-            out = np.cross(du, u)  # to the right, as long as the step
-            flow = np.einsum("n,ni,nj->ij", half * weights, out, u)
-            second -= (flow + flow.T) / 6.0
-        return second
+            (x, y, z), (dx, dy, _) = (rows.T for rows in arc.at(half * (1.0 + nodes)))
+            flow += half * float(weights @ ((dx * y - dy * x) * z))  # to the right of the step
+        return (2.0 * self.area + flow) / 3.0
 
 
 def place(polar: float, azimuth: float) -> Vector:
@@ -163,7 +136,7 @@ def square_to(v: Vector) -> Vector:
 def axis_frame(axis: Vector) -> Rotation:
     """A rotation that takes z to an axis."""
     x = square_to(axis)
-    return Rotation(x, cross(axis, x), axis)
+    return x, cross(axis, x), axis
 
 
 def opposite(v: Vector) -> Vector:

@@ -7,20 +7,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.geometry.sphere import Region, SphereArc, Vector, dot, opposite
+from geneva_cli.geometry.sphere import Region, SphereArc, Vector, opposite
 from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.numerics.tolerances import SAME_ANGLE
-
-
-def _distances(off: Array, across: Array, beyond: Array) -> Array:
-    """Return the angles between points and the nearest points of arcs.
-
-    A point is ``off`` the arc's circle, and about the axis ``beyond`` the arc's end. ``across`` is
-    the product of the sines of both angles from the axis.
-    """
-    square = np.sin(0.5 * off) ** 2 + across * np.sin(0.5 * beyond) ** 2
-    return 2.0 * np.arcsin(np.sqrt(np.minimum(square, 1.0)))
-
 
 # Fractions of an arc at which it is sampled: its start and middle, and points next to its corners.
 # A corner itself may lie on an edge where all else overlaps.
@@ -42,7 +31,7 @@ class SphereArcs:
             after += [*range(len(arcs) + 1, len(arcs) + len(boundary)), len(arcs)]
             arcs += boundary
         self.radius, self.axis = radius, np.array([arc.axis for arc in arcs])
-        self.x = np.array([arc.ahead for arc in arcs])
+        self.x = np.array([arc.frame[0] for arc in arcs])
         self.y = np.cross(self.axis, self.x)
         self.angle = np.array([arc.angle for arc in arcs])
         self.sweep = np.array([arc.sweep for arc in arcs])
@@ -86,23 +75,20 @@ class SphereArcs:
         outside = np.where(is_corner, corner > 0.0, off[row, near] > 0.0)
         return self.radius * np.where(outside, away, -away)
 
-    def angles(self, points: Array) -> Array:
-        """Distances of points (n, 3) from each arc, radians, (n, k)."""
-        return self._nearest(points)[-1]
-
     def farthest(self, points: Array) -> Array:
         """Distances of points (n, 3) from the farthest point of each arc, (n, k)."""
-        return self.radius * (math.pi - self.angles(-points))
+        return self.radius * (math.pi - self._nearest(-points)[-1])
 
     def _nearest(self, points: Array) -> tuple[Array, Array, Array, Array]:
-        """Angles off circles, past the arcs' ends, short of their starts; distances."""
+        """Angles off circles, past the arcs' ends, short of their starts; to the nearest points."""
         along, sideways = points @ self.x.T, points @ self.y.T
         across = np.hypot(along, sideways)
         off = np.arctan2(across, points @ self.axis.T) - self.angle
         turn = np.remainder(np.arctan2(sideways, along), 2.0 * np.pi)
         past, short = turn - self.sweep, 2.0 * np.pi - turn
         beyond = np.where(past <= 0.0, 0.0, np.minimum(past, short))
-        return off, past, short, _distances(off, np.sin(self.angle) * across, beyond)
+        square = np.sin(0.5 * off) ** 2 + np.sin(self.angle) * across * np.sin(0.5 * beyond) ** 2
+        return off, past, short, 2.0 * np.arcsin(np.sqrt(np.minimum(square, 1.0)))
 
     def touching(self, which: Whole, towards: Array) -> tuple[Whole, Array]:
         """Return the points of some arcs (m,) where others may touch, after their indices.
@@ -158,11 +144,10 @@ class RoundHole(NamedTuple):
         """Volume between two spheres, mm³."""
         return self._integrals(outer)[0] - self._integrals(inner)[0]
 
-    def inertia(self, inner: float, outer: float, about: Vector) -> float:
-        """The volume's moment of inertia about an axis through the centre, mm⁵."""
+    def inertia(self, inner: float, outer: float) -> float:
+        """The volume's moment of inertia about z, mm⁵."""
         (_, far, up), (_, less, below) = self._integrals(outer), self._integrals(inner)
-        own, along = far - less, up - below
-        square = dot(self.axis, about) ** 2
+        own, along, square = far - less, up - below, self.axis[2] ** 2
         return own * square + (0.5 * own + along) * (1.0 - square)
 
     def _integrals(self, R: float) -> tuple[float, float, float]:

@@ -13,16 +13,7 @@ import numpy as np
 
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import (
-    Mask,
-    Truth,
-    Whole,
-    all_true,
-    array,
-    choose,
-    choose_record,
-    library,
-)
+from geneva_cli.numerics.arrays import Truth, Whole, all_true, array, choose, choose_record, library
 from geneva_cli.numerics.jet import Array, Jet, Number, Vector, sqrt
 
 OF_MOTION = ("omega_rad_s", "alpha_rad_s2", "sliding_m_s")  # known without a load
@@ -78,12 +69,6 @@ class LoadCase(NamedTuple):
     guided: bool = False  # True if there is friction in the output's guide in any of them
     # A number that is above 0 for a design with any friction, which may hold the wheel
     all_friction: float = 0.0
-
-    def is_loaded(self, engagement: Engagement, torque: Number) -> Mask:
-        """True where a torque at the wheel is more than rounding."""
-        usual = self.inertia_Nm * engagement.usual_acceleration + self.resists_Nm
-        loaded: Mask = np.abs(torque) > NEGLIGIBLE * usual
-        return loaded
 
     def with_friction(self, friction: float) -> LoadCase:
         """The load case with this friction along the wall, and with that in its own guide."""
@@ -150,10 +135,10 @@ def _at_middle(engagement: Engagement, x: Array, rates: Jet) -> list[Jet]:
     rounding; next to it, the sign is known. Where the pin reverses in a cusp, the tangent is that
     of the pitch curve.
     """
-    from geneva_cli.motion.path_and_slot import pitch_at_retrace, retraces
+    from geneva_cli.motion.path_and_slot import pitch, retraces
 
     near = contact(engagement, NEAR_CUSP * engagement.entry_deg, reactions=False)
-    back, middle, at = retraces(engagement), x == 0.0, pitch_at_retrace(engagement)
+    back, middle, at = retraces(engagement), x == 0.0, pitch(engagement, 0.0, 2)
     with np.errstate(all="ignore"):  # each formula holds for its own designs
         here = [jet.c[0] for jet in _curved(engagement, x, 0, rates)]
         turned = np.where(here[2] * near.along.c[0] < 0.0, -1.0, 1.0)
@@ -177,15 +162,14 @@ def _curved(engagement: Engagement, x: Number, order: int, rates: Jet) -> tuple[
     """
     path = engagement.path(x, order + 2)
     dx, dy = (jet.derivative() for jet in path)
-    px, py = (_to_order(jet, order + 1) for jet in path)
+    px, py = (jet.lower for jet in path)
     ux, uy = dx + py * rates, dy - px * rates
-    turn = _to_order(rates, order)
     bend_x, bend_y = ux.derivative(), uy.derivative()
-    px, py, dx, dy, ux, uy = (_to_order(jet, order) for jet in (px, py, dx, dy, ux, uy))
+    px, py, dx, dy, ux, uy = (jet.lower for jet in (px, py, dx, dy, ux, uy))
     outward = px * dx + py * dy
     square = ux * ux + uy * uy
     along = sqrt(square) * library(outward.c[0]).copysign(1.0, outward.c[0])
-    curvature = (ux * bend_y - uy * bend_x - square * turn) / (square * along)
+    curvature = (ux * bend_y - uy * bend_x - square * rates.lower) / (square * along)
     return outward / along, (px * uy - py * ux) / along, along, curvature
 
 
@@ -200,7 +184,7 @@ def _reactions(
     if not all_true(touches == 1.0):  # gears push at their pitch point, which stands still
         apart = Jet((*lever.c, 0.0)) * (1.0 - touches)
         path = path[0] * touches + apart, path[1] * touches
-    px, py = (_to_order(jet, lever.order) for jet in path)
+    px, py = (jet.lower for jet in path)
     square = px * px + py * py
     # the tangent, whose M . t and M x t are known
     tx, ty = (px * lever - py * offset) / square, (py * lever + px * offset) / square
@@ -208,8 +192,3 @@ def _reactions(
     normal, tangent = (ty * -1.0, tx), (tx, ty)
     loads = (normal, none), (tangent, none), ((none, none), none + 1.0)
     return tuple(engagement.reactions(Jet.variable(radians(x), lever.order), path, loads))
-
-
-def _to_order(jet: Jet, order: int) -> Jet:
-    """The jet without its derivatives above an order."""
-    return Jet(jet.c[: order + 1])

@@ -17,9 +17,9 @@ from geneva_cli.kept import cached_property
 from geneva_cli.loads import load_functions
 from geneva_cli.loads.contact import NEGLIGIBLE, LoadCase, contact, plain_values
 from geneva_cli.loads.impacts.reversal import arrival
-from geneva_cli.loads.instant import Instant, bounded
+from geneva_cli.loads.instant import QUANTITIES, Instant, bounded
 from geneva_cli.loads.load_case import load_case, sources, weight_kg
-from geneva_cli.loads.load_peaks import LoadSummary, only, single_extremes, single_summaries
+from geneva_cli.loads.load_peaks import LoadSummary, load_summaries, only
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.path_and_slot import retraces
@@ -78,8 +78,9 @@ class Cycle:
             at = contact(engagement, x)
             here = Instant(self.case, at, *(stretch[2:] if stretch else self._signs(engagement, x)))
             each = [self.sources.get(name, (name, 1.0)) for name in names]  # or of a pinion
-            sought = ["wall_force_N" if source == "pin_force_N" else source for source, _ in each]
-            rows = [bounded(here, source) for source in sought]
+            signed = {"pin_force_N": "wall_force_N"}
+            sought = [QUANTITIES[signed.get(source, source)] for source, _ in each]
+            rows = [bounded(here, quantity) for quantity in sought]
             # the limits where the pin crosses the slot without a torque
             middle = np.flatnonzero(x == 0.0)
             crosses = engagement.slot.curved and not retraces(engagement)
@@ -102,14 +103,15 @@ class Cycle:
     @cached_property
     def extremes(self) -> Mapping[str, LoadSummary[float]]:
         """The summaries of all quantities that have a value."""
-        every = single_summaries(self.machine)
+        every = load_summaries(self.machine, [*sources(self.machine)])
         load_functions.refuse_noise([one.rms for one in every.values()])
         return {name: only(one) for name, one in every.items()}
 
     @cached_property
     def ends(self) -> Mapping[str, LoadSummary[float]]:
         """The same without mean and rms, which take longest."""
-        return {name: only(one) for name, one in single_extremes(self.machine)[0].items()}
+        every = load_summaries(self.machine, [*sources(self.machine)], means=False)
+        return {name: only(one) for name, one in every.items()}
 
     @cached_property
     def stretches(self) -> list[tuple[Engagement, Stretch]]:
@@ -117,7 +119,7 @@ class Cycle:
         out = []
         for engagement in self.mechanism.engagements:
             kinds = "drives", "slides", "feeds"
-            load = load_functions.LoadFunctions(engagement, self.case, (), kinds=kinds)
+            load = load_functions.LoadFunctions(engagement, self.case, kinds=kinds)
             found = load.stretches()
             ends = load_functions.on_breaks(found.x[1], engagement)
             cuts = [engagement.entry_deg, *ends[:-1].tolist(), engagement.exit_deg]

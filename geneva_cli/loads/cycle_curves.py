@@ -4,22 +4,21 @@ Each smooth piece is sampled with both ends from inside, so that a jump has both
 """
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from functools import partial
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
-from typing import NamedTuple, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
 from geneva_cli.figure import Mark, Piece
 from geneva_cli.loads.contact import NEAR_CUSP
-from geneva_cli.loads.cycle import Cycle, Stretch
+from geneva_cli.loads.cycle import Cycle
 from geneva_cli.loads.load_peaks import LoadSummary, load_summaries, only
-from geneva_cli.motion.engagement import Engagement, Peak
+from geneva_cli.motion.engagement import Peak
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import spans
 from geneva_cli.motion.peaks import worst
-from geneva_cli.numerics.arrays import Array
+from geneva_cli.numerics.arrays import Array, rising
 from geneva_cli.numerics.tolerances import ROUNDED, SAME_INPUT_DEG
 
 ASPECT = 5.0  # width of a panel over its height
@@ -27,18 +26,8 @@ CHORD_ERROR = 1e-4  # of a panel's height: less than 0.1 px of a panel of 200 px
 SAMPLES = 4097  # of a piece: between them a peak a hundredth as wide differs by that error
 MOTION_QUANTITIES = ("velocity", "acceleration", "jerk", "power")  # besides the output itself
 Ends: TypeAlias = tuple[float, float]
-Curves: TypeAlias = Callable[[Array], Array]  # x (n,) -> a row a curve (q, n)
 # the curve of a quantity over a window: its pieces, its marks, and its bounds if it has none
 Drawn: TypeAlias = tuple[list[Piece], tuple[Mark, ...], Ends | None]
-
-
-class Stage(NamedTuple):
-    """A range of input angles, degrees, in which all curves are smooth."""
-
-    start: float
-    end: float
-    of: Curves  # the curves at input angles (n,), one row each
-    flat: bool = False  # True if they are constant, as in a dwell
 
 
 def drawn(cycle: Cycle, names: Sequence[str], window: Ends) -> dict[str, Drawn]:
@@ -50,109 +39,87 @@ def drawn(cycle: Cycle, names: Sequence[str], window: Ends) -> dict[str, Drawn]:
     if "pin_force_N" in ends:  # drawn with the sign of the wall that bears
         (wall,) = load_summaries(machine, ["wall_force_N"], means=False).values()
         ends["pin_force_N"] = only(wall)
-    bounds = _bounds(cycle, ends)
-    stages = list(_stages(cycle, names, loads, bounds))
+    stages = [*_stages(cycle, names, loads)]
     step = sum(2.0 * e.half_step for e in machine.engagements) * machine.output.per_radian
-    rise = [step if n == column else 0.0 for n in names]
-    curves = _pieces(stages, machine.period_deg, window, rise)
-    for name, pieces in zip(names, curves, strict=True):
-        marks, own = tuple[Mark, ...](), bounds.get(name)
-        if own:
-            pieces = [part for piece in pieces for part in _within(piece, own)]
+    for i, name in enumerate(names):
+        own, marks = [(x, rows[i]) for x, rows in stages], tuple[Mark, ...]()
+        bounds = _bounds(ends[name], own) if name in ends else None
+        if bounds:
+            own = [(x, np.clip(row, *bounds)) for x, row in own]
+        pieces = _pieces(own, machine.period_deg, window, step if name == column else 0.0)
+        if bounds:
+            pieces = [part for piece in pieces for part in _within(piece, bounds)]
         if name in ends:
-            one = ends[name]
-            size = max(abs(one.max), abs(one.min))
-            for word, value, at_deg, shown in (
-                ("max", one.max, one.max_at_deg, one.max > ROUNDED * size),
-                ("min", one.min, one.min_at_deg, one.min < -ROUNDED * size),  # only below 0
+            most, most_at, least, least_at, *_ = ends[name]
+            tiny = ROUNDED * max(abs(most), abs(least))
+            for word, value, at_deg, is_shown in (
+                ("max", most, most_at, most > tiny),
+                ("min", least, least_at, least < -tiny),  # only below 0
             ):
-                if shown or math.isinf(value):
+                if is_shown or math.isinf(value):
                     y = value if math.isfinite(value) else None
                     marks += (Mark(word, _placed(machine, at_deg, window), y),)
         elif name != column:
             marks = (_peak(machine, name, pieces, window),)
-        out[name] = pieces, marks, own
+        out[name] = pieces, marks, bounds
     return out
 
 
 def _stages(
-    cycle: Cycle, names: Sequence[str], loads: Sequence[str], bounds: Mapping[str, Ends]
-) -> Iterator[Stage]:
-    """Stages of a period from the first entry; loads with ``bounds`` are limited to them."""
+    cycle: Cycle, names: Sequence[str], loads: Sequence[str]
+) -> Iterator[tuple[Array, Array]]:
+    """The smooth parts of a period from the first entry: input angles (n,), and curves (q, n)."""
     mechanism = cycle.mechanism
     column, per_radian = mechanism.output.column, mechanism.output.per_radian
-
-    def curves(
-        engagement: Engagement, stretch: Stretch, inside: Ends, clear: Ends, up: float, x: Array
-    ) -> Array:
-        x = x - engagement.mid_deg
-        wheel, v, a, j = engagement.motion.derivatives(np.clip(x, *inside))
-        rows = (wheel + up) * per_radian, v, a, j, v * a
-        known = dict(zip((column, *MOTION_QUANTITIES), rows, strict=True))
-        if loads:
-            own = cycle.moving(engagement, np.clip(x, *clear), loads, stretch)
-            for name, row in zip(loads, own, strict=True):
-                known[name] = np.clip(row, *bounds.get(name, (None, None)))
-        return np.array([known[name] for name in names])
-
     base = -mechanism.engagements[0].half_step  # the wheel's angle before the step
-    for i, engagement in enumerate(mechanism.engagements):
-        mid, up = engagement.mid_deg, base + engagement.half_step
-        for owner, stretch in cycle.stretches:
-            if owner is not engagement:
-                continue
-            # clear of breaks; loads next to a cusp end before values are rounding
-            start, end = stretch[:2]
-            for low, high in spans(engagement.motion, 1):
-                if low.item() < 0.5 * (stretch.start + stretch.end) < high.item():
-                    start, end = max(start, low.item()), min(end, high.item())
-            inside = start, end
-            if engagement.slot.curved:
-                before, after = NEAR_CUSP * engagement.entry_deg, NEAR_CUSP * engagement.exit_deg
-                start = after if abs(start) < after else start
-                end = before if abs(end) < -before else end
-            of = partial(curves, engagement, stretch, inside, (start, end), up)
-            yield Stage(mid + stretch.start, mid + stretch.end, of)
+    for engagement, rest in zip(mechanism.engagements, _dwells(mechanism), strict=True):
+        for stretch in (own for owner, own in cycle.stretches if owner is engagement):
+            x, middle = places(stretch.start, stretch.end), 0.5 * (stretch.start + stretch.end)
+            clear = x
+            for low, high in spans(engagement.motion, 1):  # clear of breaks
+                clear = np.clip(x, low[0], high[0]) if low < middle < high else clear
+            wheel, v, a, j = engagement.motion.derivatives(clear)
+            rows = (wheel + base + engagement.half_step) * per_radian, v, a, j, v * a
+            known = dict(zip((column, *MOTION_QUANTITIES), rows, strict=True))
+            if engagement.slot.curved:  # loads next to a cusp end before values are rounding
+                end, farther = engagement.end_deg(middle), np.fmax if middle > 0.0 else np.fmin
+                clear = farther(clear, NEAR_CUSP * end)
+            if loads:
+                known |= zip(loads, cycle.moving(engagement, clear, loads, stretch), strict=True)
+            yield engagement.mid_deg + x, np.array([known[name] for name in names])
         base += 2.0 * engagement.half_step
-        rest = [base * per_radian if n == column else 0.0 for n in names]
-        yield from _dwell(mechanism, i, rest)
+        if rest[0] < rest[1]:
+            still = [base * per_radian if name == column else 0.0 for name in names]
+            yield np.array(rest), np.column_stack((still, still))
 
 
-def _dwell(mechanism: Mechanism, i: int, values: Sequence[float]) -> Iterator[Stage]:
-    here, dwell = mechanism.engagements[i], mechanism.dwell_deg(i)
-    end, column = here.mid_deg + here.exit_deg, np.array(values)[:, None]
-    if dwell:
-        yield Stage(end, end + dwell, lambda x: column + 0.0 * x, flat=True)
+def _dwells(mechanism: Mechanism) -> list[Ends]:
+    """The dwell after each engagement of a period, both ends."""
+    begins = [one.mid_deg + one.exit_deg for one in mechanism.engagements]
+    return [(begin, begin + mechanism.dwell_deg(i)) for i, begin in enumerate(begins)]
 
 
 def _pieces(
-    stages: Sequence[Stage], period: float, window: Ends, rise: Sequence[float]
-) -> list[list[Piece]]:
-    """The pieces of each curve over a window, with the period's stages repeated."""
+    stages: Sequence[tuple[Array, Array]], period: float, window: Ends, rise: float
+) -> list[Piece]:
+    """The pieces of a curve over a window, from x and y of a period's stages, repeated."""
     start, end = window
-    samples: list[tuple[Array, Array]] = []  # of each piece
-    tiny, last, up = ROUNDED * period, -math.inf, np.array(rise)[:, None]
-    first = math.floor((start - stages[-1].end) / period)
+    samples, last = list[tuple[Array, Array]](), -math.inf
+    first = math.floor((start - stages[-1][0][-1]) / period)
     for number in range(first, 2 + int((end - start) // period)):
-        for stage in stages:
-            a = max(stage.start + number * period, start)
-            b = min(stage.end + number * period, end)
-            a = last if abs(a - last) <= tiny else a  # one place, whatever its last digit
-            if abs(b - a) <= tiny and (a == start or b == end):
-                a = b = start if a == start else end
-            elif b - a <= tiny:
-                continue
-            else:
-                last = b
-            x = places(a, b, 2 if stage.flat else SAMPLES) if b > a else np.array([a])
-            samples.append((x, stage.of(x - number * period) + number * up))
-    heights = np.ptp(np.concatenate([y for _, y in samples], axis=1), axis=1)
-    heights[heights == 0.0] = 1.0
-    out: list[list[Piece]] = [[] for _ in rise]
-    for x, rows in samples:
-        for curve, y, height in zip(out, rows, heights, strict=True):
-            some = thinned(ASPECT / (end - start) * x, y / height, CHORD_ERROR)
-            curve.append((x[some].tolist(), (y[some] + 0.0).tolist()))
+        for place, value in stages:
+            x = place + number * period
+            for known in (last, start, end):  # one place, whatever its last digit
+                x = np.where(abs(x - known) <= SAME_INPUT_DEG, known, x)
+            inside = rising(np.clip(x, start, end))
+            if x[0] <= end and x[-1] >= start and (x[0] < x[-1] or x[0] in window):
+                samples.append((inside, np.interp(inside, x, value) + number * rise))
+                last = x[-1]
+    height = np.ptp(np.concatenate([y for _, y in samples])) or 1.0
+    out = list[Piece]()
+    for x, y in samples:
+        some = thinned(ASPECT / (end - start) * x, y / height, CHORD_ERROR)
+        out.append((x[some].tolist(), (y[some] + 0.0).tolist()))
     return out
 
 
@@ -171,20 +138,14 @@ def _placed(machine: Mechanism, at_deg: float, window: Ends) -> float:
     return at_deg + whole * math.ceil((window[0] - SAME_INPUT_DEG - at_deg) / whole)
 
 
-def _bounds(cycle: Cycle, ends: Mapping[str, LoadSummary[float]]) -> dict[str, Ends]:
-    """The visible range of each unbounded load, from its sizes half-way between cuts."""
-    out = {}
-    for name, (top, _, low, *_) in ends.items():
-        if math.isfinite(top) and math.isfinite(low):
-            continue
-        sizes = []
-        for engagement, stretch in cycle.stretches:
-            middle = np.array([0.5 * (stretch.start + stretch.end)])
-            sizes.append(abs(cycle.moving(engagement, middle, [name], stretch).item()))
-        # an unbounded load is visible up to three times its typical size
-        high = 3.0 * max((size for size in sizes if math.isfinite(size)), default=1.0)
-        out[name] = -high if math.isinf(low) else low, high if math.isinf(top) else top
-    return out
+def _bounds(load: LoadSummary[float], stages: Sequence[tuple[Array, Array]]) -> Ends | None:
+    """The visible range of a load: None if bounded, else from its sizes half-way between cuts."""
+    if math.isfinite(load.max) and math.isfinite(load.min):
+        return None
+    sizes = [abs(y[len(y) // 2]) for _, y in stages]
+    # an unbounded load is visible up to three times its typical size
+    high = 3.0 * (max(filter(math.isfinite, sizes), default=0.0) or 1.0)
+    return -high if math.isinf(load.min) else load.min, high if math.isinf(load.max) else load.max
 
 
 def _within(piece: Piece, bounds: Ends) -> Iterator[Piece]:
@@ -204,10 +165,7 @@ def rests(machines: Sequence[Mechanism], window: Ends) -> list[Ends]:
     """The stretches in which all machines rest."""
     common = [window]
     for machine in machines:
-        dwells = [
-            stage[:2] for i in range(len(machine.engagements)) for stage in _dwell(machine, i, ())
-        ]
-        period = machine.period_deg
+        dwells, period = _dwells(machine), machine.period_deg
         turns = range(-1, 2 + int((window[1] - window[0]) // period))
         own = [(a + k * period, b + k * period) for k in turns for a, b in dwells]
         both = [(max(a, c), min(b, d)) for a, b in common for c, d in own]
@@ -215,9 +173,9 @@ def rests(machines: Sequence[Mechanism], window: Ends) -> list[Ends]:
     return common
 
 
-def places(start: float, end: float, count: int) -> Array:
+def places(start: float, end: float) -> Array:
     """Places between two x, both included, denser towards both ends."""
-    fraction = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, count))
+    fraction = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, SAMPLES))
     x: Array = start + (end - start) * fraction
     x[-1] = end
     return x

@@ -12,7 +12,8 @@ roller, fixed to its body, rubs along the wall.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Protocol, TypeAlias
+from types import MappingProxyType
+from typing import Protocol
 
 import numpy as np
 
@@ -160,10 +161,6 @@ class Instant:
         friction = self.friction_margin
         return QuantityValue(square, self.edge if friction is None else lesser(friction, self.edge))
 
-    def quantity(self, of: str | LoadQuantity) -> QuantityValue:
-        """A quantity of the cycle, squared if it is one of ``SQUARED``, or a function's."""
-        return QUANTITIES[of](self) if isinstance(of, str) else of(self)
-
 
 class LoadQuantity(Protocol):
     """A quantity: a function without numbers, or a tuple whose numbers may be arrays (m, 1)."""
@@ -172,7 +169,8 @@ class LoadQuantity(Protocol):
         """The quantity, and the margin that bounds it."""
 
 
-Own: TypeAlias = "Mapping[str, LoadQuantity] | None"  # functions for names of a search
+NO_FUNCTIONS: Mapping[str, LoadQuantity] = MappingProxyType({})
+# Those of the cycle; those of ``SQUARED`` as squares.
 QUANTITIES: dict[str, LoadQuantity] = {
     "omega_rad_s": lambda i: QuantityValue(i.at.velocity * i.case.speed_rad_s),
     "alpha_rad_s2": lambda i: QuantityValue(i.at.acceleration * i.case.speed_rad_s**2),
@@ -199,9 +197,9 @@ def sign_of(jet: Jet, known: Number | None) -> Number:
     return own if known is None else np.where(np.isnan(known), own, known)
 
 
-def bounded(here: Instant, name: str) -> Array:
+def bounded(here: Instant, quantity: LoadQuantity) -> Array:
     """A quantity, infinite where a force is unbounded, and 0 where no force is needed there."""
-    own, margin, sign = here.quantity(name)
+    own, margin, sign = quantity(here)
     if margin is None:
         return array(own.c[0])
     bound = np.where(here.wheel_torque_Nm.c[0] == 0.0, 0.0, np.inf) * sign

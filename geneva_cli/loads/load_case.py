@@ -105,16 +105,15 @@ def multiples(mechanism: Mechanism) -> dict[str, tuple[str, float | None, str]]:
     Of two bearings with the overhang a and the distance s, the nearer bears (a + s)/s, the other
     a/s.
     """
-    shaft, output = mechanism.spec.shaft, mechanism.output
+    shaft, output = vars(mechanism.spec.shaft), mechanism.output
     flat = mechanism.spec.wheel.FLAT or not output.turns
     out: dict[str, tuple[str, float | None, str]] = {
         "power_W": ("input_torque_Nm", load_case(mechanism).speed_rad_s, "")
     }
     for name, source, factor in output.loads:
         out[name] = source, factor, ""
-    crank = ("crank", shaft.crank_overhang_mm, shaft.crank_span_mm)
-    wheel = ("wheel", shaft.wheel_overhang_mm, shaft.wheel_span_mm)
-    for name, a, s in (wheel, crank) if output.turns else (crank,):
+    for name in ("wheel", "crank") if output.turns else ("crank",):
+        a, s = shaft[f"{name}_overhang_mm"], shaft[f"{name}_span_mm"]
         needs = f"{name}_overhang_mm and {name}_span_mm in [shaft]" if flat else PARALLEL_SHAFTS
         far = a / s if flat and a is not None and s is not None else None
         near = None if far is None else 1.0 + far

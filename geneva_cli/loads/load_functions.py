@@ -8,7 +8,7 @@ are lost to rounding: there the loads are known by themselves.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from operator import attrgetter
 from typing import TypeAlias
 
@@ -16,7 +16,7 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.contact import NEAR_CUSP, NEGLIGIBLE, LoadCase, contact
-from geneva_cli.loads.instant import Instant, LoadQuantity, Own, sign_of
+from geneva_cli.loads.instant import NO_FUNCTIONS, QUANTITIES, Instant, LoadQuantity, sign_of
 from geneva_cli.motion.batch import selection
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.path_and_slot import retraces
@@ -39,7 +39,7 @@ SIGN_FUNCTIONS = {
 }
 MARGINS = ("grip", "edge")  # where one of them is not above 0, a quantity is unbounded
 # values at an instant, whose quantities are those of ``LoadFunctions``
-Integrands: TypeAlias = Callable[[Instant, Sequence["str | LoadQuantity"]], Sequence[Array]]
+Integrands: TypeAlias = Callable[[Instant, Sequence[LoadQuantity]], Sequence[Array]]
 
 
 class LoadFunctions:
@@ -49,13 +49,16 @@ class LoadFunctions:
         self,
         engagement: Engagement,
         case: LoadCase,
-        names: Sequence[str],
-        own: Own = None,
+        names: Sequence[str] = (),
+        own: Mapping[str, LoadQuantity] = NO_FUNCTIONS,
         more: Sequence[str] = (),
         kinds: Sequence[str] = (),
     ) -> None:
-        """Signs that matter are those of ``kinds``; or else those of the load, and ``more``."""
-        self.engagement, self.case, self.names = engagement, case, names
+        """Of known quantities by their names, and of functions, which may hold numbers of designs.
+
+        Signs that matter are those of ``kinds``; or else those of the load, and ``more``.
+        """
+        self.engagement, self.case, self.names = engagement, case, (*names, *own)
         self.n = np.size(case.design)
         matters = {
             "drives": not all_true(case.inertia_Nm == 0.0),
@@ -69,13 +72,12 @@ class LoadFunctions:
         every = *SIGN_FUNCTIONS, "wanted"
         own_kinds = [kind for kind in every if matters.get(kind) or kind in more]
         self.kinds = [*kinds] or own_kinds
-        self.signs, self.wanted = len(self.kinds), len(names)
+        self.signs, self.wanted = len(self.kinds), len(self.names)
         self.poled: Sequence[int] = (self.kinds.index("edge"),) if "edge" in self.kinds else ()
         # where links carry the roller, bearings and guide need the reactions of joints
         joints = bool(own) or "crank_bearing_N" in names or "guide_force_N" in names
         self.reactions = joints and engagement.reactions is not None
-        # names, or functions of their own, which may hold numbers of each design
-        self.quantities: list[str | LoadQuantity] = [*map((own or {}).get, names, names)]
+        self.quantities = [*map(QUANTITIES.__getitem__, names), *own.values()]
         self._every = engagement, case, self.quantities
         self._some = selection(self._every) if self.n > 1 else None
 
@@ -140,7 +142,7 @@ class LoadFunctions:
 
     def at(
         self, x: Array, which: Which, order: int = 0, held: Array | None = None
-    ) -> tuple[Instant, list[str | LoadQuantity], list[tuple[Array, Jet]]]:
+    ) -> tuple[Instant, list[LoadQuantity], list[tuple[Array, Jet]]]:
         """The instants of some designs at places (m, k), degrees, and the quantities there.
 
         With them the signs that matter, known ones as ``held``, and the functions that have them.
@@ -153,7 +155,7 @@ class LoadFunctions:
         found: list[tuple[Array, Jet]] = []
         for kind in self.kinds:
             of = SIGN_FUNCTIONS.get(kind)
-            jet: Jet = of(instant) if of else instant.quantity(quantities[0]).value
+            jet: Jet = of(instant) if of else quantities[0](instant).value
             found.append((array(sign_of(jet, known.get(kind))), jet))
         return instant, quantities, found
 
@@ -173,7 +175,7 @@ class LoadFunctions:
                 known, jet = signs[i]
                 positive[i], margin = known > 0.0, None
             else:
-                jet, margin, sign = instant.quantity(every[numbers[i - self.signs]])
+                jet, margin, sign = every[numbers[i - self.signs]](instant)
             for k, c in enumerate(jet.c):
                 values[k, i] = c * DEGREE**k if k else c
             if margin is None:
@@ -196,7 +198,7 @@ class LoadFunctions:
 
 
 def at_mid_motion(
-    engagement: Engagement, case: LoadCase, quantities: Sequence[str | LoadQuantity], n: int
+    engagement: Engagement, case: LoadCase, quantities: Sequence[LoadQuantity], n: int
 ) -> list[Known]:
     """The quantities of n designs at mid-motion, which no stretch reaches.
 
@@ -224,16 +226,17 @@ def at_mid_motion(
         limits: list[list[Array]] = []
         for x in (near, -near):  # the limits of 0/0, from values near mid-motion
             instant, h = Instant(case, contact(engagement, x, 2)), np.radians(x)
-            jets = [instant.quantity(of).value.c for of in quantities]
+            jets = [of(instant).value.c for of in quantities]
             limits.append([array(c[0] - h * (c[1] - h * c[2])) for c in jets])
         # The tangent points away from the axis at entry and exit; at a cusp both are one.
         crosses = ~np.asarray(retraces(engagement))
         for sense, acceleration in ((1.0, at.acceleration), (-1.0, Jet([after]))):
             turned = {name: getattr(at, name) * sense for name in ("along", "offset", "curvature")}
             instant = Instant(case, at._replace(acceleration=acceleration, **turned))
-            loaded = case.is_loaded(engagement, instant.wheel_torque_Nm.c[0])
+            usual = case.inertia_Nm * engagement.usual_acceleration + case.resists_Nm
+            loaded = np.abs(instant.wheel_torque_Nm.c[0]) > NEGLIGIBLE * usual  # than rounding
             for k, of in enumerate(quantities):
-                row, margin, sign = instant.quantity(of)
+                row, margin, sign = of(instant)
                 known, bar = row.c[0], np.inf if margin is None else margin.c[0]
                 finite = np.isfinite(known)
                 add(k, known, np.isinf(bar) & finite)

@@ -6,8 +6,6 @@ axis. A chain on a sprocket of N teeth of pitch p has r = N p / (2 pi) and no pa
 On a carrier the wheel turns at 1 + V from the ground, and w L and w² L add to the greatest.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from functools import reduce
@@ -54,7 +52,8 @@ def product_motion(mechanism: Mechanism) -> dict[str, Array]:
         entry = np.ravel(mechanism.shown_deg(first.mid_deg + first.entry_deg))
         at_deg = np.where(most > 1.0, velocity.at_deg, entry)
         velocity = PeakArray(np.maximum(most, 1.0), at_deg)
-    both = along if product.runs_straight else _resultant(mechanism, ratio)
+    # a chain, belt or film runs along a line
+    both = _resultant(mechanism, ratio) if product.pitch_mm is None else along
 
     out: dict[str, Array] = {"travel_mm": r_mm * ratio * step}
     for name, peak, by, more in (

@@ -1,7 +1,5 @@
 """Sizing of motor and flywheel: the cam-indexer formula, and the exact cycle."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping, Sequence
 from typing import NamedTuple
 
@@ -59,14 +57,11 @@ def sizings(mechanism: Mechanism, requested: Collection[str]) -> dict[str, Array
         (torque,) = load_summaries(mechanism, ["input_torque_Nm"], bool(names & {*SUMS})).values()
         values |= _exact(whole, torque)
     if "inertia_ratio" in names:  # the wheel's inertia at its fastest over the motor's
-        frame = whole.frame
-        motor = spec.motor.inertia_kgm2 * spec.motor.ratio**2
-        others = max(0, spec.drive.wheels_on_carrier - 1) * frame * frame
-        fastest = worst_peaks(whole, ["velocity"])["velocity"].max[:, None] + frame
-        with np.errstate(all="ignore"):
-            ratios = [np.divide(own * (turn * turn + others), motor) for turn in (frame, fastest)]
-        known = np.asarray(spec.motor.inertia_kgm2) > 0.0
-        values["inertia_ratio"] = np.where(known, np.maximum(*ratios), np.nan)
+        resting, others = whole.frame**2, max(0, spec.drive.wheels_on_carrier - 1)
+        fastest = worst_peaks(whole, ["velocity"])["velocity"].max[:, None] + whole.frame
+        turned = np.maximum(resting, fastest * fastest) + others * resting
+        motor = _some(spec.motor.inertia_kgm2 * spec.motor.ratio**2)
+        values["inertia_ratio"] = own * turned / motor
     return {
         name: np.ravel(row) if name in KNOWN_UNLOADED else np.where(loaded, np.ravel(row), np.nan)
         for name, row in values.items()
@@ -189,7 +184,7 @@ def fluctuations(mechanism: Mechanism, mean: Array) -> tuple[Array, Array]:
         if end is not None:
             each.append(-mean * (engagement.mid_deg + engagement.entry_deg - end) * DEGREE)
         own: dict[str, LoadQuantity] = {"unevenness_Nm": Unevenness(mean)}
-        load = LoadFunctions(engagement, case, tuple(own), own, ("feeds", "wanted"))
+        load = LoadFunctions(engagement, case, own=own, more=("feeds", "wanted"))
         pieces = load.stretches()
         work, back = load.integrals(pieces, _work_and_returned, np.stack((bounded, bounded)))
         # a row for each design, padded with zeros
@@ -204,10 +199,10 @@ def fluctuations(mechanism: Mechanism, mean: Array) -> tuple[Array, Array]:
     return np.where(bounded, energy, np.inf), np.where(bounded, returned, np.inf)
 
 
-def _work_and_returned(here: Instant, every: Sequence[str | LoadQuantity]) -> tuple[Array, Array]:
+def _work_and_returned(here: Instant, every: Sequence[LoadQuantity]) -> tuple[Array, Array]:
     """The input's torque less its mean, and the torque's square where the wheel drives."""
     back = array(0.5 * (1.0 - here.feeds) * here.input_torque_Nm.c[0])
-    return array(here.quantity(every[0]).value.c[0]), back * back
+    return array(every[0](here).value.c[0]), back * back
 
 
 def kinetic_power_W(mechanism: Mechanism) -> Array:

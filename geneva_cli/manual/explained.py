@@ -70,15 +70,6 @@ def entries() -> tuple[Entry, ...]:
     return tuple(out)
 
 
-def head(page: str) -> str:
-    """The text of a page above its entries.
-
-    >>> head("laws").splitlines()[0]
-    '# Motion laws'
-    """
-    return text(page).partition("\n## ")[0] + "\n"
-
-
 def text(page: str) -> str:
     """Text of a page without pictures; that of quantities is printed as a table."""
     return read("quantities.txt") if page == "quantities" else read("reference", f"{page}.md")

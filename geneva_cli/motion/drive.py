@@ -76,10 +76,8 @@ class Drive(SpecTable, kw_only=True, table="drive"):
     def __post_init__(self) -> None:
         super().__post_init__()
         lost_s = 0.5 * (self.start_s + self.brake_s)
-        text = (
-            "stop_s = {stop_s:g}: to brake and to start takes {lost_s:g} s longer than to run on, "
-            "so the input would not come to rest: it must be at least {lost_s:g}"
-        )
+        text = "stop_s = {stop_s:g}: to brake and to start takes {lost_s:g} s longer than to run "
+        text += "on, so the input would not come to rest: it must be at least {lost_s:g}"
         short, key = lost_s > self.stop_s * (1.0 + 1e-12), (self.TABLE, "stop_s")
         refuse_text(short, key, text, stop_s=self.stop_s, lost_s=lost_s)
 

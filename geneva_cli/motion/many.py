@@ -19,6 +19,7 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError, marking
 from geneva_cli.motion.batch import taken
+from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.machine_spec import BEFORE, Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.peak_search import QUANTITIES, PeakArray, greater, motion_peaks
@@ -93,11 +94,11 @@ def may_vary(spec: Spec, key: str) -> bool:
 
 
 def worst_peaks(
-    mechanism: Mechanism, quantities: Sequence[str] = QUANTITIES
+    mechanism: Mechanism, quantities: Sequence[str] = QUANTITIES, among: Sequence[Engagement] = ()
 ) -> dict[str, PeakArray]:
-    """The greatest peaks over all engagements; angles are the machine's input angles."""
+    """The greatest peaks over all engagements, or some; angles are the machine's input angles."""
     best: dict[str, PeakArray] = {}
-    for engagement in mechanism.engagements:
+    for engagement in among or mechanism.engagements:
         for name, peak in motion_peaks(engagement.motion, quantities).items():
             at_deg = engagement.mid_deg + parameter(peak.at_deg[:, None])
             here = PeakArray(peak.max, np.ravel(mechanism.shown_deg(at_deg)))

@@ -49,11 +49,12 @@ def motion_table(mechanism: Mechanism, samples: int) -> Table:
     end of the last dwell.
     """
     check_samples(samples)
-    return computed_table(
-        motion_columns(mechanism),
-        samples,
-        lambda i, j: [*_columns(mechanism, inputs(mechanism, samples, i, j), np.zeros(j - i, int))],
-    )
+
+    def rows(begin: int, end: int) -> list[Array]:
+        at = inputs(mechanism, samples, begin, end)
+        return [*_columns(mechanism, at, np.zeros(len(at), int))]
+
+    return computed_table(motion_columns(mechanism), samples, rows)
 
 
 def turns_table(mechanism: Mechanism, samples: int, turns: int) -> Table:

@@ -191,9 +191,3 @@ def pitch(engagement: base.Engagement, input_deg: Number, first: int = 1) -> Pit
 def opposites(engagement: base.Engagement, input_deg: Array) -> Array:
     """Input angles on the other branch at which the roller is as far from the wheel's axis."""
     return engagement.inputs_deg(-engagement.own_deg(input_deg))
-
-
-@lru_cache(maxsize=16)
-def pitch_at_retrace(engagement: base.Engagement) -> Pitch:
-    """Limit of the pitch curve at mid-motion for a pin that retraces, approached from the entry."""
-    return pitch(engagement, 0.0, 2)

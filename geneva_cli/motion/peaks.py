@@ -78,16 +78,13 @@ def peaks_table(mechanism: Mechanism) -> Table:
     """The greatest peaks, and a table of each engagement's peaks if there are several."""
     kinds, each, rows = mechanism.engagements, [], []
     for i, one in enumerate(kinds):
-        own = peaks(one, mechanism)
-        each.append(own)
-        rows.append(_record(own, (one,), mechanism.dwell_deg(i)))
+        each.append(peaks(one, mechanism))
+        rows.append(_record(each[i], (one,), mechanism.dwell_deg(i)))
     values: dict[str, object] = {"spec": mechanism.spec.path, "title": mechanism.spec.title}
-    stations = None
-    if len(rows) > 1:
-        values |= _record(_greatest(each), kinds, mechanism.dwell_deg(0))
-        stations = rows_table(tuple(rows[0]), [tuple(row.values()) for row in rows])
-    else:
-        values |= rows[0]
+    if not rows[1:]:
+        return record_table(values | rows[0] | {"stations": None})
+    values |= _record(_greatest(each), kinds, mechanism.dwell_deg(0))
+    stations = rows_table(tuple(rows[0]), [tuple(row.values()) for row in rows])
     return record_table(values | {"stations": stations})
 
 
@@ -100,22 +97,19 @@ def _record(
     None where a roller's centre never crosses the axis of the slot at rest inside the rim.
     """
     out: dict[str, float | None] = {}
-    ends, gained = peaks.ends, None
-    jumps: Sequence[float | None] = (0.0, 0.0)
-    if engagements[0].built is not None:
-        jumps = greatest_jumps(engagements)
-        gained = math.degrees(float(engagements[0].built.gained))  # all leave the rim alike
+    ends, built = peaks.ends, engagements[0].built  # all leave the rim alike
     at_ends: dict[str, Sequence[float | None]] = {
-        "velocity": jumps,
-        "acceleration": (ends.acceleration_entry, ends.acceleration_exit),
-        "jerk": (ends.jerk_entry, ends.jerk_exit),
+        "velocity": (0.0, 0.0) if built is None else greatest_jumps(engagements),
+        "acceleration": ends[:2],
+        "jerk": ends[2:],
     }
     for name, one in zip(QUANTITIES, peaks[:-1], strict=True):
         out[f"{name}.max"], out[f"{name}.at_deg"] = one.max, one.at_deg
         if name in at_ends:
             out[f"{name}.entry"], out[f"{name}.exit"] = at_ends[name]
     out |= {"motion_deg": engagements[0].motion_deg, "dwell_deg": dwell_deg}
-    return out | {"index_gained_deg": None if gained is None or math.isnan(gained) else gained}
+    gained = math.nan if built is None else math.degrees(float(built.gained))
+    return out | {"index_gained_deg": None if math.isnan(gained) else gained}
 
 
 def greatest_jumps(engagements: Sequence[Engagement]) -> list[float | None]:

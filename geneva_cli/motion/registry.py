@@ -16,6 +16,7 @@ from geneva_cli.motion.kind import Kind
 from geneva_cli.spec.schema import shown
 
 CRANK = "drives.crank:Crank"  # the drive of a spec without one
+_CAM = "motion.compatible:of_cam"
 _CRANK, _PIN_PATH = "motion.compatible:of_transmission", "motion.compatible:of_pin_path"
 # Of flat parts, and of links and gears in front of a crank.
 _DRAWN = (
@@ -61,12 +62,7 @@ _CORE = (
     Kind(
         "epicyclic", drive="drives.epicyclic:Epicyclic", gearings=("external",), refuses=_PIN_PATH
     ),
-    Kind(
-        "cam",
-        drive="drives.cam:Cam",
-        gearings=("external", "internal"),
-        refuses="motion.compatible:of_cam",
-    ),
+    Kind("cam", drive="drives.cam:Cam", gearings=("external", "internal"), refuses=_CAM),
 )
 _FOLDED = map(load_named, map("kinds.{}:KINDS".format, FOLDERS))
 KINDS: tuple[Kind, ...] = (*_CORE, *chain.from_iterable(_FOLDED))
@@ -122,10 +118,8 @@ STANDARD_LAWS = tuple(_STANDARD)
 LAWS = _STANDARD.copy()
 for _folder in EXTRAS:
     LAWS.update(load_named(f"extras.{_folder}:LAWS"))
-LAWS |= {
-    "scca": "motion.laws.standard:SineConstantCosine",
-    "table": "motion.laws.table_law:TableLaw",
-}
+LAWS["scca"] = "motion.laws.standard:SineConstantCosine"
+LAWS["table"] = "motion.laws.table_law:TableLaw"
 
 
 def _class(kinds: dict[str, str], key: tuple[str, str], name: object) -> type[Any]:

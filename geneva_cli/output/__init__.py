@@ -40,7 +40,7 @@ PLOTTED = {  # figures
 DOCUMENTS = {
     "html": "document.html:chunks",
     "pdf": "document.document_pdf:chunks",
-    "md": "document.document_markdown:chunks",
+    "md": "markdown:document_chunks",
 }
 PAGES = {"html": "page:chunks"}  # of moving scenes
 CAMS = ("cam",)  # for motions only: a file for a controller

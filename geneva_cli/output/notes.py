@@ -7,9 +7,8 @@ import math
 from typing import NamedTuple
 
 from geneva_cli.geometry.shapes import Box, Contour, Point, bounds
-from geneva_cli.geometry.sheet import Annotations, Arrow, LevelDistance, line
+from geneva_cli.geometry.sheet import Annotations, Arrow, line
 from geneva_cli.output.letters import width
-from geneva_cli.table import in_decimals
 
 LETTERS = 5.0  # height of letters, mm of the page
 ARROW = 4.5, 0.9  # an arrow's length, and half its width, mm of the page
@@ -53,10 +52,10 @@ def notes(look: Annotations, box: Box, title: str, mm: float) -> Notes:
         lines.append(line("", (a, low), (b, low)))
         lines += [line("", end, (end[0], low - 0.4 * gap)) for end in (span.start, span.end)]
         heads += [Arrow((a, low), math.pi, size), Arrow((b, low), 0.0, size)]
-        wide = width(span_text(span)) * text
+        wide = width(span.text) * text
         # a text that does not fit between the lines from the ends stands to their right
         start = 0.5 * (a + b - wide) if wide < b - a else b + gap
-        texts.append(((start, low + 0.35 * text), span_text(span)))
+        texts.append(((start, low + 0.35 * text), span.text))
     tick = mm * 1.5  # half a scale bar's end mark
     bar = round_length(0.2 * (box.x1 - box.x0 or box.y1 - box.y0))
     y = low - gap - max(tick, 0.5 * text)
@@ -69,11 +68,6 @@ def notes(look: Annotations, box: Box, title: str, mm: float) -> Notes:
         low -= 1.5 * text
     right = max(right, *(x + width(words) * text for (x, _), words in texts))
     return Notes(tuple(lines), ruler, tuple(heads), tuple(texts), Box(left, low, right, high))
-
-
-def span_text(span: LevelDistance) -> str:
-    """The name and the length, to three decimals of a millimetre."""
-    return f"{span.name} = {in_decimals(abs(span.end[0] - span.start[0]), 3)} mm"
 
 
 def round_length(length: float) -> float:

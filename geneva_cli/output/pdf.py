@@ -23,17 +23,16 @@ INK = "0.1 0.12 0.14"
 
 
 class Page(NamedTuple):
-    """A page of a size in millimetres, the operators that fill it, and the number of its fonts."""
+    """A page of a size in millimetres, and the operators that fill it."""
 
     width: float
     height: float
     content: str
-    fonts: int = 1
 
 
 def pdf_text(title: str, pages: Sequence[Page]) -> Iterator[str]:
     """Yield a file's text."""
-    fonts = ("Helvetica", "Helvetica-Bold")[: max(page.fonts for page in pages)]
+    fonts = "Helvetica", "Helvetica-Bold"
     first = 3 + 2 * len(pages)  # the number of the first font
     known = " ".join(f"/F{i + 1} {first + i} 0 R" for i in range(len(fonts)))
     kids = " ".join(f"{3 + 2 * i} 0 R" for i in range(len(pages)))
@@ -136,10 +135,9 @@ def moved(content: str, x: float, y: float, scale: float = 1.0) -> str:
     return f"q {scale:.9f} 0 0 {scale:.9f} {number(x)} {number(y)} cm\n{content}Q\n"
 
 
-def tint(rgb: str, fraction: float = 1.0) -> str:
-    """A colour, or a fraction of it on white, as the operands of an operator."""
-    parts = (int(rgb[i : i + 2], 16) / 255.0 for i in (1, 3, 5))
-    return " ".join(number(1.0 - fraction * (1.0 - p)) for p in parts)
+def colour(rgb: str) -> str:
+    """A colour as the operands of an operator."""
+    return " ".join(number(int(rgb[i : i + 2], 16) / 255.0) for i in (1, 3, 5))
 
 
 def point(p: shapes.Point) -> str:

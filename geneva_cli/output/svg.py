@@ -64,7 +64,7 @@ def _colours(layers: Sequence[str], plates: Sequence[Ring]) -> dict[str, str]:
     Programs without CSS show the light one.
     """
     tints = "".join(
-        f'<path class="{layer}" fill="{_tint(layer, LIGHT)}" d="{" ".join(map(path, ring))}"/>\n'
+        f'<path class="{layer}" fill="{tint(layer, LIGHT)}" d="{" ".join(map(path, ring))}"/>\n'
         for layer, ring in plates
     )
     fill = f'<g id="FILL" stroke="none" fill-rule="evenodd">\n{tints}</g>\n' if plates else ""
@@ -73,7 +73,7 @@ def _colours(layers: Sequence[str], plates: Sequence[Ring]) -> dict[str, str]:
         for layer in layers
     ]
     for layer in dict.fromkeys(layer for layer, _ in plates):
-        dark.append(f"path[class='{layer}'] {{ fill: {_tint(layer, DARK)} }}\n")
+        dark.append(f"path[class='{layer}'] {{ fill: {tint(layer, DARK)} }}\n")
     parts = {"FILL": fill, "DARK": "".join(dark), "PAGE": LIGHT.page}
     parts |= {"DARKPAGE": DARK.page, "DARKLINE": DARK.axis, "DARKTEXT": DARK.text}
     return parts | {"INK": LIGHT.text}
@@ -159,13 +159,9 @@ def number(value: float) -> str:
     return text if text.strip("-0.") else text.lstrip("-")
 
 
-def _tint(layer: Layer, paper: Paper) -> str:
-    return mixed(INKS[layer].rgb, opacity(layer), paper.page)
-
-
-def opacity(layer: Layer) -> float:
-    """Opacity of a layer's tint, from 0 to 1."""
-    return 0.55 if layer == "ROLLER" else 0.16
+def tint(layer: Layer, paper: Paper) -> str:
+    """The colour of a layer's plates on a page, as hexadecimal RGB."""
+    return mixed(INKS[layer].rgb, 0.55 if layer == "ROLLER" else 0.16, paper.page)
 
 
 def rings(solid: Part) -> list[Ring]:

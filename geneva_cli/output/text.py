@@ -13,7 +13,7 @@ from typing import Any
 
 from geneva_cli.errors import GenevaError, clean, cut, few
 from geneva_cli.progress import Meter
-from geneva_cli.table import Table, flat, in_digits, plain_rows, record_table
+from geneva_cli.table import Table, flat, for_people, record_table
 
 WIDTH = 90  # letters of a line in a file or a pipe
 GAP = "  "  # between two columns
@@ -35,13 +35,12 @@ def chunks(table: Table) -> Iterator[str]:
             yield "\n"
             continue
         # one line for each value, and a heading where the first part of the dotted name changes
-        shown, current = [], ""
-        own = flat(piece) if piece.names else piece
+        shown, width, current, own = [], 0, "", flat(piece)
         for name, (value,) in zip(own.names, own.columns, strict=True):
             if value not in (None, ""):  # a value that does not apply has no line
                 group, _, last = name.rpartition(".")
                 shown.append((group, "  " * bool(group) + last, value))
-        width = max((len(label) for _, label, _ in shown), default=0)
+                width = max(width, len(shown[-1][1]))
         for group, label, value in shown:
             if group != current:
                 yield f"{group}\n" if group else ""
@@ -56,7 +55,7 @@ def cell(value: Any) -> str:
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, float):
-        return in_digits(value, 7)  # enough for people; csv and json have all digits
+        return for_people(value, digits=7)  # enough for people; csv and json have all digits
     return clean(str(value))
 
 
@@ -113,15 +112,14 @@ def width_of(text: str) -> int:
 def apart(record: Table) -> Iterator[tuple[str, Table]]:
     """The parts of a record in order: each table with its name, and records between them."""
     values: dict[str, Any] = {}
-    (row,) = plain_rows(record.columns) or [()]
-    for name, value in zip(record.names, row, strict=True):
+    for name, (value,) in zip(record.names, record.columns, strict=True):
         if isinstance(value, Table):
-            yield "", record_table(values)
+            yield from [("", record_table(values))] if values else []
             yield name, value
             values = {}
         else:
             values[name] = value
-    yield "", record_table(values)
+    yield from [("", record_table(values))] if values else []
 
 
 def checked(table: Table, is_seen: bool = False) -> Table:
@@ -197,6 +195,5 @@ def only(table: Table, names: Sequence[str]) -> Table:
 
 
 def _tables(value: Any) -> list[Table]:
-    if isinstance(value, Table):
-        return [value]
-    return [v for v in value if isinstance(v, Table)] if isinstance(value, tuple) else []
+    parts = value if type(value) is tuple else (value,)
+    return [part for part in parts if isinstance(part, Table)]

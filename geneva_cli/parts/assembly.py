@@ -11,7 +11,7 @@ from collections.abc import Iterable
 from functools import lru_cache
 from itertools import product
 from operator import attrgetter, itemgetter
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -20,13 +20,10 @@ from geneva_cli.geometry.shapes import Point
 from geneva_cli.kept import Known
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.motion.pivots import Joint, Link
+from geneva_cli.motion.pivots import Joint, Link, PlaneMotion
 from geneva_cli.numerics.arrays import Array, Mask
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.spec.tables import Z_DRAWN
-
-if TYPE_CHECKING:
-    from geneva_cli.motion.pivots import PlaneMotion
 
 
 class Passage(NamedTuple):

@@ -28,20 +28,18 @@ from geneva_cli.spec.tables import Size
 # Not sizes of a part, or sizes whose mere presence makes one: a hub, a limit of `check`.
 LEFT_OUT = ("wheel_hub_mm", "crank_hub_mm", "wall_min_mm")
 BY_LOAD = "by load"  # the reason of a size that the load chose, before the load
-CRANK = "crank shaft {:g}", "{0.crank_N:.4g} N and {0.crank_Nm:.4g} N m on the crank's shaft"
+CRANK = "crank shaft {}", "{0.crank_N:.4g} N and {0.crank_Nm:.4g} N m on the crank's shaft"
+WHEEL = "wheel shaft {}", "{0.wheel_shaft_N:.4g} N and {0.wheel_Nm:.4g} N m on its shaft"
 # What people call the sizes that a load chooses, the first one that is to be looked at first, and
 # what of the loads chooses them.
 NAMES = {
     "size.crank_bore_mm": CRANK,
     "size.arm_bore_mm": CRANK,
-    "size.wheel_bore_mm": (
-        "wheel shaft {:g}",
-        "{0.wheel_shaft_N:.4g} N and {0.wheel_Nm:.4g} N m on its shaft",
-    ),
-    "size.pin_mm": ("pin {:g}", "{0.pin_N:.4g} N on the pin"),
-    "size.arm_thickness_mm": ("arm {:g} thick", "{0.wheel_N:.4g} N on the arm"),
-    "size.wheel_thickness_mm": ("wheel {:g} thick", "{0.pin_N:.4g} N on the horns"),
-    "size.link_thickness_mm": ("links {:g} thick", "{0.crank_Nm:.4g} N m on the first wheel"),
+    "size.wheel_bore_mm": WHEEL,
+    "size.pin_mm": ("pin {}", "{0.pin_N:.4g} N on the pin"),
+    "size.arm_thickness_mm": ("arm {} thick", "{0.wheel_N:.4g} N on the arm"),
+    "size.wheel_thickness_mm": ("wheel {} thick", "{0.pin_N:.4g} N on the horns"),
+    "size.link_thickness_mm": ("links {} thick", "{0.crank_Nm:.4g} N m on the first wheel"),
 }
 
 Values = dict[str, float | str]
@@ -63,22 +61,21 @@ class ByLoad(NamedTuple):
     @property
     def words(self) -> str:
         """The sizes in words, as "crank shaft 12, pin 7"; empty without any."""
-        texts = dict[str, None]()  # once, in this order
-        for key in filter(self.sizes.__contains__, NAMES):
-            if value := self.sizes[key].value:
-                texts[NAMES[key][0].format(value)] = None
+        texts = dict[str, None]()  # once, in the order of their names
+        for key, (words, _) in NAMES.items():
+            if key in self.sizes and (value := self.sizes[key].value):
+                texts[words.format(f"{value:g}")] = None
         return ", ".join(texts)
 
     @property
     def changes(self) -> str:
         """The sizes that were chosen anew, as "crank shaft 12 → 17 mm"; empty if none was."""
         texts = dict[str, None]()
-        for key in filter(self.before.__contains__, filter(self.sizes.__contains__, NAMES)):
+        for key in filter(self.sizes.__contains__, filter(self.before.__contains__, NAMES)):
             now, was = self.sizes[key].value, self.before[key].value
             # a bore of 0 ends the shaft in the arm, whose bore is a key of its own
             if now and was and now != was:
-                text = NAMES[key][0].format(was)
-                texts[text.replace(f"{was:g}", f"{was:g} → {now:g} mm")] = None
+                texts[NAMES[key][0].format(f"{was:g} → {now:g} mm")] = None
         return ", ".join(texts)
 
     @property
@@ -132,10 +129,7 @@ def by_load(mechanism: Mechanism) -> dict[str, Chosen]:
     Chosen(value=7.0, why='by load: 2000 N on the pin')
     """
     every = chosen(mechanism) if mechanism.spec.is_loaded else {}
-    out = dict[str, Chosen]()
-    for name in filter(every.__contains__, NAMES):
-        out |= {name: every[name]} if every[name].why.startswith(BY_LOAD) else {}
-    return out
+    return {key: every[key] for key in NAMES if key in every and every[key].why.startswith(BY_LOAD)}
 
 
 def _is_written(mechanism: Mechanism, key: str, values: Mapping[str, float | str]) -> bool:

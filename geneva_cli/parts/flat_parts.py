@@ -21,7 +21,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array, value_or
 from geneva_cli.parts.assembly import links_at
 from geneva_cli.parts.frame import framed
-from geneva_cli.parts.links.links import Links
+from geneva_cli.parts.links.links import Links, roller_pins
 from geneva_cli.parts.machine_sizes import machine_sizes, refuse_unfit, unloaded
 from geneva_cli.parts.outlines.crank_outline import crank_bore, is_whole
 from geneva_cli.parts.outlines.cut_outlines import drawn, slot_walls, wheel_contour
@@ -200,11 +200,11 @@ class FlatParts(EdgedParts):
 
     def crank_with(self, arm: bool) -> Member:
         """Return the crank in the machine; without its arm as it lies in the wheel's plane."""
-        assembly, hub = self.outlines.assembly, crank_hub(self.outlines)
-        members = [*map(Member, filter(None, (*self.locking, self.arm_plate if arm else None)))]
-        members += (*self.rollers, *([Member(hub)] if hub else []))
+        assembly, below = self.outlines.assembly, self.arm_plate if arm else None
+        plates = filter(None, (*self.locking, below, crank_hub(self.outlines)))
         turn = float(assembly.crank(np.zeros(1))[0])
-        return Member(Group("crank", tuple(members)), (assembly.L, 0.0), turn)
+        group = Group("crank", (*map(Member, plates), *self.rollers))
+        return Member(group, (assembly.L, 0.0), turn)
 
     def about_wheel(self, crank: Member) -> tuple[Member, ...]:
         """Return the first crank, or a part of it, and its copies on all cranks about the wheel."""
@@ -381,8 +381,6 @@ class FrontParts(FlatParts):
     @property
     def linked(self) -> tuple[Member, ...]:
         """The links, with the pins and rollers between and on them."""
-        from geneva_cli.parts.links.links import roller_pins
-
         mechanism, links = self.mechanism, self.links
         size, pin = mechanism.spec.size, pin_radius(mechanism.spec.size, mechanism.roller_radius_mm)
         centres = [at for link, at in roller_pins(mechanism) if link.plane == 1]

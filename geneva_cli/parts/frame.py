@@ -11,16 +11,15 @@ from itertools import product
 
 import numpy as np
 
-from geneva_cli.geometry import shapes
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.plates import Member, Plate
-from geneva_cli.geometry.shapes import ORIGIN, Circle, Point, convex_hull
+from geneva_cli.geometry.shapes import ORIGIN, Circle, Point, as_contour, bounds_of, convex_hull
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Joint
 from geneva_cli.numerics.arrays import half_or
 from geneva_cli.numerics.tolerances import SAME_LENGTH, bore_radius, rounded_radius
 from geneva_cli.parts.assembly import is_bridged, links_at, same, turn_deg
-from geneva_cli.parts.links.links import Links, placed_holes
+from geneva_cli.parts.links.links import Links, placed_holes, places
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.parts import FrameAndShafts
 from geneva_cli.parts.shafts.arm_and_shafts import Shaft, crank_arm, shaft_ends, shafts
@@ -44,14 +43,13 @@ def framed(
     bridge, unborne, axles = None, list[tuple[str, str]](), list[Member]()
     mounts: tuple[Circle, ...] = ()
     for shaft in _all_shafts(outlines, bars, top - thick, first):
-        borne = not shaft.turns or shaft.low < top
-        if not (borne or bridge) and same(shaft.at, mechanism.crank_shaft.at, L):
-            bridge = _bridge(outlines, bars, shaft)
-            borne, high = bool(bridge), bridge.high if bridge else shaft.high
-            shaft = shaft._replace(high=high)
-        if not borne:
-            ends = f"it ends at {shaft.low:.4g} mm, above the frame at {top:.4g} mm"
-            unborne.append((shaft.name, ends))
+        if shaft.turns and shaft.low >= top:
+            at_crank = not bridge and same(shaft.at, mechanism.crank_shaft.at, L)
+            if at_crank and (bridge := _bridge(outlines, bars, shaft)):
+                shaft = shaft._replace(high=bridge.high)
+            else:
+                ends = f"it ends at {shaft.low:.4g} mm, above the frame at {top:.4g} mm"
+                unborne.append((shaft.name, ends))
         axles.append(shaft.member)
     standing, holes = _standing(mechanism, bars), list[Circle]()
     for at, diameter_mm in standing.items():
@@ -61,8 +59,7 @@ def framed(
     fixed += [Member(plate, (L, 0.0)) for plate in (base, bridge) if plate]
     screwed, spacers = list[tuple[str, str, Circle]](), list[Member]()
     for member, hole in [(one, hole) for one in fixed for hole in placed_holes(one)]:
-        part = member.part
-        assert isinstance(part, Plate)
+        part = member.plate
         if same(hole.centre, member.at, L):  # for its shaft
             continue
         holes.append(tapped(hole))
@@ -114,8 +111,6 @@ def _bridge(parts: Outlines, bars: Links, shaft: Shaft) -> Plate | None:
     size, thick = mechanism.spec.size, sizes.arm_thickness
     if not (sizes.crank_bore and is_bridged(mechanism)):
         return None
-    from geneva_cli.parts.links.links import places
-
     # no part of crank and drive turns beyond the farthest of these
     far = [sizes.lock, sizes.crank_hub]
     if parts.has_arm:
@@ -125,7 +120,7 @@ def _bridge(parts: Outlines, bars: Links, shaft: Shaft) -> Plate | None:
     links = {link.name: link for link in links_at(mechanism, turn_deg(mechanism))}
     for plate in bars.plates:
         if plate.name in links:  # a block stays in its link
-            edge = Polyarc([shapes.as_contour(plate.outline)])
+            edge = Polyarc([as_contour(plate.outline)])
             reach = float(edge.farthest(np.zeros((1, 2))).max())
             far.append(float(np.abs(places(links[plate.name])[0] - L).max()) + reach)
     wall = wall_min(size, L)
@@ -147,18 +142,17 @@ def _all_shafts(
 ) -> Iterator[Shaft]:
     """Yield all shafts and pivots, as ``framed``; ``lowest`` is the frame's lower face."""
     mechanism, own, L = outlines.assembly.full, outlines.sizes, outlines.assembly.L
-    known, stop = list[Point](), None  # axes whose shafts carry wheel or crank
-    known += [(L, 0.0)] if (own.arm_bore if outlines.has_arm else own.crank_bore) else []
-    known += [ORIGIN] if own.wheel_bore else []
+    stop = None
     if bars.axes:
         from geneva_cli.parts.links.link_shafts import carried, crank_stop
 
         stop = crank_stop(outlines, bars)
     if mechanism.spec.gears:
         from geneva_cli.parts.gears.gear_pair import gear_shafts, gear_span
-    yield from shafts(outlines, lowest, stop)
+    carrying = [*shafts(outlines, lowest, stop)]  # wheel or crank
+    yield from carrying
     for axis in bars.axes:  # of which others carry only links and gears
-        if any(same(axis.at, at, L) for at in known):
+        if any(same(axis.at, one.at, L) for one in carrying):
             continue
         here = (one for one in bars.axes if same(one.at, axis.at, L))
         spans = [span for one in here for span in carried(bars, one, first, L)]
@@ -178,7 +172,8 @@ def _all_shafts(
             name = f"shaft of {', '.join(axis.names)}"
             yield Shaft(name, axis.names[0], axis.bore, low, high, axis.at, turns=False)
     if mechanism.spec.gears:
-        yield from gear_shafts(mechanism, outlines, lowest, (L, 0.0) in known)
+        has_crank = any(one.at == (L, 0.0) for one in carrying)
+        yield from gear_shafts(mechanism, outlines, lowest, has_crank)
 
 
 def mounted_plate(
@@ -188,7 +183,7 @@ def mounted_plate(
 
     With it go its mounting holes, about the corners.
     """
-    box, away = shapes.bounds_of(within), 3.0 * eye
+    box, away = bounds_of(within), 3.0 * eye
     places = [*product((box.x0 - away, box.x1 + away), (box.y0 - away, box.y1 + away))]
     outline, screw = convex_hull("FRAME", circles("FRAME", places, eye)), screw_radius(0.8 * eye)
     mounts = tuple(circles("BORE", places if screw else (), screw))
@@ -197,12 +192,10 @@ def mounted_plate(
 
 def shaft_holes(size: Size, axles: Iterable[Member], top: float) -> list[Circle]:
     """Return the holes of a frame for the shafts that reach below its upper face ``top``."""
-    holes = []
+    holes, loose = list[Circle](), 0.5 * size.allowances.shaft_fit_mm
     for axle in axles:
-        assert isinstance(axle.part, Plate)
-        if axle.part.low < top:
-            radius = axle.part.bore.around + 0.5 * size.allowances.shaft_fit_mm
-            holes.append(Circle("BORE", axle.at, radius))
+        if axle.plate.low < top:
+            holes.append(Circle("BORE", axle.at, axle.plate.bore.around + loose))
     return holes
 
 

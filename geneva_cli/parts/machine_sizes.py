@@ -8,7 +8,6 @@ goes the mass that they give the wheel.
 import math
 from contextlib import suppress
 from functools import lru_cache, reduce
-from operator import attrgetter
 
 import numpy as np
 
@@ -48,7 +47,15 @@ def sized(mechanism: Mechanism, loaded: bool = True) -> Layout | None:
 def machine_sizes(mechanism: Mechanism) -> Layout:
     """Return a machine's assembly and sizes. Raises GenevaError where they leave no parts."""
     where, sizes = unloaded(mechanism)
-    sizes = _loaded(where, sizes) if mechanism.spec.is_loaded else sizes
+    if mechanism.spec.is_loaded:
+        from geneva_cli.loads.strength.part_loads import single_loads
+        from geneva_cli.parts.sized_by_load import load_sizes, needs_lock
+
+        if mechanism.first_wheel:
+            sizes = _with_first_wheel(mechanism, sizes)
+        by = cut_lock(where, sizes) if sizes.lock and needs_lock(mechanism.spec) else None
+        sizes = load_sizes(where, sizes, by, mechanism, single_loads(mechanism))
+        sizes = mapped(np.ndarray.item, mapped(np.asarray, sizes))
     refuse_unfit(where, sizes)
     return where, sizes
 
@@ -60,27 +67,19 @@ def unloaded(mechanism: Mechanism) -> Layout:
     return where, _usual_sizes(where)
 
 
-def _loaded(where: Assembly, usual: Sizes) -> Sizes:
-    """Return the sizes of a machine under its loads, as ``load_sizes``."""
-    from geneva_cli.loads.strength.part_loads import single_loads
-    from geneva_cli.parts.sized_by_load import load_sizes, needs_lock, stressed
+def _with_first_wheel(mechanism: Mechanism, sizes: Sizes) -> Sizes:
+    """Return the sizes with those that the load of the first of two wheels needs."""
+    from geneva_cli.parts.first_wheel import first_spec
+    from geneva_cli.parts.sized_by_load import stressed
 
-    mechanism = where.full
-    link = pin = shaft = 0.0  # of the first of two wheels, as its load needs them
-    if mechanism.first_wheel:
-        from geneva_cli.parts.first_wheel import first_spec
-
-        # the shaft ends in the first crank, below the plane of its locking disc
-        first = first_spec(mechanism).with_("size.crank_bore_mm", 0.0)
-        flat = sized(build(first)) if first.is_loaded else None
-        parts = stressed(*flat) if flat else None
-        if parts and not math.isnan(parts.arm.length):  # a crank without a pin has no arm
-            link = max(parts.contact, float(parts.arm.thickness))
-            pin, shaft = 0.5 * parts.pin, 0.5 * parts.crank_shaft.diameter
-    by = cut_lock(where, usual) if usual.lock and needs_lock(mechanism.spec) else None
-    out = load_sizes(where, usual, by, mechanism, single_loads(mechanism), link=link)
-    out = mapped(np.ndarray.item, mapped(np.asarray, out))
-    return out._replace(first_pin=pin, first_shaft=shaft)
+    # the shaft ends in the first crank, below the plane of its locking disc
+    first = first_spec(mechanism).with_("size.crank_bore_mm", 0.0)
+    flat = sized(build(first)) if first.is_loaded else None
+    parts = stressed(*flat) if flat else None
+    if not parts or math.isnan(parts.arm.length):  # a crank without a pin has no arm
+        return sizes
+    link, shaft = max(parts.contact, float(parts.arm.thickness)), 0.5 * parts.crank_shaft.diameter
+    return sizes._replace(link_thickness=link, first_pin=0.5 * parts.pin, first_shaft=shaft)
 
 
 def unloaded_alike(machine: Mechanism) -> Layout | None:
@@ -185,9 +184,8 @@ def wheel_body(mechanism: Mechanism) -> plates.MassProperties | None:
             return own(mechanism)
         where, sizes = machine_sizes(mechanism)
         contour, _ = wheel_contour(where, sizes, turned_walls(where, sizes), spec.wheel.stopped)
-        hub, density = wheel_hub(where, sizes), wheel_material(spec).density_kgm3
-        body = plates.mass_properties(wheel_plate(where, sizes, contour), density)
-        return plates.added(body, plates.mass_properties(hub, density)) if hub else body
+        both = wheel_plate(where, sizes, contour), wheel_hub(where, sizes)
+        return plates.mass_properties(filter(None, both), wheel_material(spec).density_kgm3)
     return None
 
 
@@ -307,8 +305,7 @@ def refuse_unfit(assembly: Assembly, sizes: Sizes) -> None:
     refuse_size(wrong & has_lock, "crank_bore_mm", text, bored, most=2.0 * lock)
     thin = reduce(smaller, (sizes.wheel_thickness, sizes.lock_thickness, sizes.arm_thickness))
     rules.refuse_pin_and_edges(size, sizes.pin, sizes.roller, thin)
-    unlike = any(map(attrgetter("slot.curved"), assembly.kinds))
-    unlike |= any(map(attrgetter("apart"), assembly.kinds))
+    unlike = any(kind.slot.curved or kind.apart for kind in assembly.kinds)
     for key, shaped in (("mouth_radius_mm", sizes.mouth_radius), ("horn_tip_mm", sizes.horn_tip)):
         text = f"{key} is for straight slots, each of which a roller enters and leaves: remove it"
         refuse_size((shaped > 0.0) & unlike, key, text)

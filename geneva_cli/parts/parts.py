@@ -151,10 +151,8 @@ class EdgedParts(Parts):
         """Return a function that fits curves: within ``fine`` mm where no tolerance is set."""
         from geneva_cli.geometry import fit
 
-        if self.tolerance is None:
-            return lambda curve, a, b: fit.cubics(curve, a, b, fine)
-        kind, tolerance = fit.KINDS[self.curves], self.tolerance
-        return lambda curve, a, b: kind(curve, a, b, tolerance)
+        kind = fit.KINDS["cubics" if self.tolerance is None else self.curves]
+        return lambda curve, a, b: kind(curve, a, b, self.tolerance or fine)
 
     @property
     @abstractmethod

@@ -23,16 +23,7 @@ from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import of_each
-from geneva_cli.numerics.arrays import (
-    Array,
-    Number,
-    Truth,
-    choose,
-    choose_record,
-    parameter,
-    smaller,
-    value_or,
-)
+from geneva_cli.numerics.arrays import Array, choose, choose_record, parameter, smaller, value_or
 from geneva_cli.numerics.tolerances import keeps, trials_from
 from geneva_cli.parts import sizes as rules
 from geneva_cli.parts.assembly import Assembly, gear_plane, is_bridged, links_at
@@ -162,13 +153,11 @@ def load_sizes(
     machine: Mechanism,
     loads: PartLoads,
     bent_MPa: Array | None = None,
-    link: float = 0.0,
 ) -> Sizes:
     """Return the sizes of m designs under their loads, numbers or (m, 1).
 
     ``sizes`` are those without loads, ``by`` their locks, ``bent_MPa`` the stress of ``horn_MPa``
-    if computed already, ``link`` the thickness that a first wheel needs. Loads without a bound
-    change no size.
+    if computed already. Loads without a bound change no size.
     """
     spec, size, usual = machine.spec, machine.spec.size, sizes
     rows = np.zeros((machine.designs, 1)) + np.reshape(loads, (len(loads), -1, 1))
@@ -183,7 +172,6 @@ def load_sizes(
         on_wheel = np.maximum(loads.wheel_shaft_N, held + carried)
         on_crank = np.maximum(loads.crank_N, held)
         loads = loads._replace(wheel_shaft_N=parameter(on_wheel), crank_N=parameter(on_crank))
-    sizes = sizes._replace(link_thickness=link or sizes.link_thickness)
     linked = machine.first_wheel or size.link_thickness_mm is not None  # links have their own
     allowed = wheel_material(spec).allowed_MPa
     if by and size.wheel_thickness_mm is size.face_width_mm is None:
@@ -227,7 +215,7 @@ def load_sizes(
     return out if bounded.all() else choose_record(bounded, out, usual)
 
 
-def _first(holds: Truth, trials: Number) -> float:
+def _first(holds: bool, trials: Array) -> float:
     """Return the first of each design's trials (m, k) that holds, or else the last: (m, 1)."""
     fit = np.array(holds)
     fit[:, -1] = True

@@ -53,7 +53,6 @@ DIN_6885_1 = [*starmap(ParallelKey, (
     (170, 200, 45, 25, 15.0, 10.4), (200, 230, 50, 28, 17.0, 11.4),
 ))]
 # fmt: on
-TABLES = {"DIN 6885-1": DIN_6885_1}
 
 
 def key(standard: str | None, radius: float, part: str = "crank") -> ParallelKey | None:
@@ -66,14 +65,15 @@ def key(standard: str | None, radius: float, part: str = "crank") -> ParallelKey
     """
     if standard is None:
         return None
-    table, diameter = TABLES[standard], 2.0 * radius
-    for row in table:
+    diameter = 2.0 * radius
+    for row in DIN_6885_1:
         if row.above < diameter <= row.up_to:
             return row
+    least, most = DIN_6885_1[0].above, DIN_6885_1[-1].up_to
     bore_key = {"crank": "crank_bore_mm or arm_bore_mm", "wheel": "wheel_bore_mm"}[part]
     raise GenevaError(
         f'{part}_keyway = "{standard}": its table lacks the {part}\'s bore of {diameter:g} mm; '
-        f"set {bore_key} above {table[0].above:g} and up to {table[-1].up_to:g}, or remove it",
+        f"set {bore_key} above {least:g} and up to {most:g}, or remove it",
         ("size", f"{part}_keyway"),
     )
 

@@ -394,11 +394,6 @@ class Product(SpecTable, table="product"):
         """True if the product's place is known."""
         return self.radius_mm is not None or self.pitch_mm is not None
 
-    @property
-    def runs_straight(self) -> bool:
-        """True for a chain, belt or film, whose travel is along a line."""
-        return self.pitch_mm is not None
-
 
 class TitleBlock(SpecTable, table="drawing"):
     """``[drawing]``: fields of the title block, and what drawings ask of faces and edges.

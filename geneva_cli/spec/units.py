@@ -7,7 +7,7 @@ from functools import cache
 from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.names import SHORT_UNITS, unit_of
+from geneva_cli.names import spoken
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -38,8 +38,7 @@ NUMBER = (
 
 def unit_key(key: str) -> str | None:
     """The unit of a key whose values may have another one, None for other keys."""
-    unit = unit_of(key) or ""
-    unit = SHORT_UNITS.get(unit, unit)
+    unit = spoken(key)[1]
     return unit if unit and re.fullmatch(pattern(), f"1 {unit}") else None
 
 

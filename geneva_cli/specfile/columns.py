@@ -1,16 +1,14 @@
-"""Readers of CSV files: of number pairs that a spec names, and of columns as a sweep writes them.
+"""Columns of a CSV file, as a sweep writes it; and the digest by which a sweep knows its files.
 
-Errors name the file and the line. A sweep that resumes compares a digest of its files.
+Errors name the file and the line.
 """
 
 import csv
-import re
 from collections.abc import Iterable
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, few, nearest
-from geneva_cli.spec.rules import Csv
-from geneva_cli.streams import read_bytes
+from geneva_cli.specfile.tree import read_text
 
 
 class Columns(NamedTuple):
@@ -62,7 +60,7 @@ def read_columns(path: str) -> Columns:
     file, or has no rows.
     """
     shown = cut(path, 300)
-    text = _text(path, 1 << 28, "sweep fewer designs")  # a csv of some million designs
+    text = read_text(path, 1 << 28, "sweep fewer designs")  # a csv of some million designs
     lines = csv.reader(text.splitlines())
     names = tuple(name.strip() for name in next(lines, []))
     rows = []
@@ -74,31 +72,6 @@ def read_columns(path: str) -> Columns:
     if not rows:
         raise GenevaError(f"{shown}: no rows: the file needs a line of names and lines of values")
     return Columns(path, names, rows)
-
-
-def read_pairs(path: str, rule: Csv, key: tuple[str, ...]) -> list[tuple[float, float]]:
-    """Pairs in a file, the first number of each ascending; a header and ``#`` lines are skipped.
-
-    Raises GenevaError naming the file's line or, if the file cannot be read, the spec's key.
-    """
-    points: list[tuple[float, float]] = []
-    text = _text(path, 1 << 24, "use fewer points", key)  # some hundred thousand points, in memory
-    for number, line in enumerate(text.split("\n"), 1):
-        row = [re.sub(r'^"(.*)"$', r"\1", cell.strip()) for cell in line.split(",")]
-        if row == [""] or row[0].startswith("#") or row == ["u", "s"]:
-            continue
-        where = f"{path}:{number}"
-        try:
-            x, y = (float(cell) for cell in row)
-        except ValueError:
-            shown = cut(",".join(row))
-            text = f'{where}: "{shown}" is not two numbers u,s, as in 0.5,0.25'
-            raise GenevaError(text) from None
-        points.append((x, y))
-        fault = rule.fault(points, len(points) - 1)
-        if fault:
-            raise GenevaError(f"{where}: {fault}")
-    return points
 
 
 def digest(paths: Iterable[str]) -> str:
@@ -113,12 +86,3 @@ def digest(paths: Iterable[str]) -> str:
         except (OSError, ValueError) as error:  # ValueError: a NUL in the name
             total.update(type(error).__name__.encode())
     return total.hexdigest()
-
-
-def _text(path: str, bytes_max: int, advice: str, key: tuple[str, ...] = ()) -> str:
-    """Text of a file. Raises GenevaError, for points with the spec's key that names them."""
-    data = read_bytes(path, bytes_max, advice, key)
-    try:
-        return data.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        raise GenevaError(f"{cut(path, 300)}: not UTF-8 text; save the file as UTF-8") from None

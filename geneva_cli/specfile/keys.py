@@ -129,17 +129,16 @@ def schema() -> Schema:
         "title": "A Geneva mechanism: a spec of geneva",
     }
     with_unit = {"type": "string", "pattern": pattern(), "description": 'as "8 in" or "2 rad/s"'}
-    definitions = {"withUnit": with_unit}
-    return {**head, **_closed(properties), "required": ["wheel"], "definitions": definitions}
+    return head | _closed(properties, required=["wheel"], definitions={"withUnit": with_unit})
 
 
-def _closed(properties: Schema) -> Schema:
-    return {"type": "object", "additionalProperties": False, "properties": properties}
+def _closed(properties: Schema, **more: Any) -> Schema:
+    return {"type": "object", "additionalProperties": False, "properties": properties, **more}
 
 
 def _table(keys: tuple[Field, ...]) -> Schema:
-    whole = _closed({key.key: {**_described(key), **_value(key)} for key in keys})
-    return whole | {"required": _required(keys)}
+    values = {key.key: {**_described(key), **_value(key)} for key in keys}
+    return _closed(values, required=_required(keys))
 
 
 def _required(keys: Iterable[Field]) -> list[str]:
@@ -167,7 +166,7 @@ def _cases(of: KindTable) -> Schema:
         cases.append({"if": named, "then": case(own)})
     is_word = {**_described(word), "type": "string", "enum": list(keys)}
     properties = {word.key: is_word, **{name: _described(key) for name, key in every.items()}}
-    return {**_closed(properties), "allOf": cases}
+    return _closed(properties, allOf=cases)
 
 
 def _described(key: Field) -> Schema:

@@ -6,10 +6,11 @@ from functools import cache
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, nearest
+from geneva_cli.kept import load_named
 from geneva_cli.manual import TOPICS
 from geneva_cli.manual.explained import GROUPS, Entry, entries
 from geneva_cli.motion import registry
-from geneva_cli.names import SHORT_UNITS, UNITS, described, heading, spoken, unit_of
+from geneva_cli.names import SHORT_UNITS, UNITS, capital, described, heading, spoken, unit_of
 from geneva_cli.specfile.keys import Key, all_keys
 
 UNIT_WORDS = {*UNITS.values(), *SHORT_UNITS.values(), "°"}  # behind a heading's comma
@@ -166,14 +167,11 @@ def _lookup(word: str) -> list[Meaning]:
 
 def _of_entry(entry: Entry, name: str) -> Meaning:
     """Meaning of an entry; for a kind or law, its class's own summary comes first."""
-    about = ""
+    about, kinds = "", registry.GEARINGS | registry.DRIVES
     if entry.group == "law":
-        text = registry.law(name).ABOUT
-        about = f"{text[:1].upper()}{text[1:]}{'' if text.endswith('.') else '.'}"
-    kinds = ((registry.GEARINGS, registry.gearing), (registry.DRIVES, registry.drive))
-    for known, cls in kinds if entry.group == "kind" else ():
-        if name in known:
-            about = inspect.cleandoc(cls(name).__doc__ or "").partition("\n")[0]
+        about = capital(registry.law(name).ABOUT.rstrip(".")) + "."
+    elif entry.group == "kind" and name in kinds:
+        about = str(inspect.getdoc(load_named(kinds[name]))).partition("\n")[0]
     return Meaning(
         entry.group,
         name,

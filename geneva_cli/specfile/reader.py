@@ -2,7 +2,6 @@
 
 import os
 import re
-import sys
 from bisect import bisect_left
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
@@ -13,7 +12,7 @@ import tomli
 
 from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.specfile.tree import spec_of
+from geneva_cli.specfile.tree import read_text, spec_of
 
 
 @lru_cache  # of the many designs of a sweep
@@ -177,32 +176,14 @@ def read(path: str, set_keys: Iterable[str] = ()) -> Text:
 
     Raises GenevaError, with the message ready to print, if it cannot be read.
     """
-    name = "<stdin>" if path == "-" else path if path.strip() else repr(path)
-    bytes_max = 1 << 20  # a spec is a page; a megabyte of it is a mistake
     try:
-        if path == "-":
-            data = sys.stdin.buffer.read(bytes_max + 1)
-        else:
-            with open(path, "rb") as file:
-                data = file.read(bytes_max + 1)
-    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
-        what = str(error.strerror if isinstance(error, OSError) else error)
-        what = "this is a folder, not a file" if os.path.isdir(path) else what
-        if isinstance(error, FileNotFoundError):
-            from geneva_cli.specfile.template import titles  # only for this message
+        text = read_text(path, 1 << 20, "a spec is a page")  # a megabyte of it is a mistake
+    except GenevaError as error:
+        if path == "-" or os.path.exists(path):
+            raise
+        from geneva_cli.specfile.template import titles  # only for this message
 
-            own = os.path.basename(path).removesuffix(".toml")
-            words = f"--from-design {own} -o {own}" if own in titles() else "external -o spec"
-            what += f"; `geneva new {words}.toml` writes one"
-        raise GenevaError(f"{name}: cannot read: {what}") from None
-    if len(data) > bytes_max:
-        raise GenevaError(f"{name}: larger than {bytes_max} bytes, too large for a spec")
-    try:
-        # Some editors put a byte order mark before the text.
-        text = data.decode("utf-8-sig").replace("\r\n", "\n")
-    except UnicodeDecodeError as error:
-        line = data[: error.start].count(b"\n") + 1
-        # as PowerShell 5 writes UTF-16 for >
-        advice = "save the file as UTF-8, or write it with -o FILE in place of > FILE"
-        raise GenevaError(f"{name}:{line}: not UTF-8 text; {advice}") from None
-    return Text(name, text, tuple(map(setting, set_keys)))
+        own = os.path.basename(path).removesuffix(".toml")
+        words = f"--from-design {own} -o {own}" if own in titles() else "external -o spec"
+        raise GenevaError(f"{error}; `geneva new {words}.toml` writes one") from None
+    return Text("<stdin>" if path == "-" else path, text, tuple(map(setting, set_keys)))

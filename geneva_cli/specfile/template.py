@@ -5,12 +5,10 @@ from typing import Any
 
 import tomli
 
-from geneva_cli.drives.crank import Crank
 from geneva_cli.errors import GenevaError, cut, few, nearest
 from geneva_cli.kinds import FOLDERS
 from geneva_cli.motion import registry
-from geneva_cli.motion.machine_spec import BEFORE
-from geneva_cli.motion.wheels.external import External
+from geneva_cli.motion.machine_spec import BEFORE, DRIVES, WHEELS
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.spec.schema import REQUIRED, Field, fields
 from geneva_cli.spec.tables import LISTS
@@ -30,10 +28,8 @@ def _examples() -> dict[str, dict[str, Any]]:
 
 
 EXAMPLES = _examples()
-# the plain crank is in all of them
-DRIVES = tuple(name for name in registry.DRIVES if name != Crank.NAME)
-_others = [name for name in EXAMPLES if name not in DRIVES]
-KINDS = tuple(dict.fromkeys((*registry.GEARINGS, *_others, *DRIVES)))
+# wheels first; the plain crank is in all of them
+KINDS = tuple(dict.fromkeys((*registry.GEARINGS, *EXAMPLES)))
 # keys that most people set
 USUAL: dict[str, dict[str, float]] = {
     "drive": {"n_rpm": 60, "rollers": 1},
@@ -56,7 +52,7 @@ def template(kind: str, schema: bool = True, whole: bool = True) -> str:
         known = f"{few(kind, KINDS)}; `geneva new --list` has all"
         raise GenevaError(f'unknown KIND "{cut(kind)}"{nearest(kind, KINDS)}; it is one of {known}')
     about, own = example(kind)
-    drive = registry.drive(str(own.get("drive", {}).get("kind", Crank.NAME)))
+    drive = registry.drive(own.get("drive", {}).get("kind", DRIVES.word.default))
     behind = "have the default shown, or none" if whole else "show usual values"
     lines = [
         *([f"#:schema ./{FILE}"] if schema else []),
@@ -65,10 +61,10 @@ def template(kind: str, schema: bool = True, whole: bool = True) -> str:
         *([] if whole else [f"# All keys: geneva new {kind} --all"]),
         f"title = {quoted(about[0].upper() + about[1:])}",
     ]
-    gearing = registry.gearing(str(own["wheel"].get("gearing", External.NAME)))
+    gearing = registry.gearing(own["wheel"].get("gearing", WHEELS.word.default))
     # any law may be set: a template shows the keys of all
     law_keys = [key for name in registry.LAWS for key in fields(registry.law(name))]
-    before = registry.drive(str(own[BEFORE]["kind"])) if BEFORE in own else None
+    before = registry.drive(own[BEFORE]["kind"]) if BEFORE in own else None
     for name, table in keys_of(gearing, drive, law_keys, before).items():
         # An empty table of a list would be one more body, without any of its keys.
         head = f"# [[{name}]]" if name in LISTS else f"[{name}]"

@@ -1,6 +1,9 @@
-"""Conversion of the tables of a parsed TOML file to a spec."""
+"""A spec from the tables of a parsed TOML file, and from the files that it names."""
 
 import os
+import re
+import sys
+from contextlib import nullcontext
 from typing import Any
 
 from geneva_cli.errors import GenevaError, below, clean, cut, few, nearest
@@ -115,13 +118,74 @@ def _object(table: str, values: dict[str, Any], files: list[str]) -> Any:
 
 def _points(rule: Csv, name: Any, files: list[str]) -> schema.Points:
     """The points in a file of a law."""
-    from geneva_cli.specfile.columns import read_pairs
-
     place = ("motion", "file")
     if not isinstance(name, str):
         raise GenevaError(f"file must be text, not {schema.shown(name)}", place)
     files.append(below(os.path.dirname(files[0]), name))
     return schema.Points(tuple(read_pairs(files[-1], rule, place)), name)
+
+
+def read_pairs(path: str, rule: Csv, key: tuple[str, ...]) -> list[tuple[float, float]]:
+    """Pairs in a file, the first number of each ascending; a header and ``#`` lines are skipped.
+
+    Raises GenevaError naming the file's line or, if the file cannot be read, the spec's key.
+    """
+    points: list[tuple[float, float]] = []
+    text = read_text(
+        path, 1 << 24, "use fewer points", key
+    )  # some hundred thousand points, in memory
+    for number, line in enumerate(text.split("\n"), 1):
+        row = [re.sub(r'^"(.*)"$', r"\1", cell.strip()) for cell in line.split(",")]
+        if row == [""] or row[0].startswith("#") or row == ["u", "s"]:
+            continue
+        where = f"{path}:{number}"
+        try:
+            x, y = (float(cell) for cell in row)
+        except ValueError:
+            shown = cut(",".join(row))
+            text = f'{where}: "{shown}" is not two numbers u,s, as in 0.5,0.25'
+            raise GenevaError(text) from None
+        points.append((x, y))
+        fault = rule.fault(points, len(points) - 1)
+        if fault:
+            raise GenevaError(f"{where}: {fault}")
+    return points
+
+
+def read_bytes(path: str, most: int, advice: str, key: tuple[str, ...] = ()) -> bytes:
+    """Bytes of a file up to a size; ``-`` is standard input, but for a file that a ``key`` names.
+
+    Raises GenevaError, with that key of the spec, for a file that is larger or cannot be read.
+    """
+    is_input = path == "-" and not key
+    try:
+        with nullcontext(sys.stdin.buffer) if is_input else open(path, "rb") as file:
+            data = file.read(most + 1)
+        if len(data) <= most:
+            return data
+        fault = f"larger than {most} bytes: {advice}"
+    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
+        what = str(error.strerror if isinstance(error, OSError) else error)
+        fault = f"cannot read: {'this is a folder, not a file' if os.path.isdir(path) else what}"
+    raise GenevaError(f"{shown_path(path)}: {fault}", key)
+
+
+def read_text(path: str, most: int, advice: str, key: tuple[str, ...] = ()) -> str:
+    """Text of a UTF-8 file, read as by ``read_bytes``; its lines end with a line feed."""
+    data = read_bytes(path, most, advice, key)
+    try:
+        # Some editors put a byte order mark before the text.
+        return data.decode("utf-8-sig").replace("\r\n", "\n")
+    except UnicodeDecodeError as error:
+        line = data[: error.start].count(b"\n") + 1
+        # as PowerShell 5 writes UTF-16 for >
+        advice = "save the file as UTF-8, or write it with -o FILE in place of > FILE"
+        raise GenevaError(f"{shown_path(path)}:{line}: not UTF-8 text; {advice}") from None
+
+
+def shown_path(path: str) -> str:
+    """A file's name for a message."""
+    return "<stdin>" if path == "-" else cut(path, 300) if path.strip() else repr(path)
 
 
 def _no_table(name: str, value: Any) -> GenevaError:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from typing import TypeAlias
@@ -93,9 +92,9 @@ def built(spec: Spec, varied: Mapping[str, Array], members: Whole) -> Iterator[B
 
 # Loads, sizes and all the rest: equal in a batch, as their keys do not vary in it.
 _SHARED = [
-    field.name
-    for field in dataclasses.fields(Spec)
-    if field.name not in ("wheel", "drive", "drive_before", "motion", "path", "title")
+    name
+    for name in Spec._parameters
+    if name not in ("wheel", "drive", "drive_before", "motion", "path", "title")
 ]
 
 
@@ -105,7 +104,7 @@ class SpecGroups:
     def __init__(self, specs: Sequence[Spec]) -> None:
         self.specs = specs
         self._own: list[dict[str, float]] = []  # of each spec the numbers that may vary
-        may, groups, each = dict[object, bool](), dict[object, int](), list[int]()
+        groups, each = dict[object, int](), list[int]()
         for spec in specs:
             before, law = type(spec.drive_before), spec.motion and spec.motion.law
             kinds = type(spec.wheel), type(spec.drive), before, law
@@ -113,10 +112,8 @@ class SpecGroups:
             for table in ("wheel", "drive", BEFORE, "motion"):  # where specs of a target differ
                 for key, value in spec.table(table).items():
                     name = f"{table}.{key}"
-                    if (kinds, name) not in may:
-                        may[kinds, name] = may_vary(spec, name)
                     is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
-                    if is_number and may[kinds, name]:
+                    if is_number and may_vary(spec, name):
                         own[name] = value
                     else:
                         shape.append((name, value))

@@ -99,10 +99,8 @@ def designs_of(
     axes = [axis(v) for v in vary]
     count = math.prod(len(a.values) for a in axes) if vary else len(paths)
     if count > DESIGNS_MAX:
-        raise GenevaError(
-            f"{count:,} designs; at most {DESIGNS_MAX} can be compared: `geneva sweep` has a row "
-            "for each"
-        )
+        why = f"{count:,} designs; at most {DESIGNS_MAX} can be compared: `geneva sweep` has a row "
+        raise GenevaError(why + "for each")
     if vary:
         text = read(paths[0], settings)
         refuse_twice(axes, text.set_keys)
@@ -149,10 +147,8 @@ def of_table(path: str, x: str, ys: Sequence[str]) -> Figure:
     """
     table = read_columns(path)
     if not x or not ys:
-        raise GenevaError(
-            f"{cut(path, 300)}: --x COLUMN and --y COLUMN,... say what to plot; it has "
-            f"{few('', table.names)}"
-        )
+        text = f"{cut(path, 300)}: --x COLUMN and --y COLUMN,... say what to plot; it has "
+        raise GenevaError(text + few("", table.names))
     x, ys = table.named(x, "--x"), [table.named(y, "--y") for y in dict.fromkeys(ys)]
     at = table.numbers(x, "--x")
     places = [place for place in at if place is not None]

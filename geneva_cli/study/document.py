@@ -20,7 +20,7 @@ from geneva_cli.specfile.writer import keys_in, values_of
 from geneva_cli.study.summary import report_summary
 from geneva_cli.study.summary.load_lines import title_of
 from geneva_cli.study.verdicts import headline
-from geneva_cli.table import Table, in_digits
+from geneva_cli.table import Table, for_people
 from geneva_cli.verdict.failures import below_summary
 from geneva_cli.verdict.strength import OF_LIFE
 
@@ -74,7 +74,7 @@ def document(design: Design) -> Document:
     parts = {name: left.pop(name) for name in [*left] if name.startswith("parts_list.")}
     keys = [*_keys(design.spec)]
     rows = [
-        (name, in_digits(value, 10) if isinstance(value, float) else value, unit, meaning)
+        (name, for_people(value, digits=10) if isinstance(value, float) else value, unit, meaning)
         for name, value, unit, meaning, is_default in keys  # with all digits
         if not is_default
     ]

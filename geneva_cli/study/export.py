@@ -22,7 +22,7 @@ from geneva_cli.parts.projection import Missing
 from geneva_cli.spec.schema import Points
 from geneva_cli.specfile.writer import inserted, quoted, spec_lines
 from geneva_cli.study.summary.load_lines import title_of
-from geneva_cli.table import Reading, record_table, rows_table
+from geneva_cli.table import record_table, rows_table
 from geneva_cli.verdict.warnings import gears_without_teeth
 
 
@@ -142,10 +142,7 @@ def of_sizes(design: Design, as_json: bool) -> Answer:
     """The answer of ``geneva size``: a row for each size that a rule or the load chose."""
     spec, sizes = design.spec, design.chosen
     rows = rows_table(("key", "value", "why"), [(key, *one) for key, one in sizes.items()])
-    rows = rows.replaced(reading=Reading(("key", "value", "why")))
-    data = rows
-    if as_json:
-        data = record_table({"spec": spec.path, "title": spec.title, "rows": rows})
+    data = record_table({"spec": spec.path, "title": spec.title, "rows": rows}) if as_json else rows
     count, loaded = len(sizes), len(design.chosen_by_load.sizes)
     text = f"{count} sizes chosen, {loaded} of them by the load" if count else "no size to choose"
     return Answer((Summary(f"{title_of(design)}: {text}"),), rows if count else None, data)

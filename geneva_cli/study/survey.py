@@ -27,10 +27,8 @@ def survey(z: str, gearing: str, n_rpm: float, rollers: int, A: float) -> Table:
     if rollers < 1:
         raise GenevaError(f"--rollers {cut(rollers)}: a crank carries at least 1")
     if rollers > 1 and A:
-        raise GenevaError(
-            "--rollers with --A: the engagements differ, so one row cannot describe them; write a "
-            'spec with kind = "side-crank" and use `geneva report`'
-        )
+        text = "--rollers with --A: the engagements differ, so one row cannot describe them; write "
+        raise GenevaError(text + 'a spec with kind = "side-crank" and use `geneva report`')
     rows, wheels = [], parse_z(z)
     for slots in wheels:
         try:
@@ -44,10 +42,8 @@ def survey(z: str, gearing: str, n_rpm: float, rollers: int, A: float) -> Table:
         factors = cam_factors(peaks[0], peaks[1], power, times.motion_deg, 360.0 / slots)
         rows.append((slots, gearing, rollers, *times[:-1], *peaks, most, *factors))
     # the columns in order of importance, for a window too narrow for all
-    first = (
-        "z motion_deg dwell_deg acceleration_max velocity_max motion_s dwell_s index_deg "
-        "acceleration_max_deg rollers_max acceleration_entry jerk_entry"
-    )
+    first = "z motion_deg dwell_deg acceleration_max velocity_max motion_s dwell_s index_deg "
+    first += "acceleration_max_deg rollers_max acceleration_entry jerk_entry"
     drive = f"side-crank A = {A:g}" if A else "one roller" if rollers == 1 else f"{rollers} rollers"
     indexes = "one index" if rollers == 1 else f"{rollers} indexes"
     cycle = f"cycle {60.0 / n_rpm / rollers:.5g} s"

@@ -43,14 +43,13 @@ def verdict(
     try:
         design = load(path, settings, reverse)
         if design.spec.is_loaded and not design.is_drawn:
-            from geneva_cli.loads.cycle import cycle_of
             from geneva_cli.loads.strength.part_loads import single_loads
             from geneva_cli.verdict.quantities.groups import value_of
 
             # loads, the parts that they size, their strength: what checks and warnings read
             with suppress(GenevaError):  # a check says why
                 single_loads(design.mechanism)
-                _ = cycle_of(design.mechanism).ends, design.parts.built.required
+                _ = design.cycle.ends, design.parts.built.required
                 for part in ("wheel_shaft", "horn", "lock"):
                     value_of(design.mechanism, f"strength.{part}.margin")
         checks = design.checks if to_mm is None else design.proved_to(to_mm)
@@ -118,9 +117,8 @@ def of_checks(verdicts: Sequence[Verdict], page: bool, as_json: bool) -> Answer:
     """The answer on specs: a headline for each that was read, then the changes."""
     # a page for people has the table only where it or some of its columns are asked for
     is_shown = page or choice.columns
-    data = table = checks_table(verdicts) if is_shown else Table((), ())
-    if as_json:
-        data = checks_record(verdicts)
+    table = checks_table(verdicts) if is_shown else Table((), ())
+    data = checks_record(verdicts) if as_json else table
     is_single, judged = len(verdicts) == 1, [*filterfalse(attrgetter("error"), verdicts)]
     heads, details = list[Summary](), list[Summary]()
     for v in judged:

@@ -20,15 +20,8 @@ from geneva_cli.parts.machine_sizes import built
 from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.spec.tables import Size
 from geneva_cli.specfile.keys import tables_with
-from geneva_cli.verdict.checks import (
-    KEYS,
-    QUICK,
-    SIZELESS,
-    TURNED,
-    Check,
-    every_check,
-    single_check,
-)
+from geneva_cli.verdict import checks
+from geneva_cli.verdict.checks import Check
 
 # The reason why a failing check has no advice.
 NONE = "no single change that was tried passes all checks"
@@ -98,7 +91,7 @@ def short(value: float, spare: float) -> float:
 
 def words_of(name: str) -> str:
     """The words of a check, with those in capitals spelled out."""
-    words = KEYS.get(name, "OTHERS")
+    words = checks.KEYS.get(name, "OTHERS")
     while capitals := re.search("[A-Z]{5,}", words):
         words = words.replace(capitals[0], WORDS[capitals[0]])
     return re.sub(r"drives(\S+)", r"drive\1 drive.before\1", words)
@@ -107,7 +100,7 @@ def words_of(name: str) -> str:
 def remedies(check: Check, mechanism: Mechanism) -> Iterator[Remedy]:
     """Changes of the spec that may make a failing check pass, the likeliest first."""
     spec, size = mechanism.spec, mechanism.spec.size.as_dict()
-    usual = {} if check.name in SIZELESS else Size().as_dict()
+    usual = {} if check.name in checks.SIZELESS else Size().as_dict()
     own = [key for key in usual if size[key] != usual[key] and key not in REQUIRED]
     how = "=" if "remove it" in check.why else "?"
     # first a size that the reason names, such as "wheel_bore_mm = 30: it must be below 20"
@@ -196,7 +189,9 @@ class Adviser:
     def advice(self, wanted: list[Check], trials: int) -> Change | None:
         """The change with which some failing checks pass and no other fails, in so many trials."""
         self.stop, tried = self.left - trials, set()
-        by_cost = sorted(wanted, key=lambda c: (c.name in TURNED, c.name not in QUICK))
+        by_cost = sorted(
+            wanted, key=lambda c: (c.name in checks.TURNED, c.name not in checks.QUICK)
+        )
         spares = {c.name: c.spare for c in by_cost}
         for remedy in (one for check in wanted for one in remedies(check, self.mechanism)):
             key, end, now = remedy
@@ -271,7 +266,7 @@ class Adviser:
                 self._parts[key] = parts_of(build(spec, self.mechanism))
             parts = self._parts[key]
             for name in names:
-                check = single_check(parts, name)
+                check = checks.single_check(parts, name)
                 out.spares[name] = check.spare if check else math.inf
                 if check and check.passes is None:  # a change is no advice that hides a check
                     out.spares[name] = -math.inf
@@ -279,7 +274,7 @@ class Adviser:
                     return out
             # where a check has no value, others say how near it is
             if every or math.inf in out.spares.values():
-                for check in every_check(parts, quick=True):
+                for check in checks.every_check(parts, quick=True):
                     if check.name not in self.failing:
                         out.spares[check.name] = check.spare
                         if check.passes is False:

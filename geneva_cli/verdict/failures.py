@@ -58,21 +58,17 @@ def failures(rows: list[Check], parts: Parts) -> tuple[str, list[str]]:
     for c in rows:
         if c.passes is not False:
             continue
+        # Links and gears lie below the wheel's plane, so the wheel can be cut all the same.
+        below = c.name in ("link_wall_mm", "link_gap_mm", "gear_gap_mm")
+        overlaps = c.must_be == "at least" and c.name.endswith("_mm") and (c.value or 0.0) < 0.0
         if c.name == "full_turn":
             refused.append(c.why)
         elif c.name == "parts":  # the reason why there are none
             warned.append(c.why)
         # a roller that does not find its slot, or meets the rim next to it, jams
-        elif c.name.startswith("hand_over_") or (
-            # Links and gears lie below the wheel's plane, so the wheel can be cut all the same.
-            c.name not in ("link_wall_mm", "link_gap_mm", "gear_gap_mm")
-            and c.must_be == "at least"
-            and c.name.endswith("_mm")
-            and (c.value or 0.0) < 0.0
-        ):
-            refused.append(
-                _in_words(c, parts.turn.smallest.parts if c.name == "gap_mm" else "parts")
-            )
+        elif c.name.startswith("hand_over_") or (overlaps and not below):
+            what = parts.turn.smallest.parts if c.name == "gap_mm" else "parts"
+            refused.append(_in_words(c, what))
             advice = advice or c.nearest
         else:
             warned.append(sentence(c))

@@ -20,15 +20,11 @@ def motion_warnings(mechanism: Mechanism) -> Iterator[Notice]:
     spec, L, engagement = mechanism.spec, mechanism.center_distance_mm, mechanism.engagements[0]
     z, size, drive = spec.wheel.z, spec.size, spec.drive
     if z > Z_USUAL and mechanism.output.turns:  # a rack only becomes longer
-        yield Notice(
-            "many-slots",
-            f"z = {z}: more than {Z_USUAL} slots leave little of the wheel between them",
-        )
+        text = f"z = {z}: more than {Z_USUAL} slots leave little of the wheel between them"
+        yield Notice("many-slots", text)
     if spec.dwell_holder is None:
-        yield Notice(
-            "nothing-holds",
-            'nothing holds the wheel in the dwell: set held_by = "brake", "detent" or "pin"',
-        )
+        text = 'nothing holds the wheel in the dwell: set held_by = "brake", "detent" or "pin"'
+        yield Notice("nothing-holds", text)
     # the rim depends on the centre distance; some drives solve for it
     given = size.center_distance_mm is not None or size.crank_radius_mm is not None
     if size.wheel_radius_mm is not None and not given and spec.given_distance_mm == L:
@@ -39,20 +35,16 @@ def motion_warnings(mechanism: Mechanism) -> Iterator[Notice]:
         brake, start = drive.brake_and_start_deg
         least = min(map(mechanism.dwell_deg, range(len(mechanism.engagements))))
         if not keeps(brake + start, "at most", least):
-            yield Notice(
-                "stop-in-motion",
-                f"the input turns {brake:.4g}° while it brakes and {start:.4g}° while it starts, "
-                f"but the dwell has only {least:.4g}°: at this speed brake_s and start_s may take "
-                f"{least / (3.0 * drive.n_rpm):.4g} s together",
-            )
+            text = f"the input turns {brake:.4g}° while it brakes and {start:.4g}° while it "
+            text += f"starts, but the dwell has only {least:.4g}°: at this speed brake_s and "
+            text += f"start_s may take {least / (3.0 * drive.n_rpm):.4g} s together"
+            yield Notice("stop-in-motion", text)
     if engagement.built is not None:
         needed = spec.wheel.place(spec.wheel.step, L).ratio
-        yield Notice(
-            "taken-as-built",
-            f"crank_radius_mm = {size.crank_radius_mm:.9g} and center_distance_mm = {L:.9g} have "
-            f"R/L = {mechanism.ratio:.6g}, but the slots need {needed:.6g}: taken as built, "
-            "with an impact that the loads leave out (the check entry_velocity_max)",
-        )
+        text = f"crank_radius_mm = {size.crank_radius_mm:.9g} and center_distance_mm = {L:.9g} "
+        text += f"have R/L = {mechanism.ratio:.6g}, but the slots need {needed:.6g}: taken as "
+        text += "built, with an impact that the loads leave out (the check entry_velocity_max)"
+        yield Notice("taken-as-built", text)
     yield from _fits(mechanism)
     if mechanism.law:
         yield from _of_law(mechanism, mechanism.law)
@@ -84,19 +76,15 @@ def _fits(mechanism: Mechanism) -> Iterator[Notice]:
                 least = min(own, shop.deviation_mm)
         if not keeps(clearance, "at most", most):
             helps = "" if size.process else ", or name the process that needs it"
-            yield Notice(
-                "loose-fit",
-                f"{key} = {clearance:g}: the {part} is loose in its {mate}. At Ø "
-                f"{2.0 * radius:.4g} mm the loosest running fit of ISO 286, H11/c11, leaves at "
-                f"most {0.5 * (fit or 0.0):.4g} mm a side: reduce {key} to {most:.4g}{helps}",
-            )
+            text = f"{key} = {clearance:g}: the {part} is loose in its {mate}. At Ø "
+            text += f"{2.0 * radius:.4g} mm the loosest running fit of ISO 286, H11/c11, leaves at "
+            text += f"most {0.5 * (fit or 0.0):.4g} mm a side: reduce {key} to {most:.4g}{helps}"
+            yield Notice("loose-fit", text)
         elif not keeps(clearance, "at least", least):
-            yield Notice(
-                "narrow-for-process",
-                f'{key} = {clearance:g}: with process = "{size.process}" {part} and {mate} '
-                f"(Ø {2.0 * radius:.4g} mm) are off by up to {least:.4g} mm a side together, and "
-                f"may not go together: set {key} to {least:.4g}",
-            )
+            text = f'{key} = {clearance:g}: with process = "{size.process}" {part} and {mate} '
+            text += f"(Ø {2.0 * radius:.4g} mm) are off by up to {least:.4g} mm a side together, "
+            text += f"and may not go together: set {key} to {least:.4g}"
+            yield Notice("narrow-for-process", text)
 
 
 def _of_law(mechanism: Mechanism, law: Law) -> Iterator[Notice]:
@@ -111,37 +99,25 @@ def _of_law(mechanism: Mechanism, law: Law) -> Iterator[Notice]:
         move = doubt[1] * 2.0 * own.half_step / (own.motion_deg * DEGREE) ** 3
         fraction = move / peak(own.motion, "jerk").max
         if not fraction < 0.01:  # less is not worth a warning
-            yield Notice(
-                "rounded-points",
-                f"the points have {doubt[0]} decimals, so the jerk is known only to about "
-                f"{float(f'{100.0 * fraction:.2g}'):g} %: use more decimals, or fewer points",
-            )
+            text = f"the points have {doubt[0]} decimals, so the jerk is known only to about "
+            text += f"{float(f'{100.0 * fraction:.2g}'):g} %: use more decimals, or fewer points"
+            yield Notice("rounded-points", text)
     if back := turns_back(mechanism):
-        yield Notice(
-            "turns-back",
-            f"the wheel turns back: velocity {back[0]:.4g} at {back[1]:.4g}°",
-        )
+        text = f"the wheel turns back: velocity {back[0]:.4g} at {back[1]:.4g}°"
+        yield Notice("turns-back", text)
     if engagement.slot.curved and not retraces(engagement):
         matched, helps = mechanism.matched_ratio, "no R/L avoids it with this law and motion angle"
         if matched is not None:
             helps = f'ratio = "matched" (R/L = {matched:.6g}) avoids it'
-        yield Notice(
-            "off-mid-condition",
-            f"pressure angle 90° at mid-motion (0°), because R/L = {mechanism.ratio:.6g} does "
-            f"not meet the mid condition: {helps}",
-        )
+        text = f"pressure angle 90° at mid-motion (0°), because R/L = {mechanism.ratio:.6g} does "
+        text += f"not meet the mid condition: {helps}"
+        yield Notice("off-mid-condition", text)
     if max(abs(half(0.0, 2).derivatives()[2]) for half in (law.first, law.second)) > 1e-9:
-        yield Notice(
-            "soft-shock-at-ends",
-            f'the law "{law.NAME}" starts and stops with a jump in acceleration: a soft shock at '
-            "both ends",
-        )
+        text = f'the law "{law.NAME}" starts and stops with a jump in acceleration: a soft shock '
+        yield Notice("soft-shock-at-ends", text + "at both ends")
     if abs(law.first(0.5, 2).derivatives()[2] + law.second(0.5, 2).derivatives()[2]) > 1e-9:
-        yield Notice(
-            "soft-shock-at-mid",
-            f'the law "{law.NAME}" jumps from acceleration to deceleration: a soft shock at '
-            "mid-motion",
-        )
+        text = f'the law "{law.NAME}" jumps from acceleration to deceleration: a soft shock at '
+        yield Notice("soft-shock-at-mid", text + "mid-motion")
     yield from _of_slots(mechanism)
 
 
@@ -158,24 +134,21 @@ def _of_slots(mechanism: Mechanism) -> Iterator[Notice]:
                 f"{round(a, 9):.4g} to {round(b, 9):.4g}" for a, b in driven.loose_deg
             )
             percent, gap_mm = 100.0 * driven.fraction.item(), driven.loose_gap_mm.item()
-            yield Notice(
-                "not-positively-driven",
-                f"not positively driven from {where}° ({percent:.3g} % of the motion): the slot's "
-                f"other branch, up to {gap_mm:.3g} mm off, cuts away the wall that the torque needs"
-                '. Less torque_Nm against the inertia helps; kind = "cam" drives any law',
-            )
+            text = f"not positively driven from {where}° ({percent:.3g} % of the motion): the "
+            text += f"slot's other branch, up to {gap_mm:.3g} mm off, cuts away the wall that the "
+            text += 'torque needs. Less torque_Nm against the inertia helps; kind = "cam" drives '
+            text += "any law"
+            yield Notice("not-positively-driven", text)
     place = undercut(mechanism)
     if place is not None and place.depth_mm >= SHOWN_UNDERCUT:
         clearance = mechanism.spec.size.allowances.slot_clearance_mm
         free, helps = place.radius_mm - clearance, "a smaller roller or a longer motion reduces it"
         if not place.to_cusp and free > 0.0:
             helps = f"a roller radius below {free:.4g} mm avoids it"
-        yield Notice(
-            "undercut",
-            f"undercut of the {place.wall} flank from {place.from_deg:.4g} to "
-            f"{place.to_deg:.4g}°, by up to {place.depth_mm:.3g} mm: the roller's radius exceeds "
-            f"that of curvature, {place.radius_mm:.4g} mm at {place.at_deg:.4g}°: {helps}",
-        )
+        text = f"undercut of the {place.wall} flank from {place.from_deg:.4g} to "
+        text += f"{place.to_deg:.4g}°, by up to {place.depth_mm:.3g} mm: the roller's radius "
+        text += f"exceeds that of curvature, {place.radius_mm:.4g} mm at {place.at_deg:.4g}°: "
+        yield Notice("undercut", text + helps)
 
 
 @lru_cache(maxsize=16)

@@ -70,9 +70,8 @@ def words(mechanism: Mechanism) -> str:
     verb, steps = "turns" if output.turns else "moves", sorted({t.step for t in each})
     turn = f"{verb} by {' or '.join(f'{step:.6g}' for step in steps)} {output.unit}"
     if len(each) == 1:
-        text += (
-            f" It {turn} in {each[0].motion_s:.4g} s and then rests for {each[0].dwell_s:.4g} s."
-        )
+        own = each[0]
+        text += f" It {turn} in {own.motion_s:.4g} s and then rests for {own.dwell_s:.4g} s."
     else:
         lasting = sorted({f"{t.motion_s:.4g}" for t in each}, key=float)
         text += f" It {turn} {len(each)} times in a turn of the crank, in {' or '.join(lasting)} s."

@@ -7,14 +7,12 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.load_peaks import greatest_pressure
 from geneva_cli.loads.load_tables import reversals_deg
-from geneva_cli.motion.peaks import greatest_jumps, peaks
 from geneva_cli.motion.timing import timings
-from geneva_cli.numerics.angles import omega
 from geneva_cli.parts.parts import Parts
 from geneva_cli.table import Reading, rows_table
 from geneva_cli.verdict.checks.load_checks import BOUNDS
-from geneva_cli.verdict.quantities.groups import GROUP_OF, Numbers, Values
-from geneva_cli.verdict.quantities.motion_quantities import peak_values
+from geneva_cli.verdict.quantities.groups import GROUP_OF, Numbers, Values, only, single
+from geneva_cli.verdict.quantities.motion_quantities import peaks_among, shared_timing
 from geneva_cli.verdict.strength import OF_LIFE, strength
 
 SAMPLES = 65536  # random machines, as ``geneva tolerance`` draws by default
@@ -36,10 +34,7 @@ def machine(parts: Parts) -> Values:
 def inputs(parts: Parts) -> Values:
     """The values of the keys that the numbers of a report depend on."""
     spec = parts.mechanism.spec
-    known = {  # if a key is left out
-        "wheel": {"held_by": spec.wheel.held_by},
-        "size": spec.size.allowances._asdict(),
-    }
+    known = {"size": spec.size.allowances._asdict()}  # if a key is left out
     values: Values = {}
     for name in GROUP_OF["inputs.drive.n_rpm"].own:
         table, _, key = name.rpartition(".")
@@ -52,17 +47,12 @@ def stations(parts: Parts) -> Values:
     mechanism, each = parts.mechanism, list[Numbers]()
     if len(mechanism.engagements) == 1:
         return {"stations": None}
-    w, output = omega(mechanism.spec.drive.n_rpm), mechanism.output
+    names = GROUP_OF["velocity.max"].names
+    of = single(mechanism).requesting(names)
     for timing, engagement in zip(timings(mechanism), mechanism.engagements, strict=True):
-        motion = timing.motion_deg
-        values: Numbers = timing._asdict()
-        values["k_r"] = motion / (360.0 - motion) if motion < 360.0 else None
-        row = {f"timing.{name}": value for name, value in values.items()}
-        own = peaks(engagement, mechanism)
-        ends = greatest_jumps([engagement]), own.ends[:2], own.ends[2:], ()
-        for name, own_ends in zip(("velocity", "acceleration", "jerk", "power"), ends, strict=True):
-            row |= peak_values(name, output, w, getattr(own, name), own_ends)
-        each.append(row)
+        row = {f"timing.{name}": only(own) for name, own in shared_timing([timing]).items()}
+        own = peaks_among(of, [engagement])
+        each.append(row | {name: only(own.get(name)) for name in names})
     return {"stations": rows_table(tuple(each[0]), [tuple(e.values()) for e in each])}
 
 
@@ -169,11 +159,8 @@ def sizes(parts: Parts) -> Values:
     values["clearances_from"] = spec.size.allowances.source
     if not mechanism.axes:  # the slot is a meridian between two polar angles
         mouth, bottom = (first.slot(x, 0)[0].c[0] for x in (first.entry_deg, 0.0))
-        values |= {
-            **spec.wheel.own_sizes,
-            "sphere_radius_mm": L,
-            "crank_arm_mm": mechanism.ratio * L,
-        }
+        values |= spec.wheel.own_sizes
+        values |= {"sphere_radius_mm": L, "crank_arm_mm": mechanism.ratio * L}
         values["slot_mouth_polar_deg"] = math.degrees(mouth)
         values["slot_bottom_polar_deg"] = math.degrees(bottom)
         return values
@@ -233,13 +220,10 @@ def turned(parts: Parts) -> Values:
     except GenevaError as error:
         return {"none": str(error)}
     gap = turn.smallest
-    # the lock's play, in the unit of what the machine gives out
-    play = {f"dwell_play_{output.unit}": output.from_deg(turn.dwell.deg)}
-    return {
-        "smallest_gap_mm": gap.mm if abs(gap.mm) > parts.contact else 0.0,
-        "smallest_gap_at_deg": gap.at_deg,
-        **(play if parts.locked else {}),
-    }
+    values: Values = {"smallest_gap_mm": gap.mm if abs(gap.mm) > parts.contact else 0.0}
+    if parts.locked:  # the lock's play, in the unit of what the machine gives out
+        values[f"dwell_play_{output.unit}"] = output.from_deg(turn.dwell.deg)
+    return values | {"smallest_gap_at_deg": gap.at_deg}
 
 
 def parts_list_tables(parts: Parts) -> Values:

@@ -1,7 +1,5 @@
 """Strength and life of a single design: its values, and the keys that missing ones need."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 from functools import lru_cache

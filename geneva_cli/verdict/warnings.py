@@ -1,7 +1,7 @@
 """All warnings about a design: here those about loads, numbers, keys, parts and their turn."""
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from operator import attrgetter
 from typing import TYPE_CHECKING
 
@@ -28,25 +28,22 @@ if TYPE_CHECKING:
 STEEP_DEG = 60.0  # a pressure angle that friction of 0.58 would hold, more than a dry pair has
 
 
-def warnings(parts: Parts) -> list[Notice]:
+def warnings(parts: Parts) -> Iterator[Notice]:
     """Warnings about the motion, the loads and the parts of a machine, in this order."""
     mechanism = parts.mechanism
-    of_loads: Iterable[Notice] = ()
-    of_strength: Iterable[Notice] = ()
-    if mechanism.spec.is_loaded:  # machines without a load do not import what these need
+    yield from motion_warnings(mechanism)
+    if mechanism.spec.is_loaded:  # machines without a load do not import what it needs
         from geneva_cli.loads.cycle import cycle_warnings
+
+        yield from cycle_warnings(mechanism)
+    yield from carried_warnings(mechanism, wheel_body(mechanism))
+    yield from key_warnings(mechanism.spec)
+    if mechanism.spec.is_loaded:
         from geneva_cli.verdict.strength import strength
 
-        of_loads, of_strength = cycle_warnings(mechanism), strength(mechanism).warnings()
-    return [
-        *motion_warnings(mechanism),
-        *of_loads,
-        *carried_warnings(mechanism, wheel_body(mechanism)),
-        *key_warnings(mechanism.spec),
-        *of_strength,
-        *turn_warnings(parts),
-        *_process_warnings(parts),
-    ]
+        yield from strength(mechanism).warnings()
+    yield from turn_warnings(parts)
+    yield from _process_warnings(parts)
 
 
 def carried_warnings(mechanism: Mechanism, plate: MassProperties | None) -> Iterator[Notice]:
@@ -54,20 +51,16 @@ def carried_warnings(mechanism: Mechanism, plate: MassProperties | None) -> Iter
     spec, L, inertia = mechanism.spec, mechanism.center_distance_mm, inertia_kgm2(mechanism.spec)
     least_mm = 5.0  # the smallest watches have stops of some mm
     if not least_mm <= L:
-        yield Notice(
-            "tiny-machine",
-            f"the {spec.wheel.DISTANCE} of {L:.4g} mm is below {least_mm:g} mm: check that it is "
-            f"in mm. If it is in metres, write {1e3 * L:.4g}; if it is in inches, {25.4 * L:.4g}",
-        )
+        text = f"the {spec.wheel.DISTANCE} of {L:.4g} mm is below {least_mm:g} mm: check that it "
+        text += f"is in mm. If it is in metres, write {1e3 * L:.4g}; if in inches, {25.4 * L:.4g}"
+        yield Notice("tiny-machine", text)
     # The largest table expected is solid steel, 6 L across and L/2 thick; J = pi rho h D^4 / 32. A
     # larger inertia is nearly always meant in kg cm2.
     most = math.pi * 7850.0 * 0.5e-3 * L * (6e-3 * L) ** 4 / 32.0
     if mechanism.output.turns and inertia > most:
-        yield Notice(
-            "heavy-inertia",
-            f"an inertia of {inertia:.4g} kg m² is more than that of a steel table {6 * L:.4g} mm "
-            f"across: if it is in kg cm², write {1e-4 * inertia:.4g}",
-        )
+        text = f"an inertia of {inertia:.4g} kg m² is more than that of a steel table {6 * L:.4g} "
+        text += f"mm across: if it is in kg cm², write {1e-4 * inertia:.4g}"
+        yield Notice("heavy-inertia", text)
     # a [[mass]] of this name is the wheel itself; a twentieth is within what loads are known to
     counted = "wheel" in map(attrgetter("name"), spec.mass)
     if plate and inertia and not counted and plate.inertia_kgm2 > 0.05 * inertia:
@@ -77,41 +70,33 @@ def carried_warnings(mechanism: Mechanism, plate: MassProperties | None) -> Iter
             across = 1e3 * math.sqrt(8.0 * own / plate.mass_kg)
             helps = f'[[mass]] with name = "wheel", shape = "disc", mass_kg = {plate.mass_kg:.4g} '
             helps += f"and diameter_mm = {across:.4g}"
-        yield Notice(
-            "wheel-left-out",
-            f"the wheel's own inertia, as drawn, is {own:.4g} kg m², "
-            f"{100.0 * own / inertia:.3g} % of the {inertia:.4g} kg m² of the load: if the load "
-            f"leaves it out, add {helps}",
-        )
+        text = f"the wheel's own inertia, as drawn, is {own:.4g} kg m², "
+        text += f"{100.0 * own / inertia:.3g} % of the {inertia:.4g} kg m² of the load: if the "
+        text += f"load leaves it out, add {helps}"
+        yield Notice("wheel-left-out", text)
     for mass in spec.mass if spec.support.axis == "horizontal" else ():
         if mass.to_one_side:
             torque = spec.support.gear_ratio * weight_kg(mass) * G * mass.radius_mm * 1e-3
-            yield Notice(
-                "weight-to-one-side",
-                f"{mass.name or mass.shape} stands {mass.radius_mm:g} mm off a horizontal "
-                f"axis. Its weight puts up to {torque:.4g} N m on the wheel, which is not counted: "
-                "balance it (count = 2), or add the torque to torque_Nm in [load]",
-            )
+            text = f"{mass.name or mass.shape} stands {mass.radius_mm:g} mm off a horizontal axis. "
+            text += f"Its weight puts up to {torque:.4g} N m on the wheel, which is not counted: "
+            text += "balance it (count = 2), or add the torque to torque_Nm in [load]"
+            yield Notice("weight-to-one-side", text)
 
 
 def key_warnings(spec: Spec) -> Iterator[Notice]:
     """Warnings about keys of motor and support without effect, because they lack others."""
-    support, texts = spec.support, list[str]()
+    support = spec.support
     if not spec.is_loaded and spec.motor != Motor():
-        texts.append("[motor] has no load to drive, so no motor or flywheel is computed: set ")
-        texts[0] += spec.output.load_keys
+        text = "[motor] has no load to drive, so no motor or flywheel is computed: set "
+        yield Notice("nothing-to-act-on", text + spec.output.load_keys)
     if bool(support.friction) != bool(support.radius_mm):
         keys = ("friction", "radius_mm")
         present, lacking = keys if support.friction else reversed(keys)
-        texts.append(f"{present} in [support] has no effect without {lacking}: set {lacking}")
-        texts[-1] += f", or remove {present}"
+        text = f"{present} in [support] has no effect without {lacking}: set {lacking}"
+        yield Notice("nothing-to-act-on", f"{text}, or remove {present}")
     elif support.friction and not (spec.mass or support.force_N):
-        texts.append(
-            "friction in [support] has no effect, because nothing presses on the support: set "
-            "force_N there, or give the weight as [[mass]]"
-        )
-    for text in texts:
-        yield Notice("nothing-to-act-on", text)
+        text = "friction in [support] has no effect, because nothing presses on the support: set "
+        yield Notice("nothing-to-act-on", text + "force_N there, or give the weight as [[mass]]")
 
 
 def _process_warnings(parts: Parts) -> Iterator[Notice]:
@@ -125,11 +110,9 @@ def _process_warnings(parts: Parts) -> Iterator[Notice]:
         unborne, named = (), []
     for name, reason in unborne:
         part = name.partition("'")[0]
-        yield Notice(
-            "no-bearing",
-            f"the {name} has no bearing: {reason}. Hold it from above: "
-            f"{part}_shaft_high_mm makes it longer",
-        )
+        text = f"the {name} has no bearing: {reason}. Hold it from above: "
+        text += f"{part}_shaft_high_mm makes it longer"
+        yield Notice("no-bearing", text)
     if spec.size.process:
         shop = WORKSHOPS[spec.size.process]
         yield from gears_without_teeth(spec)
@@ -141,11 +124,9 @@ def _process_warnings(parts: Parts) -> Iterator[Notice]:
 def gears_without_teeth(spec: Spec) -> Iterator[Notice]:
     """A warning about gears that end at their pitch curves; for machines that go to a shop."""
     if is_geared(spec):
-        yield Notice(
-            "gears-without-teeth",
-            "the gears have no teeth. Their solids end at the pitch curves, and files to cut leave "
-            "them out: have them made for these curves",
-        )
+        text = "the gears have no teeth. Their solids end at the pitch curves, and files to cut "
+        text += "leave them out: have them made for these curves"
+        yield Notice("gears-without-teeth", text)
 
 
 def _small_holes(named: list["NamedParts"], least: float) -> Iterator[Notice]:
@@ -172,11 +153,9 @@ def _small_holes(named: list["NamedParts"], least: float) -> Iterator[Notice]:
         return
     names = ", ".join(f"{name} Ø {one:.4g}" for name, (one, _) in sorted(small.items()))
     name, (narrow, _) = min(small.items(), key=lambda one: one[1][0] / one[1][1])
-    yield Notice(
-        "small-hole",
-        f"holes below {least:g} of their plate's thickness, which a laser does not cut well: "
-        f"{names} mm. Drill them, or make the {name} at most {narrow / least:.4g} mm thick",
-    )
+    text = f"holes below {least:g} of their plate's thickness, which a laser does not cut well: "
+    text += f"{names} mm. Drill them, or make the {name} at most {narrow / least:.4g} mm thick"
+    yield Notice("small-hole", text)
 
 
 def _narrow(mechanism: Mechanism, sizes: Sizes) -> Iterator[Notice]:
@@ -193,11 +172,9 @@ def _narrow(mechanism: Mechanism, sizes: Sizes) -> Iterator[Notice]:
         own = getattr(size.allowances, key)
         needed = getattr(built.replace(**{key: None}).allowances, key)
         if not keeps(own, "at least", needed):
-            yield Notice(
-                "narrow-for-process",
-                f'{key} = {own:g} is less than process = "{size.process}" holds at these '
-                f"thicknesses, so that the parts may not go together: set {key} to {needed:g}",
-            )
+            text = f'{key} = {own:g} is less than process = "{size.process}" holds at these '
+            text += f"thicknesses, so that the parts may not go together: set {key} to {needed:g}"
+            yield Notice("narrow-for-process", text)
 
 
 def turn_warnings(parts: Parts) -> Iterator[Notice]:
@@ -210,12 +187,10 @@ def turn_warnings(parts: Parts) -> Iterator[Notice]:
         return
     most = slips_deg(parts.assembly.full.spec.load.friction)
     if parts.locked and turn.push.deg > STEEP_DEG and keeps(turn.push.deg, "at most", most):
-        yield Notice(
-            "steep-hand-over",
-            f"the roller meets a wheel that is off by its play at a pressure angle of "
-            f"{turn.push.deg:.4g}°, at {turn.push.at_deg:.4g}°: from {most:.4g}° on, friction "
-            "would hold it. Less lock_clearance_mm or a larger wheel_radius_mm helps",
-        )
+        text = "the roller meets a wheel that is off by its play at a pressure angle of "
+        text += f"{turn.push.deg:.4g}°, at {turn.push.at_deg:.4g}°: from {most:.4g}° on, friction "
+        text += "would hold it. Less lock_clearance_mm or a larger wheel_radius_mm helps"
+        yield Notice("steep-hand-over", text)
     # play to both sides has a limit of its own
     ahead, behind = turn.ahead, turn.behind
     free = max(ahead.deg, behind.deg)
@@ -225,8 +200,6 @@ def turn_warnings(parts: Parts) -> Iterator[Notice]:
             for way, play in (("ahead", ahead), ("behind", behind))
             if play.deg > SAME * free
         )
-        yield Notice(
-            "driven-by-one-wall",
-            f"in its slot the wheel is free {to_sides}, where one wall alone drives it. Friction "
-            "or a brake keeps it on that wall",
-        )
+        text = f"in its slot the wheel is free {to_sides}, where one wall alone drives it. "
+        text += "Friction or a brake keeps it on that wall"
+        yield Notice("driven-by-one-wall", text)

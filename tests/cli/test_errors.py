@@ -194,7 +194,7 @@ POINTS = [
     ("nan", ROWS.replace("0.4,0.3", "0.4,nan"), 4, "finite"),
     ("backwards", ROWS.replace("0.4,0.3", "0.1,0.3"), 4, "exceed the one before"),
     ("from-elsewhere", ROWS.replace("0,0\n", "0,0.1\n", 1), 0, "from 0,0 to 1,1"),
-    ("not-utf-8", ROWS.encode() + b"\xff\n", 0, "not UTF-8"),
+    ("not-utf-8", ROWS.encode() + b"\xff\n", 8, "not UTF-8"),
 ]
 
 

@@ -13,6 +13,7 @@ from words import Drive, Motion, Spec, Wheel, load
 from geneva_cli import Design, External, Load, NoncircularGears, Shaft, Size, Spherical
 from geneva_cli.cli.app import app
 from geneva_cli.loads.cycle import Cycle, back_driven_deg
+from geneva_cli.loads.instant import QUANTITIES
 from geneva_cli.loads.load_tables import reversals_deg, summaries
 from geneva_cli.motion.mechanism import build
 from geneva_cli.numerics.angles import omega
@@ -73,10 +74,12 @@ def test_a_load_that_changes_walls():
     assert first == pytest.approx(10.3447585591609, rel=1e-13)
     force = summaries(still)["pin_force_N"]
     assert force.max == pytest.approx(324.50370415267853, rel=1e-14)
-    size = integrals(still, lambda i: i.force_N * i.quantity("sliding_m_s").value * i.slides)
+    size = integrals(still, lambda i: i.force_N * QUANTITIES["sliding_m_s"](i).value * i.slides)
     per_second = still.case.speed_rad_s
     assert size[0] / per_second == pytest.approx(16.229000563314397, rel=1e-13)
-    turns = integrals(still, lambda i: i.quantity("sliding_m_s").value * i.slides)[0] / per_second
+    turns = (
+        integrals(still, lambda i: QUANTITIES["sliding_m_s"](i).value * i.slides)[0] / per_second
+    )
     assert turns / (2.0 * math.pi * 0.008) == pytest.approx(2.6551484499207021, rel=1e-13)
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from geneva_cli.output.delimited import FEW, text_of
-from geneva_cli.table import BLOCK, Later, Table, record_table, rows_table
+from geneva_cli.table import BLOCK, Table, record_table, rows_table
 
 SIZES = 10.0 ** np.arange(-320, 309)
 # ends of the ranges in which numerals have no exponent, and their neighbours
@@ -57,7 +57,7 @@ def test_what_is_no_number_stands_between_them():
 
 def test_a_long_table_is_whole_in_a_dict():
     length = 2 * BLOCK + 3
-    later = Later(length, lambda a, b: (np.arange(a, b), np.arange(a, b) ** 2))
+    later = length, lambda a, b: (np.arange(a, b), np.arange(a, b) ** 2)
     at = Table(("n", "n2"), (), later=later).to_dict()
     assert (at["n"] == np.arange(length)).all()
     assert (at["n2"] == np.arange(length) ** 2).all()

@@ -50,7 +50,7 @@ def test_it_lies_about_its_roller_and_below_the_crank(cam):
     assert frame["z_high_mm"] <= base.low < base.high == ring.low
     for plate in (base, ring, island):
         row = rows[plate.name]
-        assert row["mass_kg"] == mass_properties(plate, 7850.0).mass_kg
+        assert row["mass_kg"] == mass_properties([plate], 7850.0).mass_kg
     # the frame has its four holes, where they are in the machine
     L = design.mechanism.center_distance_mm
     held = design.drawing("frame").shapes

@@ -8,7 +8,7 @@ import pytest
 from witness import mp
 from words import Motion, Spec, Wheel, named
 
-from geneva_cli.geometry.chords import PLACES, chord_errors
+from geneva_cli.geometry.chords import FRACTIONS, chord_errors
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.parts.slots.slot_profile import flanks, nodes, profile_table, slot_columns
 from geneva_cli.spec.tables import Size
@@ -88,7 +88,7 @@ def test_no_chord_misses_by_more_than_the_tolerance(
         law = "harmonic"  # no R/L below 1 matches the sine group inside
     mechanism = curved(law, "matched", 8, gearing)
     x = nodes(mechanism, tolerance)
-    assert chord_errors(partial(flanks, mechanism), x, PLACES).max() <= tolerance
+    assert chord_errors(partial(flanks, mechanism), x, FRACTIONS).max() <= tolerance
     assert dense_error(mechanism, x) <= tolerance * 1.005  # 15 points a chord miss 1/256 of it
     assert 0.0 in x
 

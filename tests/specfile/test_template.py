@@ -28,6 +28,10 @@ def tables(kind: str) -> list[type[SpecTable]]:
     return [registry.gearing(gearing), registry.drive(drive), *LAWS, Motion, Size, Load, Limits]
 
 
+def test_every_drive_but_the_plain_crank_has_an_example() -> None:
+    assert {*registry.DRIVES} - {*KINDS} == {"crank"}
+
+
 @pytest.mark.sampled(16)
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_new_spec_passes_and_is_exported_as_it_is(kind: str, tmp_path: Path) -> None:

@@ -142,7 +142,7 @@ def properties(one):
     """
     if not isinstance(one, Plate):
         return one.volume, None, one.inertia((0.0, 0.0, 1.0)), one.outer
-    body = mass_properties(one, 1e9)  # mm³ and, by 1e6, mm⁵
+    body = mass_properties([one], 1e9)  # mm³ and, by 1e6, mm⁵
     centre = (*body.centroid_mm, 0.5 * (one.low + one.high))
     reach = max(map(abs, (*bounds(one.outline), one.low, one.high)))
     return body.mass_kg, centre, 1e6 * body.inertia_kgm2, reach

@@ -23,8 +23,8 @@ def run(words: tuple[str, ...] = (), output: str = "-", format: str = "") -> Non
     people = is_for_people(output, format)
     if not word and people:
         title = "`geneva explain WORD` says what a word of any output means; these are explained:"
-        shown = rows_table(("words", "number", "about", "such_as"), meanings.groups(), title)
-        show(shown.replaced(reading=Reading(("words", "such_as"))), output, format)
+        columns, first = ("words", "number", "about", "such_as"), Reading(("words", "such_as"))
+        show(rows_table(columns, meanings.groups(), title, reading=first), output, format)
     elif not word:
         rows = [(m.group, m.name, m.sentence) for m in meanings.everything() if m.group != "key"]
         show(rows_table(names, rows), output, format)
@@ -35,6 +35,6 @@ def run(words: tuple[str, ...] = (), output: str = "-", format: str = "") -> Non
             show(rows_table(meanings.Meaning._fields, entries), output, format)
     elif found := meanings.related(word) or [("page", f"help {x}", y) for x, _, y in search(word)]:
         title = f"{word}: `geneva explain NAME` says more." if people else ""
-        show(rows_table(names, found, title).replaced(reading=Reading(names[1:])), output, format)
+        show(rows_table(names, found, title, reading=Reading(names[1:])), output, format)
     else:
         raise meanings.unknown(word)

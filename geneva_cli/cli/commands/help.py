@@ -16,7 +16,7 @@ def run(words: tuple[str, ...] = ()) -> None:
     """
     from geneva_cli.cli.app import COMMANDS
     from geneva_cli.cli.pages import Hit, command_help, page, program, search
-    from geneva_cli.manual import TOPICS, contents
+    from geneva_cli.manual import TOPICS, read
     from geneva_cli.output import show, show_markdown, show_text
     from geneva_cli.table import Reading, rows_table
 
@@ -24,14 +24,14 @@ def run(words: tuple[str, ...] = ()) -> None:
     if f"{topic}s" in TOPICS and topic not in COMMANDS:
         topic = f"{topic}s"
     if not topic:
-        show_markdown(contents())
+        show_markdown(read("contents.txt"))
     elif topic in TOPICS:
         show_markdown(page(topic))
     elif topic in COMMANDS:
         show_text(command_help(program(), topic) + "\n")
     elif hits := search(topic):
-        table = rows_table(Hit._fields, hits, f"{topic}: `geneva help TOPIC` shows a page.")
-        show(table.replaced(reading=Reading(("topic", "line"))))
+        title = f"{topic}: `geneva help TOPIC` shows a page."
+        show(rows_table(Hit._fields, hits, title, reading=Reading(("topic", "line"))))
     else:
         raise GenevaError(
             f'"{cut(topic)}" is no page of the manual, and on no page{nearest(topic, TOPICS)}'

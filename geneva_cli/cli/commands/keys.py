@@ -17,4 +17,4 @@ def run(word: str = "", output: str = "-", format: str = "") -> None:
 
     first = ("key", "meaning", "goes_with", "table", "unit", "default", "range")
     reading = Reading(first, decide=("goes_with",))  # two kinds may have a key of one name
-    show(rows_table(Key._fields, about(word)).replaced(reading=reading), output, format)
+    show(rows_table(Key._fields, about(word), reading=reading), output, format)

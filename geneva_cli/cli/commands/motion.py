@@ -4,7 +4,7 @@ import typer
 
 from geneva_cli.cli.command import Reversible, say, tell
 from geneva_cli.errors import GenevaError
-from geneva_cli.output import CAMS, CONTROLLERS
+from geneva_cli.output import CAMS, CONTROLLERS, show, show_text
 
 
 def run(
@@ -43,8 +43,6 @@ def run(
       geneva motion spec.toml --turns 8 -o revolution.csv
       geneva motion spec.toml --format cam --for codesys -o cam.st
     """
-    from geneva_cli.output import show, show_text
-
     files = design.spec.files
     if format not in CAMS:
         if for_ is not None or tolerance is not None:
@@ -64,9 +62,9 @@ def run(
 
     if samples is not None or at:
         raise GenevaError("--at, --samples: a cam has the points that its --tolerance needs")
-    for_ = for_ or CONTROLLERS[0]
+    most = 1e-4 if tolerance is None else tolerance
     content, rows, error_deg = load_extra("servo", "cam")(
-        design, for_, turns, 1e-4 if tolerance is None else tolerance
+        design, for_ or CONTROLLERS[0], turns, most
     )
     if isinstance(content, str):
         show_text(content, output, files)

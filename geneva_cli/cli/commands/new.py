@@ -44,8 +44,8 @@ def run(
     if list_:
         kinds = [(name, "new", example(name)[0]) for name in KINDS]
         designs = [(name, "new --from-design", title) for name, title in titles().items()]
-        table = rows_table(("name", "command", "about"), kinds + designs)
-        show(table.replaced(reading=Reading(("name", "about"))), output)
+        names, first = ("name", "command", "about"), Reading(("name", "about"))
+        show(rows_table(names, kinds + designs, reading=first), output)
     elif kind:
         # the spec names the JSON Schema only if that is in its folder
         is_beside = output != "-" and os.path.isfile(os.path.join(os.path.dirname(output), FILE))

@@ -1,7 +1,6 @@
 """``geneva profile``."""
 
-from geneva_cli.cli import command
-from geneva_cli.cli.command import Design, say
+from geneva_cli.cli.command import Design, require_written, say
 from geneva_cli.drawings.catalogue import is_sheet, require_tolerance
 from geneva_cli.errors import GenevaError
 from geneva_cli.output import DRAWN, SHEETS, chosen, draw, draw_sheet, named, show, usual
@@ -66,12 +65,12 @@ def run(
     chosen(output, format, SHEETS if sheet else DRAWN)  # refused before the machine is turned
     require_tolerance(design.mechanism, tolerance)
     if design.spec.is_turned:
-        command.require_written(design, design.judge(part), force)
+        require_written(design, design.judge(part), force)
     if sheet:
         draw_sheet(design.sheet(tolerance, curves), output, format, files, dxf_version or "")
     else:
         if cutter is not None:
-            command.require_written(design, design.cutter(part, cutter), force)
+            require_written(design, design.cutter(part, cutter), force)
         drawing = design.drawing(part, tolerance, curves, kerf)
         shown = drawing if kerf is not None else design.drawing_over(drawing)
         draw(shown, output, format, files, dxf_version or "")

@@ -3,9 +3,7 @@
 import typer
 
 from geneva_cli.cli.command import Design, say
-from geneva_cli.output import DOCUMENTS, FORMATS
-
-WRITTEN = tuple(dict.fromkeys((*FORMATS, *DOCUMENTS)))
+from geneva_cli.output import DOCUMENTS, FORMATS, choice, chosen, show_answer, show_document
 
 
 def run(design: Design, full: bool = False, output: str = "-", format: str = "") -> None:
@@ -27,10 +25,9 @@ def run(design: Design, full: bool = False, output: str = "-", format: str = "")
       geneva report spec.toml --full -o report.html
       geneva report spec.toml -o report.json
     """
-    from geneva_cli.output import choice, chosen, show_answer, show_document
     from geneva_cli.study.summary.report_summary import of_report
 
-    if chosen(output, format, WRITTEN) in DOCUMENTS:
+    if chosen(output, format, FORMATS | DOCUMENTS) in DOCUMENTS:
         from geneva_cli.study.document import document, short_document
 
         made = document(design) if full else short_document(design)

@@ -24,11 +24,10 @@ def run(design: Design, output: str = "", format: str = "") -> None:
       geneva size spec.toml -o sized.toml
       geneva size spec.toml --set drive.n_rpm=90 -o fast.toml
     """
-    from geneva_cli.output import FORMATS, chosen, require_spec, show_answer, show_text
+    from geneva_cli.output import FORMATS, chosen, named, require_spec, show_answer, show_text
     from geneva_cli.study.export import of_sizes, sized_text
 
-    extension = os.path.splitext(output)[1].lower().removeprefix(".")
-    if not output or format or extension in FORMATS:
+    if not output or format or named(output, "") in FORMATS:
         output = output or "-"
         answer = of_sizes(design, chosen(output, format) == "json")
         show_answer(answer, output, format, design.spec.files)

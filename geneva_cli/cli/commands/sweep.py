@@ -1,16 +1,8 @@
 """``geneva sweep``."""
 
-from collections.abc import Iterator
-from typing import TYPE_CHECKING
-
 from geneva_cli.cli.command import tell
 from geneva_cli.errors import GenevaError
 from geneva_cli.progress import tracked
-
-if TYPE_CHECKING:
-    from geneva_cli.study.fields import Rows
-    from geneva_cli.study.sweep.request import Outcome
-    from geneva_cli.study.sweep.run import Sweep
 
 
 def run(
@@ -59,9 +51,12 @@ def run(
       geneva sweep spec.toml --vary size.roller_radius_mm=8..16:1 -o all.csv
       geneva sweep spec.toml --vary wheel.z=4..12 --pareto min:jerk.max,max:dwell_s
     """
-    from geneva_cli.output import chosen, require_spec, show, show_text
+    from geneva_cli.output import chosen, is_seen, require_spec, show, show_text
+    from geneva_cli.output.growing import growing
     from geneva_cli.study.fields import cells_of, joined
-    from geneva_cli.study.sweep.request import Outcome, request
+    from geneva_cli.study.sweep.best import best_spec
+    from geneva_cli.study.sweep.request import Digest, Outcome, request
+    from geneva_cli.study.sweep.run import TEXTS
     from geneva_cli.table import Table
 
     if best:
@@ -71,55 +66,35 @@ def run(
     plan = request(spec, vary, settings, pick, random, seed, check, subject_to, pareto, best, jobs)
     if resume and (best or plan.chooses or format not in ("", "csv")):
         raise GenevaError("--resume continues all rows of a sweep, as csv or parquet")
-    outcome = Outcome(plan)
+    outcome, count, digest = Outcome(plan), len(plan.plan), None
+    watched = tracked(plan.blocks(0), "designs", count, len)  # with a progress bar
     if plan.goal:
-        from geneva_cli.study.sweep.best import best_spec
-
-        lines = best_spec(outcome, plan.goal, _tracked(plan, 0))
+        lines = best_spec(outcome, plan.goal, watched)
         show_text("\n".join(lines) + "\n", output, plan.inputs)
-    elif format in ("", "csv"):
-        _write_rows(plan, outcome, output, resume, bool(format))
-    else:
-        names = plan.names
-        blocks = [*outcome.rows(_tracked(plan, 0))]
-        columns = map(cells_of, joined(blocks).columns.values()) if blocks else ([] for _ in names)
-        table = Table(names, [*columns])
-        show(table, output, format, plan.inputs)
-    for note in outcome.notes():
-        tell(f"{spec}: {note}")
-
-
-def _write_rows(plan: "Sweep", outcome: "Outcome", output: str, resume: bool, whole: bool) -> None:
-    """Write all rows or the chosen ones as they come; show a person some of them and the best.
-
-    ``whole`` shows a person all rows too.
-    """
-    from geneva_cli.output import is_seen, show
-    from geneva_cli.output.growing import growing
-    from geneva_cli.study.sweep.request import Digest
-    from geneva_cli.study.sweep.run import TEXTS
-
-    shows_all, digest = is_seen(output), None
-    if shows_all and not whole:
+    elif format not in ("", "csv"):
+        blocks = [*outcome.rows(watched)]
+        cells = map(cells_of, joined(blocks).columns.values()) if blocks else ()
+        columns = [*cells] or [()] * len(plan.names)
+        show(Table(plan.names, columns), output, format, plan.inputs)
+    elif is_seen(output) and not format:  # a person sees some rows, and the best
         digest = Digest(plan)
-        for block in outcome.rows(_tracked(plan, 0)):
+        for block in outcome.rows(watched):
             digest.add(block)
     else:
         with growing(plan.names, plan.key, output, resume, plan.inputs, TEXTS) as rows:
             if rows.message:
                 tell(rows.message)
-            if is_seen("-") and not (shows_all or rows.done):
+            if is_seen("-") and output != "-" and not rows.done:
                 digest = Digest(plan, output)
-            blocks = plan.blocks(rows.done) if shows_all else _tracked(plan, rows.done)
-            for block in outcome.rows(blocks):
-                columns = block.columns.values()
-                rows.append([c.tolist() if c.dtype == object else c for c in columns])
+            rest = plan.blocks(rows.done)
+            if not is_seen(output):
+                rest = tracked(rest, "designs", count - rows.done, len)
+            for block in outcome.rows(rest):
+                own = block.columns.values()
+                rows.append([c.tolist() if c.dtype == object else c for c in own])
                 if digest:
                     digest.add(block)
     for table in digest.tables() if digest else ():
         show(table)
-
-
-def _tracked(plan: "Sweep", done: int) -> "Iterator[Rows]":
-    """The rows, with a progress bar."""
-    return tracked(plan.blocks(done), "designs", len(plan.plan) - done, len)
+    for note in outcome.notes():
+        tell(f"{spec}: {note}")

@@ -1,12 +1,7 @@
 """``geneva synth``."""
 
-from typing import TYPE_CHECKING
-
 from geneva_cli.cli.command import say, tell
 from geneva_cli.errors import GenevaError, cut
-
-if TYPE_CHECKING:
-    from geneva_cli.study.target import Target
 
 
 def run(
@@ -66,7 +61,11 @@ def run(
       geneva synth --dwell-s 0.8.. --cycle 1.5 --z 8 --check 0
     """
     typed = locals()
+    from geneva_cli.design import Design
+    from geneva_cli.output import is_for_people, is_seen, require_spec, show, show_text
     from geneva_cli.study.synth.reading import read_frame, read_target
+    from geneva_cli.study.synth.synth_search import search
+    from geneva_cli.study.synth.synth_table import chosen, for_people, synthesis_table
 
     if settings and not from_:
         raise GenevaError("--set goes with --from: it changes a key of that spec")
@@ -77,32 +76,17 @@ def run(
     frame = read_frame(from_, settings) if from_ else None
     target = read_target(frame, **typed)
     if write is None:
-        _show(target, check, buildable, output, format)
-    else:
-        _write(target, write, output, format)
-
-
-def _show(target: "Target", check: int, buildable: bool, output: str, format: str) -> None:
-    from geneva_cli.output import is_for_people, is_seen, show
-    from geneva_cli.study.synth.synth_table import for_people, synthesis_table
-
-    if output.endswith(".toml") and not format:
-        raise GenevaError(f"-o {cut(output, 300)}: a spec is one row of the table; add --write N")
-    table = synthesis_table(target, check, buildable)
-    if is_for_people(output, format):
-        # a terminal shows no fewer than are turned by default
-        table = for_people(table, max(check, 20) if is_seen(output) else None)
-    show(table, output, format, target.own.files)
-
-
-def _write(target: "Target", number: int, output: str, format: str) -> None:
-    from geneva_cli.design import Design
-    from geneva_cli.output import require_spec, show_text
-    from geneva_cli.study.synth.synth_search import search
-    from geneva_cli.study.synth.synth_table import chosen
-
+        if output.endswith(".toml") and not format:
+            text = "a spec is one row of the table; add --write N"
+            raise GenevaError(f"-o {cut(output, 300)}: {text}")
+        table = synthesis_table(target, check, buildable)
+        if is_for_people(output, format):
+            # a terminal shows no fewer than are turned by default
+            table = for_people(table, max(check, 20) if is_seen(output) else None)
+        show(table, output, format, target.own.files)
+        return
     require_spec(output, format)
-    row, text = chosen(target, search(target), number)
+    row, text = chosen(target, search(target), write)
     show_text(text, output, target.own.files)
     path = "<stdout>" if output == "-" else output
     if row.trouble:

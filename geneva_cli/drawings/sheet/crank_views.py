@@ -5,13 +5,12 @@ from collections.abc import Sequence
 from itertools import pairwise
 
 from geneva_cli.drawings.sheet import sized
-from geneva_cli.drawings.sheet.packing import Block
-from geneva_cli.drawings.sheet.paper import table
-from geneva_cli.drawings.sheet.sized import Fits
+from geneva_cli.drawings.sheet.paper import Block, table
+from geneva_cli.drawings.sheet.sized import Fits, degrees
 from geneva_cli.drawings.sheet.view import View, grouped, times, turns
 from geneva_cli.drawings.sheet.wheel_views import bolted, bored, circle_of, draw_hub
 from geneva_cli.geometry.plates import Member, Plate
-from geneva_cli.geometry.shapes import ORIGIN, Arc, Circle, Contour, Point, at, legs
+from geneva_cli.geometry.shapes import ORIGIN, Arc, Circle, Contour, Point, at, legs, polar
 from geneva_cli.geometry.sheet import OUTLINE
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
@@ -20,7 +19,7 @@ from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.links.links import Links, placed_holes, roller_pins
 from geneva_cli.parts.outlines.crank_outline import crank_bore, is_whole
 from geneva_cli.parts.shafts.arm_and_shafts import CrankArm, bolts, crank_hub
-from geneva_cli.spec.written import degrees, length
+from geneva_cli.table import in_decimals as length
 
 UP = 0.5 * math.pi
 
@@ -156,13 +155,12 @@ def _slot(view: View, slot: Contour, base: Point) -> None:
     view.centre_line(at(near, 0.5), at(far, 0.5))
     view.linear(base, near.centre, turn)
     view.linear(near.centre, far.centre, turn)
-    half = near.radius
-    sides = [(x1 + s * half * math.sin(turn), y1 - s * half * math.cos(turn)) for s in (-1.0, 1.0)]
-    view.linear(sides[0], sides[1], turn + UP, view.fits.fitted(2.0 * half, "H7"))
+    side, other = (polar(far.centre, half, turn + UP) for half in (near.radius, -near.radius))
+    view.linear(side, other, turn + UP, view.fits.fitted(2.0 * near.radius, "H7"))
     off = abs(math.remainder(turn, math.tau))
     if math.degrees(off) > SAME_ON_SHEET and math.hypot(*base) < SAME_ON_SHEET:
-        legs = (0.0, turn) if turn > 0.0 else (turn, 0.0)
-        view.angular([legs], 0.0, math.dist(base, near.centre), degrees(off))
+        between = min(turn, 0.0), max(turn, 0.0)
+        view.angular([between], 0.0, math.dist(base, near.centre), degrees(off))
 
 
 def round_parts(members: Sequence[Member], mechanism: Mechanism) -> list[Block]:
@@ -184,4 +182,4 @@ def round_parts(members: Sequence[Member], mechanism: Mechanism) -> list[Block]:
                 inside += fits.made("roller bore", bore.radius)
         rows.append((plate.name, outside, inside, length(plate.thickness)))
     columns = (62.0, 44.0, 46.0, 16.0)  # mm
-    return [table(("round parts",), rows, columns)] if len(rows) > 1 else []
+    return [table(rows, columns, "round parts")] if len(rows) > 1 else []

@@ -11,8 +11,7 @@ import numpy as np
 from geneva_cli.drawings.part_drawings import assembly
 from geneva_cli.drawings.parts_list import part_rows
 from geneva_cli.drawings.sheet import crank_views, sized
-from geneva_cli.drawings.sheet.packing import Block
-from geneva_cli.drawings.sheet.paper import on_paper, scale_name, smaller
+from geneva_cli.drawings.sheet.paper import Block, on_paper, scale_name, smaller
 from geneva_cli.drawings.sheet.sized import Fits
 from geneva_cli.drawings.sheet.view import View
 from geneva_cli.drawings.sheet.wheel_views import draw_frame, draw_shaft, draw_wheel
@@ -22,7 +21,7 @@ from geneva_cli.geometry.plates import Member, Plate, in_place, plates
 from geneva_cli.geometry.sheet import CENTRE, HATCH, HIDDEN, OUTLINE, Sheet, line, rectangle
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.projection import alike
-from geneva_cli.spec.written import length
+from geneva_cli.table import in_decimals as length
 
 # Layers on the sheet of shapes of the assembled machine that are no outlines.
 LAYERS: dict[str, shapes.Layer] = {"PITCH": CENTRE, "ARM": HIDDEN, "FRAME": HIDDEN, "HUB": HIDDEN}
@@ -88,7 +87,7 @@ def sheet(parts: FlatParts) -> Sheet:
         return [*(view.block() for view in _views(rows, parts, scale)), *tables]
 
     def blocks(scale: float) -> Iterator[list[Block]]:
-        half = smaller(scale, 2.0)
+        half = smaller(scale)
         for of_cut, of_whole in ((scale, scale), (scale, half), (half, half)):
             yield [*views(scale), section(of_cut), whole(of_whole)]
 

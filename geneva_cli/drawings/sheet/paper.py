@@ -1,26 +1,27 @@
-"""Sheets of paper: formats, scales, title block and tables.
+"""Sheets of paper: formats, scales, blocks side by side, title block and tables.
 
 The views have one scale: the largest standard scale at which everything fits on one sheet, A1 at
 most. The sheet is the smallest that fits. Above 1:1 the largest part is no wider than a hand.
 """
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any
+from __future__ import annotations
 
-from geneva_cli.drawings.sheet.packing import Block, packed
+from collections.abc import Callable, Iterable, Sequence
+from itertools import accumulate, product
+from typing import Any, NamedTuple
+
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry import sheet
-from geneva_cli.geometry.shapes import Point, Shape
-from geneva_cli.geometry.sheet import SMALL, TEXT, Label, line, width
+from geneva_cli.geometry.shapes import Box, Contour, Point, Shape, placed
+from geneva_cli.geometry.sheet import SMALL, TEXT, Label, Measure, line, width
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.spec.defaults import roller_material, wheel_material
 from geneva_cli.spec.workshops import WORKSHOPS
-from geneva_cli.spec.written import length
+from geneva_cli.table import in_decimals as length
 
 LEFT, MARGIN = 20.0, 10.0  # mm: margin of the frame on the filing side, and on the others
 TITLE_WIDTH = 180.0  # mm: width of the title block
-
-
+APART = (40.0, 27.0, 18.0, 12.0, 8.0)  # mm between blocks, the widest that the paper allows
 # width and height of trimmed sheets, mm; A4 is upright
 FORMATS = {"A4": (210.0, 297.0), "A3": (420.0, 297.0), "A2": (594.0, 420.0), "A1": (841.0, 594.0)}
 # ISO 5455, with its powers of ten
@@ -38,9 +39,65 @@ def scale_name(scale: float) -> str:
     return f"{scale:.0f}:1" if scale >= 1.0 else f"1:{1.0 / scale:.0f}"
 
 
-def smaller(scale: float, times: float) -> float:
-    """Return the largest standard scale that is smaller by a factor; else the smallest one."""
-    return max((s for s in SCALES if s <= scale / times * (1.0 + 1e-9)), default=SCALES[-1])
+def smaller(scale: float) -> float:
+    """Return the largest standard scale of at most half of one; else the smallest."""
+    return max((s for s in SCALES if s <= 0.5 * scale * (1.0 + 1e-9)), default=SCALES[-1])
+
+
+class Block(NamedTuple):
+    """A part of a sheet that is placed as a whole, and its bounding box."""
+
+    box: Box
+    shapes: tuple[Shape, ...]
+    labels: tuple[Label, ...]
+    measures: tuple[Measure, ...] = ()
+
+    def moved(self, dx: float, dy: float) -> Block:
+        """Return the block, moved by (dx, dy)."""
+
+        def point(p: Point) -> Point:
+            return p[0] + dx, p[1] + dy
+
+        def moved(measure: Measure) -> Measure:
+            lines = placed(Contour("", measure.lines, closed=False), (dx, dy)).segments
+            label = measure.label._replace(at=point(measure.label.at))
+            arrows = tuple(arrow._replace(tip=point(arrow.tip)) for arrow in measure.arrows)
+            points = tuple(map(point, measure.points))
+            return measure._replace(points=points, lines=lines, label=label, arrows=arrows)
+
+        box = Box(*point(self.box[:2]), *point(self.box[2:]))
+        shapes = tuple(placed(one, (dx, dy)) for one in self.shapes)
+        labels = tuple(label._replace(at=point(label.at)) for label in self.labels)
+        return Block(box, shapes, labels, tuple(map(moved, self.measures)))
+
+
+def packed(
+    boxes: Sequence[Box], taken: Iterable[Box], area: Box, apart: float
+) -> list[Point] | None:
+    """Return how boxes move to free positions in an area, ``apart`` mm apart, or None.
+
+    Large ones come first, and all are clear of the ``taken`` ones.
+    """
+    moves: dict[int, Point] = {}
+    around, gap = [*taken], 0.999 * apart
+    sizes = [(box.x1 - box.x0, box.y1 - box.y0) for box in boxes]
+    for i in sorted(range(len(boxes)), key=lambda k: -sizes[k][0] * sizes[k][1]):
+        wide, high = sizes[i]
+        lefts = sorted({area.x0 + apart, *(box.x1 + apart for box in around)})
+        tops = sorted({area.y1 - apart, *(box.y0 - apart for box in around)}, reverse=True)
+        for top, left in product(tops, lefts):
+            low, right = top - high, left + wide
+            inside = right <= area.x1 - apart and low >= area.y0 + apart
+            if inside and all(
+                right + gap <= a or c + gap <= left or top + gap <= b or d + gap <= low
+                for a, b, c, d in around
+            ):
+                break
+        else:
+            return None
+        moves[i] = left - boxes[i].x0, top - boxes[i].y1
+        around.append(Box(left, low, right, top))
+    return [moves[i] for i in range(len(boxes))]
 
 
 def on_paper(
@@ -62,16 +119,18 @@ def on_paper(
         if scale * largest > most:
             continue
         for name, (wide, high) in FORMATS.items():
-            right, inside = wide - MARGIN, (LEFT, MARGIN, wide - MARGIN, high - MARGIN)
-            corner = _title_block(spec, rows, scale, name).moved(right - TITLE_WIDTH, MARGIN)
-            fixed = [corner, items.moved(right - items.width, corner.y1)]
+            area = Box(LEFT, MARGIN, wide - MARGIN, high - MARGIN)
+            corner = _title_block(spec, rows, scale, name).moved(area.x1 - TITLE_WIDTH, MARGIN)
+            fixed = [corner, items.moved(area.x1 - items.box.x1, corner.box.y1)]
             for one in blocks(scale):
-                placed = packed(one, fixed, inside)
-                if placed is None:
+                boxes, taken = [block.box for block in one], [block.box for block in fixed]
+                tried = (packed(boxes, taken, area, apart) for apart in APART)
+                moves = next(filter(None, tried), None)
+                if moves is None:
                     continue
-                whole = [*fixed, *placed]
+                whole = [*fixed, *(block.moved(*to) for block, to in zip(one, moves, strict=True))]
                 shapes = *_frame(wide, high), *(shape for block in whole for shape in block.shapes)
-                labels = tuple(label for block in whole for label in block.labels)
+                labels = tuple(label for block in whole for label in block.labels if label.text)
                 measures = tuple(measure for block in whole for measure in block.measures)
                 title = spec.title or spec.wheel.title
                 return sheet.Sheet(title, wide, high, scale, shapes, labels, measures)
@@ -124,23 +183,22 @@ def _title_block(spec: Spec, rows: list[dict[str, Any]], scale: float, size: str
             labels += _field((x, y), name, value, SMALL, need + spare)
             x += need + spare
             shapes.append(line(TEXT, (x, y), (x, y + high)))
-    return Block(0.0, 0.0, TITLE_WIDTH, top + high, tuple(shapes), tuple(labels))
+    return Block(Box(0.0, 0.0, TITLE_WIDTH, top + high), tuple(shapes), tuple(labels))
 
 
 def _field(at: Point, name: str, value: str, height: float, limit: float) -> list[Label]:
     x, y = at[0] + 2.0, at[1]
     shown = cut_to(value, height, limit - 4.0)
-    labels = [Label(name, (x, y + 8.4), 1.8)]
-    return [*labels, Label(shown, (x, y + 3.0), height)] if shown else labels
+    return [Label(name, (x, y + 8.4), 1.8), Label(shown, (x, y + 3.0), height)]
 
 
-def _items(rows: Sequence[Mapping[str, Any]]) -> Block:
+def _items(rows: Iterable[dict[str, Any]]) -> Block:
     """Return the list of items."""
     lines = [("item", "part", "count", "t", "kg each", "material")]
     for i, row in enumerate(rows, 1):
         thick, mass = length(row["thickness_mm"]), _rounded(row["mass_kg"])
         lines.append((f"{i}", f"{row['name']}", f"{row['count']}", thick, mass, row["material"]))
-    return table((), lines, (12.0, 66.0, 14.0, 20.0, 24.0, 44.0))  # mm
+    return table(lines, (12.0, 66.0, 14.0, 20.0, 24.0, 44.0))  # mm
 
 
 def _rounded(mass: float) -> str:
@@ -150,31 +208,21 @@ def _rounded(mass: float) -> str:
 
 def cut_to(text: str, height: float, limit: float) -> str:
     """Return a text, cut if it is longer than ``limit``."""
-    if width(text) * height <= limit:
-        return text
-    while text and width(text + "...") * height > limit:
-        text = text[:-1]
-    return text + "..."
+    every = (text, *(f"{text[:end]}..." for end in range(len(text) - 1, 0, -1)))
+    return next((one for one in every if width(one) * height <= limit), "...")
 
 
-def table(heading: Sequence[str], rows: Sequence[Sequence[str]], columns: Sequence[float]) -> Block:
-    """Return a table, with lines of text above it."""
+def table(rows: Sequence[Sequence[str]], columns: Sequence[float], heading: str = "") -> Block:
+    """Return a table of rows, with a heading above it."""
     row_height = 5.0  # mm
-    wide, high = sum(columns), row_height * len(rows)
+    levels = [row_height * k for k in range(len(rows))]
+    wide, high, lefts = sum(columns), row_height * len(rows), [0.0, *accumulate(columns[:-1])]
     shapes: list[Shape] = [sheet.rectangle(sheet.OUTLINE, 0.0, 0.0, wide, high)]
-    labels: list[Label] = []
-    lefts = [sum(columns[:k]) for k in range(len(columns))]
     shapes += [line(TEXT, (x, 0.0), (x, high)) for x in lefts[1:]]
-    for i, row in enumerate(rows):
-        y = high - row_height * (i + 1)
-        if i:
-            shapes.append(line(TEXT, (0.0, y + row_height), (wide, y + row_height)))
+    shapes += [line(TEXT, (0.0, y), (wide, y)) for y in levels[1:]]
+    labels = [Label(heading, (0.0, high + 0.6 * SMALL), SMALL)]
+    for y, row in zip(reversed(levels), rows, strict=True):
         for text, x, column in zip(row, lefts, columns, strict=True):
-            if shown := cut_to(text, SMALL, column - 2.0):
-                labels.append(Label(shown, (x + 1.0, y + 1.4), SMALL))
-    top = high
-    for text in reversed(heading):
-        top += 1.8 * SMALL
-        labels.append(Label(text, (0.0, top - 1.2 * SMALL), SMALL))
-        wide = max(wide, labels[-1].width)
-    return Block(0.0, 0.0, wide, top, tuple(shapes), tuple(labels))
+            labels.append(Label(cut_to(text, SMALL, column - 2.0), (x + 1.0, y + 1.4), SMALL))
+    top = high + 1.8 * SMALL if heading else high
+    return Block(Box(0.0, 0.0, wide, top), tuple(shapes), tuple(labels))

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.shafts.bores import SCREWS, screw_through
 from geneva_cli.spec.workshops import WORKSHOPS, fit_limits
-from geneva_cli.spec.written import length, signed
+from geneva_cli.table import in_decimals as length
 
 
 def toleranced(nominal_mm: float, shown: str, fit: str) -> str:
@@ -20,8 +21,13 @@ def toleranced(nominal_mm: float, shown: str, fit: str) -> str:
     deviations = fit_limits(nominal_mm, fit)
     if deviations is None:
         return shown
-    upper, lower = (signed(1e-3 * one) for one in deviations)
+    upper, lower = (f"{1e-3 * one:+g}" if one else "0" for one in deviations)
     return f"{shown} {fit} ({upper}/{lower})"
+
+
+def degrees(angle: float) -> str:
+    """Return an angle in radians as degrees."""
+    return f"{length(math.degrees(angle))}°"
 
 
 def plain(value: float, sign: str = "", off: float = 0.0) -> str:

@@ -4,20 +4,20 @@ import cmath
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from heapq import merge
-from itertools import product
+from itertools import pairwise, product
 from typing import TypeVar
 
 import numpy as np
 
 from geneva_cli.drawings.sheet import sized
-from geneva_cli.drawings.sheet.packing import Block
-from geneva_cli.drawings.sheet.sized import Fits
+from geneva_cli.drawings.sheet.paper import Block
+from geneva_cli.drawings.sheet.sized import Fits, degrees
 from geneva_cli.geometry import marks, shapes
 from geneva_cli.geometry.board import Board
 from geneva_cli.geometry.shapes import Arc, Circle, Point, Segment, Shape
 from geneva_cli.geometry.sheet import CENTRE, LARGE, SMALL, Label, Measure, line
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
-from geneva_cli.spec.written import degrees, length
+from geneva_cli.table import in_decimals as length
 
 FIRST, NEXT = 8.0, 7.0  # mm: from the outline to the first dimension line, and between lines
 RANKS = 14  # rows of dimension lines that are tried
@@ -133,15 +133,11 @@ class View:
 
     def radii(self, pieces: Iterable[Segment], besides: float = -1.0) -> None:
         """Draw each radius of the arcs among some pieces, but one, once."""
-        groups: dict[float, list[Arc]] = {}
-        near = 5e-4  # mm: half of the last decimal that a sheet shows
-        for arc in pieces:
-            if isinstance(arc, Arc):
-                same = next((r for r in groups if abs(r - arc.radius) < near), arc.radius)
-                groups.setdefault(same, []).append(arc)
-        for radius, some in groups.items():
-            if abs(radius - besides) > SAME_ON_SHEET:
-                self.radius(some, times(len(some), sized.plain(radius, "R ")))
+        arcs = (piece for piece in pieces if isinstance(piece, Arc))
+        others = (arc for arc in arcs if abs(arc.radius - besides) > SAME_ON_SHEET)
+        # equal radii to 1e-6 mm, so that rounding does not part them
+        for text, some in grouped((sized.plain(round(arc.radius, 6), "R "), arc) for arc in others):
+            self.radius(some, text)
 
     def note(self, tip: Point, text: str) -> None:
         """Draw a text that points at a place."""
@@ -170,9 +166,8 @@ class View:
             at = 0.5 * (x0 + x1 - wide)
             labels.append(Label(text, (at, low), height))
             x0, x1 = min(x0, at), max(x1, at + wide)
-        return Block(
-            x0, low - SMALL, x1, y1, tuple(self.shapes), tuple(labels), tuple(self.measures)
-        )
+        box = shapes.Box(x0, low - SMALL, x1, y1)
+        return Block(box, tuple(self.shapes), tuple(labels), tuple(self.measures))
 
     def _put(self, candidates: Iterable[Measure], text: str, gap: float = 0.6) -> None:
         """Add the first candidate that fits, or else a note."""
@@ -202,7 +197,7 @@ class View:
 
 def turns(angles: Sequence[float]) -> Iterator[tuple[float, float]]:
     """Return each direction and the next one, through a whole turn."""
-    return zip(angles, [*angles[1:], angles[0] + math.tau], strict=True)
+    return pairwise([*angles, angles[0] + math.tau])
 
 
 def _short_first(rows: Iterable[Iterator[Measure]]) -> Iterator[Measure]:

@@ -8,14 +8,14 @@ from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.view import View, grouped, times, turns
 from geneva_cli.geometry import shapes
 from geneva_cli.geometry.plates import Plate, plates
-from geneva_cli.geometry.sheet import CENTRE, HIDDEN, OUTLINE
+from geneva_cli.geometry.sheet import CENTRE, HIDDEN, OUTLINE, rectangle
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.outlines.outlines import Outlines, dial_circle, wheel_holes
 from geneva_cli.parts.projection import outlines_of
 from geneva_cli.parts.shafts.bores import bore_of
-from geneva_cli.spec.written import length
+from geneva_cli.table import in_decimals as length
 
 
 def draw_wheel(view: View, parts: FlatParts) -> View:
@@ -89,22 +89,18 @@ def draw_wheel(view: View, parts: FlatParts) -> View:
 
 def _ends(walls: shapes.Contour) -> list[tuple[shapes.Point, shapes.Point]]:
     """Return inner end and mouth of the axis of a straight slot, or of each slot of a pair."""
-    first, *_, last = walls.segments
-    arcs = [piece for piece in walls.segments[1:-1] if isinstance(piece, shapes.Arc)]
-    if len(arcs) == 1:
-        return [_axis(first.start, first.end, arcs[0], last.end)]
-    return [_axis(first.start, first.end, arcs[0]), _axis(last.end, last.start, arcs[-1])]
-
-
-def _axis(
-    corner: shapes.Point, inner: shapes.Point, arc: shapes.Arc, *corners: shapes.Point
-) -> tuple[shapes.Point, shapes.Point]:
-    """Return the axis of a slot: a wall from a corner inwards, a round end, other corners."""
-    x, y = arc.centre
-    turn = math.atan2(inner[1] - corner[1], inner[0] - corner[0])
-    c, s = math.cos(turn), math.sin(turn)
-    farther = min((p[0] - x) * c + (p[1] - y) * s for p in (corner, *corners))
-    return (x + arc.radius * c, y + arc.radius * s), (x + farther * c, y + farther * s)
+    first, *middle, last = walls.segments
+    arcs = [piece for piece in middle if isinstance(piece, shapes.Arc)]
+    corners, out = (first.start, last.end), []
+    sides = [(first.start, first.end, arcs[0]), (last.end, last.start, arcs[-1])]
+    for corner, inner, arc in sides[: len(arcs)]:
+        (x, y), turn = arc.centre, math.atan2(inner[1] - corner[1], inner[0] - corner[0])
+        c, s = math.cos(turn), math.sin(turn)
+        # of a pair, each has one corner of its own
+        own = corners if len(arcs) == 1 else (corner,)
+        mouth = shapes.polar(arc.centre, min((u - x) * c + (v - y) * s for u, v in own), turn)
+        out.append((shapes.polar(arc.centre, arc.radius, turn), mouth))
+    return out
 
 
 def _slot(view: View, slots: list[shapes.Contour], half_width: float, width: str) -> None:
@@ -185,8 +181,7 @@ def draw_shaft(view: View, shaft: Plate) -> View:
     """Draw a shaft from the side; a hexagon has no fit, as its corners are free."""
     long, bore = shaft.thickness, shaft.bore
     radius = bore.around
-    corners = [(0.0, -radius), (long, -radius), (long, radius), (0.0, radius)]
-    view.draw(OUTLINE, shapes.polygon("", corners))
+    view.draw(OUTLINE, rectangle("", 0.0, -radius, long, radius))
     view.centre_line((0.0, 0.0), (long, 0.0))
     view.linear((0.0, -radius), (long, -radius), 0.0)
     has_corners = bore.form == "hex"

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 
 from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.loads.contact import contact
+from geneva_cli.loads.instant import QUANTITIES as LOAD_QUANTITIES
 from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.motion.engagement import Engagement
@@ -218,7 +219,7 @@ def _load(mechanism: Mechanism, engagement: Engagement, quantity: str) -> Formul
             for slides in signs_of(slip) if own.rubs else (1.0,):
                 here = Instant(own, at, drives, slides, 1.0)
                 for fed in (1.0,) if own.efficiency == 1.0 else signs_of(here.feeding):
-                    one = Instant(own, at, drives, slides, fed).quantity(quantity)
+                    one = LOAD_QUANTITIES[quantity](Instant(own, at, drives, slides, fed))
                     if one.margin is not None and not one.margin.c[0] > 0.0:
                         raise Undecided  # friction alone may hold the wheel: no bound of the force
                     found.append(one.value)

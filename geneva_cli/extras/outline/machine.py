@@ -162,16 +162,13 @@ def _with_rollers(
         # a drawn crank may have the rollers in its outline
         if crank and Polyarc(crank).signed(np.array([rollers[0].centre]))[0] < 0.0:
             return crank, rollers[0]
-    return (*crank, *map(_round, rollers)), rollers[0]
-
-
-def _round(roller: shapes.Circle) -> shapes.Contour:
-    """A roller as two arcs, whose ends are not where it touches straight slots.
-
-    At an entry both walls touch it across the crank's arm, where ends would count as corners.
-    """
-    across = math.atan2(roller.centre[1], roller.centre[0])
-    return shapes.closed("ROLLER", shapes.two_arcs(roller, across + 1.0))
+    round_ = []
+    for one in rollers:
+        # At an entry both walls touch a roller across the crank's arm, where ends of its arcs would
+        # count as corners.
+        across = math.atan2(one.centre[1], one.centre[0])
+        round_.append(shapes.closed("ROLLER", shapes.two_arcs(one, across + 1.0)))
+    return (*crank, *round_), rollers[0]
 
 
 def _roller(contour: shapes.Contour) -> shapes.Circle | None:

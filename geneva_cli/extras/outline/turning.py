@@ -64,17 +64,21 @@ class Turned(NamedTuple):
 @lru_cache(maxsize=4)
 def turned(mechanism: Mechanism) -> Turned:
     """The turn of a machine with drawn outlines. Raises GenevaError as its drawings do."""
-    machine = drawn_machine(mechanism)
-    turner = Turner(machine.free, machine.start)
+    return _turned(drawn_machine(mechanism))
+
+
+def _turned(machine: DrawnMachine, exact: bool = True) -> Turned:
+    """The turn of a machine; without ``exact`` pushes begin and end on a coarser grid."""
+    turner = Turner(machine.free, machine.start, STEPS if exact else STEPS // 2)
     is_free, low, high = turner.rest(machine.rest)
     # an outline wholly inside the wheel meets none of its edges
     depth, _ = machine.deepest([contour.segments[0].start for contour in machine.crank])
     is_free = is_free and depth <= 2.0 * machine.free.slack
-    half = 0.5 * math.tau / mechanism.spec.wheel.z
+    half = 0.5 * math.tau / machine.assembly.mechanism.spec.wheel.z
     rest = Range(is_free, max(low, machine.rest - half), min(high, machine.rest + half))
     is_held = is_free and rest.high - rest.low < 2.0 * half * (1.0 - 1e-9)
     is_put_back = put_back(machine, rest)
-    forwards, backwards = (_one_sense(turner, machine, way, is_put_back) for way in SENSES)
+    forwards, backwards = (_one_sense(turner, machine, way, is_put_back, exact) for way in SENSES)
     both = forwards, backwards
     has_indexed = all(_goes_on(machine, sense.first, sense.way) for sense in both)
     turns = is_free and has_indexed and not any(sense.jam for sense in both)
@@ -93,12 +97,9 @@ def put_back(machine: DrawnMachine, rest: Range) -> bool:
 
 
 def _one_sense(
-    turner: Turner, machine: DrawnMachine, way: int, is_put_back: bool, exact: bool = True
+    turner: Turner, machine: DrawnMachine, way: int, is_put_back: bool, exact: bool
 ) -> SenseResult:
-    """Turn the crank until the wheel has made a turn, jams, or rests as a turn before.
-
-    Without ``exact`` the angles at which pushes begin and end are those of the grid.
-    """
+    """Turn the crank until the wheel has made a turn, jams, or rests as a turn before."""
     z, a_turn = machine.assembly.mechanism.spec.wheel.z, len(machine.assembly.motions)
     is_alike = machine.free.period < 6.0  # one sector stands for all
     out: list[LazyTurn] = []
@@ -157,13 +158,7 @@ def least_slack_mm(result: Turned) -> float | None:
 
     def turns(slack: float) -> bool:
         """Whether it turns in both senses from the middle of its dwell."""
-        turner = Turner(machine.free.with_slack(slack), machine.start, STEPS // 2)
-        rest = turner.rest(machine.rest)
-        for way in SENSES if rest.is_free else ():
-            sense = _one_sense(turner, machine, way, put_back(machine, rest), exact=False)
-            if sense.jam is not None or not _goes_on(machine, sense.first, way):
-                return False
-        return rest.is_free
+        return _turned(machine._replace(free=machine.free.with_slack(slack)), exact=False).turns
 
     low, high = machine.free.slack, most_slack_mm(machine)
     if result.turns:

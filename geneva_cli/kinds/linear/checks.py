@@ -1,6 +1,5 @@
 """Checks of a rack, its horns, guide, shafts and gears, and the guide's quantities."""
 
-import math
 from collections.abc import Collection, Iterator
 from functools import partial
 
@@ -10,14 +9,15 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.plates import plates
 from geneva_cli.geometry.shapes import as_contour, bounds
-from geneva_cli.kinds.linear.guide import RackGuide
+from geneva_cli.kinds.linear.guide import RackGuide, guide_place
 from geneva_cli.kinds.linear.motion import guided
 from geneva_cli.kinds.linear.parts import RackParts
 from geneva_cli.kinds.linear.rack import rack_sizes
 from geneva_cli.loads.contact import QuantityValue
 from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.load_peaks import load_peaks
-from geneva_cli.numerics.arrays import value_or
+from geneva_cli.motion.peak_search import greater
+from geneva_cli.numerics.arrays import larger, value_or
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.spec.defaults import wall_min
 from geneva_cli.verdict.checks import Check, compared
@@ -80,25 +80,18 @@ def guide(of: Designs) -> Columns:
     """Return the guides of racks; none for a wheel, and for a rack that has no guide."""
     if not guided(of.spec):
         return {}
-    rows = []
-    for machine in of.each:
-        try:
-            place = rack_sizes(machine).guide
-        except GenevaError:  # the check of the horn reports the error
-            rows.append((math.inf,) * 4)
-            continue
-        R, r, mu = machine.center_distance_mm, machine.roller_radius_mm, machine.spec.load.friction
-        far = R - place.middle
-        lever = max(far - mu * (R - r), mu * (R + r) - far, mu * place.half)
-        force = at_deg = math.inf
-        if machine.spec.is_loaded:
-            ends = {str(side): partial(_end_force, side) for side in (1.0, -1.0)}
-            first, second = load_peaks(machine, tuple(ends), ends).values()
-            most = first if first.max.item() >= second.max.item() else second
-            force, at_deg = math.sqrt(most.max.item()), most.at_deg.item()
-        rows.append((2.0 * place.half, place.half / lever, force, at_deg))
-    names = "length_mm", "locks_at_friction", "force_N", "at_deg"
-    return dict(zip(names, np.array(rows).T, strict=True))
+    place, mu = guide_place(of.machine), of.spec.load.friction
+    R, r = of.machine.center_distance_mm, of.machine.roller_radius_mm
+    far = R - place.middle
+    lever = larger(larger(far - mu * (R - r), mu * (R + r) - far), mu * place.half)
+    half = np.where(np.ravel(place.half) > 0.0, np.ravel(place.half), np.nan)
+    out = {"length_mm": 2.0 * half, "locks_at_friction": half / np.ravel(lever)}
+    if of.machine.spec.is_loaded:
+        ends = {str(side): partial(_end_force, side) for side in (1.0, -1.0)}
+        most = greater(*load_peaks(of.machine, own=ends).values())
+        known = np.where(np.isnan(half), np.nan, of.loaded)
+        out |= {"force_N": np.sqrt(most.max) * known, "at_deg": most.at_deg * known}
+    return out
 
 
 def _end_force(side: float, i: Instant) -> QuantityValue:

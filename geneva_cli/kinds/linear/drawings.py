@@ -72,8 +72,9 @@ class RackScene(WheelScene):
         mechanism = turn.mechanism
         travel = turn.wheel(mechanism.wheel_places[0], mechanism.output.per_radian)
         sizes = rack_sizes(mechanism)
-        behind = -(sizes.slot_bottom + sizes.half_width + 0.5 * sizes.back)
-        mark = Circle("PITCH", (behind, 0.0), 0.15 * sizes.back)
+        end = -(sizes.guide.bottom + sizes.half_width)
+        middle, radius = 0.5 * (end + sizes.behind), 0.15 * (end - sizes.behind)
+        mark = Circle("PITCH", (middle, 0.0), radius)
         yield Body("wheel", (*shapes, mark), (0.0, 0.0), STILL, travel)
 
     def view(self, wheel: Body, box: Box, turn: MachineTurn) -> Box:

@@ -30,7 +30,6 @@ class RackSizes(NamedTuple):
     roller: float
     half_width: float  # of the slot
     rim: float  # distance of the rack's edge from the deepest roller
-    slot_bottom: float  # clearance between the deepest roller and the slot's end
     lock: float  # outer radius of the locking sector
     floor: float  # its inner radius
     recess: float
@@ -48,19 +47,9 @@ class RackSizes(NamedTuple):
         return self.arm - self.half_width - half_recess
 
     @property
-    def back(self) -> float:
-        """The wall between the slots' ends and the rack's back."""
-        return -(self.behind + self.slot_bottom + self.half_width)
-
-    @property
     def behind(self) -> float:
         """The x of the rack's back: a tenth of the guide's bar stands out behind it."""
         return self.guide.back + 0.1 * self.guide.bar
-
-    @property
-    def beyond(self) -> float:
-        """Length of the rack from the last slot's axis to its end."""
-        return 2.0 * self.arm - self.half_width
 
 
 def rack_sizes(mechanism: Mechanism) -> RackSizes:
@@ -87,7 +76,7 @@ def rack_sizes(mechanism: Mechanism) -> RackSizes:
     # as if R were L/2, as for 6 slots
     space = arm - rules.hole_radius(size, pin)
     bore = rules.arm_bore(mechanism.spec, 0.0, 2.0 * arm, space) if pin else 0.0
-    widths = arm, r, w, edge, guide.bottom, lock, floor, recess, relief
+    widths = arm, r, w, edge, lock, floor, recess, relief
     return RackSizes(*widths, guide, pin, bore, rules.drawn_thicknesses(size, arm))
 
 
@@ -99,7 +88,7 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
     except GenevaError:  # reported by the check of the parts
         return {}, ()
     known = {"wheel_radius_mm": sizes.rim, "lock_radius_mm": sizes.lock, "pin_mm": 2.0 * sizes.pin}
-    known |= {"slot_bottom_clearance_mm": sizes.slot_bottom, "relief_clearance_mm": sizes.relief}
+    known |= {"slot_bottom_clearance_mm": sizes.guide.bottom, "relief_clearance_mm": sizes.relief}
     thick = sizes.thick._asdict()
     known |= {f"{part}_thickness_mm": thick[part] for part in ("wheel", "lock", "arm")}
     if arm:
@@ -137,13 +126,14 @@ def slot_places(sizes: RackSizes, count: int) -> list[float]:
 
 def rack_ends(sizes: RackSizes, count: int) -> tuple[float, float]:
     """Return the y of both ends of a rack of ``count`` slots."""
+    beyond = 2.0 * sizes.arm - sizes.half_width  # the axes of the slots at both ends
     first, *_, last = slot_places(sizes, count)
-    return first - sizes.beyond, last + sizes.beyond
+    return first - beyond, last + beyond
 
 
 def slot_walls(sizes: RackSizes, y: float) -> list[Segment]:
     """Return the walls of a slot at y, from the lower corner of its mouth to the upper one."""
-    edge, w, bottom = sizes.rim, sizes.half_width, -sizes.slot_bottom
+    edge, w, bottom = sizes.rim, sizes.half_width, -sizes.guide.bottom
     end = about((bottom, y), w, -0.5 * math.pi, -math.pi)
     return [Line((edge, y - w), end.start), end, Line(end.end, (edge, y + w))]
 

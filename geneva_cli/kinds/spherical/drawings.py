@@ -19,16 +19,16 @@ import numpy as np
 from geneva_cli.geometry import fit, shapes
 from geneva_cli.geometry.plates import Group, Member, Part, Plate
 from geneva_cli.geometry.sheet import Annotations, Drawing
-from geneva_cli.geometry.sphere import Region, SphereArc
+from geneva_cli.geometry.sphere import Cap, Region, SphereArc, place
 from geneva_cli.geometry.sphere_arcs import azimuth, polar
 from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.kinds.spherical.parts import SphereParts
-from geneva_cli.kinds.spherical.regions import edge, locked, rollers
+from geneva_cli.kinds.spherical.regions import edge, locked
 from geneva_cli.motion.pivots import Dimension
 from geneva_cli.numerics.arrays import Array, Complex, within_half_turn
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.projection import Missing, or_missing, titled
-from geneva_cli.spec.written import length
+from geneva_cli.table import in_decimals as length
 
 
 class Cone(NamedTuple):
@@ -151,11 +151,8 @@ def _titled(parts: SphereParts, name: str) -> str:
 def _drawing(parts: SphereParts, title: str, drawn: list[shapes.Shape], shells: Part) -> Drawing:
     """Return a drawing of plates of sheet, and the shells that they become."""
     inner, outer = parts.ball.span_mm
-    plates = [
-        Member(Plate(s.layer.lower(), s.layer, s, (), 0.0, outer - inner))
-        for s in drawn
-        if s.layer in ("WHEEL", "CRANK")  # others are not cut from sheet
-    ]
+    cut = (shape for shape in drawn if shape.layer in ("WHEEL", "CRANK"))  # others are no sheet
+    plates = (Member(Plate(s.layer.lower(), s.layer, s, (), 0.0, outer - inner)) for s in cut)
     return Drawing(title, tuple(drawn), solid=Group(title, tuple(plates)), shells=shells)
 
 
@@ -163,11 +160,11 @@ def wheel_flat(parts: SphereParts) -> list[shapes.Shape]:
     """Return the wheel's outline on its flat cone, and the rollers' paths."""
     ball, cone = parts.ball, cone_of(parts, "wheel")
     b, ends = ball.half_step, (_wall_mouth(ball), ball.bottom)
-    outer: list[shapes.Segment] = []
-    pitch: list[shapes.Shape] = []
-    for at in (2 * k * b for k in range(ball.z)):
+    outer, pitch = list[shapes.Segment](), list[shapes.Shape]()
+    for k in range(ball.z):
+        at = 2 * k * b
         # the edge about a slot, half-way to the adjacent slots on either side
-        outer += shapes.joined(chain(*(cone.segments(arc, at) for arc in edge(ball, at))))
+        outer += shapes.joined(chain(*(cone.segments(arc, at) for arc in edge(ball, k))))
         path = shapes.Line(*cone.points(np.array(ends), np.array((at, at))))
         pitch.append(shapes.Contour("PITCH", (path,), closed=False))
     inner = cone.points(ball.inner, b * (2.0 * np.arange(ball.z, -1.0, -1.0) - 1.0))
@@ -180,12 +177,12 @@ def wheel_flat(parts: SphereParts) -> list[shapes.Shape]:
 def crank_flat(parts: SphereParts) -> list[shapes.Shape]:
     """Return locking sectors, rollers and the rollers' circle on the crank's flat cone."""
     ball, cone = parts.ball, cone_of(parts, "crank")
-    locking = zip(parts.shape.crank, locked(ball), strict=True)
-    drawn: list[shapes.Shape] = [
-        cone.region("CRANK", one, 0.5 * (a + b)) for one, (a, b) in locking
-    ]
-    rolling = zip(rollers(ball), ball.rollers, strict=True)
-    drawn += [cone.region("ROLLER", one, about) for one, about in rolling]
+    drawn = list[shapes.Shape]()
+    for sector, (start, end) in zip(parts.shape.crank, locked(ball), strict=True):
+        drawn.append(cone.region("CRANK", sector, 0.5 * (start + end)))
+    for about in ball.rollers:
+        roller = Cap(place(ball.arm, about), ball.roller).region
+        drawn.append(cone.region("ROLLER", roller, about))
     ends = cone.points(ball.arm, np.array((0.0, math.tau)))
     drawn.append(shapes.Contour("PITCH", (cone.level(ends[0], ends[1], math.tau),), closed=False))
     return drawn

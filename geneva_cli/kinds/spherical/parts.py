@@ -116,8 +116,7 @@ class SphereParts(Parts):
             own.append(("crank", arm.bore, lowest, outside - under))
         for part, bore, low, high in own:
             ends = shaft_ends(size, part, low, high)
-            plate = Shaft(f"{part}'s shaft", part, bore, *ends, ORIGIN).member.part
-            assert isinstance(plate, Plate)
+            plate = Shaft(f"{part}'s shaft", part, bore, *ends, ORIGIN).member.plate
             # heights become distances inwards
             inwards = plate._replace(low=outside - plate.high, high=outside - plate.low)
             frame = None if part == "wheel" else regions.at_mid_motion(ball)
@@ -163,9 +162,9 @@ def wheel_hub(size: Size, ball: Ball) -> Plate | None:
 def shell_body(mechanism: Mechanism) -> MassProperties:
     """Return mass and inertia of the wheel's shell and hub, in closed form."""
     size, sizes = mechanism.spec.size, ball(mechanism)
+    both = wheel_shell(sizes), wheel_hub(size, sizes)
     density = wheel_material(mechanism.spec).density_kgm3
-    rim, hub = plates.mass_properties(wheel_shell(sizes), density), wheel_hub(size, sizes)
-    return plates.added(rim, plates.mass_properties(hub, density)) if hub else rim
+    return plates.mass_properties(filter(None, both), density)
 
 
 def screw_sizes(mechanism: Mechanism) -> dict[str, float]:

@@ -19,7 +19,16 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError, refuse_size
 from geneva_cli.geometry import sphere
-from geneva_cli.geometry.sphere import POLE, Cap, Region, Rotation, SphereArc, opposite, place
+from geneva_cli.geometry.sphere import (
+    POLE,
+    Cap,
+    Region,
+    Rotation,
+    SphereArc,
+    Vector,
+    opposite,
+    place,
+)
 from geneva_cli.geometry.sphere_arcs import RoundHole, azimuth, least_wall, polar
 from geneva_cli.kinds.spherical.ball import Ball, refuse_above, refuse_wide
 from geneva_cli.motion.pivots import turned_points
@@ -27,7 +36,7 @@ from geneva_cli.numerics.arrays import Array, within_half_turn
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.outlines.crank_outline import widest
 from geneva_cli.parts.shafts.bores import Bore, bolt_radius, bore_of
-from geneva_cli.parts.sizes import hub_and_eye, lock_bolt_directions, pin_hole
+from geneva_cli.parts.sizes import Span, hub_and_eye, lock_bolt_directions, pin_hole
 from geneva_cli.spec.defaults import eye_about, wall_min
 from geneva_cli.spec.tables import Size
 
@@ -39,35 +48,34 @@ def wheel_regions(ball: Ball) -> list[Region]:
 
     A ring without a hole for shaft or hub stays open.
     """
-    b, z = ball.half_step, ball.z
     inner = min(ball.inner, 1.0) if ball.opening_mm else ball.inner  # radian: far from the edge
-    azimuths = [(2 * k - 1) * b for k in range(z)]  # between slots; the last is before the first
-    outer, ends = ([place(p, a) for a in azimuths] for p in (ball.between_slots, inner))
-    regions = []
-    for k in range(z):
-        at, after = 2 * k * b, (k + 1) % z
-        left, right = ((-math.sin(a), math.cos(a), 0.0) for a in (at - b, at + b))
-        sides = (
-            SphereArc(opposite(right), QUARTER, outer[after], ends[after]),
-            SphereArc(opposite(POLE), math.pi - inner, ends[after], ends[k]),
-            SphereArc(left, QUARTER, ends[k], outer[k]),
-        )
-        middle = place(0.5 * (inner + ball.rim), at)
-        edges = edge(ball, at)
-        edges[0] = edges[0]._replace(start=outer[k])
-        edges[-1] = edges[-1]._replace(end=outer[after])
-        regions.append(Region((*edges, *sides), middle))
+    regions = list[Region]()
+    for k in range(ball.z):
+        middle = place(0.5 * (inner + ball.rim), 2 * k * ball.half_step)
+        regions.append(_ring(edge(ball, k), inner, meridians(ball, k), middle))
     if ball.opening_mm:
-        pairs = zip(ends, [*ends[1:], ends[0]], strict=True)
-        regions.append(Region(tuple(SphereArc(POLE, inner, *pair) for pair in pairs), POLE))
+        regions.append(Region(tuple(one.boundary[-2].back for one in regions), POLE))
     return regions
 
 
-def edge(ball: Ball, at: float = 0.0) -> list[SphereArc]:
-    """Return the edge about the slot at an azimuth, from the meridian before it to the next."""
-    b, w, corner = ball.half_step, ball.half_width, ball.corner
-    start, end = (place(ball.between_slots, at + side * b) for side in (-1.0, 1.0))
-    low, high = start, end
+def _ring(outer: list[SphereArc], inner: float, sides: Span, middle: Vector) -> Region:
+    """Return the region between an outer edge and a circle, by the azimuths of its sides."""
+    start, end = (place(inner, a) for a in sides)
+    left, right = ((-math.sin(a), math.cos(a), 0.0) for a in sides)
+    inwards = SphereArc(opposite(right), QUARTER, outer[-1].end, end)
+    back = SphereArc(opposite(POLE), math.pi - inner, end, start)
+    return Region((*outer, inwards, back, SphereArc(left, QUARTER, start, outer[0].start)), middle)
+
+
+def meridians(ball: Ball, slot: int) -> Span:
+    """Return the azimuths half-way to both adjacent slots; the last slot is next to the first."""
+    return (2 * slot - 1) * ball.half_step, (2 * ((slot + 1) % ball.z) - 1) * ball.half_step
+
+
+def edge(ball: Ball, slot: int = 0) -> list[SphereArc]:
+    """Return the edge about a slot, from the meridian before it to the next one."""
+    b, w, corner, at = ball.half_step, ball.half_width, ball.corner, 2 * slot * ball.half_step
+    low, high = start, end = [place(ball.between_slots, a) for a in meridians(ball, slot)]
     if ball.recess:
         low, high = (place(ball.rim, at + side * (b - ball.opened)) for side in (-1.0, 1.0))
     mouths = [place(ball.rim, at + side * corner) for side in (-1.0, 1.0)]
@@ -82,7 +90,7 @@ def edge(ball: Ball, at: float = 0.0) -> list[SphereArc]:
         SphereArc(POLE, ball.rim, mouths[1], high),
     ]
     if ball.recess:
-        before, after = (opposite(place(ball.axes, at + side * b)) for side in (-1.0, 1.0))
+        before, after = (opposite(place(ball.axes, a)) for a in meridians(ball, slot))
         arcs.insert(0, SphereArc(before, math.pi - ball.recess, start, low))
         arcs.append(SphereArc(after, math.pi - ball.recess, high, end))
     return arcs
@@ -123,16 +131,9 @@ def sectors(ball: Ball) -> list[Region]:
         if half is None:
             text = "the wheel sweeps over the whole locking sector: another lock_radius_mm may "
             raise GenevaError(text + "leave part of it; 0 omits it", ("size", "lock_radius_mm"))
-        high, low, ends = ball.lock, nearest(half), (middle - half, middle + half)
-        far, inner = ([place(level, a) for a in ends] for level in (high, low))
-        sides = [(-math.sin(a), math.cos(a), 0.0) for a in ends]
-        boundary = (
-            SphereArc(POLE, high, far[0], far[1]),
-            SphereArc(opposite(sides[1]), QUARTER, far[1], inner[1]),
-            SphereArc(opposite(POLE), math.pi - low, inner[1], inner[0]),
-            SphereArc(sides[0], QUARTER, inner[0], far[0]),
-        )
-        return Region(boundary, POLE)
+        low, sides = nearest(half), (middle - half, middle + half)
+        rim = SphereArc(POLE, ball.lock, *(place(ball.lock, a) for a in sides))
+        return _ring([rim], low, sides, POLE)
 
     return [sector(*span) for span in spans]
 
@@ -146,15 +147,10 @@ def locked(ball: Ball) -> list[tuple[float, float]]:
     return [(a, b) for a, b in spans if b - a > SAME_ANGLE]
 
 
-def rollers(ball: Ball) -> list[Region]:
-    """Return the rollers' cones."""
-    return [Cap(place(ball.arm, turn), ball.roller).region for turn in ball.rollers]
-
-
 def at_mid_motion(ball: Ball) -> Rotation:
     """Return the crank's frame in the wheel's frame, with the first roller at mid-motion."""
     axis, ahead = place(ball.axes, 0.0), place(ball.axes - QUARTER, 0.0)
-    return Rotation(ahead, sphere.cross(axis, ahead), axis)
+    return ahead, sphere.cross(axis, ahead), axis
 
 
 def swept(ball: Ball) -> tuple[Array, Array]:
@@ -213,7 +209,6 @@ def crank_arm(ball: Ball, sectors: Sequence[Region], size: Size) -> CapArm:
 
 def _arm(ball: Ball, sectors: Sequence[Region], size: Size, bolts_each: int) -> CapArm:
     """Return the arm with so many bolts in each locking sector."""
-    refuse_size(not ball.arm_bore_mm, "pin_mm", "pin_mm = 0: there is no pin for an arm to carry")
     L, wall, (under, over) = ball.radius_mm, wall_min(size, ball.radius_mm), ball.arm_span_mm
     hole = pin_hole(size, ball.pin_mm)
     hub, eye = hub_and_eye(size, wall, hole, ball.arm_bore_mm, ball.passing_mm(ball.opening_mm))
@@ -243,16 +238,14 @@ def _arm(ball: Ball, sectors: Sequence[Region], size: Size, bolts_each: int) -> 
 def _bolts(ball: Ball, sectors: Sequence[Region], size: Size, count: int) -> tuple[RoundHole, ...]:
     """Return the holes of so many bolts in each locking sector, evenly spaced and of one size."""
     L, own = ball.radius_mm, size.lock_bolt_circle_mm
-    rims = [sector.boundary[0] for sector in sectors]
-    inner = [math.pi - sector.boundary[2].angle for sector in sectors]
-    widths = [(math.atan2(rim.start[1], rim.start[0]), rim.sweep) for rim in rims]
-    rings = [(low, rim.angle) for low, rim in zip(inner, rims, strict=True)]
+    edges = [(one.boundary[0], math.pi - one.boundary[2].angle) for one in sectors]
+    widths = [(math.atan2(rim.start[1], rim.start[0]), rim.sweep) for rim, _ in edges]
     directions = lock_bolt_directions(widths, count)
-    half = min((0.5 * L * (b - a) for a, b in rings), default=0.0)
+    half = min((0.5 * L * (rim.angle - low) for rim, low in edges), default=0.0)
     asked = size.lock_bolts if directions else 0
     r = bolt_radius(size.lock_bolt_mm, L, half, "lock_bolt", asked)
     holes = []
-    for (low, high), azimuths in zip(rings, directions, strict=False):
-        far = 0.5 * (low + high) if own is None else math.asin(min(1.0, 0.5 * own / L))
+    for (rim, low), azimuths in zip(edges, directions, strict=False):
+        far = 0.5 * (low + rim.angle) if own is None else math.asin(min(1.0, 0.5 * own / L))
         holes += [RoundHole(place(far, turn), r) for turn in azimuths if r]
     return tuple(holes)

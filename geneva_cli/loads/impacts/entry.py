@@ -18,18 +18,8 @@ from geneva_cli.motion.batch import taken
 from geneva_cli.motion.engagement import Anchor, Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE, radians
-from geneva_cli.numerics.arrays import (
-    Array,
-    Mask,
-    N,
-    Number,
-    Whole,
-    array,
-    choose,
-    library,
-    parameter,
-)
-from geneva_cli.numerics.jet import Jet, sqrt
+from geneva_cli.numerics.arrays import Mask, N, Whole, array, choose, library, parameter
+from geneva_cli.numerics.jet import Array, Jet, Number, sqrt
 from geneva_cli.numerics.roots import find_roots
 
 # Ascending fractions of a span, half an octave apart, which bracket a crossing.

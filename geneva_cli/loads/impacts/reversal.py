@@ -19,23 +19,22 @@ from geneva_cli.motion.batch import taken
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import braking
-from geneva_cli.numerics import arrays
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.arrays import Array, Whole, all_true, choose, larger, parameter
 from geneva_cli.numerics.roots import find_roots
 from geneva_cli.numerics.tolerances import ROUNDED
 from geneva_cli.spec.workshops import WORKSHOPS
 
 
-def changes(engagement: Engagement, drag: Array) -> tuple[arrays.Whole, Array]:
+def changes(engagement: Engagement, drag: Array) -> tuple[Whole, Array]:
     """Designs and input angles (k,) at which the wheel's torque changes sign: psi2 = -drag."""
     m = len(drag)
     if engagement.paired:  # gears hold the wheel until another roller stops it
         begins = np.broadcast_to(np.ravel(engagement.motion.breaks_deg[-2]), m)
         return np.arange(m), begins.astype(float)
-    one = arrays.parameter(drag)
+    one = parameter(drag)
     case = LoadCase(1.0, 1.0, one, 1.0, 0.0, 0.0, 1.0, None, design=np.arange(m)[:, None])
-    load = LoadFunctions(engagement, case, ())
+    load = LoadFunctions(engagement, case)
     which, _, (a, b), positive = load.stretches()
     torque = load.at(0.5 * (a + b)[:, None], which)[0].wheel_torque_Nm.derivatives()[0][:, 0]
     most = np.zeros(m)
@@ -50,7 +49,7 @@ def changes(engagement: Engagement, drag: Array) -> tuple[arrays.Whole, Array]:
 
 
 def impacts_of(
-    engagement: Engagement, at: tuple[arrays.Whole, Array], play: Array, drag: Array
+    engagement: Engagement, at: tuple[Whole, Array], play: Array, drag: Array
 ) -> tuple[Array, Array]:
     """Angles at which wheels are struck after changes of sides ``at``, and the speeds.
 
@@ -64,7 +63,7 @@ def impacts_of(
     motions, start, drags = taken(engagement.motion, which), begin[:, None], drag[which]
     turned, speed = (row + 0.0 * start for row in motions(start, 1).derivatives())
 
-    def gained(x: Array, live: arrays.Whole) -> tuple[Array, Array]:
+    def gained(x: Array, live: Whole) -> tuple[Array, Array]:
         """Lead of wheels over their slots, and difference in speed, x radians after they coast."""
         x = x[:, None]
         angle, rate = taken(motions, live)(start[live] + x / DEGREE, 1).derivatives()
@@ -80,7 +79,7 @@ def impacts_of(
         sense = np.copysign(1.0, gained(turn, every)[0])
         ahead_at_exit, speed_at_exit = gained(span, every)
 
-        def faster(x: Array, live: arrays.Whole) -> tuple[Array, Array]:
+        def faster(x: Array, live: Whole) -> tuple[Array, Array]:
             place = start[live] + x[:, None] / DEGREE
             torque = (taken(motions, live)(place, 2).derivatives()[2] + drags[live])[:, 0]
             return sense[live] * gained(x, live)[1], -sense[live] * torque
@@ -92,7 +91,7 @@ def impacts_of(
         returns = (play > 0.0) & ~crosses & (sense * ahead_at_exit < 0.0)
         gap = np.where(crosses, play, 0.0)
 
-        def over(x: Array, live: arrays.Whole) -> tuple[Array, Array]:
+        def over(x: Array, live: Whole) -> tuple[Array, Array]:
             ahead, speed = gained(x, live)
             return sense[live] * ahead - gap[live], sense[live] * speed
 
@@ -107,14 +106,14 @@ def impacts_of(
 def drag_over(case: LoadCase) -> float:
     """M_r / (I w²) of a load; infinite without an inertia, as then nothing coasts."""
     heavy = case.inertia_Nm > 0.0
-    drag = case.resists_Nm / arrays.choose(heavy, case.inertia_Nm, 1.0)
-    return arrays.choose(heavy, drag, math.inf)
+    drag = case.resists_Nm / choose(heavy, case.inertia_Nm, 1.0)
+    return choose(heavy, drag, math.inf)
 
 
 def lasting_drag_Nm(mechanism: Mechanism) -> float:
     """Torque to add for the roller to stay on one wall: I w² max(-psi2) - M_r."""
-    case, most = load_case(mechanism), reduce(arrays.larger, map(braking, mechanism.engagements))
-    return arrays.larger(case.inertia_Nm * most - case.resists_Nm, 0.0)
+    case, most = load_case(mechanism), reduce(larger, map(braking, mechanism.engagements))
+    return larger(case.inertia_Nm * most - case.resists_Nm, 0.0)
 
 
 def reversal_impacts(mechanism: Mechanism, pin: PinSize | None = None) -> Impacts:
@@ -127,11 +126,9 @@ def reversal_impacts(mechanism: Mechanism, pin: PinSize | None = None) -> Impact
     spec, case = mechanism.spec, load_case(mechanism)
     given = spec.size.allowances.slot_clearance_mm
     both = spec.tolerance.roller_diameter_mm + spec.tolerance.slot_width_mm
-    play_mm = (
-        arrays.choose(given == 0.0, WORKSHOPS[spec.size.process].slot_play_mm, given) + 0.5 * both
-    )
+    play_mm = choose(given == 0.0, WORKSHOPS[spec.size.process].slot_play_mm, given) + 0.5 * both
     drag = drag_over(case)
-    if arrays.all_true((drag == np.inf) | (play_mm == 0.0)):
+    if all_true((drag == np.inf) | (play_mm == 0.0)):
         return Impacts(*np.full((5, mechanism.designs), np.nan))
     numbers = mechanism.center_distance_mm, drag, play_mm, case.radius
     rows = [np.broadcast_to(x, (mechanism.designs, 1)) for x in numbers]

@@ -7,8 +7,6 @@ measured c for steel on steel (Ball and Roller Bearing Engineering, 3rd ed., 195
 proportional to the 0.9th power of the materials' softness.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import NamedTuple
 

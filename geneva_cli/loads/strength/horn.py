@@ -76,8 +76,7 @@ def slot_ends(mechanism: Mechanism) -> list[SlotEnd]:
     ends = []
     for whole in mechanism.under_load.engagements:
         for end, (own, ahead) in ((-1.0, whole.passages[0]), (1.0, whole.passages[-1])):
-            at_deg = own.entry_deg if end < 0.0 else own.exit_deg
-            ends.append(SlotEnd(own, end, at_deg, whole, ahead))
+            ends.append(SlotEnd(own, end, own.end_deg(end), whole, ahead))
     return ends
 
 
@@ -235,7 +234,7 @@ def _sampled(
         ends = np.broadcast_to(samples, (2, m, samples.shape[2]))[..., [0, -1]]
         _, first, row = np.unique(ends, axis=1, return_index=True, return_inverse=True)
         samples = samples[:, first]
-    all_places = (slot.entry_deg if start < 0.0 else slot.exit_deg) * samples[0]
+    all_places = slot.end_deg(start) * samples[0]
     x = all_places - side.at.ahead_deg
     x = x[0] if len(x) == 1 else x  # as (k,) in half the time
     at = contact(side.at.whole, x, reactions=False)

@@ -28,8 +28,7 @@ from geneva_cli.loads.load_case import contact_modulus_GPa, hertz_MPa
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.motion.batch import designs_in, taken
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.arrays import all_true, blocks, value_or
-from geneva_cli.numerics.jet import Array, Number
+from geneva_cli.numerics.arrays import Array, Number, all_true, blocks, value_or
 from geneva_cli.spec.defaults import wheel_material
 
 if TYPE_CHECKING:
@@ -134,7 +133,7 @@ def bending(mechanism: Mechanism, half_width: float, recess: float, phi: float) 
     material = wheel_material(spec)
     E = 1e3 * material.youngs_modulus_GPa
     G = E / (2.0 * (1.0 + material.poisson_ratio))
-    weakest: Array | None = None
+    weakest = np.full((3, 1, 1), -np.inf)
     for side in horns(mechanism, half_width, recess):
         # sums by trapezoids over 2001 sections have an error of a ten-thousandth at worst
         places = side.at.mouth_deg * np.linspace(1.0, NEAR_CUSP, 2001)
@@ -169,8 +168,6 @@ def bending(mechanism: Mechanism, half_width: float, recess: float, phi: float) 
             np.where(own > 0.0, thick, np.inf).min(axis=1),
         )
         horn = np.stack(rows)[:, :, None]
-        # the greater deflection counts
-        weakest = horn if weakest is None else np.where(horn[0] > weakest[0], horn, weakest)
-    assert weakest is not None
+        weakest = np.where(horn[0] > weakest[0], horn, weakest)  # the greater deflection counts
     # what does not differ, as where loads alone do, is one row for all of them
     return np.broadcast_to(weakest, (3, m, 1))

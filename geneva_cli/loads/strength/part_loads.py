@@ -115,7 +115,7 @@ def shaft_squares(
     for part, overhang_mm in overhangs_mm.items():
         if mechanism.spec.is_loaded and overhang_mm is not None:
             own[part] = _shaft_load(mechanism, part, overhang_mm)
-    out = load_peaks(mechanism, tuple(own), own) if own else {}
+    out = load_peaks(mechanism, own=own) if own else {}
     for part, (force_N, torque_Nm) in held.items():
         lever = overhangs_mm[part]
         if lever is not None and part in out:
@@ -146,12 +146,9 @@ class PartLoads(NamedTuple):
 
 def part_loads(mechanism: Mechanism) -> PartLoads:
     """The greatest loads of m designs, or as numbers of a single one."""
-    wheel_shaft = _shaft_load(mechanism, "wheel")
-    own: dict[str, LoadQuantity] = {
-        "wheel_Nm": wheel_shaft,
-        "crank_Nm": _shaft_load(mechanism, "crank"),
-    }
-    peaks = load_peaks(mechanism, ("pin_force_N", "wheel_bearing_N", "crank_bearing_N", *own), own)
+    wheel_shaft, crank_shaft = _shaft_load(mechanism, "wheel"), _shaft_load(mechanism, "crank")
+    names = ("pin_force_N", "wheel_bearing_N", "crank_bearing_N")
+    peaks = load_peaks(mechanism, names, {"wheel_Nm": wheel_shaft, "crank_Nm": crank_shaft})
     force, wheel = peaks["pin_force_N"].max, peaks["wheel_bearing_N"].max
     jump = np.nan_to_num(reversal_impacts(mechanism).jump) + np.zeros(np.shape(force))
     wheel_Nm, crank_Nm = np.sqrt(peaks["wheel_Nm"].max), np.sqrt(peaks["crank_Nm"].max)

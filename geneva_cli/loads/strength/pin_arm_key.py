@@ -17,18 +17,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import NamedTuple, cast
 
 import numpy as np
 
-from geneva_cli.numerics.arrays import Number, Truth, choose, parameter
-from geneva_cli.numerics.jet import Array
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.numerics.arrays import Array, Number, Truth, choose, parameter
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.numerics.tolerances import rounded_below
 from geneva_cli.spec.tables import Shaft, Size
-
-if TYPE_CHECKING:
-    from geneva_cli.motion.mechanism import Mechanism
 
 
 class ArmDimensions(NamedTuple):

@@ -37,10 +37,9 @@ class SlotPassage(NamedTuple):
 
 def passage(engagement: Engagement, case: LoadCase, half: float = 0.0) -> SlotPassage:
     """Integrals over a motion of m designs, (m,) each; or over the ``half`` before or after 0."""
-    curved = engagement.slot.curved
     # A roller on a crank's arm turns back on the line of centres, unless its motion is tilted. In a
     # curved slot both branches begin at mid-motion. Spans end there.
-    middle = curved or (engagement.on_arm and engagement.motion.symmetric)
+    middle = engagement.slot.curved or (engagement.on_arm and engagement.motion.symmetric)
     more = ("slides",) if middle else ("slides", "along")
     load, n = LoadFunctions(engagement, case, ("pin_force_N",), more=more), np.size(case.design)
     result = load.search()

@@ -9,8 +9,7 @@ import numpy as np
 
 from geneva_cli.loads.tolerance.locking import AS_DRAWN, Deviations, Effect, deviations, slope_of
 from geneva_cli.loads.tolerance.motion_error import MotionError
-from geneva_cli.numerics import arrays
-from geneva_cli.numerics.arrays import Array, Mask, Number
+from geneva_cli.numerics.arrays import Array, Mask, Number, blocks
 from geneva_cli.numerics.sobol import sobol
 from geneva_cli.progress import tracked
 
@@ -46,9 +45,9 @@ class Draws(NamedTuple):
 def random_errors(draws: Draws, samples: int, effects: Collection[Effect]) -> tuple[Array, Mask]:
     """The errors of ``samples`` random machines, and their masks: (effects, samples) each."""
     errors = np.zeros((len(effects), samples))
-    masks, count = errors > 0.0, -(-samples // BLOCK)
-    blocks = tracked(draws.blocks(samples, BLOCK), "blocks of machines", count)
-    for by, part in zip(blocks, arrays.blocks(samples, BLOCK), strict=True):
+    masks, parts = errors > 0.0, blocks(samples, BLOCK)
+    every = tracked(draws.blocks(samples, BLOCK), "blocks of machines", len(parts))
+    for by, part in zip(every, parts, strict=True):
         for effect, error, mask in zip(effects, errors, masks, strict=True):
             jet, mask[part] = effect(by)
             error[part] = jet.c[0]

@@ -7,8 +7,6 @@ period ratio. The residual is an integral of f e^(p (1 - u)), f being s' or s'',
 over equal pieces of the panels.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
@@ -17,7 +15,7 @@ import numpy as np
 
 from geneva_cli.motion.engagement import WheelMotion
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Complex, Mask, Whole, blocks, matrix_product
+from geneva_cli.numerics.arrays import Complex, Mask, Whole, blocks, matrix_product, record_taken
 from geneva_cli.numerics.jet import Array
 
 legendre = np.polynomial.legendre
@@ -86,10 +84,6 @@ class Oscillator(NamedTuple):
     ratio: Array
     damping: Array
 
-    def of(self, which: Whole) -> Oscillator:
-        """Some of them."""
-        return Oscillator(self.ratio[which], self.damping[which])
-
     @property
     def p(self) -> Complex:
         """Complex rate p of each, by the motion's time."""
@@ -132,7 +126,7 @@ def residual_swing(panels: Panels, motion: Whole, swing: Oscillator) -> Complex:
     order = np.where(quick & ~panels.jumps[motion], 2, 1)
     for k in (1, 2):
         every = np.flatnonzero(order == k)
-        some, p = swing.of(every), swing.p[every]
+        some, p = record_taken(swing, every), swing.p[every]
         # Gauss's rule is exact to a double up to |p h| = 10
         for _, left, added in _pushes(panels, k, motion[every], some, 10.0, WEIGHTS[:, None]):
             swung = (np.exp(p[:, None] * (1.0 - left)) * added[..., 0]).sum(axis=1)

@@ -21,13 +21,20 @@ from geneva_cli.motion.motion_table import check_samples
 from geneva_cli.motion.peak_search import motion_peaks
 from geneva_cli.motion.timing import timings
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Array, Complex, Whole, array, parameter, value_or
+from geneva_cli.numerics.arrays import (
+    Array,
+    Complex,
+    Whole,
+    array,
+    parameter,
+    record_taken,
+    value_or,
+)
 from geneva_cli.spec.rules import Range
 from geneva_cli.table import Table, computed_table, rows_table
 
 PERIOD_RATIO = Range(1e-6, 1e5)  # the range that is computed
 DAMPING = Range(0.0, 1.0, "[)")
-STIFFNESS = ("shaft", "stiffness_Nm_rad")
 SOFTER, STIFFER = math.sqrt(0.8), math.sqrt(1.2)  # the natural frequency's at 20 % of stiffness
 SLOWER, FASTER = 0.5, 2.0  # range of speeds over the design's
 AVOIDED_SHARE = 1e-4  # least share of the step that makes a speed one to avoid
@@ -49,7 +56,8 @@ def oscillator(
     """
     if damping is not None and damping not in DAMPING:
         raise GenevaError(f"--damping {damping:g}: must be {DAMPING}: at 1 nothing oscillates")
-    key, own = STIFFNESS if period_ratio is None else (), _on_shafts(mechanism)
+    key = ("shaft", "stiffness_Nm_rad") if period_ratio is None else ()
+    own = _on_shafts(mechanism)
     if period_ratio is None:
         needed = "--period-ratio, the motion's time over the load's natural period"
         if not mechanism.output.turns:
@@ -145,7 +153,7 @@ def design_vibrations(mechanism: Mechanism, requested: Collection[str]) -> dict[
     out = np.full((len(NAMES), mechanism.designs), np.nan)
     for i in range(0, len(known), 128):  # designs at a time, whose panels take some 100 MB
         part = known[i : i + 128]
-        own = Oscillators(taken(mechanism, part), on_shafts.of(part))
+        own = Oscillators(taken(mechanism, part), record_taken(on_shafts, part))
         out[:, part] = list(vibrations(own, requested).values())
     return dict(zip(NAMES, out, strict=True))
 

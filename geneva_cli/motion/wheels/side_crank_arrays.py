@@ -20,7 +20,7 @@ import numpy as np
 from geneva_cli.motion.engagement import Peak
 from geneva_cli.motion.path_and_slot import AnchoredPath, StraightSlotMotion
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Array, Number, Whole, parameter, record_taken
+from geneva_cli.numerics.arrays import Array, Number, parameter, record_taken
 
 SCAN = 10  # intervals over half the motion; 8 miss none of a million designs, 6 miss twelve
 
@@ -53,21 +53,13 @@ class SideCrankWheels(NamedTuple):
     A: Array
     l: Array  # sin(pi/z)
     rest: Array  # 1 - l
-    half: Array  # crank angle of half the motion, radians
-    end_sin: Array  # its sine, cos(pi/z), and cosine, +-l, exactly
-    end_cos: Array
     minus: Array  # 1 - A²
     square: Array  # 1 - l²
-    rest2: Array  # (1-l)²
-    big: Array  # 1 + 4 l + l²
 
 
 def wheels(sign: Number, l: Number, rest: Number, A: Number) -> SideCrankWheels:
     """Wheels of R/L = l and ``rest`` = 1 - l, external (sign 1) or internal (-1): (n,) each."""
-    square, big, minus = rest * (1.0 + l), 1.0 + l * (4.0 + l), (1.0 - A) * (1.0 + A)
-    cos_b, end_cos = np.sqrt(square), sign * l
-    half = np.arctan2(cos_b, end_cos)
-    every = sign, A, l, rest, half, cos_b, end_cos, minus, square, rest * rest, big
+    every = sign, A, l, rest, (1.0 - A) * (1.0 + A), rest * (1.0 + l)
     return SideCrankWheels._make(v.ravel() for v in np.broadcast_arrays(*every))
 
 
@@ -88,15 +80,27 @@ def acceleration_peaks(w: SideCrankWheels) -> tuple[Array, Array]:
     for block in (which[i : i + count] for i in range(0, len(which), count)):
         part = record_taken(w, block)
         with np.errstate(all="ignore"):
-            design, low, high, x, slope = map(np.concatenate, zip(*_rises(part), strict=True))
+            sine, cosine = _end(part)
+            f = np.linspace(0.0, np.arctan2(sine, cosine), SCAN + 1)
+            c = np.cos(f)
+            c[-1] = cosine
+            slopes = _slope(part, c)
+            i, design = np.nonzero((slopes[:-1] < 0.0) & (slopes[1:] >= 0.0))
             near, of = record_taken(part, design), block[design]
+            low, high, left = f[i, design], f[i + 1, design], slopes[i, design]
+            rise = slopes[i + 1, design] - left
+            # a parabola through three values; a straight line in the first interval
+            bend = np.where(i > 0, 0.5 * (rise - left + slopes[i - 1, design]), 0.0)
+            root = np.sqrt(np.maximum((rise - bend) ** 2 - 4.0 * bend * left, 0.0))
+            x = low - 2.0 * left / (rise - bend + root) * (high - low)
+            slope = root / (high - low)
             before = here = np.zeros(len(x))
             close = np.zeros(len(x), bool)
             for step in range(4):  # secant steps, from a parabola's root
                 last, here = here, _slope(near, np.cos(x))
                 if step:  # rounding may leave a step of 0, or one against the rise
-                    rise = (here - last) / (x - before)
-                    slope = np.where(rise > 0.0, rise, slope)
+                    secant = (here - last) / (x - before)
+                    slope = np.where(secant > 0.0, secant, slope)
                 # a design that is close stays, so that it has the same peak in every batch
                 before, x = x, np.where(close, x, x - here / slope)
                 # radians: the error after so short a step moves a peak by less than rounding
@@ -121,7 +125,7 @@ def acceleration(w: SideCrankWheels, f: Array) -> tuple[Array, Array]:
     near = np.where(w.sign > 0.0, sine, cosine)
     v = 2.0 * near * near  # 1 - g cos f
     C, rho = _front(w, s, c)
-    D, f1 = w.rest2 + 2.0 * w.l * v, C / rho
+    D, f1 = w.rest * w.rest + 2.0 * w.l * v, C / rho
     # l sin f is common to both terms
     wheel = w.square * (f1 / D) * (f1 / D)
     front = w.sign * (w.rest - v) / D * (w.A * w.minus / rho) / (rho * rho)
@@ -130,10 +134,15 @@ def acceleration(w: SideCrankWheels, f: Array) -> tuple[Array, Array]:
 
 def acceleration_at_end(w: SideCrankWheels) -> tuple[Array, Array]:
     """Jump of the acceleration at entry and exit, tan(b) f1², and the input angle, radians."""
-    s, c = w.end_sin, w.end_cos
+    s, c = _end(w)
     C, rho = _front(w, s, c)
     f1 = C / rho
     return w.l / s * f1 * f1, np.arctan2(rho * s, C * c - w.A * (s * s))
+
+
+def _end(w: SideCrankWheels) -> tuple[Array, Array]:
+    """Sine and cosine of the crank's angle at the end of a motion, cos(pi/z) and +-l, exactly."""
+    return np.sqrt(w.square), w.sign * w.l
 
 
 def _front(w: SideCrankWheels, s: Array, c: Array) -> tuple[Array, Array]:
@@ -149,29 +158,9 @@ def _slope(w: SideCrankWheels, c: Array) -> Array:
     s2, C2 = 1.0 - c2, w.minus + Ac * Ac
     C, v = np.sqrt(C2), 1.0 - w.sign * c
     lv = 2.0 * w.l * v
-    D = w.rest2 + lv
-    N = v * (w.big - lv) - w.rest2
+    square = w.rest * w.rest
+    D = square + lv
+    N = v * (1.0 + w.l * (4.0 + w.l) - lv) - square
     g1 = w.sign * (w.rest - v) / w.square
     front = w.A * (C - Ac) * D  # f2 / (f1² sin f), times C² D; (1-A²) / rho is C - A cos f
     return w.sign * N * C * C2 - front * (3.0 * s2 * C - D * g1 * (c * C + 3.0 * w.A * s2))
-
-
-def _rises(w: SideCrankWheels) -> list[tuple[Whole, Array, Array, Array, Array]]:
-    """Rises of ``_slope`` through 0: design, ends of the interval, a parabola's root, slope."""
-    step = w.half / SCAN
-    turn = 2.0 * np.cos(step)
-    c, c_next = np.ones(len(step)), 0.5 * turn
-    last = before = np.zeros(len(step))
-    rises = []
-    for i in range(SCAN + 1):
-        here = _slope(w, c if i < SCAN else w.end_cos)
-        which = np.flatnonzero((before < 0.0) & (here >= 0.0))
-        left, right, wide = before[which], here[which], step[which]
-        # a parabola through three values; a straight line in the first interval
-        tilt = 0.5 * (right - (last[which] if i > 1 else 2.0 * left - right))
-        root = np.sqrt(np.maximum(tilt * tilt - 4.0 * (right - left - tilt) * left, 0.0))
-        low = (i - 1.0) * wide
-        rises.append((which, low, low + wide, low - 2.0 * left / (tilt + root) * wide, root / wide))
-        last, before = before, here
-        c, c_next = c_next, turn * c_next - c
-    return rises

@@ -35,10 +35,8 @@ class Spherical(Gearing):
     def __post_init__(self) -> None:
         super().__post_init__()
         angle, least = self.axes_deg, 1e-6  # degrees
-        text = (
-            "axes_deg = {angle:g}: the shafts are practically parallel: it must be at least "
-            '{least:g} away from 0 and 180, or choose gearing "external" or "internal"'
-        )
+        text = "axes_deg = {angle:g}: the shafts are practically parallel: it must be at least "
+        text += '{least:g} away from 0 and 180, or choose gearing "external" or "internal"'
         parallel = (angle < least) | (angle > 180.0 - least)
         refuse_text(parallel, ("wheel", "axes_deg"), text, angle=angle, least=least)
         shafts = Dimension("angle of the shafts", angle, "deg")

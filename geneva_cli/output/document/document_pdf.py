@@ -12,11 +12,11 @@ from geneva_cli.geometry.shapes import Point, Shape, placed
 from geneva_cli.geometry.sheet import Annotations, Drawing, extent, prepared
 from geneva_cli.output import pdf
 from geneva_cli.output.document import blocks
-from geneva_cli.output.inks import CENTRE_LINES, INKS
+from geneva_cli.output.inks import CENTRE_LINES, INKS, LIGHT
 from geneva_cli.output.letters import western
 from geneva_cli.output.notes import LETTERS, notes
 from geneva_cli.output.plot import plot_layout, plot_pdf
-from geneva_cli.output.svg import opacity, rings
+from geneva_cli.output.svg import rings, tint
 from geneva_cli.output.terminal.layout import wrapped
 
 WIDTH, HEIGHT = 210.0, 297.0
@@ -42,7 +42,7 @@ class Item(NamedTuple):
     """
 
     high: float
-    content: str
+    content: str = ""
     keeps: bool = False
     head: Item | None = None
 
@@ -75,21 +75,21 @@ def _pages(items: Iterable[Item], foot: str) -> list[pdf.Page]:
         which = f"{i} / {len(contents)}"
         end = pdf.words(foot, (LEFT, low), SMALL, ink=SOFT)
         end += pdf.words(which, (LEFT + WIDE - pdf.wide(which, SMALL), low), SMALL, ink=SOFT)
-        out.append(pdf.Page(WIDTH, HEIGHT, pdf.BEGIN + text + end, fonts=2))
+        out.append(pdf.Page(WIDTH, HEIGHT, pdf.BEGIN + text + end))
     return out
 
 
 def _items(document: blocks.Document) -> Iterator[Item]:
     for text in _lines(document.title, TITLE, WIDE, bold=True):
         yield _line(text, TITLE, bold=True)
-    yield _gap(2.0)._replace(keeps=True)
+    yield Item(2.0, keeps=True)
     ink = {PASSES: GREEN, WARNS: AMBER, FAILS: RED}[document.state]
     for text in _lines(document.verdict, VERDICT, WIDE - 2.0 * MARK, bold=True):
         yield _line(text, VERDICT, bold=True, indent=MARK, ink=ink, bar=ink)
     for reason in document.reasons:
         for i, text in enumerate(_lines(reason, BODY, WIDE - 3.0 * MARK)):
             yield _line(text, BODY, indent=2.0 * MARK, mark="" if i else "•", bar=ink)
-    yield _gap(3.0)
+    yield Item(3.0)
     for block in document.blocks:
         yield from _block(block)
 
@@ -103,13 +103,13 @@ def _block(block: blocks.Block) -> Iterator[Item]:
         rows = _lines(block.text, BODY, WIDE)
         for i, text in enumerate(rows):  # no single line of it on a page
             yield _line(text, BODY)._replace(keeps=i in (0, len(rows) - 2))
-        yield _gap(2.5)
+        yield Item(2.5)
     elif isinstance(block, blocks.TextList):
         for text in block.texts:
             for i, line in enumerate(_lines(text, BODY, WIDE - MARK)):
                 yield _line(line, BODY, indent=MARK, mark="" if i else "•")
-            yield _gap(0.8)
-        yield _gap(2.0)
+            yield Item(0.8)
+        yield Item(2.0)
     elif isinstance(block, blocks.Grid):
         yield from _grid(block)
     elif isinstance(block, blocks.Picture):
@@ -120,10 +120,6 @@ def _block(block: blocks.Block) -> Iterator[Item]:
         for i, part in enumerate(parts):  # no title and no last panel stands alone
             content = pdf.moved(plot_pdf.drawn(part), LEFT, 0.0, scale)
             yield Item(scale * part.high, content, keeps=i in (0, len(parts) - 2))
-
-
-def _gap(high: float) -> Item:
-    return Item(high, "")
 
 
 def _line(
@@ -163,7 +159,7 @@ def _grid(table: blocks.Grid) -> Iterator[Item]:
         yield head._replace(keeps=True)
     for row in rows:
         yield _row(row, right, widths)._replace(head=head)
-    yield _gap(4.0)
+    yield Item(4.0)
 
 
 def _caption(text: str) -> Iterator[Item]:
@@ -228,11 +224,11 @@ def _drawing(drawn: Drawing) -> Item:
 
     out = ""
     for layer, contours in rings(shown.solid) if shown.solid else []:
-        out += f"{pdf.tint(INKS[layer].rgb, opacity(layer))} rg\n"
+        out += f"{pdf.colour(tint(layer, LIGHT))} rg\n"
         out += "".join(map(traced, contours)) + "f*\n"
     for name in shown.layers:
         is_thin = name in CENTRE_LINES
-        out += f"{pdf.tint(INKS[name].rgb)} RG {0.16 if is_thin else 0.3} w"
+        out += f"{pdf.colour(INKS[name].rgb)} RG {0.16 if is_thin else 0.3} w"
         out += f" [{'4 0.8 0.8 0.8' if is_thin else ''}] 0 d\n"
         out += "".join(f"{traced(shape)}S\n" for shape in shown.shapes if shape.layer == name)
     out += f"{SOFT} RG {SOFT} rg 0.16 w [] 0 d\n"

@@ -6,7 +6,7 @@ import os
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.geometry.shapes import Arc
 from geneva_cli.output.foreign.drawn import Drawn
-from geneva_cli.streams import read_bytes
+from geneva_cli.specfile.tree import read_bytes
 
 BYTES_MAX = 1 << 26  # 64 MB; a machine's outline has some kilobytes
 PIECES_MAX = 20_000  # more take minutes to turn

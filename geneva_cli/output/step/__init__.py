@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterator
 
 from geneva_cli.errors import clean
-from geneva_cli.geometry.plates import Group, Part, Shell
+from geneva_cli.geometry.plates import Group, Part, Shell, Solid
 from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.geometry.sphere import POLE
 from geneva_cli.output.inks import INKS
@@ -54,17 +54,20 @@ class _Products:
     def product(self, part: Part) -> tuple[str, str]:
         """The product of a part, written at its first use."""
         if part not in self.known:
-            if isinstance(part, Group):
-                self.known[part] = self._group(part)
-            else:
-                if isinstance(part, Shell):
-                    body = shell_solid(self.file, part)
-                else:
-                    body = plate_solid(self.file, part)
-                self._style(body, INKS[part.layer].rgb)
-                shape = f"ADVANCED_BREP_SHAPE_REPRESENTATION('',({self.file.origin},{body}),"
-                self.known[part] = self._defined(part.name, f"{shape}{self.space})")
+            self.known[part] = self._group(part) if isinstance(part, Group) else self._solid(part)
         return self.known[part]
+
+    def _solid(self, solid: Solid) -> tuple[str, str]:
+        """The product of a solid, in its colour."""
+        file, rgb = self.file, INKS[solid.layer].rgb
+        body = shell_solid(file, solid) if isinstance(solid, Shell) else plate_solid(file, solid)
+        parts = ",".join(real(value / 255.0, 6) for value in bytes.fromhex(rgb[1:]))
+        style = file.shared(f"COLOUR_RGB('',{parts})")
+        for outer in STYLES:
+            style = file.shared(outer.format(style))
+        self.styled.append(file.add(f"STYLED_ITEM('',({style}),{body})"))
+        shape = f"ADVANCED_BREP_SHAPE_REPRESENTATION('',({file.origin},{body}),{self.space})"
+        return self._defined(solid.name, shape)
 
     def _group(self, group: Group) -> tuple[str, str]:
         file = self.file
@@ -73,7 +76,7 @@ class _Products:
         for member in group.members:
             axis, ahead = POLE, (math.cos(member.turn), math.sin(member.turn), 0.0)
             if member.frame:
-                axis, ahead = member.frame.z, member.frame.x
+                ahead, _, axis = member.frame
             places.append(file.placement((*member.at, 0.0), axis, ahead))
         frames = listed(list(dict.fromkeys([file.origin, *places])))
         whole = self._defined(group.name, f"SHAPE_REPRESENTATION('',{frames},{self.space})")
@@ -102,12 +105,3 @@ class _Products:
         whole = file.add(f"PRODUCT_DEFINITION_SHAPE('','',{definition})")
         file.add(f"SHAPE_DEFINITION_REPRESENTATION({whole},{shown})")
         return definition, shown
-
-    def _style(self, body: str, rgb: str) -> None:
-        """Give a solid its colour."""
-        file = self.file
-        parts = ",".join(real(int(rgb[i : i + 2], 16) / 255.0, 6) for i in (1, 3, 5))
-        style = file.shared(f"COLOUR_RGB('',{parts})")
-        for outer in STYLES:
-            style = file.shared(outer.format(style))
-        self.styled.append(file.add(f"STYLED_ITEM('',({style}),{body})"))

@@ -36,7 +36,7 @@ def plate_solid(file: Entities, plate: Plate) -> str:
             upper.append((high, outside))
         else:
             own = pieces(with_material_left(shape, outside).segments)
-            corners = [_corner(file, plate, piece.start) for piece in own]
+            corners = [file.rise([(*piece.start, z) for z in levels], POLE) for piece in own]
             ends = pairwise([*corners, corners[0]])
             for piece, (start, end) in zip(own, ends, strict=True):
                 curves = [_curve(file, piece, z) for z in levels]
@@ -56,12 +56,6 @@ def plate_solid(file: Entities, plate: Plate) -> str:
         level = file.add(f"PLANE('',{file.placement((0.0, 0.0, z))})")
         faces.append(file.face(loops[k], level, k == 1))
     return file.closed_solid(faces)
-
-
-def _corner(file: Entities, plate: Plate, at: Point) -> tuple[str, str, str]:
-    """Write the lower and upper vertex of a corner, and the edge between them."""
-    low, high = (file.vertex((*at, z)) for z in (plate.low, plate.high))
-    return low, high, file.edge(low, high, file.line((*at, plate.low), POLE))
 
 
 def _curve(file: Entities, piece: Piece, z: float) -> str:
@@ -159,16 +153,14 @@ class _Edges:
         edges = []
         for k, radius in enumerate(self.radii):
             middle, across = _times(axis, radius * math.cos(angle)), radius * math.sin(angle)
-            circle = self.file.circle(middle, across, axis, arc.ahead)
+            circle = self.file.circle(middle, across, axis, arc.frame[0])
             edges.append(self.file.edge(start[k], end[k], circle, not _wide(arc)))
         self.sides[arc.key] = edges[0], edges[1], True
         return self.sides[arc.key]
 
     def _corner(self, at: Vector) -> tuple[str, str, str]:
         if at not in self.corners:
-            low, high = (self.file.vertex(_times(at, radius)) for radius in self.radii)
-            rise = self.file.edge(low, high, self.file.line(_times(at, self.radii[0]), at))
-            self.corners[at] = low, high, rise
+            self.corners[at] = self.file.rise([_times(at, radius) for radius in self.radii], at)
         return self.corners[at]
 
     def wall(self, arc: SphereArc, side: tuple[str, str, bool]) -> str:
@@ -179,10 +171,10 @@ class _Edges:
         # a cone's own normal points away from its axis, which may be on the material's side
         axis, angle = _cone(arc)
         if math.cos(angle) < FLAT:
-            frame = self.file.placement(ORIGIN, opposite(arc.axis), arc.ahead)
+            frame = self.file.placement(ORIGIN, opposite(arc.axis), arc.frame[0])
             return self.file.face([bound], self.file.add(f"PLANE('',{frame})"), True)
         height, radius = math.cos(angle) * self.radii[0], math.sin(angle) * self.radii[0]
-        frame = self.file.placement(_times(axis, height), axis, arc.ahead)
+        frame = self.file.placement(_times(axis, height), axis, arc.frame[0])
         # the angle is in radians, with 16 decimals
         cone = f"CONICAL_SURFACE('',{frame},{real(radius)},{real(angle, 16)})"
         return self.file.face([bound], self.file.add(cone), not _wide(arc))

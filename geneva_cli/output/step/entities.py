@@ -65,6 +65,11 @@ class Entities:
         """An edge between two vertices, on a curve that is written once."""
         return self.add(f"EDGE_CURVE('',{start},{end},{self.shared(curve)},{_flag(along)})")
 
+    def rise(self, ends: Sequence[Vector], along: Vector) -> tuple[str, str, str]:
+        """Vertices at two points, and the straight edge between them, which runs ``along``."""
+        low, high = map(self.vertex, ends)
+        return low, high, self.edge(low, high, self.line(ends[0], along))
+
     def loop(self, edges: Sequence[tuple[str, bool]]) -> str:
         """A loop of edges end to end, each with its orientation."""
         sides = [self.add(f"ORIENTED_EDGE('',*,*,{edge},{_flag(along)})") for edge, along in edges]
@@ -84,12 +89,9 @@ class Entities:
         at, axis, ahead = frame
         middles = [combined(axis, level, at, 1.0) for level in levels]
         starts = [combined(ahead, radius, middle, 1.0) for middle in middles]
-        ends = [self.vertex(start) for start in starts]
-        seam = self.edge(ends[0], ends[1], self.line(starts[0], axis))
-        low, high = (
-            self.edge(end, end, self.circle(middle, radius, axis, ahead))
-            for end, middle in zip(ends, middles, strict=True)
-        )
+        *ends, seam = self.rise(starts, axis)
+        circles = [self.circle(middle, radius, axis, ahead) for middle in middles]
+        low, high = map(self.edge, ends, ends, circles)
         around = self.loop([(low, outside), (seam, True), (high, not outside), (seam, False)])
         place = self.placement(middles[0], axis, ahead)
         surface = self.add(f"CYLINDRICAL_SURFACE('',{place},{real(radius)})")

@@ -31,14 +31,8 @@ class Bar:
 
 
 def _started(what: str, total: int) -> Any:
+    from rich import progress
     from rich.console import Console
-    from rich.progress import (
-        BarColumn,
-        MofNCompleteColumn,
-        Progress,
-        TextColumn,
-        TimeRemainingColumn,
-    )
 
     class Screen(Console):
         """The terminal, whose cursor stays: a run that is killed could not give it back."""
@@ -46,12 +40,12 @@ def _started(what: str, total: int) -> Any:
         def show_cursor(self, show: bool = True) -> bool:
             return False
 
-    shown = Progress(
-        BarColumn(30),
-        MofNCompleteColumn(),
-        TextColumn(f"{what},"),
-        TimeRemainingColumn(),
-        TextColumn("left"),
+    shown = progress.Progress(
+        progress.BarColumn(30),
+        progress.MofNCompleteColumn(),
+        progress.TextColumn(f"{what},"),
+        progress.TimeRemainingColumn(),
+        progress.TextColumn("left"),
         console=Screen(stderr=True),
         transient=True,
         auto_refresh=False,  # no thread, as processes are forked meanwhile

@@ -9,11 +9,8 @@ curves can be hobbed. With derivatives by the driver's angle, the curves are con
 Gears are drawn at input angle 0, up to their pitch curves. The driven gear is on the crank's axis.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from functools import partial
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -31,12 +28,10 @@ from geneva_cli.parts.assembly import gear_plane, same
 from geneva_cli.parts.links.link_plates import drawn_links
 from geneva_cli.parts.links.links import link_sizes
 from geneva_cli.parts.outlines.outlines import Outlines
+from geneva_cli.parts.parts import EdgedParts
 from geneva_cli.parts.shafts.arm_and_shafts import Shaft, bore_at, shaft_ends
 from geneva_cli.parts.shafts.bores import Bore, round_bore
 from geneva_cli.table import Table
-
-if TYPE_CHECKING:
-    from geneva_cli.parts.parts import EdgedParts
 
 NAMES = (
     *("input_deg", "crank_deg", "ratio", "driver_radius_mm", "driver_x_mm", "driver_y_mm"),
@@ -57,16 +52,12 @@ def gears_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) 
     listed as it is cut, so its angle runs against the gear's rotation.
     """
     gears = required_gears(mechanism)
-
-    def points(phi: Array) -> tuple[Array, Array]:
-        """Return the points (n, 2) at which driver and driven gear touch."""
-        _, _, _, _, *driver, _, x, y, _, _ = _columns(gears, phi)
-        return np.column_stack(driver), np.column_stack((x, y))
-
     # one turn; the curves' frames are at input angle 0
     phi = np.linspace(-np.pi, np.pi, samples or 3)
     if samples is None:
-        phi = chords.nodes(points, (-np.pi, 0.0, np.pi), tolerance_mm)
+        curves = partial(pitch_curve, gears, 1.0, True), partial(pitch_curve, gears, 1.0, False)
+        ends = -np.pi, 0.0, np.pi
+        phi = chords.nodes(lambda at: [curve(at)[0] for curve in curves], ends, tolerance_mm)
     return Table(NAMES, _columns(gears, phi))
 
 
@@ -158,8 +149,7 @@ def gear_pair(
     if pair is None:
         return ()
     write, span = parts.writer(FINE["cubics"] * pair.distance_mm), gear_span(mechanism, drawn)
-    turned = partial(pitch_curve, pair, mechanism.gear_shaft.sense)
-    curves = partial(turned, False), partial(turned, True)
+    curves = [partial(pitch_curve, pair, mechanism.gear_shaft.sense, own) for own in (False, True)]
     (axis, wide), (other, own), bored = _shafts(mechanism, drawn, on_crank)
     bores = (axis, wide, "arm_bore_mm"), (other, own if bored else Bore(0.0), "link_bore_mm")
     rows, members = zip(GEARS, curves, pitch_radii(pair), bores, strict=True), []

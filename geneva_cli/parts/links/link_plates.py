@@ -56,7 +56,7 @@ def drawn_links(mechanism: Mechanism, parts: Outlines | None = None) -> Links:
         # the shaft of wheel or crank is as wide as their own bores
         on_crank, on_wheel = (same(axis.at, at, L) for at in ((L, 0.0), ORIGIN))
         of_wheel = parts.sizes.wheel_bore if on_wheel and parts else 0.0
-        known = (sizes.crank_shaft or 0.0) if on_crank else of_wheel
+        known = sizes.crank_shaft if on_crank else of_wheel
         axes.append(_with_shaft(axis, bars, links, sizes, known, mechanism))
     gears, bolts = [], None
     for link in (one for one in links if one.radius_mm):
@@ -118,7 +118,7 @@ def _with_shaft(
     limits += [g.radius_mm for g in links if g.radius_mm and g.name in axis.names]
     own = [radius for limit in limits if (radius := sizes.bore(limit, L)) > 0.0]
     bore = bore_at(mechanism, axis.at, known or min(own, default=bore_radius(L / 20.0)))
-    if not known and sizes.shaft is not None:  # of the spec: a check reports the wall that is left
+    if sizes.shaft and not known:  # of the spec: a check reports the wall that is left
         return axis._replace(bore=bore)
     least = bore.reach + sizes.wall
     tight = frozenset(name for name, limit in distances.items() if least > limit)

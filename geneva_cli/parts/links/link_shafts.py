@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.geometry.plates import Member, Part, Plate
+from geneva_cli.geometry.plates import Member, Plate
 from geneva_cli.geometry.shapes import Circle, Contour
 from geneva_cli.motion.pivots import Joint, Link
 from geneva_cli.numerics.arrays import Array, value_or
@@ -30,31 +30,26 @@ from geneva_cli.parts.sizes import Span
 
 def carried(bars: Links, axis: LinkAxis, others: Iterable[Member], L: float) -> list[Span]:
     """Return the faces of links, gears and ``others`` that turn with a link, on an axis."""
-    found = [plate for plate in bars.plates if plate.name in axis.names]
-    names = {*axis.names}
+    turning, names = [plate for plate in bars.plates if plate.name in axis.names], {*axis.names}
     for member in others:
         if any(same(hole.centre, axis.at, L) for hole in placed_holes(member)):
-            assert isinstance(member.part, Plate)
-            found.append(member.part)
+            turning.append(member.plate)
             names.discard(member.part.name)
-    for gear in bars.gears:
-        assert isinstance(gear.part, Plate)
-        if gear.part.name in names and gear.part.bore:
-            found.append(gear.part)
-    return [(plate.low, plate.high) for plate in found]
+    gears = (gear.plate for gear in bars.gears if gear.part.name in names)
+    turning += (gear for gear in gears if gear.bore)
+    return [(plate.low, plate.high) for plate in turning]
 
 
 def outside_links(shafts: Iterable[Member], bars: Links, L: float) -> Iterator[Member]:
     """Yield the shafts without the lengths that lie in links of one piece with them."""
     for member in shafts:
-        assert isinstance(member.part, Plate)
-        spans = [(member.part.low, member.part.high)]
+        spans = [(member.plate.low, member.plate.high)]
         for plate in bars.one_piece(member.at, L):
             below = [(low, min(high, plate.low)) for low, high in spans]
             above = [(max(low, plate.high), high) for low, high in spans]
             spans = [(low, high) for low, high in below + above if high - low > SAME_LENGTH * L]
         for low, high in spans:
-            yield member._replace(part=member.part._replace(low=low, high=high))
+            yield member._replace(part=member.plate._replace(low=low, high=high))
 
 
 class Meeting(NamedTuple):
@@ -90,7 +85,7 @@ def planes(
     links, met = [link for link in every if not link.radius_mm], list[Meeting]()
     if not mechanism.first_wheel:
         for gear, link in zip(bars.gears, (one for one in every if one.radius_mm), strict=True):
-            met += _to_gear(gear.part, link, on_wheel, turn, near)
+            met += _to_gear(gear.plate, link, on_wheel, turn, near)
     shaft, overlaps = _crank_shaft(parts, links, bars, turn)
     low = value_or(mechanism.spec.size.crank_shaft_low_mm, math.inf)  # to which the spec extends it
     rounds = [*on_wheel, *_posts(parts, bars, spacers), shaft._replace(low=min(shaft.low, low))]
@@ -123,11 +118,11 @@ def _crank_shaft(
 ) -> tuple[Round, Iterator[Meeting]]:
     """Return the crank's shaft between the parts on it, and its overlaps with links below them."""
     L, sizes, machine = parts.assembly.L, bars.sizes, parts.assembly.full
-    on_axis, lows = list[str](), list[float]()  # of what it carries
+    on_axis = dict[str, float]()  # the lower faces of the links that it carries
     for link in links:
         if link.kinds[0] is Joint.SHAFT and np.abs(places(link)[0] - L).max() < SAME_LENGTH * L:
-            on_axis.append(link.name)
-            lows.append(sizes.span(link.plane)[0])
+            on_axis[link.name] = sizes.span(link.plane)[0]
+    lows = [*on_axis.values()]
     if machine.spec.gears and machine.gear_shaft == machine.crank_shaft:
         lows.append(sizes.span(gear_plane(machine))[0])
     lows += [sizes.span(1)[0]] if parts.has_arm else []
@@ -141,10 +136,9 @@ def _crank_shaft(
 
 
 def _to_gear(
-    plate: Part, link: Link, rounds: Iterable[Round], turn: Array, near: float
+    plate: Plate, link: Link, rounds: Iterable[Round], turn: Array, near: float
 ) -> Iterator[Meeting]:
     """Yield the gaps of a gear to the wheel's hub and shaft."""
-    assert isinstance(plate, Plate)
     away, own = np.abs(places(link)[0]), plate.bore or Bore(0.0)
     on_shaft, outline = bool(away.max() < near), plate.outline
     # a shaft fills the gear's bore, a hub does not
@@ -170,9 +164,8 @@ def _posts(parts: Outlines, bars: Links, spacers: Iterable[Member]) -> Iterator[
             name = f"the pivot of {axis.names[0]}"
             yield Round(name, *below, complex(*axis.at), axis.bore.radius)
     for one in spacers:
-        assert isinstance(one.part, Plate) and isinstance(one.part.outline, Circle)
-        radius = one.part.outline.radius
-        yield Round(f"the {one.part.name}", *below, complex(*one.at), radius)
+        assert isinstance(one.plate.outline, Circle)
+        yield Round(f"the {one.part.name}", *below, complex(*one.at), one.plate.outline.radius)
 
 
 def _on_wheel(parts: Outlines) -> list[Round]:
@@ -191,10 +184,7 @@ def _meeting(bars: Links, link: Link, one: Round, turn: Array) -> Meeting:
     outline = next(plate.outline for plate in bars.plates if plate.name == link.name)
     assert isinstance(outline, Contour)
     joints = places(link)
-    ahead = joints[1] - joints[0]
-    size = np.abs(ahead)
-    unit = np.where(size > 0.0, ahead / np.where(size > 0.0, size, 1.0), 1.0)
-    own = (one.path - joints[0]) / unit
+    own = (one.path - joints[0]) * np.exp(-1j * np.angle(joints[1] - joints[0]))
     gaps = Polyarc([outline]).signed(np.column_stack((own.real, own.imag))) - one.radius
     least = int(np.argmin(gaps))
     return Meeting(float(gaps[least]), float(turn[least]), link.name, one.name)

@@ -33,8 +33,8 @@ class LinkSizes(NamedTuple):
     roller_pin: float  # radius of its hole
     eye: float  # radius of the plate around a pin
     roller_eye: float
-    shaft: float | None  # of the spec, or as a load needs it, for shafts that carry only links
-    crank_shaft: float | None  # of the spec, or of the arm on it
+    shaft: float  # of the spec, or as a load needs it, for shafts that carry only links; or 0
+    crank_shaft: float  # of the spec, or of the arm on it; or 0
     thickness: float
     arm: float  # thickness of arm or link in the first plane
     gap: float  # from the wheel to the first plane
@@ -58,10 +58,8 @@ class LinkSizes(NamedTuple):
 
     def bore(self, space: float, L: float) -> float:
         """Return the radius of a shaft ``space`` mm from the nearest hole; 0 if it is too thin."""
-        if self.shaft is not None:
-            return self.shaft
         radius = bore_radius(min(L / 20.0, 0.35 * space))  # leaves most of the space as a wall
-        return radius if radius >= 0.01 * L else 0.0
+        return self.shaft or (radius if radius >= 0.01 * L else 0.0)
 
     def hub(self, bore: Bore) -> float:
         """Return the radius of a link's plate around a bore, or on a shaft's end."""
@@ -106,7 +104,7 @@ class Links(NamedTuple):
     @property
     def plates(self) -> list[Plate]:
         """The plates to cut, each in its own frame."""
-        return [one.part for one in self.cut if isinstance(one.part, Plate)]
+        return [one.plate for one in self.cut]
 
     def shaft(self, at: Point, L: float) -> float:
         """Return the radius of the shaft that carries links at a point; 0 where there is none."""
@@ -120,8 +118,7 @@ class Links(NamedTuple):
 
 def placed_holes(member: Member) -> Iterator[Circle]:
     """Yield the round holes of a plate at their positions at input angle 0."""
-    assert isinstance(member.part, Plate)
-    for hole in member.part.holes:
+    for hole in member.plate.holes:
         if isinstance(hole, Circle):
             yield placed(hole, member.at, member.turn)
 
@@ -130,14 +127,14 @@ def link_sizes(mechanism: Mechanism, links: Iterable[Link], parts: Outlines | No
     """Return the sizes of links, whose joints are known at many input angles."""
     spec, L = mechanism.spec, mechanism.center_distance_mm
     size, bars = spec.size, [link for link in links if not link.radius_mm]
-    drawn = parts.sizes if parts else None
-    wall, thick = wall_min(size, L), drawn_thicknesses(size, L)
+    wall, (_, _, arm, thickness) = wall_min(size, L), drawn_thicknesses(size, L)
     stands = pin_radius(size, mechanism.roller_radius_mm)
-    thickness, arm = thick.link, thick.arm
-    if drawn:
-        stands = drawn.first_pin or drawn.pin
+    shaft, on_crank = half_or(size.link_bore_mm, 0.0), half_or(spec.shaft.crank_diameter_mm, 0.0)
+    if parts:
+        drawn = parts.sizes
+        stands, shaft = drawn.first_pin or drawn.pin, drawn.first_shaft or shaft
         thickness, arm = drawn.link_thickness, drawn.arm_thickness
-    own = None if size.link_bore_mm is None else 0.5 * size.link_bore_mm
+        on_crank = (drawn.arm_bore if parts.has_arm else drawn.crank_bore) or on_crank
     roller, loose = pin_hole(size, stands) if stands else 0.0, 0.5 * size.allowances.shaft_fit_mm
     # a fifth of the distance to the next joint leaves eyes and a gap between
     near = list[float]()
@@ -147,16 +144,11 @@ def link_sizes(mechanism: Mechanism, links: Iterable[Link], parts: Outlines | No
                 near.append(float(np.abs(p - q).min()))
     pin = half_or(size.link_pin_mm, rounded_radius(min(L / 40.0, 0.2 * min(near, default=L))))
     eye = half_or(size.link_width_mm, eye_about(pin + loose, wall))
-    crank_mm = spec.shaft.crank_diameter_mm
-    crank_shaft = None if crank_mm is None else 0.5 * crank_mm
-    if parts and (parts.has_arm or parts.sizes.crank_bore):
-        crank_shaft = parts.sizes.arm_bore if parts.has_arm else parts.sizes.crank_bore
     roller_eye = eye_about(roller, wall, _eye_limit(mechanism, bars)) if roller else eye
     pins = pin, stands, roller, eye, roller_eye
-    shaft = drawn.first_shaft if drawn and drawn.first_shaft else own
     planes = thickness, arm if spec.drive.ONE_ARM else thickness
     between = size.allowances.pin_gap_mm, size.washer_mm, loose
-    return LinkSizes(wall, *pins, shaft, crank_shaft, *planes, *between)
+    return LinkSizes(wall, *pins, shaft, on_crank, *planes, *between)
 
 
 def places(link: Link) -> list[Array]:

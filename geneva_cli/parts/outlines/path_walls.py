@@ -44,7 +44,7 @@ class Wall(NamedTuple):
 def walls(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> list[Wall]:
     """Return every wall of the roller's path, with its free samples."""
     w, L, back = sizes.half_width, assembly.L, retraces(engagement)
-    t = nodes(assembly.mechanism, FINE * L, fewest=False)
+    t = nodes(assembly.mechanism, FINE * L, few=False)
     near = w - 1e-6 * L  # a smaller overlap does not count as covered
     circles = [_circle(assembly, sizes, engagement, end) for end in (-1.0, 1.0)]
     path = np.concatenate([circles[0][1][::-1], _pitch(L, engagement, t), circles[1][1]])

@@ -188,9 +188,7 @@ def bolts(parts: Outlines) -> list[Circle]:
     wall = sizes.wall_min + 2.0 * size.edge_mm
     holes = [Circle("BORE", ORIGIN, bore_of(size, "crank", sizes.arm_bore).reach)]
     holes += circles("BORE", roller_centres(assembly), pin_hole(size, sizes.pin))
-    space = math.inf
-    if assembly.sign > 0.0:
-        space = assembly.L - max(sizes.wheel_bore, sizes.wheel_hub)
+    space = sizes.passing_eye(assembly.L)
     for count in (2, 1):
         screwed, reach = _bolts(parts, count), 0.0
         for one in screwed:
@@ -210,9 +208,8 @@ def _bolts(parts: Outlines, count: int) -> list[Circle]:
     if not directions:
         return []
     # 400 radii: their spacing is far below a wall
-    radii, circle = np.linspace(0.0, sizes.lock, 400), size.lock_bolt_circle_mm
-    if circle is not None:
-        radii = np.array([0.5 * circle])
+    circle = size.lock_bolt_circle_mm
+    radii = np.linspace(0.0, sizes.lock, 400) if circle is None else np.array([0.5 * circle])
     inner = sizes.arm_bore if parts.has_arm else sizes.crank_bore
     edge, half, places = Polyarc(parts.crank), math.inf, list[Point]()
     for turns in directions:

@@ -16,14 +16,14 @@ from typing import NamedTuple, TypeAlias
 
 from geneva_cli.errors import GenevaError, refuse_size
 from geneva_cli.geometry import shapes
-from geneva_cli.geometry.shapes import ORIGIN, Circle, Line, Shape
+from geneva_cli.geometry.shapes import ORIGIN, Circle, Line, Segment, Shape
 from geneva_cli.motion.pivots import Dimension
 from geneva_cli.numerics.angles import of_each
 from geneva_cli.numerics.arrays import half_or, value_or
 from geneva_cli.numerics.tolerances import ROUNDED
 from geneva_cli.spec.defaults import ParallelKey, key
 from geneva_cli.spec.tables import Size
-from geneva_cli.spec.written import length
+from geneva_cli.table import in_decimals as length
 
 
 class Bore(NamedTuple):
@@ -86,22 +86,24 @@ class Bore(NamedTuple):
         it is the section of the shaft.
         """
         radius = self.radius if shaft else self.radius + self.loose
-        if self.key:
-            half = math.asin(0.5 * self.key.width / radius)
-            first, second = _arcs(radius, direction, half)
-            far = radius - self.key.in_shaft if shaft else self.reach
-            low = _turned(far, -0.5 * self.key.width, direction)
-            high = _turned(far, 0.5 * self.key.width, direction)
-            top, sides = Line(low, high), (Line(high, first.start), Line(second.end, low))
-            return shapes.closed(layer, [top, sides[0], first, second, sides[1]])
+        if self.is_plain:
+            return Circle(layer, ORIGIN, radius)
         if self.form == "hex":
-            reach, sixth = radius / math.cos(math.pi / 6.0), math.pi / 6.0
-            turns = [direction + (2 * k - 1) * sixth for k in range(6)]
-            return shapes.polygon(layer, [_turned(reach, 0.0, turn) for turn in turns])
-        if self.form == "D":
-            first, second = _arcs(radius, direction, math.acos(1.0 - self.flat / radius))
-            return shapes.closed(layer, [Line(second.end, first.start), first, second])
-        return Circle(layer, ORIGIN, radius)
+            reach = self.around if shaft else self.reach
+            turns = [(k - 0.5) * math.pi / 3.0 for k in range(6)]
+            outline = shapes.polygon(layer, [shapes.polar(ORIGIN, reach, turn) for turn in turns])
+            return shapes.placed(outline, turn=direction)
+        wide = self.key.width if self.key else 0.0
+        half = math.asin(0.5 * wide / radius) if wide else math.acos(1.0 - self.flat / radius)
+        first = shapes.about(ORIGIN, radius, half, math.pi - half)
+        second = shapes.about(ORIGIN, radius, math.pi, math.pi - half)
+        pieces: list[Segment] = [Line(second.end, first.start), first, second]
+        if self.key:
+            far = radius - self.key.in_shaft if shaft else self.reach
+            low, high = (far, -0.5 * wide), (far, 0.5 * wide)
+            pieces = [Line(low, high), Line(high, first.start), first, second]
+            pieces.append(Line(second.end, low))
+        return shapes.placed(shapes.closed(layer, pieces), turn=direction)
 
     def hole(self, turn: float = 0.0) -> Shape:
         """Return the hole about the origin of a part that stands turned by an angle."""
@@ -160,18 +162,6 @@ def reach_or_bore(size: Size, part: str, bore: float) -> float:
             return (radius,)
 
     return of_each(reach, bore)[0]
-
-
-def _turned(x: float, y: float, direction: float) -> shapes.Point:
-    c, s = math.cos(direction), math.sin(direction)
-    return x * c - y * s, x * s + y * c
-
-
-def _arcs(radius: float, direction: float, half: float) -> tuple[shapes.Arc, shapes.Arc]:
-    """Return two arcs round the axis, from ``half`` after a direction to ``half`` before it."""
-    sweep = math.pi - half
-    first = shapes.about(ORIGIN, radius, direction + half, sweep)
-    return first, shapes.about(ORIGIN, radius, direction + half + sweep, sweep)
 
 
 class Screw(NamedTuple):

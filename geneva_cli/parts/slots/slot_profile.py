@@ -7,7 +7,7 @@ import numpy as np
 from geneva_cli.geometry import chords
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.path_and_slot import WALLED, Pitch, pitch, pitch_at_retrace, retraces
+from geneva_cli.motion.path_and_slot import WALLED, Pitch, pitch, retraces
 from geneva_cli.numerics.arrays import Array, array
 from geneva_cli.numerics.roots import boundary_by_sections
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
@@ -71,22 +71,22 @@ def pitch_at(engagement: Engagement, input_deg: Array) -> Pitch:
         return pitch(engagement, input_deg)
     # any regular place stands in for mid-motion
     at = pitch(engagement, np.where(middle, 0.5 * engagement.entry_deg, input_deg))
-    columns = zip(at, pitch_at_retrace(engagement), strict=True)
+    columns = zip(at, pitch(engagement, 0.0, 2), strict=True)
     return Pitch(*(np.where(middle, limit, array(value)) for value, limit in columns))
 
 
-def nodes(mechanism: Mechanism, tolerance_mm: float, fewest: bool = True) -> Array:
+def nodes(mechanism: Mechanism, tolerance_mm: float, few: bool = True) -> Array:
     """Return input angles to sample the slot at, so that no chord misses a curve by more.
 
-    Cusps of the pitch curve and of undercut flanks are among them. Without ``fewest`` the first
-    sufficient number is used.
+    Cusps of the pitch curve and of undercut flanks are among them. Without ``few`` there are
+    up to ten per cent more, computed in a third of the time.
     """
     engagement = mechanism.engagements[0].through
     cusps = _flank_cusps(mechanism)
     ends = [engagement.entry_deg, *[x for x in cusps if x < 0.0], 0.0]
     if not engagement.mirrored:
         ends += [*[x for x in cusps if x > 0.0], engagement.exit_deg]
-    angles = chords.nodes(partial(flanks, mechanism), ends, tolerance_mm, fewest)
+    angles = chords.nodes(partial(flanks, mechanism), ends, tolerance_mm, few)
     return np.concatenate((angles[:-1], -angles[::-1])) if engagement.mirrored else angles
 
 

@@ -15,7 +15,7 @@ from geneva_cli.loads.cycle import Cycle
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import AxisPlace, turned_points
 from geneva_cli.numerics.angles import distinct
-from geneva_cli.numerics.arrays import Array
+from geneva_cli.numerics.arrays import Array, within_half_turn
 from geneva_cli.output.scene import Place, Push, Track
 from geneva_cli.parts.assembly import assembly, links_at
 
@@ -69,8 +69,8 @@ class MachineTurn:
 
         def angle(x: Array) -> Array:
             at = (x - one.mid + 180.0) % 360.0 - 180.0
-            ahead = (one.engagement.own_deg(at) - at + 180.0) % 360.0 - 180.0
-            return sense * np.radians(x - one.mid + ahead)
+            ahead = within_half_turn(np.radians(one.engagement.own_deg(at) - at))
+            return sense * (np.radians(x - one.mid) + ahead)
 
         return self.track(angle, ANGLE_ERROR, sense * math.tau * turns)
 
@@ -87,10 +87,9 @@ class MachineTurn:
             even = self.ahead + rate * (x - one.mid)
             if sense:
                 at = self.assembly.from_mid(x, one.mid)
-                return turned + (even + rate * (one.engagement.own_deg(at) - at))
+                return turned + even + rate * (one.engagement.own_deg(at) - at)
             u, v = (self.centre(0, x) - (self.L, 0.0)).T
-            off: Array = (np.arctan2(v, u) - even + math.pi) % math.tau - math.pi
-            return turned + (even + off)
+            return turned + even + within_half_turn(np.arctan2(v, u) - even)
 
         return self.track(angle, ANGLE_ERROR, gain)
 
@@ -115,10 +114,8 @@ class MachineTurn:
 
     def _place(self, place: Callable[[Array], Array]) -> Place:
         error = 2e-6 * self.L  # of joints and rollers: less than a screen shows
-        return (
-            self.track(lambda x: place(x)[:, 0], error),
-            self.track(lambda x: place(x)[:, 1], error),
-        )
+        x = self.track(lambda at: place(at)[:, 0], error)
+        return x, self.track(lambda at: place(at)[:, 1], error)
 
     def track(self, f: Callable[[Array], Array], error: float, gain: float = 0.0) -> Track:
         """The track of a function over the whole turn, within ``error``."""

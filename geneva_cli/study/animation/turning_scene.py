@@ -8,8 +8,9 @@ import numpy as np
 
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.plates import Plate
-from geneva_cli.geometry.shapes import ORIGIN, Circle, Shape, at, bounds, placed, polar, polygon
+from geneva_cli.geometry.shapes import ORIGIN, Circle, Shape, as_contour, bounds, placed, polygon
 from geneva_cli.geometry.sheet import line
 from geneva_cli.motion.drive import Gears
 from geneva_cli.motion.machine_spec import Spec
@@ -44,7 +45,7 @@ def scene(design: Design) -> page.Scene:
     if mechanism.frame:  # the carrier makes whole turns
         x, y = centre = mechanism.center_distance_mm, 0.0
         frame = page.Body("frame", (), centre, turn.steady(mechanism.frame, 0.0))
-        reach = max(math.dist(b.centre, centre) + max(map(_reach, b.shapes)) for b in parts)
+        reach = max(math.dist(b.centre, centre) + _reach(b.shapes) for b in parts)
         box = x - reach, y - reach, x + reach, y + reach
     pauses = []
     if spec.drive.stop_s:  # in the middle of each dwell, also of one without length
@@ -191,7 +192,7 @@ def _box(
     turn_deg: float,
 ) -> page.Box:
     """The bounding box of bodies at any angle, and of joints, rollers and links in the turn."""
-    circles = [(*body.centre, max(map(_reach, body.shapes))) for body in parts]
+    circles = [(*body.centre, _reach(body.shapes)) for body in parts]
     places = [(place, bar.radius) for bar in bars for place in bar.joints]
     places += [(place, radius) for place in rollers]
     plates = [(bar, plate) for bar in bars for plate in bar.plates]
@@ -205,12 +206,9 @@ def _box(
     return min(x - r), min(y - r), max(x + r), max(y + r)
 
 
-def _reach(shape: Shape) -> float:
-    """The greatest distance of a shape from its own origin, approximately."""
-    if isinstance(shape, Circle):
-        return math.hypot(*shape.centre) + shape.radius
-    ends = (at(segment, t) for segment in shape.segments for t in (0.0, 0.25, 0.5, 0.75, 1.0))
-    return max(math.hypot(*point) for point in ends)
+def _reach(shapes: tuple[Shape, ...]) -> float:
+    """The greatest distance of shapes from their own origin."""
+    return float(Polyarc(map(as_contour, shapes)).farthest(np.zeros((1, 2))).max())
 
 
 class WheelScene:
@@ -224,9 +222,8 @@ class WheelScene:
         reach = np.hypot(*pins.T)
         least, most = float(reach.min()), float(reach.max())
         if not shapes:  # a disc with a line along each slot
-            turns = (math.tau * k / z for k in range(z))
-            ends = ((polar(ORIGIN, least, a), polar(ORIGIN, most, a)) for a in turns)
-            lines = (line("WHEEL", *both) for both in ends)
+            one_slot = line("WHEEL", (least, 0.0), (most, 0.0))
+            lines = (placed(one_slot, turn=math.tau * k / z) for k in range(z))
             shapes, dot = (Circle("WHEEL", ORIGIN, 1.02 * most), *lines), 1.01 * least
         else:
             dot = 0.78 * least

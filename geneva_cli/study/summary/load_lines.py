@@ -127,9 +127,8 @@ def motor_line(design: Design) -> SummaryLine:
     geared = f", gear ratio {value_text(keys.ratio)}"
     if keys.gear_ratio is None and 2.0 * motor.rpm <= four_poles_rpm:  # a slow input
         ratio = value_text(four_poles_rpm / motor.rpm, digits=3)
-        geared = (
-            f" behind its reducer, as gear ratio {ratio} from {value_text(four_poles_rpm, 'rpm')}"
-        )
+        fast = value_text(four_poles_rpm, "rpm")
+        geared = f" behind its reducer, as gear ratio {ratio} from {fast}"
     torque = f"{value_text(motor.input_torque_Nm, 'N m')} on the input by the cam-indexer formula"
     note = f"{needed}; {torque}; {source} (geneva explain motor)"
     return SummaryLine("motor", f"{power}, {value_text(motor.rpm, 'rpm')}{geared}", note)

@@ -126,10 +126,8 @@ def _entry_velocity(name: str, mechanism: Mechanism) -> Check:
     limit, jumps = entry_velocity_limit(mechanism), greatest_jumps(own)
     sizes = [abs(jump) for jump in jumps if jump is not None]
     if len(sizes) < len(jumps):
-        why = (
-            "the roller's centre does not cross the axis of the slot at rest inside the rim: it "
-            "meets the wheel beside its slot, or misses it"
-        )
+        why = "the roller's centre does not cross the axis of the slot at rest inside the rim: it "
+        why += "meets the wheel beside its slot, or misses it"
         return unknown(name, why, "at most", limit, True)
     end = own[0].entry_deg if sizes[0] >= sizes[1] else own[0].exit_deg
     at_deg = mechanism.shown_deg(own[0].mid_deg + end) if own[0].built else None
@@ -169,27 +167,24 @@ def turning(names: Collection[str], parts: Parts) -> Iterator[Check]:
         if gap is not None:
             mm = 0.0 if abs(gap.mm) <= touch else gap.mm
             yield compared(name, mm, "at least", 0.0, gap.at_deg, touch)
-    plays = {f"motion_play_{unit}": (turn.motion, motion_play_max(parts))}
+    # values with their places, and limits; the offset is that from the slot's middle, beyond its
+    # clearance, of a roller that first touches: not 0 where the mouth does not reach it
+    rows = dict[str, tuple[tuple[float, float], float]]()
+    rows[f"motion_play_{unit}"] = turn.motion, motion_play_max(parts)
+    rows["hand_over_offset_mm"] = turn.contact, 0.0
     if parts.locked:
         # the play with which the roller would just meet the mouth of its slot
         sizes, moves = parts.sizes, parts.assembly.plane_motion
         finds = math.degrees(moves.half_span(sizes.half_width, sizes.rim))
-        plays[f"dwell_play_{unit}"] = turn.dwell, finds
-        plays[f"hand_over_play_{unit}"] = turn.hand_over, finds
-    for name in names:
-        if name in plays:
-            play, limit = plays[name]
-            value, at_deg = output.from_deg(play.deg), play.at_deg if play.deg else None
-            yield compared(name, value, "at most", output.from_deg(limit), at_deg)
-        elif name == "hand_over_pressure_deg" and parts.locked:
-            # at which the roller meets a wheel that has turned through that play
-            push, slips = turn.push, slips_deg(machine.spec.load.friction)
-            yield compared(name, push.deg, "at most", slips, push.at_deg if push.deg else None)
-        elif name == "hand_over_offset_mm":
-            # from the slot's middle, beyond its clearance, of a roller that first touches: not 0
-            # where the mouth does not reach the roller at entry or exit
-            offset, at_deg = turn.contact
-            yield compared(name, offset, "at most", 0.0, at_deg if offset else None)
+        rows[f"dwell_play_{unit}"] = turn.dwell, finds
+        rows[f"hand_over_play_{unit}"] = turn.hand_over, finds
+        # at which the roller meets a wheel that has turned through that play
+        rows["hand_over_pressure_deg"] = turn.push, slips_deg(machine.spec.load.friction)
+    for name in filter(rows.__contains__, names):
+        (value, at_deg), limit = rows[name]
+        if "_play_" in name:
+            value, limit = output.from_deg(value), output.from_deg(limit)
+        yield compared(name, value, "at most", limit, at_deg if value else None)
 
 
 def within_tolerances(names: Collection[str], parts: Parts) -> Iterator[Check]:
@@ -222,13 +217,12 @@ def within_tolerances(names: Collection[str], parts: Parts) -> Iterator[Check]:
             yield compared("tolerance_lock_mm", own.lock_clearance_mm, "at least", lock_mm)
 
 
-def pushed_round(names: Collection[str], parts: Parts) -> list[Check]:
+def pushed_round(names: Collection[str], parts: Parts) -> Iterator[Check]:
     """Whether parts turn that do not follow the formulas, and how hard they are struck."""
     try:
-        rows: list[Check] = load_extra("outline", "as_built")(parts.mechanism)
+        yield from load_extra("outline", "as_built")(parts.mechanism)
     except GenevaError:
-        return [unknown("full_turn", parts.mechanism.no_turn)]
-    return rows
+        yield unknown("full_turn", parts.mechanism.no_turn)
 
 
 def proof(names: Collection[str], parts: Parts, to_mm: float | None = None) -> Iterator[Check]:
@@ -253,11 +247,9 @@ def proof(names: Collection[str], parts: Parts, to_mm: float | None = None) -> I
         return
     start, end, known, least = found.open
     bound = "no bound is known" if least <= -0.5 * UNKNOWN else f"at least {least:.4g} mm"
-    why = (
-        f"sampled collision check; the proof is open from {start:.9g} to {end:.9g}° between "
-        f"{found.between}, after {found.intervals:,} intervals. There the gap is {known:.4g} mm in "
-        f"the middle and {bound} throughout"
-    )
+    why = f"sampled collision check; the proof is open from {start:.9g} to {end:.9g}° between "
+    why += f"{found.between}, after {found.intervals:,} intervals. There the gap is {known:.4g} mm "
+    why += f"in the middle and {bound} throughout"
     check = unknown(name, why, "at least", -to_mm)
     if known < -max(to_mm, parts.contact):
         check = check._replace(value=known, at_deg=0.5 * (start + end), passes=False)

@@ -8,15 +8,15 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.geometry.plates import least_wall, plate_wall
-from geneva_cli.geometry.shapes import Arc, Circle, Line, Segment, backwards, closed, placed
+from geneva_cli.geometry.plates import plate_wall
+from geneva_cli.geometry.shapes import Arc, Line, Segment, backwards, closed, placed
 from geneva_cli.loads.load_case import farthest_mm
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.path_and_slot import opposites
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.outlines.crank_outline import is_whole
-from geneva_cli.parts.outlines.outlines import Outlines, wheel_holes, wheel_hub
+from geneva_cli.parts.outlines.outlines import Outlines, wheel_hub, wheel_plate
 from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.shafts.arm_and_shafts import crank_hub
 from geneva_cli.parts.shafts.arm_and_shafts import walls as arm_walls
@@ -48,8 +48,10 @@ def walls(names: Collection[str], parts: FlatParts) -> Iterator[Check]:
     if size.outer:  # of an internal wheel, outside slots or recesses
         deepest = max(size.slot_end, assembly.L + size.recess if size.lock else 0.0)
         yield compared("outer_wall_mm", size.outer - deepest, "at least", least)
+    # around the bore with its keyway and around the dial's bolts
     if (has_shape(spec.size, "wheel") or spec.size.dial_bolts) and "dial_wall_mm" in names:
-        yield compared("dial_wall_mm", _dial_wall(outlines), "at least", least)
+        wheel = wheel_plate(assembly, size, outlines.wheel)
+        yield compared("dial_wall_mm", plate_wall(wheel), "at least", least)
     # to the bottom of the locking disc's relief, and around the bore in a drawn hub
     if size.crank_bore and outlines.crank and is_whole(assembly, size):
         wall = outlines.relief_depth - size.crank_bore - around_shaft
@@ -80,22 +82,10 @@ def _between_slots(outlines: Outlines) -> float:
     return near
 
 
-def _dial_wall(outlines: Outlines) -> float:
-    """The least wall around the bore with its keyway and around the dial's bolts."""
-    inside = outlines.assembly.sign < 0.0  # the contour is that of the opening
-    holes = wheel_holes(outlines.assembly, outlines.sizes)
-    least = least_wall(holes, [backwards(outlines.wheel) if inside else outlines.wheel])
-    for hole in holes if inside else ():
-        assert isinstance(hole, Circle)  # an internal wheel has no bore
-        x, y = hole.centre
-        least = min(least, outlines.sizes.outer - (x * x + y * y) ** 0.5 - hole.radius)
-    return least
-
-
 def clearances(names: Collection[str], parts: FlatParts) -> Iterator[Check]:
     """Gaps at shafts and hubs, and what is checked of arm and links if the spec sizes them."""
     outlines, size = parts.outlines, vars(parts.mechanism.spec.size)
-    assembly, sizes = outlines.assembly, outlines.sizes
+    assembly, sizes, least = outlines.assembly, outlines.sizes, outlines.sizes.wall_min
     crank, wheel = parts.axle_radius("crank"), parts.axle_radius("wheel")
     if crank:
         # An internal wheel's horns sweep over the crank's axis, so there is no clearance at all.
@@ -119,20 +109,14 @@ def clearances(names: Collection[str], parts: FlatParts) -> Iterator[Check]:
     shaped = has_shape(parts.mechanism.spec.size, "crank")
     if shaped or any(map(size.get, arm)):
         yield from measured(
-            "arm_wall_mm",
-            sizes.wall_min,
-            lambda: arm_walls(parts.arm, outlines) if parts.arm else None,
+            "arm_wall_mm", least, lambda: parts.arm and arm_walls(parts.arm, outlines)
         )
         if assembly.sign > 0.0:  # the arm's end passes below the wheel
-            yield from measured(
-                "arm_to_hub_mm", 0.0, lambda: parts.arm.hub_gap if parts.arm else None
-            )
+            yield from measured("arm_to_hub_mm", 0.0, lambda: parts.arm and parts.arm.hub_gap)
     links = "link_pin_mm", "link_bore_mm", "link_width_mm", "press_fit_mm", "pin_mm"
     if any(map(size.get, links)):
         yield from measured(
-            "link_wall_mm",
-            sizes.wall_min,
-            lambda: min(map(plate_wall, parts.links.plates), default=None),
+            "link_wall_mm", least, lambda: min(map(plate_wall, parts.links.plates), default=None)
         )
     if "link_gap_mm" in names:
         yield from _links_gap("link_gap_mm", parts)
@@ -159,10 +143,8 @@ def _links_gap(name: str, parts: FlatParts) -> Iterator[Check]:
         return
     if blocked:
         at_deg = mechanism.shown_deg(blocked.input_deg)
-        why = (
-            f"{blocked.passing} meets the {blocked.link}: it needs an eccentric in a hollow input "
-            "shaft, or another path to its bearings"
-        )
+        why = f"{blocked.passing} meets the {blocked.link}: it needs an eccentric in a hollow "
+        why += "input shaft, or another path to its bearings"
         yield Check(name, blocked.gap, "at least", 0.0, False, why, at_deg)
     elif near:
         yield compared(name, near.gap, "at least", 0.0, mechanism.shown_deg(near.input_deg))

@@ -19,9 +19,7 @@ def greatest(of: Designs) -> Columns:
     requested = of.requested("loads")
     out: dict[str, Number | None] = {}
     known = [n for n in load_peaks.REPORTED_PEAKS if {f"{n}.max", f"{n}.at_deg"} & requested]
-    peaks = load_peaks.reported_peaks(of.machine, known)
-    for name in filter(peaks.__contains__, known):
-        most, at_deg = peaks[name]
+    for name, (most, at_deg) in load_peaks.reported_peaks(of.machine, known).items():
         out |= {f"{name}.max": most * of.loaded, f"{name}.at_deg": at_deg * of.loaded}
     if "kinetic_power_W" in requested:
         from geneva_cli.loads.sizing import kinetic_power_W

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import cast
 
 import numpy as np
 
 from geneva_cli.loads.product import product_motion
+from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.many import worst_peaks
 from geneva_cli.motion.peak_search import QUANTITIES, PeakArray
-from geneva_cli.motion.timing import timings
-from geneva_cli.motion.wheels.gearing import Output
+from geneva_cli.motion.timing import Timing, timings
 from geneva_cli.numerics.angles import omega
-from geneva_cli.numerics.arrays import Array, N, Number
+from geneva_cli.numerics.arrays import Array, Number
 from geneva_cli.verdict.quantities.groups import Columns, Designs
 from geneva_cli.verdict.quantities.quantity_rows import RATES
 
@@ -21,12 +20,16 @@ ENDS = ("entry", "exit")  # how the names begin of quantities at the ends of a m
 
 
 def timing(of: Designs) -> Columns:
-    """The timing that is equal in all engagements; infinite for values that differ.
+    """The timing that is equal in all engagements; infinite for values that differ."""
+    return shared_timing(timings(of.machine))
+
+
+def shared_timing(each: Sequence[Timing]) -> dict[str, Array | None]:
+    """The timing that is equal in some engagements; infinite for values that differ.
 
     The work coefficient k_r of one roller is phi/(2 pi - phi), for a motion phi.
     """
-    each = timings(of.machine)
-    out = {name: _shared([getattr(one, name) for one in each]) for name in each[0]._fields}
+    out = {name: _shared([getattr(one, name) for one in each]) for name in Timing._fields}
     motion = out["motion_deg"]
     assert motion is not None  # every engagement has one
     rest = np.where(motion < 360.0, 360.0 - motion, np.nan)
@@ -80,17 +83,22 @@ def peaks(of: Designs) -> Columns:
 
     The jumps are those of the velocity, NaN for a roller that misses its slot's axis.
     """
+    return peaks_among(of, of.machine.engagements)
+
+
+def peaks_among(of: Designs, engagements: Sequence[Engagement]) -> dict[str, Number | None]:
+    """The quantities of ``peaks`` among some engagements; None for rates in the other unit."""
     requested = {name: own for name in QUANTITIES if (own := of.requested(name))}
     # values at the ends need no search
     sought = [n for n, own in requested.items() if any(not x.startswith(ENDS) for x in own)]
-    found, unknown = worst_peaks(of.machine, sought), PeakArray(*np.full((2, 1), np.nan))
-    w, output = np.ravel(omega(of.spec.drive.n_rpm)), of.machine.output
-    flat = np.ravel(output.rate_per_radian)  # one for each design
-    output = output._replace(rate_per_radian=cast("float", flat))
+    unknown = PeakArray(*np.full((2, 1), np.nan))
+    found, output = worst_peaks(of.machine, sought, engagements), of.machine.output
+    # one for each design
+    w, per_radian = np.ravel(omega(of.spec.drive.n_rpm)), np.ravel(output.rate_per_radian)
     out: dict[str, Number | None] = {}
-    engagements = of.machine.engagements
     for name in requested:
-        ends: list[Array] = []
+        most, at_deg = found.get(name, unknown)
+        values: dict[str, Array] = {"max": most, "at_deg": at_deg}
         # the greatest jumps at an entry, and at an exit, with their signs; sizes of derivatives
         order = {"velocity": 1, "acceleration": 2, "jerk": 3}.get(name, 0)
         for k, end in enumerate(ENDS if order else ()):
@@ -100,36 +108,12 @@ def peaks(of: Designs) -> Columns:
                 each.append(one.jumps[k] if order == 1 else abs(at))
             rows = np.stack(np.broadcast_arrays(*map(np.ravel, each)))
             i = abs(rows).argmax(axis=0)[None]
-            ends.append(np.take_along_axis(rows, i, axis=0)[0])
-        out |= peak_values(name, output, w, found.get(name, unknown), ends)
-    return out
-
-
-def peak_values(
-    name: str, output: Output, w: N, peak: Sequence[N], ends: Sequence[N]
-) -> dict[str, N | None]:
-    """The quantities of a peak, by their whole names; None for rates in the other output's unit.
-
-    ``w`` is the input's speed, ``peak`` the greatest size and its input angle, ``ends`` the sizes
-    just after entry and just before exit, if requested.
-
-    >>> from geneva_cli import Design, External
-    >>> wheel = Design(External(6)).mechanism.output
-    >>> peak_values("velocity", wheel, 2.0, (1.0, 0.0), ())["velocity.max_rad_s"]
-    2.0
-    """
-    power, of_unit, end = RATES[name]
-    scale = w**power * output.rate_per_radian**of_unit
-    most, at_deg = peak
-    out: dict[str, N | None] = {f"{name}.max": most, f"{name}.at_deg": at_deg}
-    own = {unit: scale if unit == output.rate_unit else None for unit in ("rad", "m")}
-    for unit, size in own.items():
-        out[f"{name}.max_{unit}{end}"] = None if size is None else most * size
-    if ends:
-        out[f"{name}.entry"], out[f"{name}.exit"] = ends
-    if name == "acceleration":
-        for unit, size in own.items():
-            out[f"{name}.entry_{unit}{end}"] = None if size is None else ends[0] * size
+            values[end] = np.take_along_axis(rows, i, axis=0)[0]
+        power, of_unit, unit = RATES[name]
+        scale = w**power * per_radian**of_unit
+        for value in ("max", "entry") if name == "acceleration" else ("max",):
+            values[f"{value}_{output.rate_unit}{unit}"] = values[value] * scale
+        out |= {f"{name}.{value}": row for value, row in values.items()}
     return out
 
 

@@ -7,14 +7,12 @@ from geneva_cli.verdict.quantities.groups import GROUP_OF
 from geneva_cli.verdict.quantities.quantity_rows import CHECKS, INPUTS
 
 # Quantities whose values are words, which have no order.
-WORDS = frozenset(
-    {
-        *("wheel.gearing", "drive.kind", "drive.before.kind", "motion.law", "checks.failed"),
-        *("inputs.wheel.held_by", "inputs.size.process", "inputs.size.pin_held"),
-        *("inputs.load.friction_at", "sizes.clearances_from"),
-        *("vibration.none", "parts.none", "parts.relief"),
-    }
-)
+WORDS = {
+    *("wheel.gearing", "drive.kind", "drive.before.kind", "motion.law", "checks.failed"),
+    *("inputs.wheel.held_by", "inputs.size.process", "inputs.size.pin_held"),
+    *("inputs.load.friction_at", "sizes.clearances_from"),
+    *("vibration.none", "parts.none", "parts.relief"),
+}
 
 
 def in_batch(names: Iterable[str]) -> bool:
@@ -23,8 +21,7 @@ def in_batch(names: Iterable[str]) -> bool:
     >>> in_batch(["timing.dwell_s", "jerk.max"]), in_batch(["sizes.ratio"])
     (True, False)
     """
-    known = GROUP_OF
-    return all(name in known and name in known[name].batched for name in names)
+    return all(name in GROUP_OF and name in GROUP_OF[name].batched for name in names)
 
 
 def whole_name(name: str, option: str = "--pick") -> str:
@@ -47,10 +44,9 @@ def whole_name(name: str, option: str = "--pick") -> str:
             raise GenevaError(f"{option} {cut(name)}: it may be {' or '.join(those)}; say which")
         if meanings:
             return meanings[0]
-    raise GenevaError(
-        f"{option} {cut(name)}: no quantity of a design{_nearest(name)}; `geneva compare` "
-        "shows most of them, and a check is checks.NAME"
-    )
+    text = f"{option} {cut(name)}: no quantity of a design{_nearest(name)}; `geneva compare` shows "
+    text += "most of them, and a check is checks.NAME"
+    raise GenevaError(text)
 
 
 def _readings(typed: str) -> Iterator[list[str]]:
@@ -83,15 +79,14 @@ def _ends(name: str) -> list[str]:
 
 def _nearest(typed: str) -> str:
     """A question `` (did you mean "..."?)`` with the nearest whole name or end of one."""
-    known = GROUP_OF
     # a whole name behind an extra word, as peaks.velocity.max, or a key of the spec
-    whole = [name for name in known if typed.endswith(f".{name}")]
-    whole += [name for name in known if name.startswith(INPUTS) and name.endswith(f".{typed}")]
-    own = [name for name in known if not name.startswith(INPUTS)]
+    whole = [name for name in GROUP_OF if typed.endswith(f".{name}")]
+    whole += [name for name in GROUP_OF if name.startswith(INPUTS) and name.endswith(f".{typed}")]
+    own = [name for name in GROUP_OF if not name.startswith(INPUTS)]
     own.sort(key=lambda name: name.startswith(CHECKS))  # a check gives way to a quantity
     ends = [end for name in own for end in (name, *_ends(name))]
     begun = [end for end in ends if end.startswith(typed)] if len(typed) > 2 else []
     # the shortest name; of its values the first, which is the greatest
     begun.sort(key=lambda end: len(end.partition(".")[0]))
     best = [*sorted(whole, key=len, reverse=True), *begun][:1]
-    return nearest(best[0], best) if best else nearest(typed, dict.fromkeys([*known, *ends]))
+    return nearest(best[0], best) if best else nearest(typed, dict.fromkeys([*GROUP_OF, *ends]))

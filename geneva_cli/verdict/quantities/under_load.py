@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from functools import cache, partial
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -22,17 +22,12 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.registry import thing
 from geneva_cli.numerics import arrays
 from geneva_cli.numerics.arrays import Array, Number, Record, mapped, parameter
+from geneva_cli.parts import sized_by_load
 from geneva_cli.parts.assembly import is_bridged
 from geneva_cli.parts.machine_sizes import fits, of_batch, sized, unloaded_alike
 from geneva_cli.parts.outlines.cut_outlines import cut_lock
 from geneva_cli.parts.shafts.bores import has_shape
-from geneva_cli.parts.sized_by_load import (
-    Stressed,
-    load_sizes,
-    needs_lock,
-    planes_below,
-    stressed,
-)
+from geneva_cli.parts.sized_by_load import Stressed
 from geneva_cli.parts.sizes import Layout
 from geneva_cli.verdict.quantities.groups import Designs, single
 
@@ -147,16 +142,16 @@ class UnderLoad:
         is_own = self.designs.are_built or of_kind or bool(machine.first_wheel) or self._shaped
         of = None if is_own else self._unloaded
         # links, gears and a groove, which may be in the way of shafts
-        if of and planes_below(of[0].full) and not self._alike:
+        if of and sized_by_load.planes_below(of[0].full) and not self._alike:
             every = [one[0].full for one in self._each if one]
-            is_own = len({(planes_below(one), is_bridged(one)) for one in every}) > 1
+            is_own = len({(sized_by_load.planes_below(one), is_bridged(one)) for one in every}) > 1
         if is_own or of is None:
             return batched([*map(_stressed, self.designs.each)]) if is_own else None
-        locks, bent = self.lock_sizes if needs_lock(machine.spec) else None, None
+        locks, bent = self.lock_sizes if sized_by_load.needs_lock(machine.spec) else None, None
         if locks and size.wheel_thickness_mm is size.face_width_mm is None:
             bent = lock.horn_MPa(machine, *locks, self._flat_horns)
-        sizes = load_sizes(*of, locks and locks[1], machine, self.part_loads, bent)
-        parts = stressed(of[0], sizes, machine.spec)
+        sizes = sized_by_load.load_sizes(*of, locks and locks[1], machine, self.part_loads, bent)
+        parts = sized_by_load.stressed(of[0], sizes, machine.spec)
         fit = np.where(np.ravel(fits(of[0], sizes)), np.ones(machine.designs), np.nan)
         return mapped(lambda row: np.ravel(row) * fit, parts)
 
@@ -207,7 +202,7 @@ def _stressed(one: Mechanism) -> Stressed | None:
         return None
     if of_kind is None:
         flat = sized(one)
-        return flat and stressed(*flat)
+        return flat and sized_by_load.stressed(*flat)
     with suppress(GenevaError):  # the check of the parts reports the error
         return of_kind(one)
     return None
@@ -225,11 +220,10 @@ def batched(
         return None
     fields = list[object]()
     for k, field in enumerate(like):
-        each = list[Any]()
-        for one in records:
-            each.append(one and one[k])
-        number = partial(np.array, dtype=float)  # None is NaN
-        fields.append(batched(each, column) if isinstance(field, tuple) else column(number(each)))
+        each: list[Any] = [one and one[k] for one in records]
+        # None is NaN
+        own = batched(each, column) if isinstance(field, tuple) else column(np.array(each, float))
+        fields.append(own)
     return arrays.record_of(like, fields)
 
 
@@ -242,15 +236,10 @@ def share(batch: Mechanism, machines: Sequence[Mechanism]) -> None:
     """Let the machines of a batch's designs take from it what their checks and parts need."""
     designs = Designs(batch, None, machines)
 
-    @cache
-    def loads() -> PartLoads | None:
-        with suppress(GenevaError):  # which one of the designs raises again
-            return designs.once(UnderLoad).part_loads
-        return None
-
     def loads_of(i: int) -> PartLoads | None:
-        every = loads()
-        return every and every.of(i)
+        with suppress(GenevaError):  # which one of the designs raises again
+            return designs.once(UnderLoad).part_loads.of(i)
+        return None
 
     for i, machine in enumerate(machines):
         single.put(machine, partial(Designs, machine, batch=(designs, i)))

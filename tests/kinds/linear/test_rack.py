@@ -38,9 +38,9 @@ def smallest_gap(sizes) -> float:
 def test_area_of_a_rack(count):
     """A rectangle less slots (a rectangle and half a circle) and recesses (half circles)."""
     s = sizes_of(slot_clearance_mm=0.2)
-    deep = R + s.slot_bottom + s.half_width + s.back
+    deep = R - s.behind
     long = 2.0 * R * (count + 1) - 2.0 * s.half_width
-    slot = 2.0 * s.half_width * (R + s.slot_bottom) + 0.5 * math.pi * s.half_width**2
+    slot = 2.0 * s.half_width * (R + s.guide.bottom) + 0.5 * math.pi * s.half_width**2
     recess = 0.5 * math.pi * s.recess**2
     area = moments(rack_contour(s, count)).area
     assert area == pytest.approx(deep * long - count * slot - (count + 1) * recess, rel=1e-13)
@@ -66,7 +66,7 @@ def test_smallest_gap(slot, lock, relief):
     keys = {"slot_clearance_mm": slot, "lock_clearance_mm": lock, "relief_clearance_mm": relief}
     s = sizes_of(**keys)
     passing = relief * s.floor / math.hypot(s.floor, R)
-    bottom = s.slot_bottom + s.half_width - r
+    bottom = s.guide.bottom + s.half_width - r
     expected = min(slot, lock, passing, bottom)
     assert smallest_gap(s) == pytest.approx(expected, rel=2.0 * relief / R + 1e-3)
 

@@ -9,13 +9,12 @@ from drawing_witness import vertices
 
 from geneva_cli import Crank, Design, Size, Spherical
 from geneva_cli.geometry.shapes import Contour
-from geneva_cli.geometry.sphere import POLE
+from geneva_cli.geometry.sphere import Cap, place
 from geneva_cli.kinds.spherical.drawings import cone_of
 from geneva_cli.kinds.spherical.parts import wheel_shell
 from geneva_cli.kinds.spherical.regions import (
     at_mid_motion,
     edge_points,
-    rollers,
     sectors,
     wheel_regions,
 )
@@ -159,7 +158,7 @@ def test_solid_angle_and_inertia_are_those_of_integrals(name):
         [0, found.hub_mm],
     )
     wanted = seen * (high**5 - low**5) / 5 - 2 * mpmath.pi * hole
-    assert wheel_shell(found).inertia(POLE) == pytest.approx(float(wanted), rel=1e-12)
+    assert wheel_shell(found).inertia == pytest.approx(float(wanted), rel=1e-12)
 
 
 def turned(u, angle):
@@ -174,7 +173,7 @@ def test_nothing_meets_in_a_motion(at):
     never in a sector; the roller leaves the slot's clearance on both sides."""
     found = sizes([*MACHINES.values()][at])
     frame = np.column_stack(at_mid_motion(found))
-    locking, rolling = sectors(found), points(rollers(found)[:1])
+    locking, rolling = sectors(found), points([Cap(place(found.arm, 0.0), found.roller).region])
     clearance = found.half_width - found.roller
     _, _, half = geometry(found)
     wheel = edge_points(found, 100)
