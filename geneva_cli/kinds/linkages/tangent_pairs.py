@@ -53,10 +53,8 @@ def points(path: LinkPath, direction: Complex, order: int = 2) -> Complex:
     out[1].real, out[1].imag = -(pin_y + rate * y), pin_x + rate * x
     if order > 1:
         change, square = fall + rate * (rate * side + 2.0 * ahead), rate * rate
-        out[2].real, out[2].imag = (
-            change * y - square * x - pin_x,
-            -(change * x + square * y) - pin_y,
-        )
+        out[2].real = change * y - square * x - pin_x
+        out[2].imag = -(change * x + square * y) - pin_y
     return out
 
 

@@ -104,8 +104,7 @@ def _longest(lines: Sequence[_LawLine]) -> list[float]:
         left = left[some]
         found[left] = tried[some, able[some].argmax(axis=1)]
         top, step = found + step, step / PARTS
-    longest: list[float] = found.tolist()
-    return longest
+    return [*found.tolist()]
 
 
 def _buildable(lines: Sequence[_LawLine], motions: Array) -> Mask:
