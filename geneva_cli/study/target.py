@@ -12,21 +12,22 @@ All of them together leave a range of M, and for each M in it a range of T.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, marking
 from geneva_cli.motion.drive import Drive
 from geneva_cli.motion.given_motion import MOTION_MIN
 from geneva_cli.motion.laws.law import Motion
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.motion.wheels.gearing import Gearing
-from geneva_cli.numerics.arrays import Array, Number
+from geneva_cli.numerics.arrays import parameter
 from geneva_cli.numerics.tolerances import ROUNDED
 from geneva_cli.spec.tables import LIMITED
+from geneva_cli.study.batches import Batch
 from geneva_cli.study.sweep.constraints import Constraint, Objective
 from geneva_cli.verdict.quantities.quantity_names import in_batch
 
@@ -162,32 +163,33 @@ class Target(NamedTuple):
         high = motion.high if motion.high < whole else (1.0 - OPEN_END) * whole
         return motion if motion.exact else AllowedSpan(min(low, high), high)
 
-    def speeds(self, m: float, motion_deg: Number | list[float]) -> dict[str, Array]:
-        """The key of the input speeds for m motions of these angles in a turn, if they matter."""
-        if not self.timed:
-            return {}
-        return {"drive.n_rpm": np.array([self.n_rpm(m, x) for x in np.ravel(motion_deg).tolist()])}
-
-    def machine(
-        self, wheel: Gearing, drive: Drive, motion_deg: float, motion: Motion | None = None
-    ) -> Spec:
-        """A machine with the sizes, loads and limits of the frame, at the required speed."""
-        n_rpm = self.n_rpm(drive.rollers / drive.turns, motion_deg)
-        own, made = self.own, drive.replace(n_rpm=n_rpm)
-        size, L = own.size, own.size.center_distance_mm
-        if L is None and not made.ONE_ARM:  # it has no crank of one radius: the frame's distance
+    def machine(self, wheel: Gearing, drive: Drive, motion: Motion | None = None) -> Spec:
+        """A machine with the sizes, loads and limits of the frame, still without its speed."""
+        size, L = self.own.size, self.own.size.center_distance_mm
+        if L is None and not drive.ONE_ARM:  # it has no crank of one radius: the frame's distance
             L = size.derived_distance_mm
         as_built = L is not None and size.crank_radius_mm is not None  # it has its own R/L
         if size.center_distance_mm != L or as_built:
             size = size.replace(center_distance_mm=L, crank_radius_mm=None)
-        shape = {"wheel": wheel, "drive": made, "motion": motion, "size": size}
-        return own.replace(**shape, title="", path="", files=())
+        shape = {"wheel": wheel, "drive": drive, "motion": motion, "size": size}
+        return self.own.replace(**shape, title="", path="", files=())
+
+    def at_speed(self, batches: Iterable[Batch]) -> Iterator[Batch]:
+        """Batches of those machines, at the speeds that their motions require."""
+        for members, machine in batches:
+            if self.timed:
+                drive, motion_deg = machine.spec.drive, machine.engagements[0].motion_deg
+                both = np.broadcast_arrays(drive.rollers / drive.turns, motion_deg, machine.design)
+                own = zip(*(x.ravel().tolist() for x in both[:2]), strict=True)
+                n_rpm = parameter(np.array([[self.n_rpm(*one)] for one in own]))
+                with marking():  # a single one out of its range is refused, when it is shown
+                    drive = drive.replace(n_rpm=n_rpm)
+                machine = machine._replace(spec=machine.spec.replace(drive=drive))
+            yield members, machine
 
     def n_rpm(self, m: float, motion_deg: float) -> float:
         """The input speed for m cycles in a turn: the usual one, or the nearest that is allowed."""
         fraction, usual = m * motion_deg / 360.0, self.own.drive.n_rpm
-        if not self.timed:
-            return usual
         cycle = self.cycle_s(m)
         if not cycle.exact:
             if "motion_s" in self.spans:

@@ -2,12 +2,11 @@
 
 import math
 from collections.abc import Callable, Iterator
-from functools import partial
 
 from geneva_cli.kinds.gear_sector.motion import GearSector
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Array, N, larger, library
+from geneva_cli.numerics.arrays import N, larger, library
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.study.synth.families.family import Family, is_compatible, natural_deg
 from geneva_cli.study.target import BARE, Target
@@ -30,14 +29,10 @@ def sectors(target: Target, wheel: Gearing) -> Iterator[Family]:
     low = max(ends[0], slot(sector_deg, 330.0))
     high = min(ends[1], slot(sector_deg, 1e-3))
     if low <= high:
-        spec = target.machine(wheel, GearSector(sector_deg=90.0), natural_deg(wheel))
-        keys, plain = partial(_sectors, target, z), wheel.step.b
-        yield Family(spec, keys, low, high, plain, plain)
-
-
-def _sectors(target: Target, z: int, at: Array) -> dict[str, Array]:
-    """Gear sectors between slots of half angles b."""
-    return {"drive.sector_deg": sector_deg(z, at), **target.speeds(1, sector_motion(z, at))}
+        spec, plain = target.machine(wheel, example.drive), wheel.step.b
+        yield Family(
+            spec, lambda b: {"drive.sector_deg": sector_deg(z, b)}, low, high, plain, plain
+        )
 
 
 def sector_deg(z: int, b: N) -> N:

@@ -81,13 +81,10 @@ class GearSector(Drive, kw_only=True):
         still = 0.0 * input_deg
         _, u = self._solved(half_step)
         teeth = Teeth(round(math.pi / half_step), u * self.sector_deg)
-        gears = (
-            ("crank gear", L, L * u / (1.0 + u), Teeth(1, self.sector_deg, 180.0)),
-            ("wheel gear", 0.0, L / (1.0 + u), teeth),
-        )
-        return tuple(
-            Link(name, ((still + x, still),), (Joint.SHAFT,), 2, radius, own)
-            for name, x, radius, own in gears
+        own, shaft, radius = Teeth(1, self.sector_deg, 180.0), (Joint.SHAFT,), L / (1.0 + u)
+        return (
+            Link("crank gear", ((still + L, still),), shaft, 2, L * u / (1.0 + u), own),
+            Link("wheel gear", ((still, still),), shaft, 2, radius, teeth),
         )
 
     def _solved(self, half_step: float) -> tuple[float, float]:

@@ -23,7 +23,7 @@ import numpy as np
 
 from geneva_cli.kinds.linkages.four_bar import CouplerPath, FourBar
 from geneva_cli.kinds.linkages.path_wheels import centre_of
-from geneva_cli.kinds.linkages.tangent_pairs import Pairs, points_at, turning_rate
+from geneva_cli.kinds.linkages.tangent_pairs import Pairs, points_at
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.arrays import Array, Complex, Mask, Whole, parameter, within_half_turn
@@ -74,7 +74,7 @@ def _task(target: Target, wheel: Gearing) -> Task | None:
     if free is None:
         return None
     unlocked = wheel.replace(held_by="detent")  # there is no locking disc
-    spec = target.machine(unlocked, _EXAMPLE, free.low)
+    spec = target.machine(unlocked, _EXAMPLE)
     # the coupler passes below the wheel's axis, where a shaft without a hub ends in the wheel
     hub = 0.0 if size.wheel_hub_mm is None else size.wheel_hub_mm
     spec = spec.replace(size=spec.size.replace(center_distance_mm=None, wheel_hub_mm=hub))
@@ -158,14 +158,14 @@ def keys_at(
         path = path.having((*path.numbers[:4], parameter(w.real), parameter(w.imag)))
         # coarse samples miss the nearest places, which a larger roller makes up for
         roller = roller * (1.15 if places < FINE else 1.0)
-        drives, distance, reach = _driven(path, pair, b, roller, places)
-        drives &= (longest > 0.0) & (reach <= target.space * distance)
-        scale = np.where(drives, target.own.given_distance_mm / distance, math.inf)
+        passes, distance = _passing(path, pair, b, roller, target.space, places)
+        passes &= longest > 0.0
+        scale = np.where(passes, target.own.given_distance_mm / distance, math.inf)
         names = map("drive.{}".format, FourBar.LENGTHS.values())
         keys = dict(zip(names, (x * scale for x in (*lengths, np.abs(w))), strict=True))
     keys["drive.point_deg"] = np.degrees(np.angle(w))
     keys["drive.entry_deg"] = np.degrees(within_half_turn(entry))
-    return keys | target.speeds(1, motion_deg), motion_deg
+    return keys, motion_deg
 
 
 def coupler_point(path: CouplerPath, pair: Pairs, b: Array) -> Complex:
@@ -196,37 +196,35 @@ def coupler_point(path: CouplerPath, pair: Pairs, b: Array) -> Complex:
     return np.where(ahead, w, np.nan)
 
 
-def _driven(
-    path: CouplerPath, pair: Pairs, b: Array, roller: Array, places: int
-) -> tuple[Mask, Array, Array]:
-    """A mask of the wheels that are driven, at samples, and let the roller pass on its way back.
+def _passing(
+    path: CouplerPath, pair: Pairs, b: Array, roller: Array, space: float, places: int
+) -> tuple[Mask, Array]:
+    """A mask of the wheels that roller and links pass, at samples; their centre distances.
 
-    Also their centre distances, and the greatest distances of joints and roller from the crank's
-    axis. ``roller`` is its radius over L.
+    Over these, ``roller`` is its radius, and ``space`` the greatest distance of joints and roller
+    from the crank's axis.
     """
     entry, exit_ = pair.phi
     # the way back has twice the motion's samples
     back = np.linspace(exit_, entry + math.tau, 2 * places + 1)[1:-1]
     turn = np.concatenate((np.linspace(entry, exit_, places + 1), back))
-    _, joint, roller_at = path.joints(np.exp(1j * turn))
-    ends = points_at(path, pair.phi)
-    centre, rho = centre_of(ends)
-    L, rays = np.abs(centre), roller_at - centre
-    driven, returns = rays[: places + 1], rays[places + 1 :]
-    near, turned = np.abs(driven), pair.sense * np.angle(driven[1:] * driven[:-1].conj())
-    drives = (turned > 0.0).all(axis=0) & (near[1:-1] < rho).all(axis=0)
-    drives &= (pair.sense * turning_rate(ends) < 0.0).all(axis=0)  # at both ends, too
+    _, *moving = path.joints(np.exp(1j * turn))
+    centre, rho = centre_of(points_at(path, pair.phi))
+    L, rays = np.abs(centre), moving[-1] - centre
+    near, returns = np.abs(rays[: places + 1]), rays[places + 1 :]
     half_wall = 1.0 / 400.0  # of the least wall between two slots, over the centre distance
-    drives &= near.min(axis=0) * np.sin(b) >= (roller + half_wall) * L
+    passes = near.min(axis=0) * np.sin(b) >= (roller + half_wall) * L
+    passes &= (near[1:-1] < rho).all(axis=0)
+    reach = np.abs(moving).max(axis=(0, 1))
+    passes &= np.maximum(path.numbers[1], reach) <= space * L
     # Lengths over the distance of the slots' mouths from the wheel's axis; a slot points along the
     # real axis. The wheel ends at hypot(1, r), where slots as wide as the roller leave corners.
-    r, place = roller * L / rho, returns / driven[0]
+    r, place = roller * L / rho, returns / rays[0]
     d, angle = np.abs(place), np.abs((np.angle(place) + b) % (2.0 * b) - b)
     ahead, across = d * np.cos(angle), d * np.sin(angle)
     corner = np.where(ahead >= 1.0, np.hypot(ahead - 1.0, r - across), r - across)
     # in front of a slot its mouth's corner is nearest, else the rim
     gap = np.where(across < r * ahead, corner, d - np.hypot(1.0, r)) - r
     touch = 1e-6  # a roller that leaves its slot is this near to it
-    drives &= ((gap >= -touch) & (d > 1.0)).all(axis=0)
-    moving = [np.abs(z).max(axis=0) for z in (joint, roller_at)]
-    return drives, L, np.maximum.reduce([path.numbers[1], *moving])
+    passes &= ((gap >= -touch) & (d > 1.0)).all(axis=0)
+    return passes, L

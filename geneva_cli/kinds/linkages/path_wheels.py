@@ -31,18 +31,15 @@ class PathWheels(NamedTuple):
     centre: Complex  # mm, on the path's axes
     distance: Array  # from the centre to entry and exit, mm
 
-    def driven(self, p: Complex, v: Complex) -> tuple[Array, Array]:
-        """At points (..., m): the roller's distance from the centre; how it turns the wheel."""
-        ray = p - self.centre
-        return np.abs(ray), self.pair.sense * (ray.conj() * v).imag
-
 
 def driven(path: LinkPath, found: tangents.Pairs) -> tuple[PathWheels, Array]:
     """The wheels of pairs that the roller turns one way within its slot; their peak velocities."""
     some, (entry, exit_) = path.of(found.which), found.phi
     ends = tangents.points_at(some, found.phi)
     wheels = PathWheels(found, *centre_of(ends))
-    far, turns = wheels.driven(*tangents.points(some, _even(entry, exit_ - entry, EVEN), 1))
+    place, velocity = tangents.points(some, _even(entry, exit_ - entry, EVEN), 1)
+    ray = place - wheels.centre
+    far, turns = np.abs(ray), found.sense * (ray.conj() * velocity).imag
     moves = (far < wheels.distance) & (turns > 0.0)
     # next to both ends: the tangent turns against the wheel, or not at all in a double root
     leads = found.sense * tangents.turning_rate(ends) < 1e-9
@@ -136,7 +133,8 @@ def _engagement(
     flat, middle, index = path.of((slice(None), 0)), ends.mean(axis=0), np.ravel(step.b)
     ends, crank = ends - middle, np.exp(1j * middle)
     move = flat.about(crank)
-    at = tangents.complex_of(*move(ends, 2))
+    x, y = (np.array(one.derivatives()) for one in move(ends, 2))
+    at = x + 1j * y
     rest = tangents.residual(at, np.exp(2j * sense * index))
     last = np.where(rest.double, 0.0, rest.step)
     ends, at[:2] = ends + last, at[:2] + last * at[1:]

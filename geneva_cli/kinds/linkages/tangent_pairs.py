@@ -18,7 +18,6 @@ import numpy as np
 
 from geneva_cli.kinds.linkages.link_path import LinkPath
 from geneva_cli.numerics.arrays import Array, Complex, Mask, Whole, blocks, joined, record_taken
-from geneva_cli.numerics.jet import Jet
 
 SAME_ENTRY = 1e-6  # radians: entries nearer to each other are one
 # Slope of the index angle along the family of pairs. With less, two roots are nearly one: within
@@ -44,15 +43,6 @@ class Pairs(NamedTuple):
     sense: Array
 
 
-def complex_of(x: Jet, y: Jet) -> Complex:
-    """Derivatives of a point's place as complex numbers, (order + 1, ...)."""
-    shape = np.broadcast_shapes(*(np.shape(c) for c in (*x.c, *y.c)))
-    both = np.empty((len(x.c), *shape), dtype=complex)
-    for k, (p, q) in enumerate(zip(x.derivatives(), y.derivatives(), strict=True)):
-        both[k].real, both[k].imag = p, q
-    return both
-
-
 def points(path: LinkPath, direction: Complex, order: int = 2) -> Complex:
     """Position, velocity, and acceleration for order 2, for unit vectors of the crank."""
     *_, p, q = path.numbers
@@ -63,10 +53,8 @@ def points(path: LinkPath, direction: Complex, order: int = 2) -> Complex:
     out[1].real, out[1].imag = -(pin_y + rate * y), pin_x + rate * x
     if order > 1:
         change, square = fall + rate * (rate * side + 2.0 * ahead), rate * rate
-        out[2].real, out[2].imag = (
-            change * y - square * x - pin_x,
-            -(change * x + square * y) - pin_y,
-        )
+        out[2].real = change * y - square * x - pin_x
+        out[2].imag = -(change * x + square * y) - pin_y
     return out
 
 

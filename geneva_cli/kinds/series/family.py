@@ -18,4 +18,4 @@ def pairs(target: Target, wheel: Gearing) -> Iterator[Family]:
         natural = build(spec).engagements[0].motion_deg
         m = 1.0 / first_z  # motions in a turn of the input
         if target.motions(m, natural).allows(natural):
-            yield Family(target.machine(wheel, GenevaPair(first_z=first_z), natural))
+            yield Family(target.machine(wheel, GenevaPair(first_z=first_z)))

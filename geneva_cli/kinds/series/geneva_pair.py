@@ -144,9 +144,8 @@ def _running(middle: classic.PinPose, a: float) -> classic.PinPose:
     x, y = middle.along + 2.0 * l * m.sin(0.5 * a) ** 2, l * s
     rho = m.hypot(x, y)
     u, v = x / rho, y / rho
-    slope = (l * (s * u + c * v), l * (c * u - s * v))
-    bend = (l * (c * u - s * v), -l * (s * u + c * v))
-    return classic.PinPose(m.degrees(a), m.atan2(y, x), rho, slope, bend)
+    along, across = l * (s * u + c * v), l * (c * u - s * v)
+    return classic.PinPose(m.degrees(a), m.atan2(y, x), rho, (along, across), (across, -along))
 
 
 def refuses(spec: Spec) -> Iterator[Conflict]:

@@ -192,6 +192,7 @@ class Costs:
     """
 
     def __init__(self, specs: Sequence[Spec], target: Target) -> None:
+        self.target = target
         self.sort = target.sort if target.sort and in_batch([target.sort.name]) else None
         self.goal = self.sort or Objective(1.0, target.peak)
         self.bounds = [b for b in target.bounds if in_batch([b.name])]
@@ -201,7 +202,7 @@ class Costs:
 
     def of(self, batches: Iterable[Batch], count: int) -> tuple[Array, Array]:
         """Violations and costs of ``count`` designs of batches, infinite without a machine."""
-        goal, *others = quantities(batches, self.names, count)
+        goal, *others = quantities(self.target.at_speed(batches), self.names, count)
         violation = np.zeros(count)
         for i, (bound, own) in enumerate(zip((*self.bounds, *self.soft), others, strict=True)):
             margin = bound.margin(own)

@@ -64,7 +64,7 @@ def rows(target: Target, specs: Sequence[Spec]) -> list[MachineRow]:
     """The rows of machines that can be built and have the required motion."""
     limits, out = target.soft_bounds, dict[int, MachineRow]()
     names = [*QUANTITIES.values(), *(bound.name for bound in limits.values())]
-    for members, machine in batch_machines(specs):
+    for members, machine in target.at_speed(batch_machines(specs)):
         own, n, m = [specs[i] for i in members.tolist()], len(members), machine.spec.drive.rollers
         radii, why = np.full(n, math.nan), [""] * n
         if any(spec.is_flat for spec in own):
@@ -74,10 +74,11 @@ def rows(target: Target, specs: Sequence[Spec]) -> list[MachineRow]:
         suited = zip(radii.tolist(), why, strict=True)
         for i, spec, roller, row in zip(members, own, suited, each.tolist(), strict=True):
             known = dict(zip((*QUANTITIES, *limits, "ratio"), row, strict=True))
-            motion_deg = known["motion_deg"]
-            allowed = target.motions(m / spec.drive.turns, motion_deg)
+            motion_deg, in_turn = known["motion_deg"], m / spec.drive.turns
+            allowed = target.motions(in_turn, motion_deg)
             if not (math.isfinite(known["acceleration_max"]) and allowed.allows(motion_deg)):
                 continue
+            spec = spec.with_("drive.n_rpm", target.n_rpm(in_turn, motion_deg))
             radius, obstacle = roller if spec.is_flat else _roller(spec)
             over = [k for k, b in limits.items() if not (math.isnan(x := known[k]) or b.kept(x))]
             parts = MAYBE if spec.is_turned else None
@@ -147,8 +148,7 @@ def search(target: Target) -> list[MachineRow]:
     # and the first that may be built
     has_one, can_be, out = in_batch(target.names), dict[object, bool](), list[MachineRow]()
     for i, row in enumerate(sorted(_bounded(target, every), key=partial(_rank, target))):
-        is_single = has_one and row.cells["crank_mm"] is None
-        kind: object = i if is_single else tuple(row.cells[name] for name in KIND)
+        kind: object = i if has_one else tuple(row.cells[name] for name in KIND)
         if kind not in can_be or (not can_be[kind] and not row.trouble):
             out.append(row)
             row.cells["no"] = len(out)

@@ -70,7 +70,7 @@ class _LawLine(NamedTuple):
         alpha0 = _alpha0(natural_deg(self.wheel), motion_deg)
         motion = Motion(self.law, alpha0_deg=alpha0, ratio=None if self.is_cam else "matched")
         drive = (Cam if self.is_cam else Crank)(rollers=self.m)
-        return self.target.machine(self.wheel, drive, motion_deg, motion)
+        return self.target.machine(self.wheel, drive, motion)
 
     def families(self, longest: float) -> Iterator[Family]:
         """Those of the allowed motions, of which ``longest`` can be built; NaN if none can."""
@@ -80,7 +80,7 @@ class _LawLine(NamedTuple):
                 return
             longest = free.high
         is_searched = target.bounds or target.sort or target.soft_bounds
-        keys = partial(_keys, target, natural, self.m)
+        keys = partial(_keys, natural)
         own = free.allows(natural)
         if not (own and free.exact):
             spec = self.spec(longest)
@@ -104,8 +104,7 @@ def _longest(lines: Sequence[_LawLine]) -> list[float]:
         left = left[some]
         found[left] = tried[some, able[some].argmax(axis=1)]
         top, step = found + step, step / PARTS
-    longest: list[float] = found.tolist()
-    return longest
+    return [*found.tolist()]
 
 
 def _buildable(lines: Sequence[_LawLine], motions: Array) -> Mask:
@@ -123,9 +122,8 @@ def _buildable(lines: Sequence[_LawLine], motions: Array) -> Mask:
     return able
 
 
-def _keys(target: Target, natural: float, m: int, at: Array) -> dict[str, Array]:
-    alpha0 = np.array([_alpha0(natural, motion) for motion in at.tolist()])
-    return {"motion.alpha0_deg": alpha0, **target.speeds(m, at)}
+def _keys(natural: float, at: Array) -> dict[str, Array]:
+    return {"motion.alpha0_deg": np.array([_alpha0(natural, motion) for motion in at.tolist()])}
 
 
 def _alpha0(natural: float, motion: float) -> float:

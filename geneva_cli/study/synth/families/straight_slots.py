@@ -23,7 +23,6 @@ from geneva_cli.drives.epicyclic import Epicyclic
 from geneva_cli.drives.gears import EllipticalGears
 from geneva_cli.drives.side_crank import SideCrank
 from geneva_cli.drives.transmission import Transmission
-from geneva_cli.errors import marking
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.registry import families_of_kinds
 from geneva_cli.motion.wheels.classic import half_motion_deg, rollers_max
@@ -84,11 +83,14 @@ class _InFront(NamedTuple):
     low: float = -MOST
     high: float = MOST
 
+    def keys(self, at: Array) -> dict[str, Array]:
+        """The key of parameters (n,); of gears the sign of the eccentricity is the phase."""
+        return {self.key: at if self.low * self.high else abs(at)}
+
 
 SLOW, QUICK = (EllipticalGears(eccentricity=0.1, phase=phase) for phase in ("slow", "quick"))
 IN_FRONT = (
     _InFront(SideCrank(A=0.0), "drive.A", side_crank),
-    # of gears the sign of the eccentricity is the phase
     _InFront(SLOW, "drive.eccentricity", eccentricity, low=0.0),
     _InFront(QUICK, "drive.eccentricity", eccentricity, high=0.0),
 )
@@ -98,7 +100,7 @@ def straight(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
     """The families with straight slots."""
     for wheel in wheels:
         for m in _natural_rollers(target, natural_deg(wheel)):
-            yield Family(plain(target, wheel, m))
+            yield Family(target.machine(wheel, Crank(rollers=m)))
             if m == 1:
                 yield from planets(target, wheel)
         yield from driven(target, wheel)
@@ -113,11 +115,6 @@ def _natural_rollers(target: Target, natural: float) -> list[int]:
     return [m for m in several if target.motions(m, natural).allows(natural)]
 
 
-def plain(target: Target, wheel: Gearing, m: int) -> Spec:
-    """The plain crank."""
-    return target.machine(wheel, Crank(rollers=m), natural_deg(wheel))
-
-
 def offset_slots(target: Target, wheel: Gearing) -> Iterator[Family]:
     """Offset slots, which miss the wheel's centre by a tenth of L, for a gentler entry.
 
@@ -125,7 +122,7 @@ def offset_slots(target: Target, wheel: Gearing) -> Iterator[Family]:
     """
     tenth = 0.1
     for m in _natural_rollers(target, natural_deg(wheel)):
-        spec = plain(target, wheel, m)
+        spec = target.machine(wheel, Crank(rollers=m))
         keys = partial(_offset, spec)
         yield Family(spec, keys, tenth, tenth)
         if target.bounds or target.sort:
@@ -143,15 +140,12 @@ def _offset(spec: Spec, at: Array) -> dict[str, Array]:
 
 def planets(target: Target, wheel: Gearing) -> Iterator[Family]:
     """A roller on a planet: without a jump at entry, and with a free crank of the planet."""
-    z, natural = wheel.z, natural_deg(wheel)
+    z = wheel.z
     if z not in (3, 4, 6):
         return
 
-    def planet(fixed: str, ratio: float | str) -> Spec:
-        return target.machine(wheel, Epicyclic(planet_ratio=ratio, fixed=fixed), natural)
-
     for fixed in ("sun", "ring"):
-        shockless = planet(fixed, "shockless")
+        shockless = target.machine(wheel, Epicyclic(planet_ratio="shockless", fixed=fixed))
         if not is_compatible(shockless):
             return
         yield Family(shockless)
@@ -159,7 +153,7 @@ def planets(target: Target, wheel: Gearing) -> Iterator[Family]:
         c = 1.0 + teeth if fixed == "sun" else 1.0 - teeth
         least = -l / (1.0 + c if c > 0.0 else teeth) * (1.0 - 1e-6)
         most = l / (c * c - 1.0) * (1.0 - 1e-9)
-        spec = planet(fixed, most)
+        spec = shockless.with_("drive.planet_ratio", most)
         yield Family(spec, lambda at: {"drive.planet_ratio": at}, least, most, known=0.0)
 
 
@@ -174,18 +168,10 @@ def driven(target: Target, wheel: Gearing) -> Iterator[Family]:
         span = AllowedSpan(*(one.parameter(natural, x) for x in motion))
         span = span.within(AllowedSpan(one.low, one.high))
         if not span.empty:
-            spec = target.machine(wheel, one.drive, natural)
+            spec = target.machine(wheel, one.drive)
             if one.parameter is eccentricity:  # gears are as far apart as wheel and crank
                 spec = spec.with_("drive.gear_distance_mm", spec.given_distance_mm)
-            keys = partial(_in_front, target, natural, one)
-            yield Family(spec, keys, *span, 0.0, known)
-
-
-def _in_front(target: Target, natural: float, one: _InFront, at: Array) -> dict[str, Array]:
-    size = at if one.low * one.high else abs(at)
-    with marking():  # all are in range
-        drive = one.drive.with_keys({one.key.removeprefix("drive."): size[:, None]})
-    return {one.key: size, **target.speeds(1, 2.0 * drive.about(0.5 * natural)[0])}
+            yield Family(spec, one.keys, *span, 0.0, known)
 
 
 def inclined(target: Target, wheel: Gearing) -> Iterator[Family]:
@@ -199,11 +185,5 @@ def inclined(target: Target, wheel: Gearing) -> Iterator[Family]:
         span = AllowedSpan(*(axes(z, x) for x in free)).within(AXES)
         if not span.empty:
             known = 90.0 if free.allows(180.0) else math.nan
-            keys = partial(_on_axes, target, wheel, m)
-            yield Family(plain(target, wheel, m), keys, *span, 90.0, known)
-
-
-def _on_axes(target: Target, wheel: Gearing, m: int, at: Array) -> dict[str, Array]:
-    with marking():  # all are in range
-        motion_deg = natural_deg(wheel.replace(axes_deg=at[:, None]))
-    return {"wheel.axes_deg": at, **target.speeds(m, motion_deg)}
+            spec = target.machine(wheel, Crank(rollers=m))
+            yield Family(spec, lambda at: {"wheel.axes_deg": at}, *span, 90.0, known)
