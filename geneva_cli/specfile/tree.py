@@ -131,9 +131,8 @@ def read_pairs(path: str, rule: Csv, key: tuple[str, ...]) -> list[tuple[float, 
     Raises GenevaError naming the file's line or, if the file cannot be read, the spec's key.
     """
     points: list[tuple[float, float]] = []
-    text = read_text(
-        path, 1 << 24, "use fewer points", key
-    )  # some hundred thousand points, in memory
+    # some hundred thousand points, in memory
+    text = read_text(path, 1 << 24, "use fewer points", key)
     for number, line in enumerate(text.split("\n"), 1):
         row = [re.sub(r'^"(.*)"$', r"\1", cell.strip()) for cell in line.split(",")]
         if row == [""] or row[0].startswith("#") or row == ["u", "s"]:
