@@ -14,7 +14,7 @@ import numpy as np
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.loops import JOINED_MM
 from geneva_cli.geometry.shapes import Contour
-from geneva_cli.numerics.arrays import Array, Mask, Whole
+from geneva_cli.numerics.arrays import Array, Mask, Whole, blocks
 
 BLUNTEST = -0.7  # cosine of 135°, nearly: a blunter corner is one of facets
 SLANT = 1e-6  # sine of an angle that counts as right: tangents of rounded drawings differ
@@ -80,10 +80,9 @@ def smallest_wall(
     points = np.concatenate((place[some], outline.cx[hollow] + 1j * outline.cy[hollow]))
     radius = np.concatenate((np.zeros(len(some)), outline.radius[hollow]))
     starts, ends = [np.zeros(0, dtype=complex)], [np.zeros(0, dtype=complex)]
-    size = max(1, BLOCK // len(outline))
-    for first in range(0, len(points), size):
-        row, foot = feet(points[first : first + size])
-        k = first + row
+    for block in blocks(len(points), max(1, BLOCK // len(outline))):
+        row, foot = feet(points[block])
+        k = block.start + row
         direction = (foot - points[k]) / np.abs(foot - points[k])
         at, own = points[k] + radius[k] * direction, piece[k]
         # an arc has a point in that direction from its centre, or a corner faces it

@@ -122,9 +122,9 @@ def _most(values: Array, at: Array, first: First) -> Most:
     if not size > 1e-6:
         return Most(0.0, first(np.zeros(1)))
     same = values >= size - max(SAME * size, math.degrees(EXACT))
-    begins = np.flatnonzero(same & ~np.append(False, same[:-1]))
-    ends = np.flatnonzero(same & ~np.append(same[1:], False))
-    return Most(size, first(at[(begins + ends) // 2]))
+    edges = np.diff(same, prepend=False, append=False)
+    begins, ends = np.flatnonzero(edges).reshape(-1, 2).T
+    return Most(size, first(at[(begins + ends - 1) // 2]))
 
 
 def _positions(parts: TurnedParts) -> Array:
@@ -142,11 +142,9 @@ def _positions(parts: TurnedParts) -> Array:
         raise GenevaError(f"{text}: use a larger roller or horn")
     even = np.interp(np.linspace(0.0, total[-1], count + 1), total, grid)
     # A rim that is too large collides for less than a degree about entry and exit.
-    ends = []
-    for engagement, mid in assembly.motions:
-        ends += [mid + engagement.entry_deg, mid + engagement.exit_deg]
+    ends = np.array([*map(attrgetter("entry", "exit"), assembly.motions)])
     offsets = np.geomspace(0.01, 15.0, 24)  # degrees of the input, on either side
-    near = (np.array(ends)[:, None] + np.concatenate((-offsets, [0.0], offsets))).ravel()
+    near = (ends.reshape(-1, 1) + np.concatenate((-offsets, [0.0], offsets))).ravel()
     near = assembly.start_deg + (near - assembly.start_deg) % assembly.turn_deg
     return rising(np.concatenate((even, near)))
 

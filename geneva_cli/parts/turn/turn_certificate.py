@@ -14,7 +14,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc, from_segments
-from geneva_cli.geometry.shapes import Arc, Contour, Segment, at
+from geneva_cli.geometry.shapes import Arc, Contour, Segment, points
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.arrays import Array, rising
 from geneva_cli.parts.turn.stops import Clearances, Outline, Pose
@@ -120,7 +120,7 @@ class FlatPairs:
             for piece in contour.segments:
                 sweep = piece.sweep if isinstance(piece, Arc) else 0.0
                 count = math.ceil(abs(math.degrees(sweep))) or 90
-                ends = [*map(partial(at, piece), np.linspace(0.0, 1.0, count + 1).tolist())]
+                ends = points(piece, count)
                 bulge = math.tan(0.25 * sweep / count)
                 pieces += map(Arc, ends, ends[1:], repeat(bulge))
         self.pieces: Outline = None
