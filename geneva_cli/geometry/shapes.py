@@ -7,7 +7,6 @@ Points are (x, y). Nothing is measured from an arc's centre, which may be far aw
 import cmath
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from functools import partial
 from itertools import permutations
 from operator import attrgetter, itemgetter
 from typing import Literal, NamedTuple, TypeAlias, TypeVar
@@ -266,7 +265,7 @@ def at(segment: Segment, t: float) -> Point:
 
 def points(segment: Segment, count: int) -> list[Point]:
     """``count`` + 1 points at even parameters, both ends included."""
-    return [*map(partial(at, segment), np.linspace(0.0, 1.0, count + 1).tolist())]
+    return [at(segment, i / count) for i in range(count + 1)]
 
 
 def halved(segment: Segment, is_long: Callable[[float], bool]) -> list[Segment]:

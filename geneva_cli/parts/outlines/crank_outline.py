@@ -55,8 +55,11 @@ def reliefs(assembly: Assembly) -> list[Relief]:
 def sectors(around: list[Relief]) -> list[tuple[float, float]]:
     """Return the sectors in which the disc locks: directions on the crank, radians, from and to."""
     starts, ends, _ = zip(*around, strict=True)
-    pairs = zip(ends, (*starts[1:], starts[0] + math.tau), strict=True)
-    return [(end, after) for end, after in pairs if after - end > SAME_ANGLE]
+    out = []
+    for end, after in zip(ends, (*starts[1:], starts[0] + math.tau), strict=True):
+        if after - end > SAME_ANGLE:
+            out.append((end, after))
+    return out
 
 
 def arc_floor(assembly: Assembly, lock: float) -> float:
