@@ -28,6 +28,7 @@ class Polyarc:
                 assert isinstance(piece, Line | Arc), "cubics have no exact distance here"
                 bulge = piece.bulge if isinstance(piece, Arc) else 0.0
                 rows.append((*piece.start, *piece.end, bulge))
+        self.after = np.array(after)  # the piece that follows each
         x0, y0, x1, y1, bulges = np.array(rows).T
         dx, dy, sense, half = x1 - x0, y1 - y0, np.sign(bulges), 2.0 * np.arctan(bulges)
         # the turns of the outline at the ends of the pieces, and at their starts

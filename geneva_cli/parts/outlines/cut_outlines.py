@@ -48,7 +48,7 @@ def _drawn(assembly: Assembly, sizes: Sizes) -> Outlines:
     whole sector is cut down to where the wheel never comes.
     """
     walls, curved = turned_walls(assembly, sizes), map(attrgetter("slot.curved"), assembly.kinds)
-    close = (CURVED if any(curved) else SAME_LENGTH) * assembly.L
+    close = (CONTACT if any(curved) else SAME_LENGTH) * assembly.L
     wheel, cut = wheel_contour(assembly, sizes, walls)
     bare = Gaps(assembly, sizes, wheel, [])
     if assembly.full.spec.wheel.stopped:
@@ -119,12 +119,9 @@ def cut_arcs(contours: Iterable[Contour], radius: float, away: float, near: floa
                 yield arc
 
 
-CURVED = CONTACT  # of the centre distance: accuracy of curved walls for the full turn
-
-
 def turned_walls(assembly: Assembly, sizes: Sizes) -> dict[Engagement, Contour]:
     """Return the walls of each kind of slot, as accurate as the full turn needs them."""
-    fine = 0.5 * CURVED * assembly.L
+    fine = 0.5 * CONTACT * assembly.L
     walls = map(partial(slot_walls, assembly, sizes, tolerance=fine), assembly.kinds)
     return dict(zip(assembly.kinds, walls, strict=True))
 

@@ -183,7 +183,7 @@ def _least(parts: TurnedParts, pair: str, at: Array, first: First) -> Gap:
         low, high = x[row, np.maximum(i - 1, 0)], x[row, np.minimum(i + 1, FINER - 1)]
     # Where a gap stays equal for a while, its position is the first one.
     same = values <= size + parts.close
-    begins = at[same & ~np.append(False, same[:-1])]
+    begins = at[same & np.diff(same, prepend=False)]
     return Gap(size, first(np.append(begins, places[finest <= size + parts.close])), pair)
 
 

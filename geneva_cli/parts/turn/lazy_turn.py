@@ -129,7 +129,7 @@ class _Path:
 
     def begin(self, crank: float, rest: Range, wheel: float) -> None:
         """Start from a position, pushed out of an overlap of rounding."""
-        near = _pushed(rest, wheel)
+        near = pushed(rest, wheel)
         if abs(near - wheel) > 1e-3:  # radians: more is no rounding
             raise _Stuck(Jam(crank, wheel))
         low, high = rest[1:] if rest.is_free else (near, near)
@@ -139,9 +139,9 @@ class _Path:
         """Go on to a crank angle. A step is divided if a push begins or ends, or the wheel runs."""
         before, wheel = self.rows[-1][:2]
         step, there = abs(crank - before), around(wheel)
-        pushed, changes = _pushed(there, wheel), there.is_free is self.is_pushed
+        new, changes = pushed(there, wheel), there.is_free is self.is_pushed
         steepest = STEEPEST if step < 1e-4 else SLOW
-        runs = abs(pushed - wheel) > steepest * step + SAME
+        runs = abs(new - wheel) > steepest * step + SAME
         if runs and step < SHORTEST:
             raise _Stuck(Jam(before, wheel))
         # a push that has hardly paused goes on
@@ -159,16 +159,16 @@ class _Path:
         if changes and not (self.is_pushed or goes_on):
             self.pushes.append(((before, wheel), (before, wheel)))
         self.is_pushed = not there.is_free
-        if self.is_pushed and abs(pushed - self.pushes[-1][1][1]) > SAME:
-            self.pushes[-1] = self.pushes[-1][0], (crank, pushed)
+        if self.is_pushed and abs(new - self.pushes[-1][1][1]) > SAME:
+            self.pushes[-1] = self.pushes[-1][0], (crank, new)
         # with the free range on the other side of a touching part
-        places_free = (around(at) for at in (pushed, pushed - SAME, pushed + SAME))
-        free = next((one for one in places_free if one.is_free), Range(True, pushed, pushed))
-        self.rows.append((crank, pushed, free.low, free.high))
+        places_free = (around(at) for at in (new, new - SAME, new + SAME))
+        free = next((one for one in places_free if one.is_free), Range(True, new, new))
+        self.rows.append((crank, new, free.low, free.high))
 
 
-def _pushed(there: Range, wheel: float) -> float:
-    """The angle to which the wheel is pushed out of a range."""
+def pushed(there: Range, wheel: float) -> float:
+    """The angle of a wheel that a blocked range pushes to its nearer end."""
     if there.is_free:
         return wheel
     return min((there.low, there.high), key=lambda end: abs(end - wheel))
