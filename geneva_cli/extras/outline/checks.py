@@ -115,7 +115,7 @@ def _jam_text(machine: DrawnMachine, sense: SenseResult) -> str:
     touching = contacts(machine.free, beyond, np.array([wheel]), near=0.5, lever=-1.0)
     if not touching.is_known[0]:
         return text
-    own, theirs = touching.named(0)
+    own, theirs = touching.wheel.named(0), touching.crank.named(0)
     where = shown((float(touching.point[0, 0]), float(touching.point[0, 1])))
     return f"{text}: {theirs} of the crank meets {own} of the wheel at {where} in its own frame"
 

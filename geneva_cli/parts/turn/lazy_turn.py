@@ -107,12 +107,11 @@ class Turner:
                 path.to(crank, partial(self.ranges.around, way * k % self.steps))
         except _Stuck as stuck:
             (jam,) = stuck.args
-        pushes = tuple(Push(*begin, *end) for begin, end in path.pushes)
         rows = np.array(path.rows).reshape(-1, 4)
         kept = np.diff(np.round(rows[:, 0] / NEXT), prepend=math.inf) != 0.0
         kept[-1:] = True
         crank_at, wheel_at, low, high = rows[kept].T
-        return LazyTurn(crank_at, wheel_at, low, high, pushes, jam)
+        return LazyTurn(crank_at, wheel_at, low, high, tuple(path.pushes), jam)
 
 
 class _Path:
@@ -124,8 +123,7 @@ class _Path:
     def __init__(self, free: FreeRanges, finest: float) -> None:
         self.free, self.finest, self.is_pushed = free, finest, False
         self.rows: list[tuple[float, float, float, float]] = []
-        # crank and wheel where pushes begin, and where they have moved the wheel farthest
-        self.pushes: list[tuple[tuple[float, float], tuple[float, float]]] = []
+        self.pushes: list[Push] = []  # which end where they have moved the wheel farthest
 
     def begin(self, crank: float, rest: Range, wheel: float) -> None:
         """Start from a position, pushed out of an overlap of rounding."""
@@ -145,7 +143,7 @@ class _Path:
         if runs and step < SHORTEST:
             raise _Stuck(Jam(before, wheel))
         # a push that has hardly paused goes on
-        goes_on = bool(self.pushes) and abs(before - self.pushes[-1][1][0]) <= PAUSE
+        goes_on = bool(self.pushes) and abs(before - self.pushes[-1].end) <= PAUSE
         finest = max(self.finest, END) if self.is_pushed or goes_on else self.finest
         if runs or (changes and step > finest):
             last_step = abs(before - self.rows[-2][0]) if len(self.rows) > 1 else math.inf
@@ -157,10 +155,10 @@ class _Path:
                 self.to(float(places[i]), partial(ranges.around, i))
             return
         if changes and not (self.is_pushed or goes_on):
-            self.pushes.append(((before, wheel), (before, wheel)))
+            self.pushes.append(Push(before, wheel, before, wheel))
         self.is_pushed = not there.is_free
-        if self.is_pushed and abs(new - self.pushes[-1][1][1]) > SAME:
-            self.pushes[-1] = self.pushes[-1][0], (crank, new)
+        if self.is_pushed and abs(new - self.pushes[-1].end_wheel) > SAME:
+            self.pushes[-1] = self.pushes[-1]._replace(end=crank, end_wheel=new)
         # with the free range on the other side of a touching part
         places_free = (around(at) for at in (new, new - SAME, new + SAME))
         free = next((one for one in places_free if one.is_free), Range(True, new, new))
