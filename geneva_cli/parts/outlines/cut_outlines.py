@@ -48,7 +48,7 @@ def _drawn(assembly: Assembly, sizes: Sizes) -> Outlines:
     whole sector is cut down to where the wheel never comes.
     """
     walls, curved = turned_walls(assembly, sizes), map(attrgetter("slot.curved"), assembly.kinds)
-    close = (CONTACT if any(curved) else SAME_LENGTH) * assembly.L
+    close = (CURVED if any(curved) else SAME_LENGTH) * assembly.L
     wheel, cut = wheel_contour(assembly, sizes, walls)
     bare = Gaps(assembly, sizes, wheel, [])
     if assembly.full.spec.wheel.stopped:
@@ -119,9 +119,12 @@ def cut_arcs(contours: Iterable[Contour], radius: float, away: float, near: floa
                 yield arc
 
 
+CURVED = CONTACT  # of the centre distance: accuracy of curved walls for the full turn
+
+
 def turned_walls(assembly: Assembly, sizes: Sizes) -> dict[Engagement, Contour]:
     """Return the walls of each kind of slot, as accurate as the full turn needs them."""
-    fine = 0.5 * CONTACT * assembly.L
+    fine = 0.5 * CURVED * assembly.L
     walls = map(partial(slot_walls, assembly, sizes, tolerance=fine), assembly.kinds)
     return dict(zip(assembly.kinds, walls, strict=True))
 
@@ -197,11 +200,9 @@ def horn_corners(assembly: Assembly, sizes: Sizes) -> dict[Engagement, tuple[flo
             centre = paths.rest(assembly, kind, end)
             nearer = math.dist(first.start, centre) < math.dist(last.end, centre)
             wall = Line(first.end, first.start) if nearer else Line(last.start, last.end)
-            at = max(math.hypot(*wall.end), least)
-            if sizes.recess and sizes.horn_tip:
-                flat = paths.tip(wall, centre, sizes.recess, sizes.horn_tip)
-                at = math.hypot(*flat.end) if flat else at
-            ends.append(at)
+            recess, width = sizes.recess, sizes.horn_tip
+            flat = paths.tip(wall, centre, recess, width) if recess else None
+            ends.append(math.hypot(*flat.end) if flat else max(math.hypot(*wall.end), least))
         out[kind] = ends[0], ends[1]
     return out
 
@@ -282,7 +283,7 @@ def _beside(
     """
     L, axis, line, corner = assembly.L, shapes.polar(ORIGIN, assembly.L, at), wall[-1], wall[-1].end
     rim, away, out = math.hypot(*corner), math.dist(corner, axis), list[Segment]()
-    if sizes.lock and sizes.horn_tip and isinstance(line, Line):
+    if sizes.lock and isinstance(line, Line):
         flat = paths.tip(line, axis, sizes.recess, sizes.horn_tip)
         if flat:
             wall[-1] = line._replace(end=flat.start)
