@@ -201,7 +201,7 @@ def horn_corners(assembly: Assembly, sizes: Sizes) -> dict[Engagement, tuple[flo
             nearer = math.dist(first.start, centre) < math.dist(last.end, centre)
             wall = Line(first.end, first.start) if nearer else Line(last.start, last.end)
             recess, width = sizes.recess, sizes.horn_tip
-            flat = paths.tip(wall, centre, recess, width) if recess else None
+            flat = paths.tip(wall, centre, recess, width) if recess and width else None
             ends.append(math.hypot(*flat.end) if flat else max(math.hypot(*wall.end), least))
         out[kind] = ends[0], ends[1]
     return out
@@ -283,7 +283,7 @@ def _beside(
     """
     L, axis, line, corner = assembly.L, shapes.polar(ORIGIN, assembly.L, at), wall[-1], wall[-1].end
     rim, away, out = math.hypot(*corner), math.dist(corner, axis), list[Segment]()
-    if sizes.lock and isinstance(line, Line):
+    if sizes.lock and sizes.horn_tip and isinstance(line, Line):
         flat = paths.tip(line, axis, sizes.recess, sizes.horn_tip)
         if flat:
             wall[-1] = line._replace(end=flat.start)

@@ -142,9 +142,11 @@ def _positions(parts: TurnedParts) -> Array:
         raise GenevaError(f"{text}: use a larger roller or horn")
     even = np.interp(np.linspace(0.0, total[-1], count + 1), total, grid)
     # A rim that is too large collides for less than a degree about entry and exit.
-    ends = np.array([*map(attrgetter("entry", "exit"), assembly.motions)])
+    ends = []
+    for engagement, mid in assembly.motions:
+        ends += [mid + engagement.entry_deg, mid + engagement.exit_deg]
     offsets = np.geomspace(0.01, 15.0, 24)  # degrees of the input, on either side
-    near = (ends.reshape(-1, 1) + np.concatenate((-offsets, [0.0], offsets))).ravel()
+    near = (np.array(ends)[:, None] + np.concatenate((-offsets, [0.0], offsets))).ravel()
     near = assembly.start_deg + (near - assembly.start_deg) % assembly.turn_deg
     return rising(np.concatenate((even, near)))
 

@@ -137,12 +137,13 @@ class Play(NamedTuple):
 def windows(parts: TurnedParts) -> list[Window]:
     """Return the motions and dwells of a turn."""
     assembly, motions, out = parts.assembly, parts.assembly.motions, []
-    for i, motion in enumerate(motions):
-        entry, exit_ = motion.entry, motion.exit
-        following = motions[(i + 1) % len(motions)].entry
+    for i, (engagement, behind) in enumerate(motions):
+        after, later = motions[(i + 1) % len(motions)]
+        entry, exit_ = behind + engagement.entry_deg, behind + engagement.exit_deg
+        following = later + after.entry_deg
         following += assembly.turn_deg if i + 1 == len(motions) else 0.0
         spans: tuple[tuple[float, float, int | None], ...] = ((entry, exit_, i),)
-        if motion.engagement.paired:
+        if engagement.paired:
             # between two rollers gears drive the wheel, from the deepest position to the other's
             first, last = 2 * i, 2 * i + 1
             leaves = entry + (assembly.rollers[first].mid - entry) % assembly.turn_deg
