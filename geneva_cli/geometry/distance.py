@@ -11,7 +11,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from geneva_cli.geometry.shapes import Arc, Contour, Line
-from geneva_cli.numerics.arrays import Array, Mask, Whole, rising
+from geneva_cli.numerics.arrays import Array, Mask, Whole, blocks, rising
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 
 BLOCK = 1 << 14  # distances in a block: they stay in the processor's cache
@@ -28,6 +28,7 @@ class Polyarc:
                 assert isinstance(piece, Line | Arc), "cubics have no exact distance here"
                 bulge = piece.bulge if isinstance(piece, Arc) else 0.0
                 rows.append((*piece.start, *piece.end, bulge))
+        self.after = np.array(after)  # the piece that follows each
         x0, y0, x1, y1, bulges = np.array(rows).T
         dx, dy, sense, half = x1 - x0, y1 - y0, np.sign(bulges), 2.0 * np.arctan(bulges)
         # the turns of the outline at the ends of the pieces, and at their starts
@@ -79,9 +80,9 @@ class Polyarc:
 
     def signed(self, points: Array) -> Array:
         """Distance of each of (n, 2) points from the boundary, negative inside the material."""
-        size, out = max(1, BLOCK // len(self.x0)), np.empty(len(points))
-        for begin in range(0, len(points), size):
-            px, py = points[begin : begin + size].T
+        out = np.empty(len(points))
+        for block in blocks(len(points), max(1, BLOCK // len(self.x0))):
+            px, py = points[block].T
             # The nearest piece is among those whose circles come nearer than the ends of any piece.
             dx, dy = px[:, None] - self.ox, py[:, None] - self.oy
             away = np.sqrt(dx * dx + dy * dy)
@@ -97,7 +98,7 @@ class Polyarc:
             # Outside at a convex corner, inside at a hollow one; at a smooth joint by the side.
             turn = np.where(along[first] < 0.0, some.turn_start[first], some.turn_end[first])
             inside = np.where(~facing[first] & (turn != 0.0), turn < 0.0, side[first] > 0.0)
-            out[begin : begin + size] = np.where(inside, -1.0, 1.0) * distance[first]
+            out[block] = np.where(inside, -1.0, 1.0) * distance[first]
         return out
 
     def distances(self, x: Array, y: Array) -> tuple[Array, Array, Mask, Array]:
@@ -194,12 +195,10 @@ class Polyarc:
         bend = self.sense * self.sin_half
         turned = sides * np.exp(1j * pitch)
         after = np.empty(len(turned), dtype=int)
-        block = max(1, (1 << 22) // len(turned))
-        for first in range(0, len(turned), block):
-            some = turned[first : first + block]
+        for some in blocks(len(turned), max(1, (1 << 22) // len(turned))):
             # each piece starts at another place, and squares take a tenth of the time of distances
-            x, y = some[:, :1].real - self.x0, some[:, :1].imag - self.y0
-            after[first : first + block] = np.argmin(x * x + y * y, axis=1)
+            x, y = turned[some, :1].real - self.x0, turned[some, :1].imag - self.y0
+            after[some] = np.argmin(x * x + y * y, axis=1)
         moved = np.abs(turned - sides[after]).max()
         if moved > near or np.abs(bend - bend[after]).max() > 1e-9:
             return None

@@ -12,6 +12,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.plates import with_material_left
 from geneva_cli.geometry.shapes import Arc, Contour, Line, Point, Segment, at, backwards, closed
+from geneva_cli.numerics.arrays import blocks
 from geneva_cli.table import in_decimals
 
 JOINED_MM = 1e-3  # ends that are nearer to each other are one
@@ -107,12 +108,11 @@ def _refuse_crossings(contours: list[Contour]) -> None:
     rings = [Polyarc([contour]).samples(JOINED_MM, math.inf) @ (1.0, 1j) for contour in contours]
     start, end = np.concatenate(rings), np.concatenate([np.roll(ring, -1) for ring in rings])
     step, middle = end - start, 0.5 * (start + end)
-    size, block = 0.5 * np.abs(step), max(1, BLOCK // len(start))
-    for first in range(0, len(start), block):
-        some = slice(first, first + block)
+    size = 0.5 * np.abs(step)
+    for some in blocks(len(start), max(1, BLOCK // len(start))):
         apart = np.abs(middle[some, None] - middle)
         i, j = np.nonzero(apart <= size[some, None] + size)
-        i += first
+        i += some.start
         away, across = start[j] - start[i], (step[i].conj() * step[j]).imag
         # fractions of both chords
         fractions = [(away.conj() * step[k]).imag / across for k in (j, i)]

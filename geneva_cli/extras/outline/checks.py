@@ -115,7 +115,7 @@ def _jam_text(machine: DrawnMachine, sense: SenseResult) -> str:
     touching = contacts(machine.free, beyond, np.array([wheel]), near=0.5, lever=-1.0)
     if not touching.is_known[0]:
         return text
-    own, theirs = touching.named(0)
+    own, theirs = touching.wheel.named(0), touching.crank.named(0)
     where = shown((float(touching.point[0, 0]), float(touching.point[0, 1])))
     return f"{text}: {theirs} of the crank meets {own} of the wheel at {where} in its own frame"
 
@@ -157,15 +157,12 @@ def _summary(result: Turned) -> str:
 
 def lag_deg(result: Turned) -> float:
     """How far the wheel lags behind the ideal motion at most, degrees."""
-    turn, worst, passed = result.senses[0].first, 0.0, 0.0
-    at_deg = np.degrees(turn.crank)
-    for engagement, mid in result.machine.assembly.motions:
-        inside = (at_deg - mid > engagement.entry_deg) & (at_deg - mid < engagement.exit_deg)
-        ideal = engagement.motion(at_deg[inside] - mid, 0).derivatives()[0]
-        behind = passed + ideal - turn.wheel[inside]
-        worst = max(worst, math.degrees(float(np.max(behind, initial=0.0))))
-        passed += 2.0 * engagement.half_step
-    return worst
+    turn, place = result.senses[0].first, result.machine.assembly
+    at_deg, moves = np.degrees(turn.crank), np.zeros(len(turn.crank), dtype=bool)
+    for motion in place.motions:
+        moves |= (motion.entry < at_deg) & (at_deg < motion.exit)
+    behind = place.wheel(at_deg) - turn.wheel
+    return math.degrees(float(behind[moves].max(initial=0.0)))
 
 
 def _rests(result: Turned) -> Iterator[Check]:

@@ -29,6 +29,12 @@ class Side(NamedTuple):
     radius: Array
     is_edge: Mask
 
+    def named(self, i: int) -> str:
+        """What touches at the i-th position, in words."""
+        if self.is_edge[i]:
+            return "a straight edge"
+        return f"the arc of {self.radius[i]:.4g} mm" if self.radius[i] else "the corner"
+
 
 class Contact(NamedTuple):
     """What touches at n positions; angles are radians."""
@@ -66,15 +72,6 @@ class Contact(NamedTuple):
             stands = ~crank.is_edge & (np.abs(own) < FIXED * self.L)
             pushes = self.is_known & ~stands & (np.abs(rates[0]) <= 2.0 * STEEPEST)
         return self.turn, *[np.where(pushes, rate, 0.0) for rate in rates]
-
-    def named(self, i: int) -> tuple[str, str]:
-        """What touches of the wheel and of the crank, in words."""
-        out = []
-        for side in (self.wheel, self.crank):
-            radius = side.radius[i]
-            arc = f"the arc of {radius:.4g} mm" if radius else "the corner"
-            out.append("a straight edge" if side.is_edge[i] else arc)
-        return out[0], out[1]
 
 
 def contacts(

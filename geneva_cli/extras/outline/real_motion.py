@@ -18,7 +18,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peaks import QUANTITIES
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.jet import Jet, composed
-from geneva_cli.parts.turn.lazy_turn import LazyTurn, Push
+from geneva_cli.parts.turn.lazy_turn import LazyTurn, Push, pushed
 from geneva_cli.table import Table, record_table
 from geneva_cli.verdict.quantities.groups import only
 
@@ -72,9 +72,7 @@ def at_crank(result: Turned, turn: LazyTurn, crank: Array) -> tuple[Array, list[
             continue
         ranges = free.at(crank[inside])
         for i, k in enumerate(inside):
-            there = ranges.around(i, wheel[k])
-            if not there.is_free:
-                wheel[k] = min(there.low, there.high, key=lambda end: abs(end - wheel[k]))
+            wheel[k] = pushed(ranges.around(i, wheel[k]), wheel[k])
         found = contacts(free, crank[inside], wheel[inside]).motion(crank[inside])
         for rate, own in zip(rates, found[1:], strict=True):
             rate[inside] = own

@@ -14,7 +14,7 @@ import numpy as np
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.loops import JOINED_MM
 from geneva_cli.geometry.shapes import Contour
-from geneva_cli.numerics.arrays import Array, Mask, Whole
+from geneva_cli.numerics.arrays import Array, Mask, Whole, blocks
 
 BLUNTEST = -0.7  # cosine of 135°, nearly: a blunter corner is one of facets
 SLANT = 1e-6  # sine of an angle that counts as right: tangents of rounded drawings differ
@@ -29,9 +29,6 @@ def smallest_wall(
     """The smallest wall of a part with the material on the left: mm, and its ends; None without."""
     outline = Polyarc(contours)
     some = np.arange(len(outline)) if some is None else some
-    lengths = [len(contour.segments) for contour in contours]
-    begins = np.repeat(np.cumsum([0, *lengths[:-1]]), lengths)
-    following = begins + np.concatenate([np.roll(np.arange(n), -1) for n in lengths])
     # The directions in which the boundary leaves the corner where each piece starts: ahead along
     # it, and back along the piece before. An arc to the left begins half of its sweep to the right
     # of its chord.
@@ -39,7 +36,7 @@ def smallest_wall(
     half = outline.cos_half + 1j * outline.sin_half
     turn = np.where(outline.sense < 0.0, half, half.conjugate())
     after, before = chord * turn, np.empty(len(outline), dtype=complex)
-    before[following] = -chord * turn.conjugate()
+    before[outline.after] = -chord * turn.conjugate()
 
     def faces(which: Whole, direction: Array, ends: bool = False) -> Mask:
         """Whether directions lead into the material from corners that nowhere come nearer.
@@ -61,7 +58,7 @@ def smallest_wall(
         away_mm, _, facing, along = outline.distances(points.real[:, None], points.imag[:, None])
         row, piece = np.nonzero(away_mm > LEAST_MM)
         facing, along = facing[row, piece], along[row, piece]
-        corner = np.where(along < 0.0, piece, following[piece])
+        corner = np.where(along < 0.0, piece, outline.after[piece])
         is_arc, direction = outline.arc[piece], chord[piece]
         centre = outline.cx[piece] + 1j * outline.cy[piece]
         on_line = outline.ox[piece] + 1j * outline.oy[piece] + along * direction
@@ -80,10 +77,9 @@ def smallest_wall(
     points = np.concatenate((place[some], outline.cx[hollow] + 1j * outline.cy[hollow]))
     radius = np.concatenate((np.zeros(len(some)), outline.radius[hollow]))
     starts, ends = [np.zeros(0, dtype=complex)], [np.zeros(0, dtype=complex)]
-    size = max(1, BLOCK // len(outline))
-    for first in range(0, len(points), size):
-        row, foot = feet(points[first : first + size])
-        k = first + row
+    for block in blocks(len(points), max(1, BLOCK // len(outline))):
+        row, foot = feet(points[block])
+        k = block.start + row
         direction = (foot - points[k]) / np.abs(foot - points[k])
         at, own = points[k] + radius[k] * direction, piece[k]
         # an arc has a point in that direction from its centre, or a corner faces it

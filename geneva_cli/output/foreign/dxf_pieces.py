@@ -38,7 +38,11 @@ def read_dxf(data: bytes, path: str) -> Drawn:
     Layers that are off, and those of centre lines and texts, are left out. Raises GenevaError for
     data that is no DXF file, and for an entity that is no outline.
     """
-    document = _document(path)
+    try:
+        document = readfile(path)
+    except Exception as error:  # the library raises errors of all kinds for damaged data
+        reason = cut(str(error).strip() or type(error).__name__, 200)
+        raise GenevaError(f"not a DXF file that can be read: {reason}") from None
     # a file without a header gets the library's own, whose unit is the metre
     code = int(document.header.get("$INSUNITS", 0) or 0) if b"$INSUNITS" in data else 0
     if code and code not in UNITS:
@@ -60,14 +64,6 @@ def read_dxf(data: bytes, path: str) -> Drawn:
             raise GenevaError(f"{kind} with the handle {handle} cannot be read: {error}") from None
     notes = () if code else ("has no unit ($INSUNITS): its numbers are taken as millimetres",)
     return drawing(rows, notes)
-
-
-def _document(path: str) -> Document:
-    try:
-        return readfile(path)
-    except Exception as error:  # the library raises errors of all kinds for damaged data
-        reason = cut(str(error).strip() or type(error).__name__, 200)
-        raise GenevaError(f"not a DXF file that can be read: {reason}") from None
 
 
 def _entities(document: Document, entities: Iterable[Any], depth: int) -> Iterator[Any]:

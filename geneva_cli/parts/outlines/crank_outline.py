@@ -54,9 +54,9 @@ def reliefs(assembly: Assembly) -> list[Relief]:
 
 def sectors(around: list[Relief]) -> list[tuple[float, float]]:
     """Return the sectors in which the disc locks: directions on the crank, radians, from and to."""
+    starts, ends, _ = zip(*around, strict=True)
     out = []
-    for i, (_, end, _) in enumerate(around):
-        after = around[i + 1][0] if i + 1 < len(around) else around[0][0] + math.tau
+    for end, after in zip(ends, (*starts[1:], starts[0] + math.tau), strict=True):
         if after - end > SAME_ANGLE:
             out.append((end, after))
     return out
@@ -67,9 +67,8 @@ def arc_floor(assembly: Assembly, lock: float) -> float:
 
     They meet the disc at right angles. If gears widen the reliefs, they must leave a bore.
     """
-    half = 0.0
-    for start, end, _ in reliefs(assembly._replace(L=1.0)):  # directions
-        half = max(half, 0.5 * (end - start))
+    starts, ends, _ = np.transpose(reliefs(assembly._replace(L=1.0)))  # directions
+    half = 0.5 * float((ends - starts).max())
     if half > 0.5 * math.pi - SAME_ANGLE:
         return 0.0
     floor = lock * math.tan(0.25 * math.pi - 0.5 * half)
@@ -97,10 +96,10 @@ def widened(assembly: Assembly, sizes: Sizes, mouths: Mouths) -> list[Relief]:
         start, end, spare = first, after, sizes.relief / lock
         corners = mouths.get(engagement) or next(iter(mouths.values()))  # slots are equal
         for side, p in zip((1.0, -1.0), corners, strict=True):
-            cosines = [(L * L + p * p - k * k) / (2.0 * L * p) for k in (lock, recess)]
-            if max(cosines) >= 1.0:  # the corner never comes into the disc
+            cosines = (L * L + p * p - np.square((lock, recess))) / (2.0 * L * p)
+            if cosines.max() >= 1.0:  # the corner never comes into the disc
                 continue
-            leaves, rests = [math.acos(max(cosine, -1.0)) for cosine in cosines]
+            leaves, rests = np.arccos(np.maximum(cosines, -1.0)).tolist()
             last = side * (leaves - half_step + rests)
             corner = side * (half_step - rests) + np.append(turned, last)
             x, y = p * np.cos(corner) - L, p * np.sin(corner)

@@ -200,11 +200,9 @@ def horn_corners(assembly: Assembly, sizes: Sizes) -> dict[Engagement, tuple[flo
             centre = paths.rest(assembly, kind, end)
             nearer = math.dist(first.start, centre) < math.dist(last.end, centre)
             wall = Line(first.end, first.start) if nearer else Line(last.start, last.end)
-            at = max(math.hypot(*wall.end), least)
-            if sizes.recess and sizes.horn_tip:
-                flat = paths.tip(wall, centre, sizes.recess, sizes.horn_tip)
-                at = math.hypot(*flat.end) if flat else at
-            ends.append(at)
+            recess, width = sizes.recess, sizes.horn_tip
+            flat = paths.tip(wall, centre, recess, width) if recess and width else None
+            ends.append(math.hypot(*flat.end) if flat else max(math.hypot(*wall.end), least))
         out[kind] = ends[0], ends[1]
     return out
 

@@ -14,7 +14,7 @@ import numpy as np
 from geneva_cli.geometry.shapes import Point
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.path_and_slot import Pitch, retraces
-from geneva_cli.numerics.arrays import Array, Mask, array
+from geneva_cli.numerics.arrays import Array, Mask, array, blocks
 from geneva_cli.numerics.roots import boundary_by_sections
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.sizes import Sizes
@@ -155,9 +155,8 @@ def _free(points: Array, path: Array, least: float) -> Mask:
     start, steps = path[:-1], np.diff(path, axis=0)
     square = np.maximum((steps * steps).sum(axis=1), 1e-300)
     half, middle = 0.5 * np.sqrt(square), start + 0.5 * steps
-    size = 64  # points in a block
-    for block in range(0, len(points), size):
-        here = points[block : block + size]
+    for block in blocks(len(points), 64):
+        here = points[block]
         centre = 0.5 * (here.min(axis=0) + here.max(axis=0))
         reach = least + float(np.hypot(*(here - centre).T).max())
         near = np.flatnonzero(np.hypot(*(middle - centre).T) <= reach + half)
@@ -169,5 +168,5 @@ def _free(points: Array, path: Array, least: float) -> Mask:
         off_x -= fraction * x
         off_y -= fraction * y
         nearest = (off_x * off_x + off_y * off_y).min(axis=1)
-        out[block : block + size] = nearest > least * least
+        out[block] = nearest > least * least
     return out

@@ -122,9 +122,9 @@ def _most(values: Array, at: Array, first: First) -> Most:
     if not size > 1e-6:
         return Most(0.0, first(np.zeros(1)))
     same = values >= size - max(SAME * size, math.degrees(EXACT))
-    begins = np.flatnonzero(same & ~np.append(False, same[:-1]))
-    ends = np.flatnonzero(same & ~np.append(same[1:], False))
-    return Most(size, first(at[(begins + ends) // 2]))
+    edges = np.diff(same, prepend=False, append=False)
+    begins, ends = np.flatnonzero(edges).reshape(-1, 2).T
+    return Most(size, first(at[(begins + ends - 1) // 2]))
 
 
 def _positions(parts: TurnedParts) -> Array:
@@ -185,7 +185,7 @@ def _least(parts: TurnedParts, pair: str, at: Array, first: First) -> Gap:
         low, high = x[row, np.maximum(i - 1, 0)], x[row, np.minimum(i + 1, FINER - 1)]
     # Where a gap stays equal for a while, its position is the first one.
     same = values <= size + parts.close
-    begins = at[same & ~np.append(False, same[:-1])]
+    begins = at[same & np.diff(same, prepend=False)]
     return Gap(size, first(np.append(begins, places[finest <= size + parts.close])), pair)
 
 

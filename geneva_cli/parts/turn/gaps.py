@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import copy
 import math
+from functools import partial
 from typing import ClassVar
 
 import numpy as np
@@ -78,9 +79,8 @@ class Gaps:
     def pose(self, input_deg: Array) -> Pose:
         """Return the positions at input angles (n,), degrees."""
         assembly = self.assembly
-        pins = np.empty((len(input_deg), len(assembly.rollers), 2))
-        for i in range(len(assembly.rollers)):
-            pins[:, i] = assembly.pin(i, input_deg)
+        rollers = range(len(assembly.rollers))
+        pins = np.stack([*map(partial(assembly.pin, input_deg=input_deg), rollers)], axis=1)
         crank = assembly.crank(input_deg, pins[:, 0])
         return Pose(assembly.wheel(input_deg), crank, pins)
 

@@ -107,12 +107,11 @@ class Turner:
                 path.to(crank, partial(self.ranges.around, way * k % self.steps))
         except _Stuck as stuck:
             (jam,) = stuck.args
-        pushes = tuple(Push(*begin, *end) for begin, end in path.pushes)
         rows = np.array(path.rows).reshape(-1, 4)
         kept = np.diff(np.round(rows[:, 0] / NEXT), prepend=math.inf) != 0.0
         kept[-1:] = True
         crank_at, wheel_at, low, high = rows[kept].T
-        return LazyTurn(crank_at, wheel_at, low, high, pushes, jam)
+        return LazyTurn(crank_at, wheel_at, low, high, tuple(path.pushes), jam)
 
 
 class _Path:
@@ -124,12 +123,11 @@ class _Path:
     def __init__(self, free: FreeRanges, finest: float) -> None:
         self.free, self.finest, self.is_pushed = free, finest, False
         self.rows: list[tuple[float, float, float, float]] = []
-        # crank and wheel where pushes begin, and where they have moved the wheel farthest
-        self.pushes: list[tuple[tuple[float, float], tuple[float, float]]] = []
+        self.pushes: list[Push] = []  # which end where they have moved the wheel farthest
 
     def begin(self, crank: float, rest: Range, wheel: float) -> None:
         """Start from a position, pushed out of an overlap of rounding."""
-        near = _pushed(rest, wheel)
+        near = pushed(rest, wheel)
         if abs(near - wheel) > 1e-3:  # radians: more is no rounding
             raise _Stuck(Jam(crank, wheel))
         low, high = rest[1:] if rest.is_free else (near, near)
@@ -139,13 +137,13 @@ class _Path:
         """Go on to a crank angle. A step is divided if a push begins or ends, or the wheel runs."""
         before, wheel = self.rows[-1][:2]
         step, there = abs(crank - before), around(wheel)
-        pushed, changes = _pushed(there, wheel), there.is_free is self.is_pushed
+        new, changes = pushed(there, wheel), there.is_free is self.is_pushed
         steepest = STEEPEST if step < 1e-4 else SLOW
-        runs = abs(pushed - wheel) > steepest * step + SAME
+        runs = abs(new - wheel) > steepest * step + SAME
         if runs and step < SHORTEST:
             raise _Stuck(Jam(before, wheel))
         # a push that has hardly paused goes on
-        goes_on = bool(self.pushes) and abs(before - self.pushes[-1][1][0]) <= PAUSE
+        goes_on = bool(self.pushes) and abs(before - self.pushes[-1].end) <= PAUSE
         finest = max(self.finest, END) if self.is_pushed or goes_on else self.finest
         if runs or (changes and step > finest):
             last_step = abs(before - self.rows[-2][0]) if len(self.rows) > 1 else math.inf
@@ -157,18 +155,18 @@ class _Path:
                 self.to(float(places[i]), partial(ranges.around, i))
             return
         if changes and not (self.is_pushed or goes_on):
-            self.pushes.append(((before, wheel), (before, wheel)))
+            self.pushes.append(Push(before, wheel, before, wheel))
         self.is_pushed = not there.is_free
-        if self.is_pushed and abs(pushed - self.pushes[-1][1][1]) > SAME:
-            self.pushes[-1] = self.pushes[-1][0], (crank, pushed)
+        if self.is_pushed and abs(new - self.pushes[-1].end_wheel) > SAME:
+            self.pushes[-1] = self.pushes[-1]._replace(end=crank, end_wheel=new)
         # with the free range on the other side of a touching part
-        places_free = (around(at) for at in (pushed, pushed - SAME, pushed + SAME))
-        free = next((one for one in places_free if one.is_free), Range(True, pushed, pushed))
-        self.rows.append((crank, pushed, free.low, free.high))
+        places_free = (around(at) for at in (new, new - SAME, new + SAME))
+        free = next((one for one in places_free if one.is_free), Range(True, new, new))
+        self.rows.append((crank, new, free.low, free.high))
 
 
-def _pushed(there: Range, wheel: float) -> float:
-    """The angle to which the wheel is pushed out of a range."""
+def pushed(there: Range, wheel: float) -> float:
+    """The angle of a wheel that a blocked range pushes to its nearer end."""
     if there.is_free:
         return wheel
     return min((there.low, there.high), key=lambda end: abs(end - wheel))

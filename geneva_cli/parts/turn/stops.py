@@ -19,7 +19,7 @@ import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.motion.pivots import PlaneMotion
-from geneva_cli.numerics.arrays import Array, Mask, Whole
+from geneva_cli.numerics.arrays import Array, Mask, Whole, blocks
 
 BLOCK = 1 << 18  # pairs of branches that are compared together
 CONCENTRIC = 1e-9  # of the radius: an arc about the axis has one level
@@ -141,9 +141,9 @@ class Stops:
         The others are in the fixed frame, in n poses, and the wheel's in its own. An interval
         may be whole pitches away.
         """
-        own, step = Branches(*wheel), max(1, BLOCK // max(1, wheel.shape[1]))
-        for block in range(0, others.shape[1], step):
-            some = others[:, block : block + step]
+        own = Branches(*wheel)
+        for block in blocks(others.shape[1], max(1, BLOCK // max(1, wheel.shape[1]))):
+            some = others[:, block]
             one = Branches(*some)
             i, j = np.nonzero((one.low[:, None] <= own.high) & (one.high[:, None] >= own.low))
             # take() keeps each row in one piece of memory

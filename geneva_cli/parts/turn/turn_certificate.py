@@ -217,26 +217,24 @@ class Travel:
     """
 
     def __init__(self, edges: Array, rates: Array, length: float, turn_deg: float = 0.0) -> None:
-        speed, bend = np.minimum(length * rates, UNKNOWN)
-        self.edges = edges
+        self.edges, self.rates = edges, np.minimum(length * rates, UNKNOWN)
         if turn_deg:  # an interval may begin in one turn and end in the next
-            speed, bend = np.tile(speed, 2), np.tile(bend, 2)
             self.edges = np.concatenate((edges, edges[1:] + turn_deg))
-        self.bend, self.unknown = bend, np.where(speed < UNKNOWN, 0.0, UNKNOWN)
-        known = np.where(speed < UNKNOWN, speed, 0.0)
-        self.moved = np.concatenate(([0.0], np.cumsum(known * np.radians(np.diff(self.edges)))))
+            self.rates = np.tile(self.rates, 2)
 
     def on(self, start: Array, end: Array) -> tuple[Array, Array]:
         """Return how far the curve is at most on intervals from its place in their middles.
 
         With it goes how far it is at most from its chord.
         """
-        at = np.array((start, 0.5 * (start + end), end))
-        most = np.diff(np.interp(at, self.edges, self.moved), axis=0).max(axis=0)
-        touch = (self.edges[:-1] <= end[:, None]) & (self.edges[1:] >= start[:, None])
-        unknown = np.where(touch, self.unknown, 0.0).max(axis=1)
-        bend = np.where(touch, self.bend, 0.0).max(axis=1)
-        return np.maximum(most, unknown), bend * np.radians(end - start) ** 2 / 8.0
+        (speed, bend), low, high = self.rates, self.edges[:-1], self.edges[1:]
+        at = np.array((start, 0.5 * (start + end), end))[..., None]
+        # the part of each half of an interval that is in each cell
+        within = np.minimum(at[1:], high) - np.maximum(at[:-1], low)
+        most = (np.maximum(within, 0.0) * speed).sum(axis=-1).max(axis=0)
+        touch = (low <= at[2]) & (high >= at[0])
+        bend = np.where(touch, bend, 0.0).max(axis=1)
+        return np.radians(most), bend * np.radians(end - start) ** 2 / 8.0
 
 
 @lru_cache(maxsize=16)  # which several rollers share
