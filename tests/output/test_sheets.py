@@ -79,7 +79,7 @@ def test_a_pdf_is_whole(sheet):
     box = re.search(r"/MediaBox \[0 0 ([\d.]+) ([\d.]+)\]", found[3])
     mm = [float(v) / 72.0 * 25.4 for v in box.groups()]
     assert mm == pytest.approx([sheet.width, sheet.height], abs=1e-4)
-    title = bytes.fromhex(re.search(r"<feff(\w+)>", found[6])[1]).decode("utf-16-be")
+    title = bytes.fromhex(re.search(r"<feff(\w+)>", found[7])[1]).decode("utf-16-be")
     assert title == TITLE
     shown = re.findall(r"BT /F1 (\S+) Tf (.*?) Tm \((.*?)\) Tj ET", content)
     assert len(shown) == len(sheet.texts)
