@@ -141,7 +141,7 @@ def properties(one):
     The inertia of a shell, about an axis through the centre, shows where it is too.
     """
     if not isinstance(one, Plate):
-        return one.volume, None, one.inertia((0.0, 0.0, 1.0)), one.outer
+        return one.volume, None, one.inertia, one.outer
     body = mass_properties([one], 1e9)  # mm³ and, by 1e6, mm⁵
     centre = (*body.centroid_mm, 0.5 * (one.low + one.high))
     reach = max(map(abs, (*bounds(one.outline), one.low, one.high)))
