@@ -16,15 +16,18 @@ import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import nullcontext, suppress
 from functools import wraps
-from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec, TypeVar
+from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec, Self, TypeVar
 
 from geneva_cli.errors import GenevaError, Notice, cut
 from geneva_cli.kept import cached_property, load_extra, load_named
+from geneva_cli.motion.drive import Drive
+from geneva_cli.motion.laws.law import Motion
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
+from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.spec import tables
 from geneva_cli.spec.rules import Range, plain, require_mm
-from geneva_cli.spec.schema import SpecTable, refuse_keywords
+from geneva_cli.spec.schema import refuse_keywords
 from geneva_cli.table import Table, record_table
 
 if TYPE_CHECKING:
@@ -104,13 +107,6 @@ def question(ask: Callable[Concatenate[Any, P], T]) -> Callable[Concatenate[Any,
     return method
 
 
-def _as(
-    make: Callable[P, Spec],
-) -> Callable[[Callable[..., None]], Callable[Concatenate[Any, P], None]]:
-    """Decorator of a constructor that takes what a spec takes, for a type checker."""
-    return lambda create: create
-
-
 class Design:
     """A Geneva mechanism: its inputs, and the results that follow from them.
 
@@ -126,13 +122,37 @@ class Design:
     text: Text | None  # of the file that the design was read from; None for one made in Python
     is_drawn: bool  # drawings replace the outlines of its parts: [outline]
 
-    __signature__, _parameters = vars(SpecTable)["__signature__"], Spec._parameters
+    def __new__(cls, *_: object, **named: object) -> Self:
+        """Refuse an unknown keyword, with the nearest known one."""
+        refuse_keywords(cls.__name__, named, [*cls.__init__.__annotations__][:-1])
+        return super().__new__(cls)
 
-    @_as(Spec)
-    def __init__(self, *values: Any, **named: Any) -> None:
-        refuse_keywords("Design", named, [*Spec._parameters])
-        given = {name: value for name, value in named.items() if value is not None}
-        vars(self).update(vars(Design.of(Spec(*values, **given))))
+    def __init__(
+        self,
+        wheel: Gearing,
+        drive: Drive | None = None,
+        motion: Motion | None = None,
+        *,
+        size: tables.Size | None = None,
+        load: tables.Load | None = None,
+        mass: Sequence[tables.Mass] = (),
+        support: tables.Support | None = None,
+        motor: tables.Motor | None = None,
+        shaft: tables.Shaft | None = None,
+        material_wheel: tables.WheelMaterial | None = None,
+        material_roller: tables.RollerMaterial | None = None,
+        tolerance: tables.Tolerance | None = None,
+        product: tables.Product | None = None,
+        limits: tables.Limits | None = None,
+        accept: tables.Accept | None = None,
+        drawing: tables.TitleBlock | None = None,
+        outline: tables.Outline | None = None,
+        title: str = "",
+        drive_before: Drive | None = None,
+    ) -> None:
+        inputs = {name: value for name, value in locals().items() if value is not None}
+        del inputs["self"]
+        vars(self).update(vars(Design.of(Spec(**inputs))))
 
     @classmethod
     def of(cls, spec: Spec, text: Text | None = None) -> Design:

@@ -60,6 +60,8 @@ class Table(NamedTuple):
         >>> Table(("z", "tau"), ([3, 4], [1 / 6, 0.25]))["z"]
         array([3, 4])
         """
+        if not isinstance(key, str):
+            return tuple.__getitem__(self, key)
         if key not in self.names:
             hint = nearest(key, self.names)
             raise GenevaError(f"no column {cut(key)}{hint}; it has {few(key, self.names)}")

@@ -164,7 +164,8 @@ def _of_entry(entry: Entry, name: str) -> Meaning:
     """Meaning of an entry; for a kind or law, its class's own summary comes first."""
     about, kinds = "", registry.GEARINGS | registry.DRIVES
     if entry.group == "law":
-        about = capital(registry.law(name).ABOUT.rstrip(".")) + "."
+        text = capital(registry.law(name).ABOUT)
+        about = text if text.endswith(".") else f"{text}."
     elif entry.group == "kind" and name in kinds:
         about = str(inspect.getdoc(load_named(kinds[name]))).partition("\n")[0]
     return Meaning(

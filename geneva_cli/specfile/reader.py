@@ -1,5 +1,6 @@
 """Reader of spec files and of ``--set KEY=VALUE``; errors name the file and, if known, the line."""
 
+import errno
 import os
 import re
 from bisect import bisect_left
@@ -177,9 +178,9 @@ def read(path: str, set_keys: Iterable[str] = ()) -> Text:
     Raises GenevaError, with the message ready to print, if it cannot be read.
     """
     try:
-        text = read_text(path, 1 << 20, "a spec is a page")  # a megabyte of it is a mistake
+        text = read_text(path, 1 << 20, "too large for a spec")  # of a page
     except GenevaError as error:
-        if path == "-" or os.path.exists(path):
+        if not str(error).endswith(os.strerror(errno.ENOENT)):
             raise
         from geneva_cli.specfile.template import titles  # only for this message
 

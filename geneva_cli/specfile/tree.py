@@ -166,7 +166,7 @@ def read_bytes(path: str, most: int, advice: str, key: tuple[str, ...] = ()) -> 
     except (OSError, ValueError) as error:  # ValueError: a NUL in the name
         what = str(error.strerror if isinstance(error, OSError) else error)
         fault = f"cannot read: {'this is a folder, not a file' if os.path.isdir(path) else what}"
-    raise GenevaError(f"{shown_path(path)}: {fault}", key)
+    raise GenevaError(f"{shown_path(path, key)}: {fault}", key)
 
 
 def read_text(path: str, most: int, advice: str, key: tuple[str, ...] = ()) -> str:
@@ -179,12 +179,14 @@ def read_text(path: str, most: int, advice: str, key: tuple[str, ...] = ()) -> s
         line = data[: error.start].count(b"\n") + 1
         # as PowerShell 5 writes UTF-16 for >
         advice = "save the file as UTF-8, or write it with -o FILE in place of > FILE"
-        raise GenevaError(f"{shown_path(path)}:{line}: not UTF-8 text; {advice}") from None
+        raise GenevaError(f"{shown_path(path, key)}:{line}: not UTF-8 text; {advice}") from None
 
 
-def shown_path(path: str) -> str:
+def shown_path(path: str, key: tuple[str, ...] = ()) -> str:
     """A file's name for a message."""
-    return "<stdin>" if path == "-" else cut(path, 300) if path.strip() else repr(path)
+    if path == "-" and not key:
+        return "<stdin>"
+    return cut(path, 300) if path.strip() else repr(path)
 
 
 def _no_table(name: str, value: Any) -> GenevaError:
