@@ -147,14 +147,17 @@ def fewest(
         # the first estimate, by one piece, may be far too high
         if need > PIECES_MAX and count > unit:
             least = tolerance * float((weights.sum() / PIECES_MAX) ** order)
-            text = f"takes more than {PIECES_MAX} pieces: use for example {least:.1g} mm"
-            raise GenevaError(f"--tolerance {tolerance:g} mm {text}")
+            # four times: where chords have half of what is typed, one digit still suffices
+            text = f"pieces: use for example --tolerance {4.0 * least:.1g}"
+            raise GenevaError(
+                f"a tolerance of {tolerance:g} mm takes more than {PIECES_MAX} {text}"
+            )
         count = min(max(need, too_few + step), enough - unit, 1000 * count)
     raise _too_fine(tolerance)
 
 
 def _too_fine(tolerance: float) -> GenevaError:
-    text = f"--tolerance {tolerance:g} mm is finer than double precision can show at this size"
+    text = f"a tolerance of {tolerance:g} mm is finer than double precision can show at this size"
     return GenevaError(text)
 
 

@@ -48,7 +48,8 @@ def drawn(cycle: Cycle, names: Sequence[str], window: Ends) -> dict[str, Drawn]:
             own = [(x, np.clip(row, *bounds)) for x, row in own]
         pieces = _pieces(own, machine.period_deg, window, step if name == column else 0.0)
         if bounds:
-            cut = [end for end in bounds if end not in (ends[name].max, ends[name].min)]
+            both = zip(bounds, (ends[name].min, ends[name].max), strict=True)
+            cut = [bound for bound, end in both if math.isinf(end)]
             pieces = [part for piece in pieces for part in _within(piece, cut)]
         if name in ends:
             most, most_at, least, least_at, *_ = ends[name]
@@ -140,13 +141,17 @@ def _placed(machine: Mechanism, at_deg: float, window: Ends) -> float:
 
 
 def _bounds(load: LoadSummary[float], stages: Sequence[tuple[Array, Array]]) -> Ends | None:
-    """The visible range of a load: None if bounded, else from its sizes half-way between cuts."""
+    """The visible range of a load: None if bounded, else from its sizes half-way between cuts.
+
+    0 is in it, which a load is in the dwell.
+    """
     if math.isfinite(load.max) and math.isfinite(load.min):
         return None
     sizes = [abs(float(y[len(y) // 2])) for _, y in stages]
     # an unbounded load is visible up to three times its typical size
     high = 3.0 * (max(filter(math.isfinite, sizes), default=0.0) or 1.0)
-    return -high if math.isinf(load.min) else load.min, high if math.isinf(load.max) else load.max
+    low = -high if math.isinf(load.min) else min(load.min, 0.0)
+    return low, high if math.isinf(load.max) else max(load.max, 0.0)
 
 
 def _within(piece: Piece, cut: Sequence[float]) -> Iterator[Piece]:

@@ -91,6 +91,9 @@ def test_a_load_without_a_bound_leaves_the_panel():
     wide = Design(External(6), motion=design.spec.motion, load=LOADED, size=Size(face_width_mm=20))
     (panel,) = wide.figure(["contact_stress_MPa"]).panels
     assert panel.bounds and any(piece[1] == [0.0, 0.0] for piece in panel.curves[0].pieces)
+    # and so is a force whose least value in the motion is above 0
+    (panel,) = design.with_("load.inertia_kgm2", 0.0).figure(["pin_force_N"]).panels
+    assert panel.bounds[0] == 0.0 and any(one[1] == [0.0, 0.0] for one in panel.curves[0].pieces)
 
 
 def test_what_cannot_be_shown():

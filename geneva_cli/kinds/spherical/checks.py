@@ -15,6 +15,7 @@ from geneva_cli.kinds.spherical.parts import SphereParts
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.shafts.bores import reach_or_bore
+from geneva_cli.parts.sizes import refuse_bored_hub
 from geneva_cli.spec.defaults import wall_min
 from geneva_cli.verdict.checks import Check, compared, measured
 from geneva_cli.verdict.checks.part_checks import cuts, least_gap
@@ -33,7 +34,7 @@ def standing(names: Collection[str], parts: SphereParts) -> Iterator[Check]:
     yield compared("wall_between_slots_mm", wall * ball.radius_mm, "at least", least)
     if parts.shape.crank:  # between a slot and the recess of the locking sectors
         yield compared("horn_mm", parts.sizes.horn, "at least", least)
-    yield compared("wheel_bore_wall_mm", _bore_wall(parts), "at least", least)
+    yield from measured("wheel_bore_wall_mm", least, lambda: _bore_wall(parts))
     arm = [*measured("arm_wall_mm", least, lambda: parts.arm.wall if parts.arm else None)]
     if "beside_shafts_mm" in names and not (arm and arm[0].value is None):
         yield from least_gap("beside_shafts_mm", _shaft_gaps(parts), ball.radius_mm)
@@ -52,6 +53,7 @@ def _bore_wall(parts: SphereParts) -> float:
     if not 0.0 < ball.bore_mm < ball.hub_mm:
         return to_slots
     bored = reach_or_bore(parts.mechanism.spec.size, "wheel", ball.bore_mm)
+    refuse_bored_hub("wheel", ball.hub_mm, bored, ball.bore_mm)
     return min(to_slots, ball.hub_mm - bored)
 
 
