@@ -33,7 +33,7 @@ from geneva_cli.study.target import AllowedSpan, Target
 from geneva_cli.verdict.quantities.quantity_names import in_batch
 
 SAMPLES = (256, 2048)  # least and most four-bars that are sampled for one wheel
-SAMPLINGS = (14, 40)  # least and most closer samplings for one wheel
+SAMPLINGS = (13, 40)  # least and most closer samplings for one wheel
 COARSE, FINE = 16, 96  # sampled places of a motion, and half of those of the way back
 OTHERS = 6  # further results if a bound or the goal is not computed here
 _SIDES: Any = {"crank_mm": 40.0, "ground_mm": 90.0, "coupler_mm": 100.0, "rocker_mm": 100.0}
