@@ -54,7 +54,6 @@ def run(
     from geneva_cli.output import chosen, is_seen, require_spec, show, show_text
     from geneva_cli.output.growing import growing
     from geneva_cli.study.fields import cells_of, joined
-    from geneva_cli.study.sweep.best import best_spec
     from geneva_cli.study.sweep.request import Digest, Outcome, request
     from geneva_cli.study.sweep.run import TEXTS
     from geneva_cli.table import Table
@@ -69,6 +68,8 @@ def run(
     outcome, count, digest = Outcome(plan), len(plan.plan), None
     watched = tracked(plan.blocks(0), "designs", count, len)  # with a progress bar
     if plan.goal:
+        from geneva_cli.study.sweep.best import best_spec  # no other sweep needs it
+
         lines = best_spec(outcome, plan.goal, watched)
         show_text("\n".join(lines) + "\n", output, plan.inputs)
     elif format not in ("", "csv"):

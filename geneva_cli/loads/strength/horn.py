@@ -69,8 +69,7 @@ def slot_ends(mechanism: Mechanism) -> list[SlotEnd]:
     ends = []
     for whole in mechanism.under_load.engagements:
         for end, (own, ahead) in ((-1.0, whole.passages[0]), (1.0, whole.passages[-1])):
-            at_deg = own.entry_deg if end < 0.0 else own.exit_deg
-            ends.append(SlotEnd(own, end, at_deg, whole, ahead))
+            ends.append(SlotEnd(own, end, own.end_deg(end), whole, ahead))
     return ends
 
 
